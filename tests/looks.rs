@@ -15,9 +15,10 @@ mod styles;
 use alberti_tests::harness::{Arguments, Tally, data_folder, map_parallel, run_program};
 use alberti_tests::project_root;
 use alberti_tests::statistics::PictureStatistics;
-use pipeline::scene::file::StyleFile;
-use pipeline::scene::{ResolveOptions, SceneFile};
 use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures};
+use scene::ResolveOptions;
+use scene_file::SceneFile;
+use scene_file::file::StyleFile;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 

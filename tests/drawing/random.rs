@@ -12,10 +12,11 @@ use alberti_tests::harness::{Tally, map_parallel};
 use hidden_line::{DrawOptions, HiddenEdges, LineDrawing, draw, verify_with_z_buffer};
 use import::{ImportOptions, load};
 use model::{Model, ModelInstance};
-use pipeline::scene::reference::Shape;
-use pipeline::scene::{Style, parse_scene};
 use pipeline::{Origin, Scene, render};
 use raster::Samples;
+use scene::Style;
+use scene_file::parse_scene;
+use scene_file::reference::Shape;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -101,7 +102,7 @@ fn projection_name(number: usize) -> &'static str {
 
 /// Whether every projection of the scene language takes its turn.
 fn check_projections() -> Result<(), String> {
-    let types = pipeline::scene::reference::all_types();
+    let types = scene_file::reference::all_types();
     let projection = types.iter().find(|entry| entry.name == "Projection").map(|entry| entry.shape);
     let Some(Shape::Variants(variants)) = projection else {
         return Err("the language has no projections".to_owned());

@@ -6,8 +6,8 @@ use homog::{Affine, Point, Vector, View, World};
 use model::Model;
 use model::ModelInstance;
 use pipeline::Scene;
-use pipeline::scene::{ImageSpec, Style};
 use projection::{Convention, Frustum, Oblique, Orthographic};
+use scene::{ImageSpec, Style};
 use std::sync::Arc;
 
 /// Number of viewing directions of each kind.

@@ -9,11 +9,11 @@
 use alberti_tests::harness::map_parallel;
 use alberti_tests::project_root;
 use alberti_tests::statistics::PictureStatistics;
-use pipeline::scene::ResolveOptions;
-use pipeline::scene::file::{
+use pipeline::{Origin, Scene, render};
+use scene::ResolveOptions;
+use scene_file::file::{
     DEFAULT_PADDING, EnvironmentFile, FromFile, GroundFile, SceneFile, StyleFile, ViewFile,
 };
-use pipeline::{Origin, Scene, render};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

@@ -9,12 +9,11 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use homog::Bounds;
 use model::world_points;
-use pipeline::scene::file::{
-    CameraChoice, CameraFile, Choice, Finite, GroundFile, Triple, ViewFile,
-};
-use pipeline::scene::{ResolveOptions, SceneFile};
 use pipeline::sequence::{Motion, Sequence};
 use pipeline::{Origin, Picture, Scene, render};
+use scene::ResolveOptions;
+use scene_file::SceneFile;
+use scene_file::file::{CameraChoice, CameraFile, Choice, Finite, GroundFile, Triple, ViewFile};
 use serde_json::json;
 use std::convert::Infallible;
 use std::f64::consts::FRAC_1_SQRT_2;

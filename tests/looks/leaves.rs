@@ -4,9 +4,10 @@
 use super::styles::all_styles;
 use alberti_tests::gltf::{Document, float_bytes};
 use drawing::Warning;
-use pipeline::scene::file::{GroundFile, StyleFile};
-use pipeline::scene::{ResolveOptions, SceneFile, Style, parse_scene};
 use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures};
+use scene::{ResolveOptions, Style};
+use scene_file::file::{GroundFile, StyleFile};
+use scene_file::{SceneFile, parse_scene};
 use serde_json::json;
 use std::fs::{create_dir_all, write};
 use std::path::Path;

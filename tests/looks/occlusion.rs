@@ -1,8 +1,8 @@
 //! Ambient occlusion leaves no dark dots where surfaces end, whatever the number of samples.
 
 use super::styles::keep_few;
-use pipeline::scene::parse_scene;
 use pipeline::{Origin, Picture, Scene, render};
+use scene_file::parse_scene;
 use std::path::Path;
 
 /// Models with inner silhouettes: a torus before itself, dense meshes, and a helmet full of edges.

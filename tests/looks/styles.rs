@@ -2,8 +2,8 @@
 //! the paper free.
 
 use super::BareModel;
-use pipeline::scene::Style;
-use pipeline::scene::file::StyleFile;
+use scene::Style;
+use scene_file::file::StyleFile;
 
 /// The size of a thumbnail.
 const THUMBNAIL: (u32, u32) = (64, 64);

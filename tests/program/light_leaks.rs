@@ -10,11 +10,12 @@
 use crate::asset_models::asset_path;
 use glam::DVec3;
 use homog::Affine;
+use model::ModelInstance;
 use import::{ImportOptions, load};
-use model::{Material, Model, ModelInstance};
-use pipeline::render::{Pass, render_passes};
-use pipeline::scene::parse_scene;
+use model::{Material, Model};
+use pipeline::render::render_passes;
 use pipeline::{Origin, Picture, Scene, Timings, render};
+use scene_file::{Pass, parse_scene};
 use std::sync::Arc;
 
 const SIZE: (u32, u32) = (240, 180);

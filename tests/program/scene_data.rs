@@ -8,8 +8,8 @@ mod scene_text;
 
 use alberti_tests::harness::sample_cases;
 use pipeline::SceneFile;
-use pipeline::scene::file::ModelFile;
-use pipeline::scene::scene_ron_options;
+use scene_file::file::ModelFile;
+use scene_file::scene_ron_options;
 use scene_text::{SceneFiles, random_scene_text};
 use std::fs;
 use std::path::PathBuf;
@@ -115,7 +115,7 @@ fn every_type_of_a_public_field_can_be_named() {
         let listing = format!("docs/api/{crate_name}.txt");
         fs::read_to_string(alberti_tests::project_root().join(listing)).expect("a listing")
     };
-    let listing = read("pipeline");
+    let listing = read("scene_file");
     let others = ["camera", "drawing", "model", "projection", "shade", "sheet"].map(read);
     let mut known: Vec<&str> = vec!["Option", "Vec", "String", "Box", "Self"];
     // Items are at the beginning of a line: `shade::ImageFit`.
@@ -123,8 +123,8 @@ fn every_type_of_a_public_field_can_be_named() {
     let items = items.filter(|line| !line.starts_with(' '));
     known.extend(items.filter_map(|line| line.split_whitespace().next()?.rsplit("::").next()));
     let mut count = 0;
-    let items = listing.split("\npipeline::");
-    for item in items.filter(|item| item.starts_with("scene::file::")) {
+    let items = listing.split("\nscene_file::");
+    for item in items.filter(|item| item.starts_with("file::")) {
         // Fields, and values of variants: `name: Type,` and `Variant(Type),`.
         let body = item.split("\n    impl").next().unwrap_or_default();
         let fields = body.lines().filter_map(|line| {

@@ -7,9 +7,7 @@
 //! so that most scenes are drawn; what does not fit together has to be refused with a message.
 
 use super::bits::Bits;
-use pipeline::scene::reference::{
-    FieldEntry, Shape, TypeEntry, ValueType, VariantEntry, all_types,
-};
+use scene_file::reference::{FieldEntry, Shape, TypeEntry, ValueType, VariantEntry, all_types};
 
 /// The files beside the scenes.
 pub struct SceneFiles {

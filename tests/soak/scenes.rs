@@ -4,9 +4,10 @@ use crate::scene_text::{SceneFiles, random_scene_text};
 use hidden_line::{DrawOptions, draw};
 use homog::PixelRect;
 use pipeline::render::draw_lines;
-use pipeline::render::passes::{Pass, PassValues, render_passes};
-use pipeline::scene::Style;
+use pipeline::render::passes::{PassValues, render_passes};
 use pipeline::{Origin, Scene, Timings, render};
+use scene::Style;
+use scene_file::Pass;
 
 use picture::Picture;
 use std::fs;

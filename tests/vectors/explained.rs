@@ -2,9 +2,9 @@
 
 use crate::vectors::numbers::{assert_all_close, assert_close, parse_point, parse_point4};
 use camera::ViewProjection;
+use explain::{ApiConventions, TransformChain, explain_point};
 use glam::DMat4;
 use homog::{PixelConvention, Point, Projective};
-use pipeline::explain::{ApiConventions, TransformChain, explain_point};
 use serde_json::Value;
 use viewport::{DepthRange, Viewport};
 

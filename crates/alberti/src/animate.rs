@@ -18,10 +18,10 @@ use super::scene_overrides::SceneOverrideArgs;
 use super::unused_flags::find_unused_overrides;
 use frame_sink::FrameSink;
 use model::ModelInstance;
-use pipeline::scene::file::{Choice, Finite, SceneFile};
-use pipeline::scene::{CameraPath, select_animation};
 use pipeline::sequence::{Motion, Sequence, SequenceError};
 use pipeline::{Origin, ResolveError, Scene};
+use scene::{CameraPath, select_animation};
+use scene_file::file::{Choice, Finite, SceneFile};
 use std::path::PathBuf;
 
 /// Arguments of `alberti animate`.

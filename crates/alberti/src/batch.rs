@@ -1,53 +1,11 @@
-//! `alberti batch`: renders many models and scenes, each to a picture of its own.
+//! `alberti batch` and its worker: arguments, messages, exit codes, and the pictures themselves.
 //!
-//! ```text
-//!  folders, lists ─► stream of jobs ─► this shard ─► not done yet ─► workers ─► pictures, tars
-//!                                                         ▲             │
-//!                                     records of earlier runs ◄── report ◄── counts, metrics
-//! ```
-//! A job is done if a report has it with the same content and settings and its picture has the
-//! recorded size. A run that was stopped or killed therefore resumes where it was. A model that is
-//! broken, hangs, crashes or takes all memory is one line of the report and does not stop the
-//! others.
-//!
-//! The output folder holds, besides the pictures:
-//!
-//! - `reports/`: the reports of all runs, one JSON object per job;
-//! - `report.jsonl`: the reports merged, and `index.html`, the contact sheet, both written by a run
-//!   without shards and by `--merge`.
-//!
-//! Names of pictures and the shards of jobs depend on the inputs alone, so that neither threads nor
-//! shards change them.
+//! Which jobs there are, which are done, and what came of them is the business of the crate
+//! [`batch`](../batch/index.html). A worker is this program again, which renders what the
+//! coordinator asks for.
 
-mod contact_sheet;
-mod csv;
-mod earlier_records;
-mod inputs;
-mod job;
-mod job_list;
-mod job_stream;
-mod key;
-mod left_over;
-mod list_line;
-mod merge;
-mod metrics;
-mod outcome;
-mod output_names;
-mod picture_name;
-mod pool;
-mod progress;
-mod protocol;
 mod render_flags;
-mod report;
-mod report_reader;
-mod shard;
-mod tar_format;
-mod tar_output;
-#[cfg(test)]
-mod test_records;
-mod verify;
 mod worker;
-mod worker_process;
 mod worker_scene;
 
 pub(crate) use worker::{WorkerArgs, run as run_worker};
@@ -55,23 +13,16 @@ pub(crate) use worker::{WorkerArgs, run as run_worker};
 use super::CliError;
 use super::memory_limit::parse_memory_size;
 use super::messages::{print_message, print_text};
-use earlier_records::EarlierRecords;
-use files::{visible_path, visible_text};
-use job_stream::{JobSource, JobStream};
-use key::KeyMaker;
-use merge::{CurrentJobs, MergeCounts};
-use metrics::RunCounts;
-use outcome::RunStop;
-use picture_name::PictureName;
-use pool::{BatchRun, JobPolicy};
-use progress::RunProgress;
-use render_flags::{FlagTable, GivenFlags};
-use report::ReportWriter;
-use shard::Shard;
+use super::program::program_command;
+use batch::{
+    BatchOptions, MergeCounts, PictureName, ProgressDisplay, RunCounts, RunEnd, Shard, ShardJobs,
+    merge_reports, parse_shard, run_jobs, verify_jobs,
+};
+use files::visible_text;
+use render_flags::{GivenFlags, flag_table};
+use std::io::IsTerminal as _;
 use std::path::PathBuf;
-use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
-use tar_output::TarOutput;
 
 /// Arguments of `alberti batch`.
 #[derive(Debug, clap::Args)]
@@ -103,7 +54,7 @@ pub(crate) struct BatchArgs {
     #[arg(long, value_name = "TEMPLATE", value_parser = PictureName::parse)]
     name: Option<PictureName>,
     /// Process part I of N; `auto` takes both from the environment variables of an array job
-    #[arg(long, value_name = "I/N|auto", value_parser = shard::parse_shard)]
+    #[arg(long, value_name = "I/N|auto", value_parser = parse_shard)]
     shard: Option<Shard>,
     /// Time of one picture, after which its job has failed; 0 is none
     #[arg(long, value_name = "N", default_value = "600", value_parser = clap::value_parser!(u32).range(0..=604_800))]
@@ -155,30 +106,49 @@ const STOPPED: u8 = 3;
 ///
 /// # Errors
 /// If the standard output cannot be written.
-pub(crate) fn run(mut args: BatchArgs) -> Result<u8, CliError> {
-    let scene = args.flags.take_scene_file();
-    let flags = args.flags.to_words();
-    let source = JobSource {
-        inputs: &args.inputs,
-        list: args.list.as_deref(),
-        scene: scene.as_deref(),
-        picture_name: args.name.as_ref(),
-    };
-    if args.merge {
-        return Ok(merge_reports(&args).unwrap_or_else(|error| print_fault(&error, STOPPED)));
+pub(crate) fn run(args: BatchArgs) -> Result<u8, CliError> {
+    let (is_merge, is_verification) = (args.merge, args.verify);
+    let options = args.into_options();
+    if is_merge {
+        let code = merge_to_code(&options);
+        return Ok(code.unwrap_or_else(|error| print_fault(&error, STOPPED)));
     }
-    let jobs = match JobStream::open(&source, args.shard.unwrap_or(Shard::ALL_JOBS)) {
+    let jobs = match options.open_jobs() {
         Ok(jobs) => jobs,
-        Err(error) => return Ok(print_fault(&error, WRONG_USAGE)),
+        Err(error) => return Ok(print_fault(&error.into(), WRONG_USAGE)),
     };
-    let keys = KeyMaker::new(&format!("{flags:?}"), args.flags.allowed.clone());
-    let code = if args.verify {
-        let is_whole = verify::verify_jobs(jobs, &keys, &args.out_dir);
+    let code = if is_verification {
+        let is_whole = verify_jobs(&options, jobs, print_text);
         is_whole.map(|is_whole| if is_whole { 0 } else { SOME_FAILED })
     } else {
-        run_jobs(&args, jobs, &keys, &flags)
+        run_to_code(&options, jobs)
     };
     Ok(code.unwrap_or_else(|error| print_fault(&error, STOPPED)))
+}
+
+impl BatchArgs {
+    /// The options of the run.
+    fn into_options(mut self) -> BatchOptions {
+        let scene = self.flags.take_scene_file();
+        BatchOptions {
+            inputs: self.inputs,
+            list: self.list,
+            scene,
+            picture_name: self.name,
+            out_dir: self.out_dir,
+            shard: self.shard.unwrap_or(Shard::ALL_JOBS),
+            flags: self.flags.to_words(),
+            flag_table: flag_table(),
+            allowed: self.flags.allowed,
+            job_time: (self.job_seconds > 0).then(|| Duration::from_secs(self.job_seconds.into())),
+            job_memory: self.job_memory,
+            is_forced: self.force,
+            retries_failed: self.retry_failed,
+            tar: self.tar,
+            metrics: self.metrics,
+            threads: super::render::thread_count(self.threads),
+        }
+    }
 }
 
 /// Prints an error; returns the exit code.
@@ -188,9 +158,8 @@ fn print_fault(error: &CliError, code: u8) -> u8 {
 }
 
 /// Merges the reports; the exit code says whether one of the jobs has failed.
-fn merge_reports(args: &BatchArgs) -> Result<u8, CliError> {
-    let counts = merge::merge_reports(&args.out_dir, None)?;
-    contact_sheet::write_contact_sheet(&args.out_dir, &counts)?;
+fn merge_to_code(options: &BatchOptions) -> Result<u8, CliError> {
+    let counts = merge_reports(&options.out_dir)?;
     print_statistics(&counts)?;
     Ok(if counts.failed == 0 { 0 } else { SOME_FAILED })
 }
@@ -213,69 +182,18 @@ fn print_statistics(counts: &MergeCounts) -> Result<(), CliError> {
     print_text(&text)
 }
 
-/// Runs the jobs, and prints what came of them.
-///
-/// The reports of all shards in the folder count as earlier work, so a run may resume with another
-/// number of shards.
-fn run_jobs(
-    args: &BatchArgs,
-    jobs: JobStream,
-    keys: &KeyMaker,
-    flags: &[String],
-) -> Result<u8, CliError> {
-    let shard = args.shard.unwrap_or(Shard::ALL_JOBS);
-    std::fs::create_dir_all(&args.out_dir).map_err(|cause| {
-        CliError::Usage(format!(
-            "cannot create the folder {}: {cause}",
-            visible_path(&args.out_dir)
-        ))
-    })?;
-    let earlier = if args.force { None } else { Some(EarlierRecords::read(&args.out_dir)?) };
-    let report = ReportWriter::create(&args.out_dir, shard)?;
-    let tar = args.tar.map(|count| TarOutput::new(&args.out_dir, report.run_name(), count));
-    let progress = RunProgress::start(args.metrics.as_deref())?;
-    let run = BatchRun {
-        jobs: Mutex::new(jobs),
-        keys,
-        flags,
-        flag_table: FlagTable::new(),
-        earlier,
-        report: &report,
-        tar: tar.as_ref(),
-        progress: &progress,
-        out_dir: &args.out_dir,
-        policy: JobPolicy {
-            limit: (args.job_seconds > 0).then(|| Duration::from_secs(args.job_seconds.into())),
-            memory: args.job_memory,
-            retries_failed: args.retry_failed,
-        },
-        failures: Mutex::default(),
-        // A list may be too long to be kept.
-        current: (shard.has_all_jobs() && args.list.is_none()).then(Mutex::<CurrentJobs>::default),
-        stop: Mutex::new(None),
-    };
-    run.run_jobs(super::render::thread_count(args.threads));
-    let stop = run.stop.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let current = run.current.map(|jobs| jobs.into_inner().unwrap_or_else(PoisonError::into_inner));
-    let failures = run.failures.into_inner().unwrap_or_else(PoisonError::into_inner);
-    // What was rendered is kept, whatever has stopped the run.
-    let tar = tar.map_or(Ok(()), |tar| tar.finish(&report));
-    let closed = tar.and_then(|()| report.finish());
-    let counts = progress.finish()?;
-    failures.print();
-    match stop {
-        Some(RunStop::Signal(signal)) => {
+/// Runs the jobs, and prints what came of them; returns the exit code.
+fn run_to_code(options: &BatchOptions, jobs: ShardJobs) -> Result<u8, CliError> {
+    let stream = std::io::stderr();
+    let display = ProgressDisplay { is_terminal: stream.is_terminal(), stream: Box::new(stream) };
+    let tell_failure = |text: &str| print_message("failed", text);
+    match run_jobs(options, jobs, &program_command, display, tell_failure)? {
+        RunEnd::Finished(counts) => print_summary(counts),
+        RunEnd::Interrupted(signal) => {
             print_message("error", "interrupted: run the command again to go on");
-            return Ok(u8::try_from(128 + signal).unwrap_or(STOPPED));
+            Ok(u8::try_from(128 + signal).unwrap_or(STOPPED))
         }
-        Some(RunStop::Fault(error)) => return Err(error),
-        None => closed?,
     }
-    if shard.has_all_jobs() {
-        let counts = merge::merge_reports(&args.out_dir, current)?;
-        contact_sheet::write_contact_sheet(&args.out_dir, &counts)?;
-    }
-    print_summary(counts)
 }
 
 /// Prints the counts; returns the exit code.

@@ -3,10 +3,10 @@
 use super::number_list::parse_number_list;
 use super::options::option_parser;
 use camera::CameraAxes;
-use pipeline::scene::file::{
+use projection::PixelCenters;
+use scene_file::file::{
     CameraFile, Finite, Positive, ProjectionFile, RotationFile, Triple, ViewFile,
 };
-use projection::PixelCenters;
 
 /// A camera as calibration, photogrammetry or a data set has it.
 #[derive(Clone, Debug, Default, clap::Args)]

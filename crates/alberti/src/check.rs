@@ -12,13 +12,13 @@ mod json;
 
 use super::args::CheckArgs;
 use super::load_options::LoadArgs;
-use super::render::is_scene_file;
 use super::{CliError, color, print_json, print_text};
+use import::ImportOptions;
 use files::visible_path;
 use gltf_check::{CheckReport, check_file};
-use import::ImportOptions;
-use pipeline::scene::{Lint, ResolveOptions, lint_description, lint_scene, validate_scene};
 use pipeline::{Origin, ResolveError, Scene, SceneError, SceneFile};
+use scene::{Lint, ResolveOptions, lint_description, lint_scene, validate_scene};
+use scene_file::is_scene_file;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

@@ -7,9 +7,9 @@ use super::panel_subject::PanelSubjectArgs;
 use super::progress::Progress;
 use super::render::thread_count;
 use clap::ValueEnum as _;
+use explorer::demonstration::{NamedProjection, projection_panels};
 use pipeline::Scene;
-use pipeline::demonstration::{NamedProjection, projection_panels};
-use pipeline::scene::ResolveOptions;
+use scene::ResolveOptions;
 use std::path::PathBuf;
 
 /// Arguments of `alberti compare-projections`.

@@ -4,8 +4,8 @@ use super::format::OutputFormat;
 use super::page_output::{has_extension, write_page};
 use super::{CliError, print_stdout};
 use drawing::Spacing;
+use explorer::demonstration::{DepthRow, DepthTable};
 use files::visible_path;
-use pipeline::demonstration::{DepthRow, DepthTable};
 use projection::{Convention, DepthFormat};
 use std::path::{Path, PathBuf};
 

@@ -5,7 +5,7 @@
 
 use super::CliError;
 use super::page_output::{check_panel_output, write_panels};
-use pipeline::demonstration::wraparound_panels;
+use explorer::demonstration::wraparound_panels;
 use std::path::PathBuf;
 
 /// Arguments of `alberti demo`.

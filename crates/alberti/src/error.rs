@@ -8,8 +8,9 @@
 //! that solves the problem, as in rustc.
 
 use super::color;
+use batch::BatchError;
+use explorer::demonstration::DemonstrationError;
 use import::ImportError;
-use pipeline::demonstration::DemonstrationError;
 use pipeline::{OutputError, RenderError, ResolveError, SceneError};
 use sheet::SheetError;
 
@@ -38,6 +39,9 @@ pub(crate) enum CliError {
     /// A page of panels could not be drawn.
     #[error(transparent)]
     Demonstration(#[from] DemonstrationError),
+    /// A batch could not go on.
+    #[error(transparent)]
+    Batch(BatchError),
     /// An output file could not be written.
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -47,6 +51,15 @@ pub(crate) enum CliError {
     /// Arguments that make no sense together, or a file that they name is unusable.
     #[error("{0}")]
     Usage(String),
+}
+
+impl From<BatchError> for CliError {
+    fn from(error: BatchError) -> Self {
+        match error {
+            BatchError::Flush(cause) => cause.into(),
+            other => Self::Batch(other),
+        }
+    }
 }
 
 impl CliError {

@@ -9,16 +9,16 @@ use super::number_list::{parse_number_list, parse_numbers};
 use super::render::thread_count;
 use super::scene_overrides::SceneOverrideArgs;
 use super::{CliError, print_json, print_text};
-use files::visible_text;
-use homog::{HPoint, Point, World};
-use model::{Model, ModelInstance};
-use pipeline::explain::{
+use explain::{
     ApiConventions, BareMap, Explanation, TransformChain, VertexRef, explain_homogeneous_point,
     explain_node, explain_pixel, explain_point, explain_segment, explain_transforms,
     explain_triangle, explain_vertex,
 };
-use pipeline::scene::Inset;
+use homog::{HPoint, Point, World};
+use model::{Model, ModelInstance};
+use files::visible_text;
 use pipeline::{Picture, Scene};
+use scene::Inset;
 use std::path::PathBuf;
 
 /// The longer side of the picture embedded in an HTML page, in pixels.

@@ -16,8 +16,8 @@ use import::{ExtensionUse, ImageLoading, ImportOptions, extension_use, load};
 use model::{
     AlphaMode, CameraProjection, Diagnostic, LightKind, Model, PunctualLight, SceneRoots, Topology,
 };
-use pipeline::scene::file::Finite;
-use pipeline::scene::select_animation;
+use scene::select_animation;
+use scene_file::file::Finite;
 use std::fmt::Write as _;
 
 /// Prints the contents of a model as text or JSON.
@@ -40,8 +40,8 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
 fn load_model(args: &InfoArgs) -> Result<Model, CliError> {
     let ModelStateArgs { scene, variant, animation, time } = &args.model_state;
     let options = ImportOptions {
-        scene: scene.clone().map(Into::into),
-        variant: variant.clone().map(Into::into),
+        scene: scene.clone().map(scene::name_or_index),
+        variant: variant.clone().map(scene::name_or_index),
         images: ImageLoading::Headers,
         ..args.load_options.import_options()
     };

@@ -4,9 +4,7 @@
 //! command `alberti` is the same code.
 //!
 //! Each command is a module with an arguments struct and a `run` function. Only this crate prints:
-//! results go to the standard output, messages to the standard error stream.
-//!
-//! The crates below it, each useful alone:
+//! results go to the standard output, messages to the standard error stream. The crates below it:
 //!
 //! | crate | what it owns |
 //! | --- | --- |
@@ -18,8 +16,12 @@
 //! | [`raster`] | coverage (`rasterize.rs`), depth test, multisampling, deterministic tiles |
 //! | [`model`] | files to a checked model, validation, skinning and morph targets |
 //! | [`shade`] | glTF materials, lights, environments, tone mapping, picture encoders |
-//! | [`hidden_line`], [`drawing`] | hidden-line drawings, sections, sheets to scale, SVG, PDF and DXF |
-//! | [`pipeline`] | scene files, the renderer, explain, demonstrations, sequences |
+//! | [`drawing`] | hidden-line drawings, sections, sheets to scale, SVG, PDF and DXF |
+//! | [`scene_file`] | the scene language: types, mistakes with carets, formatter, reference |
+//! | [`scene`](../scene/index.html) | resolution of scene files, lints |
+//! | [`pipeline`] | the renderer, passes, sequences |
+//! | [`batch`](../batch/index.html) | many pictures: jobs, workers, reports, shards, tar files |
+//! | [`explain`](../explain/index.html) | every step of a point, a triangle, a pixel, a matrix |
 
 mod animate;
 mod args;
@@ -29,7 +31,6 @@ mod check;
 mod color;
 mod compare;
 mod compare_projections;
-mod content_digest;
 mod curve;
 mod deferred;
 mod demo;
@@ -56,7 +57,6 @@ mod passes;
 mod program;
 mod progress;
 mod reference;
-mod referenced_files;
 mod region;
 mod render;
 mod render_job;
@@ -67,7 +67,6 @@ mod section;
 mod sheet;
 mod signals;
 mod sweep;
-mod template;
 mod terminal_image;
 mod thumbnailer;
 mod unused_flags;

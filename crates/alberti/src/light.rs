@@ -7,11 +7,11 @@ use super::CliError;
 use super::options::option_parser;
 use clap::ValueEnum;
 use pipeline::Origin;
-use pipeline::scene::file::{
+use pipeline::shade::ToneMapping;
+use scene_file::file::{
     AmbientOcclusionFile, EnvironmentFile, Finite, GroundFile, LightFile, NonNegative, SceneFile,
     ShadowsFile, Triple,
 };
-use pipeline::shade::ToneMapping;
 use std::path::PathBuf;
 
 /// Flags that replace the light of the scene.

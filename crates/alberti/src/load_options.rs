@@ -7,7 +7,7 @@
 use super::options::option_parser;
 use import::{ImportOptions, Limits};
 use model::{LengthUnit, UpAxis};
-use pipeline::scene::file::{CreaseAngle, SceneFile, StyleFile};
+use scene_file::file::{CreaseAngle, SceneFile, StyleFile};
 use std::path::PathBuf;
 
 /// How models are loaded; [`import_options`](Self::import_options) makes the library's options.

@@ -14,13 +14,13 @@ use super::{CliError, print_stdout};
 use build::{BuildArgs, BuildOptions, BuiltMatrix, DISTANCES};
 use clap::{Args as _, FromArgMatches as _};
 use code::CodeLanguage;
-use glam::DMat4;
-use homog::HPoint;
-use parse::{GivenMatrix, parse_matrix};
-use pipeline::explain::{
+use explain::{
     ApiConventions, BareMap, Explanation, ExplanationEntry, ItemValue, Step, explain_matrix,
     explain_planar_matrix, without_rounding,
 };
+use glam::DMat4;
+use homog::HPoint;
+use parse::{GivenMatrix, parse_matrix};
 use std::io::Read as _;
 
 /// The examples of the help.

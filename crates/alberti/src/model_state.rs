@@ -3,9 +3,9 @@
 //! The flags apply to every model of a scene; scene files can choose the state of each.
 
 use super::{CliError, print_message};
-use pipeline::scene::CameraPath;
-use pipeline::scene::file::{Choice, Finite, ModelFile};
 use pipeline::{Origin, ResolveError, Scene, SceneFile};
+use scene::CameraPath;
+use scene_file::file::{Choice, Finite, ModelFile};
 
 /// The state of a model; each flag replaces the field of the same name in a scene file.
 #[derive(Clone, Debug, Default, clap::Args)]

@@ -4,7 +4,7 @@
 //! scene files, flags, help and reference all read that declaration.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use pipeline::options::NamedOption;
+use scene_file::options::NamedOption;
 
 /// Names of values that are shorter in flags than in scene files.
 ///

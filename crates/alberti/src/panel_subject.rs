@@ -8,8 +8,8 @@ use super::render::open_input;
 use super::scene_overrides::parse_image_size;
 use super::section::SectionArgs;
 use pipeline::Origin;
-use pipeline::scene::SceneFile;
-use pipeline::scene::file::{OverlayFile, ViewportsScale};
+use scene_file::SceneFile;
+use scene_file::file::{OverlayFile, ViewportsScale};
 use std::path::PathBuf;
 
 /// The subject that every panel of `compare-projections` and `sweep` shows.

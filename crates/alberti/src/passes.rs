@@ -5,9 +5,10 @@
 
 use super::CliError;
 use super::options::option_parser;
-use pipeline::render::passes::{Pass, PassBuffer, PassEncoding};
-use pipeline::scene::file::SceneFile;
+use pipeline::render::passes::PassBuffer;
 use pipeline::{AtomicFile, OutputError};
+use scene_file::file::SceneFile;
+use scene_file::{Pass, PassEncoding};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 

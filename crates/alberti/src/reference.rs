@@ -23,7 +23,7 @@ pub(super) use text::wrap_paragraphs;
 
 use super::{CliError, print_stdout};
 use clap::{Command, ValueEnum};
-use pipeline::formulas::{Formula, entries, find_formula, find_formulas};
+use explain::formulas::{Formula, entries, find_formula, find_formulas};
 use schema::SchemaName;
 
 /// Arguments of `alberti reference` and `alberti scene doc`.

@@ -2,8 +2,8 @@
 
 use super::CliError;
 use homog::PixelRect;
-use pipeline::scene::ImageSpec;
-use pipeline::scene::file::SceneFile;
+use scene::ImageSpec;
+use scene_file::file::SceneFile;
 
 /// The rectangle of pixels to render, and the bits per channel.
 ///

@@ -16,12 +16,15 @@ use super::progress::Progress;
 use super::render_job::RenderJob;
 use super::unused_flags::find_unused_flags;
 use super::{CliError, render_report, terminal_image};
-use files::visible_path;
+use drawing;
 use hidden_line::{Agreement, DrawOptions, HiddenEdges};
 use import::{FileFormat, ImageLoading, ImportOptions};
-use pipeline::scene::file::SceneFile;
-use pipeline::scene::{Outputs, closest_name};
+use files::visible_path;
 use pipeline::{Origin, Scene, Timings};
+use scene::Outputs;
+use scene_file::closest_name;
+use scene_file::file::SceneFile;
+use scene_file::is_scene_file;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -183,15 +186,6 @@ fn print_timings(timings: &Timings) {
         let milliseconds = 1e3 * took.as_secs_f64();
         print_note(&format!("{stage:<10} {milliseconds:9.2} ms"));
     }
-}
-
-/// Whether a file is a scene, by its extension.
-///
-/// The content is not looked at: a file named `.ron` that is no scene gets the error message of a
-/// scene, with its line and column. The standard input, which has no extension, is recognized by
-/// its content instead.
-pub(super) fn is_scene_file(input: &Path) -> bool {
-    input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"))
 }
 
 /// Opens a scene file with its includes, or makes a scene for a bare model.

@@ -22,11 +22,11 @@ use super::render::tasks::RenderTask;
 use drawing::Warning;
 use homog::PixelRect;
 use pipeline::render::{BitDepth, render_passes, rows_per_band};
-use pipeline::scene::Outputs;
 use pipeline::{
     AtomicFile, OutputError, Picture, RenderContext, Renderer, Scene, Textures, Timings,
     draw_lines, dxf_options,
 };
+use scene::Outputs;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 

@@ -15,9 +15,9 @@
 //! ```
 //! Several pictures print several documents, one after the other.
 
-use super::content_digest::{ContentDigest, to_hexadecimal};
 use super::render_job::{RenderJob, RenderOutput};
 use super::{CliError, print_json};
+use batch::{ContentDigest, to_hexadecimal};
 use homog::PixelRect;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

@@ -24,13 +24,13 @@ use camera::NamedView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use colormap_flags::ColormapArgs;
 use import::ImportOptions;
-use pipeline::scene::ResolveOptions;
-use pipeline::scene::file::{
+use pipeline::{Origin, Scene};
+use projection::PrincipalView;
+use scene::ResolveOptions;
+use scene_file::file::{
     BackgroundFile, CameraChoice, CameraFile, Color, DEFAULT_PADDING, NonNegative, OverlayFile,
     PointSize, ProjectionFile, SceneFile, StyleFile, ViewFile,
 };
-use pipeline::{Origin, Scene};
-use projection::PrincipalView;
 use std::path::Path;
 
 /// Flags that replace fields of the scene.
@@ -345,7 +345,7 @@ fn parse_samples(text: &str) -> Result<u32, String> {
     samples.ok_or_else(|| "expected 1, 4, 8 or 16".to_owned())
 }
 
-/// Parses `WIDTHxHEIGHT`, each from 1 to [`pipeline::MAX_IMAGE_SIDE`].
+/// Parses `WIDTHxHEIGHT`, each from 1 to [`scene::MAX_IMAGE_SIDE`].
 ///
 /// ```text
 /// 1920x1080    512X512    1x1
@@ -354,13 +354,13 @@ pub(super) fn parse_image_size(text: &str) -> Result<(u32, u32), String> {
     let fault = || {
         format!(
             "expected WIDTHxHEIGHT, such as 1920x1080, each from 1 to {}",
-            pipeline::MAX_IMAGE_SIDE
+            scene::MAX_IMAGE_SIDE
         )
     };
     let (width, height) = text.split_once(['x', 'X']).ok_or_else(fault)?;
     let side = |digits: &str| {
         let side: u32 = digits.parse().map_err(|_| fault())?;
-        (1..=pipeline::MAX_IMAGE_SIDE).contains(&side).then_some(side).ok_or_else(fault)
+        (1..=scene::MAX_IMAGE_SIDE).contains(&side).then_some(side).ok_or_else(fault)
     };
     Ok((side(width)?, side(height)?))
 }

@@ -1,6 +1,6 @@
 //! Section planes: the `--section` flag.
 
-use pipeline::scene::file::{SceneFile, SectionFile};
+use scene_file::file::{SceneFile, SectionFile};
 
 /// Section planes of a line drawing.
 #[derive(Clone, Debug, Default, clap::Args)]

@@ -21,12 +21,10 @@ use drawing::{FaceFill, HiddenLines, Page, Warning};
 use import::{ImageLoading, ImportOptions};
 use page::DxfOptions;
 use page_files::{PageNames, write_all};
-use pipeline::scene::file::{
-    AxonometricView, DimensionsFile, PageOrientation, PaperSize, SheetFile,
-};
-use pipeline::scene::{ResolveOptions, SheetContent, Style};
 use pipeline::{Origin, Picture, Scene};
 use projection::SheetAngle;
+use scene::{ResolveOptions, SheetContent, Style};
+use scene_file::file::{AxonometricView, DimensionsFile, PageOrientation, PaperSize, SheetFile};
 use sheet::{DecimalMark, DimensionUnit, SheetFrame, TitleBlockLanguage};
 use std::path::PathBuf;
 use viewport::{Paper, Resolution};
@@ -138,7 +136,7 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     file.models.iter_mut().for_each(|model| args.model_state.apply_to(model));
     args.section.append_to(&mut file);
     // The sheet has views of its own: the scene's camera must not matter, not even if it is wrong.
-    file.camera = pipeline::scene::file::CameraFile::default();
+    file.camera = scene_file::file::CameraFile::default();
     let mut sheet_file = file.sheet.take().unwrap_or_default();
     apply_overrides(&mut sheet_file, args);
     // Lines have no textures.
@@ -148,7 +146,7 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     let scene = Scene::resolve(&origin, &file, &options)?;
     let allowed_folders = &*options.import.allow_outside;
     let content = SheetContent { allowed_folders, ..SheetContent::from_scene(&scene) };
-    let mut sheet = pipeline::scene::resolve_sheet(&origin, &sheet_file, content)
+    let mut sheet = scene::resolve_sheet(&origin, &sheet_file, content)
         .map_err(pipeline::ResolveError::from)?;
     if let Some(degrees) = args.load_options.crease {
         (sheet.style.crease_angle, sheet.style.asks_normals) = (degrees.to_radians(), false);
@@ -196,7 +194,7 @@ fn warn_of_unused_dpi(args: &SheetArgs, format: OutputFormat) {
 
 /// The error of a sheet that cannot be drawn: at its place in the scene file, if it has one there.
 fn sheet_error(origin: &Origin, error: sheet::SheetError) -> CliError {
-    match pipeline::scene::sheet_view_error(origin, &error) {
+    match scene::sheet_view_error(origin, &error) {
         Some(mistake) => CliError::Scene(mistake),
         None => CliError::Sheet(error),
     }

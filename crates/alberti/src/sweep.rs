@@ -8,10 +8,10 @@ use super::progress::Progress;
 use super::render::thread_count;
 use super::scene_overrides::named_view_parser;
 use camera::NamedView;
+use explorer::demonstration::{Sweep, SweepParameter};
 use pipeline::Scene;
-use pipeline::demonstration::{Sweep, SweepParameter};
-use pipeline::scene::ResolveOptions;
-use pipeline::scene::file::{DEFAULT_PADDING, ViewFile};
+use scene::ResolveOptions;
+use scene_file::file::{DEFAULT_PADDING, ViewFile};
 use std::path::PathBuf;
 
 /// Arguments of `alberti sweep`.

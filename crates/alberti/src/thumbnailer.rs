@@ -15,13 +15,14 @@ use super::memory_limit::{import_limits, limit_process_memory, parse_memory_size
 use super::render::{open_input, thread_count};
 use clap::ValueEnum;
 use deadline::Deadline;
-use files::{visible_path, visible_text};
-use import::{ImportError, ImportOptions, Limits};
+use import::{ImportError, ImportOptions};
+use import::Limits;
 use model::codes;
-use pipeline::scene::{ResolveOptions, Style};
+use files::{visible_path, visible_text};
 use pipeline::{
     OutputError, RenderContext, RenderError, Renderer, ResolveError, Scene, Textures, write_file,
 };
+use scene::{ResolveOptions, Style};
 use std::fs::OpenOptions;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};

@@ -9,8 +9,8 @@ use super::render::tasks::RenderTask;
 use super::scene_overrides::SceneOverrideArgs;
 use clap::ValueEnum as _;
 use pipeline::Scene;
-use pipeline::scene::Style;
-use pipeline::scene::file::StyleFile;
+use scene::Style;
+use scene_file::file::StyleFile;
 
 /// The warnings about the flags of a picture that `render` makes.
 pub(super) fn find_unused_flags(

@@ -17,7 +17,7 @@ use foreign_words::{FOREIGN_COMMANDS, FOREIGN_FLAGS, FOREIGN_HABITS};
 use given_value::{
     Given, accepted_value, foreign_value, invalid_value, quoted, value_of, with_given_value,
 };
-use pipeline::scene::closest_name;
+use scene_file::closest_name;
 use std::ffi::OsString;
 use std::path::Path;
 

@@ -3,7 +3,7 @@
 use super::CliError;
 use super::number_list::parse_numbers;
 use super::scene_overrides::frame_padding;
-use pipeline::scene::file::{
+use scene_file::file::{
     CameraFile, FieldOfView, Finite, FromFile, Positive, ProjectionFile, Triple, ViewFile,
 };
 

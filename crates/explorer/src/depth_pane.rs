@@ -1,14 +1,14 @@
 //! The pane `depth`: depth after the divide against distance, with the model's range in it.
 
 use crate::ExplorerError;
+use crate::demonstration::DepthTable;
 use crate::facts::Facts;
 use crate::number_text::decimals;
 use crate::words::{Words, words};
 use drawing::{Axis, AxisMark, Chart, Curve, Page, Spacing};
-use glam::DVec2;
 use page::Ink;
-use pipeline::demonstration::DepthTable;
-use pipeline::explain::ApiConventions;
+use explain::ApiConventions;
+use glam::DVec2;
 use projection::{Convention, DepthFormat};
 use serde_json::{Value as Json, json};
 

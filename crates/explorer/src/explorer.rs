@@ -15,8 +15,8 @@ use crate::state_answer::state_json;
 use crate::volume_pane::volume_scene;
 use crate::words::sentence;
 use crate::world_pane::{Pointer, world_scene};
-use pipeline::scene::Scene;
 use pipeline::{CancelToken, Picture, Textures, draw_lines};
+use scene::Scene;
 use std::sync::Arc;
 
 /// The answer to a request.

@@ -4,7 +4,7 @@ use crate::facts::Facts;
 use crate::lessons::{ALL_PANES, HOUSE};
 use crate::scene_description::SceneDescription;
 use crate::words::{Sentence, Words, words};
-use pipeline::explain::ApiConventions;
+use explain::ApiConventions;
 
 /// A lesson of the explorer.
 #[derive(Debug)]

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod catalogue;
+pub mod demonstration;
 mod depth_pane;
 mod error;
 pub mod exercise;

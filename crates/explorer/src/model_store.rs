@@ -5,9 +5,9 @@ use crate::lesson_state::style_flag;
 use crate::triangle_survey::WorldTriangles;
 use import::MemoryFolder;
 use model::ModelInstance;
-use pipeline::scene::file::StyleFile;
-use pipeline::scene::parse_scene;
 use pipeline::{Origin, Scene, SceneFile, Textures};
+use scene_file::file::StyleFile;
+use scene_file::parse_scene;
 use std::sync::Arc;
 
 /// How many sets of models are kept: the lesson at hand and the one before it.

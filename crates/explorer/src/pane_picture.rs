@@ -2,8 +2,8 @@
 
 use crate::ExplorerError;
 use homog::PixelRect;
-use pipeline::scene::Style;
 use pipeline::{CancelToken, Picture, RenderContext, Renderer, Scene, Textures};
+use scene::Style;
 
 /// What a picture shows, and the flag that ends its rendering.
 #[derive(Clone, Copy, Debug)]

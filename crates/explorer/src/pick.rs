@@ -1,10 +1,10 @@
 //! `pick`: why a pixel has its color, and where in the world it is.
 
 use crate::ExplorerError;
+use explain::{ApiConventions, Explanation, ItemValue, TransformChain, explain_pixel};
 use homog::{Point, World};
 use pipeline::Scene;
-use pipeline::explain::{ApiConventions, Explanation, ItemValue, TransformChain, explain_pixel};
-use pipeline::scene::Style;
+use scene::Style;
 use serde_json::{Value as Json, json};
 
 /// The explanation of a pixel of a picture, counted from its upper left corner, with the nearest

@@ -3,7 +3,7 @@
 use crate::ExplorerError;
 use crate::lesson_state::LessonState;
 use crate::query::Query;
-use pipeline::scene::closest_name;
+use scene_file::closest_name;
 
 /// Size of a picture where none is given; the lessons are made for its shape.
 pub(crate) const DEFAULT_SIZE: [u32; 2] = [640, 400];

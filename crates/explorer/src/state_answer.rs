@@ -9,8 +9,8 @@ use crate::model_store::LoadedScene;
 use crate::pane_scene::COLORS;
 use crate::request::Request;
 use crate::words::{Sentence, sentence};
+use explain::{ApiConventions, TransformChain, explain_point, explain_transforms};
 use homog::{Point, Screen};
-use pipeline::explain::{ApiConventions, TransformChain, explain_point, explain_transforms};
 use serde_json::{Map, Value as Json, json};
 
 /// The state as JSON: link, scene file, command, sentences, numbers, matrices, journey.

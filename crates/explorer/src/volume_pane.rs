@@ -10,10 +10,10 @@ use crate::world_pane::Pointer;
 use camera::{Basis, Camera, ViewProjection};
 use clip::{Volume, clip_triangle};
 use drawing::Overlay;
+use explain::ApiConventions;
 use glam::DMat4;
 use homog::{Affine, Clip, HPoint, Point, Projective, View, World};
 use pipeline::Scene;
-use pipeline::explain::ApiConventions;
 use projection::{Convention, Frustum, ViewVolume};
 
 /// How far out torn triangles are drawn, in half sides of the view volume: single precision ends

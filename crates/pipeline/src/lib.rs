@@ -24,8 +24,8 @@
 //! | depth, normal, id of each pixel | [`mod@render::passes`] | `examples/depth_map.rs` |
 //! | many pictures without allocation | [`Renderer`] | its documentation |
 //! | pictures larger than memory | [`PreparedScene::write_png`] | its documentation |
-//! | every step of a point, a triangle, a pixel | [`explain`] | `examples/explain.rs` |
-//! | lessons: projections, sweeps, depth curves | [`demonstration`] | its documentation |
+//! | every step of a point, a triangle, a pixel | the crate `explain` | |
+//! | lessons: projections, sweeps, depth curves | the crate `explorer` | |
 //! | models from memory | [`Origin::from_text_in_memory`], [`import::load_bytes`], [`Scene::from_models`] | |
 //! | the syntax of scene files | [`scene::reference`] | |
 //! | a tour of the stages, with the file of each | [`mod@render`] | |
@@ -37,11 +37,7 @@
 //! thread and exist side by side. Errors are typed and name the fault, its location and a remedy.
 
 mod cancel;
-pub mod demonstration;
-pub mod explain;
-pub mod formulas;
 pub mod render;
-pub mod scene;
 pub mod sequence;
 
 pub use cancel::CancelToken;
@@ -54,11 +50,12 @@ pub use model;
 pub use model::Timings;
 pub use picture::{self, Channel, Picture, PngRows, encode_png};
 pub use render::{
-    MAX_IMAGE_SIDE, PreparedScene, RenderContext, RenderError, Renderer, Textures, WritePngError,
-    draw_lines, dxf_options, render,
+    PreparedScene, RenderContext, RenderError, Renderer, Textures, WritePngError, draw_lines,
+    dxf_options, render,
 };
-pub use scene::options;
-pub use scene::{Origin, ResolveError, Scene, SceneError, SceneErrors, SceneFile};
+pub use scene::{
+    self, MAX_IMAGE_SIDE, Origin, ResolveError, Scene, SceneError, SceneErrors, SceneFile, options,
+};
 pub use shade::{self, FrameChannel};
 #[cfg(feature = "sheets")]
 pub use sheet;
@@ -77,8 +74,7 @@ mod tests {
         assert_send_sync::<(crate::Origin, crate::SceneFile, crate::Scene)>();
         assert_send_sync::<(picture::Picture, model::Timings, crate::CancelToken)>();
         assert_send_sync::<(crate::Renderer, crate::sequence::Sequence)>();
-        assert_send_sync::<crate::explain::Explanation>();
-        assert_send_sync::<(drawing::Page, drawing::Drawing, sheet::Sheet)>();
+        assert_send_sync::<(drawing::Page, hidden_line::LineDrawing, sheet::Sheet)>();
         assert_send_sync::<(crate::SceneError, crate::ResolveError, crate::RenderError)>();
         assert_send_sync::<(files::OutputError, import::ImportError)>();
         assert_send_sync::<import::ImportOptions>();

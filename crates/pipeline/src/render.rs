@@ -89,7 +89,6 @@ mod write_png;
 
 pub use context::RenderContext;
 pub use dxf_scale::dxf_options;
-pub use image_tiles::MAX_IMAGE_SIDE;
 pub use line_drawing::draw_lines;
 pub use mip_chains::Textures;
 pub use panel::render_panel;
@@ -100,7 +99,7 @@ pub use renderer::Renderer;
 pub use write_png::{BitDepth, WritePngError, rows_per_band};
 
 use crate::Picture;
-use crate::scene::Scene;
+use scene::Scene;
 
 /// A scene that cannot be rendered.
 #[derive(Debug, thiserror::Error)]

@@ -9,12 +9,13 @@
 
 use crate::Picture;
 use crate::render::{RenderContext, RenderError, Renderer, Textures};
-use crate::scene::file::{CameraFile, ViewFile};
-use crate::scene::{CameraPath, FileAccess, Origin, ResolveError, Scene, SceneFile};
 use camera::ViewProjection;
 use homog::{Affine, Point, World};
 use model::Model;
 use model::ModelInstance;
+use scene::{CameraPath, FileAccess, Origin, ResolveError, Scene};
+use scene_file::SceneFile;
+use scene_file::file::{CameraFile, ViewFile};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 

@@ -4,12 +4,12 @@ use crate::arrays;
 use crate::failure::{Failure, Fallible};
 use crate::keywords::{Keywords, not_a};
 use camera::{CameraAxes, Extrinsics, NamedView};
-use pipeline::scene::file::{
+use projection::{Intrinsics, PixelCenters};
+use pyo3::prelude::*;
+use scene_file::file::{
     CameraChoice, CameraFile, DEFAULT_PADDING, FieldOfView, Finite, FromFile, Positive,
     ProjectionFile, RotationFile, Triple, ViewFile,
 };
-use projection::{Intrinsics, PixelCenters};
-use pyo3::prelude::*;
 
 /// Reads position, direction and lens of a camera.
 ///
@@ -43,7 +43,7 @@ fn read_view(options: &Keywords<'_, '_>) -> PyResult<ViewFile> {
     let from = options.value("direction")?.map(|value| read_direction(&value)).transpose()?;
     let padding_percent = match options.number("padding")? {
         None => DEFAULT_PADDING,
-        Some(percent) => pipeline::scene::file::NonNegative::new(percent).ok_or_else(|| {
+        Some(percent) => scene_file::file::NonNegative::new(percent).ok_or_else(|| {
             let message = format!("is {percent}, expected 0 or a greater number");
             PyErr::from(Failure::argument("padding", message))
         })?,

@@ -19,7 +19,7 @@ use pyo3::types::PyDict;
 pub(crate) struct NativeDrawing {
     page: Page,
     scene: Scene,
-    camera: pipeline::scene::file::CameraFile,
+    camera: scene_file::file::CameraFile,
     threads: usize,
 }
 

@@ -6,16 +6,16 @@ use crate::failure::{Failure, Fallible};
 use crate::keywords::{Keywords, not_a, plain_name};
 use crate::scene_options::apply_options;
 use crate::subject::Subject;
-use homog::{Point, World};
-use model::ModelInstance;
-use pipeline::explain::{
+use ::explain::{
     ApiConventions, Explanation, TransformChain, explain_homogeneous_point, explain_node,
     explain_pixel, explain_point, explain_segment, explain_transforms,
 };
-use pipeline::scene::file::Choice;
+use homog::{Point, World};
+use model::ModelInstance;
 use pipeline::{RenderError, Scene};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use scene_file::file::Choice;
 
 /// The subject of an explanation.
 enum ExplainedPart {

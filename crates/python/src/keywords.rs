@@ -5,10 +5,10 @@
 
 use crate::arrays;
 use crate::failure::Failure;
-use pipeline::options::NamedOption;
-use pipeline::scene::file::Positive;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use scene_file::file::Positive;
+use scene_file::options::NamedOption;
 
 /// Options of a call.
 pub(crate) struct Keywords<'a, 'py>(pub(crate) &'a Bound<'py, PyDict>);
@@ -69,7 +69,7 @@ impl<'py> Keywords<'_, 'py> {
         let sides = value.extract::<(i64, i64)>();
         let wanted = "(width, height) in pixels";
         let (width, height) = sides.map_err(|_| PyErr::from(not_a(name, &value, wanted)))?;
-        let most = i64::from(pipeline::MAX_IMAGE_SIDE);
+        let most = i64::from(scene::MAX_IMAGE_SIDE);
         let fits = |side: i64| (1..=most).contains(&side);
         if fits(width) && fits(height) {
             return Ok(Some((width as u32, height as u32)));

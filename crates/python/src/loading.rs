@@ -10,10 +10,10 @@ use homog::Affine;
 use import::{ImportOptions, Limits, NameOrIndex, load, load_bytes};
 use model::{Model, ModelInstance};
 use pipeline::Origin;
-use pipeline::scene::file::Choice;
-use pipeline::scene::{ResolveOptions, select_animation};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use scene::{ResolveOptions, select_animation};
+use scene_file::file::Choice;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -134,7 +134,7 @@ fn pose_model(model: &mut Model, request: &LoadRequest) -> Fallible<()> {
 /// The options of loading.
 fn load_request(options: &Keywords<'_, '_>) -> PyResult<LoadRequest> {
     let name_or_index = |name: &str| -> PyResult<Option<NameOrIndex>> {
-        Ok(choice(options, name)?.map(NameOrIndex::from))
+        Ok(choice(options, name)?.map(scene::name_or_index))
     };
     let import = ImportOptions {
         limits: limits(options)?,

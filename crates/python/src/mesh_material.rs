@@ -8,9 +8,9 @@ use crate::keywords::{Keywords, not_a};
 use crate::mesh_colors::linear_colors;
 use import::PhongMaterial;
 use model::{AlphaMode, Material};
-use pipeline::scene::file::Color;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use scene_file::file::Color;
 
 /// Reads the material; `None` if nothing is said of it.
 ///

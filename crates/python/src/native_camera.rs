@@ -9,12 +9,12 @@ use crate::rendering::check_pixel_count;
 use camera::{CameraAxes, Extrinsics, ViewProjection};
 use model::ModelInstance;
 use numpy::PyArrayMethods;
-use pipeline::options::NamedOption as _;
-use pipeline::scene::file::{CameraFile, Positive, ProjectionFile, Triple, ViewFile};
 use pipeline::{Origin, Scene, SceneFile};
 use projection::{Convention, Intrinsics, PixelCenters};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use scene_file::file::{CameraFile, Positive, ProjectionFile, Triple, ViewFile};
+use scene_file::options::NamedOption as _;
 use std::path::PathBuf;
 
 /// A camera as it was described, and where that put it.

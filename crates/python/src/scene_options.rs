@@ -5,8 +5,8 @@ use crate::keywords::{Keywords, plain_name};
 use crate::native_camera::NativeCamera;
 use crate::subject::Subject;
 use pipeline::SceneFile;
-use pipeline::scene::file::{BackgroundFile, Color, StyleFile};
 use pyo3::prelude::*;
+use scene_file::file::{BackgroundFile, Color, StyleFile};
 
 /// The description of a subject's scene with the options of a call.
 ///

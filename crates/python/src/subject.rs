@@ -5,9 +5,9 @@ use crate::arrays;
 use crate::failure::{Failure, Fallible};
 use homog::Bounds;
 use model::{ModelInstance, Severity, world_points};
-use pipeline::scene::ResolveOptions;
 use pipeline::{Origin, Scene, SceneFile, Textures};
 use pyo3::prelude::*;
+use scene::ResolveOptions;
 use self_cell::self_cell;
 use std::sync::{Arc, OnceLock};
 

@@ -5,7 +5,7 @@ use crate::scene::resolve_and_draw;
 use camera::{CameraAxes, Extrinsics};
 use homog::Point;
 use pipeline::Origin;
-use pipeline::scene::parse_scene;
+use scene_file::parse_scene;
 use projection::{Convention, Intrinsics, PixelCenters};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/models");

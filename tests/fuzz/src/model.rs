@@ -2,10 +2,11 @@
 
 use crate::{glb, promises};
 use homog::Affine;
-use model::{Model, ModelInstance};
+use model::Model;
+use model::ModelInstance;
 use import::{ImageLoading, ImportError, ImportOptions, Limits, NameOrIndex, load_bytes};
 use gltf_check::check_bytes;
-use pipeline::scene::file::{CameraChoice, DEFAULT_PADDING, FromFile, SceneFile, StyleFile, ViewFile};
+use scene_file::file::{CameraChoice, DEFAULT_PADDING, FromFile, SceneFile, StyleFile, ViewFile};
 use pipeline::{Origin, Scene, render};
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -1,7 +1,7 @@
 //! The text of a scene: parsed, resolved with a model that is there, and drawn by one thread and by
 //! two.
 
-use pipeline::scene::parse_scene;
+use scene_file::parse_scene;
 use pipeline::{Origin, Scene, SceneFile, render};
 use std::path::Path;
 

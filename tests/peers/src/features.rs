@@ -6,8 +6,9 @@
 
 use crate::measure::{Contestant, Series, rounds};
 use model::{Anisotropy, Clearcoat, Iridescence, MaterialExtensions, Sheen, Transmission, Volume};
-use pipeline::scene::{ResolveOptions, Scene, parse_scene};
 use pipeline::{Origin, Picture, RenderContext, Renderer, Textures};
+use scene::{ResolveOptions, Scene};
+use scene_file::parse_scene;
 use std::path::Path;
 use std::sync::Arc;
 

@@ -18,12 +18,13 @@ pub struct Test {
 }
 
 impl Test {
-    /// The crate whose topics it tests: `recognition` reads the matrices of `projection`, and what
-    /// crosses crates tests the pipeline.
+    /// The crate whose topics it tests: `recognition` reads the matrices of `projection`, and
+    /// `explain` and what crosses crates test the pipeline.
     pub fn owner(&self) -> &str {
         let folder = self.path.strip_prefix("crates/").and_then(|rest| rest.split('/').next());
         match folder {
             Some("recognition") => "projection",
+            Some("explain") => "pipeline",
             _ => folder.unwrap_or("pipeline"),
         }
     }

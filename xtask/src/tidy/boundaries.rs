@@ -9,13 +9,13 @@ use crate::metadata::{Metadata, short_name};
 /// that part.
 const NAMED_BY: &[(&str, &[&str])] = &[
     ("gltf", &["crates/gltf-import/src"]),
-    ("ron", &["crates/pipeline/src/scene"]),
+    ("ron", &["crates/scene-file/src"]),
     (
         "serde",
         &[
-            "crates/pipeline/src/scene",
+            "crates/scene-file/src",
             "crates/gltf-import/src/gltf/located_json.rs",
-            "crates/alberti/src/batch",
+            "crates/batch/src",
         ],
     ),
     (
@@ -63,7 +63,11 @@ pub const LAYERS: &[(&str, Option<&[&str]>)] = &[
     ("shade", Some(&["homog", "camera", "raster", "picture", "model"])),
     ("drawing", None),
     ("sheet", None),
+    ("scene-file", None),
+    ("scene", None),
     ("pipeline", None),
+    ("batch", None),
+    ("explain", None),
     ("explorer", None),
     ("alberti", None),
 ];
@@ -174,10 +178,7 @@ mod tests {
                 .map(|fault| fault.location)
                 .collect::<Vec<_>>()
         };
-        assert_eq!(
-            places("crates/pipeline/src/scene/file.rs"),
-            ["crates/pipeline/src/scene/file.rs:2"]
-        );
+        assert_eq!(places("crates/pipeline/src/render.rs"), ["crates/pipeline/src/render.rs:2"]);
         assert_eq!(places("crates/gltf-import/src/mesh.rs"), [""; 0]);
     }
 

@@ -10,7 +10,7 @@
 //! Frames arrive in order and are not stored: each is encoded and written before the next arrives.
 
 use crate::CliError;
-use crate::template::NameTemplate;
+use batch::NameTemplate;
 use pipeline::sequence::Sequence;
 use pipeline::{AtomicFile, OutputError, Picture};
 use std::cell::RefCell;

@@ -9,9 +9,9 @@
 
 use crate::load_options::LoadArgs;
 use crate::scene_overrides::SceneOverrideArgs;
+use batch::{FlagTable, flag_word, is_scene_name};
 use clap::error::Error;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// The flags of one picture, parsed.
@@ -111,68 +111,21 @@ impl GivenFlags {
     }
 }
 
-/// Whether a value of `scene` is a scene file.
-pub(super) fn is_scene_name(value: &str) -> bool {
-    crate::render::is_scene_file(value.as_ref())
-}
-
-/// A flag as one word of a command line.
-pub(super) fn flag_word(name: &str, value: Option<&str>) -> String {
-    value.map_or_else(|| format!("--{name}"), |value| format!("--{name}={value}"))
-}
-
-/// The names of the flags, and which exclude each other.
-pub(super) struct FlagTable {
-    /// For each flag the others that it cannot be combined with.
-    conflicts: BTreeMap<String, Vec<String>>,
-}
-
-impl FlagTable {
-    /// The table of all flags of a picture.
-    pub(super) fn new() -> Self {
-        let mut command = declaration();
-        command.build();
-        let flags = command.get_arguments();
-        let named = flags.filter_map(|flag| Some((flag.get_long()?.to_owned(), flag)));
-        let mut conflicts: BTreeMap<String, Vec<String>> = BTreeMap::new();
-        for (name, flag) in named {
-            conflicts.entry(name.clone()).or_default();
-            for other in command.get_arg_conflicts_with(flag) {
-                let Some(other) = other.get_long() else { continue };
-                conflicts.entry(name.clone()).or_default().push(other.to_owned());
-                conflicts.entry(other.to_owned()).or_default().push(name.clone());
-            }
+/// The table of all flags of a picture.
+pub(super) fn flag_table() -> FlagTable {
+    let mut command = declaration();
+    command.build();
+    let flags = command.get_arguments();
+    let named = flags.filter_map(|flag| Some((flag.get_long()?.to_owned(), flag)));
+    let mut table = FlagTable::default();
+    for (name, flag) in named {
+        table.add_flag(&name);
+        for other in command.get_arg_conflicts_with(flag) {
+            let Some(other) = other.get_long() else { continue };
+            table.add_conflict(&name, other);
         }
-        Self { conflicts }
     }
-
-    /// Whether there is such a flag.
-    pub(super) fn has_flag(&self, name: &str) -> bool {
-        self.conflicts.contains_key(name)
-    }
-
-    /// The names of all flags.
-    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
-        self.conflicts.keys().map(String::as_str)
-    }
-
-    /// The words of `over` on top of those of `base`, which lose what `over` gives itself or
-    /// excludes.
-    pub(super) fn merge(&self, base: &[String], over: &[String]) -> Vec<String> {
-        let gone: Vec<&str> = over.iter().map(|word| word_name(word)).collect();
-        let is_gone = |name: &str| {
-            let others = self.conflicts.get(name).into_iter().flatten();
-            gone.contains(&name) || others.into_iter().any(|other| gone.contains(&other.as_str()))
-        };
-        let kept = base.iter().filter(|word| !is_gone(word_name(word)));
-        kept.chain(over).cloned().collect()
-    }
-}
-
-/// The name in a word such as `--size=64x64`.
-fn word_name(word: &str) -> &str {
-    let name = word.strip_prefix("--").unwrap_or(word);
-    name.split_once('=').map_or(name, |(name, _)| name)
+    table
 }
 
 #[cfg(test)]
@@ -185,7 +138,7 @@ mod tests {
 
     #[test]
     fn a_line_replaces_what_the_command_says_and_what_it_excludes() {
-        let table = FlagTable::new();
+        let table = flag_table();
         let base = words(&["--size=64x64", "--view=front", "--overlay=axes", "--overlay=grid"]);
         let merged = table.merge(&base, &words(&["--camera=left", "--overlay=horizon"]));
         assert_eq!(merged, ["--size=64x64", "--camera=left", "--overlay=horizon"]);

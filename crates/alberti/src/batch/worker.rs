@@ -2,15 +2,16 @@
 //!
 //! A model that hangs, crashes or takes all memory takes its worker along, and no other.
 
-use super::protocol::{FramedAnswer, PictureRequest, PictureTarget, WorkAnswer, WorkRequest};
 use super::render_flags::RenderFlags;
 use super::worker_scene::SceneLoader;
 use crate::CliError;
-use crate::content_digest::hexadecimal_sha256;
 use crate::memory_limit::{limit_process_memory, parse_memory_size};
 use crate::unused_flags::find_unused_overrides;
-use files::{create_partial_file, forget_partial_file};
+use batch::{
+    FramedAnswer, PictureRequest, PictureTarget, WorkAnswer, WorkRequest, hexadecimal_sha256,
+};
 use files::{visible_path, visible_text};
+use files::{create_partial_file, forget_partial_file};
 use pipeline::{RenderContext, Renderer, Textures};
 use std::io::{BufRead as _, ErrorKind, Write};
 use std::path::Path;

@@ -2,14 +2,15 @@
 //!
 //! The models that were loaded last are kept: the next picture is often another view of them.
 
+use files::visible_path;
 use super::render_flags::RenderFlags;
 use crate::CliError;
 use crate::memory_limit::import_limits;
-use crate::render::{is_scene_file, open_input};
-use files::visible_path;
+use crate::render::open_input;
 use model::ModelInstance;
 use pipeline::import::ImportOptions;
 use pipeline::{Origin, Scene, SceneFile};
+use scene_file::is_scene_file;
 use std::path::Path;
 use std::time::SystemTime;
 

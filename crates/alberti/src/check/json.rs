@@ -16,7 +16,7 @@ use super::CheckResult;
 use gltf_check::CheckReport;
 use model::Diagnostic;
 use pipeline::SceneError;
-use pipeline::scene::Lint;
+use scene::Lint;
 use serde_json::{Value, json};
 
 /// The version of both schemas: it rises when a member is removed or changes its meaning. New

@@ -4,11 +4,10 @@
 //! folder, also by a symbolic link, is left out.
 
 use crate::CliError;
-use crate::referenced_files::referenced_files;
-use crate::render::is_scene_file;
-use files::visible_path;
 use import::Limits;
-use pipeline::scene::parse_scene;
+use files::visible_path;
+use scene::referenced_files;
+use scene_file::{is_scene_file, parse_scene};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read};

@@ -27,7 +27,7 @@ use model::{
     Animation, AnimationChannel, AnimationTarget, Interpolation, Model, NodeProperty, Primitive,
     Skin, Topology, UvTransform, UvTransformPart,
 };
-use pipeline::scene::file::Finite;
+use scene_file::file::Finite;
 use serde_json::{Value, json};
 
 /// The version of the JSON schema.
@@ -78,7 +78,7 @@ pub(super) fn info_document(args: &InfoArgs, model: &Model) -> String {
 ///
 /// `None` cannot happen for a loaded model, because an invalid choice has ended the command before.
 fn chosen_animation_index(args: &InfoArgs, model: &Model) -> Option<usize> {
-    pipeline::scene::select_animation(model, args.model_state.animation.as_ref()).ok()
+    scene::select_animation(model, args.model_state.animation.as_ref()).ok()
 }
 
 /// An f32 as the shortest decimal number that rounds to it: 0.8, not 0.800000011920929.

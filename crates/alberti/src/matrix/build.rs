@@ -8,8 +8,8 @@ use super::super::CliError;
 use super::builders::*;
 use super::parse::parse_number;
 use clap::{Arg, ArgAction, ArgGroup, ArgMatches, Command};
+use explain::ApiConventions;
 use glam::DMat4;
-use pipeline::explain::ApiConventions;
 use projection::Convention;
 
 /// The sentence about near and far of all flags but `--p`, in the help and in messages.

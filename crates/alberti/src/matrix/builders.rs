@@ -3,9 +3,9 @@
 use super::super::CliError;
 use super::build::{BuildOptions, Built, BuiltMatrix, DISTANCES, NumberList, wrong_count};
 use camera::Camera;
+use explain::ApiConventions;
 use glam::{DMat3, DMat4};
 use homog::{Affine, Point, Space, Vector, View, World};
-use pipeline::explain::ApiConventions;
 use projection::{
     ApexMovedFrustum, Axonometric, Convention, Fov, Frustum, Intrinsics, NPoint, Oblique,
     Orthographic, Perspective, ProjectionError, chapter,

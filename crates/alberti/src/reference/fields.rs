@@ -4,7 +4,7 @@
 //! here.
 
 use super::{ReferenceEntry, ReferenceSection};
-use pipeline::scene::reference::{FieldEntry, Shape, TypeEntry, VariantEntry, all_types};
+use scene_file::reference::{FieldEntry, Shape, TypeEntry, VariantEntry, all_types};
 
 /// A section for each type, in the order of the scene language.
 pub(super) fn type_sections() -> Vec<ReferenceSection> {

@@ -1,7 +1,7 @@
 //! Search in the reference by name, type or path of fields.
 
 use super::{ReferenceEntry, ReferenceSection};
-use pipeline::scene::closest_name;
+use scene_file::closest_name;
 
 /// Finds the section with the title `word`, the end of a path of fields with its types, or all
 /// entries of that name.
@@ -36,7 +36,7 @@ pub(super) fn find_sections(
 fn find_related(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSection> {
     let word = word.to_lowercase();
     let mut found = filter_entries(sections, &|entry| has_in_name(entry, &word));
-    for path in pipeline::scene::reference::meanings_of(&word) {
+    for path in scene_file::reference::meanings_of(&word) {
         let steps: Vec<&str> = path.split('.').collect();
         for section in find_by_path(sections, &steps) {
             if !found.contains(&section) {

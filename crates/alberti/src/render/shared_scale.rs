@@ -3,9 +3,9 @@
 use crate::CliError;
 use crate::scene_overrides::SceneOverrideArgs;
 use camera::NamedView;
-use pipeline::scene::SceneFile;
-use pipeline::scene::file::{EnvironmentFile, ViewportsScale};
 use pipeline::{Origin, Scene};
+use scene_file::SceneFile;
+use scene_file::file::{EnvironmentFile, ViewportsScale};
 
 /// Gives the view of a scene the least scale of all `--views`.
 ///

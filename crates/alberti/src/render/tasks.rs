@@ -7,7 +7,7 @@ use crate::CliError;
 use crate::args::RenderArgs;
 use crate::format::OutputFormat;
 use crate::scene_overrides::SceneOverrideArgs;
-use crate::template::NameTemplate;
+use batch::NameTemplate;
 use clap::ValueEnum;
 use files::visible_path;
 use std::collections::BTreeMap;
@@ -142,10 +142,10 @@ fn output_template(args: &RenderArgs) -> Result<NameTemplate, CliError> {
 /// Names of cameras and variants come from models and may hold any character; the template replaces
 /// those that are no part of a file name.
 fn template_word(name: &str, input: &Path, look: &SceneOverrideArgs) -> String {
-    let choice = |choice: &Option<pipeline::scene::file::Choice>| {
+    let choice = |choice: &Option<scene_file::file::Choice>| {
         choice.as_ref().map(|choice| match choice {
-            pipeline::scene::file::Choice::Index(at) => at.to_string(),
-            pipeline::scene::file::Choice::Name(name) => name.clone(),
+            scene_file::file::Choice::Index(at) => at.to_string(),
+            scene_file::file::Choice::Name(name) => name.clone(),
         })
     };
     let flag = |value: Option<clap::builder::PossibleValue>| {

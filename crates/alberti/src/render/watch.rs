@@ -4,10 +4,10 @@
 //! A change counts once the files have stayed as they are from one look to the next: editors and
 //! exporters write for a while.
 
-use super::is_scene_file;
 use crate::CliError;
 use crate::messages::{print_message, print_note};
-use crate::referenced_files::referenced_files;
+use scene::referenced_files;
+use scene_file::is_scene_file;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::thread::sleep;

@@ -2,7 +2,7 @@
 
 use crate::{CliError, print_stdout, print_text};
 use files::visible_path;
-use pipeline::scene::format_source;
+use scene_file::format_source;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

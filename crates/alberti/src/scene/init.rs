@@ -14,11 +14,12 @@
 
 use crate::load_options::LoadArgs;
 use crate::{CliError, print_message, print_text};
-use files::visible_path;
 use model::{Model, Topology};
-use pipeline::scene::file::NonNegative;
-use pipeline::scene::{ResolveOptions, format_source};
+use files::visible_path;
 use pipeline::{Origin, ResolveError, Scene};
+use scene::ResolveOptions;
+use scene_file::file::NonNegative;
+use scene_file::format_source;
 use shade::Light;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

@@ -4,8 +4,8 @@ use crate::number_list::parse_numbers;
 use crate::options::option_parser;
 use model::Colormap;
 use pipeline::Scene;
-use pipeline::scene::Style;
-use pipeline::scene::file::{Finite, ScalarsFile, SceneFile};
+use scene::Style;
+use scene_file::file::{Finite, ScalarsFile, SceneFile};
 
 /// The colors of scalars and depths; each flag replaces what the scene file says of all models.
 #[derive(Clone, Debug, Default, clap::Args)]

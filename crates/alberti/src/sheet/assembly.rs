@@ -4,7 +4,7 @@ use super::parts_list_json::parts_list_document;
 use crate::options::option_parser;
 use crate::page_output::has_extension;
 use model::ModelInstance;
-use pipeline::scene::file::SheetFile;
+use scene_file::file::SheetFile;
 use sheet::{ExplosionAxis, PartsList, Sheet};
 use std::path::PathBuf;
 

@@ -7,7 +7,7 @@
 
 use crate::CliError;
 use crate::format::OutputFormat;
-use crate::template::NameTemplate;
+use batch::NameTemplate;
 use drawing::Page;
 use pipeline::AtomicFile;
 use std::io::Write;

@@ -7,7 +7,7 @@ use crate::lesson::{Lesson, Parameter, Source, Values, number};
 use crate::number_text::{decimals, scene_number};
 use crate::scene_description::{SceneDescription, look_at};
 use crate::words::{Sentence, sentence, words};
-use pipeline::explain::ApiConventions;
+use explain::ApiConventions;
 
 /// The common parts of the chapter's lessons.
 const USUAL: Lesson =

@@ -6,7 +6,7 @@ use crate::lesson::{Choice, Lesson, Source, Values, choice, number};
 use crate::number_text::{decimals, scene_number, scene_tuple};
 use crate::scene_description::{SceneDescription, look_at};
 use crate::words::{Sentence, sentence, words};
-use pipeline::explain::ApiConventions;
+use explain::ApiConventions;
 
 /// The ends of the segment of exercise 11: along the ridge of the house.
 const RIDGE_ENDS: [[f64; 3]; 2] = [[0.0, 4.38, 3.15], [0.0, 4.38, -3.15]];

@@ -43,9 +43,9 @@ fn a_png_is_that_of_the_scene_file() {
         assert!(picture.to_png() == png, "{id}");
         let command = state["command"].as_str().expect("a command");
         assert!(command.contains(text), "{id}");
-        let formatted = pipeline::scene::format_source("scene.ron", text).expect("a scene file");
+        let formatted = scene_file::format_source("scene.ron", text).expect("a scene file");
         assert_eq!(formatted, text, "{id}");
-        assert_eq!(pipeline::scene::lint_description(&origin, &file), [], "{id}");
+        assert_eq!(scene::lint_description(&origin, &file), [], "{id}");
     }
 }
 

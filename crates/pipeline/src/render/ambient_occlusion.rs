@@ -10,9 +10,9 @@ use super::primitive_assembly::assemble_scene;
 use super::renderer::{FrameMemory, RenderBuffers};
 use super::screen_transform::{ScreenTransform, volume_center};
 use super::shadow_maps::DepthOnly;
-use crate::scene::Ground;
 use glam::{DMat4, DVec4};
 use raster::SurfaceDepth;
+use scene::Ground;
 use shade::{AmbientOcclusion, ScreenSpace};
 
 /// The memory that the occlusion of a picture leaves to the next.

@@ -12,10 +12,10 @@
 
 use super::RenderError;
 use super::primitive_assembly::{DEFAULT_MATERIAL, PrimitiveAssembler, QUAD};
-use crate::scene::ImageSpec;
 use homog::{Ndc, PixelRect, Point};
 use model::Primitive;
 use raster::{CullMode, Opacity, ScreenVertex};
+use scene::ImageSpec;
 use shade::{Backdrop, Draw, DrawKind, MaterialTextures, POSITION, Tangents, UV, Vertex};
 
 /// The corners of the picture in NDC: lower left, lower right, upper right, upper left.

@@ -1,12 +1,12 @@
 //! Captions: the strip at the lower border of a picture, with a line of text.
 
 use crate::Picture;
-use crate::scene::{ImageSpec, Scene};
+use page::{Ink, Label, Layer, MILLIMETERS_PER_PIXEL, TextAlign, draw_layers_over};
 use drawing::{Warning, label_warnings, missing_glyph_warning};
+use page::palette::ink_on_paper;
 use glam::DVec2;
 use homog::PixelRect;
-use page::palette::ink_on_paper;
-use page::{Ink, Label, Layer, MILLIMETERS_PER_PIXEL, TextAlign, draw_layers_over};
+use scene::{ImageSpec, Scene};
 use picture::Channel;
 use shade::color::SrgbEncoder;
 

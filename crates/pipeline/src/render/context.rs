@@ -1,8 +1,8 @@
 //! The inputs of a rendering: scene, textures, threads, stopwatch and cancellation in one value.
 
 use super::mip_chains::Textures;
-use crate::scene::Scene;
 use crate::{CancelToken, Timings};
+use scene::Scene;
 
 /// All that a rendering depends on besides the pixels it fills.
 ///

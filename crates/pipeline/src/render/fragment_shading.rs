@@ -7,8 +7,8 @@
 
 use super::renderer::FrameMemory;
 use super::shadow_maps::ShadowMapRenderer;
-use crate::scene::{Scene, Style};
 use model::Colormap;
+use scene::{Scene, Style};
 use shade::{AmbientOcclusion, Shading, ShadingStyle, StyledShading, TransmissionFramebuffer};
 
 /// Physically based shading of the fragments of an assembled frame.

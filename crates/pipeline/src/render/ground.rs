@@ -8,9 +8,9 @@ use super::RenderError;
 use super::draw_call::DrawCall;
 use super::primitive_assembly::{DEFAULT_MATERIAL, PrimitiveAssembler, QUAD};
 use super::renderer::FrameMemory;
-use crate::scene::Ground;
 use homog::Affine;
 use raster::Opacity;
+use scene::Ground;
 use shade::{Draw, DrawKind, MaterialTextures, POSITION, Tangents};
 
 impl PrimitiveAssembler<'_> {

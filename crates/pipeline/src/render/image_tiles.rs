@@ -12,14 +12,10 @@
 //! the region: regions therefore fit together bit for bit.
 
 use super::RenderError;
-use crate::scene::{ImageSpec, Scene};
 use homog::{Clip, PixelRect, Projective, World};
 use raster::MAX_SIDE as TILE_SIDE;
+use scene::{ImageSpec, MAX_IMAGE_SIDE, Scene};
 use viewport::Viewport;
-
-/// The longest side of a picture in pixels. Pictures with a side beyond 16,384 pixels are rendered
-/// region by region.
-pub const MAX_IMAGE_SIDE: u32 = 1 << 20;
 
 /// The most pixels of one region: a full tile.
 const MAX_PIXELS_IN_MEMORY: u64 = (TILE_SIDE as u64) * (TILE_SIDE as u64);

@@ -10,87 +10,75 @@
 //! ```
 
 use crate::Picture;
-use crate::scene::{Inset, Scene};
 use homog::PixelRect;
+use scene::Inset;
 use picture::Channel;
 
-impl Scene {
-    /// Whether every pixel of the picture is certainly opaque: the scene's background and those of
-    /// all insets are.
-    #[must_use]
-    pub fn has_opaque_background(&self) -> bool {
-        let is_opaque = |scene: &Self| scene.image.background[3] >= 1.0;
-        is_opaque(self) && self.insets.iter().all(|inset| is_opaque(&inset.scene))
+/// The part of the inset in a region of the picture: as pixels of the picture, and as pixels of
+/// the inset. `None` if they are disjoint.
+pub(super) fn visible_rects(inset: &Inset, region: PixelRect) -> Option<[PixelRect; 2]> {
+    let in_picture = inset.rect.intersection(region)?;
+    let (x, y) = (in_picture.x - inset.rect.x, in_picture.y - inset.rect.y);
+    Some([in_picture, PixelRect { x, y, ..in_picture }])
+}
+
+/// Whether insets hide a region completely, so that the picture below needs no rendering.
+///
+/// The test is conservative: one inset covers the region, or disjoint ones cover it together.
+/// An inset drawn in cyan for anaglyphs leaves the red channel of the picture below visible.
+pub(super) fn covers_region(insets: &[Inset], region: PixelRect) -> bool {
+    let opaque = || {
+        let opaque = insets.iter().filter(|inset| !inset.cyan_only);
+        opaque.filter_map(|inset| inset.rect.intersection(region))
+    };
+    let (mut disjoint, mut covered): (Vec<PixelRect>, usize) = (Vec::new(), 0);
+    for rect in opaque() {
+        if disjoint.iter().all(|other| other.intersection(rect).is_none()) {
+            disjoint.push(rect);
+            covered += rect.area();
+        }
+    }
+    covered == region.area() || opaque().any(|rect| rect == region)
+}
+
+/// Composites the pixels of an inset into a region of the picture. `rect` is the part of the
+/// picture that they cover.
+///
+/// The border replaces pixels at the inset's edge. A cyan inset replaces green and blue and
+/// keeps red (anaglyph); the more opaque of both pixels gives alpha.
+pub(super) fn composite_into<C: Channel>(
+    inset: &Inset,
+    pixels: &Picture<C>,
+    rect: PixelRect,
+    region: PixelRect,
+    picture: &mut Picture<C>,
+) {
+    let [left, top] = [rect.x - region.x, rect.y - region.y].map(|at| at as usize);
+    let (region_width, width) = (region.width as usize, rect.width as usize);
+    let rows = picture.pixels.chunks_exact_mut(region_width).skip(top);
+    for (y, (row, pixels)) in (rect.y..).zip(rows.zip(pixels.pixels.chunks_exact(width))) {
+        let row = &mut row[left..left + width];
+        for (x, (target, pixel)) in (rect.x..).zip(row.iter_mut().zip(pixels)) {
+            *target = match border_color_at(inset, x, y) {
+                Some([r, g, b]) => [r, g, b, 255].map(C::from_byte),
+                None if inset.cyan_only => {
+                    let [_, green, blue, alpha] = *pixel;
+                    let keeps_alpha = target[3].to_byte() >= alpha.to_byte();
+                    [target[0], green, blue, if keeps_alpha { target[3] } else { alpha }]
+                }
+                None => *pixel,
+            };
+        }
     }
 }
 
-impl Inset {
-    /// The part of the inset in a region of the picture: as pixels of the picture, and as pixels of
-    /// the inset. `None` if they are disjoint.
-    pub(super) fn visible_rects(&self, region: PixelRect) -> Option<[PixelRect; 2]> {
-        let in_picture = self.rect.intersection(region)?;
-        let (x, y) = (in_picture.x - self.rect.x, in_picture.y - self.rect.y);
-        Some([in_picture, PixelRect { x, y, ..in_picture }])
-    }
-
-    /// Whether insets hide a region completely, so that the picture below needs no rendering.
-    ///
-    /// The test is conservative: one inset covers the region, or disjoint ones cover it together.
-    /// An inset drawn in cyan for anaglyphs leaves the red channel of the picture below visible.
-    pub(super) fn covers_region(insets: &[Self], region: PixelRect) -> bool {
-        let opaque = || {
-            let opaque = insets.iter().filter(|inset| !inset.cyan_only);
-            opaque.filter_map(|inset| inset.rect.intersection(region))
-        };
-        let (mut disjoint, mut covered): (Vec<PixelRect>, usize) = (Vec::new(), 0);
-        for rect in opaque() {
-            if disjoint.iter().all(|other| other.intersection(rect).is_none()) {
-                disjoint.push(rect);
-                covered += rect.area();
-            }
-        }
-        covered == region.area() || opaque().any(|rect| rect == region)
-    }
-
-    /// Composites pixels of the inset into a region of the picture. `rect` is the part of the
-    /// picture that they cover.
-    ///
-    /// The border replaces pixels at the inset's edge. A cyan inset replaces green and blue and
-    /// keeps red (anaglyph); the more opaque of both pixels gives alpha.
-    pub(super) fn composite_into<C: Channel>(
-        &self,
-        inset: &Picture<C>,
-        rect: PixelRect,
-        region: PixelRect,
-        picture: &mut Picture<C>,
-    ) {
-        let [left, top] = [rect.x - region.x, rect.y - region.y].map(|at| at as usize);
-        let (region_width, width) = (region.width as usize, rect.width as usize);
-        let rows = picture.pixels.chunks_exact_mut(region_width).skip(top);
-        for (y, (row, pixels)) in (rect.y..).zip(rows.zip(inset.pixels.chunks_exact(width))) {
-            let row = &mut row[left..left + width];
-            for (x, (target, pixel)) in (rect.x..).zip(row.iter_mut().zip(pixels)) {
-                *target = match self.border_color_at(x, y) {
-                    Some([r, g, b]) => [r, g, b, 255].map(C::from_byte),
-                    None if self.cyan_only => {
-                        let [_, green, blue, alpha] = *pixel;
-                        let keeps_alpha = target[3].to_byte() >= alpha.to_byte();
-                        [target[0], green, blue, if keeps_alpha { target[3] } else { alpha }]
-                    }
-                    None => *pixel,
-                };
-            }
-        }
-    }
-
-    /// The color of the border at a pixel of the picture; `None` off the border.
-    fn border_color_at(&self, x: u32, y: u32) -> Option<[u8; 3]> {
-        let (color, border) = self.border?;
-        let is_on_border = |at: u32, start: u32, side: u32| {
-            let distance = at - start;
-            distance < border || side - 1 - distance < border
-        };
-        let PixelRect { x: left, y: top, width, height } = self.rect;
-        (is_on_border(x, left, width) || is_on_border(y, top, height)).then_some(color)
-    }
+/// The color of the border at a pixel of the picture; `None` off the border.
+fn border_color_at(inset: &Inset, x: u32, y: u32) -> Option<[u8; 3]> {
+    let (color, border) = inset.border?;
+    let is_on_border = |at: u32, start: u32, side: u32| {
+        let distance = at - start;
+        distance < border || side - 1 - distance < border
+    };
+    let PixelRect { x: left, y: top, width, height } = inset.rect;
+    (is_on_border(x, left, width) || is_on_border(y, top, height)).then_some(color)
 }

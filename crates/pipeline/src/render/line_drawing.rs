@@ -11,15 +11,13 @@
 use super::RenderError;
 use super::captions::{caption_layer, paper_color, strip_rect, text_warnings};
 use crate::Picture;
-use crate::scene::{ImageSpec, Inset, Scene, Style};
+use hidden_line::{DrawError, DrawOptions};
+use page::{Group, Ink, Join, Layer, MILLIMETERS_PER_PIXEL, Pen, PlacedImage, Polyline, to_micrometers};
 use drawing::{LineStyle, LineWidths, Overlay, Page, Warning};
 use glam::DVec2;
-use hidden_line::{DrawError, DrawOptions};
 use homog::PixelRect;
 use model::Timings;
-use page::{
-    Group, Ink, Join, Layer, MILLIMETERS_PER_PIXEL, Pen, PlacedImage, Polyline, to_micrometers,
-};
+use scene::{ImageSpec, Inset, Scene, Style};
 use shade::Backdrop;
 
 /// The longest side in pixels of a backdrop embedded in a vector page.
@@ -142,18 +140,6 @@ fn border_layer(id: String, low: DVec2, size: DVec2, color: Ink, width: u32) -> 
 /// A number of pixels in millimeters of the page.
 fn to_page_millimeters(pixels: u32) -> f64 {
     f64::from(pixels) * MILLIMETERS_PER_PIXEL
-}
-
-impl Style {
-    /// Widths, dashes and hidden lines of the style.
-    #[must_use]
-    pub const fn line_style(self) -> LineStyle {
-        match self {
-            Self::Wireframe => LineStyle::WIREFRAME,
-            Self::Lines(style) => style,
-            _ => LineStyle::HIDDEN_REMOVED,
-        }
-    }
 }
 
 /// The lines drawn over shaded surfaces: silhouettes of the toon style, and the overlay of feature

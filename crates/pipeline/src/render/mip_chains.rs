@@ -10,8 +10,8 @@
 //! A chain costs a third of the image's memory. One image can need two: as a color texture its
 //! texels are decoded from sRGB before they are averaged, as data they are averaged as they are.
 
-use crate::scene::Scene;
 use model::{Image, Material, Model, ModelInstance, Texture, TextureSlot};
+use scene::Scene;
 use shade::{MipChain, TexelEncoding};
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -14,11 +14,10 @@ mod buffer;
 mod exr;
 mod geometry;
 mod npy;
-mod pass;
 mod to_png;
 
 pub use buffer::{PassBuffer, PassValues};
-pub use pass::{Pass, PassEncoding};
+pub use scene_file::{Pass, PassEncoding};
 
 use super::RenderError;
 use super::context::RenderContext;
@@ -28,11 +27,11 @@ use super::mip_chains::Textures;
 use super::primitive_assembly::assemble_with_opacity;
 use super::renderer::{RenderBuffers, Renderer};
 use super::shadow_maps::ShadowMapRenderer;
-use crate::scene::{Scene, Style};
 use geometry::{Hit, SceneGeometry};
 use homog::PixelRect;
 use model::Timings;
 use raster::{Fragment, Opacity, Samples, Surface};
+use scene::{Scene, Style};
 use shade::FrameChannel;
 
 /// Renders passes of a region of a scene's picture, in the order of `wanted`, with up to `threads`

@@ -15,9 +15,9 @@ use super::primitive_assembly::assemble_scene;
 use super::renderer::RenderBuffers;
 use super::shadow_maps::ShadowMapRenderer;
 use super::transmission_framebuffer::{compute_whole_occlusion, render_framebuffer};
-use crate::scene::Scene;
 use model::Model;
 use raster::{Fragment, Fragments, Frame, Surface, TranslucentColors};
+use scene::Scene;
 use shade::FrameChannel;
 use std::sync::{Mutex, PoisonError};
 

@@ -14,6 +14,7 @@ use super::captions::{draw_caption_over, text_warnings, view_rect};
 use super::context::RenderContext;
 use super::fragment_shading::{fragment_shading, style_shading};
 use super::image_tiles::{TileRegion, tile_regions, validate_region};
+use super::insets::{composite_into, covers_region, visible_rects};
 use super::line_drawing;
 use super::primitive_assembly::assemble_scene;
 use super::renderer::{RenderBuffers, Renderer};
@@ -21,12 +22,13 @@ use super::transmission_framebuffer::{
     compute_whole_occlusion, needs_framebuffer, render_framebuffer,
 };
 use crate::Picture;
-use crate::scene::Inset;
+use page::{Layer, draw_layers_over};
 use drawing::{Page, Warning};
 use homog::PixelRect;
-use page::{Layer, draw_layers_over};
 use raster::Surface;
-use shade::{AmbientOcclusion, FrameChannel, TransmissionFramebuffer};
+use scene::Inset;
+use shade::{AmbientOcclusion, TransmissionFramebuffer};
+use shade::FrameChannel;
 
 /// A scene of which any region can be rendered; made by [`Renderer::prepare`].
 ///
@@ -159,16 +161,16 @@ impl<'a> PreparedScene<'a> {
         validate_region(scene.image, region)?;
         // The caption covers its strip, the insets may cover the view above it.
         let view = region.intersection(view_rect(scene.image));
-        if view.is_none_or(|view| Inset::covers_region(&scene.insets, view)) {
+        if view.is_none_or(|view| covers_region(&scene.insets, view)) {
             picture.resize(region.width, region.height);
         } else {
             self.render_below_insets(region, picture)?;
         }
         for (inset, prepared) in scene.insets.iter().zip(&mut self.insets) {
-            if let Some([in_picture, in_inset]) = inset.visible_rects(region) {
+            if let Some([in_picture, in_inset]) = visible_rects(inset, region) {
                 let mut pixels = Picture::default();
                 prepared.render_region(in_inset, &mut pixels)?;
-                inset.composite_into(&pixels, in_picture, region, picture);
+                composite_into(inset, &pixels, in_picture, region, picture);
             }
         }
         self.only_color.add_pixels(picture);

@@ -4,9 +4,9 @@
 //! as often. Of opaque surfaces at one depth the first stays: drawing the others changes nothing.
 
 use super::vertex_inputs::material_opacity;
-use crate::scene::Style;
 use model::ModelInstance;
 use raster::Opacity;
+use scene::Style;
 use std::sync::Arc;
 
 /// For each model of a scene, whether the same one stands at the same place before it, and shows no

@@ -10,12 +10,12 @@
 
 use super::RenderError;
 use super::image_tiles::ImageTile;
-use crate::scene::Scene;
 use camera::{ViewProjection, ViewTransform};
 use clip::{Outcode, OutcodeSummary, Volume, clip_segment};
 use glam::{DMat4, DVec3, DVec4, Vec3};
 use homog::{Affine, Clip, HPoint, Model, Ndc, Point, Projective, Screen, World};
 use raster::{GUARD_BAND, ScreenVertex};
+use scene::Scene;
 use viewport::Viewport;
 
 /// World → clip → screen for one raster, and the volume that geometry is clipped against.

@@ -14,9 +14,9 @@ use super::primitive_assembly::assemble_behind_glass;
 use super::renderer::RenderBuffers;
 use super::screen_transform::{ScreenTransform, volume_center};
 use super::shadow_maps::ShadowMapRenderer;
-use crate::scene::{ImageSpec, Scene};
 use model::Material;
 use raster::Surface;
+use scene::{ImageSpec, Scene};
 use shade::{AmbientOcclusion, ScreenProjection, ToneMapper, TransmissionFramebuffer};
 
 /// The longest side of a framebuffer in texels. Behind larger pictures it is halved until it fits:

@@ -6,9 +6,9 @@
 //! makes everything translucent and shows back faces as well.
 
 use super::vertex_processing::material_uv_set;
-use crate::scene::Style;
 use model::{AlphaMode, Material, Primitive};
 use raster::Opacity;
+use scene::Style;
 
 /// The needs of a style.
 #[derive(Clone, Copy, Debug)]

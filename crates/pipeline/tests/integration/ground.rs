@@ -3,6 +3,7 @@
 use camera::{NamedView, Slopes, frame_perspective};
 use homog::PixelRect;
 use pipeline::scene::file::{EnvironmentFile, GroundFile, ShadowsFile};
+use pipeline::scene::parse_scene;
 use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
 use std::path::PathBuf;
 
@@ -71,7 +72,7 @@ fn shadows_of_low_light_do_not_push_the_model_away() {
             r#"Scene(models: [(path: "crate.glb")], ground: Shadow(),
             lights: [Directional(direction: {direction}, intensity: 3)])"#
         );
-        let file = pipeline::scene::parse_scene("low.ron", &text).expect("a scene");
+        let file = parse_scene("low.ron", &text).expect("a scene");
         let folder = model_path("crate").parent().expect("a folder").to_path_buf();
         let origin = Origin::from_text("low.ron", text, folder);
         let scene = Scene::resolve(&origin, &file, &Default::default()).expect("a scene");
@@ -133,7 +134,7 @@ fn lamp_picture(fields: &str) -> Picture {
         r#"Scene(models: [(path: "lamp.glb")], ground: Shadow(), shadows: On(),
         lights: [Directional(direction: (-1, -2, -1), intensity: 2.5)], {fields})"#
     );
-    let file = pipeline::scene::parse_scene("lamp.ron", &text).expect("a scene");
+    let file = parse_scene("lamp.ron", &text).expect("a scene");
     let folder = model_path("lamp").parent().expect("a folder").to_path_buf();
     let origin = Origin::from_text("lamp.ron", text, folder);
     let scene = Scene::resolve(&origin, &file, &Default::default()).expect("a scene");

@@ -14,10 +14,10 @@ use model::{
     Image, Material, Mesh, MipmapMode, Model, ModelInstance, Primitive, Sampler, Texture as Used,
     TextureInfo,
 };
-use pipeline::scene::ImageSpec;
 use pipeline::{Picture, RenderContext, Renderer, Textures};
 use projection::Convention;
 use raster::Samples;
+use scene::ImageSpec;
 use shade::Light;
 use std::f32::consts::PI;
 use std::path::Path;

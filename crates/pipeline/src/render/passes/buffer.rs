@@ -4,9 +4,9 @@
 //! OpenEXR images without loss, or as 16-bit PNG files quantized to the range of the values.
 
 use super::geometry::{Hit, SceneGeometry};
-use super::pass::{Pass, PassEncoding};
 use crate::render::image_tiles::TileRegion;
 use homog::PixelRect;
+use scene_file::{Pass, PassEncoding};
 
 /// The values of a pass: rows from the top, channels interleaved.
 #[derive(Clone, PartialEq, Debug)]

@@ -6,7 +6,7 @@
 //! are exact and the bytes the same everywhere. The package `exr` brings a second deflate along.
 
 use super::buffer::{PassBuffer, PassValues};
-use super::pass::Pass;
+use scene_file::Pass;
 
 /// The magic number, and version 2: one image in rows.
 const MAGIC_AND_VERSION: [u8; 8] = [0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0];

@@ -5,15 +5,15 @@
 //! colors, not for positions that are to agree with the unprojection of a depth. Everything is
 //! therefore computed again for the one visible triangle of each pixel.
 
-use super::pass::Pass;
 use crate::render::RenderError;
 use crate::render::image_tiles::ImageTile;
 use crate::render::screen_transform::{ScreenTransform, model_point};
 use crate::render::vertex_processing::{normal_matrix, transform_normal};
-use crate::scene::{Scene, Style};
 use glam::{DMat3, DVec3};
 use homog::{Affine, Clip, HPoint, Model, Normal, Point, Projective, Screen, View, World};
 use model::{Primitive, SkinnedPrimitive, Topology};
+use scene::{Scene, Style};
+use scene_file::Pass;
 use std::borrow::Cow;
 
 /// The nearest primitive at a pixel's center, as the rasterizer found it.

@@ -39,8 +39,8 @@ impl PassBuffer {
 
 #[cfg(test)]
 mod tests {
-    use super::super::pass::Pass;
     use super::*;
+    use scene_file::Pass;
 
     /// Splits header and data as `numpy.lib.format` reads version 1.0.
     fn parse_npy(bytes: &[u8]) -> (&str, &[u8]) {

@@ -12,8 +12,8 @@
 //! its unit.
 
 use super::buffer::{PassBuffer, PassValues};
-use super::pass::Pass;
 use png::{BitDepth, ColorType, Compression, Encoder};
+use scene_file::Pass;
 use std::fmt::Write;
 
 /// The largest code.

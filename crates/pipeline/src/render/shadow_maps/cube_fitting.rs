@@ -10,12 +10,12 @@
 //! A face without casters has no map, and neither has one of which nothing is in the view.
 
 use super::light_fitting::{BORDER_TEXELS, LightCamera, ViewBounds, view_volume_corners};
-use crate::scene::Scene;
 use camera::{Basis, Camera, ViewProjection};
 use glam::DVec3;
 use homog::{Vector, World};
 use model::{ModelInstance, Topology};
 use projection::{Convention, Frustum, Window};
+use scene::Scene;
 use shade::{Light, Shadow, ShadowCube};
 
 /// The directions of the faces, in the order of [`ShadowCube::faces`].

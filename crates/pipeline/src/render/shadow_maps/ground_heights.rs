@@ -11,10 +11,10 @@ use super::ShadowMapRenderer;
 use super::light_fitting::LightCamera;
 use crate::render::RenderError;
 use crate::render::context::RenderContext;
-use crate::scene::OcclusionArea;
 use camera::{Basis, Camera, ViewProjection};
 use homog::{Point, Vector};
 use projection::{Convention, Orthographic, Window};
+use scene::OcclusionArea;
 use shade::{GroundGrid, GroundOcclusion, HeightSlab, ShadowMap};
 
 /// The most cells of the grid's longer side.

@@ -10,12 +10,12 @@
 //! ```
 //! A spot's volume is its cone, or the part of the cone that holds the scene if that is less.
 
-use crate::scene::Scene;
 use camera::{Basis, Camera, ViewProjection};
 use glam::{DVec3, Vec3};
 use homog::{Point, Vector, View, World};
 use model::ModelInstance;
 use projection::{Convention, Frustum, Orthographic, Window};
+use scene::Scene;
 use shade::{Light, Shadow};
 
 /// The camera of a light, fitted to the scene.

@@ -1,0 +1,18 @@
+//! Why a batch cannot go on. What is wrong with a single job is a record of its report instead.
+
+use files::OutputError;
+
+/// A list that cannot be read, or an output folder that cannot be written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum BatchError {
+    /// A file of the batch could not be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// The rest of the merged report could not be written.
+    #[error(transparent)]
+    Flush(#[from] std::io::Error),
+    /// A list, a folder or a report is unusable, or no worker can be started; in words.
+    #[error("{0}")]
+    Unusable(String),
+}

@@ -1,0 +1,149 @@
+//! Records of jobs that fail, and the reasons of runs that end early.
+
+use super::job::BatchJob;
+use super::pool::JobPolicy;
+use super::report::{FAILED, JobRecord};
+use super::worker_process::WorkerEnd;
+use crate::BatchError;
+use files::visible_text;
+
+/// The outcome of a step of a run.
+pub(super) type Outcome = Result<(), RunStop>;
+
+/// Why a run ends before its jobs do.
+#[derive(Debug)]
+pub(super) enum RunStop {
+    /// A list cannot be read, or the output folder cannot be written: no fault of a job.
+    Fault(BatchError),
+    /// A worker was interrupted by this signal, and the run with it.
+    Signal(i32),
+}
+
+impl From<BatchError> for RunStop {
+    fn from(error: BatchError) -> Self {
+        Self::Fault(error)
+    }
+}
+
+/// The most failures that are told at the end of a run; the report has all.
+const MAX_TOLD: usize = 20;
+
+/// The failures that are told at the end of a run: the first ones by the name of the picture.
+#[derive(Debug, Default)]
+pub(super) struct FailureList {
+    /// Name of the picture, and the message; sorted.
+    first: Vec<(String, String)>,
+    /// The number of all.
+    count: usize,
+}
+
+impl FailureList {
+    /// Adds a failure.
+    pub(super) fn add(&mut self, record: &JobRecord) {
+        self.count += 1;
+        let at = self.first.partition_point(|(output, _)| *output < record.output);
+        // The message of a wrong line names the line itself.
+        let text = if record.input.is_empty() {
+            record.message.clone()
+        } else {
+            format!("{}: {}", visible_text(&record.input), record.message)
+        };
+        self.first.insert(at, (record.output.clone(), text));
+        self.first.truncate(MAX_TOLD);
+    }
+
+    /// Tells the failures, one after the other.
+    ///
+    /// ```text
+    /// failed: models/broken.glb: …
+    /// failed: 17 more, which the report has
+    /// ```
+    pub(super) fn tell(&self, mut tell: impl FnMut(&str)) {
+        for (_, text) in &self.first {
+            tell(text);
+        }
+        let rest = self.count - self.first.len();
+        if rest > 0 {
+            tell(&format!("{rest} more, which the report has"));
+        }
+    }
+}
+
+/// The record of a job that failed.
+pub(super) fn failed_record(
+    job: &BatchJob,
+    key: String,
+    seconds: f64,
+    message: String,
+) -> JobRecord {
+    JobRecord {
+        input: job.input.to_string_lossy().into_owned(),
+        output: job.output.clone(),
+        status: FAILED.to_owned(),
+        key,
+        seconds,
+        warnings: 0,
+        message,
+        bytes: 0,
+        sha256: String::new(),
+        tar: None,
+    }
+}
+
+/// Signals by their numbers, which are the same on all systems that have them.
+const SIGNALS: [(i32, &str); 9] = [
+    (1, "SIGHUP"),
+    (2, "SIGINT"),
+    (4, "SIGILL"),
+    (6, "SIGABRT"),
+    (8, "SIGFPE"),
+    (9, "SIGKILL"),
+    (11, "SIGSEGV"),
+    (13, "SIGPIPE"),
+    (15, "SIGTERM"),
+];
+
+impl WorkerEnd {
+    /// The signal, if it is one that asks for an end and says nothing about the job.
+    pub(super) fn interruption(&self) -> Option<i32> {
+        match self {
+            Self::Signal(signal @ (1 | 2 | 15)) => Some(*signal),
+            _ => None,
+        }
+    }
+
+    /// Whether it was killed: by the system that is out of memory, or by somebody who ends all.
+    pub(super) fn is_killed(&self) -> bool {
+        *self == Self::Signal(9)
+    }
+}
+
+/// The message of a job whose worker has ended: how, and the end of what it wrote to its standard
+/// error stream.
+pub(super) fn worker_end_message(end: &WorkerEnd, text: &str, policy: JobPolicy) -> String {
+    let what = match end {
+        WorkerEnd::TimedOut => {
+            let seconds = policy.limit.unwrap_or_default().as_secs();
+            return format!("no picture after {seconds} s\n  = help: --job-seconds allows more");
+        }
+        WorkerEnd::Signal(9) => {
+            "the worker was killed (SIGKILL), twice: the system ends programs so that take all \
+             memory"
+                .to_owned()
+        }
+        WorkerEnd::Signal(signal) => {
+            let name = SIGNALS.iter().find(|(number, _)| number == signal);
+            let name =
+                name.map_or_else(|| format!("signal {signal}"), |(_, name)| (*name).to_owned());
+            format!("the worker crashed ({name})")
+        }
+        WorkerEnd::Exit(code) => {
+            let code = code.map_or_else(|| "none".to_owned(), |code| code.to_string());
+            format!("the worker ended without an answer (exit code {code})")
+        }
+    };
+    if text.contains("memory allocation of") {
+        return format!("out of memory: {what}: {text}\n  = help: --job-memory allows more");
+    }
+    if text.is_empty() { what } else { format!("{what}: {text}") }
+}

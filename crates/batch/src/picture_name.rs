@@ -1,0 +1,167 @@
+//! Names of pictures below the output folder: by a template, or as a list says.
+//!
+//! ```text
+//! {stem}-{line:08}.png            fox-00000017.png
+//! {prefix}/{folder}/{stem}.png    a4/animals/small/fox.png
+//! ```
+
+use crate::template::NameTemplate;
+use files::visible_text;
+use sha2::{Digest, Sha256};
+use std::path::{Component, Path};
+
+/// A template of names with the fields of a batch.
+#[derive(Clone, Debug)]
+pub struct PictureName(NameTemplate);
+
+/// The source of the fields of a name.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NameSource<'a> {
+    /// The input, relative to the folder or the list that it was found in.
+    pub(super) input: &'a Path,
+    /// The number of the line, or of the input, from 1.
+    pub(super) line: usize,
+    /// The number of the picture among those of its line, from 1.
+    pub(super) picture: usize,
+}
+
+impl PictureName {
+    /// The names of lists that name no pictures themselves.
+    ///
+    /// Lines cannot be compared with each other, as a list may be longer than the memory: the
+    /// number of the line makes the name unique.
+    pub(super) fn of_line(has_pictures: bool) -> Self {
+        let text =
+            if has_pictures { "{stem}-{line:08}-{picture}.png" } else { "{stem}-{line:08}.png" };
+        Self(Self::parse_fields(text).unwrap_or_else(|_| NameTemplate::default()))
+    }
+
+    /// Parses the template of `--name`.
+    ///
+    /// # Errors
+    /// If a field is unknown, or the name does not end in `.png`.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        if !has_png_extension(text) {
+            return Err("pictures are PNG files: end the name in .png".to_owned());
+        }
+        Self::parse_fields(text).map(Self)
+    }
+
+    /// The template with the fields of a batch.
+    fn parse_fields(text: &str) -> Result<NameTemplate, String> {
+        NameTemplate::parse(text, &["stem", "name", "folder", "prefix"], &["line", "picture"])
+    }
+
+    /// Whether the template has this field.
+    pub(super) fn has_field(&self, field: &str) -> bool {
+        self.0.has_field(field)
+    }
+
+    /// The name of a picture.
+    ///
+    /// `{prefix}` is of the name without it, so that it stays as it is when a name is found again.
+    pub(super) fn name_picture(&self, source: NameSource<'_>) -> String {
+        let plain = self.expand(source, "");
+        if !self.has_field("prefix") {
+            return plain;
+        }
+        let first = Sha256::digest(plain.as_bytes()).first().copied().unwrap_or_default();
+        self.expand(source, &format!("{first:02x}"))
+    }
+
+    /// The name with this prefix, without empty parts.
+    fn expand(&self, source: NameSource<'_>, prefix: &str) -> String {
+        let part = |part: Option<&std::ffi::OsStr>| {
+            part.unwrap_or_default().to_string_lossy().into_owned()
+        };
+        let folder = || normal_parts(source.input.parent().unwrap_or(Path::new("")));
+        let word = |field: &str| match field {
+            "stem" => part(source.input.file_stem()),
+            "name" => part(source.input.file_name()),
+            "folder" => folder(),
+            _ => prefix.to_owned(),
+        };
+        let number = |field: &str| if field == "line" { source.line } else { source.picture };
+        normal_parts(&self.0.expand_fields(word, number))
+    }
+}
+
+/// A path without root, `.` and `..`, with `/` between its parts: it stays below the output
+/// folder.
+///
+/// `../up/x.glb` and `/up/x.glb` both become `up/x.glb`. A list is often made by another program,
+/// and must not be able to write outside the folder.
+pub(super) fn normal_parts(path: &Path) -> String {
+    let normal = path.components().filter_map(|part| match part {
+        Component::Normal(part) => Some(part.to_string_lossy()),
+        _ => None,
+    });
+    normal.collect::<Vec<_>>().join("/")
+}
+
+/// Checks the name that a list gives to a picture.
+///
+/// # Errors
+/// If it leads out of the output folder, or is none of a PNG file.
+pub(super) fn check_picture_name(name: &str) -> Result<(), String> {
+    let (path, shown) = (Path::new(name), visible_text(name));
+    let is_normal = path.components().all(|part| matches!(part, Component::Normal(_)));
+    if !is_normal || name.contains('\0') {
+        return Err(format!(
+            "the picture {shown} would not be below the output folder\n  = help: give a relative \
+             path without `.` and `..`"
+        ));
+    }
+    if !has_png_extension(name) {
+        return Err(format!("the picture {shown} is no PNG file\n  = help: end the name in .png"));
+    }
+    Ok(())
+}
+
+/// Whether a name ends in `.png`.
+fn has_png_extension(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_follow_their_template() {
+        let source = NameSource { input: Path::new("../a/b c/fox.glb"), line: 17, picture: 2 };
+        for (template, name) in [
+            ("{stem}.png", "fox.png"),
+            ("{folder}/{name}-{picture}.png", "a/b c/fox.glb-2.png"),
+            ("{line:05}.png", "00017.png"),
+        ] {
+            let template = PictureName::parse(template).expect(template);
+            assert_eq!(template.name_picture(source), name);
+        }
+        let root = NameSource { input: Path::new("fox.glb"), line: 1, picture: 1 };
+        let folder = PictureName::parse("{folder}/{stem}.png").expect("a template");
+        assert_eq!(folder.name_picture(root), "fox.png", "no folder, no empty part");
+        assert!(PictureName::parse("{stem}").is_err() && PictureName::parse("{x}.png").is_err());
+    }
+
+    #[test]
+    fn prefixes_are_of_the_name() {
+        let template = PictureName::parse("{prefix}/{stem}.png").expect("a template");
+        let name = |input: &str| {
+            template.name_picture(NameSource { input: Path::new(input), line: 1, picture: 1 })
+        };
+        // SHA-256 of "/fox.png" without its root: printf fox.png | sha256sum
+        assert_eq!(name("fox.glb"), format!("{:02x}/fox.png", Sha256::digest("fox.png")[0]));
+        assert_eq!(name("fox.glb"), name("elsewhere/fox.stl"));
+    }
+
+    #[test]
+    fn names_of_lists_stay_below_the_output_folder() {
+        for name in ["a.png", "a/b.PNG", "a b/ä.png"] {
+            assert_eq!(check_picture_name(name), Ok(()), "{name}");
+        }
+        for name in ["", "/a.png", "../a.png", "a/../b.png", "a", "a.jpg", ".png"] {
+            assert!(check_picture_name(name).is_err(), "{name}");
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! The protocol between the coordinator of a batch and its workers: one JSON object a line.
+//!
+//! ```text
+//!  coordinator ─► {"input":"a.glb","pictures":[{"flags":["--size=64x64"],…},…]} ─► worker
+//!              ◄─ {"answer":{"done":{…}},"follows":0} ◄─ …   one for each picture
+//! ```
+
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// An input to load, and the pictures to render of it.
+#[derive(Serialize, Deserialize, Debug)]
+pub struct WorkRequest {
+    /// The model or the scene.
+    #[serde(with = "any_path")]
+    pub input: PathBuf,
+    /// The pictures, at least one.
+    pub pictures: Vec<PictureRequest>,
+}
+
+/// A picture to render.
+#[derive(Serialize, Deserialize, Debug)]
+pub struct PictureRequest {
+    /// The scene that the input is put into.
+    pub scene: Option<PathBuf>,
+    /// All flags of the picture.
+    pub flags: Vec<String>,
+    /// Where the picture goes.
+    pub target: PictureTarget,
+}
+
+/// Where a picture goes.
+#[derive(Serialize, Deserialize, Debug)]
+#[serde(rename_all = "snake_case")]
+pub enum PictureTarget {
+    /// To a file, which is written under another name first.
+    File {
+        /// The file.
+        #[serde(with = "any_path")]
+        path: PathBuf,
+        /// The other name.
+        #[serde(with = "any_path")]
+        partial: PathBuf,
+    },
+    /// Through the pipe, right after the line of the answer.
+    Pipe,
+}
+
+/// An answer, and how many bytes of its picture follow the line.
+#[derive(Serialize, Deserialize, Debug)]
+pub struct FramedAnswer {
+    /// The answer.
+    pub answer: WorkAnswer,
+    /// The number of bytes.
+    pub follows: u64,
+}
+
+/// The result of a picture.
+#[derive(Serialize, Deserialize, PartialEq, Debug)]
+#[serde(rename_all = "snake_case")]
+pub enum WorkAnswer {
+    /// It was rendered, and written unless it follows through the pipe.
+    Done {
+        /// Time in seconds, with loading, if that was for this picture.
+        seconds: f64,
+        /// The number of warnings.
+        warnings: usize,
+        /// The first warning; empty without one.
+        message: String,
+        /// The size of the picture.
+        bytes: u64,
+        /// Its SHA-256 in hexadecimal.
+        sha256: String,
+    },
+    /// The model, the scene or a flag is at fault.
+    Failed {
+        /// Time in seconds.
+        seconds: f64,
+        /// What is wrong.
+        message: String,
+    },
+    /// The output folder is at fault, so that no other picture can be written either.
+    Stopped {
+        /// What is wrong.
+        message: String,
+    },
+}
+
+/// Paths as text, or as bytes where they are not UTF-8.
+mod any_path {
+    use serde::de::Error as _;
+    use serde::ser::Error as _;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+    use std::path::{Path, PathBuf};
+
+    /// A path that JSON can hold.
+    #[derive(Serialize, Deserialize)]
+    #[serde(untagged)]
+    enum PathText {
+        Text(String),
+        Bytes(Vec<u8>),
+    }
+
+    pub(super) fn serialize<S: Serializer>(path: &Path, to: S) -> Result<S::Ok, S::Error> {
+        let text = match path.to_str() {
+            Some(text) => Some(PathText::Text(text.to_owned())),
+            None => path_bytes(path).map(PathText::Bytes),
+        };
+        text.ok_or_else(|| S::Error::custom("a name is not Unicode"))?.serialize(to)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<PathBuf, D::Error> {
+        match PathText::deserialize(from)? {
+            PathText::Text(text) => Ok(PathBuf::from(text)),
+            PathText::Bytes(bytes) => {
+                path_of(bytes).ok_or_else(|| D::Error::custom("a name is not Unicode"))
+            }
+        }
+    }
+
+    #[cfg(unix)]
+    #[expect(clippy::unnecessary_wraps, reason = "other systems have names that are no bytes")]
+    fn path_bytes(path: &Path) -> Option<Vec<u8>> {
+        use std::os::unix::ffi::OsStrExt as _;
+        Some(path.as_os_str().as_bytes().to_owned())
+    }
+
+    #[cfg(unix)]
+    #[expect(clippy::unnecessary_wraps, reason = "other systems have names that are no bytes")]
+    fn path_of(bytes: Vec<u8>) -> Option<PathBuf> {
+        use std::os::unix::ffi::OsStringExt as _;
+        Some(std::ffi::OsString::from_vec(bytes).into())
+    }
+
+    #[cfg(not(unix))]
+    fn path_bytes(_path: &Path) -> Option<Vec<u8>> {
+        None
+    }
+
+    #[cfg(not(unix))]
+    fn path_of(_bytes: Vec<u8>) -> Option<PathBuf> {
+        None
+    }
+}

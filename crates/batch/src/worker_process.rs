@@ -1,0 +1,210 @@
+//! A worker as its coordinator sees it: a process, requests to it, its answers, and how it ended.
+
+use super::protocol::{FramedAnswer, WorkAnswer, WorkRequest};
+use crate::BatchError;
+use std::io::{BufRead as _, BufReader, Read, Write as _};
+use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+/// The most bytes of a worker's standard error stream that are kept: its end.
+const MAX_ERROR_BYTES: usize = 2_048;
+
+/// The largest picture that is taken through the pipe.
+const MAX_PICTURE_BYTES: u64 = 1 << 32;
+
+/// Makes the command that starts the program whose hidden command `batch-worker` is a worker.
+pub type WorkerProgram<'a> = &'a (dyn Fn() -> std::io::Result<Command> + Sync);
+
+/// A running worker.
+pub(super) struct WorkerProcess {
+    child: Child,
+    requests: ChildStdin,
+    answers: Receiver<(WorkAnswer, Vec<u8>)>,
+    /// The end of its standard error stream, and the thread that reads it.
+    error_text: Arc<Mutex<Vec<u8>>>,
+    error_reader: Option<JoinHandle<()>>,
+    /// The number of its answers.
+    answer_count: u64,
+}
+
+/// Why a worker gave no answer.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) enum WorkerEnd {
+    /// It took longer than it may, and was ended.
+    TimedOut,
+    /// It was ended by a signal, from within or from outside.
+    Signal(i32),
+    /// It ended by itself, with this code.
+    Exit(Option<i32>),
+}
+
+impl WorkerProcess {
+    /// Starts a worker: the program of this command, with the hidden command `batch-worker`.
+    ///
+    /// The thread that starts it must live as long as the worker, which ends with it.
+    ///
+    /// # Errors
+    /// If the system starts no further process.
+    pub(super) fn start(
+        program: WorkerProgram<'_>,
+        memory: Option<u64>,
+    ) -> Result<Self, BatchError> {
+        let fault =
+            |cause| BatchError::Unusable(format!("cannot start a worker of the batch: {cause}"));
+        let mut command = program().map_err(fault)?;
+        // What a worker says at its end goes to the report, where a stack is of no use.
+        command.arg("batch-worker").env("RUST_BACKTRACE", "0");
+        if let Some(memory) = memory {
+            command.arg(format!("--memory={memory}"));
+        }
+        let pipes = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = spawn_worker(pipes).map_err(fault)?;
+        let missing = || fault(std::io::ErrorKind::BrokenPipe.into());
+        let requests = child.stdin.take().ok_or_else(missing)?;
+        let stdout = child.stdout.take().ok_or_else(missing)?;
+        let stderr = child.stderr.take().ok_or_else(missing)?;
+        let (sender, answers) = channel();
+        start_thread(move || read_answers(stdout, &sender)).map_err(fault)?;
+        let error_text = Arc::new(Mutex::new(Vec::new()));
+        let text = Arc::clone(&error_text);
+        let error_reader =
+            Some(start_thread(move || keep_error_text(stderr, &text)).map_err(fault)?);
+        Ok(Self { child, requests, answers, error_text, error_reader, answer_count: 0 })
+    }
+
+    /// Whether the worker has answered nothing yet, so that nothing before can have spoiled it.
+    pub(super) const fn is_fresh(&self) -> bool {
+        self.answer_count == 0
+    }
+
+    /// Sends a request. A worker that has ended cannot take it, which its missing answer tells.
+    ///
+    /// # Errors
+    /// If the request cannot be written down.
+    pub(super) fn send(&mut self, request: &WorkRequest) -> Result<(), BatchError> {
+        self.error_text.lock().unwrap_or_else(PoisonError::into_inner).clear();
+        let mut line = serde_json::to_vec(request)
+            .map_err(|error| BatchError::Unusable(format!("no request for a worker: {error}")))?;
+        line.push(b'\n');
+        let _ = self.requests.write_all(&line);
+        Ok(())
+    }
+
+    /// The next answer, and the picture that came with it.
+    ///
+    /// # Errors
+    /// If there is none within the time, or the worker has ended; it is gone then.
+    pub(super) fn next_answer(
+        &mut self,
+        limit: Option<Duration>,
+    ) -> Result<(WorkAnswer, Vec<u8>), WorkerEnd> {
+        let received = match limit {
+            Some(limit) => self.answers.recv_timeout(limit),
+            None => self.answers.recv().map_err(|_| RecvTimeoutError::Disconnected),
+        };
+        match received {
+            Ok(answer) => {
+                self.answer_count += 1;
+                Ok(answer)
+            }
+            Err(RecvTimeoutError::Timeout) => {
+                let _ = self.child.kill();
+                let _ = self.child.wait();
+                Err(WorkerEnd::TimedOut)
+            }
+            Err(RecvTimeoutError::Disconnected) => Err(match self.child.wait() {
+                Ok(status) => end_of(status),
+                Err(_) => WorkerEnd::Exit(None),
+            }),
+        }
+    }
+
+    /// Ends the worker, if it has not ended; the end of what it wrote to its standard error stream
+    /// about the last request.
+    pub(super) fn into_error_text(mut self) -> String {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+        // The stream ends with the worker.
+        let _ = self.error_reader.take().map(JoinHandle::join);
+        let text = self.error_text.lock().unwrap_or_else(PoisonError::into_inner);
+        String::from_utf8_lossy(&text).trim().to_owned()
+    }
+}
+
+impl Drop for WorkerProcess {
+    fn drop(&mut self) {
+        // An idle worker has nothing to put in order, and one that is at work is not wanted.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// Starts a worker; a system that is short of processes for a moment is asked again.
+fn spawn_worker(command: &mut Command) -> std::io::Result<Child> {
+    let mut pause = Duration::from_millis(50);
+    loop {
+        match command.spawn() {
+            Err(error)
+                if error.kind() == std::io::ErrorKind::WouldBlock
+                    && pause < Duration::from_secs(4) =>
+            {
+                std::thread::sleep(pause);
+                pause *= 2;
+            }
+            spawned => return spawned,
+        }
+    }
+}
+
+/// Starts a thread that waits for a pipe.
+fn start_thread(work: impl FnOnce() + Send + 'static) -> std::io::Result<JoinHandle<()>> {
+    std::thread::Builder::new().name("batch pipe".to_owned()).spawn(work)
+}
+
+/// Sends the answers of a worker on, until it ends or says what is no answer.
+fn read_answers(stdout: ChildStdout, sender: &Sender<(WorkAnswer, Vec<u8>)>) {
+    let mut stdout = BufReader::new(stdout);
+    let mut line = String::new();
+    while stdout.read_line(&mut line).is_ok_and(|length| length > 0) {
+        let Ok(framed) = serde_json::from_str::<FramedAnswer>(&line) else { break };
+        let mut picture = Vec::new();
+        if framed.follows > 0 {
+            let length = framed.follows.min(MAX_PICTURE_BYTES);
+            let read = stdout.by_ref().take(length).read_to_end(&mut picture);
+            if read.ok().is_none_or(|read| read as u64 != framed.follows) {
+                break;
+            }
+        }
+        if sender.send((framed.answer, picture)).is_err() {
+            break;
+        }
+        line.clear();
+    }
+}
+
+/// Keeps the end of a standard error stream.
+fn keep_error_text(mut stderr: ChildStderr, text: &Mutex<Vec<u8>>) {
+    let mut buffer = [0; 1_024];
+    while let Ok(length @ 1..) = stderr.read(&mut buffer) {
+        let mut text = text.lock().unwrap_or_else(PoisonError::into_inner);
+        text.extend(buffer.iter().take(length));
+        let surplus = text.len().saturating_sub(MAX_ERROR_BYTES);
+        text.drain(..surplus);
+    }
+}
+
+/// How a process ended.
+#[cfg(unix)]
+fn end_of(status: ExitStatus) -> WorkerEnd {
+    use std::os::unix::process::ExitStatusExt as _;
+    status.signal().map_or(WorkerEnd::Exit(status.code()), WorkerEnd::Signal)
+}
+
+/// How a process ended.
+#[cfg(not(unix))]
+fn end_of(status: ExitStatus) -> WorkerEnd {
+    WorkerEnd::Exit(status.code())
+}

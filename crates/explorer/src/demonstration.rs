@@ -1,0 +1,67 @@
+//! Demonstrations of the viewing pipeline for lessons, computed by its own stages.
+//!
+//! | subject | begin with |
+//! | --- | --- |
+//! | one subject in every projection of the textbooks | [`projection_panels`] |
+//! | one parameter of camera or lens, step by step | [`Sweep`] |
+//! | how distance becomes depth, and how finely (C48, C68) | [`DepthTable`] |
+//! | wrap-around at w = 0: why clipping comes before the divide (C36) | [`wraparound_panels`] |
+//!
+//! Each returns [`Panels`](drawing::Panels) or a [`Page`](drawing::Page), to be written as SVG, PDF
+//! or PNG; panels can be an HTML page as well. None depends on the number of threads.
+
+mod depth_chart;
+mod depth_table;
+mod number_format;
+mod projection_family;
+mod sweep;
+#[cfg(test)]
+mod test_scene;
+mod wraparound;
+
+pub use depth_table::{DepthRow, DepthTable};
+pub use projection_family::{NamedProjection, projection_panels};
+pub use sweep::{Sweep, SweepParameter};
+pub use wraparound::wraparound_panels;
+
+use pipeline::render::RenderError;
+use scene::ResolveError;
+
+/// A demonstration that cannot be computed.
+///
+/// Each variant carries the error of the stage that refused, or the parameter and the reason, so
+/// that the message can name a remedy.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum DemonstrationError {
+    /// The scene cannot be resolved with a projection.
+    #[error(transparent)]
+    Resolve(#[from] ResolveError),
+    /// A panel cannot be drawn.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// A camera is impossible.
+    #[error(transparent)]
+    Camera(#[from] camera::CameraError),
+    /// A projection is impossible.
+    #[error(transparent)]
+    Projection(#[from] projection::ProjectionError),
+    /// The scene's projection does not have the parameter.
+    #[error("`{vary}` cannot be varied: {reason}")]
+    UnsupportedParameter {
+        /// The parameter.
+        vary: SweepParameter,
+        /// The reason and the remedy.
+        reason: String,
+    },
+    /// A value is out of the parameter's range.
+    #[error("`{vary}` cannot be {value}: {reason}")]
+    InvalidValue {
+        /// The parameter.
+        vary: SweepParameter,
+        /// The value.
+        value: String,
+        /// The range.
+        reason: String,
+    },
+}

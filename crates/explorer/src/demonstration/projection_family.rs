@@ -1,0 +1,332 @@
+//! The family of planar projections: one subject in each, with class, formulas and measurements.
+//!
+//! The measurements come from the matrix, not from the name: lengths and directions in which a
+//! parallel projection draws the axes (C76, C77), vanishing points of a perspective (C80, C81).
+//!
+//! ```text
+//!  planar ─┬─ parallel ─┬─ orthographic: multiview, isometric, dimetric, trimetric
+//!          │            └─ oblique: cavalier, cabinet, military
+//!          └─ perspective: one-, two-, three-point
+//! ```
+
+use super::DemonstrationError;
+use super::number_format::format_short;
+use camera::ViewProjection;
+use drawing::Panels;
+use explain::formula_ids;
+use explain::formulas::find_formula;
+use glam::DVec2;
+use homog::{Clip, Projective, Vector, World};
+use model::ModelInstance;
+use projection::{
+    Convention, Decomposed, ProjectionClass, Window, decompose, principal_vanishing_points,
+};
+use scene::{Origin, Scene};
+use scene_file::file::{CameraFile, ProjectionFile, SceneFile};
+
+/// The lines at the head of the page: two sentences.
+const INTRODUCTION: [&str; 4] = [
+    "Each panel shows the same models in one projection, with its class, the ids of its formulas",
+    "(`alberti reference OB-1` prints one) and the first of them in full. Parallel projections give",
+    "the drawn length of a unit of each axis, in scene units, and its direction from the right;",
+    "perspectives the vertical field of view, and vanishing points in half heights from the center.",
+];
+
+/// The world axes by name, as unit vectors: their images give foreshortening and vanishing points.
+const AXES: [(&str, Vector<World>); 3] = [("x", Vector::X), ("y", Vector::Y), ("z", Vector::Z)];
+
+/// A projection with its name.
+#[derive(Clone, PartialEq, Debug)]
+pub struct NamedProjection {
+    /// The name: lower case, hyphens. It becomes the id of the panel and, with blanks, its title.
+    pub name: String,
+    /// The projection as a scene file describes it.
+    pub projection: ProjectionFile,
+}
+
+/// Draws the models in each of the projections, from the default viewpoint of each; the camera of
+/// the scene is ignored. The number of threads does not change the panels.
+///
+/// # Errors
+/// If the scene cannot be resolved, there is nothing to draw, or the picture has no pixels.
+///
+/// The background is opaque white, as on paper. Panels keep the order of `members`; the title names
+/// the models. The cost is one resolution and one line drawing for each projection.
+pub fn projection_panels(
+    origin: &Origin,
+    file: &SceneFile,
+    models: &[ModelInstance],
+    members: &[NamedProjection],
+    threads: usize,
+) -> Result<Panels, DemonstrationError> {
+    let mut title = String::new();
+    let mut panels = Vec::with_capacity(members.len());
+    for NamedProjection { name, projection } in members {
+        let camera = CameraFile { projection: Some(projection.clone()), ..CameraFile::default() };
+        let file = SceneFile { camera, ..file.clone() };
+        let mut scene = Scene::from_models(origin, &file, models)?;
+        scene.image.background = [1.0; 4];
+        let panel = pipeline::render::render_panel(&scene, name, name.replace('-', " "), threads)?;
+        let size = DVec2::new(scene.image.width.into(), scene.image.height.into());
+        panels.push(panel.with_notes(projection_notes(projection, &scene.view_projection, size)));
+        title = scene.model_names();
+    }
+    let introduction = INTRODUCTION.map(str::to_owned).to_vec();
+    let title = format!("{title}: planar projections");
+    Ok(Panels::new(title, panels).with_introduction(introduction))
+}
+
+/// The notes of a panel: class, formulas, measurements.
+///
+/// A parallel projection gets the lengths and directions of the axes, a perspective its angle and
+/// vanishing points. Parallel means that w does not change along any axis, which the matrix shows
+/// even if its decomposition fails.
+fn projection_notes(
+    projection: &ProjectionFile,
+    view_projection: &ViewProjection,
+    size: DVec2,
+) -> Vec<String> {
+    let world_to_clip = view_projection.world_to_clip();
+    let decomposition =
+        decompose(view_projection.view_to_clip.raw(), Convention::CHAPTER).map(|found| found.kind);
+    let is_parallel =
+        AXES.iter().all(|(_, axis)| world_to_clip.transform_direction(*axis).w() == 0.0);
+    let volume = decomposition.ok().and_then(|kind| view_window(&kind));
+    let class = classify_projection(projection, world_to_clip);
+    let measurements = match volume {
+        Some(ViewWindow::Parallel(window)) => {
+            describe_axes(world_to_clip, size, Some(size.y / window.height()))
+        }
+        Some(ViewWindow::Perspective(slopes)) => {
+            describe_opening_angle(slopes) + &describe_vanishing_points(world_to_clip, size)
+        }
+        None if is_parallel => describe_axes(world_to_clip, size, None),
+        None => describe_vanishing_points(world_to_clip, size),
+    };
+    let formulas = formula_list(class, view_projection);
+    let mut notes = vec![class_path(class), format!("formulas {formulas}"), measurements];
+    notes.extend(formula_in_full(&formulas));
+    notes
+}
+
+/// The first of some formulas that is an equation, in letters of the plotter font.
+fn formula_in_full(ids: &str) -> Option<String> {
+    let (id, equation) = ids.split(", ").find_map(|id| {
+        let equation = find_formula(id)?.equations().collect::<Vec<_>>().join(", ");
+        (!equation.is_empty()).then_some((id, equation))
+    })?;
+    let letters = [("φ", "phi"), ("α", "alpha"), ("β", "beta"), ("√", "sqrt")];
+    let spelled = letters.iter().fold(equation, |text, (from, to)| text.replace(from, to));
+    Some(format!("{id}: {spelled}"))
+}
+
+/// The classes from below the root to this one, such as `parallel, oblique, cavalier`.
+///
+/// The root, which every class shares, is left out.
+fn class_path(class: ProjectionClass) -> String {
+    let mut names: Vec<&str> = class.ancestors().map(ProjectionClass::name).collect();
+    names.pop();
+    names.reverse();
+    names.join(", ")
+}
+
+/// The class of a projection: by its name, or for perspectives by the number of vanishing points.
+///
+/// The parallel kinds of a scene file are names of classes already. A perspective is of the class
+/// that its camera makes of it: turning the camera turns a one-point into a two-point perspective
+/// with the same lens.
+fn classify_projection(
+    projection: &ProjectionFile,
+    map: Projective<World, Clip>,
+) -> ProjectionClass {
+    use ProjectionFile as P;
+    match projection {
+        P::Multiview(_) => ProjectionClass::Multiview,
+        P::Isometric => ProjectionClass::Isometric,
+        P::Dimetric => ProjectionClass::Dimetric,
+        P::Trimetric => ProjectionClass::Trimetric,
+        P::Axonometric { .. } => ProjectionClass::Axonometric,
+        P::Cavalier { .. } => ProjectionClass::Cavalier,
+        P::Cabinet { .. } => ProjectionClass::Cabinet,
+        P::Oblique { .. } => ProjectionClass::GeneralOblique,
+        P::Military { .. } => ProjectionClass::Military,
+        P::Orthographic { .. } => ProjectionClass::Orthographic,
+        _ => match principal_vanishing_points(map).map(|points| points.count()) {
+            Ok(1) => ProjectionClass::OnePoint,
+            Ok(2) => ProjectionClass::TwoPoint,
+            Ok(3) => ProjectionClass::ThreePoint,
+            _ => ProjectionClass::Perspective,
+        },
+    }
+}
+
+/// The formula ids of the projection's class, then those of its matrix, each once.
+///
+/// Order is class first, matrix second; a linear search removes duplicates from the few ids.
+fn formula_list(class: ProjectionClass, view_projection: &ViewProjection) -> String {
+    let named = match class {
+        ProjectionClass::Multiview => "MV-1",
+        _ if class.ancestors().any(|above| above == ProjectionClass::Axonometric) => "AX-1",
+        _ if class.ancestors().any(|above| above == ProjectionClass::Oblique) => "OB-1, VV-1",
+        _ if class.ancestors().any(|above| above == ProjectionClass::Perspective) => "VN-1",
+        _ => "",
+    };
+    let of_matrix = formula_ids(view_projection.view_to_clip).unwrap_or_default();
+    let mut all: Vec<&str> = Vec::new();
+    let each = named.split(", ").chain(of_matrix.split(", "));
+    each.filter(|id| !id.is_empty()).for_each(|id| {
+        if !all.contains(&id) {
+            all.push(id);
+        }
+    });
+    all.join(", ")
+}
+
+/// The window of a projection, in the units that its kind gives it.
+enum ViewWindow {
+    /// In units of the picture plane.
+    Parallel(Window),
+    /// On the plane one unit ahead of the eye.
+    Perspective(Window),
+}
+
+/// The window of a decomposed projection; `None` if its matrix does not determine one.
+///
+/// A frustum is measured by slopes (x and y per unit of distance), which do not depend on where its
+/// near plane lies.
+fn view_window(kind: &Decomposed) -> Option<ViewWindow> {
+    Some(match kind {
+        Decomposed::Frustum(frustum) => ViewWindow::Perspective(frustum.slopes()),
+        Decomposed::Orthographic(volume)
+        | Decomposed::Classical { volume, .. }
+        | Decomposed::PlacedOrthographic { volume, .. } => ViewWindow::Parallel(volume.window()),
+        _ => return None,
+    })
+}
+
+/// Length and direction of each axis's unit in the picture, counterclockwise from the right.
+///
+/// `pixels` is the length of a unit of the picture plane. If the matrix does not determine it, the
+/// longest axis counts as drawn to full scale, as the plan of a military projection.
+///
+/// The image of an axis d is the vector M (d, 0), scaled from NDC to pixels. Its length over the
+/// length of a unit is the foreshortening ratio: √(2/3) = 0.816 for isometric, 1 and ½ for the
+/// receding axes of cavalier and cabinet. An axis shorter than 1e-9 is seen end-on.
+fn describe_axes(map: Projective<World, Clip>, size: DVec2, pixels: Option<f64>) -> String {
+    let images = AXES.map(|(name, axis)| {
+        let image = map.transform_direction(axis);
+        (name, DVec2::new(image.x(), image.y()) * size * 0.5)
+    });
+    let length = |image: DVec2| libm::sqrt(image.length_squared());
+    let longest = images.iter().map(|(_, image)| length(*image)).fold(0.0, f64::max);
+    let unit = pixels.unwrap_or(longest);
+    let drawn = images.map(|(name, image)| {
+        let length_in_units = length(image) / unit;
+        if length_in_units < 1e-9 {
+            return format!("{name} a point");
+        }
+        let degrees = libm::atan2(image.y, image.x).to_degrees();
+        let degrees = libm::round(degrees * 10.0) / 10.0;
+        format!(
+            "{name} {} at {}°",
+            format_short(length_in_units, 3),
+            format_short(degrees.rem_euclid(360.0), 4)
+        )
+    });
+    drawn.join(" · ")
+}
+
+/// The vertical opening angle of a perspective.
+///
+/// atan(top) − atan(bottom), which is also right for windows off the line of sight.
+fn describe_opening_angle(slopes: Window) -> String {
+    let degrees = (libm::atan(slopes.top()) - libm::atan(slopes.bottom())).to_degrees();
+    format!("{}° high · ", format_short(degrees, 3))
+}
+
+/// The vanishing points of the axes, in half heights of the picture from its center.
+///
+/// Axes parallel to the picture plane have their vanishing point at infinity and are left out.
+/// Units are equal on both axes: x is multiplied by the aspect ratio.
+fn describe_vanishing_points(map: Projective<World, Clip>, size: DVec2) -> String {
+    let Ok(points) = principal_vanishing_points(map) else { return String::new() };
+    let aspect = size.x / size.y;
+    let all = AXES.iter().zip(points.axes).filter_map(|((name, _), point)| {
+        let point = point.point()?;
+        let rounded = |c: f64| format_short(libm::round(c * 100.0) / 100.0, 4);
+        Some(format!("{name} to ({}, {})", rounded(point.x() * aspect), rounded(point.y())))
+    });
+    all.collect::<Vec<String>>().join(" · ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::demonstration::test_scene::house_scene;
+
+    fn notes_for(projection: ProjectionFile) -> Vec<String> {
+        let (origin, file, scene) = house_scene();
+        let members = [NamedProjection { name: "one".to_owned(), projection }];
+        let panels = projection_panels(&origin, &file, &scene.models, &members, 1).expect("panels");
+        panels.panels[0].notes.clone()
+    }
+
+    /// √(2/3) in isometric; √(8)/3 and √(2)/3 in the dimetric of 42° and 7°; depth in full and by
+    /// half; a plan with heights.
+    #[test]
+    fn parallel_projections_draw_the_axes_as_the_textbooks_say() {
+        let cases = [
+            (
+                ProjectionFile::Isometric,
+                "AX-1",
+                "x 0.816 at 330° · y 0.816 at 90° · z 0.816 at 210°",
+            ),
+            (
+                ProjectionFile::Dimetric,
+                "AX-1",
+                "x 0.943 at 352.8° · y 0.943 at 90° · z 0.471 at 221.4°",
+            ),
+            (ProjectionFile::cavalier(), "OB-1", "x 1 at 0° · y 1 at 90° · z 1 at 225°"),
+            (ProjectionFile::cabinet(), "OB-1", "x 1 at 0° · y 1 at 90° · z 0.5 at 225°"),
+            (ProjectionFile::military(), "OB-1", "x 1 at 45° · y 1 at 90° · z 1 at 315°"),
+            (
+                ProjectionFile::Multiview(projection::PrincipalView::Front),
+                "MV-1",
+                "x 1 at 0° · y 1 at 90° · z a point",
+            ),
+        ];
+        for (projection, formula, axes) in cases {
+            let notes = notes_for(projection.clone());
+            assert!(notes[1].contains(formula), "{projection:?}: {notes:?}");
+            let is_equation = notes[3].starts_with(&format!("{formula}: "));
+            assert!(is_equation && notes[3].contains(['=', '→']), "{projection:?}: {notes:?}");
+            assert_eq!(notes[2], axes, "{projection:?}");
+        }
+    }
+
+    #[test]
+    fn perspectives_are_named_by_how_many_axes_vanish() {
+        let cases = [
+            (ProjectionFile::one_point(), "perspective, one-point", "z to (0.35, 0.45)"),
+            (
+                ProjectionFile::two_point(),
+                "perspective, two-point",
+                "x to (-3.2, 0.4) · z to (2.4, 0.4)",
+            ),
+            (
+                ProjectionFile::three_point(),
+                "perspective, three-point",
+                "x to (-3.2, 1.2) · y to (0.1, -5) · z to (2.4, 1.2)",
+            ),
+            (ProjectionFile::PERSPECTIVE, "perspective, three-point", "35° high"),
+        ];
+        for (projection, class, numbers) in cases {
+            let notes = notes_for(projection);
+            assert_eq!(notes[0], class);
+            assert!(
+                notes[1].contains("VN-1, PE-1, PE-3") && notes[2].contains(numbers),
+                "{notes:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,252 @@
+//! Sweeps: one parameter of camera or lens from one value to another, a picture for each step (C62,
+//! C64, C94).
+//!
+//! Everything else stays as in the scene. Only where the parameter moves the camera are the near
+//! and far plane fitted again, since they would cut off what the step is to show.
+//!
+//! ```text
+//!  fov, lens       tan(fov / 2) = window height / (2 · near)      a smaller angle enlarges
+//!  distance        image size ∝ 1 / distance                      perspective becomes steeper
+//!  dolly           tan(fov / 2) ∝ 1 / distance                    the center keeps its size
+//!  shift           window moved on its plane                      the picture moves undistorted
+//! ```
+
+mod step;
+
+use super::DemonstrationError;
+use super::number_format::format_short;
+use camera::ViewProjection;
+use camera::{NamedView, frame_parallel};
+use drawing::{Overlay, Page, Panel, Panels};
+use glam::DVec2;
+use homog::HPoint;
+use projection::{Convention, Orthographic};
+use scene::Scene;
+use std::fmt;
+use step::SweepBase;
+
+/// The gap between a picture and the picture of its view volume below it, in millimeters.
+const PANEL_GAP: f64 = 4.0;
+
+/// The parameter of a sweep.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum SweepParameter {
+    /// Vertical field of view in degrees, from a fixed eye: small angles enlarge.
+    Fov,
+    /// Height of the window of a parallel projection, with a fixed aspect ratio: small windows
+    /// enlarge.
+    Height,
+    /// Aspect ratio of the window, whatever the picture's: any other distorts.
+    Aspect,
+    /// Distance of the near plane with a fixed angle: it only cuts off.
+    Near,
+    /// Distance of the far plane: it only cuts off.
+    Far,
+    /// Distance of the near plane with a fixed window on it (`glFrustum`): the angle changes.
+    Lens,
+    /// Shift of the window to the right, in halves of its width: a lens shift.
+    Shift,
+    /// Distance of the eye from the center of the models along the line of sight.
+    Distance,
+    /// Distance of the eye with the angle adapted so that the center keeps its size: a dolly zoom.
+    Dolly,
+    /// Rotation of the camera about the vertical axis through the center of the models, in degrees,
+    /// counterclockwise seen from above.
+    Angle,
+}
+
+/// A parameter with its range of values, in the parameter's unit: degrees for angles, world units
+/// for distances and heights, plain ratios for the others.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Sweep {
+    /// The parameter.
+    pub parameter: SweepParameter,
+    /// The first value.
+    ///
+    /// It may be greater than the last value: the sweep then runs downwards.
+    pub from: f64,
+    /// The last value.
+    pub to: f64,
+    /// The number of pictures, at least 1.
+    pub steps: u32,
+    /// Whether each picture has a second one below it that shows its view volume around the models.
+    pub volumes: bool,
+}
+
+impl SweepParameter {
+    /// All parameters.
+    pub const ALL: [Self; 10] = [
+        Self::Fov,
+        Self::Height,
+        Self::Aspect,
+        Self::Near,
+        Self::Far,
+        Self::Lens,
+        Self::Shift,
+        Self::Distance,
+        Self::Dolly,
+        Self::Angle,
+    ];
+
+    /// The name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Fov => "fov",
+            Self::Height => "height",
+            Self::Aspect => "aspect",
+            Self::Near => "near",
+            Self::Far => "far",
+            Self::Lens => "lens",
+            Self::Shift => "shift",
+            Self::Distance => "distance",
+            Self::Dolly => "dolly",
+            Self::Angle => "angle",
+        }
+    }
+
+    /// Its effect on the picture, in the words of the lessons.
+    ///
+    /// It is the title of the whole page, behind the name of the parameter.
+    const fn caption(self) -> &'static str {
+        match self {
+            Self::Fov => "a smaller angle enlarges",
+            Self::Height => "a smaller window enlarges, wherever the eye is",
+            Self::Aspect => "an aspect that is not the picture's distorts",
+            Self::Near => "the near plane only cuts off",
+            Self::Far => "the far plane only cuts off",
+            Self::Lens => "the distance of a window of fixed size is the angle",
+            Self::Shift => {
+                "a window beside the line of sight moves the picture and keeps its shapes"
+            }
+            Self::Distance => "nearer is larger, and steeper in perspective",
+            Self::Dolly => "distance against angle: the middle keeps its size, all else does not",
+            Self::Angle => "around the models",
+        }
+    }
+}
+
+impl fmt::Display for SweepParameter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl Sweep {
+    /// The values, evenly spaced; the first and the last are exact.
+    #[must_use]
+    pub fn parameter_values(&self) -> Vec<f64> {
+        let last = self.steps.max(1) - 1;
+        let value = |step: u32| match step {
+            0 => self.from,
+            step if step == last => self.to,
+            step => self.from + (self.to - self.from) * (f64::from(step) / f64::from(last)),
+        };
+        (0..=last).map(value).collect()
+    }
+
+    /// Camera and projection of each value, with a note on them.
+    ///
+    /// # Errors
+    /// If the scene's projection has no such parameter, or a value is out of range.
+    pub fn view_projections(
+        &self,
+        scene: &Scene,
+    ) -> Result<Vec<(ViewProjection, String)>, DemonstrationError> {
+        let base = SweepBase::new(scene, self.parameter)?;
+        self.parameter_values()
+            .into_iter()
+            .map(|value| base.view_at(self.parameter, value))
+            .collect()
+    }
+
+    /// Draws the pictures side by side. The number of threads does not change them.
+    ///
+    /// # Errors
+    /// As [`view_projections`](Self::view_projections), or if a picture has no pixels.
+    ///
+    /// The panels have the ids `step-1`, `step-2`, … Each is drawn in turn with all threads. One
+    /// observer is fitted to all steps, so that the view volumes can be compared from panel to
+    /// panel.
+    pub fn draw_panels(&self, scene: &Scene, threads: usize) -> Result<Panels, DemonstrationError> {
+        let mut scene = scene.clone();
+        scene.image.background = [1.0; 4];
+        let view_projections = self.view_projections(&scene)?;
+        let observer = if self.volumes { observer_view(&scene, &view_projections) } else { None };
+        let mut panels = Vec::new();
+        for (number, ((view_projection, note), value)) in
+            view_projections.iter().zip(self.parameter_values()).enumerate()
+        {
+            scene.view_projection = *view_projection;
+            let title = format!("{} {}", self.parameter, format_short(value, 4));
+            let mut panel = pipeline::render::render_panel(
+                &scene,
+                format!("step-{}", number + 1),
+                title,
+                threads,
+            )?;
+            if let Some(observer) = observer {
+                panel = add_volume_panel(panel, &scene, observer, threads)?;
+            }
+            panels.push(panel.with_notes(vec![note.clone()]));
+        }
+        let title =
+            format!("{}: {}, {}", scene.model_names(), self.parameter, self.parameter.caption());
+        Ok(Panels::new(title, panels))
+    }
+}
+
+/// A picture with its view volume below it, seen by an observer aside.
+///
+/// The scene is drawn a second time with the volume of its camera as an overlay, from the
+/// observer's view. Ids of layers are prefixed with `view-` and `volume-`, so that they stay unique
+/// on the common page.
+fn add_volume_panel(
+    view: Panel,
+    scene: &Scene,
+    observer: ViewProjection,
+    threads: usize,
+) -> Result<Panel, DemonstrationError> {
+    let mut aside = scene.clone();
+    aside.overlays = vec![Overlay::Volume(Box::new(scene.view_projection))];
+    aside.view_projection = observer;
+    let volume = pipeline::render::render_panel(&aside, "volume", "view volume", threads)?.page;
+    let size = view.page.size;
+    let below = size.y + PANEL_GAP;
+    let mut page = Page::new(DVec2::new(size.x, below + size.y), view.page.title.clone(), None);
+    page.paste_page(&view.page, DVec2::ZERO, "view-");
+    page.paste_page(&volume, DVec2::new(0.0, below), "volume-");
+    Ok(Panel { page, ..view })
+}
+
+/// A trimetric view that shows the models, all eyes and all near windows; `None` without models.
+///
+/// The near windows are the corners (±1, ±1, +1) of the canonical volume, mapped back to the world.
+/// Far windows are left out: they would shrink the models to a few pixels. The margin is 8 % on
+/// each side.
+fn observer_view(scene: &Scene, views: &[(ViewProjection, String)]) -> Option<ViewProjection> {
+    let mut points = scene.world_points();
+    for (view_projection, _) in views {
+        let clip_to_world = view_projection.world_to_clip().inverse()?;
+        let corners = [-1.0, 1.0].map(|x| [-1.0, 1.0].map(|y| HPoint::new(x, y, 1.0, 1.0)));
+        let near = corners.as_flattened().iter();
+        points.extend(near.filter_map(|&corner| clip_to_world.transform_hpoint(corner).divide()));
+        points.push(view_projection.camera.eye());
+    }
+    let aspect = f64::from(scene.image.width) / f64::from(scene.image.height);
+    let framed = frame_parallel(points.iter().copied(), NamedView::Trimetric.basis(), aspect, 0.08);
+    let framed = framed.ok()?;
+    let volume = Orthographic::new(
+        framed.left,
+        framed.right,
+        framed.bottom,
+        framed.top,
+        framed.near,
+        framed.far,
+    );
+    let view_to_clip = volume.ok()?.view_to_clip(Convention::CHAPTER);
+    Some(ViewProjection { camera: framed.camera, view_to_clip })
+}
+
+#[cfg(test)]
+mod tests;

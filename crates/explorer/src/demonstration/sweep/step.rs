@@ -1,0 +1,301 @@
+//! One step of a sweep: the scene's camera and projection with one parameter changed.
+//!
+//! The scene's projection is first decomposed into a frustum or an orthographic box, then one
+//! number of it is replaced. Parameters that a projection lacks (a height of a perspective, an
+//! angle of view of a parallel one) are refused with the one to vary instead.
+
+use super::super::DemonstrationError;
+use super::super::number_format::format_short;
+use super::SweepParameter;
+use camera::Camera;
+use camera::ViewProjection;
+use homog::{Affine, Bounds, Point, Vector, World};
+use projection::{
+    Convention, Decomposed, Frustum, Orthographic, ProjectionError, Window, decompose,
+};
+use scene::{DepthSpan, Scene};
+
+/// The scene's view, decomposed into camera and parameters.
+///
+/// Computed once for a sweep: the vertices of all models are collected here and not in each step.
+pub(super) struct SweepBase {
+    /// The scene's camera.
+    camera: Camera,
+    /// The scene's projection.
+    projection: BaseProjection,
+    /// The vertices of all models in world space, to fit near and far plane where the camera moves.
+    points: Vec<Point<World>>,
+    /// The center of the models' bounding box.
+    center: Point<World>,
+    /// Distance of the center along the line of sight.
+    distance: f64,
+}
+
+/// The scene's projection as parameters. Only these two kinds have a near plane, a far plane and a
+/// window that can be replaced one at a time.
+#[derive(Clone, Copy)]
+enum BaseProjection {
+    Perspective(Frustum),
+    Parallel(Orthographic),
+}
+
+impl BaseProjection {
+    /// The reason why the projection lacks a parameter; `None` if it has it.
+    ///
+    /// An eye at infinity has no angle and no distance; the height of a perspective's window
+    /// depends on the plane it is measured on.
+    fn reason_unsupported(self, vary: SweepParameter) -> Option<&'static str> {
+        let is_of_perspective = matches!(
+            vary,
+            SweepParameter::Fov
+                | SweepParameter::Lens
+                | SweepParameter::Distance
+                | SweepParameter::Dolly
+        );
+        match self {
+            Self::Parallel(_) if is_of_perspective => {
+                Some("the scene's projection is parallel; take a perspective, or vary the height")
+            }
+            Self::Perspective(_) if vary == SweepParameter::Height => Some(
+                "the scene's projection is a perspective; take an orthographic one, or vary the fov",
+            ),
+            _ => None,
+        }
+    }
+}
+
+impl SweepBase {
+    /// Decomposes the scene's view.
+    ///
+    /// # Errors
+    /// If the scene's projection has no such parameter.
+    pub(super) fn new(scene: &Scene, vary: SweepParameter) -> Result<Self, DemonstrationError> {
+        let unsuited =
+            |reason: &str| DemonstrationError::UnsupportedParameter { vary, reason: reason.into() };
+        let kind = decompose(scene.view_projection.view_to_clip.raw(), Convention::CHAPTER);
+        let lens = match kind.map(|found| found.kind) {
+            Ok(Decomposed::Frustum(frustum)) => BaseProjection::Perspective(frustum),
+            Ok(Decomposed::Orthographic(volume)) => BaseProjection::Parallel(volume),
+            _ => return Err(unsuited("take a perspective or an orthographic projection")),
+        };
+        if let Some(reason) = lens.reason_unsupported(vary) {
+            return Err(unsuited(reason));
+        }
+        let points = scene.world_points();
+        let nothing = || unsuited("the models have no points, lines or triangles");
+        let center =
+            Bounds::from_points(points.iter().copied()).map(Bounds::center).ok_or_else(nothing)?;
+        let camera = scene.view_projection.camera;
+        let distance = -camera.world_to_view().transform_point(center).z();
+        if distance <= 0.0 && matches!(vary, SweepParameter::Distance | SweepParameter::Dolly) {
+            return Err(unsuited("the middle of the models is behind the eye"));
+        }
+        Ok(Self { camera, projection: lens, points, center, distance })
+    }
+
+    /// Camera and projection with the parameter at a value, and a note on them.
+    ///
+    /// Every step starts from the base and not from the step before, so that errors do not
+    /// accumulate and a single step equals that of a longer sweep.
+    ///
+    /// | parameter | replaces | planes |
+    /// | --- | --- | --- |
+    /// | fov, aspect, shift | the slopes | as in the scene |
+    /// | near, far | one plane | that one |
+    /// | lens | near and slopes | near |
+    /// | distance, dolly, angle | the camera | fitted to the models |
+    ///
+    /// # Errors
+    /// If the value is out of range, or camera or frustum refuse it, such as near ≥ far.
+    pub(super) fn view_at(
+        &self,
+        vary: SweepParameter,
+        value: f64,
+    ) -> Result<(ViewProjection, String), DemonstrationError> {
+        let invalid = |reason: String| DemonstrationError::InvalidValue {
+            vary,
+            value: format_short(value, 6),
+            reason,
+        };
+        let projection_error = |error: ProjectionError| invalid(error.to_string());
+        if let Some(allowed) = self.unmet_requirement(vary, value) {
+            return Err(invalid(allowed.to_owned()));
+        }
+        let camera = self.camera_for_value(vary, value).map_err(invalid)?;
+        let frustum = match self.projection {
+            BaseProjection::Perspective(frustum) => frustum,
+            BaseProjection::Parallel(volume) => {
+                return self.parallel_view_at(vary, value, volume, camera).map_err(invalid);
+            }
+        };
+        let slopes = self.slopes_for_value(vary, value, frustum).map_err(projection_error)?;
+        let (near, far) = match vary {
+            SweepParameter::Near | SweepParameter::Lens => (value, frustum.far()),
+            SweepParameter::Far => (frustum.near(), value),
+            SweepParameter::Distance | SweepParameter::Dolly | SweepParameter::Angle => {
+                DepthSpan::from_points(&self.points, camera).perspective_planes(None, None)
+            }
+            SweepParameter::Fov
+            | SweepParameter::Height
+            | SweepParameter::Aspect
+            | SweepParameter::Shift => (frustum.near(), frustum.far()),
+        };
+        let frustum = Frustum::from_slopes(slopes, near, far).map_err(projection_error)?;
+        let view_projection =
+            ViewProjection { camera, view_to_clip: frustum.view_to_clip(Convention::CHAPTER) };
+        Ok((view_projection, self.describe_frustum(frustum, camera)))
+    }
+
+    /// The requirement that a value violates, if it does.
+    ///
+    /// The planes of a parallel projection may be negative: they can lie behind the eye. Values
+    /// that are not finite are refused for every parameter.
+    fn unmet_requirement(&self, vary: SweepParameter, value: f64) -> Option<&'static str> {
+        let is_parallel = matches!(self.projection, BaseProjection::Parallel(_));
+        let (is_allowed, allowed) = match vary {
+            SweepParameter::Fov => {
+                (value > 0.0 && value < 180.0, "it must lie between 0 and 180 degrees")
+            }
+            SweepParameter::Shift | SweepParameter::Angle => (true, "it must be a number"),
+            SweepParameter::Near | SweepParameter::Far if is_parallel => {
+                (true, "it must be a number")
+            }
+            _ => (value > 0.0, "it must be greater than 0"),
+        };
+        (!is_allowed || !value.is_finite()).then_some(allowed)
+    }
+
+    /// The camera at a value of a parameter that moves it.
+    ///
+    /// A distance moves the eye along the gaze, e' = e + (d₀ − d) g, where d₀ is the distance in
+    /// the scene and g has unit length. The orientation stays.
+    fn camera_for_value(&self, vary: SweepParameter, value: f64) -> Result<Camera, String> {
+        match vary {
+            SweepParameter::Distance | SweepParameter::Dolly => {
+                let by = self.camera.gaze() * (self.distance - value);
+                self.camera.moved(by).map_err(|error| error.to_string())
+            }
+            SweepParameter::Angle => self.orbit_camera(value),
+            _ => Ok(self.camera),
+        }
+    }
+
+    /// The camera rotated about the vertical axis through the center.
+    ///
+    /// T(c) · R_y(φ) · T(−c) applied to the camera's frame, so position and orientation rotate
+    /// together and the center stays where it is in the picture.
+    fn orbit_camera(&self, degrees: f64) -> Result<Camera, String> {
+        let center: Vector<World> = self.center - Point::ORIGIN;
+        let rotation = Affine::<World, World>::translation(-center)
+            .then(Affine::rotation_y(degrees.to_radians()))
+            .then(Affine::<World, World>::translation(center));
+        let frame = self.camera.view_to_world().then(rotation);
+        Camera::from_frame(frame).map_err(|error| error.to_string())
+    }
+
+    /// Camera and parallel projection with the parameter at a value, and a note.
+    ///
+    /// A height keeps the aspect ratio, an aspect ratio keeps the height; both scale about the line
+    /// of sight. Only the angle moves the camera here, so only it fits the planes again.
+    fn parallel_view_at(
+        &self,
+        vary: SweepParameter,
+        value: f64,
+        volume: Orthographic,
+        camera: Camera,
+    ) -> Result<(ViewProjection, String), String> {
+        let to_message = |error: ProjectionError| error.to_string();
+        let window = volume.window();
+        let window = match vary {
+            SweepParameter::Height => {
+                scale_window(window, value / window.height(), value / window.height())
+            }
+            SweepParameter::Aspect => scale_window(window, value / window.aspect(), 1.0),
+            SweepParameter::Shift => shift_window(window, value),
+            _ => Ok(window),
+        };
+        let window = window.map_err(to_message)?;
+        let (near, far) = match vary {
+            SweepParameter::Near => (value, volume.far()),
+            SweepParameter::Far => (volume.near(), value),
+            SweepParameter::Angle => {
+                DepthSpan::from_points(&self.points, camera).parallel_planes(None, None)
+            }
+            _ => (volume.near(), volume.far()),
+        };
+        if near >= far {
+            // The matrix would accept it, and look backwards through an inverted volume.
+            let [near, far] = [near, far].map(|number| format_short(number, 6));
+            return Err(format!("`far` ({far}) must lie beyond `near` ({near})"));
+        }
+        let volume = Orthographic::from_window(window, near, far).map_err(to_message)?;
+        let view_projection =
+            ViewProjection { camera, view_to_clip: volume.view_to_clip(Convention::CHAPTER) };
+        let numbers =
+            [window.width(), window.height(), near, far].map(|number| format_short(number, 4));
+        let [width, height, near, far] = numbers;
+        Ok((view_projection, format!("{width} wide · {height} high · near {near} · far {far}")))
+    }
+
+    /// The window one unit ahead of the eye at a value.
+    ///
+    /// Factors by which the slopes are multiplied:
+    ///
+    /// ```text
+    ///  fov    tan(φ / 2) / (h / 2)      h: height of the window one unit ahead
+    ///  lens   n₀ / n                    the window on the near plane stays
+    ///  dolly  d₀ / d                    the window at the center stays
+    /// ```
+    /// The Lens formula is that of `glFrustum` with fixed sides.
+    fn slopes_for_value(
+        &self,
+        vary: SweepParameter,
+        value: f64,
+        frustum: Frustum,
+    ) -> Result<Window, ProjectionError> {
+        let slopes = frustum.slopes();
+        match vary {
+            SweepParameter::Fov => {
+                let half = libm::tan(0.5 * value.to_radians());
+                scale_window(slopes, half / (0.5 * slopes.height()), half / (0.5 * slopes.height()))
+            }
+            SweepParameter::Aspect => scale_window(slopes, value / slopes.aspect(), 1.0),
+            SweepParameter::Lens => {
+                scale_window(slopes, frustum.near() / value, frustum.near() / value)
+            }
+            SweepParameter::Dolly => {
+                scale_window(slopes, self.distance / value, self.distance / value)
+            }
+            SweepParameter::Shift => shift_window(slopes, value),
+            _ => Ok(slopes),
+        }
+    }
+
+    /// The note of a perspective step: angle, distance, planes.
+    ///
+    /// Vertical angle in degrees, distances in world units, four significant digits each.
+    fn describe_frustum(&self, frustum: Frustum, camera: Camera) -> String {
+        let slopes = frustum.slopes();
+        let degrees = (libm::atan(slopes.top()) - libm::atan(slopes.bottom())).to_degrees();
+        let distance = -camera.world_to_view().transform_point(self.center).z();
+        let [degrees, distance, near, far] = [degrees, distance, frustum.near(), frustum.far()]
+            .map(|number| format_short(number, 4));
+        format!("{degrees}° high · middle at {distance} · near {near} · far {far}")
+    }
+}
+
+/// A window moved to the right by halves of its width.
+///
+/// A shift of 1 moves the left border onto the former center.
+fn shift_window(window: Window, halves: f64) -> Result<Window, ProjectionError> {
+    let by = halves * 0.5 * window.width();
+    Window::new(window.left() + by, window.right() + by, window.bottom(), window.top())
+}
+
+/// A window with its sides scaled about the line of sight.
+///
+/// Scaling about (0, 0) and not about the center of the window keeps the relative shift of an
+/// off-center window.
+fn scale_window(window: Window, x: f64, y: f64) -> Result<Window, ProjectionError> {
+    Window::new(window.left() * x, window.right() * x, window.bottom() * y, window.top() * y)
+}

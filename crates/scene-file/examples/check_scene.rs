@@ -1,0 +1,14 @@
+//! Checks a scene file and those that it includes, without its models.
+//!
+//! Run it with `cargo run -p alberti-scene-file --example check_scene -- scene.ron`.
+#![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
+
+use scene_file::SceneSource;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let path = std::env::args_os().nth(1).ok_or("which scene file?")?;
+    let (source, file) = SceneSource::read(path.as_ref())?.parse_with_includes(&[])?;
+    let (models, included) = (file.models.len(), source.included_texts().count());
+    println!("{}: {models} models, {included} included files", source.file);
+    Ok(())
+}

@@ -1,0 +1,185 @@
+//! A scene as it is written: RON, with degrees, paths and defaults.
+//!
+//! These types say what a scene file may contain and nothing of what it means;
+//! resolution does that. Every field but the models' paths may be left out. Unknown fields are
+//! errors, so that misspelt ones are found.
+
+mod assembly;
+mod background;
+mod camera;
+mod camera_path;
+mod constructors;
+mod derived;
+mod dimension;
+mod environment;
+mod ground;
+mod include;
+mod instances;
+mod light;
+mod lines;
+mod look;
+mod material;
+mod occlusion;
+mod overlay;
+mod passes;
+mod projection;
+mod scalars;
+mod section;
+mod shadow;
+mod sheet;
+mod sheet_view;
+mod viewport;
+
+pub use self::assembly::{DensityFile, ExplodedFile};
+pub use self::background::BackgroundFile;
+pub use self::camera::{
+    CameraChoice, CameraFile, DEFAULT_PADDING, FromFile, RotationFile, ViewFile,
+};
+pub use self::camera_path::{CameraKeyFile, CameraPathFile, CurveFile};
+pub(super) use self::dimension::is_dimensions_list;
+pub use self::dimension::{DimensionFile, DimensionView, DimensionsFile, PickFile, PlaceFile};
+pub use self::environment::EnvironmentFile;
+pub use self::ground::GroundFile;
+pub use self::include::Paths;
+pub use self::instances::{InstanceFile, InstancesFile};
+pub use self::light::LightFile;
+pub use self::lines::{LinesFile, WidthFile};
+pub use self::look::{ImageFile, StyleFile};
+pub use self::material::{AlphaModeFile, MaterialFile, MaterialsFile};
+pub use self::occlusion::AmbientOcclusionFile;
+pub use self::overlay::OverlayFile;
+pub use self::passes::PassesFile;
+pub use self::projection::ProjectionFile;
+pub use self::scalars::ScalarsFile;
+pub use self::section::SectionFile;
+pub use self::shadow::ShadowsFile;
+pub use self::sheet::{AxonometricView, PageOrientation, PaperSize, SheetFile, SideView};
+pub use self::sheet_view::{AxisFile, SheetViewFile, ViewSideFile};
+pub use self::viewport::{BorderFile, StereoFile, ViewportFile, ViewportsScale};
+pub use super::color::{Color, LightColor};
+pub use super::number::{
+    CreaseAngle, FieldOfView, Finite, Fraction, HandDrawn, HatchSpacing, InvalidNumber, LabelSize,
+    NonNegative, Percent, PointSize, Positive, Scale, Softness, Triple,
+};
+use super::schema::{scene_enum, scene_struct};
+use model::{Colormap, LengthUnit, UpAxis};
+
+scene_struct! {
+    /// A scene file. It begins with the name and brackets of this struct, around its fields:
+    /// `Scene(models: [(path: "model.glb")], style: Shaded)`.
+    pub struct SceneFile as "Scene" {
+        /// Other scene files to include, in this order. Their models, lights, overlays, sections
+        /// and viewports come before those of this file; every other field of this file replaces
+        /// theirs, and a later file's replaces an earlier one's. Paths in an included file begin at
+        /// its own folder; it must lie below the folder of the scene. Default: none.
+        pub include: Paths = Paths(Vec::new()),
+        /// The models to draw. A scene needs one; a file that is included does not. Default: none.
+        pub models: Vec<ModelFile> = Vec::new(),
+        /// The camera and its projection. Default: framed from a named direction, in perspective.
+        pub camera: CameraFile = CameraFile::default(),
+        /// The motion of the camera, for `alberti animate`; pictures ignore it, and so do lights
+        /// that the scene leaves open. Default: the camera does not move.
+        pub camera_path: Option<CameraPathFile> = None,
+        /// Views of their own in parts of the picture, drawn in this order. Default: none.
+        pub viewports: Vec<ViewportFile> = Vec::new(),
+        /// The scale of the viewports. Default: `Individual`.
+        pub viewports_scale: ViewportsScale = ViewportsScale::Individual,
+        /// A stereo pair. Default: one picture.
+        pub stereo: Option<StereoFile> = None,
+        /// The lights. Default: those of the models; where they have none and there is no
+        /// environment either, a key light from above the viewer's left shoulder, and ambient
+        /// light; with an environment the key light alone, if there are to be shadows.
+        pub lights: Option<Vec<LightFile>> = None,
+        /// A factor for the intensity of all lights: those of the scene and of the models, and the
+        /// key light. An environment has its own `strength`. Default: 1.
+        pub light_intensity: NonNegative = NonNegative::ONE,
+        /// The shadows of all directional, point and spot lights without shadows of their own,
+        /// those of the models too. Default: `Off`.
+        pub shadows: Option<ShadowsFile> = None,
+        /// The ground below the models. Default: none.
+        pub ground: Option<GroundFile> = None,
+        /// Light from all directions. Default: none; a model without a scene file and without
+        /// lights of its own stands in a `Studio(strength: 0.45)` with a key light.
+        pub environment: Option<EnvironmentFile> = None,
+        /// Screen-space ambient occlusion. Default: none.
+        pub ambient_occlusion: Option<AmbientOcclusionFile> = None,
+        /// The style: how surfaces are drawn. Default: `Shaded`.
+        pub style: StyleFile = StyleFile::Shaded,
+        /// The colors of the style `Depth`: the nearest vertex of the models has the last color of
+        /// the colormap, the farthest the first. Default: grays, bright where it is near.
+        pub depth_colormap: Option<Colormap> = None,
+        /// The image: its size, background and sampling. Default: 960 × 720 pixels, transparent.
+        pub image: ImageFile = ImageFile::default(),
+        /// Explanations drawn over the picture. Default: none.
+        pub overlays: Vec<OverlayFile> = Vec::new(),
+        /// A line of text below the picture, centered in a strip of 28 pixels at its lower border;
+        /// the view is in the rest. Its letters are strokes, as on drawings, and smaller if the
+        /// text is too long. The strip has the color of the background, and that of its center if
+        /// that is a gradient. Default: none.
+        pub caption: Option<String> = None,
+        /// Passes: data of each pixel besides its color. Default: none.
+        pub passes: PassesFile = PassesFile::default(),
+        /// Section planes that cut the models open, one after the other, in line drawings and on
+        /// sheets; at most 16. Default: none.
+        pub sections: Vec<SectionFile> = Vec::new(),
+        /// The layout of `alberti sheet`. Default: as its flags say.
+        pub sheet: Option<SheetFile> = None,
+    }
+}
+
+scene_struct! {
+    /// A model and its transform: scaled, then rotated, then translated.
+    pub struct ModelFile as "Model" {
+        /// The path of a `.gltf`, `.glb`, `.stl`, `.obj`, `.ply` or `.3mf` file, from the folder of
+        /// the scene file.
+        pub path: String,
+        /// The translation, in the unit of the file: meters in glTF. Default: (0, 0, 0).
+        pub translation: Triple = Triple::ZERO,
+        /// Rotations about the x, then the y, then the z axis, in degrees. Default: (0, 0, 0).
+        pub rotation_degrees: Triple = Triple::ZERO,
+        /// One factor for all axes, or one for each; none of them 0. Default: 1.
+        pub scale: Scale = Scale::ONE,
+        /// The axis that points up in the file; the model is turned so that it is y. Default: z for
+        /// STL and 3MF, y for all others.
+        pub up: Option<UpAxis>,
+        /// The unit of the file, for sheets. Default: what the file declares, else millimeters for
+        /// STL and 3MF and meters for all others.
+        pub unit: Option<LengthUnit>,
+        /// The largest angle between faces that are shaded as one smooth surface, in degrees from 0
+        /// to 180, where the file has no normals. Default: 30.
+        pub crease_degrees: Option<Finite>,
+        /// The scene of the glTF file. Default: its default scene, else its first.
+        pub scene: Option<Choice>,
+        /// The variant of the model's materials (KHR_materials_variants). Default: none.
+        pub variant: Option<Choice>,
+        /// The animation that poses the model. Default: the first, if there is a `time`; else none.
+        pub animation: Option<Choice>,
+        /// The time of the animation in seconds. Default: 0, if there is an `animation`.
+        pub time: Option<Finite>,
+        /// Instances of the model. Default: one.
+        pub instances: Option<InstancesFile>,
+        /// Colors by a scalar attribute of its vertices. Default: its colors and materials.
+        pub scalars: Option<ScalarsFile>,
+        /// Overrides of its materials. Default: none.
+        pub materials: Vec<MaterialFile> = Vec::new(),
+    }
+}
+
+scene_enum! {
+    /// A choice among the scenes, variants or animations of a model.
+    #[derive(Eq, PartialOrd, Ord)]
+    pub enum Choice as "Choice" {
+        /// By its index in the file, from 0.
+        Index(usize),
+        /// By its name.
+        Name(String),
+    }
+}
+
+impl SceneFile {
+    /// A scene of one model with every default.
+    #[must_use]
+    pub fn from_model_path(path: String) -> Self {
+        Self::new([ModelFile::new(path)])
+    }
+}

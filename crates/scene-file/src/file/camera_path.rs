@@ -1,0 +1,41 @@
+//! The camera path of a scene file, for `alberti animate` and stills of it.
+
+use crate::number::{FieldOfView, Finite, Triple};
+use crate::schema::{named_enum, scene_struct};
+
+scene_struct! {
+    /// The motion of the camera in frame sequences. Its projection is that of the scene's `camera`.
+    pub struct CameraPathFile as "CameraPath" {
+        /// From 2 to 10,000 keyframes, each later than the one before. With the first repeated at
+        /// the end the path is closed, and smooth there too.
+        pub keys: Vec<CameraKeyFile>,
+        /// The interpolation between keyframes. Default: `Smooth`.
+        pub curve: CurveFile = CurveFile::Smooth,
+    }
+}
+
+scene_struct! {
+    /// A keyframe: the position and direction of the camera at a time.
+    #[derive(Copy)]
+    pub struct CameraKeyFile as "CameraKey" {
+        /// The time in seconds.
+        pub time: Finite,
+        /// The position of the eye.
+        pub eye: Triple,
+        /// The point the camera looks at.
+        pub target: Triple,
+        /// The view-up vector. Default: y.
+        pub up: Triple = Triple::Y_AXIS,
+        /// The vertical field of view of a perspective in degrees. Default: that of the scene's
+        /// projection.
+        pub fov_y_degrees: Option<FieldOfView>,
+    }
+}
+
+named_enum! {
+    /// The interpolation between keyframes.
+    pub enum CurveFile as "Curve" {
+        Linear = "Straight lines, with a jerk at each keyframe.",
+        Smooth = "A smooth curve through all keyframes (Catmull and Rom). With 8 evenly spaced keyframes and the first repeated it is a circle to 1 %, with 12 to 0.2 %.",
+    }
+}

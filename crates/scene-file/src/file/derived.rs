@@ -1,0 +1,43 @@
+//! What follows from the fields of a scene file alone: the files of its images, the size of its view.
+
+use super::{BackgroundFile, EnvironmentFile, SceneFile};
+
+/// The height of the strip in pixels: letters of 12 pixels with room above and below.
+const STRIP_HEIGHT: u32 = 28;
+/// The strip takes at most one pixel row of so many of the picture.
+const LEAST_ROWS_PER_STRIP_ROW: u32 = 4;
+
+impl SceneFile {
+    /// The paths of all environment and backdrop images and of the sheet's title block, relative to
+    /// the scene's folder.
+    ///
+    /// Insets may have backdrops of their own. The caller uses the list for access checks and for
+    /// finding changed files.
+    pub fn image_paths(&self) -> impl Iterator<Item = &str> {
+        let own = self.viewports.iter().filter_map(|viewport| viewport.background.as_ref());
+        let behind = own.chain(&self.image.background).filter_map(|background| match background {
+            BackgroundFile::Picture { path, .. } => Some(path.as_str()),
+            _ => None,
+        });
+        let around = match &self.environment {
+            Some(EnvironmentFile::File { path, .. }) => Some(path.as_str()),
+            _ => None,
+        };
+        let title_block = self.sheet.as_ref().and_then(|sheet| sheet.title_block.as_deref());
+        around.into_iter().chain(behind).chain(title_block)
+    }
+
+    /// The height in pixels of the strip for the caption; 0 without one.
+    #[must_use]
+    pub fn caption_height(&self) -> u32 {
+        let most = self.image.size.1 / LEAST_ROWS_PER_STRIP_ROW;
+        if self.caption.is_some() { STRIP_HEIGHT.min(most) } else { 0 }
+    }
+
+    /// Width and height in pixels of the part of the picture above the caption.
+    #[must_use]
+    pub fn view_size(&self) -> (u32, u32) {
+        let (width, height) = self.image.size;
+        (width, height - self.caption_height())
+    }
+}

@@ -1,0 +1,62 @@
+//! The environment of a scene file: light from all directions.
+
+use crate::color::LightColor;
+use crate::number::{Finite, NonNegative, Triple};
+use crate::schema::scene_enum;
+
+scene_enum! {
+    /// Image-based light from all directions: it lights diffuse surfaces and is reflected in shiny
+    /// ones.
+    pub enum EnvironmentFile as "Environment" {
+        /// None at all, not even for a model without a scene file.
+        Dark,
+        /// A studio with soft boxes.
+        Studio {
+            /// A factor for all light. Default: 1.
+            strength: NonNegative = NonNegative::ONE,
+            /// The rotation about the y axis. Default: 0.
+            rotation_degrees: Option<Finite>,
+        },
+        /// A clear sky over gray ground. The sun itself is not part of it; it is a light.
+        Sky {
+            /// The direction to the sun. Default: (1, 1, 1).
+            sun: Triple = Triple::ONES,
+            /// A factor for all light. Default: 1.
+            strength: NonNegative = NonNegative::ONE,
+        },
+        /// Uniform light from all directions, in reflections too.
+        Uniform {
+            /// The luminance from every direction. Default: 1.
+            strength: NonNegative = NonNegative::ONE,
+            /// The color. Default: white.
+            color: LightColor = LightColor::WHITE,
+        },
+        /// An equirectangular image in a `.hdr` file.
+        File {
+            /// The path, from the folder of the scene file.
+            path: String,
+            /// A factor for all light. Default: 1.
+            strength: NonNegative = NonNegative::ONE,
+            /// The rotation about the y axis. Default: 0.
+            rotation_degrees: Option<Finite>,
+        },
+    }
+}
+
+impl EnvironmentFile {
+    /// The studio around a model without a scene file: with the key light beside it, matte white
+    /// reaches 0.95 at most.
+    pub const STUDIO: Self =
+        Self::Studio { strength: NonNegative::BARE_STUDIO, rotation_degrees: None };
+    /// The studio around a model without a scene file that brings lights of its own.
+    pub const DIMMED_STUDIO: Self =
+        Self::Studio { strength: NonNegative::DIMMED_STUDIO, rotation_degrees: None };
+    /// The sky with every default.
+    pub const SKY: Self = Self::Sky { sun: Triple::ONES, strength: NonNegative::ONE };
+
+    /// The image in a file with every default.
+    #[must_use]
+    pub const fn from_path(path: String) -> Self {
+        Self::File { path, strength: NonNegative::ONE, rotation_degrees: None }
+    }
+}

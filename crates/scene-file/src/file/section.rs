@@ -1,0 +1,35 @@
+//! Section planes in a scene file.
+
+use crate::number::Triple;
+use crate::schema::scene_struct;
+
+scene_struct! {
+    /// A section plane that cuts the models open. Line drawings and sheets show the section; other
+    /// styles show the models whole.
+    pub struct SectionFile as "Section" {
+        /// A point of the plane, in the world. Default: the origin.
+        pub point: Triple = Triple::ZERO,
+        /// The direction of the half that is removed, perpendicular to the plane; its length does
+        /// not matter, but is not 0.
+        pub normal: Triple,
+        /// The names of nodes that no section cuts, with everything below them, such as shafts,
+        /// bolts and ribs: they are drawn whole, without hatching. `*` stands for any characters.
+        /// The lists of all sections count together. Default: none.
+        pub uncut: Vec<String> = Vec::new(),
+    }
+}
+
+impl SectionFile {
+    /// The section through a point that removes what lies in a direction; `None` if a number is not
+    /// finite or the direction is 0.
+    #[must_use]
+    pub fn new(point: [f64; 3], normal: [f64; 3]) -> Option<Self> {
+        let is_finite = point.iter().chain(&normal).all(|number| number.is_finite());
+        let has_direction = normal.iter().any(|number| *number != 0.0);
+        (is_finite && has_direction).then_some(Self {
+            point: Triple(point),
+            normal: Triple(normal),
+            uncut: Vec::new(),
+        })
+    }
+}

@@ -1,0 +1,299 @@
+//! Options with named values: one declaration, read by scene files, flags, help and reference.
+//!
+//! The types are those that the renderer and the line drawings work with. Their names in scene
+//! files are those of their variants (`ThreeQuarter`); flags have them with hyphens
+//! (`three-quarter`).
+
+use super::schema::named_values;
+use crate::pass::{Pass, PassEncoding};
+use camera::{CameraAxes, NamedView};
+use drawing::{EdgeSelection, FaceFill, HiddenLines};
+use hidden_line::SilhouetteMethod;
+use model::{Colormap, LengthUnit, UpAxis};
+use page::{Cap, Join};
+use projection::{PixelCenters, PrincipalView, SheetAngle};
+use shade::{ImageFit, ToneMapping};
+use sheet::{DecimalMark, DimensionUnit, ExplosionAxis, SheetFrame, TitleBlockLanguage};
+
+/// A type whose values have names.
+///
+/// ```
+/// use scene_file::options::NamedOption as _;
+///
+/// assert_eq!(shade::ToneMapping::AgX.name(), "AgX");
+/// assert_eq!(shade::ToneMapping::AgX.flag_name(), "ag-x");
+/// assert_eq!(drawing::HiddenLines::from_name("Dashed"), Some(drawing::HiddenLines::Dashed));
+/// ```
+pub trait NamedOption: Copy + PartialEq + 'static {
+    /// The name of the type in scene files and in the reference.
+    const TYPE_NAME: &'static str;
+
+    /// All values, in the order in which they are listed.
+    const ALL: &'static [Self];
+
+    /// The name in scene files.
+    fn name(self) -> &'static str;
+
+    /// A sentence on what the value means.
+    fn summary(self) -> &'static str;
+
+    /// The name in flags: lower case, words separated by hyphens.
+    fn flag_name(self) -> String {
+        let mut text = String::new();
+        for c in self.name().chars() {
+            if c.is_uppercase() && !text.is_empty() {
+                text.push('-');
+            }
+            text.extend(c.to_lowercase());
+        }
+        text
+    }
+
+    /// The value of a name in scene files.
+    fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|value| value.name() == name)
+    }
+
+    /// The value of a name in flags.
+    fn from_flag_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|value| value.flag_name() == name)
+    }
+}
+
+named_values! {
+    /// The unit of a model's coordinates.
+    LengthUnit as "Unit" {
+        Meter = "1 m.",
+        Centimeter = "10 mm.",
+        Millimeter = "1 mm.",
+        Micrometer = "0.001 mm.",
+        Inch = "25.4 mm.",
+        Foot = "304.8 mm.",
+    }
+}
+
+named_values! {
+    /// The axis that points up in a model's file.
+    UpAxis as "UpAxis" {
+        X = "x is up, y to the left and z to the front, as in COLLADA.",
+        Y = "y is up, x to the right and z to the front: glTF, OBJ and PLY.",
+        Z = "z is up, x to the right and y to the back: STL and 3MF, Blender and CAD programs.",
+    }
+}
+
+named_values! {
+    /// A colormap: colors for numbers.
+    Colormap as "Colormap" {
+        Viridis = "From dark violet through green to yellow, perceptually uniform.",
+        Turbo = "A rainbow from dark blue through green to dark red.",
+        Inferno = "From black through red to light yellow, perceptually uniform.",
+        Grayscale = "From black to white.",
+        CoolWarm = "From blue through light gray to red, for values on both sides of a middle.",
+    }
+}
+
+named_values! {
+    /// The pixel coordinates of the center of the upper left pixel.
+    PixelCenters as "PixelCenters" {
+        Integer = "(0, 0): OpenCV, and most of computer vision. The middle of 640 columns is 319.5.",
+        Half = "(0.5, 0.5): OpenGL and COLMAP. The middle of 640 columns is 320.",
+    }
+}
+
+named_values! {
+    /// The directions of a camera's own axes.
+    CameraAxes as "CameraAxes" {
+        OpenCv = "x to the right, y down, z ahead: OpenCV, COLMAP, ROS.",
+        OpenGl = "x to the right, y up, z backwards: OpenGL, Blender, glTF, NeRF.",
+        Pytorch3d = "x to the left, y up, z ahead: PyTorch3D.",
+    }
+}
+
+named_values! {
+    /// Which edges a line drawing draws.
+    EdgeSelection as "EdgeSelection" {
+        Facets = "The sides of all triangles.",
+        Features = "Silhouettes, boundaries, creases, intersections of surfaces, and edges between materials.",
+        Tangents = "Features; edges between materials are narrow where widths are those of ISO 128.",
+        Contours = "Silhouettes and boundaries, also where they run before other surfaces.",
+        Silhouette = "The outline alone: nothing is beside it.",
+        Outline = "Closed loops around the whole and its holes, as for cutting; with `sections`, around what they cut.",
+    }
+}
+
+named_values! {
+    /// How hidden lines are drawn.
+    HiddenLines as "HiddenLines" {
+        Removed = "Hidden lines are left out.",
+        Dashed = "Hidden lines are dashed.",
+        FirstLayer = "Hidden lines are dashed behind one wall, which is two faces, and left out behind more: for assemblies.",
+        Drawn = "Hidden lines are drawn like visible ones.",
+    }
+}
+
+named_values! {
+    /// How the silhouettes of smooth surfaces are found.
+    SilhouetteMethod as "Silhouettes" {
+        Facets = "Sides of triangles: exact for the mesh, in zigzag where it stands for a curved surface.",
+        Interpolated = "Across the triangles, where the interpolated normal is at a right angle to the line of sight: smooth, but approximate, with possible gaps at cusps.",
+    }
+}
+
+named_values! {
+    /// The fill of the faces under the lines.
+    FaceFill as "FaceFill" {
+        None = "Nothing: the paper shows.",
+        Flat = "Each face in one tone of its own color, in light from above the viewer's left shoulder: an image of 300 dots per inch under the lines.",
+        Hatching = "Hatch lines, closer where that light leaves the face darker. They are as exact as the edges.",
+        ShadeHatching = "Hatch lines as well, by the light alone: the colors of the materials make no difference.",
+        Gray = "Areas of gray by the base colors of the materials, whatever the light. Cuts stay blank.",
+        PartHatching = "Hatch lines by the object: neighbors differ in angle or distance. Where sections cut, cuts alone are hatched.",
+    }
+}
+
+named_values! {
+    /// The direction in which the parts of an exploded view move.
+    ExplosionAxis as "ExplosionAxis" {
+        Auto = "Along the axis on which most parts are in line with the largest one, or on which they move least.",
+        X = "To the left and to the right.",
+        Y = "Up and down.",
+        Z = "To the front and to the back.",
+        All = "Each part away from the largest one, along the axis on which it is farthest from it.",
+    }
+}
+
+named_values! {
+    /// How lines end.
+    Cap as "Cap" {
+        Butt = "At the end point.",
+        Round = "With a half disc around the end point.",
+        Square = "Half a line width beyond the end point.",
+    }
+}
+
+named_values! {
+    /// How lines join at corners.
+    Join as "Join" {
+        Miter = "The outer sides meet in a point.",
+        Round = "With a disc around the corner.",
+        Bevel = "The corner is cut off.",
+    }
+}
+
+named_values! {
+    /// The tone mapping curve, which brings light beyond 1 into the range of the picture.
+    ToneMapping as "ToneMapping" {
+        None = "No curve: light beyond 1 is clipped.",
+        Neutral = "Khronos PBR Neutral: colors are unchanged except for highlights.",
+        Aces = "ACES filmic, in the fit by Hill.",
+        AgX = "AgX by Sobotka.",
+    }
+}
+
+named_values! {
+    /// How a picture fills the image.
+    ImageFit as "Fit" {
+        Stretch = "Stretched to the size of the image.",
+        Cover = "As small as covers the whole image; what is too much is cut off on both sides alike.",
+        Contain = "As large as fits into the image, in the middle.",
+    }
+}
+
+named_values! {
+    /// A pass: what is written of the surface that is nearest at the center of each pixel.
+    Pass as "Pass" {
+        Depth = "The distance from the eye along the view axis, in units of the scene.",
+        Distance = "The distance from the eye, in units of the scene.",
+        Normal = "The unit normal in the world, on the visible side, without normal maps.",
+        ViewNormal = "The unit normal in view space: x to the right, y up, z towards the viewer.",
+        Position = "The position in the world, in units of the scene.",
+        Uv = "The texture coordinates of `TEXCOORD_0`.",
+        Barycentric = "The barycentric coordinates in the triangle, from 0 to 1; they add up to 1.",
+        Id = "The index of the point, line or triangle in the scene, from 1; 0 where nothing is.",
+        Model = "The index of the model in the scene, from 1.",
+        Node = "The index of the node in its model, from 1.",
+        Mesh = "The index of the mesh in its model, from 1.",
+        Material = "The index of the material in its model, from 1; 0 also for the default one.",
+        Overdraw = "The count of fragments that cover the pixel's center, hidden ones too.",
+        Coverage = "The fraction of the pixel's samples that something covers, from 0 to 1.",
+    }
+}
+
+named_values! {
+    /// The file format of passes.
+    PassEncoding as "PassEncoding" {
+        Png = "PNG of 16 bits; the text chunk `Description` says what the codes mean.",
+        Npy = "NumPy arrays: f32, or u32 for whole numbers.",
+        Exr = "OpenEXR images: f32, or u32 for whole numbers.",
+    }
+}
+
+named_values! {
+    /// One of the six principal views.
+    PrincipalView as "Multiview" {
+        Front = "From +z.",
+        Back = "From −z.",
+        Left = "From −x.",
+        Right = "From +x.",
+        Top = "From +y.",
+        Bottom = "From −y.",
+    }
+}
+
+named_values! {
+    /// A view with a name.
+    NamedView as "NamedView" {
+        Front = "From +z, which is the front in glTF.",
+        Back = "From −z.",
+        Left = "From −x.",
+        Right = "From +x.",
+        Top = "From +y.",
+        Bottom = "From −y.",
+        Isometric = "From (1, 1, 1): all three axes equally foreshortened.",
+        Dimetric = "x and y foreshortened alike, z half as much again: 7° and 42° on the page.",
+        Trimetric = "Each axis foreshortened by a factor of its own.",
+        ThreeQuarter = "From the front, a little from the right and from above.",
+    }
+}
+
+named_values! {
+    /// The border around the drawing area of a sheet (ISO 5457).
+    SheetFrame as "Frame" {
+        Plain = "A line, with marks at the middles of its sides.",
+        Zones = "Also letters and numbers of zones, and trimming marks.",
+    }
+}
+
+named_values! {
+    /// The language of the names of a title block's fields.
+    TitleBlockLanguage as "Language" {
+        English = "English.",
+        German = "German.",
+        Chinese = "Simplified Chinese.",
+    }
+}
+
+named_values! {
+    /// The unit in which lengths are written on a sheet.
+    DimensionUnit as "DimensionUnit" {
+        Millimeter = "Millimeters.",
+        Inch = "Inches, as decimals.",
+        FootInch = "Feet and inches, with sixteenths of an inch.",
+    }
+}
+
+named_values! {
+    /// The sign before the decimals of a number.
+    DecimalMark as "DecimalMark" {
+        Point = "12.5, as in English.",
+        Comma = "12,5, as in most other languages.",
+    }
+}
+
+named_values! {
+    /// The arrangement of views on a sheet (ISO 5456-2).
+    SheetAngle as "ProjectionAngle" {
+        First = "First angle: the view from above lies below the front view.",
+        Third = "Third angle: the view from above lies above the front view.",
+    }
+}

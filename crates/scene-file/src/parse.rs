@@ -1,0 +1,357 @@
+//! Parsing: from the text of a scene file to its parts by `ron`, and to every mistake in it where
+//! `ron` refuses.
+//!
+//! ```text
+//!  text ─► ron ─► SceneFile
+//!           └─ refused ─► checker ─► all mistakes ─► tree without them ─► ron ─► what can be read
+//! ```
+
+use super::SceneErrors;
+use super::file::SceneFile;
+use super::mistake::{MAX_MISTAKES, Mistake};
+use super::ron_options::scene_ron_options;
+use super::schema::{Checker, SceneValue as _};
+use super::source_text::SourceText;
+use super::syntax::{Group, Node, NodeKind, SAMPLE_SCENE, SyntaxItem, SyntaxTree, parse_tree};
+use core::ops::Range;
+use ron::error::Position;
+use std::collections::BTreeMap;
+
+/// Parses the text of a scene file; `file` is its name in messages.
+///
+/// ```
+/// let text = "Scene(models: [(path: \"a.glb\")], style: Falt, image: (siez: (9, 9)))";
+/// let errors = scene_file::parse_scene("scene.ron", text).expect_err("two mistakes");
+/// assert_eq!(errors.iter().count(), 2);
+/// assert_eq!(errors.first().help.as_deref(), Some("did you mean `Flat`?"));
+/// ```
+///
+/// # Errors
+/// Every error of grammar, unknown name, wrong type, missing field and value out of range, in the
+/// order of the text.
+pub fn parse_scene(file: &str, source: &str) -> Result<SceneFile, SceneErrors> {
+    let source = strip_byte_order_mark(source);
+    let parsed = read_recovering(source);
+    let text = SourceText::default();
+    let text = if parsed.mistakes.is_empty() { text } else { source.into() };
+    let error = |mistake: &Mistake| mistake.to_error(file, &text);
+    match SceneErrors::from_list(parsed.mistakes.iter().map(error).collect()) {
+        Some(errors) => Err(errors),
+        None => Ok(parsed.scene),
+    }
+}
+
+/// A byte order mark is invisible, so it is accepted and ignored.
+pub(super) fn strip_byte_order_mark(source: &str) -> &str {
+    source.strip_prefix('\u{feff}').unwrap_or(source)
+}
+
+/// A scene and the mistakes in its text.
+#[derive(Default)]
+pub(super) struct ParsedScene {
+    /// The scene without what could not be read.
+    pub(super) scene: SceneFile,
+    /// In the order of the text.
+    pub(super) mistakes: Vec<Mistake>,
+    /// For each list of the scene the indices of the elements that could be read.
+    pub(super) retained: BTreeMap<&'static str, Vec<usize>>,
+}
+
+/// The lists of a scene, by the names of their fields.
+const LISTS: [&str; 5] = ["models", "viewports", "lights", "overlays", "sections"];
+
+/// How often a text is read again without what `ron` refused.
+const MAX_READINGS: usize = 8;
+
+/// Reads a scene with `ron`. If that fails, reports every mistake and reads whatever has none. The
+/// text has no byte order mark.
+pub(super) fn read_recovering(source: &str) -> ParsedScene {
+    let error = match scene_ron_options().from_str::<SceneFile>(source) {
+        Ok(scene) => {
+            let lengths = [
+                scene.models.len(),
+                scene.viewports.len(),
+                scene.lights.as_ref().map_or(0, Vec::len),
+                scene.overlays.len(),
+                scene.sections.len(),
+            ];
+            let whole = lengths.map(|length| (0..length).collect());
+            let retained = LISTS.into_iter().zip(whole).collect();
+            return ParsedScene { scene, mistakes: Vec::new(), retained };
+        }
+        Err(error) => error,
+    };
+    let (tree, mut mistakes) = check_text(source);
+    if mistakes.is_empty() {
+        let start = offset_of(source, error.span.start);
+        let end = source[start..].chars().next().map_or(start, |c| start + c.len_utf8());
+        mistakes.push(Mistake::new(start..end, error.code.to_string(), None));
+    }
+    let mut parsed = ParsedScene { mistakes, ..ParsedScene::default() };
+    if let Some(root) = tree {
+        parsed.read_rest(&root);
+    }
+    parsed
+}
+
+/// The tree of a text, unless it cannot be relied on, and every mistake in it, in its order.
+fn check_text(source: &str) -> (Option<Node<'_>>, Vec<Mistake>) {
+    let SyntaxTree { root, errors: mut mistakes, is_unreliable } = parse_tree(source);
+    let root = root.filter(|_| !is_unreliable);
+    if let Some(root) = &root {
+        let mut checker = Checker::new(source);
+        if is_scene(root) {
+            checker.check(root, &SceneFile::value_type());
+        } else if root.kind != NodeKind::Invalid {
+            let start = root.span.start;
+            let length = source[start..].chars().next().map_or(0, char::len_utf8);
+            let help = Some(SAMPLE_SCENE.to_owned());
+            checker.report(start..start + length, "this is not a scene", help);
+        }
+        mistakes.extend(checker.finish());
+    }
+    mistakes.sort_by_key(|mistake| mistake.span.start);
+    if let Some(next) = mistakes.get(MAX_MISTAKES) {
+        let message = format!("there are more than {MAX_MISTAKES} mistakes");
+        let help = "correct those before this one first; no others are reported".to_owned();
+        let last = Mistake::new(next.span.clone(), message, Some(help));
+        mistakes.truncate(MAX_MISTAKES);
+        mistakes.push(last);
+    }
+    (root, mistakes)
+}
+
+impl ParsedScene {
+    /// Reads the scene without the fields and elements that contain mistakes, so that errors of
+    /// meaning in the others are reported in the same run.
+    ///
+    /// If a required field is lost, the value around it is left out as well.
+    fn read_rest(&mut self, root: &Node<'_>) {
+        let mut removed: Vec<Range<usize>> =
+            self.mistakes.iter().map(|mistake| mistake.scope.clone()).collect();
+        for _ in 0..MAX_READINGS {
+            let spans = RemovedSpans::new(&removed);
+            let mut rest = Rest { removed: &spans, text: String::new(), items: Vec::new() };
+            rest.write(root);
+            let error = match scene_ron_options().from_str::<SceneFile>(&rest.text) {
+                Ok(scene) => {
+                    self.scene = scene;
+                    self.retained = retained_elements(root, &spans);
+                    return;
+                }
+                Err(error) => error,
+            };
+            match rest.innermost_item(offset_of(&rest.text, error.span.start)) {
+                Some(span) => removed.push(span),
+                None => return,
+            }
+        }
+    }
+}
+
+/// The text of a tree without some of its fields and elements.
+struct Rest<'a> {
+    /// The bytes of the source that are left out.
+    removed: &'a RemovedSpans,
+    text: String,
+    /// For each field and element that is there its bytes in this text, and in the source.
+    items: Vec<(Range<usize>, Range<usize>)>,
+}
+
+impl Rest<'_> {
+    fn write(&mut self, node: &Node<'_>) {
+        match &node.kind {
+            NodeKind::Number(text) | NodeKind::Word(text) | NodeKind::String(text) => {
+                self.text.push_str(text);
+            }
+            NodeKind::Group(Group { name, open, items }) => {
+                self.text.push_str(name.as_ref().map_or("", |name| name.name));
+                self.text.push(*open);
+                items.iter().for_each(|item| self.write_item(item));
+                self.text.push(match open {
+                    '[' => ']',
+                    '{' => '}',
+                    _ => ')',
+                });
+            }
+            NodeKind::Invalid => {}
+        }
+    }
+
+    fn write_item(&mut self, item: &SyntaxItem<'_>) {
+        if item.value.kind == NodeKind::Invalid || self.removed.contains(&item.span()) {
+            return;
+        }
+        let start = self.text.len();
+        if let Some(key) = &item.key {
+            self.text.push_str(key.name);
+            self.text.push(':');
+        }
+        self.write(&item.value);
+        self.items.push((start..self.text.len(), item.span()));
+        self.text.push(',');
+    }
+
+    /// The smallest field or element around a place in the text, by its bytes in the source.
+    fn innermost_item(&self, at: usize) -> Option<Range<usize>> {
+        let around = self.items.iter().filter(|(here, _)| here.start <= at && at <= here.end);
+        around.min_by_key(|(here, _)| here.len()).map(|(_, source)| source.clone())
+    }
+}
+
+/// Ranges of bytes that are left out, sorted: a text may have as many mistakes as fields.
+struct RemovedSpans(Vec<Range<usize>>);
+
+impl RemovedSpans {
+    fn new(removed: &[Range<usize>]) -> Self {
+        let mut spans = removed.to_vec();
+        spans.sort_by_key(|span| span.start);
+        // Each ends where the longest of those before it does.
+        let mut end = 0;
+        for span in &mut spans {
+            end = end.max(span.end);
+            span.end = end;
+        }
+        Self(spans)
+    }
+
+    /// Whether a range lies within one of these.
+    fn contains(&self, span: &Range<usize>) -> bool {
+        let count = self.0.partition_point(|outer| outer.start <= span.start);
+        count > 0 && span.end <= self.0[count - 1].end
+    }
+}
+
+/// For each list of a scene the indices of the elements that are still there.
+fn retained_elements(
+    root: &Node<'_>,
+    removed: &RemovedSpans,
+) -> BTreeMap<&'static str, Vec<usize>> {
+    let items = root.group().map_or(&[][..], |group| &group.items);
+    let elements = |list: &'static str| {
+        let is_list =
+            |item: &&SyntaxItem<'_>| item.key.as_ref().is_some_and(|key| key.name == list);
+        let field = items.iter().find(is_list)?;
+        let group = field.value.group().filter(|_| !removed.contains(&field.span()))?;
+        let is_there = |(_, item): &(usize, &SyntaxItem<'_>)| !removed.contains(&item.span());
+        let indices = group.items.iter().enumerate().filter(is_there).map(|(index, _)| index);
+        Some((list, indices.collect()))
+    };
+    LISTS.into_iter().filter_map(elements).collect()
+}
+
+/// The byte at a line and a column of `ron`'s, which counts characters from 1.
+fn offset_of(source: &str, position: Position) -> usize {
+    let mut lines = source.split_inclusive('\n');
+    let before: usize = lines.by_ref().take(position.line.saturating_sub(1)).map(str::len).sum();
+    let line = lines.next().unwrap_or("");
+    let column = line.char_indices().nth(position.col.saturating_sub(1));
+    before + column.map_or(line.len(), |(offset, _)| offset)
+}
+
+/// Whether a value is in the brackets of a struct; what is in them is another question.
+fn is_scene(root: &Node<'_>) -> bool {
+    root.group().is_some_and(|group| group.open == '(')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::syntax::tokenize;
+    use std::fs;
+    use std::path::Path;
+
+    /// The mutants of a run of the second tier; a tenth of them in the first.
+    const MUTANTS: usize = 20_000;
+
+    /// What mutants have instead of some token.
+    const OTHERS: [&str; 24] = [
+        "(",
+        ")",
+        "[",
+        "]",
+        "{",
+        "}",
+        ",",
+        ":",
+        "None",
+        "Some(1)",
+        "true",
+        "0",
+        "-1",
+        "1e400",
+        "0x10",
+        "1_000",
+        ".5",
+        "\"a\"",
+        "r#\"b\"#",
+        "/* c */",
+        "// d\n",
+        "Shaded",
+        "Finite(1)",
+        "'x'",
+    ];
+
+    /// `ron` reads exactly what the checker finds nothing wrong with.
+    #[track_caller]
+    fn assert_same(text: &str) -> bool {
+        let read = scene_ron_options().from_str::<SceneFile>(text);
+        let (_, mistakes) = check_text(text);
+        let messages: Vec<_> = mistakes.iter().map(|mistake| &mistake.message).collect();
+        match &read {
+            Ok(_) => assert!(messages.is_empty(), "`ron` reads it: {messages:?}\n{text}"),
+            Err(error) => assert!(!messages.is_empty(), "nothing is wrong but: {error}\n{text}"),
+        }
+        read.is_ok()
+    }
+
+    /// The texts in a folder of the repository, of files whose names end so.
+    fn texts_in(folder: &str, ending: &str) -> Vec<String> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
+        let mut paths: Vec<_> = fs::read_dir(folder)
+            .expect("the folder is there")
+            .map(|entry| entry.expect("the folder can be read").path())
+            .filter(|path| path.to_string_lossy().ends_with(ending))
+            .collect();
+        paths.sort();
+        paths.iter().map(|path| fs::read_to_string(path).expect("the scene is there")).collect()
+    }
+
+    #[test]
+    fn the_checker_finds_nothing_wrong_with_what_ron_reads_and_something_with_the_rest() {
+        let scenes = texts_in("scenes", ".ron");
+        assert!(scenes.len() > 30);
+        for folder in ["book/scenes", "docs/exercises"] {
+            assert!(texts_in(folder, ".ron").iter().all(|text| assert_same(text)), "{folder}");
+        }
+        // What fuzzing has found need not be a scene.
+        for folder in ["tests/fuzz/corpus/scene", "tests/fuzz/corpus/include"] {
+            let texts = texts_in(folder, "");
+            assert!(!texts.is_empty(), "{folder}");
+            for text in &texts {
+                assert_same(text);
+            }
+        }
+        assert!(scenes.iter().all(|text| assert_same(text)));
+        let mut state = 1_u64;
+        let mut below = |count: usize| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 33) as usize % count
+        };
+        let mut read = 0;
+        let count = if std::env::var_os("THOROUGH").is_some() { MUTANTS } else { MUTANTS / 10 };
+        for _ in 0..count {
+            let text = &scenes[below(scenes.len())];
+            let mut words: Vec<&str> = tokenize(text).iter().map(|token| token.text).collect();
+            let at = below(words.len());
+            match below(4) {
+                0 => drop(words.remove(at)),
+                1 => words.insert(at, OTHERS[below(OTHERS.len())]),
+                2 => words[at] = OTHERS[below(OTHERS.len())],
+                _ => words[at] = words[below(words.len())],
+            }
+            read += usize::from(assert_same(&words.join("\n")));
+        }
+        assert!((count / 100..count).contains(&read), "{read} mutants are scenes");
+    }
+}

@@ -1,0 +1,38 @@
+//! Scenes as text in RON: read and written by the package `ron`.
+
+use super::SceneErrors;
+use super::file::SceneFile;
+use super::format::format_source;
+use super::parse::parse_scene;
+use super::ron_options::scene_ron_options;
+
+impl SceneFile {
+    /// Reads a scene from the text of a scene file. Nothing else is read, neither models nor
+    /// included files.
+    ///
+    /// # Errors
+    /// Every mistake in the text, in its order.
+    pub fn from_ron(text: &str) -> Result<Self, SceneErrors> {
+        parse_scene("scene", text)
+    }
+
+    /// The text of a scene file that reads back as this scene, laid out as `alberti scene fmt` does.
+    /// Fields that have their defaults are left out.
+    ///
+    /// ```
+    /// use scene_file::SceneFile;
+    ///
+    /// let scene = SceneFile::from_model_path("duck.glb".to_owned());
+    /// assert_eq!(scene.to_ron()?, "Scene(models: [(path: \"duck.glb\")])\n");
+    /// assert_eq!(SceneFile::from_ron(&scene.to_ron()?)?, scene);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If a number of the scene is one that scene files refuse, such as NaN or a scale of 0.
+    pub fn to_ron(&self) -> Result<String, ron::Error> {
+        let text = format!("Scene{}\n", scene_ron_options().to_string(self)?);
+        scene_ron_options().from_str::<Self>(&text).map_err(|error| error.code)?;
+        Ok(format_source("scene", &text).unwrap_or(text))
+    }
+}

@@ -1,0 +1,221 @@
+//! The text of a scene with its name and folder, and those of the files that it includes: what
+//! errors quote and point into.
+
+use super::SceneError;
+use super::include_map::IncludeMap;
+use super::parse::strip_byte_order_mark;
+use super::source_text::SourceText;
+use super::syntax::PathStep;
+use files::visible_path;
+use std::path::{Component, Path, PathBuf};
+
+/// The longest scene file that is read, in bytes: more is no text that a person wrote.
+const MAX_SCENE_BYTES: u64 = 16 << 20;
+
+/// The text of a scene, and of the files that it includes. Errors quote it.
+///
+/// ```
+/// use scene_file::SceneSource;
+///
+/// let text = "Scene(models: [(path: \"a.glb\")], style: Flat)";
+/// let source = SceneSource::from_text("scene.ron", text, "scenes".into());
+/// let (source, file) = source.parse_with_includes(&[])?;
+/// assert_eq!((file.models.len(), source.included_texts().count()), (1, 0));
+/// # Ok::<(), scene_file::SceneErrors>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct SceneSource {
+    /// The name in messages.
+    pub file: String,
+    /// The text; empty for a bare model.
+    pub text: SourceText,
+    /// The folder that paths of the scene begin at.
+    pub folder: PathBuf,
+    /// Which parts are written in files that it includes.
+    pub(super) includes: IncludeMap,
+    /// The viewport that is spoken of.
+    viewport: Option<usize>,
+    /// Whether paths have to stay below the folder.
+    is_confined: bool,
+}
+
+/// A scene file that cannot be read.
+#[derive(Debug, thiserror::Error)]
+#[error("{}", unreadable_message(path, cause))]
+pub struct UnreadableScene {
+    /// The scene file.
+    pub path: PathBuf,
+    /// Why it could not be read.
+    pub cause: std::io::Error,
+}
+
+/// Why a scene file cannot be read; one that is missing is reported as a missing model is.
+fn unreadable_message(path: &Path, cause: &std::io::Error) -> String {
+    let path = visible_path(path);
+    match cause.kind() {
+        std::io::ErrorKind::NotFound => format!("{path}: the file does not exist; check the name"),
+        _ => format!("cannot read {path}: {cause}"),
+    }
+}
+
+impl SceneSource {
+    /// The source of a scene whose text is at hand; its files lie in the folder.
+    ///
+    /// Errors point into the text. A scene that is built in Rust has that of
+    /// [`SceneFile::to_ron`](super::SceneFile::to_ron), or an empty one: then errors name a field without its line.
+    #[must_use]
+    pub fn from_text(file: impl Into<String>, text: impl Into<String>, folder: PathBuf) -> Self {
+        Self {
+            file: file.into(),
+            text: strip_byte_order_mark(&text.into()).into(),
+            folder,
+            includes: IncludeMap::default(),
+            viewport: None,
+            is_confined: true,
+        }
+    }
+
+    /// Reads the text of a scene file.
+    ///
+    /// # Errors
+    /// If it cannot be read, is no regular file, is not UTF-8, or is too long.
+    pub fn read(path: &Path) -> Result<Self, UnreadableScene> {
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        let text = read_scene_text(path)?;
+        Ok(Self::from_text(path.display().to_string(), text, folder))
+    }
+
+    /// The same source with paths that may lead anywhere: those of a folder in memory, which has no
+    /// outside.
+    #[must_use]
+    pub fn unconfined(self) -> Self {
+        Self { is_confined: false, ..self }
+    }
+
+    /// The texts of the files that are included, in the order in which they were read.
+    pub fn included_texts(&self) -> impl Iterator<Item = &str> {
+        self.includes.included_texts()
+    }
+
+    /// The names of the scene file and of the files it includes, in the order in which they were
+    /// read.
+    pub fn included_files(&self) -> impl Iterator<Item = &str> {
+        std::iter::once(self.file.as_str()).chain(self.includes.names())
+    }
+
+    /// Whether a model of a scene file may be read: it must be below the file's folder, or below
+    /// one of those that are `allowed`, by its path and by where symbolic links lead. A path that
+    /// leads elsewhere is refused without looking whether something is there. A bare model may be
+    /// anywhere: a person has named it.
+    #[must_use]
+    pub fn allows_path(&self, path: &Path, allowed: &[PathBuf]) -> bool {
+        // A folder in memory has no outside; loading tells which files it lacks.
+        if self.text.is_empty() || !self.is_confined {
+            return true;
+        }
+        let here = if self.folder.as_os_str().is_empty() { Path::new(".") } else { &self.folder };
+        let Ok(folder) = here.canonicalize() else { return false };
+        let wanted = normalize_path(&folder, path);
+        let others = allowed.iter().filter_map(|other| other.canonicalize().ok());
+        let roots: Vec<PathBuf> = std::iter::once(folder).chain(others).collect();
+        let holds = |path: &Path| roots.iter().any(|root| path.starts_with(root));
+        // What does not exist does no harm; loading will tell.
+        holds(&wanted) && wanted.canonicalize().map_or(true, |path| holds(&path))
+    }
+
+    /// The source for a viewport: errors point at the viewport's own fields, and at those of the
+    /// scene where it has none.
+    #[must_use]
+    pub fn for_viewport(&self, number: usize) -> Self {
+        Self { viewport: Some(number), ..self.clone() }
+    }
+
+    /// The path of a field of the scene as a viewport has it, if it says that field.
+    fn viewport_field_path<'a>(
+        &self,
+        number: usize,
+        path: &[PathStep<'a>],
+    ) -> Option<Vec<PathStep<'a>>> {
+        let (field, rest) = match *path {
+            [PathStep::Field("image"), PathStep::Field("background"), ref rest @ ..] => {
+                ("background", rest)
+            }
+            [PathStep::Field(field), ref rest @ ..] if is_viewport_field(field) => (field, rest),
+            _ => return None,
+        };
+        let own = [PathStep::Field("viewports"), PathStep::Index(number), PathStep::Field(field)];
+        let (source, there) = self.includes.resolve_source(&own);
+        let text = source.map_or(&self.text, |(_, text)| text);
+        text.has_value(&there).then(|| [&own, rest].concat())
+    }
+
+    /// An error that points at the value at the end of `path`.
+    #[must_use]
+    pub fn error_at(
+        &self,
+        path: &[PathStep<'_>],
+        message: impl Into<String>,
+        help: Option<String>,
+    ) -> SceneError {
+        let inner = self.viewport.and_then(|number| self.viewport_field_path(number, path));
+        let (source, path) = self.includes.resolve_source(inner.as_deref().unwrap_or(path));
+        let (file, text) = source.unwrap_or((&self.file, &self.text));
+        SceneError {
+            file: file.to_owned(),
+            span: text.span_of(&path),
+            source: text.clone(),
+            message: message.into(),
+            help,
+        }
+    }
+}
+
+/// Whether a file is a scene, by its extension.
+///
+/// The content is not looked at: a file named `.ron` that is no scene gets the error message of a
+/// scene, with its line and column. The standard input, which has no extension, is recognized by
+/// its content instead.
+#[must_use]
+pub fn is_scene_file(input: &Path) -> bool {
+    input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"))
+}
+
+/// Whether a field of the scene exists in viewports too, so that errors in it point there.
+fn is_viewport_field(field: &str) -> bool {
+    matches!(field, "camera" | "style" | "overlays" | "caption")
+}
+
+/// The text of a scene file, without the byte order mark that it may begin with.
+///
+/// # Errors
+/// If it cannot be read, is no regular file, is not UTF-8, or is too long.
+pub(super) fn read_scene_text(path: &Path) -> Result<String, UnreadableScene> {
+    let unreadable = |cause| UnreadableScene { path: path.to_owned(), cause };
+    let metadata = std::fs::metadata(path).map_err(unreadable)?;
+    if !metadata.is_file() {
+        // A pipe may never end.
+        return Err(unreadable(std::io::Error::other("it is not a regular file")));
+    }
+    let length = metadata.len();
+    if length > MAX_SCENE_BYTES {
+        let why = format!("it has {length} bytes; a scene file has {MAX_SCENE_BYTES} at most");
+        return Err(unreadable(std::io::Error::other(why)));
+    }
+    let text = std::fs::read_to_string(path).map_err(unreadable)?;
+    Ok(text.strip_prefix('\u{feff}').map(ToOwned::to_owned).unwrap_or(text))
+}
+
+/// A path from a folder on, without `.` and `..`.
+pub(super) fn normalize_path(folder: &Path, path: &Path) -> PathBuf {
+    let mut plain = folder.to_owned();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir => {
+                plain.pop();
+            }
+            part => plain.push(part),
+        }
+    }
+    plain
+}

@@ -1,0 +1,46 @@
+//! Values of another form, written as the struct that they stand for.
+
+use crate::color::Color;
+use crate::file::MaterialFile;
+use crate::schema::{Declared, FieldEntry, Shape, TypeEntry, ValueType};
+use crate::syntax::{Node, NodeKind, SyntaxItem};
+
+/// A string as a struct: as the only required field, `(path: "a.glb")`, or a color as the first
+/// color of a struct that requires nothing, `(base_color: "red")`.
+pub(super) fn bracket_string(node: &Node<'_>, entry: &TypeEntry) -> Option<String> {
+    let (NodeKind::String(text), Shape::Fields(fields)) = (&node.kind, entry.shape) else {
+        return None;
+    };
+    let mut required = fields.iter().filter(|field| !field.is_optional);
+    let field = match (required.next(), required.next()) {
+        (Some(field), None) => {
+            matches!((field.value_type)(), ValueType::Plain("string", _)).then_some(field)?
+        }
+        (None, _) if Color::parse(text.trim_matches('"')).is_some() => {
+            let is_color = |field: &&FieldEntry| (field.value_type)().words() == "Color";
+            fields.iter().find(is_color)?
+        }
+        _ => return None,
+    };
+    Some(format!("({}: {text})", field.name))
+}
+
+/// A map from the names of materials to their fields, or to colors, as the elements of a list:
+/// `(of: Name("wood"), base_color: "red")`. `source` is the text of the file.
+pub(super) fn bracket_map(node: &Node<'_>, entry: &TypeEntry, source: &str) -> Option<String> {
+    let group = node.group().filter(|group| group.open == '{' && !group.items.is_empty())?;
+    if entry.name != MaterialFile::ENTRY.name {
+        return None;
+    }
+    let element = |item: &SyntaxItem<'_>| {
+        let name = item.key.as_ref()?.name.trim_matches('"');
+        let fields = match bracket_string(&item.value, entry) {
+            Some(fields) => fields,
+            None => source[item.value.span.clone()].to_owned(),
+        };
+        let fields = fields.strip_prefix('(')?.strip_suffix(')')?;
+        Some(format!("(of: Name(\"{name}\"), {fields})"))
+    };
+    let elements: Option<Vec<String>> = group.items.iter().map(element).collect();
+    elements.map(|elements| elements.join(", "))
+}

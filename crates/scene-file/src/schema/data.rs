@@ -1,0 +1,130 @@
+//! Values of scene files without their Rust types.
+//!
+//! ```text
+//!  formats of serde ◄─► Data ◄─► scene_struct!, scene_enum!
+//! ```
+//! One reader and one writer per format then serve all types ([`serialized`](super::serialized)).
+//! With readers generated for each type, scenes took a third of the time to compile this crate.
+
+use super::SceneValue;
+use crate::options::NamedOption;
+
+/// A value of a scene file.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Data {
+    /// An optional value that is not there, or nothing behind the name of a variant.
+    None,
+    /// `true` or `false`.
+    Bool(bool),
+    /// A whole number, where only those are possible.
+    Whole(u64),
+    /// A number.
+    Number(f64),
+    /// A string.
+    Text(String),
+    /// Values in square brackets.
+    List(Vec<Self>),
+    /// A fixed count of values. Reading takes it for a list.
+    Tuple(Vec<Self>),
+    /// Named fields in the order of their declaration, without those that have their defaults.
+    Fields(Vec<(&'static str, Self)>),
+    /// A variant, and its fields or its value.
+    Variant(&'static str, Box<Self>),
+}
+
+impl Data {
+    /// The fields that are written.
+    pub(crate) fn of_fields<const N: usize>(fields: [Option<(&'static str, Self)>; N]) -> Self {
+        Self::Fields(fields.into_iter().flatten().collect())
+    }
+
+    /// A variant, and what is behind its name.
+    pub(crate) fn of_variant(name: &'static str, value: Self) -> Self {
+        Self::Variant(name, Box::new(value))
+    }
+
+    /// Three numbers in round brackets.
+    pub(crate) fn of_three_numbers(numbers: [f64; 3]) -> Self {
+        Self::Tuple(numbers.map(Self::Number).to_vec())
+    }
+
+    /// The value of a field, or its default if it was left out.
+    ///
+    /// # Errors
+    /// If there is neither: the field is required.
+    pub(crate) fn field<T: SceneValue>(
+        &self,
+        name: &str,
+        default: fn() -> Option<T>,
+    ) -> Result<T, String> {
+        match self.field_data(name) {
+            Some(value) => T::from_data(value),
+            None => default().ok_or_else(|| missing_field(name)),
+        }
+    }
+
+    /// The value that is written in a field.
+    pub(super) fn field_data(&self, name: &str) -> Option<&Self> {
+        let Self::Fields(fields) = self else { return None };
+        fields.iter().find(|(field, _)| *field == name).map(|(_, value)| value)
+    }
+
+    /// The name of a variant, and what is behind it.
+    pub(crate) fn variant(&self) -> (&str, &Self) {
+        match self {
+            Self::Variant(name, value) => (name, value),
+            _ => ("", &Self::None),
+        }
+    }
+
+    /// The number; `None` for any other value.
+    pub(crate) fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(number) => Some(*number),
+            _ => None,
+        }
+    }
+
+    /// The elements; `None` for any other value.
+    pub(super) fn list(&self) -> Option<&[Self]> {
+        match self {
+            Self::List(elements) | Self::Tuple(elements) => Some(elements),
+            _ => None,
+        }
+    }
+
+    /// Exactly three numbers.
+    pub(crate) fn three_numbers(&self) -> Option<[f64; 3]> {
+        match self.list()? {
+            [x, y, z] => Some([x.number()?, y.number()?, z.number()?]),
+            _ => None,
+        }
+    }
+}
+
+/// The message on a required field that was left out.
+pub(super) fn missing_field(name: &str) -> String {
+    format!("missing field `{name}`")
+}
+
+/// A field as it is written; `None` if it has the value that it has when it is left out.
+pub(crate) fn written_field<T: SceneValue>(
+    name: &'static str,
+    value: &T,
+    default: fn() -> Option<T>,
+) -> Option<(&'static str, Data)> {
+    let is_written = default().is_none_or(|default| default != *value);
+    is_written.then(|| (name, value.to_data()))
+}
+
+/// Reads a value by its name.
+pub(crate) fn read_named<T: NamedOption>(data: &Data) -> Result<T, String> {
+    let (name, _) = data.variant();
+    T::from_name(name)
+        .ok_or_else(|| format!("`{name}` is not one of the values of {}", T::TYPE_NAME))
+}
+
+/// Writes the name of a value.
+pub(crate) fn write_named<T: NamedOption>(value: T) -> Data {
+    Data::of_variant(value.name(), Data::None)
+}

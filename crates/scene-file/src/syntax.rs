@@ -1,0 +1,20 @@
+//! Syntax of scene files: RON text to tokens, and tokens to a tree in which every node knows its
+//! bytes.
+//!
+//! ```text
+//!  text ─► tokens ─► tree of nodes ─► checked against the declarations of `scene::file`
+//!             └────► groups of items with comments ─► formatted text
+//! ```
+//! The parser does not stop at an error: it reports it, resynchronizes at the next comma or
+//! bracket, and goes on.
+
+mod literal;
+mod parser;
+mod tokens;
+mod tree;
+
+pub(super) use literal::{parse_integer, parse_number, unescape_string};
+pub(super) use parser::{SAMPLE_SCENE, SyntaxTree, parse_tree};
+pub(super) use tokens::{Token, TokenKind, tokenize};
+pub use tree::PathStep;
+pub(super) use tree::{Group, Key, Node, NodeKind, SyntaxItem};

@@ -1,0 +1,76 @@
+//! Syntax tree of a scene file, and paths through it.
+
+use core::ops::Range;
+
+/// A value in the text.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Node<'a> {
+    /// The bytes of the value, with its name and brackets.
+    pub(crate) span: Range<usize>,
+    pub(crate) kind: NodeKind<'a>,
+}
+
+/// The syntactic form of a value.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) enum NodeKind<'a> {
+    /// A number, as it is written.
+    Number(&'a str),
+    /// A string literal with its quotation marks.
+    String(&'a str),
+    /// An identifier without brackets: a variant, `true` or `false`, or `None`.
+    Word(&'a str),
+    /// Items in brackets, perhaps with a name before them.
+    Group(Group<'a>),
+    /// No value could be read; the parser has reported why.
+    Invalid,
+}
+
+/// Items in brackets: `Name(field: value)`, `(1, 2, 3)` or `[value, value]`.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Group<'a> {
+    /// The name before the bracket, such as that of a variant.
+    pub(crate) name: Option<Key<'a>>,
+    /// `(`, `[` or `{`.
+    pub(crate) open: char,
+    pub(crate) items: Vec<SyntaxItem<'a>>,
+}
+
+/// An element of a group, with a key if it is a field.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct SyntaxItem<'a> {
+    pub(crate) key: Option<Key<'a>>,
+    pub(crate) value: Node<'a>,
+}
+
+impl SyntaxItem<'_> {
+    /// The bytes of the key and the value.
+    pub(crate) fn span(&self) -> Range<usize> {
+        self.key.as_ref().map_or(self.value.span.start, |key| key.span.start)..self.value.span.end
+    }
+}
+
+/// The name of a field or a variant.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Key<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) span: Range<usize>,
+}
+
+impl<'a> Node<'a> {
+    /// The items in brackets, if the value has any.
+    pub(crate) fn group(&self) -> Option<&Group<'a>> {
+        match &self.kind {
+            NodeKind::Group(group) => Some(group),
+            _ => None,
+        }
+    }
+}
+
+/// A step from a value to one inside of it. Names of variants are no steps.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum PathStep<'a> {
+    /// The field of a struct or of an enum's variant.
+    Field(&'a str),
+    /// The element of a list or tuple, from 0.
+    Index(usize),
+}

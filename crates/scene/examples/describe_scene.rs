@@ -1,0 +1,23 @@
+//! Resolves a scene file and says what became of it, with the lints that it has.
+//!
+//! Run it with `cargo run -p alberti-scene --example describe_scene -- scene.ron`.
+#![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
+
+use scene::{Origin, ResolveOptions, Scene, lint_scene};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let path = std::env::args_os().nth(1).ok_or("which scene file?")?;
+    let options = ResolveOptions::default();
+    let (origin, file) = Origin::read_scene(path.as_ref())?;
+    let scene = Scene::resolve(&origin, &file, &options)?;
+    println!(
+        "{}: {} lights, {} insets",
+        scene.model_names(),
+        scene.lights.len(),
+        scene.insets.len()
+    );
+    for lint in lint_scene(&origin, &file, &scene, &options) {
+        println!("{}: {}", lint.code, lint.error);
+    }
+    Ok(())
+}

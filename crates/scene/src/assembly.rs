@@ -1,0 +1,63 @@
+//! Resolution of the pages of an assembly: exploded view, balloons, parts list, masses.
+
+use super::Origin;
+use model::ModelInstance;
+use scene_file::PathStep::{Field, Index};
+use scene_file::file::SheetFile;
+use scene_file::{SceneError, suggest_name};
+use sheet::{AssemblyPages, ExplosionSettings, PartDensity, PartsList};
+
+/// The pages of a sheet that show models as an assembly.
+///
+/// # Errors
+/// If a density is that of a name which no part and no material has.
+pub(super) fn resolve_assembly(
+    origin: &Origin,
+    file: &SheetFile,
+    models: &[ModelInstance],
+) -> Result<AssemblyPages, SceneError> {
+    check_density_names(origin, file, models)?;
+    let density = |density: &scene_file::file::DensityFile| PartDensity {
+        of: density.of.clone(),
+        grams_per_cubic_centimeter: density.density.value(),
+    };
+    Ok(AssemblyPages {
+        parts_list: file.parts_list,
+        balloons: file.balloons,
+        explosion: file.exploded.as_ref().map(|exploded| ExplosionSettings {
+            axis: exploded.axis,
+            distance: exploded.distance.map(scene_file::file::NonNegative::value),
+        }),
+        part_sheets: file.part_sheets,
+        densities: file.densities.iter().map(density).collect(),
+    })
+}
+
+/// Whether the list of the models has every name of a density.
+fn check_density_names(
+    origin: &Origin,
+    file: &SheetFile,
+    models: &[ModelInstance],
+) -> Result<(), SceneError> {
+    // Without models a scene file is checked for what is wrong whatever they are.
+    if models.is_empty() || file.densities.iter().all(|density| density.of == "*") {
+        return Ok(());
+    }
+    let list = PartsList::new(models, &[], 1.0);
+    let mut names: Vec<&str> = Vec::new();
+    for item in &list.items {
+        names.push(&item.name);
+        names.extend(Some(item.material.as_str()).filter(|material| !material.is_empty()));
+    }
+    names.sort_unstable();
+    names.dedup();
+    for (at, density) in file.densities.iter().enumerate() {
+        if density.of != "*" && names.binary_search(&density.of.as_str()).is_err() {
+            let path = [Field("sheet"), Field("densities"), Index(at), Field("of")];
+            let message = format!("no part and no material is called `{}`", density.of);
+            let help = suggest_name(&density.of, &names);
+            return Err(origin.error_at(&path, message, help));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,146 @@
+//! Resolution of the background: a color, or a backdrop of a gradient or an image.
+//!
+//! ```text
+//!  none                 white in line drawings, else as Transparent
+//!  Transparent          0, 0, 0, 0
+//!  Color                linear color, alpha 1
+//!  Environment          drawn by the renderer along the view rays
+//!  Gradient, Picture    a backdrop behind the models, over the clear color
+//! ```
+
+use super::Origin;
+use super::surrounding_light::{may_have_environment, read_image_bytes};
+use import::decode_image;
+use scene_file::PathStep::{self, Field};
+use scene_file::SceneError;
+use scene_file::file::{BackgroundFile, Color, SceneFile, StyleFile};
+use shade::Backdrop;
+use shade::BackdropImage;
+use shade::Gradient;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// The most colors of a gradient, at even distances.
+const MAX_GRADIENT_COLORS: usize = 16;
+/// The most pixels of a backdrop image: 67 million, a limit on the memory that a small compressed
+/// file can demand.
+const MAX_IMAGE_TEXELS: u64 = 1 << 26;
+/// The path of the background in a scene file; viewports have their own.
+const BACKGROUND_PATH: [PathStep<'static>; 2] = [Field("image"), Field("background")];
+
+/// An error that points into the background, at the value at the end of `rest`.
+fn background_error(
+    origin: &Origin,
+    rest: &[PathStep<'_>],
+    message: String,
+    help: Option<&str>,
+) -> SceneError {
+    origin.error_at(&[&BACKGROUND_PATH, rest].concat(), message, help.map(str::to_owned))
+}
+
+/// The clear color of all samples: linear, premultiplied by alpha.
+///
+/// Behind a gradient it is the color of its center, behind an image the color given with it: it
+/// shows where the image does not cover the frame, and automatic line colors are chosen to contrast
+/// with it.
+///
+/// # Errors
+/// If the background is the environment, and the scene has none.
+pub(super) fn resolve_background_color(
+    origin: &Origin,
+    file: &SceneFile,
+) -> Result<[f32; 4], SceneError> {
+    let opaque = |[r, g, b]: [f32; 3]| [r, g, b, 1.0];
+    let Some(background) = &file.image.background else {
+        return Ok(default_paper(&file.style).map_or([0.0; 4], |color| opaque(color.to_linear())));
+    };
+    match background {
+        BackgroundFile::Transparent => Ok([0.0; 4]),
+        BackgroundFile::Environment { .. } if !may_have_environment(origin, file) => {
+            let help = Some("add one, such as environment: Studio()");
+            let message = "the scene has no environment to show".to_owned();
+            Err(background_error(origin, &[], message, help))
+        }
+        BackgroundFile::Environment { .. } => Ok([0.0, 0.0, 0.0, 1.0]),
+        BackgroundFile::Color(color) => Ok(opaque(color.to_linear())),
+        BackgroundFile::Gradient { colors, angle_degrees } => {
+            let angle = angle_degrees.value().to_radians();
+            Ok(resolve_gradient(origin, colors, angle, file.image.size)?.center_color())
+        }
+        BackgroundFile::Picture { color, .. } => {
+            Ok(color.map_or([0.0; 4], |color| opaque(color.to_linear())))
+        }
+    }
+}
+
+/// The paper of a style for which the scene has no background: that of line drawings, else none.
+fn default_paper(style: &StyleFile) -> Option<Color> {
+    match style {
+        StyleFile::Wireframe => Some(Color::WHITE),
+        StyleFile::Lines(lines) => Some(lines.paper.unwrap_or(Color::WHITE)),
+        _ => None,
+    }
+}
+
+/// Whether the background is nothing but the white paper that line drawings have by default.
+pub(super) fn is_blank_paper(file: &SceneFile) -> bool {
+    let is_blank = match &file.style {
+        StyleFile::Lines(lines) => lines.paper.is_none(),
+        style => *style == StyleFile::Wireframe,
+    };
+    is_blank && file.image.background.is_none()
+}
+
+/// The linear gradient of `colors` in the direction `angle`, in radians, over an image of width ×
+/// height pixels.
+///
+/// # Errors
+/// If there are fewer than 2 or more than 16 colors.
+fn resolve_gradient(
+    origin: &Origin,
+    colors: &[Color],
+    angle: f64,
+    size: (u32, u32),
+) -> Result<Gradient, SceneError> {
+    if !(2..=MAX_GRADIENT_COLORS).contains(&colors.len()) {
+        let message = format!("a gradient cannot have {} colors", colors.len());
+        let help = Some("from 2 to 16 are possible; one alone is Color(\"#…\")");
+        return Err(background_error(origin, &[Field("colors")], message, help));
+    }
+    let (width, height) = size;
+    let codes: Vec<[u8; 3]> = colors.iter().map(|color| color.0).collect();
+    Ok(Gradient::new(&codes, angle, [width, height]))
+}
+
+/// The backdrop behind the models, a gradient or an image; `None` for plain backgrounds.
+///
+/// The image is decoded and fitted to the frame once; renderers share it. An image file may lie in
+/// one of the `allowed` folders too.
+///
+/// # Errors
+/// If the file is outside of the allowed folders, cannot be read, is too large or not an
+/// image.
+pub(super) fn resolve_backdrop(
+    origin: &Origin,
+    file: &SceneFile,
+    allowed: &[PathBuf],
+) -> Result<Option<Arc<Backdrop>>, SceneError> {
+    let (width, height) = file.image.size;
+    let backdrop = match &file.image.background {
+        Some(BackgroundFile::Gradient { colors, angle_degrees }) => {
+            let angle = angle_degrees.value().to_radians();
+            Backdrop::Gradient(resolve_gradient(origin, colors, angle, file.image.size)?)
+        }
+        Some(BackgroundFile::Picture { path, fit, .. }) => {
+            let at = [Field("image"), Field("background"), Field("path")];
+            let bytes = read_image_bytes(origin, &at, path, allowed)?;
+            let image = decode_image(&bytes, MAX_IMAGE_TEXELS).map_err(|problem| {
+                background_error(origin, &[Field("path")], format!("{path}: {problem}"), None)
+            })?;
+            let color = resolve_background_color(origin, file)?;
+            Backdrop::Image(BackdropImage::new(&image, *fit, [width, height], color))
+        }
+        _ => return Ok(None),
+    };
+    Ok(Some(Arc::new(backdrop)))
+}

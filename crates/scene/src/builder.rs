@@ -1,0 +1,145 @@
+//! Scenes of models that are in memory, without files.
+
+use super::{Origin, ResolveError, Scene};
+use homog::{Affine, Model as ModelSpace, World};
+use model::{Mesh, Model, ModelInstance, Node, Primitive};
+use scene_file::file::{CameraFile, LightFile, SceneFile, StyleFile};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Puts together a scene of models, meshes, cameras and lights that are in memory: [`Scene::builder`].
+///
+/// What is not said is as `alberti render` has it for a model without a scene file: the camera shows
+/// all of it from the front, a little from the right and from above, under a light from the left in
+/// a studio.
+#[derive(Clone, Debug, Default)]
+pub struct SceneBuilder {
+    models: Vec<ModelInstance>,
+    file: SceneFile,
+}
+
+impl Scene {
+    /// Begins a scene of models in memory.
+    ///
+    /// ```
+    /// use scene_file::file::{CameraFile, LightFile};
+    /// use scene::Scene;
+    ///
+    /// let scene = Scene::builder()
+    ///     .mesh([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]], [0, 1, 2])
+    ///     .camera(CameraFile::look_at([0.0, 0.0, 4.0], [0.0; 3]))
+    ///     .light(LightFile::directional([0.0, 0.0, -1.0], 2.0)?)
+    ///     .size(64, 48)
+    ///     .build()?;
+    /// assert_eq!((scene.image.width, scene.image.height), (64, 48));
+    /// assert_eq!((scene.models.len(), scene.lights.len()), (1, 1));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn builder() -> SceneBuilder {
+        SceneBuilder::default()
+    }
+}
+
+impl SceneBuilder {
+    /// Adds a model where its nodes are.
+    #[must_use]
+    pub fn model(self, model: impl Into<Arc<Model>>) -> Self {
+        self.model_at(model, Affine::IDENTITY)
+    }
+
+    /// Adds a model that is moved, turned or scaled. Models that share an `Arc` are in memory once.
+    #[must_use]
+    pub fn model_at(
+        mut self,
+        model: impl Into<Arc<Model>>,
+        model_to_world: Affine<ModelSpace, World>,
+    ) -> Self {
+        self.models.push(ModelInstance { model: model.into(), model_to_world });
+        self
+    }
+
+    /// Adds a mesh of triangles without a material: points of the world, and three indices for each
+    /// triangle, counter-clockwise as seen from the front.
+    #[must_use]
+    pub fn mesh(
+        self,
+        positions: impl IntoIterator<Item = [f32; 3]>,
+        indices: impl IntoIterator<Item = u32>,
+    ) -> Self {
+        let primitive = Primitive {
+            positions: positions.into_iter().collect(),
+            indices: indices.into_iter().collect(),
+            ..Primitive::default()
+        };
+        self.primitive(primitive)
+    }
+
+    /// Adds a primitive, which may have normals, colors and texture coordinates.
+    #[must_use]
+    pub fn primitive(self, primitive: Primitive) -> Self {
+        self.model(Model {
+            meshes: vec![Mesh { primitives: vec![primitive], ..Mesh::default() }],
+            nodes: vec![Node { mesh: Some(0), ..Node::default() }],
+            roots: vec![0],
+            ..Model::default()
+        })
+    }
+
+    /// Sets the camera.
+    #[must_use]
+    pub fn camera(mut self, camera: CameraFile) -> Self {
+        self.file.camera = camera;
+        self
+    }
+
+    /// Adds a light. With one, there is no other that nobody asked for.
+    #[must_use]
+    pub fn light(mut self, light: LightFile) -> Self {
+        self.file.lights.get_or_insert_default().push(light);
+        self
+    }
+
+    /// Sets how surfaces and lines are drawn.
+    #[must_use]
+    pub fn style(mut self, style: StyleFile) -> Self {
+        self.file.style = style;
+        self
+    }
+
+    /// Sets width and height of the picture in pixels.
+    #[must_use]
+    pub const fn size(mut self, width: u32, height: u32) -> Self {
+        self.file.image.size = (width, height);
+        self
+    }
+
+    /// Changes whatever else a scene file can say; its `models` are not looked at.
+    ///
+    /// ```
+    /// use scene::Scene;
+    /// use scene_file::file::{BackgroundFile, Color};
+    ///
+    /// let sky = |file: &mut scene_file::SceneFile| {
+    ///     file.image.background = Some(BackgroundFile::Color(Color([128, 160, 255])));
+    /// };
+    /// let triangle = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    /// let scene = Scene::builder().mesh(triangle, [0, 1, 2]).with(sky).build()?;
+    /// assert_eq!(scene.image.background[3], 1.0);
+    /// # Ok::<(), scene::ResolveError>(())
+    /// ```
+    #[must_use]
+    pub fn with(mut self, change: impl FnOnce(&mut SceneFile)) -> Self {
+        change(&mut self.file);
+        self
+    }
+
+    /// The scene, ready to be rendered.
+    ///
+    /// # Errors
+    /// Everything that makes no sense, such as a camera without a direction, or no model to frame.
+    pub fn build(self) -> Result<Scene, ResolveError> {
+        let origin = Origin::from_text("scene", "", PathBuf::new());
+        Scene::from_models(&origin, &self.file, &self.models)
+    }
+}

@@ -1,0 +1,96 @@
+//! What a camera and its projection are resolved from, and the errors that they share.
+
+use super::Origin;
+use super::camera_fields::{PROJECTION_PATH, VIEW_PATH};
+use camera::{Basis, NamedView};
+use homog::{Point, Vector, World};
+use model::ModelInstance;
+use projection::ProjectionError;
+use scene_file::SceneError;
+use scene_file::file::FromFile;
+
+/// Everything that camera and projection are resolved from.
+pub(super) struct CameraResolver<'a> {
+    pub(super) origin: &'a Origin,
+    pub(super) models: &'a [ModelInstance],
+    pub(super) points: Vec<Point<World>>,
+    /// Points that a framed view shows beside the models: their shadows on the ground.
+    pub(super) shadow_points: Vec<Point<World>>,
+    pub(super) aspect: f64,
+    /// Columns and rows of the picture.
+    pub(super) picture_size: [u32; 2],
+}
+
+impl CameraResolver<'_> {
+    /// An error of the camera frame, such as a view-up vector along the line of sight.
+    pub(super) fn camera_error(&self, error: &camera::CameraError) -> SceneError {
+        self.view_error(error.to_string(), None)
+    }
+
+    /// An error that points at the view.
+    pub(super) fn view_error(
+        &self,
+        message: impl Into<String>,
+        help: Option<String>,
+    ) -> SceneError {
+        self.origin.error_at(&VIEW_PATH, message, help)
+    }
+
+    /// An error of the projection, such as a far plane before the near plane.
+    pub(super) fn projection_error(&self, error: &ProjectionError) -> SceneError {
+        self.projection_error_with(error.to_string(), None)
+    }
+
+    /// A fault of the projection as a whole.
+    pub(super) fn projection_error_with(
+        &self,
+        message: impl Into<String>,
+        help: Option<String>,
+    ) -> SceneError {
+        self.origin.error_at(&PROJECTION_PATH, message, help)
+    }
+
+    /// An error of framing: nothing to frame, or no room for it.
+    pub(super) fn framing_error(&self, error: &camera::FramingError) -> SceneError {
+        if matches!(error, camera::FramingError::NoPoints) {
+            return self.nothing_to_draw_error();
+        }
+        self.view_error(error.to_string(), None)
+    }
+
+    /// Models without primitives: there is nothing to frame.
+    pub(super) fn nothing_to_draw_error(&self) -> SceneError {
+        // What the importer left out is the likely reason.
+        let warnings = self.models.iter().flat_map(|placed| &placed.model.warnings).next();
+        let help = warnings.map(|warning| format!("{}: {}", warning.location, warning.message));
+        let message = "there is nothing to draw: the models have no points, lines or triangles";
+        self.view_error(message, help)
+    }
+
+    /// The middle of the box around everything.
+    pub(super) fn bounds_center(&self) -> Option<Point<World>> {
+        homog::Bounds::from_points(self.points.iter().copied()).map(homog::Bounds::center)
+    }
+
+    /// The axes of a camera that looks from a named direction or a vector towards the models.
+    pub(super) fn view_basis(&self, from: &FromFile) -> Result<Basis, SceneError> {
+        let named = match from {
+            FromFile::Front => NamedView::Front,
+            FromFile::Back => NamedView::Back,
+            FromFile::Left => NamedView::Left,
+            FromFile::Right => NamedView::Right,
+            FromFile::Top => NamedView::Top,
+            FromFile::Bottom => NamedView::Bottom,
+            FromFile::ThreeQuarter => NamedView::ThreeQuarter,
+            FromFile::Isometric => NamedView::Isometric,
+            FromFile::Dimetric => NamedView::Dimetric,
+            FromFile::Trimetric => NamedView::Trimetric,
+            FromFile::Direction(direction) => {
+                let gaze = -Vector::from(direction.0);
+                return Basis::from_gaze_or_fallback(gaze, Vector::Y)
+                    .map_err(|error| self.camera_error(&error));
+            }
+        };
+        Ok(named.basis())
+    }
+}

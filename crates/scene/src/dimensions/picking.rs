@@ -1,0 +1,224 @@
+//! Picking: points, edges, faces and circles by place and name, or an error that points at them.
+
+use super::super::Origin;
+use super::super::named_nodes::{node_names, objects_below};
+use hidden_line::{FeaturePicker, PickedFeature, WorldCircle};
+use glam::DVec3;
+use homog::{Bounds, Point, World};
+use model::ModelInstance;
+use scene_file::PathStep::{self, Field};
+use scene_file::file::{PickFile, PlaceFile};
+use scene_file::{SceneError, suggest_name};
+
+/// Faces that meet at more than this angle, in radians, have an edge that can be picked.
+const CREASE_ANGLE: f64 = core::f64::consts::FRAC_PI_6;
+
+/// Directions whose sine is no greater are parallel.
+const PARALLEL_SINE: f64 = 1e-4;
+
+/// A part of the models that a dimension begins or ends at.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) enum Picked {
+    /// A point.
+    Point(DVec3),
+    /// An edge, which stands for its line.
+    Edge(PickedFeature),
+    /// A face, which stands for its plane.
+    Face(PickedFeature),
+}
+
+impl Picked {
+    /// The part as a point.
+    pub(super) fn point(&self) -> DVec3 {
+        match self {
+            Self::Point(point) => *point,
+            Self::Edge(feature) | Self::Face(feature) => feature.point.raw(),
+        }
+    }
+
+    /// The part in messages.
+    pub(super) const fn noun(&self) -> &'static str {
+        match self {
+            Self::Point(_) => "the point",
+            Self::Edge(_) => "the edge",
+            Self::Face(_) => "the face",
+        }
+    }
+
+    /// The nearest points of this part and another, on the line or plane that they stand for;
+    /// `None` if those are not parallel.
+    pub(super) fn perpendicular_to(&self, other: &Self) -> Option<[DVec3; 2]> {
+        let (a, b) = (self.point(), other.point());
+        let direction = |feature: &PickedFeature| feature.direction.raw();
+        let on_line = |line: &PickedFeature, from: DVec3, point: DVec3| {
+            point + direction(line) * (from - point).dot(direction(line))
+        };
+        let on_plane = |plane: &PickedFeature, from: DVec3, point: DVec3| {
+            from + direction(plane) * (point - from).dot(direction(plane))
+        };
+        let is_along = |one: &PickedFeature, two: &PickedFeature| {
+            direction(one).cross(direction(two)).length() <= PARALLEL_SINE
+        };
+        let is_across = |one: &PickedFeature, two: &PickedFeature| {
+            direction(one).dot(direction(two)).abs() <= PARALLEL_SINE
+        };
+        match (self, other) {
+            (Self::Point(_), Self::Point(_)) => Some([a, b]),
+            (Self::Point(_), Self::Edge(line)) => Some([a, on_line(line, a, b)]),
+            (Self::Edge(line), Self::Point(_)) => Some([on_line(line, b, a), b]),
+            (Self::Point(_), Self::Face(plane)) => Some([a, on_plane(plane, a, b)]),
+            (Self::Face(plane), Self::Point(_)) => Some([on_plane(plane, b, a), b]),
+            (Self::Edge(one), Self::Edge(line)) => {
+                is_along(one, line).then(|| [a, on_line(line, a, b)])
+            }
+            (Self::Face(one), Self::Face(plane)) => {
+                is_along(one, plane).then(|| [a, on_plane(plane, a, b)])
+            }
+            (Self::Edge(line), Self::Face(plane)) => {
+                is_across(line, plane).then(|| [a, on_plane(plane, a, b)])
+            }
+            (Self::Face(plane), Self::Edge(line)) => {
+                is_across(line, plane).then(|| [on_plane(plane, b, a), b])
+            }
+        }
+    }
+}
+
+/// The models in which parts are picked.
+pub(super) struct Picking<'a> {
+    pub(super) origin: &'a Origin,
+    models: &'a [ModelInstance],
+    pub(super) picker: FeaturePicker<'a>,
+}
+
+impl<'a> Picking<'a> {
+    /// Picking in models.
+    pub(super) fn new(origin: &'a Origin, models: &'a [ModelInstance]) -> Self {
+        Self { origin, models, picker: FeaturePicker::new(models, CREASE_ANGLE) }
+    }
+
+    /// The part that is picked, with errors at the end of `path`.
+    pub(super) fn pick(
+        &self,
+        pick: &PickFile,
+        path: &[PathStep<'_>],
+    ) -> Result<Picked, SceneError> {
+        Ok(match pick {
+            PickFile::Point(point) => Picked::Point(point.0.into()),
+            PickFile::Fraction(fraction) => {
+                Picked::Point(point_of_box(self.bounds(None, path)?, fraction.0))
+            }
+            PickFile::Node { name, number, fraction } => {
+                let objects = self.objects(name, *number, path, "name")?;
+                Picked::Point(point_of_box(self.bounds(Some(&objects), path)?, fraction.0))
+            }
+            PickFile::Vertex(place) => {
+                let (near, objects) = self.place(place, path)?;
+                let vertex = self.picker.nearest_vertex(near, objects.as_deref());
+                Picked::Point(self.found(vertex, "vertex", path)?.raw())
+            }
+            PickFile::Edge(place) => {
+                let (near, objects) = self.place(place, path)?;
+                let edge = self.picker.nearest_edge(near, objects.as_deref());
+                Picked::Edge(self.found(edge, "edge", path)?)
+            }
+            PickFile::Circle(place) => Picked::Point(self.circle(place, path)?.center.raw()),
+            PickFile::Face(place) => {
+                let (near, objects) = self.place(place, path)?;
+                let face = self.picker.nearest_face(near, objects.as_deref());
+                Picked::Face(self.found(face, "face", path)?)
+            }
+        })
+    }
+
+    /// The circle at a place.
+    pub(super) fn circle(
+        &self,
+        place: &PlaceFile,
+        path: &[PathStep<'_>],
+    ) -> Result<WorldCircle, SceneError> {
+        let (near, objects) = self.place(place, path)?;
+        self.found(self.picker.nearest_circle(near, objects.as_deref()), "circle", path)
+    }
+
+    /// The thing that was found, or an error that there is none.
+    fn found<T>(
+        &self,
+        found: Option<T>,
+        noun: &str,
+        path: &[PathStep<'_>],
+    ) -> Result<T, SceneError> {
+        found.ok_or_else(|| {
+            let help = match noun {
+                "circle" => "circles are edges of at least eight equal parts",
+                _ => "there is nothing of this kind to be picked",
+            };
+            self.origin.error_at(path, format!("there is no {noun} here"), Some(help.to_owned()))
+        })
+    }
+
+    /// The point of a place, and the objects among which is picked; `None` for all.
+    fn place(
+        &self,
+        place: &PlaceFile,
+        path: &[PathStep<'_>],
+    ) -> Result<(Point<World>, Option<Vec<u32>>), SceneError> {
+        let node = place.node.as_ref();
+        let objects =
+            node.map(|name| self.objects(name, place.number, path, "node")).transpose()?;
+        let point = match (place.near, place.fraction) {
+            (Some(_), Some(_)) => {
+                let help = "give `near` in the world, or `fraction` of a box".to_owned();
+                let message = "a place has one point";
+                return Err(self.origin.error_at(path, message, Some(help)));
+            }
+            (Some(near), None) => near.0.into(),
+            (None, fraction) => {
+                let fraction = fraction.map_or([0.5; 3], |fraction| fraction.0);
+                point_of_box(self.bounds(objects.as_deref(), path)?, fraction)
+            }
+        };
+        Ok((Point::from_raw(point), objects))
+    }
+
+    /// The box around objects.
+    fn bounds(
+        &self,
+        objects: Option<&[u32]>,
+        path: &[PathStep<'_>],
+    ) -> Result<Bounds<World>, SceneError> {
+        let nothing = || self.origin.error_at(path, "there is nothing to measure here", None);
+        self.picker.bounds(objects).ok_or_else(nothing)
+    }
+
+    /// The objects below the node of a name, which is in a field at the end of a path.
+    fn objects(
+        &self,
+        name: &str,
+        number: usize,
+        path: &[PathStep<'_>],
+        field: &str,
+    ) -> Result<Vec<u32>, SceneError> {
+        let mut nodes = objects_below(self.models, |own| own == name);
+        let count = nodes.len();
+        let error = |field, message: String, help| {
+            let path: Vec<PathStep<'_>> = path.iter().copied().chain([Field(field)]).collect();
+            self.origin.error_at(&path, message, help)
+        };
+        if count == 0 {
+            let help = suggest_name(name, &node_names(self.models));
+            return Err(error(field, format!("there is no node `{name}`"), help));
+        }
+        if number >= count {
+            let message = format!("there is no node `{name}` with the number {number}");
+            let help = format!("there are {count}; numbers begin at 0");
+            return Err(error("number", message, Some(help)));
+        }
+        Ok(nodes.swap_remove(number))
+    }
+}
+
+/// A point of a box: the least corner at 0, the greatest at 1.
+fn point_of_box(bounds: Bounds<World>, fraction: [f64; 3]) -> DVec3 {
+    bounds.min().raw() + bounds.size().raw() * DVec3::from(fraction)
+}

@@ -1,0 +1,325 @@
+//! Resolution of lights: units, directions and shadows of the lights of a scene file, and the
+//! default key light.
+
+use super::Origin;
+use super::diagnostics::Diagnostics;
+use super::shadows::resolve_shadow;
+use super::surrounding_light::effective_environment;
+use camera::ViewProjection;
+use homog::{Point, Vector, World};
+use model::LightKind;
+use model::ModelInstance;
+use scene_file::PathStep::{self, Field, Index};
+use scene_file::SceneError;
+use scene_file::file::{
+    EnvironmentFile, Finite, LightColor, LightFile, NonNegative, Positive, SceneFile, ShadowsFile,
+    Triple,
+};
+use shade::{Light, Shadow};
+
+/// The irradiance of the default key light where nothing but ambient light is beside it, in lux.
+const KEY_LUX: f32 = 2.5;
+/// The irradiance of the ambient light beside it, in lux.
+const AMBIENT_LUX: f32 = 0.7;
+/// The irradiance of the default key light in an environment, in lux. Matte white facing it has
+/// 1.45 / π = 0.46 of it, and with the studio of bare models at most 0.95 in all.
+const KEY_LUX_IN_ENVIRONMENT: f32 = 1.45;
+/// The elevation of the default key light above the horizon, in degrees.
+const KEY_ELEVATION: f64 = 50.0;
+/// The angle from the view to the default key light, seen from above, in degrees to the left.
+const KEY_AZIMUTH: f64 = 55.0;
+
+/// The most texels of the shadow maps of all directional and spot lights together: 0.8 GB.
+const MAX_SHADOW_TEXELS: u64 = 1 << 26;
+/// The least texels of a shadow map's side.
+const LEAST_SHADOW_SIDE: u32 = 64;
+
+/// The shadows that the scene asks for. Ground that only shows shadows is there for their sake.
+pub(super) fn resolve_scene_shadow(
+    origin: &Origin,
+    file: &SceneFile,
+) -> Result<Option<Shadow>, SceneError> {
+    let of_ground = file.ground.map(|_| ShadowsFile::DEFAULT);
+    resolve_shadow(origin, file.shadows.or(of_ground).as_ref(), &[Field("shadows")])
+}
+
+/// The lights that the file describes; `None` in place of `FromModels`.
+pub(super) fn resolve_described_lights(
+    origin: &Origin,
+    file: &SceneFile,
+    shadow: Option<Shadow>,
+    faults: &mut Diagnostics,
+) -> Option<Vec<Option<Light>>> {
+    let numbered = file.lights.iter().flatten().enumerate();
+    let lights: Vec<_> = numbered
+        .map(|(number, light)| resolve_light(origin, number, light, shadow, faults))
+        .collect();
+    lights.into_iter().collect()
+}
+
+/// The lights of a scene: those that the file describes, or of the models, or a default key light
+/// where nothing else would light the models, or nothing would model them.
+///
+/// Only light that the style shows counts: clay receives the environment, a line drawing does not.
+pub(super) fn resolve_lights(
+    origin: &Origin,
+    file: &SceneFile,
+    described: &[Option<Light>],
+    models: &[ModelInstance],
+    view_projection: &ViewProjection,
+    shadow: Option<Shadow>,
+) -> Result<Vec<Light>, SceneError> {
+    if file.lights.is_some() {
+        let lights = described.iter().flat_map(|light| match light {
+            Some(light) => vec![*light],
+            None => collect_model_lights(models, shadow),
+        });
+        return limit_shadow_maps(origin, file, lights.collect());
+    }
+    let theirs = collect_model_lights(models, shadow);
+    if !theirs.is_empty() {
+        return limit_shadow_maps(origin, file, theirs);
+    }
+    let key_light = |lux| default_key_light(view_projection, lux, shadow);
+    Ok(match effective_environment(origin, file, models) {
+        None => vec![key_light(KEY_LUX), Light::Ambient { lux: [AMBIENT_LUX; 3] }],
+        // A bare model has the same light with shadows and without.
+        Some(EnvironmentFile::Studio { .. }) if origin.text.is_empty() => {
+            vec![key_light(KEY_LUX_IN_ENVIRONMENT)]
+        }
+        // Shadows were asked for, and something must cast them.
+        Some(_) if shadow.is_some() => vec![key_light(KEY_LUX_IN_ENVIRONMENT)],
+        Some(_) => Vec::new(),
+    })
+}
+
+/// Keeps the shadow maps of all directional and spot lights together within
+/// [`MAX_SHADOW_TEXELS`]; those of point lights are smaller where there are many.
+///
+/// Maps whose size nobody chose become smaller.
+///
+/// # Errors
+/// If the scene chooses sizes that need more.
+fn limit_shadow_maps(
+    origin: &Origin,
+    file: &SceneFile,
+    mut lights: Vec<Light>,
+) -> Result<Vec<Light>, SceneError> {
+    let mut shadows: Vec<&mut Shadow> = lights.iter_mut().filter_map(mapped_shadow).collect();
+    let texels: u64 = shadows.iter().map(|shadow| u64::from(shadow.resolution).pow(2)).sum();
+    if texels <= MAX_SHADOW_TEXELS {
+        return Ok(lights);
+    }
+    let count = shadows.len();
+    let side = libm::sqrt(MAX_SHADOW_TEXELS as f64 / count as f64) as u32;
+    if let Some(path) = chosen_size_path(file) {
+        let message = format!(
+            "the shadow maps of {count} lights have {texels} texels together, more than \
+             {MAX_SHADOW_TEXELS}"
+        );
+        let help = format!("`size: {}` for each is possible", side.max(LEAST_SHADOW_SIDE));
+        return Err(origin.error_at(&path, message, Some(help)));
+    }
+    for shadow in &mut shadows {
+        shadow.resolution = shadow.resolution.min(side.max(LEAST_SHADOW_SIDE));
+    }
+    Ok(lights)
+}
+
+/// The shadow of a light that casts it by a single map.
+const fn mapped_shadow(light: &mut Light) -> Option<&mut Shadow> {
+    match light {
+        Light::Sun { shadow, .. } | Light::Spot { shadow, .. } => shadow.as_mut(),
+        Light::Point { .. } | Light::Ambient { .. } => None,
+    }
+}
+
+/// Where a scene chooses the size of a shadow map, if it does: of a light, or of all.
+fn chosen_size_path(file: &SceneFile) -> Option<Vec<PathStep<'static>>> {
+    let is_chosen =
+        |shadows: &ShadowsFile| matches!(shadows, ShadowsFile::On { size: Some(_), .. });
+    let of_light = |light: &LightFile| match light {
+        LightFile::Directional { shadows, .. } | LightFile::Spot { shadows, .. } => {
+            shadows.as_ref().is_some_and(is_chosen)
+        }
+        _ => false,
+    };
+    let lights = file.lights.as_deref().unwrap_or_default();
+    if let Some(index) = lights.iter().position(of_light) {
+        return Some(vec![Field("lights"), Index(index), Field("shadows")]);
+    }
+    file.shadows.as_ref().is_some_and(is_chosen).then(|| vec![Field("shadows")])
+}
+
+/// The lights of the models' files in world space (KHR_lights_punctual).
+///
+/// Lights shine along −z of their node. Intensities (lux, candela) are not changed by scales, as
+/// the extension demands; a node whose transform collapses its z axis has no direction and is
+/// skipped.
+fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec<Light> {
+    let mut lights = Vec::new();
+    for placed in models {
+        for (instance, light) in placed.model.scene_lights() {
+            let to_world = instance.node_to_model.then(placed.model_to_world);
+            let position = to_world.transform_point(Point::ORIGIN).raw().as_vec3().to_array();
+            let Some(axis) = to_world.transform_vector(-Vector::Z).normalized() else { continue };
+            let axis = axis.raw().as_vec3().to_array();
+            let strength = light.color.map(|channel| channel * light.intensity);
+            lights.push(match light.kind {
+                LightKind::Directional => {
+                    Light::Sun { to_light: axis.map(|c| -c), lux: strength, shadow }
+                }
+                LightKind::Point { range } => {
+                    Light::Point { position, candela: strength, range, shadow }
+                }
+                LightKind::Spot { range, inner_cone_angle: inner, outer_cone_angle: outer } => {
+                    let cosines = [inner, outer].map(libm::cosf);
+                    Light::Spot { position, axis, candela: strength, range, cosines, shadow }
+                }
+            });
+        }
+    }
+    lights
+}
+
+/// A directional light high above the ground and to the left of the view, so that visible sides
+/// differ in brightness and shadows fall to the right, where they are seen.
+///
+/// It stands by the world's up, y, and not by the camera's: a camera that looks down does not take
+/// the light with it below the horizon.
+fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<Shadow>) -> Light {
+    let camera = view_projection.camera;
+    let level = |axis: Vector<World>| {
+        let level = axis - Vector::Y * axis.dot(Vector::Y);
+        (level.length() > 1e-3).then(|| level.normalized()).flatten()
+    };
+    // To the viewer along the ground; from straight above that is the picture's lower border.
+    let front = level(camera.w()).or_else(|| level(-camera.v())).unwrap_or(Vector::Z);
+    let left = front.cross(Vector::Y);
+    let [azimuth, elevation] = [KEY_AZIMUTH, KEY_ELEVATION].map(f64::to_radians);
+    let along_ground = front * libm::cos(azimuth) + left * libm::sin(azimuth);
+    let to_light = along_ground * libm::cos(elevation) + Vector::Y * libm::sin(elevation);
+    Light::Sun { to_light: to_light.raw().as_vec3().to_array(), lux: [lux; 3], shadow }
+}
+
+/// A light of the file, with the scene's shadows unless it has its own; `Some(None)` for
+/// `FromModels`.
+///
+/// Directional and ambient lights are in lux, point and spot lights in candela; the color scales
+/// them. Numbers become f32 here, the precision of shading. What is wrong is a direction of 0, a
+/// cone that is impossible, or shadow settings that are.
+fn resolve_light(
+    origin: &Origin,
+    index: usize,
+    light: &LightFile,
+    shadow: Option<Shadow>,
+    faults: &mut Diagnostics,
+) -> Option<Option<Light>> {
+    let range = |range: Option<Positive>| range.map_or(f32::INFINITY, |range| range.value() as f32);
+    let single = |point: [f64; 3]| point.map(|c| c as f32);
+    let own_shadow = |own| resolve_light_shadow(origin, index, own, shadow);
+    Some(Some(match *light {
+        LightFile::FromModels => return Some(None),
+        LightFile::Directional { direction, intensity, color, shadows } => {
+            let direction = faults.take(resolve_direction(origin, index, direction));
+            let shadow = faults.take(own_shadow(shadows));
+            Light::Sun {
+                to_light: (-direction?).raw().as_vec3().to_array(),
+                lux: scale_color(color, intensity),
+                shadow: shadow?,
+            }
+        }
+        LightFile::Spot { position, direction, intensity, color, shadows, .. } => {
+            let axis = faults.take(resolve_direction(origin, index, direction));
+            let cosines = faults.take(resolve_cone(origin, index, light));
+            let shadow = faults.take(own_shadow(shadows));
+            Light::Spot {
+                position: single(position.0),
+                axis: axis?.raw().as_vec3().to_array(),
+                candela: scale_color(color, intensity),
+                range: range(light.range()),
+                cosines: cosines?,
+                shadow: shadow?,
+            }
+        }
+        LightFile::Point { position, intensity, color, shadows, .. } => Light::Point {
+            position: single(position.0),
+            candela: scale_color(color, intensity),
+            range: range(light.range()),
+            shadow: faults.take(own_shadow(shadows))?,
+        },
+        LightFile::Ambient { intensity, color } => {
+            Light::Ambient { lux: scale_color(color, intensity) }
+        }
+    }))
+}
+
+/// The unit vector in world space in which a light travels, from the light to the scene.
+///
+/// # Errors
+/// If it is (0, 0, 0).
+fn resolve_direction(
+    origin: &Origin,
+    index: usize,
+    direction: Triple,
+) -> Result<Vector<World>, SceneError> {
+    Vector::<World>::from(direction.0).normalized().ok_or_else(|| {
+        let path = [Field("lights"), Index(index), Field("direction")];
+        let help = "such as (-1, -2, -1): from the right, above and the front".to_owned();
+        origin.error_at(&path, "the direction of the light is (0, 0, 0)", Some(help))
+    })
+}
+
+/// The cosines of the inner and outer cone angle of a spot light, by default of 0° and 45°.
+///
+/// Intensity falls from the inner to the outer angle. The angles are half angles, as in
+/// KHR_lights_punctual.
+///
+/// # Errors
+/// Unless 0° ≤ inner < outer ≤ 90°.
+fn resolve_cone(origin: &Origin, index: usize, light: &LightFile) -> Result<[f32; 2], SceneError> {
+    let (inner, outer) = match *light {
+        LightFile::Spot { inner_cone_degrees, outer_cone_degrees, .. } => {
+            (inner_cone_degrees, outer_cone_degrees)
+        }
+        _ => (None, None),
+    };
+    let inner = inner.map_or(0.0, Finite::value);
+    let outer = outer.map_or(45.0, Finite::value);
+    if inner >= 0.0 && inner < outer && outer <= 90.0 {
+        return Ok([inner, outer].map(|angle| libm::cos(angle.to_radians()) as f32));
+    }
+    let path = [Field("lights"), Index(index), Field("outer_cone_degrees")];
+    let message =
+        format!("the falloff of a spot cannot begin at {inner} degrees and end at {outer}");
+    let help = "0 <= inner_cone_degrees < outer_cone_degrees <= 90".to_owned();
+    Err(origin.error_at(&path, message, Some(help)))
+}
+
+/// The shadows of a light: its own, or the scene's.
+fn resolve_light_shadow(
+    origin: &Origin,
+    index: usize,
+    own: Option<ShadowsFile>,
+    of_scene: Option<Shadow>,
+) -> Result<Option<Shadow>, SceneError> {
+    let path = [Field("lights"), Index(index), Field("shadows")];
+    own.map_or(Ok(of_scene), |own| resolve_shadow(origin, Some(&own), &path))
+}
+
+/// Multiplies the intensity of all lights.
+pub(super) fn scale_lights(lights: &mut [Light], factor: NonNegative) {
+    let factor = factor.value() as f32;
+    for light in lights {
+        let (Light::Sun { lux: intensity, .. }
+        | Light::Ambient { lux: intensity }
+        | Light::Point { candela: intensity, .. }
+        | Light::Spot { candela: intensity, .. }) = light;
+        *intensity = intensity.map(|channel| channel * factor);
+    }
+}
+
+/// The light of a color at an intensity, in the unit of the intensity.
+fn scale_color(color: LightColor, intensity: NonNegative) -> [f32; 3] {
+    color.0.map(|channel| (channel * intensity.value()) as f32)
+}

@@ -1,0 +1,57 @@
+//! Lint of camera paths on which the picture turns over between keyframes.
+
+use super::Lint;
+use crate::{CameraPath, Origin};
+use glam::DVec3;
+use scene_file::PathStep::{Field, Index};
+use scene_file::SceneFile;
+use scene_file::file::ViewFile;
+
+/// Between two keyframes the path is looked at in so many steps.
+const STEPS: u32 = 64;
+/// A gaze this many times shorter than the longest near it has passed through its target; a sine
+/// this small is that of parallel directions.
+const DEGENERATE: f64 = 1e-6;
+
+/// A path whose eye meets its target, or whose gaze becomes parallel to the view-up vector: there
+/// is no picture at that time, or the picture turns over from one frame to the next.
+///
+/// The right-hand direction gaze × up vanishes at such a time and is reversed behind it, so two
+/// samples with opposite right-hand directions enclose one.
+pub(super) fn lint_camera_path(origin: &Origin, file: &SceneFile) -> Option<Lint> {
+    let path = CameraPath::from_scene_file(origin, file).ok()??;
+    let keys = &file.camera_path.as_ref()?.keys;
+    let mut before: Option<(DVec3, DVec3)> = None;
+    for (number, pair) in keys.windows(2).enumerate() {
+        let [start, end] = [pair[0].time.value(), pair[1].time.value()];
+        for step in 0..=STEPS {
+            let time = start + (end - start) * f64::from(step) / f64::from(STEPS);
+            let ViewFile::LookAt { eye, target, up } = path.camera_at(time).view else { continue };
+            let [eye, target, up] = [eye.0, target.0, up.0].map(DVec3::from_array);
+            let gaze = target - eye;
+            let right = gaze.cross(up);
+            let last = before.replace((gaze, right));
+            let (last_gaze, last_right) = last.unwrap_or((gaze, right));
+            let is_at_target = gaze.length() <= DEGENERATE * last_gaze.length()
+                || gaze.length() == 0.0
+                || gaze.dot(last_gaze) < 0.0;
+            let is_parallel = right.length() <= DEGENERATE * gaze.length() * up.length();
+            if !is_at_target && !is_parallel && right.dot(last_right) >= 0.0 {
+                continue;
+            }
+            let (what, help) = if is_at_target {
+                ("passes through its target", "lead it around the target with another key")
+            } else {
+                (
+                    "looks along its view-up vector, and the picture turns over",
+                    "lead it past that direction with another key, or give the keys another `up`",
+                )
+            };
+            let message = format!("at {time:.3} s the camera {what}");
+            let place = [Field("camera_path"), Field("keys"), Index(number)];
+            let error = origin.error_at(&place, message, Some(help.to_owned()));
+            return Some(Lint { code: "camera-path-turns-over", error });
+        }
+    }
+    None
+}

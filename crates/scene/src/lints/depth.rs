@@ -1,0 +1,90 @@
+//! Depth plane lints: near and far planes that clip models, and near planes that waste depth
+//! resolution.
+
+use super::{Lint, Linter};
+use scene_file::PathStep::{Field, Index};
+use scene_file::file::{ProjectionFile, ViewFile};
+
+/// A near plane is wasteful if the nearest vertex is this many times farther away. Resolution at a
+/// distance is inversely proportional to the near distance, so about two decimal digits are lost.
+const WASTEFUL_DEPTH_RATIO: f64 = 100.0;
+
+/// Models that are partly visible, and cut by the near or the far plane within the window.
+///
+/// Vertices that other planes reject as well are not counted: the sides of the picture may cut a
+/// model off, depth planes rarely should.
+pub(super) fn lint_depth_clipping(adviser: &Linter<'_>) -> Vec<Lint> {
+    let mut advice = Vec::new();
+    let models = adviser.survey_models().into_iter();
+    for (_, instance, survey) in models.filter(|(_, _, survey)| survey.inside > 0) {
+        let sides = [("near", survey.before_near), ("far", survey.behind_far)];
+        for (plane, vertices) in sides.into_iter().filter(|(_, vertices)| *vertices > 0) {
+            let message = format!(
+                "the {plane} plane cuts off {vertices} vertices of {}",
+                adviser.model_name(instance)
+            );
+            let (near, far) = survey.depth_range().unwrap_or_default();
+            let help = if plane == "near" {
+                format!("it begins {near:.4} in front of the eye: set `near` to less than that")
+            } else {
+                format!("it ends {far:.4} in front of the eye: leave `far` out, or set it to more")
+            };
+            let fault = adviser.origin.error_at(&plane_path(adviser, plane), message, Some(help));
+            let code = if plane == "near" { "cut-by-near" } else { "cut-by-far" };
+            advice.push(Lint { code, error: fault });
+        }
+    }
+    advice
+}
+
+/// A near plane of a perspective far before everything: depth is spent on empty space, for most of
+/// its steps are just behind the near plane (ZP-1).
+///
+/// Only one warning for the scene, with the distance of its nearest vertex. The suggested plane
+/// lies 1 % before that.
+pub(super) fn lint_depth_range(adviser: &Linter<'_>) -> Option<Lint> {
+    let near = near_distance(adviser)?;
+    let spans = adviser.surveys.iter().filter_map(super::VisibilitySurvey::depth_range);
+    let nearest = spans.map(|(nearest, _)| nearest).fold(f64::INFINITY, f64::min);
+    if !nearest.is_finite() || nearest < WASTEFUL_DEPTH_RATIO * near {
+        return None;
+    }
+    let times = nearest / near;
+    let message = format!(
+        "the near plane at {near} is {times:.0} times nearer than the nearest thing, at {nearest:.4}: that wastes depth"
+    );
+    let help = format!("leave `near` out, or set it to {:.4}", 0.99 * nearest);
+    let fault = adviser.origin.error_at(&plane_path(adviser, "near"), message, Some(help));
+    Some(Lint { code: "wasteful-depth-range", error: fault })
+}
+
+/// The distance of the near plane, if the projection is a perspective that looks straight ahead.
+///
+/// Read from the matrix: on the near plane of the chapter's volume z_clip = w. With the rows (…, z,
+/// d) and (0, 0, −1, 0) and a point at distance n ahead, −z n + d = n, so n = d / (1 + z).
+fn near_distance(adviser: &Linter<'_>) -> Option<f64> {
+    let rows = adviser.scene.view_projection.view_to_clip.rows();
+    let [.., [_, _, z, depth], last] = rows;
+    // Where z = w: depth - z·n = n.
+    (last == [0.0, 0.0, -1.0, 0.0]).then(|| depth / (1.0 + z))
+}
+
+/// The path of the value to underline: the plane's own field, or the model's camera, or the camera
+/// as a whole where planes are automatic.
+fn plane_path<'a>(adviser: &Linter<'_>, plane: &'a str) -> Vec<scene_file::PathStep<'a>> {
+    let given = matches!(
+        adviser.file.camera.projection,
+        Some(
+            ProjectionFile::Perspective { .. }
+                | ProjectionFile::Orthographic { .. }
+                | ProjectionFile::Frustum { .. }
+                | ProjectionFile::ApexMovedFrustum { .. }
+                | ProjectionFile::Intrinsics { .. }
+        )
+    );
+    match adviser.file.camera.view {
+        _ if given => vec![Field("camera"), Field("projection"), Field(plane)],
+        ViewFile::FromModel(_) => vec![Field("camera"), Field("view"), Index(0)],
+        _ => vec![Field("camera")],
+    }
+}

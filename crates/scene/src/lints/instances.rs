@@ -1,0 +1,47 @@
+//! Lint of instances that stand in one place, where one hides the others.
+
+use super::{Lint, Linter};
+use scene_file::PathStep::{Field, Index};
+use scene_file::file::InstancesFile;
+
+/// Instances of a model that have the same transform, such as those of a grid with a step of 0.
+///
+/// Equal transforms of neighbors are found by sorting, O(n log n) for n instances.
+pub(super) fn lint_coincident_instances(adviser: &Linter<'_>) -> Vec<Lint> {
+    let mut first = 0;
+    let mut advice = Vec::new();
+    for (number, entry) in adviser.file.models.iter().enumerate() {
+        let end = (first + entry.instance_count()).min(adviser.scene.models.len());
+        let placed = &adviser.scene.models[first..end];
+        first = end;
+        let mut transforms: Vec<[u64; 16]> = placed
+            .iter()
+            // Adding 0 makes one number of both zeros.
+            .map(|one| {
+                one.model_to_world.raw().to_cols_array().map(|entry| (entry + 0.0).to_bits())
+            })
+            .collect();
+        let count = transforms.len();
+        transforms.sort_unstable();
+        transforms.dedup();
+        if transforms.len() == count {
+            continue;
+        }
+        let others = count - transforms.len();
+        let message = format!("of {count} instances {others} stand where another one is");
+        let path = [Field("models"), Index(number), Field("instances"), Field("step")];
+        let (path, help) = match &entry.instances {
+            Some(InstancesFile::Grid { .. }) => {
+                (&path[..], "give `step` a distance along each axis whose count is more than 1")
+            }
+            Some(InstancesFile::Circle { .. }) => (
+                &path[..3],
+                "give the circle a larger `radius`, and less than a turn of `sweep_degrees`",
+            ),
+            _ => (&path[..3], "give each a `translation` of its own, or leave the others out"),
+        };
+        let error = adviser.origin.error_at(path, message, Some(help.to_owned()));
+        advice.push(Lint { code: "coincident-instances", error });
+    }
+    advice
+}

@@ -1,0 +1,54 @@
+//! Lint of section planes that cut nothing: before or behind all models.
+
+use super::{Lint, Linter};
+use homog::{Bounds, Point, World};
+use scene_file::PathStep::{Field, Index};
+
+/// Distances up to this fraction of the models' diagonal count as touching.
+const TOUCHING: f64 = 1e-9;
+
+/// Sections that remove all models, or that meet none of them.
+///
+/// The planes' normals point to the half that is retained, so negative distances are removed. Each
+/// plane is looked at alone: planes that leave nothing only together are not found.
+pub(super) fn lint_idle_sections(adviser: &Linter<'_>) -> Vec<Lint> {
+    if adviser.scene.sections.is_empty() {
+        return Vec::new();
+    }
+    let points = adviser.scene.world_points();
+    let Some(bounds) = Bounds::from_points(points.iter().copied()) else { return Vec::new() };
+    let tolerance = TOUCHING * bounds.diagonal();
+    let mut advice = Vec::new();
+    for (number, plane) in adviser.scene.sections.iter().enumerate() {
+        let (least, most) = distance_range(plane, &points);
+        let (code, message) = if most <= tolerance {
+            (
+                "section-removes-all",
+                "this section removes everything: all models lie on the side that its normal points to",
+            )
+        } else if least >= -tolerance {
+            (
+                "section-misses",
+                "this section cuts nothing: no model lies on the side that its normal points to",
+            )
+        } else {
+            continue;
+        };
+        let [x, y, z] = bounds.center().raw().to_array();
+        let help = format!("move it into the models, such as point: ({x:.3}, {y:.3}, {z:.3})");
+        let path = [Field("sections"), Index(number)];
+        let error = adviser.origin.error_at(&path, message, Some(help));
+        advice.push(Lint { code, error });
+    }
+    advice
+}
+
+/// The least and the greatest signed distance of the points from a plane.
+fn distance_range(plane: &homog::Plane<World>, points: &[Point<World>]) -> (f64, f64) {
+    points
+        .iter()
+        .map(|&point| plane.evaluate(point))
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), distance| {
+            (least.min(distance), most.max(distance))
+        })
+}

@@ -1,0 +1,36 @@
+//! Lints of sheets: views without a place, sections that no view shows, letters without a glyph.
+
+use super::{Lint, Linter};
+use crate::sheet::{SheetContent, resolve_sheet};
+use drawing::Warning;
+use scene_file::PathStep::Field;
+use std::path::PathBuf;
+
+/// The warnings that `alberti sheet` would give about the layout of the scene's sheet, whose title
+/// block lies in the scene's folder or one of those that are allowed.
+pub(super) fn lint_sheet(adviser: &Linter<'_>, allowed_folders: &[PathBuf]) -> Vec<Lint> {
+    let Linter { origin, file, scene, .. } = *adviser;
+    let Some(sheet_file) = &file.sheet else { return Vec::new() };
+    let content = SheetContent { allowed_folders, ..SheetContent::from_scene(scene) };
+    let sheet = resolve_sheet(origin, sheet_file, content).ok();
+    let warnings = sheet.and_then(|sheet| sheet.check_layout(&scene.models, &scene.sections).ok());
+    let to_lint = |warning: Warning| {
+        let (code, help) = match &warning {
+            Warning::ViewLeftOut { .. } => ("sheet-view-missing", "or leave the view out"),
+            Warning::SectionOblique { .. } => {
+                ("section-oblique", "turn the section, or look at it by `alberti render`")
+            }
+            Warning::GlyphsMissing { .. } => {
+                ("missing-glyph", "letters are those of Latin alphabets, with digits and signs")
+            }
+            Warning::OverlayNotOnSheets { .. } => {
+                ("overlay-not-on-sheet", "`alberti render` draws it in pictures")
+            }
+            // Planes beside the models are reported at their own fields.
+            _ => return None,
+        };
+        let error = origin.error_at(&[Field("sheet")], warning.to_string(), Some(help.to_owned()));
+        Some(Lint { code, error })
+    };
+    warnings.into_iter().flatten().filter_map(to_lint).collect()
+}

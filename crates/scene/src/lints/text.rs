@@ -1,0 +1,62 @@
+//! Lints of labels and captions: points that are not in the picture, characters without a glyph.
+
+use super::{Lint, Linter};
+use crate::Scene;
+use crate::origin::Origin;
+use drawing::{LabelFault, Overlay, PointLabel, missing_glyph_warning};
+use scene_file::PathStep::{Field, Index};
+
+/// The lints of the texts in the scene's own view and in its viewports, each once.
+pub(super) fn lint_text(adviser: &Linter<'_>) -> Vec<Lint> {
+    let Linter { origin, file, scene, .. } = *adviser;
+    let mut lints = lint_view(origin, scene);
+    // The views of a stereo pair show the same labels.
+    if file.stereo.is_none() {
+        for (number, inset) in scene.insets.iter().enumerate() {
+            lints.extend(lint_view(&origin.for_viewport(number), &inset.scene));
+        }
+    }
+    let mut distinct: Vec<Lint> = Vec::new();
+    for lint in lints {
+        if !distinct.contains(&lint) {
+            distinct.push(lint);
+        }
+    }
+    distinct
+}
+
+/// The lints of the texts in one view.
+fn lint_view(origin: &Origin, scene: &Scene) -> Vec<Lint> {
+    let mut lints = Vec::new();
+    for (number, overlay) in scene.overlays.iter().enumerate() {
+        let Overlay::Label(label) = overlay else { continue };
+        lints.extend(lint_label(origin, scene, number, label));
+        lints.extend(lint_glyphs(origin, &label.text, Some(number)));
+    }
+    lints.extend(scene.caption.iter().filter_map(|text| lint_glyphs(origin, text, None)));
+    lints
+}
+
+/// A label whose point is not in the picture.
+fn lint_label(origin: &Origin, scene: &Scene, number: usize, label: &PointLabel) -> Option<Lint> {
+    let view_height = scene.image.view_size().y / f64::from(scene.image.height);
+    let place = match label.fault(&scene.view_projection, view_height)? {
+        LabelFault::BehindEye => "behind the eye",
+        LabelFault::Outside => "outside of the picture",
+    };
+    let message = format!("the label \"{}\" is not drawn: its point is {place}", label.text);
+    let help = "move the point, or leave the label out".to_owned();
+    let at = [Field("overlays"), Index(number), Field("at")];
+    Some(Lint { code: "label-not-visible", error: origin.error_at(&at, message, Some(help)) })
+}
+
+/// A text with characters that the stroke font lacks: of the label with a number, or the caption.
+fn lint_glyphs(origin: &Origin, text: &str, label: Option<usize>) -> Option<Lint> {
+    let message = missing_glyph_warning(text)?.to_string();
+    let at = match label {
+        Some(number) => vec![Field("overlays"), Index(number), Field("text")],
+        None => vec![Field("caption")],
+    };
+    let help = "letters are those of Latin alphabets, with digits and signs".to_owned();
+    Some(Lint { code: "missing-glyph", error: origin.error_at(&at, message, Some(help)) })
+}

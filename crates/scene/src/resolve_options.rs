@@ -1,0 +1,49 @@
+//! Options of resolution: what the caller of a scene decides, not its file.
+
+use super::Origin;
+use import::ImportOptions;
+use scene_file::PathStep::Field;
+use scene_file::{SceneError, SceneFile};
+
+/// The most pixels that a scene may ask for by itself: 16,384 x 16,384.
+const MAX_PIXELS: u64 = 1 << 28;
+
+/// How a scene is resolved.
+#[derive(Clone, Debug, Default)]
+pub struct ResolveOptions {
+    /// How models are loaded. The paths of a scene file may lead out of its folder into those that
+    /// `allow_outside` names.
+    pub import: ImportOptions,
+    /// Whether the picture may have more than 2²⁸ pixels. For sizes that a person chose: a line
+    /// in a scene file is enough to ask for hours of work.
+    pub allow_large_picture: bool,
+    /// Whether lines are drawn without limits of work, exactly also where hundreds of surfaces lie
+    /// behind each other.
+    pub unlimited_lines: bool,
+}
+
+impl ResolveOptions {
+    /// The default with these import options.
+    #[must_use]
+    pub fn with_import(import: ImportOptions) -> Self {
+        Self { import, ..Self::default() }
+    }
+
+    /// Refuses a picture of more than [`MAX_PIXELS`], unless it is allowed.
+    pub(super) fn check_pixels(&self, origin: &Origin, file: &SceneFile) -> Result<(), SceneError> {
+        let (width, height) = file.image.size;
+        // Longer sides have a separate error.
+        let is_possible = width.max(height) <= crate::MAX_IMAGE_SIDE;
+        if self.allow_large_picture
+            || !is_possible
+            || u64::from(width) * u64::from(height) <= MAX_PIXELS
+        {
+            return Ok(());
+        }
+        let message = format!(
+            "the picture has {width} x {height} pixels; a scene can ask for {MAX_PIXELS} at most"
+        );
+        let help = format!("`--size {width}x{height}` on the command line renders it anyway");
+        Err(origin.error_at(&[Field("image"), Field("size")], message, Some(help)))
+    }
+}

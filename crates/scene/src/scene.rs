@@ -1,0 +1,234 @@
+//! A resolved scene: models, camera, lights, and how they are drawn.
+
+use super::{Ground, Inset};
+use camera::ViewProjection;
+use drawing::{LineStyle, Overlay};
+use homog::{PixelRect, Plane, Point, World};
+use model::{Colormap, ModelInstance};
+use raster::Samples;
+use shade::{Backdrop, Environment, Light, ToneMapper};
+use std::sync::Arc;
+
+/// A resolved scene: the complete input of a renderer.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The models with their transforms.
+    pub models: Vec<ModelInstance>,
+    /// Camera and projection.
+    pub view_projection: ViewProjection,
+    /// The lights.
+    pub lights: Vec<Light>,
+    /// The ground below the models.
+    pub ground: Option<Ground>,
+    /// Light from all around.
+    pub environment: Option<Arc<Environment>>,
+    /// How far away things still take light from all around, in the units of the world; `None` if
+    /// they do not.
+    pub occlusion_radius: Option<f64>,
+    /// Exposure and tone mapping.
+    pub tone_mapper: ToneMapper,
+    /// How surfaces are drawn.
+    pub style: Style,
+    /// The picture to make.
+    pub image: ImageSpec,
+    /// Views of their own in parts of the picture, in the order in which they are drawn over it.
+    pub insets: Vec<Inset>,
+    /// The gradient or image behind the models, over the background color.
+    pub backdrop: Option<Arc<Backdrop>>,
+    /// The overlays, drawn over the picture.
+    pub overlays: Vec<Overlay>,
+    /// The text below the view, in the strip at the lower border of the image.
+    pub caption: Option<String>,
+    /// Planes that cut the models open in line drawings; their unit normals point to what is kept.
+    pub sections: Vec<Plane<World>>,
+    /// The objects that the planes do not cut, in ascending order: nodes with a mesh, counted over
+    /// all models.
+    pub uncut: Vec<u32>,
+    /// Whether lines are drawn without limits of work.
+    pub unlimited_lines: bool,
+}
+
+impl Scene {
+    /// Models seen through a camera, shaded as they are, without lights and with nothing around them.
+    ///
+    /// Take other fields from it, as in `Scene { lights, ..Scene::new(…) }`.
+    #[must_use]
+    pub fn new(
+        models: Vec<ModelInstance>,
+        view_projection: ViewProjection,
+        image: ImageSpec,
+    ) -> Self {
+        Self {
+            models,
+            view_projection,
+            lights: Vec::new(),
+            ground: None,
+            environment: None,
+            occlusion_radius: None,
+            tone_mapper: ToneMapper::default(),
+            style: Style::Shaded,
+            image,
+            insets: Vec::new(),
+            backdrop: None,
+            overlays: Vec::new(),
+            caption: None,
+            sections: Vec::new(),
+            uncut: Vec::new(),
+            unlimited_lines: false,
+        }
+    }
+
+    /// Every vertex that some point, line or triangle of the scene uses, in the world.
+    #[must_use]
+    pub fn world_points(&self) -> Vec<Point<World>> {
+        model::world_points(&self.models)
+    }
+
+    /// Whether every pixel of the picture is certainly opaque: the scene's background and those of
+    /// all insets are.
+    #[must_use]
+    pub fn has_opaque_background(&self) -> bool {
+        let is_opaque = |scene: &Self| scene.image.background[3] >= 1.0;
+        is_opaque(self) && self.insets.iter().all(|inset| is_opaque(&inset.scene))
+    }
+
+    /// Whether a light casts shadows, or the ground shows occlusion by the models.
+    #[must_use]
+    pub fn casts_shadows(&self) -> bool {
+        let has_occlusion = self.ground.is_some_and(|ground| ground.occlusion.is_some());
+        has_occlusion || self.lights.iter().any(|light| light.shadow().is_some())
+    }
+
+    /// The names of the models, each once.
+    #[must_use]
+    pub fn model_names(&self) -> String {
+        model::model_names(&self.models)
+    }
+
+    /// The input of a line drawing of the scene.
+    #[must_use]
+    pub fn drawing_subject(&self) -> hidden_line::Subject<'_> {
+        hidden_line::Subject {
+            models: &self.models,
+            view_projection: self.view_projection,
+            size: [self.image.width, self.image.height],
+            caption_height: self.image.caption_height,
+            sections: &self.sections,
+            uncut: &self.uncut,
+        }
+    }
+}
+
+/// How surfaces are drawn.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Style {
+    /// Lit, with smooth normals where the file has them.
+    Shaded,
+    /// Lit, one normal for each triangle.
+    Flat,
+    /// Lit at the corners of triangles.
+    Gouraud,
+    /// Matt clay.
+    Clay,
+    /// A ball of glazed clay.
+    Matcap,
+    /// Normals as colours.
+    Normals,
+    /// The nearer, the brighter; in a colormap, the closer to its last color.
+    Depth(Option<Colormap>),
+    /// A checkerboard by texture coordinates.
+    UvChecker,
+    /// A colour for each part.
+    Ids,
+    /// Toon (cel) shading: three steps of light, with outlines.
+    Toon,
+    /// As if of glass.
+    XRay,
+    /// The edges of all triangles.
+    Wireframe,
+    /// A line drawing.
+    Lines(LineStyle),
+}
+
+impl Style {
+    /// Widths, dashes and hidden lines of the style.
+    #[must_use]
+    pub const fn line_style(self) -> LineStyle {
+        match self {
+            Self::Wireframe => LineStyle::WIREFRAME,
+            Self::Lines(style) => style,
+            _ => LineStyle::HIDDEN_REMOVED,
+        }
+    }
+
+    /// Whether surfaces are drawn, and not only lines.
+    #[must_use]
+    pub const fn draws_surfaces(self) -> bool {
+        !matches!(self, Self::Wireframe | Self::Lines(_))
+    }
+
+    /// Whether colors stand for numbers: normals, depths, texture coordinates, parts.
+    #[must_use]
+    pub const fn is_false_color(self) -> bool {
+        matches!(self, Self::Normals | Self::Depth(_) | Self::UvChecker | Self::Ids)
+    }
+
+    /// Whether surfaces look otherwise than their materials have it.
+    #[must_use]
+    pub const fn overrides_materials(self) -> bool {
+        self.draws_surfaces() && !matches!(self, Self::Shaded | Self::Flat)
+    }
+}
+
+/// The longest side of a picture in pixels. Pictures with a side beyond 16,384 pixels are rendered
+/// region by region.
+pub const MAX_IMAGE_SIDE: u32 = 1 << 20;
+
+/// The picture to make.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ImageSpec {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels, with that of the caption.
+    pub height: u32,
+    /// The height in pixels of the strip for the caption, at the lower border; 0 without one.
+    pub caption_height: u32,
+    /// The background color: linear, premultiplied by alpha.
+    pub background: [f32; 4],
+    /// Whether the background is the white paper that line drawings have by default: pages in
+    /// vector format leave it out.
+    pub is_blank_paper: bool,
+    /// How blurred the environment is as the background, from 0 to 1; `None` if it is not visible.
+    pub environment_blur: Option<f32>,
+    /// Coverage samples per pixel.
+    pub samples: Samples,
+    /// The most samples of anisotropic texture filtering, along the longer axis of a pixel's
+    /// footprint, from 1 to 8.
+    pub max_anisotropy: u32,
+    /// The side of points in pixels, from 1 to 256.
+    pub point_size: f64,
+}
+
+impl ImageSpec {
+    /// A picture of this size in pixels on a transparent background, with one sample per pixel.
+    #[must_use]
+    pub const fn new(width: u32, height: u32) -> Self {
+        Self {
+            width,
+            height,
+            caption_height: 0,
+            background: [0.0; 4],
+            is_blank_paper: false,
+            environment_blur: None,
+            samples: Samples::One,
+            max_anisotropy: 1,
+            point_size: 3.0,
+        }
+    }
+
+    /// All pixels of the picture.
+    #[must_use]
+    pub const fn pixel_rect(self) -> PixelRect {
+        PixelRect::from_size(self.width, self.height)
+    }
+}

@@ -1,0 +1,47 @@
+//! Resolution of section planes.
+
+use super::Origin;
+use super::diagnostics::Diagnostics;
+use homog::{Normal, Plane, Point, World};
+use scene_file::PathStep::{Field, Index};
+use scene_file::SceneError;
+use scene_file::file::SectionFile;
+
+/// More cuts than this are a slip, and each costs another pass over the models.
+const MAX_SECTIONS: usize = 16;
+
+/// The planes of the sections. Their normals have length 1 and point to the half that is retained.
+pub(super) fn resolve_sections(
+    origin: &Origin,
+    sections: &[SectionFile],
+    faults: &mut Diagnostics,
+) -> Option<Vec<Plane<World>>> {
+    if sections.len() > MAX_SECTIONS {
+        let message = format!("{} sections are more than {MAX_SECTIONS}", sections.len());
+        faults.report(origin.error_at(&[Field("sections")], message, None));
+    }
+    let numbered = sections.iter().enumerate();
+    let planes: Vec<_> =
+        numbered.map(|(at, section)| faults.take(resolve_section(origin, at, section))).collect();
+    planes.into_iter().collect()
+}
+
+/// The plane of a section. Its normal has length 1 and points to the half that is retained.
+fn resolve_section(
+    origin: &Origin,
+    at: usize,
+    section: &SectionFile,
+) -> Result<Plane<World>, SceneError> {
+    let [x, y, z] = section.normal.0;
+    // Scaled first, so that no square leaves the range of numbers.
+    let largest = x.abs().max(y.abs()).max(z.abs());
+    let unit = Normal::<World>::new(-x / largest, -y / largest, -z / largest).normalized();
+    let fault = || {
+        let path = [Field("sections"), Index(at), Field("normal")];
+        let help =
+            "the normal points to the half that is removed, such as normal: (0, 0, 1)".to_owned();
+        origin.error_at(&path, "a section needs a direction: its normal has no length", Some(help))
+    };
+    let unit = unit.filter(|_| largest > 0.0).ok_or_else(fault)?;
+    Ok(Plane::through(Point::from(section.point.0), unit))
+}

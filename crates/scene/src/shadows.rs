@@ -1,0 +1,31 @@
+//! Resolution of shadow settings: the size of the shadow map, and how soft its shadows are.
+
+use super::Origin;
+use scene_file::PathStep::{self, Field};
+use scene_file::SceneError;
+use scene_file::file::ShadowsFile;
+use shade::Shadow;
+
+/// The texels of a shadow map's longer side, by default.
+const DEFAULT_MAP_SIZE: u32 = 2048;
+/// How large the sun looks from the earth, in degrees.
+const DEFAULT_SOFTNESS_DEGREES: f64 = 0.53;
+
+/// The shadows that the settings at the end of `path` ask for.
+pub(super) fn resolve_shadow(
+    origin: &Origin,
+    file: Option<&ShadowsFile>,
+    path: &[PathStep<'_>],
+) -> Result<Option<Shadow>, SceneError> {
+    let Some(&ShadowsFile::On { size, softness_degrees }) = file else { return Ok(None) };
+    let size = size.unwrap_or(DEFAULT_MAP_SIZE);
+    if !(64..=8192).contains(&size) {
+        let message = format!("a shadow map cannot have {size} texels on a side");
+        let path: Vec<PathStep<'_>> = path.iter().copied().chain([Field("size")]).collect();
+        let help = Some("from 64 to 8192 are possible, such as 2048".to_owned());
+        return Err(origin.error_at(&path, message, help));
+    }
+    let degrees =
+        softness_degrees.map_or(DEFAULT_SOFTNESS_DEGREES, scene_file::file::Softness::value);
+    Ok(Some(Shadow { resolution: size, softness: degrees.to_radians() as f32 }))
+}

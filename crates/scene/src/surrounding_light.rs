@@ -1,0 +1,236 @@
+//! Resolution of the environment: radiance from all directions, prefiltered for shading.
+//!
+//! Prefiltering is the expensive part of a small scene, so the last few environments are cached by
+//! their content, across scenes and threads.
+
+use super::Origin;
+use model::ModelInstance;
+use scene_file::PathStep::{self, Field};
+use scene_file::SceneError;
+use scene_file::file::{BackgroundFile, EnvironmentFile, Finite, SceneFile};
+use shade::{Environment, Panorama, PreethamSky, studio_radiance};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The longest file that is read, in bytes.
+const MAX_FILE_BYTES: u64 = 256 << 20;
+/// The most texels of a row of an image that lights a scene, and of one that is seen.
+const LIGHT_WIDTH: usize = 1024;
+const SEEN_WIDTH: usize = 4096;
+/// The most environments in the cache.
+const MAX_CACHED_ENVIRONMENTS: usize = 4;
+
+/// Whether models bring lights of their own (KHR_lights_punctual).
+pub(super) fn has_lights(models: &[ModelInstance]) -> bool {
+    models.iter().any(|placed| placed.model.scene_lights().next().is_some())
+}
+
+/// Whether nobody has said what light there is: a bare model, without a scene file.
+pub(super) fn has_default_light(origin: &Origin, file: &SceneFile) -> bool {
+    origin.text.is_empty() && file.lights.is_none()
+}
+
+/// Whether the scene may have an environment: the file alone does not always say.
+pub(super) fn may_have_environment(origin: &Origin, file: &SceneFile) -> bool {
+    match file.environment {
+        Some(EnvironmentFile::Dark) => false,
+        Some(_) => true,
+        None => has_default_light(origin, file),
+    }
+}
+
+/// The environment whose light the style shows; `None` without one.
+///
+/// A bare model stands in the studio: metals show nothing but what is around them. With lights of
+/// its own the studio is dimmed, so that they still matter.
+pub(super) fn effective_environment(
+    origin: &Origin,
+    file: &SceneFile,
+    models: &[ModelInstance],
+) -> Option<EnvironmentFile> {
+    let default = || {
+        let studio = if has_lights(models) {
+            EnvironmentFile::DIMMED_STUDIO
+        } else {
+            EnvironmentFile::STUDIO
+        };
+        has_default_light(origin, file).then_some(studio)
+    };
+    let environment = file.environment.clone().or_else(default);
+    environment.filter(|environment| {
+        file.style.shows_environment() && *environment != EnvironmentFile::Dark
+    })
+}
+
+/// The key of an environment: its kind, all its numbers, and a hash of a file's bytes.
+type EnvironmentKey = (u8, [u64; 4]);
+
+/// The environments that were made last. Prefiltering one takes far longer than finding it here.
+static CACHE: Mutex<Vec<(EnvironmentKey, Arc<Environment>)>> = Mutex::new(Vec::new());
+
+/// The environment with this content: one that was made before, or a new one.
+fn cached_environment(key: EnvironmentKey, make: impl FnOnce() -> Environment) -> Arc<Environment> {
+    let mut cache = CACHE.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, known)) = cache.iter().find(|(known, _)| *known == key) {
+        return Arc::clone(known);
+    }
+    let made = Arc::new(make());
+    if cache.len() == MAX_CACHED_ENVIRONMENTS {
+        cache.remove(0);
+    }
+    cache.push((key, Arc::clone(&made)));
+    made
+}
+
+/// The environment of a scene, if it asks for one. Files may lie below the scene's folder and those
+/// that are allowed.
+///
+/// The default studio is as bright in the picture whatever the exposure in stops is: automatic
+/// exposure is for other lights.
+pub(super) fn resolve_environment(
+    origin: &Origin,
+    file: &SceneFile,
+    models: &[ModelInstance],
+    allowed: &[PathBuf],
+    exposure_ev: f64,
+) -> Result<Option<Arc<Environment>>, SceneError> {
+    let Some(environment) = effective_environment(origin, file, models) else { return Ok(None) };
+    let degrees = |angle: Option<Finite>| angle.map_or(0.0, Finite::value);
+    Ok(Some(match &environment {
+        EnvironmentFile::Dark => return Ok(None),
+        EnvironmentFile::Studio { strength, rotation_degrees } => {
+            let is_automatic = file.environment.is_none() && file.image.exposure_ev.is_none();
+            let exposure = if is_automatic { libm::exp2(exposure_ev) } else { 1.0 };
+            let strength = strength.value() / exposure;
+            let turn = EnvironmentRotation::new(strength, degrees(*rotation_degrees));
+            cached_environment(turn.cache_key(0, 0), || {
+                Environment::from_source(move |way| turn.rotated_radiance(way, studio_radiance))
+            })
+        }
+        EnvironmentFile::Sky { sun, strength } => {
+            let sun = normalize_direction(sun.0).ok_or_else(|| {
+                let at = [Field("environment"), Field("sun")];
+                let help = Some("such as (1, 1, 1): to the right, above and before".to_owned());
+                origin.error_at(&at, "the sun's direction is (0, 0, 0), which is none", help)
+            })?;
+            let strength = strength.value() as f32;
+            let bits = sun.map(|c| u64::from(c.to_bits()));
+            let key = (1, [bits[0], bits[1], bits[2], u64::from(strength.to_bits())]);
+            let sky = PreethamSky::new(sun);
+            cached_environment(key, || {
+                Environment::from_source(move |way| sky.radiance(way).map(|c| c * strength))
+            })
+        }
+        EnvironmentFile::Uniform { strength, color } => {
+            let light = color.0.map(|c| (c * strength.value()).max(0.0) as f32);
+            let bits = light.map(|c| u64::from(c.to_bits()));
+            cached_environment((2, [bits[0], bits[1], bits[2], 0]), || {
+                Environment::from_radiance(|_| light)
+            })
+        }
+        EnvironmentFile::File { path, strength, rotation_degrees } => {
+            let turn = EnvironmentRotation::new(strength.value(), degrees(*rotation_degrees));
+            environment_from_file(origin, file, path, turn, allowed)?
+        }
+    }))
+}
+
+/// The environment in an image file, finer if the picture shows it.
+fn environment_from_file(
+    origin: &Origin,
+    file: &SceneFile,
+    path: &str,
+    turn: EnvironmentRotation,
+    allowed: &[PathBuf],
+) -> Result<Arc<Environment>, SceneError> {
+    let at = [Field("environment"), Field("path")];
+    let bytes = read_image_bytes(origin, &at, path, allowed)?;
+    let is_seen = matches!(
+        file.image.background,
+        Some(BackgroundFile::Environment { blur }) if blur.is_none_or(|blur| blur.value() == 0.0)
+    );
+    let (kind, most) = if is_seen { (4, SEEN_WIDTH) } else { (3, LIGHT_WIDTH) };
+    let panorama = Panorama::decode_hdr(&bytes, most)
+        .map_err(|problem| environment_error(origin, format!("{path}: {problem}"), None))?;
+    Ok(cached_environment(turn.cache_key(kind, fnv1a_hash(&bytes)), || {
+        let radiance = move |way| turn.rotated_radiance(way, |way| panorama.sample_direction(way));
+        if is_seen {
+            Environment::from_source(radiance)
+        } else {
+            Environment::from_radiance(radiance)
+        }
+    }))
+}
+
+/// An error that points at the path of the environment's file.
+fn environment_error(origin: &Origin, message: String, help: Option<String>) -> SceneError {
+    origin.error_at(&[Field("environment"), Field("path")], message, help)
+}
+
+/// The bytes of a file that the scene names at `at`: below its folder or one that is allowed, and
+/// not too long.
+pub(super) fn read_image_bytes(
+    origin: &Origin,
+    at: &[PathStep<'_>],
+    path: &str,
+    allowed: &[PathBuf],
+) -> Result<Vec<u8>, SceneError> {
+    if !origin.allows_path(Path::new(path), allowed) {
+        let help =
+            "keep pictures below the scene's folder, or allow another with --allow-outside DIR";
+        let message = format!("the path \"{path}\" leads out of the scene's folder");
+        return Err(origin.error_at(at, message, Some(help.to_owned())));
+    }
+    let full = origin.folder.join(path);
+    let unreadable = |cause: std::io::Error| {
+        let help = "check the path: it begins at the folder of the scene".to_owned();
+        origin.error_at(at, format!("cannot read {path}: {cause}"), Some(help))
+    };
+    let about = std::fs::metadata(&full).map_err(unreadable)?;
+    if !about.is_file() || about.len() > MAX_FILE_BYTES {
+        let message = format!("{path} is no file of at most {MAX_FILE_BYTES} bytes");
+        return Err(origin.error_at(at, message, None));
+    }
+    std::fs::read(&full).map_err(unreadable)
+}
+
+/// A turn about y and a factor.
+struct EnvironmentRotation {
+    strength: f32,
+    degrees: f64,
+    cosine: f32,
+    sine: f32,
+}
+
+impl EnvironmentRotation {
+    /// A rotation about the y axis, in degrees, and a factor for all light.
+    fn new(strength: f64, degrees: f64) -> Self {
+        let angle = degrees.to_radians();
+        let (sine, cosine) = (libm::sin(angle) as f32, libm::cos(angle) as f32);
+        Self { strength: strength as f32, degrees, cosine, sine }
+    }
+
+    /// The key of an environment with this rotation; `content` identifies its radiance.
+    fn cache_key(&self, kind: u8, content: u64) -> EnvironmentKey {
+        (kind, [content, self.degrees.to_bits(), u64::from(self.strength.to_bits()), 0])
+    }
+
+    /// The light from a direction after the surroundings were turned counter-clockwise, seen from
+    /// above.
+    fn rotated_radiance(&self, [x, y, z]: [f32; 3], of: impl Fn([f32; 3]) -> [f32; 3]) -> [f32; 3] {
+        let before = [x * self.cosine - z * self.sine, y, x * self.sine + z * self.cosine];
+        of(before).map(|c| c * self.strength)
+    }
+}
+
+/// The direction with length 1; `None` if it is 0 or too long for its square.
+fn normalize_direction(v: [f64; 3]) -> Option<[f32; 3]> {
+    let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    (length > 0.0 && length.is_finite()).then(|| v.map(|c| (c / length) as f32))
+}
+
+/// A sum that depends on every byte (Fowler, Noll and Vo).
+fn fnv1a_hash(bytes: &[u8]) -> u64 {
+    let mix = |sum: u64, byte: &u8| (sum ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325 ^ bytes.len() as u64, mix)
+}

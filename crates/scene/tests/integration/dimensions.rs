@@ -1,0 +1,154 @@
+//! Dimensions from the text of a scene: what they measure, and where mistakes are shown.
+
+#![allow(clippy::panic, clippy::unwrap_used, reason = "a test may fail by a panic")]
+
+use homog::{Point, World};
+use import::MemoryFolder;
+use scene::{Origin, ResolveOptions, Scene, SheetContent, resolve_sheet};
+use scene_file::{SceneError, parse_scene};
+use sheet::{Dimension, Measure, Sheet};
+
+/// A box of 4 × 2 × 1 and a roof over it, with an angle of 90° at the ridge.
+const HOUSE: &str = "\
+o walls\nv 0 0 0\nv 4 0 0\nv 4 2 0\nv 0 2 0\nv 0 0 1\nv 4 0 1\nv 4 2 1\nv 0 2 1
+f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4
+o roof\nv 0 2 0\nv 4 2 0\nv 2 4 0\nv 0 2 1\nv 4 2 1\nv 2 4 1
+f 11 10 9\nf 12 13 14\nf 9 10 13 12\nf 10 11 14 13\nf 11 9 12 14
+";
+
+/// The sheet of a scene with these dimensions.
+fn sheet_with(dimensions: &str) -> Result<Sheet, SceneError> {
+    let text = format!(
+        "Scene(models: [(path: \"house.obj\")], sheet: (unit: Millimeter, dimensions: {dimensions}))"
+    );
+    let mut folder = MemoryFolder::default();
+    folder.insert("house.obj", HOUSE.as_bytes().to_vec());
+    let file = parse_scene("scene.ron", &text).expect("a scene");
+    let origin = Origin::from_text_in_memory("scene.ron", &text, folder);
+    let scene = Scene::resolve(&origin, &file, &ResolveOptions::default()).expect("models");
+    let content = SheetContent::from_scene(&scene);
+    resolve_sheet(&origin, &file.sheet.expect("a sheet"), content)
+}
+
+/// The points that the only dimension measures.
+fn points(dimension: &str) -> Vec<[f64; 3]> {
+    let sheet = sheet_with(&format!("[{dimension}]")).unwrap_or_else(|error| panic!("{error}"));
+    let [Dimension { measure, .. }] = sheet.measures.as_slice() else { panic!("{dimension}") };
+    let points: Vec<Point<World>> = match measure {
+        Measure::Chain(points, _) | Measure::Baseline(points, _) => points.clone(),
+        Measure::Angle(points) => points.to_vec(),
+        other => panic!("{other:?}"),
+    };
+    points.iter().map(|point| point.raw().to_array().map(|c| (c * 1e6).round() / 1e6)).collect()
+}
+
+#[test]
+fn true_and_false_are_the_overall_dimensions_and_none() {
+    for (text, overall) in [("true", true), ("false", false), ("[Overall]", true), ("[]", false)] {
+        let sheet = sheet_with(text).unwrap();
+        assert_eq!((sheet.dimensions, sheet.measures.len()), (overall, 0), "{text}");
+    }
+}
+
+#[test]
+fn parts_are_picked_by_place_and_by_name() {
+    for (from, to, expected) in [
+        ("Point((1, 2, 3))", "Fraction((1, 0.5, 0))", [[1.0, 2.0, 3.0], [4.0, 2.0, 0.0]]),
+        (
+            "Node(name: \"walls\")",
+            "Node(name: \"roof\", fraction: (0.5, 1, 0.5))",
+            [[2.0, 1.0, 0.5], [2.0, 4.0, 0.5]],
+        ),
+        (
+            "Vertex(near: (-1, 5, 2), node: \"walls\")",
+            "Vertex(fraction: (1, 0, 1))",
+            [[0.0, 2.0, 1.0], [4.0, 0.0, 1.0]],
+        ),
+        // Perpendicular to the floor, from the ridge.
+        ("Vertex(near: (2, 5, 0))", "Face(near: (1, -1, 0.5))", [[2.0, 4.0, 0.0], [2.0, 0.0, 0.0]]),
+        ("Face(near: (-1, 1, 0.5))", "Face(near: (5, 1, 0.5))", [[0.0, 1.0, 0.5], [4.0, 1.0, 0.5]]),
+        (
+            "Edge(near: (1, -1, 1.5))",
+            "Edge(near: (3, -1, -0.5))",
+            [[1.0, 0.0, 1.0], [1.0, 0.0, 0.0]],
+        ),
+        ("Edge(near: (1, -1, 1.5))", "Vertex(near: (4, 2, 1))", [[4.0, 0.0, 1.0], [4.0, 2.0, 1.0]]),
+    ] {
+        assert_eq!(points(&format!("Length(from: {from}, to: {to})")), expected, "{from} {to}");
+    }
+}
+
+#[test]
+fn angles_are_between_edges_faces_and_points() {
+    for sides in [
+        "from: Edge(near: (1, 3.1, 1)), to: Edge(near: (3, 3.1, 1))",
+        "from: Face(near: (1, 3.1, 0.5)), to: Face(near: (3, 3.1, 0.5))",
+        "vertex: Point((0, 0, 0)), from: Point((0, 3, 0)), to: Point((2, 0, 0))",
+    ] {
+        let [vertex, a, b] = points(&format!("Angle({sides})"))[..] else { panic!("{sides}") };
+        let [u, v] = [a, b].map(|end| glam::DVec3::from(end) - glam::DVec3::from(vertex));
+        assert!(
+            (u.angle_between(v).to_degrees() - 90.0).abs() < 1e-3,
+            "{sides}: {vertex:?} {a:?} {b:?}"
+        );
+    }
+}
+
+#[test]
+fn mistakes_are_shown_where_they_are() {
+    for (dimension, at, message, help) in [
+        (
+            "Length(from: Node(name: \"rof\"), to: Point((0, 0, 0)))",
+            "\"rof\"",
+            "no node `rof`",
+            "did you mean `roof`?",
+        ),
+        (
+            "Chain(points: [Point((0, 0, 0)), Vertex(node: \"Wall\")])",
+            "\"Wall\"",
+            "no node `Wall`",
+            "`walls`",
+        ),
+        (
+            "Length(from: Point((0, 0, 0)), to: Node(name: \"roof\", number: 1))",
+            "1",
+            "with the number 1",
+            "there are 1",
+        ),
+        ("Diameter(circle: (near: (0, 0, 0)))", "(near: (0, 0, 0))", "there is no circle", "eight"),
+        ("Chain(points: [Point((0, 0, 0))])", "[Point((0, 0, 0))]", "at least two points", ""),
+        (
+            "Length(from: Edge(near: (1, 0, 1)), to: Edge(near: (0, 1, 1)))",
+            "Edge(near: (0, 1, 1))",
+            "not parallel",
+            "Vertex",
+        ),
+        (
+            "Length(from: Vertex(near: (0, 0, 0), fraction: (0, 0, 0)), to: Point((0, 0, 0)))",
+            "Vertex(near: (0, 0, 0), fraction: (0, 0, 0))",
+            "one point",
+            "near",
+        ),
+        (
+            "Angle(from: Edge(near: (2, 0, 1)), to: Edge(near: (2, 0, 0)))",
+            "Angle(from",
+            "parallel",
+            "distance",
+        ),
+        ("Radius(circle: (near: (0, 0, 0)), decimals: 7)", "7", "7 decimal places", "0 to 6"),
+        (
+            "Length(from: Point((0, 0, 0)), to: Point((1, 0, 0)), direction: Vertical, side: Above)",
+            "Above",
+            "cannot stand above",
+            "Left or Right",
+        ),
+        ("LargestDiameters(count: 0)", "0", "cannot be 0", "1 to 50"),
+    ] {
+        let error = sheet_with(&format!("[Overall, {dimension}]")).expect_err(dimension);
+        let shown = &error.source[error.span.clone()];
+        assert!(shown.starts_with(at), "{dimension}: {shown}");
+        assert!(error.message.contains(message), "{dimension}: {}", error.message);
+        let text = error.help.unwrap_or_default();
+        assert!(text.contains(help), "{dimension}: {text}");
+    }
+}
