@@ -10,8 +10,8 @@
 use crate::asset_models::asset_path;
 use glam::DVec3;
 use homog::Affine;
-use model::ModelInstance;
 use import::{ImportOptions, load};
+use model::ModelInstance;
 use model::{Material, Model};
 use pipeline::render::render_passes;
 use pipeline::{Origin, Picture, Scene, Timings, render};

@@ -14,9 +14,9 @@ use explain::{
     explain_node, explain_pixel, explain_point, explain_segment, explain_transforms,
     explain_triangle, explain_vertex,
 };
+use files::visible_text;
 use homog::{HPoint, Point, World};
 use model::{Model, ModelInstance};
-use files::visible_text;
 use pipeline::{Picture, Scene};
 use scene::Inset;
 use std::path::PathBuf;

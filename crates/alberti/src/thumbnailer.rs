@@ -15,10 +15,10 @@ use super::memory_limit::{import_limits, limit_process_memory, parse_memory_size
 use super::render::{open_input, thread_count};
 use clap::ValueEnum;
 use deadline::Deadline;
-use import::{ImportError, ImportOptions};
-use import::Limits;
-use model::codes;
 use files::{visible_path, visible_text};
+use import::Limits;
+use import::{ImportError, ImportOptions};
+use model::codes;
 use pipeline::{
     OutputError, RenderContext, RenderError, Renderer, ResolveError, Scene, Textures, write_file,
 };

@@ -11,8 +11,8 @@ use super::merge::MergeCounts;
 use super::report::write_error;
 use super::report_reader::{MERGED_REPORT, RecordLine, read_report};
 use crate::BatchError;
-use page::escape_markup;
 use import::percent_encode;
+use page::escape_markup;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 

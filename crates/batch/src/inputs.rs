@@ -3,8 +3,8 @@
 use super::job::{BatchJob, JobGroup};
 use super::picture_name::{NameSource, PictureName, normal_parts};
 use crate::BatchError;
-use import::FileFormat;
 use files::visible_path;
+use import::FileFormat;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::io::Read as _;
 use std::path::{Path, PathBuf};

@@ -123,8 +123,3 @@ impl From<&str> for ItemValue {
         Self::Text(words.to_owned())
     }
 }
-
-/// The examples of the README, compiled as documentation tests.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

@@ -6,9 +6,9 @@ use crate::facts::Facts;
 use crate::number_text::decimals;
 use crate::words::{Words, words};
 use drawing::{Axis, AxisMark, Chart, Curve, Page, Spacing};
-use page::Ink;
 use explain::ApiConventions;
 use glam::DVec2;
+use page::Ink;
 use projection::{Convention, DepthFormat};
 use serde_json::{Value as Json, json};
 

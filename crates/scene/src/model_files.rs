@@ -5,10 +5,12 @@ use super::material_overrides::override_materials;
 use super::origin::ModelSource;
 use super::resolve_options::ResolveOptions;
 use super::{Origin, ResolveError, instances};
-use model::codes::LIMIT_EXCEEDED;
-use import::{FileFormat, ImportError, ImportOptions, NameOrIndex, load, load_bytes, load_from_memory};
-use model::{LengthUnit, Model, ModelInstance, UpAxis};
 use import::ScalarColors;
+use import::{
+    FileFormat, ImportError, ImportOptions, NameOrIndex, load, load_bytes, load_from_memory,
+};
+use model::codes::LIMIT_EXCEEDED;
+use model::{LengthUnit, Model, ModelInstance, UpAxis};
 use scene_file::PathStep::{Field, Index};
 use scene_file::file::{Choice, Finite, MaterialFile, ModelFile, ScalarsFile};
 use scene_file::{SceneError, SceneErrors, SceneFile, closest_name, suggest_name};

@@ -3,9 +3,9 @@
 use super::view_projection::resolve_view_projection;
 use super::{ImageSpec, Origin};
 use drawing::{Overlay, PointLabel};
-use page::palette::ink_on_paper;
 use glam::DVec2;
 use model::ModelInstance;
+use page::palette::ink_on_paper;
 use scene_file::PathStep::{Field, Index};
 use scene_file::SceneError;
 use scene_file::file::{Finite, OverlayFile, Positive};

@@ -1,8 +1,8 @@
 //! Resolution of the style: how surfaces and lines are drawn.
 
 use super::{Origin, Style};
-use page::IsoLineGroup;
 use drawing::{LineStyle, LineWidths};
+use page::IsoLineGroup;
 use scene_file::PathStep::{self, Field};
 use scene_file::file::{CreaseAngle, LinesFile, Positive, StyleFile, WidthFile};
 use scene_file::{SceneError, SceneFile};

@@ -2,8 +2,8 @@
 
 use crate::{glb, promises};
 use homog::Affine;
-use model::Model;
-use model::ModelInstance;
+
+use model::{Model, ModelInstance};
 use import::{ImageLoading, ImportError, ImportOptions, Limits, NameOrIndex, load_bytes};
 use gltf_check::check_bytes;
 use scene_file::file::{CameraChoice, DEFAULT_PADDING, FromFile, SceneFile, StyleFile, ViewFile};

@@ -10,8 +10,8 @@ use crate::unused_flags::find_unused_overrides;
 use batch::{
     FramedAnswer, PictureRequest, PictureTarget, WorkAnswer, WorkRequest, hexadecimal_sha256,
 };
-use files::{visible_path, visible_text};
 use files::{create_partial_file, forget_partial_file};
+use files::{visible_path, visible_text};
 use pipeline::{RenderContext, Renderer, Textures};
 use std::io::{BufRead as _, ErrorKind, Write};
 use std::path::Path;

@@ -2,11 +2,11 @@
 //!
 //! The models that were loaded last are kept: the next picture is often another view of them.
 
-use files::visible_path;
 use super::render_flags::RenderFlags;
 use crate::CliError;
 use crate::memory_limit::import_limits;
 use crate::render::open_input;
+use files::visible_path;
 use model::ModelInstance;
 use pipeline::import::ImportOptions;
 use pipeline::{Origin, Scene, SceneFile};

@@ -4,8 +4,8 @@
 //! folder, also by a symbolic link, is left out.
 
 use crate::CliError;
-use import::Limits;
 use files::visible_path;
+use import::Limits;
 use scene::referenced_files;
 use scene_file::{is_scene_file, parse_scene};
 use std::collections::BTreeMap;

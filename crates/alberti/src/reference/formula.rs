@@ -5,8 +5,8 @@
 
 use super::text::wrap_paragraphs;
 use super::{ReferenceEntry, ReferenceFormat, ReferenceSection};
-use page::escape_markup;
 use explain::formulas::Formula;
+use page::escape_markup;
 
 /// The entry of a formula: name, formula and meaning, sources, and the command that shows it.
 pub(super) fn format_formula(formula: &Formula, format: ReferenceFormat) -> String {

@@ -14,8 +14,8 @@
 
 use crate::load_options::LoadArgs;
 use crate::{CliError, print_message, print_text};
-use model::{Model, Topology};
 use files::visible_path;
+use model::{Model, Topology};
 use pipeline::{Origin, ResolveError, Scene};
 use scene::ResolveOptions;
 use scene_file::file::NonNegative;

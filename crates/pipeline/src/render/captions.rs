@@ -1,13 +1,13 @@
 //! Captions: the strip at the lower border of a picture, with a line of text.
 
 use crate::Picture;
-use page::{Ink, Label, Layer, MILLIMETERS_PER_PIXEL, TextAlign, draw_layers_over};
 use drawing::{Warning, label_warnings, missing_glyph_warning};
-use page::palette::ink_on_paper;
 use glam::DVec2;
 use homog::PixelRect;
-use scene::{ImageSpec, Scene};
+use page::palette::ink_on_paper;
+use page::{Ink, Label, Layer, MILLIMETERS_PER_PIXEL, TextAlign, draw_layers_over};
 use picture::Channel;
+use scene::{ImageSpec, Scene};
 use shade::color::SrgbEncoder;
 
 /// The height of capitals, and the room at each end of the text, as parts of the strip's height.

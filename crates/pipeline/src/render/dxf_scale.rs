@@ -7,11 +7,11 @@
 //! In a parallel view lengths parallel to the picture plane are true, so that the front view of a
 //! plate is the plate. Others are shortened as the projection says; the file is not enlarged by that.
 
-use page::{DxfOptions, DxfUnit, MILLIMETERS_PER_PIXEL};
 use drawing::Page;
 use glam::DVec2;
 use homog::Point;
 use model::LengthUnit;
+use page::{DxfOptions, DxfUnit, MILLIMETERS_PER_PIXEL};
 use scene::Scene;
 
 /// The coordinates of a page of [`draw_lines`](super::draw_lines()) in a DXF file.

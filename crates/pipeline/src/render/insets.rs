@@ -11,8 +11,8 @@
 
 use crate::Picture;
 use homog::PixelRect;
-use scene::Inset;
 use picture::Channel;
+use scene::Inset;
 
 /// The part of the inset in a region of the picture: as pixels of the picture, and as pixels of
 /// the inset. `None` if they are disjoint.

@@ -11,12 +11,14 @@
 use super::RenderError;
 use super::captions::{caption_layer, paper_color, strip_rect, text_warnings};
 use crate::Picture;
-use hidden_line::{DrawError, DrawOptions};
-use page::{Group, Ink, Join, Layer, MILLIMETERS_PER_PIXEL, Pen, PlacedImage, Polyline, to_micrometers};
 use drawing::{LineStyle, LineWidths, Overlay, Page, Warning};
 use glam::DVec2;
+use hidden_line::{DrawError, DrawOptions};
 use homog::PixelRect;
 use model::Timings;
+use page::{
+    Group, Ink, Join, Layer, MILLIMETERS_PER_PIXEL, Pen, PlacedImage, Polyline, to_micrometers,
+};
 use scene::{ImageSpec, Inset, Scene, Style};
 use shade::Backdrop;
 

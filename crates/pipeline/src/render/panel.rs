@@ -5,9 +5,9 @@
 
 use super::{RenderContext, RenderError, Renderer, Textures, draw_lines};
 use crate::{Picture, Timings};
-use page::{MILLIMETERS_PER_PIXEL, PlacedImage, to_micrometers};
 use drawing::{Page, Panel};
 use glam::DVec2;
+use page::{MILLIMETERS_PER_PIXEL, PlacedImage, to_micrometers};
 use scene::Scene;
 
 /// Pixels of a raster picture along each pixel of its panel, for sharp prints.

@@ -22,13 +22,13 @@ use super::transmission_framebuffer::{
     compute_whole_occlusion, needs_framebuffer, render_framebuffer,
 };
 use crate::Picture;
-use page::{Layer, draw_layers_over};
 use drawing::{Page, Warning};
 use homog::PixelRect;
+use page::{Layer, draw_layers_over};
 use raster::Surface;
 use scene::Inset;
-use shade::{AmbientOcclusion, TransmissionFramebuffer};
 use shade::FrameChannel;
+use shade::{AmbientOcclusion, TransmissionFramebuffer};
 
 /// A scene of which any region can be rendered; made by [`Renderer::prepare`].
 ///

@@ -3,9 +3,9 @@
 use crate::color::Color;
 use crate::number::{CreaseAngle, HandDrawn, HatchSpacing, Percent, Positive};
 use crate::schema::{scene_enum, scene_struct};
-use page::{Cap, Join};
 use drawing::{EdgeSelection, FaceFill, HiddenLines};
 use hidden_line::SilhouetteMethod;
+use page::{Cap, Join};
 
 scene_struct! {
     /// The style of a line drawing.

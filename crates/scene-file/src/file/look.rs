@@ -5,8 +5,8 @@ use super::lines::{LinesFile, WidthFile};
 use crate::color::Color;
 use crate::number::{Finite, HandDrawn, HatchSpacing, Percent, PointSize, Positive};
 use crate::schema::{scene_enum, scene_struct};
-use page::palette::{BLUEPRINT_BLUE, GRAPHITE};
 use drawing::{EdgeSelection, FaceFill, HiddenLines};
+use page::palette::{BLUEPRINT_BLUE, GRAPHITE};
 use shade::ToneMapping;
 
 scene_enum! {

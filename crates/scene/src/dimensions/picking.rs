@@ -2,8 +2,8 @@
 
 use super::super::Origin;
 use super::super::named_nodes::{node_names, objects_below};
-use hidden_line::{FeaturePicker, PickedFeature, WorldCircle};
 use glam::DVec3;
+use hidden_line::{FeaturePicker, PickedFeature, WorldCircle};
 use homog::{Bounds, Point, World};
 use model::ModelInstance;
 use scene_file::PathStep::{self, Field};
