@@ -98,7 +98,13 @@ fn check_in_memory(uri: &str, document: &Document, expected: &Expected) -> Resul
         return check_load_result(&loaded, expected);
     }
     let problem = format!("the model is in memory and may not read the file {uri:?}");
-    check_load_result(&loaded, &fault_at(&problem, OUTSIDE))
+    check_load_result(
+        &loaded,
+        &fault_at(
+            &problem,
+            "load the model from its own file, or export it as a .glb, which contains everything",
+        ),
+    )
 }
 
 fn create_files(folder: &Path, models: &Path) -> std::io::Result<()> {

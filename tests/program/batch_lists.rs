@@ -52,8 +52,8 @@ fn a_wrong_line_fails_by_its_number_and_the_others_run() {
     let sandbox = batch_sandbox("batch_wrong_lines");
     let lines = [
         ("{\"input\": \"models/a.glb\", \"size\": \"8x8\"}", ""),
-        ("{\"input\": \"models/a.glb\"", "no JSON"),
-        ("[1]", "no JSON object"),
+        ("{\"input\": \"models/a.glb\"", "not JSON"),
+        ("[1]", "not a JSON object"),
         ("{\"output\": \"x.png\"}", "`input` is missing"),
         ("{\"input\": 3}", "`input` is no text"),
         ("{\"input\": \"models/a.glb\", \"sampels\": 4}", "did you mean `samples`?"),

@@ -151,3 +151,68 @@ fn help_has_groups_that_people_know() {
         assert!(top.contains(&format!("\n{group}\n")), "{group}: {top}");
     }
 }
+
+/// What a person who comes from f3d, Blender or ImageMagick tried, and what it is answered with.
+#[test]
+fn habits_that_were_tried_are_answered() {
+    let sandbox = sandbox_with_teapot("tried_habits");
+    sandbox.write_file("scene.ron", "# a comment\nScene(models: [(path: \"teapot.glb\")])\n");
+    sandbox.write_file("quoted.ron", "Scene(models: [(path: 'teapot.glb')])\n");
+    std::fs::create_dir(sandbox.path_of("empty")).expect("a folder");
+    for (words, told) in [
+        (&["render", "models/*.glb"][..], "this is a pattern that matches no file"),
+        (&["render", "https://a.org/a.glb"], "fetch it first, as in `curl -O https://a.org/a.glb`"),
+        (&["render", "teapot.glb", "--ambient-occlusion", "on"], "takes no value: leave out `on`"),
+        (&["render", "teapot.glb", "-o", "."], ". is a folder\n  = help: name a file in it"),
+        (
+            &["render", "teapot.glb", "--view", "front,top"],
+            "`--view` takes one direction; `--views front,top` draws a picture from each",
+        ),
+        (
+            &["render", "teapot.glb", "--compare", "a.png", "--tolerance", "1%"],
+            "invalid value '1%' for '--tolerance': expected a whole number, without a unit",
+        ),
+        (
+            &["animate", "teapot.glb", "--turntable", "--frames", "0", "-o", "a.gif"],
+            "invalid value '0' for '--frames': expected a whole number from 1 to 100000",
+        ),
+        (
+            &["info", "teapot.glb", "teapot.glb"],
+            "`alberti info` reads one file, and `teapot.glb` is a second one",
+        ),
+        (&["info", "scene.ron"], "this is a scene and not a model"),
+        (&["compare", "a.png", "b.png"], "`magick compare a.png b.png difference.png`"),
+        (&["sheet", "teapot.glb", "--size", "800x600"], "`--paper a4` gives the size of the page"),
+        (&["batch", "empty", "-o", "thumbs"], "use `--out-dir thumbs`"),
+        (&["batch", "empty", "--out-dir", "th"], "warning: there is nothing to draw"),
+        (&["scene", "check", "teapot.glb"], "teapot.glb is not a scene"),
+        (&["scene", "check", "scene.ron"], "comments begin with `//`"),
+        (
+            &["scene", "check", "quoted.ron"],
+            "strings are written in double quotation marks: \"teapot.glb\"",
+        ),
+        (&["thumbnailer", "-s", "128", "teapot.glb", "t.png"], "--size 128` gives the side"),
+        (
+            &["render", "teapot.glb", "--size=8x8", "--background", "transparent", "-o", "a.jpg"],
+            "a JPEG has no transparency",
+        ),
+        (
+            &[
+                "animate",
+                "teapot.glb",
+                "--turntable",
+                "--size=8x8",
+                "--frames=2",
+                "--fps=1000",
+                "-o",
+                "t.gif",
+            ],
+            "viewers slow down a GIF of more than 50 frames a second",
+        ),
+        (&["render", "teapot.glb", "--output-dir", "out"], "a template names the outputs"),
+        (&["version"], "run `alberti --version`"),
+    ] {
+        let run = sandbox.run(words);
+        assert!(run.stderr.contains(told), "{words:?}: {}", run.stderr);
+    }
+}

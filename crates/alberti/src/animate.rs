@@ -78,6 +78,11 @@ pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
     let unused = find_unused_overrides(&args.overrides, &scene, false);
     unused.iter().for_each(|warning| print_message("warning", warning));
     print_warnings(&scene, &[], false);
+    if args.fps > MAX_GIF_FPS && args.output.extension().is_some_and(|ending| ending == "gif") {
+        let message = "viewers slow down a GIF of more than 50 frames a second: use --fps 50, or write an \
+                       animated PNG, as in -o film.png";
+        print_message("warning", message);
+    }
     let film = args.build_sequence(&origin, &file, scene)?;
     let mut sink = FrameSink::open(&args.input, &args.output, &film, args.fps)?;
     let counter = ProgressCounter::start(film.frame_count());
@@ -93,6 +98,10 @@ pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
         Err(other) => Err(CliError::Usage(other.to_string())),
     }
 }
+
+/// The delays of a GIF are whole hundredths of a second, and viewers take one of less than two for a
+/// mistake.
+const MAX_GIF_FPS: f64 = 50.0;
 
 impl AnimateArgs {
     /// The sequence that the flags and the scene describe.

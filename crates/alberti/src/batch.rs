@@ -208,6 +208,12 @@ fn print_summary(counts: RunCounts) -> Result<u8, CliError> {
         print_message("failed", &text);
     }
     let failed = failed + failed_before;
+    if rendered + up_to_date + failed == 0 {
+        print_message(
+            "warning",
+            "there is nothing to draw: the inputs contain no models and no scenes",
+        );
+    }
     let text = format!("{rendered} rendered, {up_to_date} up to date, {failed} failed\n");
     print_text(&text)?;
     Ok(if failed == 0 { 0 } else { SOME_FAILED })

@@ -96,6 +96,10 @@ impl OutputFormat {
                 format!("write {} instead", output.with_extension("pdf").display()),
             ),
             "gif" | "mp4" | "m4v" | "mov" | "webm" | "mkv" | "avi" => animate(),
+            _ if output.is_dir() => CliError::Usage(format!(
+                "{name} is a folder\n  = help: name a file in it, such as -o '{}'",
+                visible_path(output.join("{stem}.png"))
+            )),
             _ => CliError::Usage(format!(
                 "{name}: unsupported output format; use .png, .jpg, .webp, .svg, .pdf or .dxf"
             )),

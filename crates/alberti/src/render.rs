@@ -234,13 +234,33 @@ fn check_is_file(input: &Path) -> Result<(), CliError> {
         entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
     names.sort();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    match closest_name(&wanted.to_string_lossy(), &names) {
-        Some(similar) => Err(CliError::Usage(format!(
-            "{name}: the file does not exist\n  = help: did you mean `{}`?",
-            visible_path(input.with_file_name(similar))
-        ))),
-        None => Ok(()),
+    let help = match closest_name(&wanted.to_string_lossy(), &names) {
+        Some(similar) => {
+            Some(format!("did you mean `{}`?", visible_path(input.with_file_name(similar))))
+        }
+        None => missing_input_help(input),
+    };
+    let missing =
+        |help| CliError::Usage(format!("{name}: the file does not exist\n  = help: {help}"));
+    help.map_or(Ok(()), |help| Err(missing(help)))
+}
+
+/// What to do about an input that is no name of a file: a pattern that no shell has expanded, an
+/// address, or a word that belongs to a flag.
+pub(super) fn missing_input_help(input: &Path) -> Option<String> {
+    let word = input.to_string_lossy();
+    if word.contains("://") {
+        return Some(format!("models are not downloaded; fetch it first, as in `curl -O {word}`"));
     }
+    if word.contains(['*', '?']) {
+        return Some(
+            "this is a pattern that matches no file, or that was quoted: leave out the quotation \
+             marks, or run `alberti batch models --out-dir pictures` for all models in a folder"
+                .to_owned(),
+        );
+    }
+    matches!(&*word, "on" | "off" | "true" | "false" | "yes" | "no")
+        .then(|| format!("the flag before it takes no value: leave out `{word}`"))
 }
 
 /// Reads a model or a scene from the standard input.

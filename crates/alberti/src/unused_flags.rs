@@ -10,7 +10,7 @@ use super::scene_overrides::SceneOverrideArgs;
 use clap::ValueEnum as _;
 use pipeline::Scene;
 use scene::Style;
-use scene_file::file::StyleFile;
+use scene_file::file::{BackgroundFile, StyleFile};
 
 /// The warnings about the flags of a picture that `render` makes.
 pub(super) fn find_unused_flags(
@@ -29,6 +29,14 @@ pub(super) fn find_unused_flags(
     if args.quality.is_some() && task.format != OutputFormat::Jpeg {
         warnings.push(
             "--quality does nothing here: it applies only to JPEG; write a .jpg to use it"
+                .to_owned(),
+        );
+    }
+    if task.overrides.background == Some(BackgroundFile::Transparent)
+        && task.format == OutputFormat::Jpeg
+    {
+        warnings.push(
+            "--background transparent does nothing here: a JPEG has no transparency; write a .png"
                 .to_owned(),
         );
     }

@@ -112,6 +112,12 @@ fn advise_on_flag(error: &mut Error, words: &[OsString], program: &Command) -> O
     if before_command {
         return advise_before_command(&name, program);
     }
+    if !name.starts_with('-') && Path::new(&name).extension().is_some() {
+        let command = full_name(command, program);
+        return Some(format!(
+            "`{command}` reads one file, and `{name}` is a second one; for several files use a loop: `for f in *.glb; do {command} \"$f\"; done`"
+        ));
+    }
     if !name.starts_with("--") {
         return advise_on_detached_value(&words, command);
     }
@@ -278,9 +284,34 @@ fn advise_on_value(error: &mut Error, words: &[OsString], program: &Command) -> 
         );
     }
     let command = called_command(program, words);
+    if flag == "view" && given.contains(',') && has_flag(command, "views") {
+        return Some(format!(
+            "`--view` takes one direction; `--views {given}` draws a picture from each"
+        ));
+    }
+    if let Some(expected) = expected_number(error) {
+        return Some(format!("invalid value '{given}' for '--{flag}': {expected}"));
+    }
     let meant = foreign_value(&flag, &given).or_else(|| accepted_value(&flag, &given, command))?;
     error.insert(ContextKind::SuggestedValue, ContextValue::String(meant));
     None
+}
+
+/// What a flag with a whole number takes, where the standard library says it in the notation of Rust:
+/// `0 is not in 1..=100000`.
+fn expected_number(error: &Error) -> Option<String> {
+    let reason = std::error::Error::source(error)?.to_string();
+    if let Some((_, range)) = reason.split_once(" is not in ") {
+        let (least, most) = range.split_once("..=")?;
+        return Some(format!("expected a whole number from {least} to {most}"));
+    }
+    let is_whole = ["invalid digit", "number too large", "number too small"];
+    let text = if reason.starts_with(is_whole[0]) {
+        "expected a whole number, without a unit"
+    } else {
+        "the number is out of range"
+    };
+    is_whole.iter().any(|start| reason.starts_with(start)).then(|| text.to_owned())
 }
 
 /// Says what to do about two flags that exclude each other.

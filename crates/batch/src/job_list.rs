@@ -289,11 +289,11 @@ type Members = Result<Map<String, Value>, String>;
 fn json_members(line: &[u8]) -> Members {
     match serde_json::from_slice(line) {
         Ok(Value::Object(members)) => Ok(members),
-        Ok(_) => Err("the line is no JSON object, such as {\"input\": \"fox.glb\"}".to_owned()),
+        Ok(_) => Err("the line is not a JSON object, such as {\"input\": \"fox.glb\"}".to_owned()),
         Err(error) => {
             let text = error.to_string();
             let what = text.split(" at line ").next().unwrap_or_default();
-            Err(format!("the line is no JSON: {what} at column {}", error.column()))
+            Err(format!("the line is not JSON: {what} at column {}", error.column()))
         }
     }
 }

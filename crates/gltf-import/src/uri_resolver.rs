@@ -185,7 +185,9 @@ impl<'a> UriResolver<'a> {
         match &self.source {
             AssetSource::Nowhere => {
                 let message = format!("the model is in memory and may not read the file {uri:?}");
-                Err(forbidden_path(pointer, &message))
+                let help = "load the model from its own file, or export it as a .glb, which \
+                            contains everything";
+                Err(Diagnostic::error(codes::FORBIDDEN_PATH, pointer, message, help))
             }
             AssetSource::Disk(sandbox) => {
                 let Ok(path) = sandbox.path_below_root(path, pointer)?.canonicalize() else {

@@ -97,7 +97,9 @@ impl FileFormat {
     /// [`UNKNOWN_FORMAT`](codes::UNKNOWN_FORMAT) if neither says.
     pub fn recognize(path: &Path, bytes: &[u8]) -> Result<Self, Diagnostic> {
         let named = Self::from_extension(path);
-        Self::from_content(bytes).or(named).ok_or_else(|| unknown_format(bytes))
+        let is_scene = path.extension().is_some_and(|ending| ending == "ron");
+        let unknown = || if is_scene { scene_as_model() } else { unknown_format(bytes) };
+        Self::from_content(bytes).or(named).ok_or_else(unknown)
     }
 }
 
@@ -126,13 +128,19 @@ const FOREIGN_FORMATS: [(&[u8], &str, &str); 7] = [
     (b"<?xml", "an XML file (COLLADA, AMF, X3D …)", "export it as .glb or .3mf"),
 ];
 
+/// The error for a scene file in the place of a model.
+fn scene_as_model() -> Diagnostic {
+    let help = "`alberti scene check` checks it, and `alberti render` draws it";
+    Diagnostic::error(codes::UNKNOWN_FORMAT, "", "this is a scene and not a model", help)
+}
+
 /// The error for a file whose format neither its content nor its name says.
 fn unknown_format(bytes: &[u8]) -> Diagnostic {
     let known = FOREIGN_FORMATS.iter().find(|(start, ..)| bytes.starts_with(start));
     let (message, help) = match known {
         Some((_, name, help)) => (format!("this is {name}, which is not read"), *help),
         None if bytes.is_empty() => ("the file is empty".to_owned(), GIVE_A_MODEL),
-        None => ("this is no model of a known format".to_owned(), GIVE_A_MODEL),
+        None => ("this is not a model in a known format".to_owned(), GIVE_A_MODEL),
     };
     Diagnostic::error(codes::UNKNOWN_FORMAT, "", message, help)
 }

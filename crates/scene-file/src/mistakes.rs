@@ -130,7 +130,7 @@ fn errors_of_grammar_are_pointed_at() {
         "Scene(models: [(path: a)])",
         "`models[0].path`: expected a string, found `a`",
         (1, 23),
-        "strings are written in quotation marks: \"a\"",
+        "strings are written in double quotation marks: \"a\"",
     );
     check(
         &scene_with("image: (size: (800.5, 600))"),

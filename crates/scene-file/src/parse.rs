@@ -85,7 +85,15 @@ pub(super) fn read_recovering(source: &str) -> ParsedScene {
     if mistakes.is_empty() {
         let start = offset_of(source, error.span.start);
         let end = source[start..].chars().next().map_or(start, |c| start + c.len_utf8());
-        mistakes.push(Mistake::new(start..end, error.code.to_string(), None));
+        let mistake = match source[..start].trim_end().strip_suffix('#') {
+            Some(before) => {
+                let help = "comments begin with `//`".to_owned();
+                let span = before.len()..before.len() + 1;
+                Mistake::new(span, "unexpected `#`".to_owned(), Some(help))
+            }
+            None => Mistake::new(start..end, error.code.to_string(), None),
+        };
+        mistakes.push(mistake);
     }
     let mut parsed = ParsedScene { mistakes, ..ParsedScene::default() };
     if let Some(root) = tree {

@@ -54,6 +54,9 @@ fn unreadable_message(path: &Path, cause: &std::io::Error) -> String {
     let path = visible_path(path);
     match cause.kind() {
         std::io::ErrorKind::NotFound => format!("{path}: the file does not exist; check the name"),
+        std::io::ErrorKind::InvalidData => format!(
+            "{path} is not a scene: it is not a text in UTF-8\n  = help: a model is checked by `alberti check`, and drawn by `alberti render`"
+        ),
         _ => format!("cannot read {path}: {cause}"),
     }
 }

@@ -3,6 +3,7 @@
 //! Every output name is known up front, so that two pictures of one name are refused before the
 //! first is written.
 
+use super::missing_input_help;
 use crate::CliError;
 use crate::args::RenderArgs;
 use crate::format::OutputFormat;
@@ -101,7 +102,7 @@ fn refuse_words_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
             "everything after `--` is taken as a model; leave `--` and what follows out".to_owned()
         }
         Some('+') => format!("{name} is taken as a model; flags begin with two hyphens"),
-        _ => "check the name".to_owned(),
+        _ => missing_input_help(word).unwrap_or_else(|| "check the name".to_owned()),
     };
     Err(CliError::Usage(format!("{name}: the file does not exist\n  = help: {help}")))
 }

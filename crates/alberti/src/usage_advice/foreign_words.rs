@@ -88,7 +88,7 @@ pub(super) const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
     ("animation-index animation-indices animation-name", "animation", "--animation 0"),
     ("frame-rate framerate animation-frame-rate r", "fps", "--fps 30"),
     ("frame-count num-frames frames:v vframes", "frames", "--frames 60"),
-    ("output out outdir output-dir output-folder", "out-dir", "--out-dir pictures"),
+    ("o output out outdir output-dir output-folder", "out-dir", "--out-dir pictures"),
     (
         "out outfile out-file output-file screenshot-filename save export image write",
         "output",
@@ -116,6 +116,26 @@ pub(super) const FOREIGN_HABITS: &[(&str, &str, &str)] = &[
         "y overwrite overwrite-output",
         "",
         "existing files are overwritten without asking once the new ones are complete, so leave it out",
+    ),
+    (
+        "s size",
+        "thumbnailer",
+        "`alberti thumbnailer model.glb thumb.png --size 128` gives the side in pixels",
+    ),
+    (
+        "i input in file filename o output",
+        "thumbnailer",
+        "neither file needs a flag, as in `alberti thumbnailer model.glb thumb.png`",
+    ),
+    (
+        "size s resolution res width height",
+        "sheet",
+        "`--paper a4` gives the size of the page, and `--dpi 300` the pixels of a PNG",
+    ),
+    (
+        "outdir output-dir out-dir output-folder",
+        "render",
+        "a template names the outputs, as in `-o 'pictures/{stem}.png'`",
     ),
     (
         "i input in file filename",
@@ -399,4 +419,11 @@ pub(super) const FOREIGN_COMMANDS: &[(&str, &str)] = &[
         "to make pictures of many models run `alberti batch models --out-dir pictures`",
     ),
     ("init new", "run `alberti scene init model.glb`"),
+    (
+        "compare diff",
+        "`alberti render model.glb --compare reference.png` compares a new picture with one in a file; for two pictures use ImageMagick: `magick compare a.png b.png difference.png`",
+    ),
+    ("serve server web", "run `alberti explore model.glb`, which serves a page on this machine"),
+    ("formats list list-formats", "`alberti render --help` names the formats of models"),
+    ("version", "run `alberti --version`"),
 ];

@@ -89,10 +89,10 @@ impl Checker<'_> {
     pub(crate) fn read_string(&mut self, node: &Node<'_>) -> Option<String> {
         let NodeKind::String(literal) = node.kind else {
             let written = match node.kind {
-                NodeKind::Word(word) | NodeKind::Number(word) => word,
+                NodeKind::Word(word) | NodeKind::Number(word) => word.trim_matches('\''),
                 _ => "like this",
             };
-            let help = format!("strings are written in quotation marks: \"{written}\"");
+            let help = format!("strings are written in double quotation marks: \"{written}\"");
             self.report_type(node, "a string", Some(help));
             return None;
         };
