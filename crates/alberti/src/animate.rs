@@ -77,7 +77,7 @@ pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
     let (origin, file, scene) = args.overrides.open_scene(&args.input, &args.load_options)?;
     let unused = find_unused_overrides(&args.overrides, &scene, false);
     unused.iter().for_each(|warning| print_message("warning", warning));
-    print_warnings(&scene, &[], false);
+    print_warnings::<drawing::Warning>(&scene, &[], false);
     if args.fps > MAX_GIF_FPS && args.output.extension().is_some_and(|ending| ending == "gif") {
         let message = "viewers slow down a GIF of more than 50 frames a second: use --fps 50, or write an \
                        animated PNG, as in -o film.png";

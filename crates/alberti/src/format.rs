@@ -11,9 +11,8 @@ pub(crate) use raster::{DEFAULT_QUALITY, parse_quality};
 
 use super::error::CliError;
 use clap::ValueEnum as _;
-use drawing::Page;
 use files::visible_path;
-use page::{DxfOptions, to_pdf};
+use page::{DxfOptions, Page, to_pdf};
 use std::path::Path;
 
 /// The format of an output file.
@@ -123,11 +122,11 @@ impl OutputFormat {
     /// A PDF has one page for each; their sizes may differ. A DXF is in millimeters on paper. Raster
     /// formats are treated as SVG here: callers rasterize the page before they come to this
     /// function.
-    pub(super) fn encode_pages(self, pages: &[Page]) -> Vec<u8> {
+    pub(super) fn encode_pages<W>(self, pages: &[Page<W>]) -> Vec<u8> {
         match self {
             Self::Pdf => to_pdf(pages),
             Self::Dxf => {
-                let encode = |page: &Page| page.to_dxf(&DxfOptions::on_paper(page));
+                let encode = |page: &Page<W>| page.to_dxf(&DxfOptions::on_paper(page));
                 pages.first().map(encode).unwrap_or_default()
             }
             Self::Png | Self::Jpeg | Self::Webp | Self::Svg => {

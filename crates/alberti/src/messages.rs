@@ -17,6 +17,7 @@ use files::{is_terminal_control, visible_text};
 use model::Diagnostic;
 use pipeline::Scene;
 use std::borrow::Cow;
+use std::fmt::Display;
 use std::io::{ErrorKind, Write};
 
 /// The number of warnings of one model that are printed; the others are only counted.
@@ -153,7 +154,7 @@ pub(crate) fn print_note(line: &str) {
 ///
 /// Warnings about what the picture would not show anyway are left out. `is_vector` is whether it is
 /// a line drawing whatever its style is.
-pub(crate) fn print_warnings(scene: &Scene, drawing: &[drawing::Warning], is_vector: bool) {
+pub(crate) fn print_warnings<W: Display>(scene: &Scene, drawing: &[W], is_vector: bool) {
     drawing.iter().for_each(|warning| print_message("warning", &warning.to_string()));
     let mut printed: Vec<&str> = Vec::new();
     for instance in &scene.models {

@@ -17,15 +17,15 @@ use super::progress::Progress;
 use super::render::{open_input, thread_count};
 use super::section::SectionArgs;
 use assembly::AssemblyArgs;
-use drawing::{FaceFill, HiddenLines, Page, Warning};
+use drawing::{FaceFill, HiddenLines};
 use import::{ImageLoading, ImportOptions};
-use page::DxfOptions;
+use page::{DxfOptions, Page};
 use page_files::{PageNames, write_all};
 use pipeline::{Origin, Picture, Scene};
 use projection::SheetAngle;
 use scene::{ResolveOptions, SheetContent, Style};
 use scene_file::file::{AxonometricView, DimensionsFile, PageOrientation, PaperSize, SheetFile};
-use sheet::{DecimalMark, DimensionUnit, SheetFrame, TitleBlockLanguage};
+use sheet::{DecimalMark, DimensionUnit, SheetFrame, SheetPage, SheetWarning, TitleBlockLanguage};
 use std::path::PathBuf;
 use viewport::{Paper, Resolution};
 
@@ -158,11 +158,12 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     progress.enter_stage("writing");
     let mut warnings = warnings_of_pages(&pages);
     if !matches!(scene.style, Style::Lines(_) | Style::Shaded) {
-        warnings.push(Warning::StyleIgnored);
+        warnings.push(SheetWarning::StyleIgnored);
     }
-    warnings.extend(pages.iter().find_map(|page| image_warning(format, page)));
+    let lost_images = pages.iter().find_map(|page| image_warning(format, page));
+    warnings.extend(lost_images.map(SheetWarning::from));
     let dpi = args.dpi.unwrap_or(DEFAULT_DPI);
-    let encode = |page: &Page| match format {
+    let encode = |page: &SheetPage| match format {
         format if format.is_raster() => {
             format.encode_picture(&rasterize_page(page, dpi)?, DEFAULT_QUALITY)
         }
@@ -201,9 +202,9 @@ fn sheet_error(origin: &Origin, error: sheet::SheetError) -> CliError {
 }
 
 /// The warnings of all pages, each once.
-fn warnings_of_pages(pages: &[Page]) -> Vec<Warning> {
+fn warnings_of_pages(pages: &[SheetPage]) -> Vec<SheetWarning> {
     let all = pages.iter().flat_map(|page| &page.warnings);
-    let mut warnings: Vec<Warning> = all.cloned().collect();
+    let mut warnings: Vec<SheetWarning> = all.cloned().collect();
     warnings.sort_unstable();
     warnings.dedup();
     warnings
@@ -223,7 +224,7 @@ fn default_output(args: &SheetArgs) -> Result<PathBuf, CliError> {
 ///
 /// Other commands with pages use it with [`DEFAULT_DPI`]. The resolution must not depend on the
 /// display: output is the same on every machine.
-pub(super) fn rasterize_page(page: &Page, dpi: u32) -> Result<Picture, CliError> {
+pub(super) fn rasterize_page<W>(page: &Page<W>, dpi: u32) -> Result<Picture, CliError> {
     let size = || {
         let paper = Paper::new(page.size.x, page.size.y).ok()?;
         let [width, height] = paper.pixel_size(Resolution::dots_per_inch(dpi.into()).ok()?)?;

@@ -47,11 +47,11 @@ pub use layout::Placement;
 pub use line_clip::{ClipArea, ClipSide, circle_points, point_at};
 pub use line_style::{EdgeSelection, FaceFill, HiddenLines, LineStyle, LineWidths};
 pub use overlay::{
-    AXES, LabelFault, Overlay, PointLabel, SheetLabelFault, label_rectangles, label_warnings,
-    missing_glyph_warning, overlay_layers, with_label_halos,
+    AXES, LabelFault, Overlay, PointLabel, label_rectangles, label_warnings, missing_glyph_warning,
+    overlay_layers, with_label_halos,
 };
 pub use panels::{Panel, Panels};
-pub use warning::{AssemblyWarning, DimensionFault, Warning};
+pub use warning::Warning;
 
 /// A page with the warnings of its drawings.
 pub type Page = page::Page<Warning>;

@@ -17,8 +17,8 @@ mod point_label;
 mod view_volume;
 
 pub use point_label::{
-    LabelFault, PointLabel, SheetLabelFault, label_rectangles, label_warnings,
-    missing_glyph_warning, with_label_halos,
+    LabelFault, PointLabel, label_rectangles, label_warnings, missing_glyph_warning,
+    with_label_halos,
 };
 
 use super::line_style::HiddenLines;

@@ -8,10 +8,12 @@
 //!  module | technique |
 //!  --- | --- |
 //!  `sheet` | orthographic views in first or third angle, title block, dimensions |
+//!  `warning` | what a sheet leaves out, with the reason |
 //!  `assembly` | parts of models counted by content, masses by the divergence theorem, exploded views |
 
 mod assembly;
 mod sheet;
+mod warning;
 
 pub use assembly::{
     AssemblyPages, ExplosionAxis, ExplosionSettings, PartDensity, PartPlace, PartsList,
@@ -22,6 +24,10 @@ pub use sheet::{
     ScaleLimit, Sheet, SheetError, SheetFill, SheetFrame, TemplateError, TitleBlockLanguage,
     TitleBlockTemplate, TitleBlockText, ViewPlace, ViewRequest, ViewSide,
 };
+pub use warning::{AssemblyWarning, DimensionFault, SheetLabelFault, SheetWarning};
+
+/// A page of a sheet with its warnings.
+pub type SheetPage = page::Page<SheetWarning>;
 
 /// The example of the README, compiled as a documentation test.
 #[cfg(doctest)]

@@ -63,12 +63,12 @@ mod view_request;
 mod visible_spots;
 
 use crate::assembly::AssemblyPages;
+use crate::{DimensionFault, SheetPage, SheetWarning};
 use annotation::{AnnotationLayer, Extent};
 use camera::NamedView;
 use composition::ComposedDrawing;
 use drawing::{
-    DimensionFault, FaceFill, HiddenLines, LineStyle, LineWidths, Overlay, Page, Placement,
-    Warning, missing_glyph_warning,
+    FaceFill, HiddenLines, LineStyle, LineWidths, Overlay, Placement, missing_glyph_warning,
 };
 pub use frame_zones::SheetFrame;
 use glam::DVec2;
@@ -279,7 +279,7 @@ impl Sheet {
         models: &[ModelInstance],
         sections: &[Plane<World>],
         threads: usize,
-    ) -> Result<Page, SheetError> {
+    ) -> Result<SheetPage, SheetError> {
         self.draw_views(models, sections, &mut SurfaceCache::new(models, &self.uncut), threads)
     }
 
@@ -290,12 +290,12 @@ impl Sheet {
         sections: &[Plane<World>],
         surfaces: &mut SurfaceCache<'_>,
         threads: usize,
-    ) -> Result<Page, SheetError> {
+    ) -> Result<SheetPage, SheetError> {
         let plan = ViewPlan::new(self, models, sections)?;
         let layout = ViewLayout::arrange_views(self, &plan)?;
         let size = DVec2::new(self.paper.width(), self.paper.height());
         let paper = Some(self.style.paper.unwrap_or(WHITE));
-        let mut page = Page::new(size, self.title_of(models), paper);
+        let mut page = SheetPage::new(size, self.title_of(models), paper);
         let ink = self.style.ink.unwrap_or(BLACK);
         page.warnings = self.warnings_of_layout(&plan, &layout, &page.title);
         let mut is_empty = true;
@@ -307,9 +307,9 @@ impl Sheet {
         }
         let largest = layout.views.iter().map(|placed| placed.object_size().max_element());
         if is_empty {
-            page.warnings.push(Warning::NothingDrawn);
+            page.warnings.push(SheetWarning::NothingDrawn);
         } else if largest.fold(0.0, f64::max) < LEAST_DRAWING {
-            page.warnings.push(Warning::ViewsTiny);
+            page.warnings.push(SheetWarning::ViewsTiny);
         }
         page.warnings.sort_unstable();
         page.warnings.dedup();
@@ -326,7 +326,7 @@ impl Sheet {
         &self,
         models: &[ModelInstance],
         sections: &[Plane<World>],
-    ) -> Result<Vec<Warning>, SheetError> {
+    ) -> Result<Vec<SheetWarning>, SheetError> {
         let plan = ViewPlan::new(self, models, sections)?;
         let layout = ViewLayout::arrange_views(self, &plan)?;
         Ok(self.warnings_of_layout(&plan, &layout, &self.title_of(models)))
@@ -344,19 +344,19 @@ impl Sheet {
         plan: &ViewPlan,
         layout: &ViewLayout<'_>,
         title: &str,
-    ) -> Vec<Warning> {
+    ) -> Vec<SheetWarning> {
         let mut warnings = plan.warnings.clone();
         let left_out = layout.left_out.iter();
-        warnings.extend(left_out.map(|view| Warning::ViewLeftOut { view: view.title() }));
+        warnings.extend(left_out.map(|view| SheetWarning::ViewLeftOut { view: view.title() }));
         let without_room = layout.views.iter().flat_map(|placed| &placed.annotations.left_out);
-        warnings.extend(without_room.map(|dimension| Warning::DimensionLeftOut {
+        warnings.extend(without_room.map(|dimension| SheetWarning::DimensionLeftOut {
             dimension: dimension.clone(),
             fault: DimensionFault::NoRoom,
         }));
         for placed in &layout.views {
             let view = || placed.planned.title();
             let labels = placed.annotations.labels_left_out.iter().cloned();
-            warnings.extend(labels.map(|(text, fault)| Warning::LabelNotInView {
+            warnings.extend(labels.map(|(text, fault)| SheetWarning::LabelNotInView {
                 text,
                 view: view(),
                 fault,
@@ -367,12 +367,13 @@ impl Sheet {
             Some(template) => {
                 let scale = layout.scale.to_string();
                 let contents = template.contents(&self.field_values(title, &scale));
-                warnings.extend(contents.iter().filter_map(|text| missing_glyph_warning(text)));
+                let missing = contents.iter().filter_map(|text| missing_glyph_warning(text));
+                warnings.extend(missing.map(SheetWarning::from));
             }
             None => {
                 let own = self.title_block.texts().into_iter().filter(|text| *text != title);
                 let texts = core::iter::once(title).chain(own);
-                warnings.extend(texts.filter_map(missing_glyph_warning));
+                warnings.extend(texts.filter_map(missing_glyph_warning).map(SheetWarning::from));
             }
         }
         warnings
@@ -396,7 +397,7 @@ impl Sheet {
     /// Puts the drawing of a view onto the page, with the name of the view before its layers' ids.
     fn add_view(
         &self,
-        page: &mut Page,
+        page: &mut SheetPage,
         placed: &PlacedView<'_>,
         ComposedDrawing { drawing, break_lines }: ComposedDrawing,
         style: &LineStyle,
@@ -419,11 +420,11 @@ impl Sheet {
             layer.groups.push(Group { strokes, ..Group::default() });
             page.layers.push(layer);
         }
-        page.warnings.extend(drawing.warnings);
+        page.warnings.extend(drawing.warnings.into_iter().map(SheetWarning::from));
     }
 
     /// Draws dimensions and the other annotations of views, scale bar, frame and title block.
-    fn draw_annotations(&self, page: &mut Page, layout: &ViewLayout<'_>, ink: Ink) {
+    fn draw_annotations(&self, page: &mut SheetPage, layout: &ViewLayout<'_>, ink: Ink) {
         for kind in AnnotationLayer::ALL {
             let mut layer = kind.to_layer(self.line_width_group(), self.lettering_height(), ink);
             for placed in &layout.views {

@@ -1,8 +1,8 @@
 //! DXF output: the flag for its arcs, and what the format leaves out.
 
 use super::OutputFormat;
-use drawing::{Page, Warning};
-use page::DxfOptions;
+use drawing::Warning;
+use page::{DxfOptions, Page};
 
 /// Arguments of DXF output.
 #[derive(Debug, clap::Args)]
@@ -29,7 +29,7 @@ impl DxfArgs {
 }
 
 /// The warning that a format leaves out the images of a page.
-pub(crate) fn image_warning(format: OutputFormat, page: &Page) -> Option<Warning> {
+pub(crate) fn image_warning<W>(format: OutputFormat, page: &Page<W>) -> Option<Warning> {
     let leaves_out = format == OutputFormat::Dxf && !page.images.is_empty();
     leaves_out.then_some(Warning::ImagesNotInDxf)
 }

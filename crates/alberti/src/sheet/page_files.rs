@@ -8,8 +8,8 @@
 use crate::CliError;
 use crate::format::OutputFormat;
 use batch::NameTemplate;
-use drawing::Page;
 use pipeline::AtomicFile;
+use sheet::SheetPage;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -66,8 +66,8 @@ impl PageNames {
     /// Those of `encode`.
     pub(super) fn files(
         &self,
-        pages: &[Page],
-        encode: impl Fn(&Page) -> Result<Vec<u8>, CliError>,
+        pages: &[SheetPage],
+        encode: impl Fn(&SheetPage) -> Result<Vec<u8>, CliError>,
     ) -> Result<Vec<(PathBuf, Vec<u8>)>, CliError> {
         let numbered = pages.iter().zip(1..);
         numbered.map(|(page, number)| Ok((self.name(number, pages.len()), encode(page)?))).collect()

@@ -60,17 +60,6 @@ pub enum LabelFault {
     Outside,
 }
 
-/// Why a label is not in a view of a sheet.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub enum SheetLabelFault {
-    /// Its point is too far from the models.
-    Far,
-    /// It would touch something at every place.
-    NoRoom,
-    /// The view has too many labels.
-    TooMany,
-}
-
 impl PointLabel {
     /// Why the label is not in a picture; `None` if it is. `view_height` is the part of the
     /// picture's height, from the top, that shows the view.

@@ -4,6 +4,7 @@ use super::{Lint, Linter};
 use crate::sheet::{SheetContent, resolve_sheet};
 use drawing::Warning;
 use scene_file::PathStep::Field;
+use sheet::SheetWarning;
 use std::path::PathBuf;
 
 /// The warnings that `alberti sheet` would give about the layout of the scene's sheet, whose title
@@ -14,16 +15,16 @@ pub(super) fn lint_sheet(adviser: &Linter<'_>, allowed_folders: &[PathBuf]) -> V
     let content = SheetContent { allowed_folders, ..SheetContent::from_scene(scene) };
     let sheet = resolve_sheet(origin, sheet_file, content).ok();
     let warnings = sheet.and_then(|sheet| sheet.check_layout(&scene.models, &scene.sections).ok());
-    let to_lint = |warning: Warning| {
+    let to_lint = |warning: SheetWarning| {
         let (code, help) = match &warning {
-            Warning::ViewLeftOut { .. } => ("sheet-view-missing", "or leave the view out"),
-            Warning::SectionOblique { .. } => {
+            SheetWarning::ViewLeftOut { .. } => ("sheet-view-missing", "or leave the view out"),
+            SheetWarning::SectionOblique { .. } => {
                 ("section-oblique", "turn the section, or look at it by `alberti render`")
             }
-            Warning::GlyphsMissing { .. } => {
+            SheetWarning::Drawing(Warning::GlyphsMissing { .. }) => {
                 ("missing-glyph", "letters are those of Latin alphabets, with digits and signs")
             }
-            Warning::OverlayNotOnSheets { .. } => {
+            SheetWarning::OverlayNotOnSheets { .. } => {
                 ("overlay-not-on-sheet", "`alberti render` draws it in pictures")
             }
             // Planes beside the models are reported at their own fields.

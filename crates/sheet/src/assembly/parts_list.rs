@@ -3,7 +3,7 @@
 use super::geometry::PartClasses;
 use super::part::{Part, drawn_primitives, gather_parts, one_line};
 use super::volume::part_volume;
-use drawing::{AssemblyWarning, Warning};
+use crate::{AssemblyWarning, SheetWarning};
 use model::ModelInstance;
 use std::collections::BTreeMap;
 
@@ -24,7 +24,7 @@ pub struct PartsList {
     /// Whether densities were given, so that items may have masses.
     pub has_masses: bool,
     /// Items without the mass that their density asks for.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<SheetWarning>,
 }
 
 /// An item of a parts list: a part, and how often the models have it.
@@ -117,8 +117,9 @@ impl PartsList {
             let density = find_density(densities, &name, &materials);
             let volume = density.and_then(|_| part_volume(group[0], models));
             if density.is_some() && volume.is_none() {
-                warnings
-                    .push(Warning::Assembly(AssemblyWarning::MassUnknown { part: name.clone() }));
+                warnings.push(SheetWarning::Assembly(AssemblyWarning::MassUnknown {
+                    part: name.clone(),
+                }));
             }
             items.push(PartsListItem {
                 number,

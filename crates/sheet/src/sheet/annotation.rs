@@ -11,7 +11,7 @@
 //!
 //! They are made before the view has a place, since the place depends on their extent.
 
-use drawing::SheetLabelFault;
+use crate::SheetLabelFault;
 use glam::DVec2;
 use page::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign, to_millimeters};
 

@@ -11,8 +11,8 @@
 //! a number that cannot be measured on the paper would be wrong for whoever works by it.
 
 use super::sheet_view::{SheetView, ViewName};
+use crate::DimensionFault;
 use camera::NamedView;
-use drawing::DimensionFault;
 use glam::{DVec2, DVec3};
 use hidden_line::WorldCircle;
 use homog::{Plane, Point, World};

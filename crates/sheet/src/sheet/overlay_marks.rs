@@ -20,7 +20,8 @@ use super::composition::Composition;
 use super::sheet_view::SheetView;
 use super::view_mark::MarkSettings;
 use super::view_plan::{PlannedView, ViewPlan};
-use drawing::{AXES, Overlay, SheetLabelFault, Warning, circle_points, missing_glyph_warning};
+use crate::{SheetLabelFault, SheetWarning};
+use drawing::{AXES, Overlay, circle_points, missing_glyph_warning};
 use glam::DVec2;
 use homog::{Bounds, Point, World};
 use model::{ModelInstance, world_points};
@@ -85,17 +86,19 @@ impl ViewPlan {
 }
 
 /// The warning about an overlay that sheets do not show, or do not show whole.
-fn overlay_warning(overlay: &Overlay) -> Option<Warning> {
+fn overlay_warning(overlay: &Overlay) -> Option<SheetWarning> {
     let overlay = match overlay {
         Overlay::Grid(_) => "grid",
         Overlay::Horizon => "horizon",
         Overlay::VanishingPoints => "vanishing points",
         Overlay::Volume(_) => "view volume",
-        Overlay::Label(label) => return missing_glyph_warning(&label.text),
+        Overlay::Label(label) => {
+            return missing_glyph_warning(&label.text).map(SheetWarning::from);
+        }
         // Sheets draw edges anyway.
         Overlay::Axes(_) | Overlay::Edges => return None,
     };
-    Some(Warning::OverlayNotOnSheets { overlay: overlay.to_owned() })
+    Some(SheetWarning::OverlayNotOnSheets { overlay: overlay.to_owned() })
 }
 
 impl ViewOverlays {

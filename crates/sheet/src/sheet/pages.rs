@@ -20,8 +20,9 @@ use crate::assembly::{
     AssemblyPages, MAX_EXPLODED_PARTS, PATHS, Part, PartShapes, PartsList, PartsListItem,
     exploded_models, gather_parts, part_model,
 };
+use crate::{AssemblyWarning, SheetPage, SheetWarning};
 use camera::NamedView;
-use drawing::{AssemblyWarning, Drawing, HiddenLines, LineStyle, Page, Placement, Warning};
+use drawing::{Drawing, HiddenLines, LineStyle, Placement};
 use glam::{DVec2, DVec3};
 use hidden_line::{Aabb, EdgeSegment, WeldedSurface};
 use homog::{Plane, World};
@@ -48,7 +49,7 @@ struct DrawnAssembly<'a> {
     list: PartsList,
     /// One for each part; `None` if all stay in their places.
     moves: Option<Vec<DVec3>>,
-    warnings: Vec<Warning>,
+    warnings: Vec<SheetWarning>,
     ink: Ink,
     title: String,
 }
@@ -60,7 +61,7 @@ struct DrawnView {
     /// The layers of balloons of each page; none without balloons.
     balloons: Vec<[Layer; 2]>,
     scale: DrawingScale,
-    warnings: Vec<Warning>,
+    warnings: Vec<SheetWarning>,
 }
 
 impl Sheet {
@@ -78,14 +79,14 @@ impl Sheet {
         models: &[ModelInstance],
         sections: &[Plane<World>],
         threads: usize,
-    ) -> Result<Vec<Page>, SheetError> {
+    ) -> Result<Vec<SheetPage>, SheetError> {
         if !self.assembly.has_pages() {
             return Ok(vec![self.draw(models, sections, threads)?]);
         }
         let assembly = DrawnAssembly::new(self, models);
         if assembly.parts.is_empty() {
             let mut page = self.draw(models, sections, threads)?;
-            page.warnings.push(Warning::Assembly(AssemblyWarning::NoParts));
+            page.warnings.push(SheetWarning::Assembly(AssemblyWarning::NoParts));
             return Ok(vec![page]);
         }
         let mut surfaces = SurfaceCache::new(models, &self.uncut);
@@ -139,7 +140,7 @@ impl Sheet {
     }
 
     /// Adds frame and title block; without a scale for a page that has no view.
-    fn add_border(&self, page: &mut Page, scale: Option<DrawingScale>, ink: Ink) {
+    fn add_border(&self, page: &mut SheetPage, scale: Option<DrawingScale>, ink: Ink) {
         let block = self.title_block_area();
         // Tables and views reach up to the frame, so the centering marks stop there.
         let contents = [extent_of_rectangle(self.drawing_area())];
@@ -160,14 +161,14 @@ impl<'a> DrawnAssembly<'a> {
         warnings.extend(unreadable_names(&list));
         let mut explosion = explosion.as_ref();
         if explosion.is_some() && parts.len() > MAX_EXPLODED_PARTS {
-            warnings.push(Warning::Assembly(AssemblyWarning::TooManyPartsToExplode {
+            warnings.push(SheetWarning::Assembly(AssemblyWarning::TooManyPartsToExplode {
                 most: MAX_EXPLODED_PARTS,
             }));
             explosion = None;
         }
         if *part_sheets && list.items.len() > MAX_PART_SHEETS {
             let count = list.items.len() - MAX_PART_SHEETS;
-            warnings.push(Warning::Assembly(AssemblyWarning::PartSheetsLeftOut { count }));
+            warnings.push(SheetWarning::Assembly(AssemblyWarning::PartSheetsLeftOut { count }));
         }
         let moves = explosion.map(|settings| settings.moves(&PartShapes::new(&parts, models)));
         let title = match sheet.title_block.title.as_str() {
@@ -179,9 +180,9 @@ impl<'a> DrawnAssembly<'a> {
     }
 
     /// A page without anything on it.
-    fn empty_page(&self) -> Page {
+    fn empty_page(&self) -> SheetPage {
         let (paper, color) = (self.sheet.paper, self.sheet.style.paper.unwrap_or(WHITE));
-        Page::new(DVec2::new(paper.width(), paper.height()), self.title.clone(), Some(color))
+        SheetPage::new(DVec2::new(paper.width(), paper.height()), self.title.clone(), Some(color))
     }
 
     /// Draws the view of all parts, and arranges it on its page.
@@ -218,7 +219,8 @@ impl<'a> DrawnAssembly<'a> {
         let prefix = if exploded.is_some() { "exploded-" } else { "assembly-" };
         let mut layers = self.path_layers(&paths, &style, placement);
         layers.extend(drawing.to_layers(&style, placement, prefix, self.ink));
-        let mut warnings = drawing.warnings.clone();
+        let drawn = drawing.warnings.iter().cloned();
+        let mut warnings: Vec<SheetWarning> = drawn.map(SheetWarning::from).collect();
         let mut balloons = Vec::new();
         if sheet.assembly.balloons {
             let moves = self.moves.clone().unwrap_or_else(|| vec![DVec3::ZERO; self.parts.len()]);
@@ -257,7 +259,7 @@ impl<'a> DrawnAssembly<'a> {
         spots: &[Option<VisibleSpot>],
         layout: &AssemblyLayout,
         view: &SheetView,
-        warnings: &mut Vec<Warning>,
+        warnings: &mut Vec<SheetWarning>,
     ) -> Vec<BalloonTarget<'_>> {
         let (mut targets, mut hidden) = (Vec::new(), Vec::new());
         for item in &self.list.items {
@@ -273,7 +275,11 @@ impl<'a> DrawnAssembly<'a> {
         }
         if let Some(first) = hidden.first() {
             let (number, part, count) = (first.number, first.name.clone(), hidden.len());
-            warnings.push(Warning::Assembly(AssemblyWarning::NotVisible { number, part, count }));
+            warnings.push(SheetWarning::Assembly(AssemblyWarning::NotVisible {
+                number,
+                part,
+                count,
+            }));
         }
         targets
     }
@@ -283,7 +289,7 @@ impl<'a> DrawnAssembly<'a> {
         &self,
         layout: &AssemblyLayout,
         targets: &[BalloonTarget<'_>],
-        warnings: &mut Vec<Warning>,
+        warnings: &mut Vec<SheetWarning>,
     ) -> Vec<[Layer; 2]> {
         let width = self.sheet.line_width_group().narrow_width();
         // Some places are in the way of leaders to others.
@@ -303,7 +309,8 @@ impl<'a> DrawnAssembly<'a> {
         }
         if let Some(first) = left_out.first() {
             let (number, count) = (first.number, left_out.len());
-            warnings.push(Warning::Assembly(AssemblyWarning::BalloonsLeftOut { number, count }));
+            warnings
+                .push(SheetWarning::Assembly(AssemblyWarning::BalloonsLeftOut { number, count }));
         }
         pages
     }
@@ -315,7 +322,7 @@ impl<'a> DrawnAssembly<'a> {
         view: &DrawnView,
         index: usize,
         list: Option<(&PartsTable<'_>, &TableColumn)>,
-    ) -> Page {
+    ) -> SheetPage {
         let mut page = self.empty_page();
         page.images.clone_from(&view.images);
         page.layers.clone_from(&view.layers);
@@ -334,7 +341,7 @@ impl<'a> DrawnAssembly<'a> {
         mut sheet: Sheet,
         item: &PartsListItem,
         threads: usize,
-    ) -> Result<Page, SheetError> {
+    ) -> Result<SheetPage, SheetError> {
         let part = item
             .objects
             .first()
@@ -398,7 +405,7 @@ fn take_paths(drawing: &mut Drawing, is_exploded: bool) -> Drawing {
 }
 
 /// The warning about names of a list that the font lacks letters for; `None` if it has all.
-fn unreadable_names(list: &PartsList) -> Option<Warning> {
+fn unreadable_names(list: &PartsList) -> Option<SheetWarning> {
     let is_unreadable = |text: &str| !missing_glyphs(text).is_empty();
     let mut names = list
         .items
@@ -407,5 +414,5 @@ fn unreadable_names(list: &PartsList) -> Option<Warning> {
         .filter(|text| is_unreadable(text));
     let name = names.next()?.clone();
     let count = 1 + names.count();
-    Some(Warning::Assembly(AssemblyWarning::NamesUnreadable { name, count }))
+    Some(SheetWarning::Assembly(AssemblyWarning::NamesUnreadable { name, count }))
 }

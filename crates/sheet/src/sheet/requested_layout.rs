@@ -19,7 +19,7 @@ use super::view_layout::{
 use super::view_plan::{PlannedView, ViewPlan};
 use super::view_request::ViewRequest;
 use super::{Sheet, SheetError};
-use drawing::Warning;
+use crate::SheetWarning;
 use glam::DVec2;
 use viewport::DrawingScale;
 
@@ -117,7 +117,7 @@ pub(super) fn requested_fault(sheet: &Sheet, plan: &ViewPlan) -> SheetError {
 }
 
 /// Warnings of views that lie over others at the places that they were given.
-fn find_overlaps(views: &[PlacedView<'_>], blocks: [(&str, Extent); 2]) -> Vec<Warning> {
+fn find_overlaps(views: &[PlacedView<'_>], blocks: [(&str, Extent); 2]) -> Vec<SheetWarning> {
     let is_placed = |view: &PlacedView<'_>| view.planned.place.at.is_some();
     let mut warnings = Vec::new();
     for (index, view) in views.iter().enumerate() {
@@ -129,7 +129,7 @@ fn find_overlaps(views: &[PlacedView<'_>], blocks: [(&str, Extent); 2]) -> Vec<W
         let over = others.chain(blocks).filter(|(_, area)| overlap(view.extent(), *area));
         let over = over.filter(|_| is_placed(view));
         let view = || view.planned.title();
-        warnings.extend(over.map(|(other, _)| Warning::ViewOverlaps { view: view(), other }));
+        warnings.extend(over.map(|(other, _)| SheetWarning::ViewOverlaps { view: view(), other }));
     }
     warnings
 }

@@ -17,8 +17,8 @@ use super::stepped_line::{SteppedLine, check_steps};
 use super::view_mark::ViewMark;
 use super::view_plan::{PlanSubject, PlannedView, ViewPlan};
 use super::view_request::{ViewPlace, ViewRequest, ViewSide};
+use crate::SheetWarning;
 use camera::NamedView;
-use drawing::Warning;
 use glam::{DVec2, DVec3};
 use homog::{Bounds, Normal, Plane, Point, Vector, World};
 use projection::SheetAngle;
@@ -30,7 +30,7 @@ const MAX_REQUESTS: usize = 24;
 struct RequestPlanner<'a> {
     subject: &'a PlanSubject<'a>,
     views: Vec<PlannedView>,
-    warnings: Vec<Warning>,
+    warnings: Vec<SheetWarning>,
     letters: std::ops::RangeInclusive<char>,
 }
 
@@ -322,7 +322,8 @@ impl RequestPlanner<'_> {
         let line = SteppedLine { corners, removed, across: removed.cross(along), letter };
         let marks = self.views.iter_mut().map(|one| line.mark(one)).filter(|marked| *marked);
         if marks.count() == 0 {
-            self.warnings.push(Warning::CutLineNotShown { section: format!("{letter}-{letter}") });
+            self.warnings
+                .push(SheetWarning::CutLineNotShown { section: format!("{letter}-{letter}") });
         }
         let first = planes[0];
         let composition = Composition::Stepped { planes, borders, along };

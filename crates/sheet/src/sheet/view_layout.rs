@@ -24,7 +24,7 @@ use super::requested_layout::{arrange_requested, requested_fault};
 use super::view_grid::{GridSpacing, ViewGrid};
 use super::view_plan::{PlannedView, ViewPlan};
 use super::{Sheet, SheetError, scale_bar};
-use drawing::Warning;
+use crate::SheetWarning;
 use glam::DVec2;
 use viewport::{DrawingScale, Rectangle};
 
@@ -83,7 +83,7 @@ pub(super) struct ViewLayout<'a> {
     /// The place of the scale bar.
     pub(super) scale_bar: Rectangle,
     /// Warnings of views that lie over others at the places that they were given.
-    pub(super) overlaps: Vec<Warning>,
+    pub(super) overlaps: Vec<SheetWarning>,
 }
 
 /// A view with its annotations at a scale, and the space that it needs about its center.

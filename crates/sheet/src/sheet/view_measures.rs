@@ -10,7 +10,7 @@ use super::measure::ViewDimension;
 use super::sheet_view::SheetView;
 use super::view_mark::ViewMark;
 use super::view_plan::{PlannedView, ViewPlan};
-use drawing::Warning;
+use crate::SheetWarning;
 use glam::DVec2;
 use hidden_line::{FeaturePicker, WorldCircle};
 use model::{ModelInstance, world_points};
@@ -53,7 +53,7 @@ impl ViewPlan {
                 }),
                 Err(fault) => {
                     let dimension = dimension.name.clone();
-                    warnings.push(Warning::DimensionLeftOut { dimension, fault });
+                    warnings.push(SheetWarning::DimensionLeftOut { dimension, fault });
                 }
             }
         }

@@ -23,8 +23,9 @@ use super::view_mark::{MarkSettings, ViewMark};
 use super::view_measures::ViewMeasures;
 use super::view_request::ViewPlace;
 use super::{Sheet, SheetError};
+use crate::SheetWarning;
 use camera::NamedView;
-use drawing::{LineStyle, Warning};
+use drawing::LineStyle;
 use glam::DVec2;
 use hidden_line::{idle_section_warning, retained_points};
 use homog::{Bounds, Plane, Point, Vector, World};
@@ -68,7 +69,7 @@ pub(super) struct ViewPlan {
     /// All views in their place, if the sheet has requests.
     pub(super) requested: Vec<PlannedView>,
     /// Sections that are not shown as was asked for.
-    pub(super) warnings: Vec<Warning>,
+    pub(super) warnings: Vec<SheetWarning>,
 }
 
 /// The subject of a plan: a sheet and its models.
@@ -82,7 +83,7 @@ pub(super) struct PlanSubject<'a> {
     /// The sections that cut something, with their numbers from 1.
     cutting: Vec<(Plane<World>, usize)>,
     /// Warnings of the others.
-    idle: Vec<Warning>,
+    idle: Vec<SheetWarning>,
 }
 
 impl ViewPlan {
@@ -127,7 +128,7 @@ impl<'a> PlanSubject<'a> {
         let idle = |plane, number| idle_section_warning(&points, plane, number);
         let numbered = || sections.iter().copied().zip(1..);
         let warnings = numbered().filter_map(|(plane, number)| idle(plane, number));
-        let warnings = warnings.map(Warning::from).collect();
+        let warnings = warnings.map(SheetWarning::from).collect();
         let cutting =
             numbered().filter(|(plane, number)| idle(*plane, *number).is_none()).collect();
         // Along the axes the corners of the bounding box have the extents of all points.
@@ -175,7 +176,7 @@ impl<'a> PlanSubject<'a> {
     pub(super) fn named_views(
         &self,
         names: &[(NamedView, &ViewPlace)],
-    ) -> Result<(Vec<PlannedView>, Vec<Warning>), SheetError> {
+    ) -> Result<(Vec<PlannedView>, Vec<SheetWarning>), SheetError> {
         let mut along_axes = Vec::new();
         let mut axonometric = Vec::new();
         for (name, place) in names {
@@ -196,7 +197,7 @@ impl<'a> PlanSubject<'a> {
     fn assign_sections(
         &self,
         views: &mut [PlannedView],
-    ) -> Result<(Vec<PlannedView>, Vec<Warning>), SheetError> {
+    ) -> Result<(Vec<PlannedView>, Vec<SheetWarning>), SheetError> {
         let (mut free, mut warnings) = (Vec::new(), self.idle.clone());
         let (mut letters, mut lettered, mut oblique) = ('A'..='Z', Vec::new(), Vec::new());
         for &(plane, number) in &self.cutting {
@@ -221,7 +222,7 @@ impl<'a> PlanSubject<'a> {
             let auxiliary = letters.next().unwrap_or('Z');
             match self.oblique_section(views, section, auxiliary)? {
                 Some(both) => free.extend(both),
-                None => warnings.push(Warning::SectionOblique { number }),
+                None => warnings.push(SheetWarning::SectionOblique { number }),
             }
         }
         for one in views {

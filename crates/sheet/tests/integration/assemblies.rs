@@ -7,13 +7,13 @@ use super::parts_models::{
     assembly, box_primitive, letters, placed, prism_primitive, scattered_parts, stacked_assembly,
 };
 use super::separation::{intersecting_parts, part_triangles};
-use drawing::{AssemblyWarning, Page, Warning};
 use glam::DVec3;
 use homog::Affine;
 use model::{Node, Topology};
 use projection::SheetAngle;
 use sheet::{
-    AssemblyPages, ExplosionAxis, ExplosionSettings, PartDensity, PartsList, Sheet, explode_models,
+    AssemblyPages, AssemblyWarning, ExplosionAxis, ExplosionSettings, PartDensity, PartsList,
+    Sheet, SheetPage, SheetWarning, explode_models,
 };
 use std::sync::Arc;
 use viewport::Paper;
@@ -28,7 +28,7 @@ fn assembly_sheet(paper: (Paper, &'static str)) -> Sheet {
 const PAPERS: [(Paper, &str); 2] = [(Paper::A3, "A3"), (Paper::A4, "A4")];
 
 /// All faults of pages.
-fn faults_of_pages(pages: &[Page]) -> Vec<String> {
+fn faults_of_pages(pages: &[SheetPage]) -> Vec<String> {
     let numbered = pages.iter().zip(1..);
     numbered
         .flat_map(|(page, number)| {
@@ -64,7 +64,7 @@ fn an_assembly_of_fifty_parts_has_a_right_list_and_legible_pages() {
                     pages.iter().flat_map(|page| texts(page, "balloon-numbers")).collect();
                 let warnings = pages[1].warnings.iter();
                 let hidden = warnings.map(|warning| match warning {
-                    Warning::Assembly(AssemblyWarning::NotVisible { count, .. }) => *count,
+                    SheetWarning::Assembly(AssemblyWarning::NotVisible { count, .. }) => *count,
                     _ => 0,
                 });
                 let hidden: usize = hidden.sum();
@@ -156,7 +156,7 @@ fn masses_are_volume_times_density() {
     }
     assert_eq!(
         list.warnings,
-        [Warning::Assembly(AssemblyWarning::MassUnknown { part: "tray".to_owned() })]
+        [SheetWarning::Assembly(AssemblyWarning::MassUnknown { part: "tray".to_owned() })]
     );
     let csv = list.to_csv();
     assert!(
@@ -288,7 +288,7 @@ fn names_from_anywhere_are_drawn_or_named() {
         assert!(list.iter().any(|cell| cell == text), "{text} is not in {list:?}");
     }
     assert!(list.iter().any(|cell| cell.starts_with("a name of many") && cell.ends_with("...")));
-    let unreadable = |warning: &Warning| matches!(warning, Warning::Assembly(AssemblyWarning::NamesUnreadable { name, count: 2 }) if name.starts_with('\u{5d1}'));
+    let unreadable = |warning: &SheetWarning| matches!(warning, SheetWarning::Assembly(AssemblyWarning::NamesUnreadable { name, count: 2 }) if name.starts_with('\u{5d1}'));
     assert!(pages[0].warnings.iter().any(unreadable), "{:?}", pages[0].warnings);
 }
 
@@ -318,7 +318,10 @@ fn models_without_parts_have_a_message() {
     let models = [assembly(vec![(points, "")], vec![("cloud".to_owned(), 0, Affine::IDENTITY)])];
     let pages = assembly_sheet((Paper::A4, "A4")).draw_pages(&models, &[], 1).unwrap();
     assert_eq!(
-        (pages.len(), pages[0].warnings.contains(&Warning::Assembly(AssemblyWarning::NoParts))),
+        (
+            pages.len(),
+            pages[0].warnings.contains(&SheetWarning::Assembly(AssemblyWarning::NoParts))
+        ),
         (1, true)
     );
 }

@@ -1,9 +1,9 @@
 //! A lint of the pages of assemblies: balloons are apart, their numbers within, nothing over them.
 
 use super::lint::{Extent, layer_extent};
-use drawing::Page;
 use glam::DVec2;
 use page::{GroupContent, Layer, Polyline, to_millimeters};
+use sheet::SheetPage;
 
 /// The circle around the corners of a polygon: its center and radius.
 fn circle_of(line: &Polyline) -> (DVec2, f64) {
@@ -27,12 +27,12 @@ fn pieces(line: &Polyline) -> impl Iterator<Item = [DVec2; 2]> {
 }
 
 /// The layer of an id, if the page has it.
-pub fn layer<'a>(page: &'a Page, id: &str) -> Option<&'a Layer> {
+pub fn layer<'a>(page: &'a SheetPage, id: &str) -> Option<&'a Layer> {
     page.layers.iter().find(|layer| layer.id == id)
 }
 
 /// The texts of a layer.
-pub fn texts(page: &Page, id: &str) -> Vec<String> {
+pub fn texts(page: &SheetPage, id: &str) -> Vec<String> {
     let groups = layer(page, id).into_iter().flat_map(|layer| &layer.groups);
     let text = |content: &GroupContent| match content {
         GroupContent::Text(line) => Some(line.text.clone()),
@@ -42,7 +42,7 @@ pub fn texts(page: &Page, id: &str) -> Vec<String> {
 }
 
 /// Faults of the balloons of a page, in words.
-pub fn balloon_faults(page: &Page) -> Vec<String> {
+pub fn balloon_faults(page: &SheetPage) -> Vec<String> {
     let Some(balloons) = layer(page, "balloons") else { return Vec::new() };
     let mut faults = Vec::new();
     let circles: Vec<(&str, DVec2, f64)> = balloons
@@ -83,7 +83,7 @@ pub fn balloon_faults(page: &Page) -> Vec<String> {
 }
 
 /// Leaders of a page that cross.
-pub fn crossing_leaders(page: &Page) -> Vec<String> {
+pub fn crossing_leaders(page: &SheetPage) -> Vec<String> {
     let Some(balloons) = layer(page, "balloons") else { return Vec::new() };
     let leaders: Vec<(&str, [DVec2; 2])> = balloons
         .groups
@@ -106,6 +106,6 @@ pub fn crossing_leaders(page: &Page) -> Vec<String> {
 }
 
 /// The extent of the view of an assembly.
-pub fn view_extent(page: &Page) -> Option<Extent> {
+pub fn view_extent(page: &SheetPage) -> Option<Extent> {
     layer_extent(page, |id| id.starts_with("assembly-") || id.starts_with("exploded-"))
 }

@@ -1,12 +1,11 @@
 //! Boxes of random proportions on every paper, in every orientation and angle, cut or not.
 
 use super::lint::{faults, layer_extent};
-use drawing::{Page, Warning};
 use glam::DVec3;
 use homog::{Affine, Normal, Plane, Point, World};
 use model::{Mesh, Model, ModelInstance, Node, Primitive};
 use projection::SheetAngle;
-use sheet::Sheet;
+use sheet::{Sheet, SheetPage, SheetWarning};
 use std::sync::Arc;
 use viewport::{DrawingScale, Paper};
 
@@ -81,13 +80,13 @@ pub fn sheet((paper, name): (Paper, &str), angle: SheetAngle) -> Sheet {
 }
 
 /// Whether a view of this name is on the sheet.
-pub fn has_view(page: &Page, name: &str) -> bool {
+pub fn has_view(page: &SheetPage, name: &str) -> bool {
     layer_extent(page, |id| id.starts_with(&format!("{name}-"))).is_some()
 }
 
 /// Whether a view is on the sheet, or a warning names it.
-fn is_there_or_named(page: &Page, prefix: &str, title: &str) -> bool {
-    let named = Warning::ViewLeftOut { view: title.to_owned() };
+fn is_there_or_named(page: &SheetPage, prefix: &str, title: &str) -> bool {
+    let named = SheetWarning::ViewLeftOut { view: title.to_owned() };
     has_view(page, prefix) != page.warnings.contains(&named)
 }
 
@@ -142,7 +141,7 @@ fn boxes_of_all_proportions_are_whole_and_legible_on_every_sheet() {
         let names = page.layers.iter().find(|layer| layer.id == "cut-names");
         let is_cut = names.is_some_and(|layer| layer.groups.len() % 2 == 1);
         let is_named = page.warnings.iter().any(
-            |warning| matches!(warning, Warning::ViewLeftOut { view } if view == "section A-A"),
+            |warning| matches!(warning, SheetWarning::ViewLeftOut { view } if view == "section A-A"),
         );
         let is_shown = planes.is_empty() || has_line && is_cut != is_named;
         if !is_shown {

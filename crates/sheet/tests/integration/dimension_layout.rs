@@ -3,12 +3,11 @@
 use super::boxes::{PAPERS, Random, box_model, plane, sheet};
 use super::dimensions::dimension;
 use super::lint::faults;
-use drawing::Warning;
 use glam::DVec3;
 use hidden_line::WorldCircle;
 use homog::{Point, Vector, World};
 use projection::SheetAngle;
-use sheet::{Dimension, LengthDirection, Measure, Sheet};
+use sheet::{Dimension, LengthDirection, Measure, Sheet, SheetWarning};
 
 /// A point of a box.
 fn within(random: &mut Random, size: DVec3) -> Point<World> {
@@ -97,7 +96,7 @@ fn numbers_touch_nothing_on_sheets_of_random_dimensions() {
         for k in 1..=count {
             let name = format!("dimension {k}");
             let is_named = page.warnings.iter().any(|warning| {
-                matches!(warning, Warning::DimensionLeftOut { dimension, .. } if *dimension == name)
+                matches!(warning, SheetWarning::DimensionLeftOut { dimension, .. } if *dimension == name)
             });
             if drawn(k) == is_named {
                 messages.push(format!("{number}: {name} drawn {} named {is_named}", drawn(k)));

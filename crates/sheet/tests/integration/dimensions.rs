@@ -4,13 +4,15 @@ use super::boxes::{box_model, sheet};
 use super::formats::{read_dxf, read_pdf, read_svg};
 use super::lint::faults;
 use camera::NamedView;
-use drawing::{DimensionFault, Page, Warning};
 use glam::{DVec2, DVec3};
 use hidden_line::WorldCircle;
 use homog::{Point, Vector, World};
 use page::{Label, Polyline};
 use projection::SheetAngle;
-use sheet::{Dimension, DimensionUnit, LengthDirection, Measure, Sheet};
+use sheet::{
+    Dimension, DimensionFault, DimensionUnit, LengthDirection, Measure, Sheet, SheetPage,
+    SheetWarning,
+};
 use viewport::{DrawingScale, Paper};
 
 /// The sides of the part.
@@ -62,7 +64,7 @@ fn image(view: NamedView, point: Point<World>) -> DVec2 {
 }
 
 /// A sheet at a scale with one dimension, and nothing else that has lines in the layer.
-fn page_of(dimension: Dimension, (scale, unit): (f64, DimensionUnit)) -> Page {
+fn page_of(dimension: Dimension, (scale, unit): (f64, DimensionUnit)) -> SheetPage {
     let mut sheet = sheet((Paper::A1.rotated(), "A1"), SheetAngle::First);
     sheet.dimensions = false;
     sheet.dimension_unit = unit;
@@ -197,7 +199,7 @@ fn what_no_view_shows_true_is_named() {
         let sheet = Sheet { measures: vec![wanted], ..sheet((Paper::A3, "A3"), SheetAngle::First) };
         let warnings = sheet.draw(&[box_model(SIZE)], &[], 1).unwrap().warnings;
         warnings.into_iter().find_map(|warning| match warning {
-            Warning::DimensionLeftOut { fault, .. } => Some(fault),
+            SheetWarning::DimensionLeftOut { fault, .. } => Some(fault),
             _ => None,
         })
     };

@@ -1,8 +1,8 @@
 //! Readers of what sheets are written as: the lines and texts of one layer in SVG, PDF and DXF.
 
-use drawing::Page;
 use glam::DVec2;
 use page::{DxfOptions, to_pdf};
+use sheet::SheetPage;
 
 /// The straight lines of a layer in millimeters of paper, y down, and its texts.
 #[derive(Debug, Default)]
@@ -12,7 +12,7 @@ pub struct ReadLayer {
 }
 
 /// The lines and texts of a layer in an SVG file. Areas that are filled are left out.
-pub fn read_svg(page: &Page, layer: &str) -> ReadLayer {
+pub fn read_svg(page: &SheetPage, layer: &str) -> ReadLayer {
     let svg = page.to_svg();
     let mut read = ReadLayer::default();
     let mut is_inside = false;
@@ -78,7 +78,7 @@ fn svg_numbers(text: &str) -> Vec<f64> {
 }
 
 /// The lines of a layer in a PDF file, without its areas: the operators `m` and `l` up to each `S`.
-pub fn read_pdf(page: &Page, layer: &str) -> Vec<Vec<DVec2>> {
+pub fn read_pdf(page: &SheetPage, layer: &str) -> Vec<Vec<DVec2>> {
     let index = page.layers.iter().position(|other| other.id == layer).expect("a layer");
     let bytes = to_pdf(std::slice::from_ref(page));
     let content = pdf_streams(&bytes).into_iter().find(|text| text.contains("BDC")).expect("lines");
@@ -117,7 +117,7 @@ fn pdf_streams(bytes: &[u8]) -> Vec<String> {
 }
 
 /// The lines and texts of a layer in a DXF file on paper; y is turned down again.
-pub fn read_dxf(page: &Page, layer: &str) -> ReadLayer {
+pub fn read_dxf(page: &SheetPage, layer: &str) -> ReadLayer {
     let bytes = page.to_dxf(&DxfOptions::on_paper(page));
     let text = String::from_utf8(bytes).expect("ASCII");
     let words: Vec<&str> = text.lines().map(str::trim).collect();

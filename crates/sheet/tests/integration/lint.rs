@@ -1,8 +1,8 @@
 //! A lint of sheets: no text touches another text or a line, and all of it lies within the frame.
 
-use drawing::Page;
 use glam::DVec2;
 use page::{Group, GroupContent, Polyline, to_millimeters};
+use sheet::SheetPage;
 
 /// A rectangle by its least and its greatest corner.
 pub type Extent = [DVec2; 2];
@@ -35,7 +35,7 @@ pub fn extent<'a>(lines: impl Iterator<Item = &'a Polyline>) -> Option<Extent> {
 }
 
 /// The extent of the layers that a test chooses.
-pub fn layer_extent(page: &Page, wanted: impl Fn(&str) -> bool) -> Option<Extent> {
+pub fn layer_extent(page: &SheetPage, wanted: impl Fn(&str) -> bool) -> Option<Extent> {
     let layers = page.layers.iter().filter(|layer| wanted(&layer.id));
     extent(layers.flat_map(|layer| &layer.groups).flat_map(|g| g.strokes.iter().chain(&g.fills)))
 }
@@ -83,7 +83,7 @@ fn text_outline(group: &Group, margin: f64) -> Option<Vec<DVec2>> {
 }
 
 /// Faults of a sheet, in words; empty if nothing is.
-pub fn faults(page: &Page) -> Vec<String> {
+pub fn faults(page: &SheetPage) -> Vec<String> {
     let mut faults = Vec::new();
     let mut texts: Vec<(&str, Vec<DVec2>)> = Vec::new();
     for layer in page.layers.iter().filter(|layer| is_text_layer(&layer.id)) {

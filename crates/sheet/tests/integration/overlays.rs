@@ -2,12 +2,12 @@
 
 use super::boxes::{Random, box_model, sheet};
 use super::lint::faults;
-use drawing::{Overlay, Page, PointLabel, SheetLabelFault, Warning};
+use drawing::{Overlay, PointLabel};
 use glam::{DVec2, DVec3};
 use homog::Point;
 use page::{Group, GroupContent};
 use projection::SheetAngle;
-use sheet::Sheet;
+use sheet::{Sheet, SheetLabelFault, SheetPage, SheetWarning};
 use viewport::{DrawingScale, Paper};
 
 fn label(text: &str, at: DVec3) -> Overlay {
@@ -22,7 +22,7 @@ fn label(text: &str, at: DVec3) -> Overlay {
 }
 
 /// The texts of labels and names of axes, in the order of the views.
-fn texts(page: &Page) -> Vec<&str> {
+fn texts(page: &SheetPage) -> Vec<&str> {
     let layer = page.layers.iter().find(|layer| layer.id == "overlay-text").expect("labels");
     layer.groups.iter().filter_map(text_of).collect()
 }
@@ -68,8 +68,8 @@ fn overlays_that_sheets_do_not_show_are_named() {
     ];
     let sheet = Sheet { overlays, ..sheet((Paper::A4, "A4"), SheetAngle::First) };
     let warnings = sheet.draw(&model, &[], 1).unwrap().warnings;
-    let of = |overlay: &str| Warning::OverlayNotOnSheets { overlay: overlay.to_owned() };
-    let far = |view: &str| Warning::LabelNotInView {
+    let of = |overlay: &str| SheetWarning::OverlayNotOnSheets { overlay: overlay.to_owned() };
+    let far = |view: &str| SheetWarning::LabelNotInView {
         text: "far".to_owned(),
         view: view.to_owned(),
         fault: SheetLabelFault::Far,
@@ -100,8 +100,8 @@ fn labels_after_the_hundredth_of_a_view_are_named() {
     let scale = DrawingScale::new(1, 10).ok();
     let sheet = Sheet { overlays, scale, ..sheet((Paper::A4, "A4"), SheetAngle::First) };
     let warnings = sheet.draw(&model, &[], 1).unwrap().warnings;
-    let is_surplus = |warning: &&Warning| {
-        matches!(warning, Warning::LabelNotInView { fault: SheetLabelFault::TooMany, .. })
+    let is_surplus = |warning: &&SheetWarning| {
+        matches!(warning, SheetWarning::LabelNotInView { fault: SheetLabelFault::TooMany, .. })
     };
     assert_eq!(warnings.iter().filter(is_surplus).count(), 3 * 4, "{warnings:?}");
 }

@@ -2,7 +2,6 @@
 
 use super::boxes::{box_model, has_view, plane, sheet};
 use super::lint::{faults, layer_extent};
-use drawing::Warning;
 use glam::{DVec2, DVec3};
 use hidden_line::Warning as Lines;
 use homog::{Affine, Bounds};
@@ -74,9 +73,9 @@ fn a_plane_oblique_to_all_views_has_its_line_in_an_auxiliary_view() {
 fn planes_beside_the_part_cut_nothing_and_are_named() {
     let model = [box_model(DVec3::new(100.0, 50.0, 30.0))];
     for (z, retained, warning) in [
-        (16.0, -DVec3::Z, Warning::Lines(Lines::SectionMisses { number: 1 })),
-        (15.0, -DVec3::Z, Warning::Lines(Lines::SectionMisses { number: 1 })),
-        (16.0, DVec3::Z, Warning::Lines(Lines::SectionRemovesAll { number: 1 })),
+        (16.0, -DVec3::Z, Lines::SectionMisses { number: 1 }.into()),
+        (15.0, -DVec3::Z, Lines::SectionMisses { number: 1 }.into()),
+        (16.0, DVec3::Z, Lines::SectionRemovesAll { number: 1 }.into()),
     ] {
         let beside = plane(DVec3::Z * z, retained);
         let page = a3(SheetAngle::Third).draw(&model, &[beside], 1).unwrap();

@@ -2,10 +2,11 @@
 
 use super::boxes::{box_model, sheet};
 use super::lint::faults;
-use drawing::{FaceFill, Warning};
+use drawing::FaceFill;
+use drawing::Warning;
 use glam::DVec3;
 use projection::SheetAngle;
-use sheet::{DimensionUnit, Sheet};
+use sheet::{DimensionUnit, Sheet, SheetWarning};
 use viewport::Paper;
 
 #[test]
@@ -34,7 +35,9 @@ fn titles_in_letters_that_the_font_lacks_are_named() {
     sheet.title_block.title = "轴承 B".to_owned();
     sheet.title_block.author = "Ångström".to_owned();
     let page = sheet.draw(&model, &[], 1).unwrap();
-    let [Warning::GlyphsMissing { text, characters }] = page.warnings.as_slice() else {
+    let [SheetWarning::Drawing(Warning::GlyphsMissing { text, characters })] =
+        page.warnings.as_slice()
+    else {
         panic!("{:?}", page.warnings)
     };
     assert_eq!((text.as_str(), characters.as_str()), ("轴承 B", "轴承"));

@@ -2,18 +2,18 @@
 
 use super::boxes::{PAPERS, box_model, sheet};
 use super::lint::{faults, layer_extent};
-use drawing::{Page, Warning};
+use drawing::Warning;
 use glam::{DVec2, DVec3};
 use page::GroupContent;
 use projection::SheetAngle;
 use sheet::{
-    DecimalMark, DimensionUnit, NumberFormat, Sheet, SheetFrame, TitleBlockLanguage,
-    TitleBlockTemplate, TitleBlockText,
+    DecimalMark, DimensionUnit, NumberFormat, Sheet, SheetFrame, SheetPage, SheetWarning,
+    TitleBlockLanguage, TitleBlockTemplate, TitleBlockText,
 };
 use viewport::Paper;
 
 /// All texts of a page.
-fn texts(page: &Page) -> Vec<&str> {
+fn texts(page: &SheetPage) -> Vec<&str> {
     let groups = page.layers.iter().flat_map(|layer| &layer.groups);
     let texts = groups.filter_map(|group| match &group.content {
         GroupContent::Text(line) => Some(line.text.as_str()),
@@ -118,7 +118,10 @@ fn a_block_of_ones_own_stands_in_the_corner_with_its_fields() {
     let page = own.draw(&model, &[], 1).unwrap();
     let [low, high] = layer_extent(&page, |id| id.starts_with("title-block")).unwrap();
     assert!((high.x - low.x - 80.0).abs() < 1e-3, "{low} {high}");
-    assert!(matches!(page.warnings.as_slice(), [Warning::GlyphsMissing { .. }]));
+    assert!(matches!(
+        page.warnings.as_slice(),
+        [SheetWarning::Drawing(Warning::GlyphsMissing { .. })]
+    ));
 }
 
 #[test]

@@ -4,13 +4,13 @@
 use super::boxes::{Random, box_model, has_view, plane, sheet};
 use super::lint::{Extent, faults, layer_extent};
 use camera::NamedView;
-use drawing::{HiddenLines, Page, Warning};
+use drawing::HiddenLines;
 use glam::{DVec2, DVec3};
 use homog::{Affine, Point, Vector, World};
 use model::ModelInstance;
 use page::{GroupContent, Polyline, to_millimeters};
 use projection::SheetAngle;
-use sheet::{Sheet, SheetError, ViewPlace, ViewRequest, ViewSide};
+use sheet::{Sheet, SheetError, SheetPage, SheetWarning, ViewPlace, ViewRequest, ViewSide};
 use viewport::{DrawingScale, Paper};
 
 /// The step of the grid of a page, in millimeters, twice: two ends are rounded.
@@ -48,7 +48,7 @@ fn detail(center: Point<World>, radius: f64) -> ViewRequest {
 }
 
 /// All texts of a page.
-fn texts(page: &Page) -> Vec<&str> {
+fn texts(page: &SheetPage) -> Vec<&str> {
     let groups = page.layers.iter().flat_map(|layer| &layer.groups);
     groups
         .filter_map(|group| match &group.content {
@@ -59,13 +59,13 @@ fn texts(page: &Page) -> Vec<&str> {
 }
 
 /// The lines of a layer.
-fn strokes<'a>(page: &'a Page, id: &str) -> Vec<&'a Polyline> {
+fn strokes<'a>(page: &'a SheetPage, id: &str) -> Vec<&'a Polyline> {
     let layers = page.layers.iter().filter(|layer| layer.id == id);
     layers.flat_map(|layer| &layer.groups).flat_map(|group| &group.strokes).collect()
 }
 
 /// The extent of a view's lines, without hatching.
-fn view_extent(page: &Page, name: &str) -> Extent {
+fn view_extent(page: &SheetPage, name: &str) -> Extent {
     let prefix = format!("{name}-");
     layer_extent(page, |id| id.starts_with(&prefix)).expect("a view")
 }
@@ -177,7 +177,7 @@ fn a_stepped_section_with_a_place_stands_there() {
 fn the_line_of_a_stepped_section_needs_a_view_along_the_steps() {
     let views = vec![named(NamedView::Front), stepped(ViewPlace::default())];
     let page = at_one_to_one(views).draw(&two_depths(), &[], 1).unwrap();
-    assert_eq!(page.warnings, [Warning::CutLineNotShown { section: "A-A".to_owned() }]);
+    assert_eq!(page.warnings, [SheetWarning::CutLineNotShown { section: "A-A".to_owned() }]);
 }
 
 #[test]
@@ -246,7 +246,7 @@ fn a_broken_view_is_shorter_and_its_dimension_true() {
     let page = a3(vec![broken]).draw(&model, &[], 1).unwrap();
     assert_eq!((page.warnings.as_slice(), faults(&page)), (&[][..], Vec::new()));
     assert!(texts(&page).contains(&"1000"), "{:?}", texts(&page));
-    let height = |page: &Page| {
+    let height = |page: &SheetPage| {
         let [low, high] = view_extent(page, "front");
         (high.y - low.y) / 40.0
     };
@@ -365,7 +365,7 @@ fn misplaced_views_are_named() {
         "{error}"
     );
     let page = draw([370.0, 270.0]).unwrap();
-    let overlap = |other: &str| Warning::ViewOverlaps {
+    let overlap = |other: &str| SheetWarning::ViewOverlaps {
         view: "top view".to_owned(),
         other: other.to_owned(),
     };

@@ -1,0 +1,248 @@
+//! Warnings: what a sheet leaves out, returned along with its pages.
+
+mod assembly;
+mod dimension;
+
+pub use assembly::AssemblyWarning;
+use core::cmp::Ordering;
+use core::fmt;
+pub use dimension::DimensionFault;
+use drawing::Warning;
+use files::visible_excerpt;
+
+/// Something that a sheet leaves out or could not do, with the reason in its `Display` text.
+///
+/// Warnings are sorted and each is reported once; see [`Warning`].
+#[derive(Clone, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub enum SheetWarning {
+    /// Something that a drawing on the sheet leaves out.
+    Drawing(Warning),
+    /// No principal view of a sheet sees a section plane from the front or edge-on.
+    SectionOblique {
+        /// The number of the section, from 1.
+        number: usize,
+    },
+    /// A view of a sheet finds no place beside the others.
+    ViewLeftOut {
+        /// The name of the view, such as `isometric view` or `section A-A`.
+        view: String,
+    },
+    /// A dimension is not on the sheet.
+    DimensionLeftOut {
+        /// The name of the dimension, such as `dimension 3`.
+        dimension: String,
+        /// The reason.
+        fault: DimensionFault,
+    },
+    /// The line of a section has no view on the sheet that could show it.
+    CutLineNotShown {
+        /// The name of the section, such as `A-A`.
+        section: String,
+    },
+    /// A view of a sheet lies over another one, or over the title block, at the place that it was
+    /// given.
+    ViewOverlaps {
+        /// The name of the view, such as `isometric view`.
+        view: String,
+        /// The other view, or the title block.
+        other: String,
+    },
+    /// Sheets do not show an overlay of the scene.
+    OverlayNotOnSheets {
+        /// The kind of overlay, such as `grid`.
+        overlay: String,
+    },
+    /// The label of a point, or the name of an axis, is not in a view of a sheet.
+    LabelNotInView {
+        /// The text of the label.
+        text: String,
+        /// The name of the view, such as `front view`.
+        view: String,
+        /// The reason.
+        fault: SheetLabelFault,
+    },
+    /// The style of the scene shows surfaces, and a sheet is a line drawing.
+    StyleIgnored,
+    /// Something that the pages of an assembly leave out.
+    Assembly(AssemblyWarning),
+    /// The models have no size, or points only: no view of a sheet has a line.
+    NothingDrawn,
+    /// No view of a sheet is as large as a millimeter of the paper.
+    ViewsTiny,
+}
+
+/// Why a label is not in a view of a sheet.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum SheetLabelFault {
+    /// Its point is too far from the models.
+    Far,
+    /// It would touch something at every place.
+    NoRoom,
+    /// The view has too many labels.
+    TooMany,
+}
+
+impl SheetWarning {
+    /// The place of the warning in a report, among those of [`Warning::report_order`].
+    #[must_use]
+    pub const fn report_order(&self) -> u8 {
+        match self {
+            Self::Drawing(warning) => warning.report_order(),
+            Self::SectionOblique { .. } => 20,
+            Self::ViewLeftOut { .. } => 21,
+            Self::DimensionLeftOut { .. } => 22,
+            Self::CutLineNotShown { .. } => 23,
+            Self::ViewOverlaps { .. } => 24,
+            Self::OverlayNotOnSheets { .. } => 25,
+            Self::LabelNotInView { .. } => 26,
+            Self::StyleIgnored => 41,
+            Self::Assembly(_) => 50,
+            Self::NothingDrawn => 90,
+            Self::ViewsTiny => 91,
+        }
+    }
+
+    /// The order of two warnings of one kind.
+    fn compare_values(&self, other: &Self) -> Ordering {
+        match (self, other) {
+            (Self::Drawing(a), Self::Drawing(b)) => a.cmp(b),
+            (Self::SectionOblique { number: a }, Self::SectionOblique { number: b }) => a.cmp(b),
+            (
+                Self::DimensionLeftOut { dimension, fault },
+                Self::DimensionLeftOut { dimension: b, fault: c },
+            ) => (dimension, fault).cmp(&(b, c)),
+            (
+                Self::LabelNotInView { text, view, fault },
+                Self::LabelNotInView { text: b, view: c, fault: d },
+            ) => (text, view, fault).cmp(&(b, c, d)),
+            (Self::Assembly(a), Self::Assembly(b)) => a.cmp(b),
+            _ => self.texts().cmp(&other.texts()),
+        }
+    }
+
+    /// The names of views, sections and overlays in a warning.
+    fn texts(&self) -> [&str; 2] {
+        match self {
+            Self::ViewLeftOut { view: text }
+            | Self::CutLineNotShown { section: text }
+            | Self::OverlayNotOnSheets { overlay: text } => [text, ""],
+            Self::ViewOverlaps { view, other } => [view, other],
+            _ => ["", ""],
+        }
+    }
+}
+
+impl Ord for SheetWarning {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let by_kind = self.report_order().cmp(&other.report_order());
+        by_kind.then_with(|| self.compare_values(other))
+    }
+}
+
+impl PartialOrd for SheetWarning {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl From<Warning> for SheetWarning {
+    fn from(warning: Warning) -> Self {
+        Self::Drawing(warning)
+    }
+}
+
+impl From<hidden_line::Warning> for SheetWarning {
+    fn from(warning: hidden_line::Warning) -> Self {
+        Self::Drawing(Warning::Lines(warning))
+    }
+}
+
+impl fmt::Display for SheetWarning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Drawing(warning) => warning.fmt(f),
+            Self::SectionOblique { number } => write!(
+                f,
+                "section {number} has neither a cut line nor a view of its own on the sheet: its plane is \
+                 oblique to the front, the top and the side view, and only an axonometric view shows it"
+            ),
+            Self::ViewLeftOut { view } => write!(
+                f,
+                "there is no place for the {view} beside the other views, and it is left out: \
+                 use larger paper or a smaller scale"
+            ),
+            Self::DimensionLeftOut { dimension, fault } => {
+                write!(f, "{dimension} is not on the sheet: {fault}")
+            }
+            Self::CutLineNotShown { section } => write!(
+                f,
+                "no view of the sheet looks along the steps of section {section}, so none has its \
+                 line"
+            ),
+            Self::ViewOverlaps { view, other } => write!(
+                f,
+                "the {view} lies over the {other} at the place that it was given: move one of them, \
+                 or choose a smaller scale"
+            ),
+            Self::OverlayNotOnSheets { overlay } => write!(
+                f,
+                "sheets show labels and axes of the scene's overlays, but not the {overlay}"
+            ),
+            Self::LabelNotInView { text, view, fault } => {
+                write!(f, "the label \"{}\" is not in the {view}: {fault}", visible_excerpt(text))
+            }
+            Self::StyleIgnored => f.write_str(
+                "sheets are line drawings, and do not show the style of the scene: \
+                 `style: Lines(…)` sets their lines",
+            ),
+            Self::Assembly(warning) => warning.fmt(f),
+            Self::NothingDrawn => f.write_str(
+                "the views are empty: the models have neither lines nor faces, or these have no size",
+            ),
+            Self::ViewsTiny => f.write_str(
+                "the views are smaller than a millimeter of the paper: \
+                 set the unit of the model, or a larger scale",
+            ),
+        }
+    }
+}
+
+impl fmt::Display for SheetLabelFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Far => "its point is too far from the models; move it nearer to them",
+            Self::NoRoom => "there is no place for it; take larger paper, or fewer labels",
+            Self::TooMany => "a view has at most 100; leave some out",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hidden_line::Warning as Lines;
+
+    /// The messages of each crate stand between those of the others, as one reads a report.
+    #[test]
+    fn a_report_begins_with_sections_and_ends_with_limits() {
+        let ordered = [
+            Lines::SectionMisses { number: 2 }.into(),
+            Lines::SectionMisses { number: 10 }.into(),
+            SheetWarning::SectionOblique { number: 1 },
+            SheetWarning::ViewLeftOut { view: "front view".to_owned() },
+            SheetWarning::ViewLeftOut { view: "top view".to_owned() },
+            Warning::ImagesNotInDxf.into(),
+            SheetWarning::Assembly(AssemblyWarning::NoParts),
+            Lines::CrowdApproximated.into(),
+            Warning::OutlinesTraced.into(),
+            Lines::HatchingIncomplete.into(),
+            SheetWarning::ViewsTiny,
+            Lines::VisibilityIncomplete.into(),
+        ];
+        let mut sorted = ordered.to_vec();
+        sorted.reverse();
+        sorted.sort_unstable();
+        assert_eq!(sorted, ordered);
+    }
+}
