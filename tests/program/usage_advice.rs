@@ -156,8 +156,6 @@ fn help_has_groups_that_people_know() {
 #[test]
 fn habits_that_were_tried_are_answered() {
     let sandbox = sandbox_with_teapot("tried_habits");
-    sandbox.write_file("scene.ron", "# a comment\nScene(models: [(path: \"teapot.glb\")])\n");
-    sandbox.write_file("quoted.ron", "Scene(models: [(path: 'teapot.glb')])\n");
     std::fs::create_dir(sandbox.path_of("empty")).expect("a folder");
     for (words, told) in [
         (&["render", "models/*.glb"][..], "this is a pattern that matches no file"),
@@ -180,17 +178,10 @@ fn habits_that_were_tried_are_answered() {
             &["info", "teapot.glb", "teapot.glb"],
             "`alberti info` reads one file, and `teapot.glb` is a second one",
         ),
-        (&["info", "scene.ron"], "this is a scene and not a model"),
         (&["compare", "a.png", "b.png"], "`magick compare a.png b.png difference.png`"),
         (&["sheet", "teapot.glb", "--size", "800x600"], "`--paper a4` gives the size of the page"),
         (&["batch", "empty", "-o", "thumbs"], "use `--out-dir thumbs`"),
         (&["batch", "empty", "--out-dir", "th"], "warning: there is nothing to draw"),
-        (&["scene", "check", "teapot.glb"], "teapot.glb is not a scene"),
-        (&["scene", "check", "scene.ron"], "comments begin with `//`"),
-        (
-            &["scene", "check", "quoted.ron"],
-            "strings are written in double quotation marks: \"teapot.glb\"",
-        ),
         (&["thumbnailer", "-s", "128", "teapot.glb", "t.png"], "--size 128` gives the side"),
         (
             &["render", "teapot.glb", "--size=8x8", "--background", "transparent", "-o", "a.jpg"],
@@ -211,6 +202,26 @@ fn habits_that_were_tried_are_answered() {
         ),
         (&["render", "teapot.glb", "--output-dir", "out"], "a template names the outputs"),
         (&["version"], "run `alberti --version`"),
+    ] {
+        let run = sandbox.run(words);
+        assert!(run.stderr.contains(told), "{words:?}: {}", run.stderr);
+    }
+}
+
+/// Scenes and models in each other's place, and what other languages have in the place of RON.
+#[test]
+fn scenes_of_other_languages_are_answered() {
+    let sandbox = sandbox_with_teapot("tried_scenes");
+    sandbox.write_file("scene.ron", "# a comment\nScene(models: [(path: \"teapot.glb\")])\n");
+    sandbox.write_file("quoted.ron", "Scene(models: [(path: 'teapot.glb')])\n");
+    for (words, told) in [
+        (&["info", "scene.ron"][..], "this is a scene and not a model"),
+        (&["scene", "check", "teapot.glb"], "teapot.glb is not a scene"),
+        (&["scene", "check", "scene.ron"], "comments begin with `//`"),
+        (
+            &["scene", "check", "quoted.ron"],
+            "strings are written in double quotation marks: \"teapot.glb\"",
+        ),
     ] {
         let run = sandbox.run(words);
         assert!(run.stderr.contains(told), "{words:?}: {}", run.stderr);

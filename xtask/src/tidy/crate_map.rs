@@ -17,7 +17,7 @@ const AFTER: &str = "```\n";
 /// Lines of sources, tests left out, past which a crate is cut in two.
 const MAX_CRATE_LINES: usize = 13_000;
 /// The crate that is still to be cut, and what it may have until then.
-const STILL_WHOLE: &[(&str, usize)] = &[("alberti", 14_600)];
+const STILL_WHOLE: &[(&str, usize)] = &[("alberti", 14_700)];
 
 /// The map where it is not what the manifests say.
 pub fn outdated_map() -> Result<Vec<Violation>, String> {
