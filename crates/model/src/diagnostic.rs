@@ -38,7 +38,7 @@ pub mod codes {
     pub const INVALID_DATA: &str = "INVALID_DATA";
     /// Data that the file refers to is absent, or in an encoding that is not supported.
     pub const MISSING_DATA: &str = "MISSING_DATA";
-    /// The file declares more of something than the [limits](import::Limits) allow.
+    /// The file declares more of something than the limits allow.
     pub const LIMIT_EXCEEDED: &str = "LIMIT_EXCEEDED";
     /// The options ask for a scene, a variant or a scalar attribute that the file does not have.
     pub const NO_SUCH_ITEM: &str = "NO_SUCH_ITEM";

@@ -18,7 +18,7 @@ pub struct Model {
     /// The file's name without folder and extension, for messages.
     pub name: String,
     /// Unit of all lengths: what the file declares, or the convention of its format, or
-    /// [what the options say](import::ImportOptions::length_unit). Coordinates stay as they are.
+    /// what the options of the reader say. Coordinates stay as they are.
     pub length_unit: LengthUnit,
     /// The axis that points up in the coordinates of the file. If that is not y, the root nodes
     /// have been rotated, so that y points up in model space.
@@ -60,7 +60,7 @@ pub struct Model {
     /// The active material variant; `None` for the materials that primitives have without variants.
     pub active_variant: Option<usize>,
     /// Names of the scalar attributes of vertices that colors can show
-    /// ([`ImportOptions::scalars`](import::ImportOptions::scalars)): `_TEMPERATURE` in glTF, `quality`
+    /// (`scalars` of the options of `import`): `_TEMPERATURE` in glTF, `quality`
     /// in PLY.
     pub scalar_attributes: Vec<String>,
     /// The scalar attribute that the colors of the vertices show; `None` for the colors of the file.

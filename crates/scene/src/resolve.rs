@@ -18,7 +18,7 @@ use scene_file::{SceneError, SceneFile};
 use std::path::PathBuf;
 
 /// Every mistake of a scene file that has been parsed, in the order of the file. Errors in the
-/// models' own files are not among them: [`check_file`](gltf_check::check_file) reports those.
+/// models' own files are not among them: the crate `gltf-check` reports those.
 /// If a model cannot be loaded, what depends on the models is not validated.
 #[must_use]
 pub fn validate_scene(
