@@ -44,7 +44,7 @@ fn the_examples_do_what_the_program_does() {
     program(&["--projection", "isometric", "--style", "dashed", "-o", "program.svg"]);
     let read = |name: &str| std::fs::read_to_string(sandbox.path_of(name)).expect(name);
     assert_eq!(read("drawing.svg"), read("program.svg"));
-    let stderr = run_example(&sandbox, "explain", &["crate.glb", "480", "360"]);
+    let stderr = run_example(&sandbox, "explain_pixel", &["crate.glb", "480", "360"]);
     let by_program = sandbox.run(&["explain", "crate.glb", "--pixel", "480,360"]).stdout;
     // The program's title also names the conventions.
     let below_title = |text: &str| text.split_once('\n').expect("lines").1.trim_end().to_owned();

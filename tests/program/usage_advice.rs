@@ -224,6 +224,7 @@ fn scenes_of_other_languages_are_answered() {
         ),
     ] {
         let run = sandbox.run(words);
-        assert!(run.stderr.contains(told), "{words:?}: {}", run.stderr);
+        let shown = run.stderr + &run.stdout;
+        assert!(shown.contains(told), "{words:?}: {shown}");
     }
 }
