@@ -82,24 +82,37 @@ pub(super) fn read_recovering(source: &str) -> ParsedScene {
         Err(error) => error,
     };
     let (tree, mut mistakes) = check_text(source);
+    if let Some(mistake) = hash_comment(source) {
+        // What the checker makes of the words of a comment only misleads.
+        return ParsedScene { mistakes: vec![mistake], ..ParsedScene::default() };
+    }
     if mistakes.is_empty() {
         let start = offset_of(source, error.span.start);
         let end = source[start..].chars().next().map_or(start, |c| start + c.len_utf8());
-        let mistake = match source[..start].trim_end().strip_suffix('#') {
-            Some(before) => {
-                let help = "comments begin with `//`".to_owned();
-                let span = before.len()..before.len() + 1;
-                Mistake::new(span, "unexpected `#`".to_owned(), Some(help))
-            }
-            None => Mistake::new(start..end, error.code.to_string(), None),
-        };
-        mistakes.push(mistake);
+        mistakes.push(Mistake::new(start..end, error.code.to_string(), None));
     }
     let mut parsed = ParsedScene { mistakes, ..ParsedScene::default() };
     if let Some(root) = tree {
         parsed.read_rest(&root);
     }
     parsed
+}
+
+/// The mistake of a line that begins with `#`, as comments do in Python, YAML and shells.
+fn hash_comment(source: &str) -> Option<Mistake> {
+    let mut start = 0;
+    for line in source.split_inclusive('\n') {
+        let text = line.trim_start();
+        let at = start + line.len() - text.len();
+        start += line.len();
+        let before = &source[..at];
+        let is_comment = before.matches("/*").count() > before.matches("*/").count();
+        if text.starts_with('#') && !text.starts_with("#!") && !is_comment {
+            let help = "comments begin with `//`".to_owned();
+            return Some(Mistake::new(at..at + 1, "unexpected `#`".to_owned(), Some(help)));
+        }
+    }
+    None
 }
 
 /// The tree of a text, unless it cannot be relied on, and every mistake in it, in its order.
