@@ -180,6 +180,8 @@ fn habits_that_were_tried_are_answered() {
         ),
         (&["compare", "a.png", "b.png"], "`magick compare a.png b.png difference.png`"),
         (&["sheet", "teapot.glb", "--size", "800x600"], "`--paper a4` gives the size of the page"),
+        (&["batch", "nothere", "--out-dir", "th"], "failed: nothere: the file does not exist"),
+        (&["render", "+Iteapot.glb", "+W64", "+Oo.png"], "flags begin with two hyphens"),
         (&["batch", "empty", "-o", "thumbs"], "use `--out-dir thumbs`"),
         (&["batch", "empty", "--out-dir", "th"], "warning: there is nothing to draw"),
         (&["thumbnailer", "-s", "128", "teapot.glb", "t.png"], "--size 128` gives the side"),

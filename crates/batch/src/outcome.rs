@@ -42,11 +42,12 @@ impl FailureList {
     pub(super) fn add(&mut self, record: &JobRecord) {
         self.count += 1;
         let at = self.first.partition_point(|(output, _)| *output < record.output);
-        // The message of a wrong line names the line itself.
-        let text = if record.input.is_empty() {
+        // The message of a wrong line names the line, and that of a model often its file.
+        let name = format!("{}: ", visible_text(&record.input));
+        let text = if record.input.is_empty() || record.message.starts_with(&name) {
             record.message.clone()
         } else {
-            format!("{}: {}", visible_text(&record.input), record.message)
+            format!("{name}{}", record.message)
         };
         self.first.insert(at, (record.output.clone(), text));
         self.first.truncate(MAX_TOLD);

@@ -79,7 +79,9 @@ pub(super) fn plan_tasks(args: &RenderArgs) -> Result<Vec<RenderTask>, CliError>
 
 /// Refuses `render model.glb picture.png`, before a picture is made of the first alone.
 fn refuse_output_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
-    let is_output = |path: &&PathBuf| !path.exists() && OutputFormat::from_path(path).is_ok();
+    let is_flag = |path: &Path| path.to_string_lossy().starts_with('+');
+    let is_output =
+        |path: &&PathBuf| !path.exists() && !is_flag(path) && OutputFormat::from_path(path).is_ok();
     let (Some(output), [first, ..]) = (inputs.iter().skip(1).find(is_output), inputs) else {
         return Ok(());
     };
