@@ -99,8 +99,8 @@ pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
     }
 }
 
-/// The delays of a GIF are whole hundredths of a second, and viewers take one of less than two for a
-/// mistake.
+/// The delays of a GIF are whole hundredths of a second, and viewers take one of less than two for
+/// a mistake.
 const MAX_GIF_FPS: f64 = 50.0;
 
 impl AnimateArgs {

@@ -245,8 +245,8 @@ fn check_is_file(input: &Path) -> Result<(), CliError> {
     help.map_or(Ok(()), |help| Err(missing(help)))
 }
 
-/// What to do about an input that is no name of a file: a pattern that no shell has expanded, an
-/// address, or a word that belongs to a flag.
+/// Help for an input that does not name a file: a pattern that no shell has expanded, an address,
+/// or a word that belongs to a flag.
 pub(super) fn missing_input_help(input: &Path) -> Option<String> {
     let word = input.to_string_lossy();
     if word.contains("://") {

@@ -297,8 +297,8 @@ fn advise_on_value(error: &mut Error, words: &[OsString], program: &Command) -> 
     None
 }
 
-/// What a flag with a whole number takes, where the standard library says it in the notation of Rust:
-/// `0 is not in 1..=100000`.
+/// The numbers that a flag takes, where clap gives them in the notation of Rust: `0 is not in
+/// 1..=100000`.
 fn expected_number(error: &Error) -> Option<String> {
     let reason = std::error::Error::source(error)?.to_string();
     if let Some((_, range)) = reason.split_once(" is not in ") {

@@ -47,8 +47,8 @@ pub enum LineShape {
     Path(Vec<ArcVertex>, bool),
 }
 
-/// The curve of a polyline, with arcs where its points lie on circles within a tolerance in steps of
-/// the grid; with a tolerance of 0 there are none.
+/// The curve of a polyline, with arcs where its points lie on circles within a tolerance in steps
+/// of the grid; with a tolerance of 0 there are none.
 ///
 /// It has two points or more, neighbors differ, and `closed` is whether the last one is joined to
 /// the first, which is not repeated.

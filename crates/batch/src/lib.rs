@@ -21,7 +21,7 @@
 //!
 //! | module | subject |
 //! | --- | --- |
-//! | `run` | a batch from its options to its result: [`run_jobs`], [`verify_jobs`], [`merge_reports`] |
+//! | `run` | a batch from its options: [`run_jobs`], [`verify_jobs`], [`merge_reports`] |
 //! | `inputs`, `job_list`, `list_line`, `job_stream` | the jobs, read as they are needed |
 //! | `template`, `picture_name`, `flag_table` | names of pictures, flags of lines |
 //! | `key`, `content_digest`, `earlier_records` | what is done already |

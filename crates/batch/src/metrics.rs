@@ -27,8 +27,8 @@ pub struct RunCounts {
     pub bytes: u64,
     /// The time of the jobs of this run in seconds.
     pub seconds: f64,
-    /// How many jobs of this run took at most as long as each bound from 0.01 s to 1000 s, and no less than the
-    /// bound before.
+    /// How many jobs of this run took at most as long as each bound from 0.01 s to 1000 s, and no
+    /// less than the bound before.
     pub histogram: [u64; BOUNDS.len()],
 }
 

@@ -9,9 +9,9 @@
 //! | module | technique |
 //! | --- | --- |
 //! | `draw`, `drawing` | the lines of a subject and the fill under them |
-//! | `face_fill`, `gray_fill`, `color_areas` | fills of visible faces by a z-buffer; areas traced from it |
+//! | `face_fill`, `gray_fill`, `color_areas` | fills of visible faces; areas traced from them |
 //! | `line_style` | which edges are drawn, their pens and widths, as in ISO 128 |
-//! | `layout`, `overlap_removal`, `polyline_chain`, `speckles` | from segments to layers of polylines |
+//! | `layout`, `overlap_removal`, `polyline_chain` | from segments to layers of polylines |
 //! | `line_density`, `hand_drawn` | lines thinned where they are dense; strokes that waver |
 //! | `region_outline` | outlines of what faces cover, by winding numbers and snap rounding |
 //! | `line_clip` | drawings clipped to parts of views |

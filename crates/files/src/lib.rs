@@ -1,5 +1,5 @@
-//! Output files that are written whole or not at all, and names of files and objects that are safe to
-//! print.
+//! Output files that are written whole or not at all, and names of files and objects that are safe
+//! to print.
 //!
 //! ```
 //! use files::{visible_text, write_file};

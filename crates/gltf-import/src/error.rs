@@ -14,7 +14,8 @@ use std::path::PathBuf;
 pub struct ImportError {
     /// The file that was to be loaded.
     pub file: PathBuf,
-    /// The error that stopped loading; its [`code`](Diagnostic::code) is one of [`codes`](model::codes).
+    /// The error that stopped loading; its [`code`](Diagnostic::code) is one of
+    /// [`codes`](model::codes).
     ///
     /// Boxed, so that a `Result` with this error stays small.
     pub diagnostic: Box<Diagnostic>,

@@ -12,8 +12,9 @@
 //! it is an edge like any other: clipped, projected, and divided by hidden-line removal.
 //!
 //! Section caps are hatched at 45°. Each part has a direction or a spacing of its own, the same
-//! wherever it is cut, so that neighbors differ; whole parts under [`FaceHatching::Parts`] have such
-//! patterns too. Faces under [`FaceHatching::ByLuma`] are hatched by luma: the darker, the denser.
+//! wherever it is cut, so that neighbors differ; whole parts under [`FaceHatching::Parts`] have
+//! such patterns too. Faces under [`FaceHatching::ByLuma`] are hatched by luma: the darker, the
+//! denser.
 
 use super::edges::SectionCap;
 use super::projector::Projector;
@@ -47,8 +48,9 @@ pub enum FaceHatching<'a> {
     /// Hatch lines on all faces of an object, at an angle and a spacing that its neighbors do not
     /// have. Where section planes cut, only their cuts are hatched.
     Parts,
-    /// Hatch lines by the luma of each face, 0 for black to 1 for white, the denser the darker it is.
-    /// The function takes the corners of a face in the world, and the linear color of its material.
+    /// Hatch lines by the luma of each face, 0 for black to 1 for white, the denser the darker it
+    /// is. The function takes the corners of a face in the world, and the linear color of its
+    /// material.
     ByLuma(&'a dyn Fn([DVec3; 3], [f32; 3]) -> f64),
 }
 

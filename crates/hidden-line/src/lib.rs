@@ -13,7 +13,8 @@
 //! | `view_cover` | what a crowd of faces hides as a whole |
 //! | `hatching` | ISO 128-50 hatching of caps and of parts, hatching by luma of faces |
 //! | `region` | what faces cover on the screen, by winding numbers |
-//! | `feature_picker`, `circles`, `mirror_symmetry` | vertices, edges, faces and circles by their place; planes of symmetry |
+//! | `feature_picker`, `circles` | vertices, edges, faces and circles by their place |
+//! | `mirror_symmetry` | planes of symmetry |
 //! | `retained_points` | what section planes leave of models, for framing |
 //! | `face_raster`, `z_buffer_check` | faces in a z-buffer; a drawing checked against it |
 //!

@@ -5,10 +5,10 @@
 //! [`Diagnostic`](model::Diagnostic) says where the file is wrong, what is wrong and what to do.
 //!
 //! Faults in the geometry (positions, indices, the node hierarchy) are errors; faults in the
-//! appearance (materials, normals, images) are [warnings](model::Model::warnings), and the file is drawn
-//! without what is broken. With [`ImportOptions::lenient`] most errors become warnings too, as long
-//! as something is left to load. The crate `gltf-check` lists everything that is wrong instead of
-//! stopping at the first error.
+//! appearance (materials, normals, images) are [warnings](model::Model::warnings), and the file is
+//! drawn without what is broken. With [`ImportOptions::lenient`] most errors become warnings too,
+//! as long as something is left to load. The crate `gltf-check` lists everything that is wrong
+//! instead of stopping at the first error.
 //!
 //! | option | error by default | with `lenient` |
 //! | --- | --- | --- |

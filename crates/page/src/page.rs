@@ -204,7 +204,7 @@ pub enum Join {
     Bevel,
 }
 
-/// What the writers of formats read: a page without its warnings.
+/// A page without its warnings: the input of the writers of formats.
 #[derive(Clone, Copy)]
 pub(crate) struct PageContent<'a> {
     pub(crate) size: DVec2,
@@ -230,7 +230,7 @@ impl<W> Page<W> {
         Page { size, title, paper, images, layers, warnings }
     }
 
-    /// What the writers of formats read.
+    /// The page without its warnings.
     pub(crate) fn content(&self) -> PageContent<'_> {
         let Self { size, title, paper, images, layers, .. } = self;
         PageContent { size: *size, title, paper: *paper, images, layers }

@@ -62,8 +62,8 @@
 //! | the family tree | [`ProjectionClass`] |
 //!
 //! View space is right-handed unless the convention says otherwise: x right, y up, looking along
-//! −z. Column vectors, angles in radians, f64. Example: `gallery`. Matrices of unknown conventions are
-//! read by the crate `recognition`.
+//! −z. Column vectors, angles in radians, f64. Example: `gallery`. Matrices of unknown conventions
+//! are read by the crate `recognition`.
 #![no_std]
 
 extern crate alloc;

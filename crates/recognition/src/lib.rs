@@ -1,5 +1,5 @@
-//! Meanings of matrices: which projection, camera, viewport or transform sixteen or nine numbers are,
-//! with which parameters, and which known misprint explains them better.
+//! Meanings of matrices: which projection, camera, viewport or transform sixteen or nine numbers
+//! are, with which parameters, and which known misprint explains them better.
 //!
 //! ```text
 //!   entries ─► precision ─► every reader ─► readings with a cost ─► sorted ─► suspicions
@@ -21,7 +21,8 @@
 //!
 //! let lens = Perspective::new(Fov::vertical_degrees(60.0), 1.5, 0.1, 100.0)?;
 //! let matrix = lens.view_to_clip(Convention::VULKAN).raw();
-//! let MatrixMeaning::Perspective { lens, convention, .. } = recognize(matrix).first().meaning else {
+//! let meaning = recognize(matrix).first().meaning;
+//! let MatrixMeaning::Perspective { lens, convention, .. } = meaning else {
 //!     panic!("a perspective")
 //! };
 //! assert_eq!((lens.fov_y_degrees, convention), (60.0, Convention::VULKAN));

@@ -12,7 +12,7 @@
 //! | [`mod@file`] | what a scene file may contain, as types that read and write themselves |
 //! | [`options`] | enumerations of other crates, by their names in scene files and flags |
 //! | [`mod@reference`] | the declarations of all types: names, documentation, defaults |
-//! | `scene_source`, `include` | the text of a scene, the files it includes, what errors point into |
+//! | `scene_source`, `include` | the text of a scene and of the files it includes |
 //! | `parse`, `schema`, `syntax` | the reader: tokens, tree, declarations, mistakes |
 //! | `vocabulary`, `suggest` | what a misspelt word, or one of another program, means |
 //! | `format` | one layout for all scene files |

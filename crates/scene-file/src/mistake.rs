@@ -4,8 +4,8 @@ use super::SceneError;
 use super::source_text::SourceText;
 use core::ops::Range;
 
-/// The most mistakes that are reported of a text: more tell nobody anything, and each costs a search for
-/// what was meant.
+/// The most mistakes that are reported of a text: more tell nobody anything, and each costs a
+/// search for what was meant.
 pub(super) const MAX_MISTAKES: usize = 1000;
 
 /// A mistake at a place in a text that both the parser and the checker of declarations know.

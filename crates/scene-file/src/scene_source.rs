@@ -65,7 +65,8 @@ impl SceneSource {
     /// The source of a scene whose text is at hand; its files lie in the folder.
     ///
     /// Errors point into the text. A scene that is built in Rust has that of
-    /// [`SceneFile::to_ron`](super::SceneFile::to_ron), or an empty one: then errors name a field without its line.
+    /// [`SceneFile::to_ron`](super::SceneFile::to_ron), or an empty one: then errors name a field
+    /// without its line.
     #[must_use]
     pub fn from_text(file: impl Into<String>, text: impl Into<String>, folder: PathBuf) -> Self {
         Self {

@@ -5,14 +5,14 @@
 //!     scene_file    resolve
 //!               mistakes with carets ◄── validate
 //! ```
-//! A scene is described in a file ([`SceneFile`], RON) and resolved ([`Scene`]); every mistake is an
-//! error that points into the file. The crate [`scene_file`] has the language.
+//! A scene is described in a file ([`SceneFile`], RON) and resolved ([`Scene`]); every mistake is
+//! an error that points into the file. The crate [`scene_file`] has the language.
 //!
 //! | module | subject |
 //! | --- | --- |
 //! | `scene` | [`Scene`]: models, camera, lights, style, image |
-//! | `origin`, `read_scene` | where a scene and its models come from; reading with all mistakes at once |
-//! | `resolve`, `single_view`, `insets` | the order in which things are decided; viewports, stereo |
+//! | `origin`, `read_scene` | where a scene and its models come from; all mistakes at once |
+//! | `resolve`, `single_view`, `insets` | the order of decisions; viewports, stereo |
 //! | `diagnostics` | mistakes, collected while a scene is resolved |
 //! | `model_files`, `instances`, `material_overrides` | models: loaded, posed, placed, recolored |
 //! | `view_projection`, `lens`, `classical`, `camera_path` | cameras and projections |

@@ -1,5 +1,5 @@
-//! The map of the crates in `ARCHITECTURE.md`, drawn from what Cargo reads in the manifests, and how
-//! large a crate may become.
+//! The map of the crates in `ARCHITECTURE.md`, drawn from what Cargo reads in the manifests, and
+//! how large a crate may become.
 
 use super::boundaries::LAYERS;
 use super::{Source, Violation};

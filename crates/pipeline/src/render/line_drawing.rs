@@ -4,9 +4,10 @@
 //! ```text
 //!  models ─► welded edges ─► exact visibility ─► chains ─► Page: layers of strokes, warnings
 //! ```
-//! The engines are the crates `hidden_line` and `drawing`; this module gives it the scene, and adds what belongs to the
-//! picture: paper, backdrop, overlays, insets, caption. Shaded styles with outlines (toon) and the
-//! overlay of edges take the layers of such a drawing and put them over the surfaces.
+//! The engines are the crates `hidden_line` and `drawing`; this module gives it the scene, and adds
+//! what belongs to the picture: paper, backdrop, overlays, insets, caption. Shaded styles with
+//! outlines (toon) and the overlay of edges take the layers of such a drawing and put them over the
+//! surfaces.
 
 use super::RenderError;
 use super::captions::{caption_layer, paper_color, strip_rect, text_warnings};

@@ -1,4 +1,5 @@
-//! What follows from the fields of a scene file alone: the files of its images, the size of its view.
+//! What follows from the fields of a scene file alone: the files of its images, the size of its
+//! view.
 
 use super::{BackgroundFile, EnvironmentFile, SceneFile};
 
