@@ -12,13 +12,16 @@
 //! | --- | --- |
 //! | `picture` | the picture, its pixels by place, PNG in memory and in a file |
 //! | `channel` | the bit depths, and drawings composited over pixels |
+//! | `hdr` | panoramas in the format of Radiance, for environments |
 //! | `png_rows` | PNG as a stream, for pictures larger than memory |
 
 mod channel;
+mod hdr;
 mod picture;
 mod png_rows;
 
 pub use channel::Channel;
+pub use hdr::Panorama;
 pub use picture::Picture;
 pub use png_rows::{PngRows, encode_png};
 

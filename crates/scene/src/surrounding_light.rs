@@ -5,10 +5,11 @@
 
 use super::Origin;
 use model::ModelInstance;
+use picture::Panorama;
 use scene_file::PathStep::{self, Field};
 use scene_file::SceneError;
 use scene_file::file::{BackgroundFile, EnvironmentFile, Finite, SceneFile};
-use shade::{Environment, Panorama, PreethamSky, studio_radiance};
+use shade::{Environment, PreethamSky, studio_radiance};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
