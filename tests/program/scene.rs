@@ -174,6 +174,18 @@ const SUSPICIOUS: &[(&str, &str, &str, &str)] = &[
         "3:37",
         "Color(\"black\")",
     ),
+    (
+        "camera: (projection: Perspective(fov_y_degrees: 0.87))",
+        "narrow-field-of-view",
+        "3:51",
+        "if it is in radians, write fov_y_degrees: 49.8",
+    ),
+    (
+        "lights: [Point(position: (1, 2, 3), intensity: 100, color: (255, 255, 0))]",
+        "color-above-one",
+        "3:62",
+        "255 times as bright as white",
+    ),
     ("stereo: Anaglyph(eye_distance: 65)", "wide-stereo", "3:34", "the scene's units"),
     ("ground: Shadow(height: 1)", "ground-above-models", "3:26", "leave `height` out"),
     (

@@ -74,7 +74,7 @@ fn habits_of_other_programs_do_not_make_wrong_files() {
             "use -o 'o_{frame:04}.png'",
         ),
         (&["render", "teapot.glb", "--up", "-Y"], "invalid value '-Y' for '--up <AXIS>'"),
-        (&["render", "teapot.glb", "--crop", "9x8+1+2"], "'1,2,9,8'"),
+        (&["render", "teapot.glb", "--crop", "9x8+1+2"], "write `--crop 1,2,9,8`"),
         (&["render", "teapot.glb", "--color", "1,0,0"], "`--color` says when messages are colored"),
         (&["render", "teapot.glb", "-o", "png:-"], "write `--format png -o -`"),
         (&["render", "teapot.glb", "+repage", "-o", "a.png"], "flags begin with two hyphens"),
@@ -109,9 +109,9 @@ fn tips_are_never_nonsense() {
     // It would say that `--lenient` is needed.
     assert!(!unknown.stderr.contains("Usage:"), "{}", unknown.stderr);
     let cel = sandbox.run(&["render", "teapot.glb", "--style", "cel"]);
-    assert!(cel.stderr.contains("'toon'\n"), "{}", cel.stderr);
+    assert!(cel.stderr.contains("`--style toon`\n"), "{}", cel.stderr);
     let misspelt = sandbox.run(&["render", "teapot.glb", "--enviroment", "sky"]);
-    assert!(misspelt.stderr.contains("'--environment'"), "{}", misspelt.stderr);
+    assert!(misspelt.stderr.contains("did you mean `--environment`?"), "{}", misspelt.stderr);
 }
 
 #[test]
@@ -210,16 +210,71 @@ fn habits_that_were_tried_are_answered() {
     }
 }
 
+/// Words and values of f3d, Blender, POV-Ray and ffmpeg that stand for something else here.
+#[test]
+fn values_of_other_programs_are_translated() {
+    let sandbox = sandbox_with_teapot("translated_values");
+    sandbox.write_file("text.png", "not a picture");
+    for (words, told) in [
+        (&["--camera-view-up", "0,0,1"][..], "use `--view-up 0,0,1 --eye 4,3,6 --target 0,0,0`"),
+        (&["--focal-length", "50"], "`--fov 27` is the vertical angle of view in degrees"),
+        (&["--max-size=100"], "`--max-file-bytes 100MiB`"),
+        (&["--shadow", "off"], "use `--shadows off`"),
+        (&["--view-transform", "AgX"], "use `--tone-mapping agx`"),
+        (&["--ambient-occlusion=true"], "`--ambient-occlusion` takes no value: leave out `=true`"),
+        (&["--near", "0.1"], "the near and far planes are placed around the model"),
+        (&["--scene", "main.ron"], "a scene file is an input by itself: `alberti render main.ron`"),
+        (&["--size", "1080p"], "tip: write `--size 1920x1080`"),
+        (&["--background", "0xff0000"], "tip: write `--background '#ff0000'`"),
+        (&["--background", "trasparent"], "tip: write `--background transparent`"),
+        (&["--background", "0,0,0,0"], "tip: write `--background transparent`"),
+        (&["--background", "a.jpg"], "`image: (background: Picture(path: \"a.jpg\"))`"),
+        (&["--environment", "a.exr"], "`magick a.exr a.hdr`"),
+        (&["--samples", "128"], "tip: write `--samples 16`"),
+        (&["--zoom", "50%"], "tip: write `--zoom 0.5`"),
+        (&["--scalar-range", "0:100"], "tip: write `--scalar-range 0,100`"),
+        (&["--compare", "none.png"], "cannot compare with none.png: the file does not exist"),
+        (&["--compare", "text.png"], "cannot compare with text.png: it is not a PNG file"),
+        (&["-o", "a.exr"], "`--passes depth --pass-format exr -o picture.png`"),
+        (
+            &["--qwerty"],
+            "`--qwerty` is not a flag of `alberti render`; `alberti render --help` lists",
+        ),
+        (&["--samplse", "4"], "did you mean `--samples`?"),
+    ] {
+        let run = sandbox.run(&[&["render", "teapot.glb"], words].concat());
+        assert!(run.code != 0 && run.stderr.contains(told), "{words:?}: {}", run.stderr);
+    }
+    let unlike = sandbox.run(&["render", "teapot.glb", "--style", "foo"]);
+    assert!(!unlike.stderr.contains("tip:"), "{}", unlike.stderr);
+    for (words, told) in [
+        (&["scene", "validate", "a.ron"][..], "run `alberti scene check scene.ron`"),
+        (&["sheet", "teapot.glb", "--scale", "50%"], "tip: write `--scale 1:2`"),
+        (&["rendr", "teapot.glb"], "`rendr` is not a command of `alberti`; did you mean `render`?"),
+        (&["man", "rendr"], "did you mean `render`?"),
+        (&["explore", "--host", "0.0.0.0"], "the page is served to this machine only"),
+    ] {
+        let run = sandbox.run(words);
+        assert!(run.code != 0 && run.stderr.contains(told), "{words:?}: {}", run.stderr);
+    }
+}
+
 /// Scenes and models in each other's place, and what other languages have in the place of RON.
 #[test]
 fn scenes_of_other_languages_are_answered() {
     let sandbox = sandbox_with_teapot("tried_scenes");
     sandbox.write_file("scene.ron", "# a comment\nScene(models: [(path: \"teapot.glb\")])\n");
+    sandbox.write_file("pov.ron", "camera { location <0, 2, -3> }\nsphere { <0, 1, 2>, 2 }\n");
+    sandbox.write_file("json.ron", "{\"models\": [{\"path\": \"teapot.glb\"}]}\n");
+    sandbox.write_file("yaml.ron", "models:\n  - path: teapot.glb\n");
     sandbox.write_file("quoted.ron", "Scene(models: [(path: 'teapot.glb')])\n");
     for (words, told) in [
         (&["info", "scene.ron"][..], "this is a scene and not a model"),
         (&["scene", "check", "teapot.glb"], "teapot.glb is not a scene"),
         (&["scene", "check", "scene.ron"], "comments begin with `//`"),
+        (&["scene", "check", "pov.ron"], "pov.ron: 1 mistake"),
+        (&["scene", "check", "json.ron"], "this looks like JSON"),
+        (&["scene", "check", "yaml.ron"], "this looks like YAML"),
         (
             &["scene", "check", "quoted.ron"],
             "strings are written in double quotation marks: \"teapot.glb\"",

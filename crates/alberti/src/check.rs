@@ -12,11 +12,12 @@ mod json;
 
 use super::args::CheckArgs;
 use super::load_options::LoadArgs;
+use super::render::read_stdin;
 use super::{CliError, color, print_json, print_text};
 use files::visible_path;
 use gltf_check::{CheckReport, check_file};
 use import::ImportOptions;
-use pipeline::{Origin, ResolveError, Scene, SceneError, SceneFile};
+use pipeline::{Origin, ResolveError, SceneError, SceneFile};
 use scene::{Lint, ResolveOptions, lint_description, lint_scene, validate_scene};
 use scene_file::is_scene_file;
 use std::fmt::Write as _;
@@ -26,7 +27,7 @@ use std::process::ExitCode;
 /// Arguments of `alberti scene check`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct CheckScenesArgs {
-    /// Scenes (.ron)
+    /// Scenes (.ron); `-` is the standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Print the report as JSON
@@ -97,34 +98,35 @@ fn exit_code(errors: usize) -> ExitCode {
 /// A file that cannot be parsed has its syntax errors only. Most lints need a resolved scene, so
 /// they are looked for only where there is no error.
 ///
-/// The order is: parse, validate fields and references, resolve as `render` would, look for lints,
-/// check the models. The models are checked even if the scene has errors, unless it cannot be
+/// The order is: parse, resolve as `render` would, look for lints, check the models. The models are checked even if the scene has errors, unless it cannot be
 /// parsed.
 fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, CliError> {
+    let name = if input.as_os_str() == "-" { Path::new("<stdin>") } else { input };
     let found = |scene, advice, models| CheckResult {
-        file: input.to_owned(),
+        file: name.to_owned(),
         scene: Some(scene),
         advice,
         models,
     };
-    let (origin, file) = match Origin::read_scene_allowing(input, &options.allow_outside) {
+    let read = if input.as_os_str() == "-" {
+        let text = String::from_utf8_lossy(&read_stdin(options)?).into_owned();
+        let origin = Origin::from_text("<stdin>", text, PathBuf::new());
+        origin.parse_with_includes(&options.allow_outside)
+    } else {
+        Origin::read_scene_allowing(input, &options.allow_outside)
+    };
+    let (origin, file) = match read {
         Err(ResolveError::Scene(mistake)) => {
             return Ok(found(mistake.into(), Vec::new(), Vec::new()));
         }
         read => read?,
     };
     let resolve = ResolveOptions::with_import(options.clone());
-    let mut mistakes = validate_scene(&origin, &file, &resolve);
-    let mut advice = lint_description(&origin, &file);
-    if mistakes.is_empty() {
-        // Whatever `render` would reject is an error, even if the review does not look for it.
-        match Scene::resolve(&origin, &file, &resolve) {
-            Ok(scene) => advice = lint_scene(&origin, &file, &scene, &resolve),
-            Err(ResolveError::Scene(mistake)) => mistakes.extend(Vec::from(mistake)),
-            // Errors of models are in the reports of the models.
-            Err(_) => {}
-        }
-    }
+    let (scene, mistakes) = validate_scene(&origin, &file, &resolve);
+    let advice = match scene.filter(|_| mistakes.is_empty()) {
+        Some(scene) => lint_scene(&origin, &file, &scene, &resolve),
+        None => lint_description(&origin, &file),
+    };
     let models = check_models(&origin, &file, options);
     Ok(found(mistakes, advice, models))
 }

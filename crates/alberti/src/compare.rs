@@ -120,6 +120,9 @@ impl CompareArgs {
         let fault = |why: String| {
             CliError::Usage(format!("cannot compare with {}: {why}", visible_path(path)))
         };
+        if !path.exists() {
+            return Err(fault("the file does not exist".to_owned()));
+        }
         let picture = read_reference(path, region).map_err(fault)?;
         Ok(Some(picture))
     }
@@ -157,7 +160,11 @@ fn read_reference(path: &Path, region: PixelRect) -> Result<Picture, String> {
     let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
     let mut decoder = png::Decoder::new(std::io::BufReader::new(file));
     decoder.set_transformations(png::Transformations::EXPAND | png::Transformations::ALPHA);
-    let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
+    let not_png = |error| match error {
+        png::DecodingError::Format(_) => "it is not a PNG file, or it is damaged".to_owned(),
+        error => error.to_string(),
+    };
+    let mut reader = decoder.read_info().map_err(not_png)?;
     let (width, height) = (reader.info().width, reader.info().height);
     if (width, height) != (region.width, region.height) {
         let (across, down) = (region.width, region.height);
@@ -166,7 +173,7 @@ fn read_reference(path: &Path, region: PixelRect) -> Result<Picture, String> {
         ));
     }
     let mut bytes = vec![0; reader.output_buffer_size().ok_or("it is too large")?];
-    let info = reader.next_frame(&mut bytes).map_err(|error| error.to_string())?;
+    let info = reader.next_frame(&mut bytes).map_err(not_png)?;
     let channels: Vec<u8> = if info.bit_depth == png::BitDepth::Sixteen {
         let halves = bytes.as_chunks::<2>().0.iter();
         halves.map(|&pair| ((u32::from(u16::from_be_bytes(pair)) + 128) / 257) as u8).collect()

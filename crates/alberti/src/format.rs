@@ -86,6 +86,32 @@ impl OutputFormat {
             CliError::Usage(format!("{name}: this command writes still pictures\n  = help: {help}"))
         };
         match ending {
+            "exr" | "npy" => unwritten(
+                &format!("{} picture", ending.to_uppercase()),
+                format!(
+                    "depth, normals and other passes are written as such files, beside the \
+                     picture: `--passes depth --pass-format {ending} -o picture.png`"
+                ),
+            ),
+            "hdr" => unwritten("HDR picture", "`--bits 16 -o picture.png` has finer steps".into()),
+            "glb" | "gltf" | "obj" | "stl" | "ply" | "3mf" | "fbx" | "usdz" => unwritten(
+                "model",
+                "this program draws models and does not convert them; use one such as Blender"
+                    .into(),
+            ),
+            "dwg" => unwritten(
+                "DWG",
+                format!("write {} instead", visible_path(output.with_extension("dxf"))),
+            ),
+            "html" | "htm" => {
+                unwritten("HTML", "`alberti explore MODEL` shows a model in a page".into())
+            }
+            "txt" | "csv" | "json" => {
+                unwritten("text", "`--json` prints a report about the picture".into())
+            }
+            "ppm" | "pgm" | "pnm" | "ico" | "heic" | "jp2" | "jxl" => {
+                convert(&ending.to_uppercase())
+            }
             "avif" => convert("AVIF"),
             "tif" | "tiff" => convert("TIFF"),
             "bmp" => convert("BMP"),

@@ -7,6 +7,7 @@ use super::{CliError, print_stdout};
 use clap::Command;
 use clap_complete::Shell;
 use files::visible_path;
+use scene_file::closest_name;
 use std::path::PathBuf;
 
 /// Arguments of `alberti completions`.
@@ -62,11 +63,13 @@ pub(crate) fn print_man_pages(args: &ManArgs, program: Command) -> Result<(), Cl
     let mut name = "alberti".to_owned();
     for word in &args.command {
         command = command.find_subcommand(word).ok_or_else(|| {
-            let names = command.get_subcommands().map(Command::get_name).collect::<Vec<_>>();
-            CliError::Usage(format!(
-                "unknown command `{word}`\n  = help: possible commands: {}",
-                names.join(", ")
-            ))
+            let shown = command.get_subcommands().filter(|command| !command.is_hide_set());
+            let names: Vec<&str> = shown.map(Command::get_name).collect();
+            let help = closest_name(word, &names).map_or_else(
+                || format!("possible commands: {}", names.join(", ")),
+                |similar| format!("did you mean `{similar}`?"),
+            );
+            CliError::Usage(format!("unknown command `{word}`\n  = help: {help}"))
         })?;
         name = format!("{name}-{word}");
     }

@@ -12,7 +12,7 @@ use scene_file::file::SceneFile;
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct RegionArgs {
     /// Bits per channel: 8 or 16
-    #[arg(help_heading = "Picture", long, value_name = "N")]
+    #[arg(help_heading = "Picture", long, value_name = "N", value_parser = parse_bits)]
     bits: Option<u32>,
     /// Render only this rectangle: column and row of its upper left pixel, width, height
     ///
@@ -24,6 +24,12 @@ pub(crate) struct RegionArgs {
     /// The bands of --crop, or of the whole picture, stacked from 1/N to N/N, are that picture.
     #[arg(help_heading = "Picture", long, value_name = "I/N", value_parser = parse_band)]
     band: Option<[u32; 2]>,
+}
+
+/// Parses the number of bits of a channel.
+fn parse_bits(text: &str) -> Result<u32, String> {
+    let bits = text.parse().ok().filter(|bits| matches!(bits, 8 | 16));
+    bits.ok_or_else(|| "expected 8 or 16".to_owned())
 }
 
 impl RegionArgs {

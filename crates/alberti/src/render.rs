@@ -268,27 +268,39 @@ pub(super) fn missing_input_help(input: &Path) -> Option<String> {
 /// A model is recognized by its content. Paths of a scene are relative to the
 /// current folder.
 ///
-/// At most `--max-file-bytes` are read, plus one byte that shows that there are more; an endless
-/// stream therefore ends with an error instead of filling the memory.
-///
 /// A scene is a RON struct and begins as no model does, so the two cannot be confused. A model must
 /// be complete in itself: its buffers and images have no folder to be found in.
 fn open_stdin(options: &ImportOptions) -> Result<(Origin, SceneFile), CliError> {
-    let limit = options.limits.file_bytes;
-    let mut bytes = Vec::new();
-    let read = std::io::stdin().lock().take(limit.saturating_add(1)).read_to_end(&mut bytes);
-    let fault = |why: String| CliError::Usage(format!("cannot read the standard input: {why}"));
-    read.map_err(|cause| fault(cause.to_string()))?;
-    if bytes.len() as u64 > limit {
-        return Err(fault(format!("it has more than {limit} bytes; --max-file-bytes allows more")));
-    }
+    let bytes = read_stdin(options)?;
     if FileFormat::from_content(&bytes).is_some() {
         return Ok(Origin::from_model_bytes("stdin", bytes));
     }
-    let text = String::from_utf8(bytes)
-        .map_err(|_| fault("it is neither a scene nor a model of a known format".to_owned()))?;
+    let text = String::from_utf8(bytes).map_err(|_| {
+        stdin_error("it is neither a scene nor a model of a known format".to_owned())
+    })?;
     let origin = Origin::from_text("<stdin>", text, PathBuf::new());
     Ok(origin.parse_with_includes(&options.allow_outside)?)
+}
+
+/// The bytes of the standard input.
+///
+/// At most `--max-file-bytes` are read, plus one byte that shows that there are more; an endless
+/// stream therefore ends with an error instead of filling the memory.
+pub(super) fn read_stdin(options: &ImportOptions) -> Result<Vec<u8>, CliError> {
+    let limit = options.limits.file_bytes;
+    let mut bytes = Vec::new();
+    let read = std::io::stdin().lock().take(limit.saturating_add(1)).read_to_end(&mut bytes);
+    read.map_err(|cause| stdin_error(cause.to_string()))?;
+    if bytes.len() as u64 > limit {
+        let why = format!("it has more than {limit} bytes; --max-file-bytes allows more");
+        return Err(stdin_error(why));
+    }
+    Ok(bytes)
+}
+
+/// The error of an unreadable standard input.
+fn stdin_error(why: String) -> CliError {
+    CliError::Usage(format!("cannot read the standard input: {why}"))
 }
 
 /// The requested number of threads, or one per core.

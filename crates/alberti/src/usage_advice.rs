@@ -15,7 +15,8 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Command, CommandFactory as _, Error, FromArgMatches as _};
 use foreign_words::{FOREIGN_COMMANDS, FOREIGN_FLAGS, FOREIGN_HABITS};
 use given_value::{
-    Given, accepted_value, foreign_value, invalid_value, quoted, value_of, with_given_value,
+    Given, accepted_value, foreign_value, invalid_value, quoted, similar_color, value_of,
+    with_given_value,
 };
 use scene_file::closest_name;
 use std::ffi::OsString;
@@ -45,8 +46,9 @@ fn advise(mut error: Error, words: &[OsString], program: &Command) -> Error {
     // `to pass '--zoom' as a value, use '-- --zoom'` is never what was meant.
     error.remove(ContextKind::Suggested);
     let message = match error.kind() {
-        ErrorKind::UnknownArgument => advise_on_flag(&mut error, words, program),
-        ErrorKind::InvalidSubcommand => advise_on_command(&error, program),
+        ErrorKind::UnknownArgument => advise_on_flag(&error, words, program),
+        ErrorKind::InvalidSubcommand => advise_on_command(&error, words, program),
+        ErrorKind::TooManyValues => advise_on_switch(&error),
         ErrorKind::InvalidValue | ErrorKind::ValueValidation => {
             advise_on_value(&mut error, words, program)
         }
@@ -70,11 +72,8 @@ fn context(error: &Error, kind: ContextKind) -> Option<&str> {
     }
 }
 
-/// What to write in place of a flag that does not exist; a similar name of clap's is kept only if
-/// it is very similar.
-fn advise_on_flag(error: &mut Error, words: &[OsString], program: &Command) -> Option<String> {
-    // It would list the flags that were typed as if the command needed them.
-    error.remove(ContextKind::Usage);
+/// What to write in place of a flag that does not exist.
+fn advise_on_flag(error: &Error, words: &[OsString], program: &Command) -> Option<String> {
     let command = called_command(program, words);
     let word = whole_word(context(error, ContextKind::InvalidArg)?, words);
     let words: Vec<String> = words.iter().map(|it| it.to_string_lossy().into_owned()).collect();
@@ -106,14 +105,14 @@ fn advise_on_flag(error: &mut Error, words: &[OsString], program: &Command) -> O
         })
     };
     if let Some(help) = help {
-        let command = full_name(command, program);
+        let command = full_name(command);
         return Some(format!("`{name}` is not a flag of `{command}`; {help}"));
     }
     if before_command {
         return advise_before_command(&name, program);
     }
     if !name.starts_with('-') && Path::new(&name).extension().is_some() {
-        let command = full_name(command, program);
+        let command = full_name(command);
         return Some(format!(
             "`{command}` reads one file, and `{name}` is a second one; for several files use a loop: `for f in *.glb; do {command} \"$f\"; done`"
         ));
@@ -122,10 +121,20 @@ fn advise_on_flag(error: &mut Error, words: &[OsString], program: &Command) -> O
         return advise_on_detached_value(&words, command);
     }
     let names: Vec<&str> = command.get_arguments().filter_map(|flag| flag.get_long()).collect();
-    if closest_name(stem, &names).is_none_or(|similar| differs_widely(stem, similar)) {
-        error.remove(ContextKind::SuggestedArg);
-    }
-    None
+    let similar = closest_name(stem, &names).filter(|similar| !differs_widely(stem, similar));
+    let command = full_name(command);
+    let help = match similar {
+        Some(similar) => format!("did you mean `--{similar}`?"),
+        None => format!("`{command} --help` lists its flags"),
+    };
+    Some(format!("`{name}` is not a flag of `{command}`; {help}"))
+}
+
+/// What to do about a flag that takes no value and has one, as in `--ambient-occlusion=true`.
+fn advise_on_switch(error: &Error) -> Option<String> {
+    let flag = context(error, ContextKind::InvalidArg)?;
+    let value = context(error, ContextKind::InvalidValue)?;
+    Some(format!("`{flag}` takes no value: leave out `={value}`"))
 }
 
 /// What to do about Blender's `-b` or `--background` before a file: it draws without a window.
@@ -198,12 +207,9 @@ fn differs_widely(word: &str, name: &str) -> bool {
     3 * shared.count() < 2 * longest
 }
 
-/// The name of a command with that of the program before it.
-fn full_name(command: &Command, program: &Command) -> String {
-    match command.get_name() {
-        name if name == program.get_name() => name.to_owned(),
-        name => format!("{} {name}", program.get_name()),
-    }
+/// The name of a command with those before it, such as `alberti scene init`.
+fn full_name(command: &Command) -> String {
+    command.get_bin_name().unwrap_or(command.get_name()).to_owned()
 }
 
 /// Whether a command has a flag of this long name.
@@ -244,26 +250,39 @@ fn advise_on_detached_value(words: &[String], command: &Command) -> Option<Strin
 }
 
 /// What to do with a file, a folder or another program's command in the place of a command.
-fn advise_on_command(error: &Error, program: &Command) -> Option<String> {
+fn advise_on_command(error: &Error, words: &[OsString], program: &Command) -> Option<String> {
     let word = context(error, ContextKind::InvalidSubcommand)?;
-    let is_meant = |(words, _): &&(&str, &str)| words.split(' ').any(|known| known == word);
-    if let Some((_, advice)) = FOREIGN_COMMANDS.iter().find(is_meant) {
-        return Some(format!("`{word}` is not a command of `alberti`; {advice}"));
+    let command = match called_command(program, words) {
+        help if help.get_name() == "help" => program,
+        command => command,
+    };
+    let is_meant = |(words, only, _): &&(&str, &str, &str)| {
+        *only == command.get_name() && words.split(' ').any(|known| known == word)
+    };
+    if let Some((.., advice)) = FOREIGN_COMMANDS.iter().find(is_meant) {
+        return Some(format!("`{word}` is not a command of `{}`; {advice}", full_name(command)));
     }
     let path = Path::new(word);
+    if !path.exists() && path.extension().is_none() {
+        let shown = command.get_subcommands().filter(|command| !command.is_hide_set());
+        let names: Vec<&str> = shown.map(Command::get_name).collect();
+        let command = full_name(command);
+        let help = match closest_name(word, &names).filter(|name| !differs_widely(word, name)) {
+            Some(name) => format!("did you mean `{name}`?"),
+            None => format!("`{command} --help` lists the commands"),
+        };
+        return Some(format!("`{word}` is not a command of `{command}`; {help}"));
+    }
     if path.is_dir() {
         return Some(format!(
             "`{word}` is a folder, not a command; to render the models in it, run `{} batch {word} --out-dir pictures`",
             program.get_name()
         ));
     }
-    let is_file = path.is_file() || path.extension().is_some();
-    is_file.then(|| {
-        format!(
-            "`{word}` is a file, not a command; to render it, run `{} render {word}`",
-            program.get_name()
-        )
-    })
+    Some(format!(
+        "`{word}` is a file, not a command; to render it, run `{} render {word}`",
+        program.get_name()
+    ))
 }
 
 /// Puts the value that another program's one means in the place of clap's tip; says more where a
@@ -292,9 +311,43 @@ fn advise_on_value(error: &mut Error, words: &[OsString], program: &Command) -> 
     if let Some(expected) = expected_number(error) {
         return Some(format!("invalid value '{given}' for '--{flag}': {expected}"));
     }
-    let meant = foreign_value(&flag, &given).or_else(|| accepted_value(&flag, &given, command))?;
-    error.insert(ContextKind::SuggestedValue, ContextValue::String(meant));
+    if let Some(help) = other_file_help(&flag, &given) {
+        return Some(format!("invalid value '{given}' for '--{flag}': {help}"));
+    }
+    let meant = foreign_value(&flag, &given).or_else(|| accepted_value(&flag, &given, command));
+    if let Some(meant) = meant.or_else(|| similar_color(&flag, &given)) {
+        error.remove(ContextKind::SuggestedValue);
+        let tip = StyledStr::from(format!("write `--{flag} {}`", quoted(&meant)));
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
+    } else if context(error, ContextKind::SuggestedValue)
+        .is_some_and(|similar| differs_widely(&given, similar))
+    {
+        error.remove(ContextKind::SuggestedValue);
+    }
     None
+}
+
+/// What to do with a file that a flag does not take, but that could be made into one.
+fn other_file_help(flag: &str, given: &str) -> Option<String> {
+    let path = Path::new(given);
+    let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+    let is_picture = ["exr", "png", "jpg", "jpeg", "webp", "hdr"].contains(&ending.as_str());
+    match flag {
+        "environment" if is_picture => {
+            let hdr = path.with_extension("hdr");
+            let hdr = quoted(&hdr.to_string_lossy());
+            let given = quoted(given);
+            Some(format!(
+                "environments are read from .hdr files; convert it, for example with ImageMagick: \
+                 `magick {given} {hdr}`"
+            ))
+        }
+        "background" if is_picture => Some(format!(
+            "expected a color; a scene file puts a picture behind the model, as in \
+             `image: (background: Picture(path: \"{given}\"))`"
+        )),
+        _ => None,
+    }
 }
 
 /// The numbers that a flag takes, where clap gives them in the notation of Rust: `0 is not in

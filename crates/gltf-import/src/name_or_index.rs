@@ -42,6 +42,11 @@ impl NameOrIndex {
             };
             let help = match available.as_slice() {
                 [] => format!("do not choose a {what}"),
+                _ if wanted.ends_with(".ron") => format!(
+                    "a {what} is chosen by its name or index in the file; a scene file is an input \
+                     by itself: `alberti render {wanted}`"
+                ),
+                [only] => format!("the only one is {only}"),
                 available => format!("choose one of {}", available.join(", ")),
             };
             Diagnostic::error(codes::NO_SUCH_ITEM, pointer, message, &help)

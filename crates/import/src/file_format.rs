@@ -118,13 +118,20 @@ fn begins_with_obj_statement(text: &[u8]) -> bool {
 }
 
 /// Formats that are not read: how they begin, what they are called, and what to do.
-const FOREIGN_FORMATS: [(&[u8], &str, &str); 7] = [
+const FOREIGN_FORMATS: [(&[u8], &str, &str); 14] = [
     (b"Kaydara FBX Binary", "an FBX file", "export it as .glb from the program that made it"),
     (b"; FBX", "an FBX file", "export it as .glb from the program that made it"),
     (b"ISO-10303-21", "a STEP file", "convert it, for instance by gmsh part.step -2 -o part.stl"),
     (b"PXR-USDC", "a USD file", "export it as .glb from the program that made it"),
     (b"#usda", "a USD file", "export it as .glb from the program that made it"),
     (b"BLENDER", "a Blender file", "export it as .glb from Blender"),
+    (b"\x89PNG", "a PNG picture", GIVE_A_MODEL),
+    (b"\xff\xd8\xff", "a JPEG picture", GIVE_A_MODEL),
+    (b"PK\x03\x04", "a ZIP archive", "extract it, and give a model in it"),
+    (b"%PDF", "a PDF file", GIVE_A_MODEL),
+    (b"# vtk", "a VTK file", "convert it to .ply or .stl, for instance with ParaView"),
+    (b"OFF", "an OFF file", "convert it to .ply or .obj, for instance with MeshLab"),
+    (b"xof ", "a DirectX file", "convert it to .glb, for instance with Blender"),
     (b"<?xml", "an XML file (COLLADA, AMF, X3D …)", "export it as .glb or .3mf"),
 ];
 

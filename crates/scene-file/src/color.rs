@@ -51,6 +51,11 @@ fn parse_color_name(text: &str) -> Option<[u8; 3]> {
     Some([r, g, b])
 }
 
+/// The names of colors that CSS has, in alphabetical order.
+pub fn color_names() -> impl Iterator<Item = &'static str> {
+    CSS_COLORS.iter().map(|(name, _)| *name)
+}
+
 impl Declared for Color {
     const ENTRY: &'static TypeEntry = &TypeEntry {
         name: "Color",

@@ -43,6 +43,7 @@ mod suggest;
 mod syntax;
 mod vocabulary;
 
+pub use color::color_names;
 pub use error::{SceneError, SceneErrors};
 pub use file::SceneFile;
 pub use format::format_source;

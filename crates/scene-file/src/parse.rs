@@ -126,8 +126,9 @@ fn check_text(source: &str) -> (Option<Node<'_>>, Vec<Mistake>) {
         } else if root.kind != NodeKind::Invalid {
             let start = root.span.start;
             let length = source[start..].chars().next().map_or(0, char::len_utf8);
-            let help = Some(SAMPLE_SCENE.to_owned());
-            checker.report(start..start + length, "this is not a scene", help);
+            checker.report(start..start + length, "this is not a scene", Some(other_text(source)));
+            // Mistakes in the grammar of a language that this text is not written in mislead.
+            mistakes.clear();
         }
         mistakes.extend(checker.finish());
     }
@@ -140,6 +141,26 @@ fn check_text(source: &str) -> (Option<Node<'_>>, Vec<Mistake>) {
         mistakes.push(last);
     }
     (root, mistakes)
+}
+
+/// What to do about a text that is not a scene: which language it seems to be written in, and how
+/// a scene looks.
+fn other_text(source: &str) -> String {
+    let text = source.trim_start();
+    let begins_field = |line: &str| {
+        let name = line.split(':').next().unwrap_or_default();
+        line.trim_end().ends_with(':') && name.chars().all(|c| c.is_alphanumeric() || c == '_')
+    };
+    let language = if text.starts_with(['{', '[']) && text.contains('"') {
+        "this looks like JSON, and scenes are written in RON; "
+    } else if text.starts_with("---") || begins_field(text.lines().next().unwrap_or_default()) {
+        "this looks like YAML, and scenes are written in RON; "
+    } else if text.starts_with('<') {
+        "this looks like XML, and scenes are written in RON; "
+    } else {
+        ""
+    };
+    format!("{language}{SAMPLE_SCENE}")
 }
 
 impl ParsedScene {

@@ -24,6 +24,8 @@
 //! | `tiny-picture`, `tiny-model` | less than a thousandth of the picture, or two pixels |
 //! | `coincident-instances` | instances of a model in one place |
 //! | `ground-above-models` | a ground above the lowest point of the models |
+//! | `narrow-field-of-view` | a field of view that is probably in radians |
+//! | `color-above-one` | the color of a light in bytes |
 //! | `depth-on-white` | the style `Depth`, white where it is near, before a white background |
 //! | `camera-path-turns-over` | a path through its target or parallel to up |
 //!
@@ -35,6 +37,7 @@ mod depth;
 mod depth_style;
 mod ground;
 mod instances;
+mod other_units;
 mod sections;
 #[cfg(feature = "sheets")]
 mod sheet;
@@ -132,6 +135,8 @@ fn lint_viewports(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint>
 pub fn lint_description(origin: &Origin, file: &SceneFile) -> Vec<Lint> {
     let mut advice: Vec<Lint> = camera_path::lint_camera_path(origin, file).into_iter().collect();
     advice.extend(depth_style::lint_white_background(origin, file));
+    advice.extend(other_units::lint_field_of_view(origin, file));
+    advice.extend(other_units::lint_light_colors(origin, file));
     let is_drawn = |style: &StyleFile| matches!(style, StyleFile::Lines(_));
     let insets = file.viewports.iter().filter_map(|viewport| viewport.style.as_ref());
     let cuts_drawing = file.sheet.is_some() || insets.chain([&file.style]).any(is_drawn);

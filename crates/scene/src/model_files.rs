@@ -87,13 +87,10 @@ impl<'a> LoadedModels<'a> {
 }
 
 /// The models of a scene in their places, each file loaded once; `None` if not all can be loaded.
-///
-/// `with_files` says whether mistakes in the models' own files are reported.
 pub(super) fn load_models(
     origin: &Origin,
     file: &SceneFile,
     options: &ResolveOptions,
-    with_files: bool,
     faults: &mut Diagnostics,
 ) -> Option<Vec<ModelInstance>> {
     if file.models.is_empty() {
@@ -106,7 +103,6 @@ pub(super) fn load_models(
     for (number, entry) in file.models.iter().enumerate() {
         let instances = match loaded.load(origin, number, entry, options) {
             Ok(model) => faults.take(instances::instantiate_model(origin, number, entry, &model)),
-            Err(ModelError::File(_)) if !with_files => None,
             Err(error) => {
                 faults.report(error.into_resolve_error(origin, number, entry));
                 None

@@ -17,18 +17,20 @@ use model::ModelInstance;
 use scene_file::{SceneError, SceneFile};
 use std::path::PathBuf;
 
-/// Every mistake of a scene file that has been parsed, in the order of the file. Errors in the
-/// models' own files are not among them: the crate `gltf-check` reports those.
-/// If a model cannot be loaded, what depends on the models is not validated.
+/// The scene of a file that has been parsed, unless it cannot be resolved, and every mistake in the
+/// file, in its order: in sheets, passes and the path of the camera too. Models are loaded once.
+///
+/// A model that cannot be loaded is a mistake, and what depends on the models is then not validated;
+/// the crate `gltf-check` reports whatever else is wrong with a model's file.
 #[must_use]
 pub fn validate_scene(
     origin: &Origin,
     file: &SceneFile,
     options: &ResolveOptions,
-) -> Vec<SceneError> {
+) -> (Option<Scene>, Vec<SceneError>) {
     let mut faults = Diagnostics::default();
-    let _ = resolve_file(origin, file, options, Extent::Everything, &mut faults);
-    faults.into_errors(origin)
+    let scene = resolve_file(origin, file, options, Extent::Everything, &mut faults);
+    (scene, faults.into_errors(origin))
 }
 
 /// What of a scene is resolved.
@@ -49,7 +51,7 @@ fn resolve_file(
     faults: &mut Diagnostics,
 ) -> Option<Scene> {
     let _ = faults.take(options.check_pixels(origin, file));
-    let models = load_models(origin, file, options, extent == Extent::Picture, faults);
+    let models = load_models(origin, file, options, faults);
     let allowed = &options.import.allow_outside;
     let frame =
         || resolve_parts(origin, file, models.as_deref(), FileAccess::Read(allowed), faults);

@@ -7,7 +7,7 @@
 /// holds for every command that draws, since it names another one. Single letters keep their case.
 pub(super) const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
     (
-        "resolution res dimensions image-size img-size imgsize geometry resize thumbnail width height \
+        "resolution res dim dims dimensions image-size img-size imgsize geometry resize thumbnail width height \
          resolution-x resolution-y W H",
         "size",
         "--size 1920x1080",
@@ -17,7 +17,11 @@ pub(super) const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
         "background",
         "--background '#f4f1ea'",
     ),
-    ("no-background transparent alpha film-transparent", "background", "--background transparent"),
+    (
+        "no-background transparent film-transparent transparency",
+        "background",
+        "--background transparent",
+    ),
     (
         "background-hdri hdri-background skybox hdri-skybox",
         "background",
@@ -30,7 +34,7 @@ pub(super) const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
     ("texture-matcap", "style", "--style matcap"),
     ("shading render-mode mode", "style", "--style shaded"),
     (
-        "hdri hdr hdri-file hdri-filename env-map envmap environment-map ibl",
+        "hdri hdr hdri-file hdri-filename env-map envmap environment-map ibl world",
         "environment",
         "--environment studio.hdr",
     ),
@@ -49,7 +53,7 @@ pub(super) const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
     ("isometric iso", "projection", "--projection isometric"),
     ("yaw rotate-y camera-azimuth camera-azimuth-angle", "azimuth", "--azimuth 30"),
     ("pitch rotate-x camera-elevation camera-elevation-angle", "elevation", "--elevation 20"),
-    ("fovy field-of-view view-angle camera-fov camera-view-angle focal-length", "fov", "--fov 35"),
+    ("fovy field-of-view view-angle camera-fov camera-view-angle", "fov", "--fov 35"),
     ("camera-zoom camera-zoom-factor zoom-factor", "zoom", "--zoom 1.5"),
     ("position camera-position camera-pos eye-position from", "eye", "--eye 4,3,6 --target 0,0,0"),
     (
@@ -57,16 +61,19 @@ pub(super) const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
         "target",
         "--target 0,0,0 --eye 4,3,6",
     ),
-    ("camera-view-up camera-up viewup", "view-up", "--eye 4,3,6 --target 0,0,0 --view-up 0,1,0"),
+    ("camera-view-up camera-up viewup", "view-up", "--view-up 0,1,0 --eye 4,3,6 --target 0,0,0"),
     ("camera-index", "camera", "--camera 0"),
     ("q ao ssao", "ambient-occlusion", "--ambient-occlusion"),
     (
-        "antialias antialiasing anti-alias anti-aliasing msaa aa spp raytracing-samples",
+        "antialias antialiasing anti-alias anti-aliasing msaa aa spp raytracing-samples \
+         cycles-samples eevee-samples render-samples",
         "samples",
         "--samples 8",
     ),
-    ("tonemap tonemapping", "tone-mapping", "--tone-mapping aces"),
-    ("shadow", "shadows", "--shadows on"),
+    ("tonemap tonemapping view-transform display-transform", "tone-mapping", "--tone-mapping aces"),
+    ("shadow cast-shadows", "shadows", "--shadows on"),
+    ("no-shadow no-shadows", "shadows", "--shadows off"),
+    ("smooth shade-smooth smooth-shading auto-smooth crease-angle", "crease", "--crease 30"),
     ("floor ground-plane shadow-catcher", "ground", "--ground shadow"),
     ("axis axes", "overlay", "--overlay axes"),
     ("g grid", "overlay", "--overlay grid"),
@@ -99,13 +106,8 @@ pub(super) const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
     ("reference ref baseline diff", "compare", "--compare reference.png"),
     ("ref-threshold threshold", "tolerance", "--tolerance 2 --compare reference.png"),
     ("qscale:v q:v", "quality", "--quality 85"),
-    ("max-size", "max-file-bytes", "--max-file-bytes 100MiB"),
     ("S scene-name scene-index", "scene", "--scene 0"),
-    (
-        "turntable orbit spin animate frames",
-        "",
-        "alberti animate model.glb --turntable -o turn.gif",
-    ),
+    ("turntable orbit spin animate", "", "alberti animate model.glb --turntable -o turn.gif"),
 ];
 
 /// Flags of other programs that have no counterpart, or several: their names, the only command for
@@ -164,7 +166,8 @@ pub(super) const FOREIGN_HABITS: &[(&str, &str, &str)] = &[
          use `--time 1.5`, in seconds",
     ),
     (
-        "frame-start frame-end start-frame end-frame fps framerate frame-rate r",
+        "frames frame-start frame-end start-frame end-frame fps framerate frame-rate r delay loop \
+         duration no-loop",
         "render",
         "this command draws one moment; run `alberti animate model.glb -o film.gif` for more",
     ),
@@ -254,7 +257,7 @@ pub(super) const FOREIGN_HABITS: &[(&str, &str, &str)] = &[
         "only warnings and errors are printed; leave it out",
     ),
     (
-        "opacity metallic roughness base-color emissive-factor normal-scale texture-base-color \
+        "texture textures texture-path texture-file opacity metallic roughness base-color emissive-factor normal-scale texture-base-color \
          texture-normal texture-material texture-emissive material materials",
         "",
         "materials come from the file; `alberti scene init model.glb` creates a scene file, which can \
@@ -292,6 +295,91 @@ pub(super) const FOREIGN_HABITS: &[(&str, &str, &str)] = &[
         "a turntable turns by an angle in degrees: `alberti animate model.glb --turntable=180 -o turn.gif`",
     ),
     ("flatten", "", "`--background white` fills what the model leaves empty"),
+    (
+        "alpha",
+        "",
+        "`--background transparent` keeps the alpha channel, and `--background white` fills it",
+    ),
+    ("max-size", "", "`--max-file-bytes 100MiB` is the largest file that is read"),
+    (
+        "focal-length focal lens lens-mm sensor-width sensor-height sensor-size",
+        "",
+        "`--fov 27` is the vertical angle of view in degrees: that of a 50 mm lens on full frame",
+    ),
+    (
+        "dof depth-of-field aperture f-stop fstop focus-distance focal-distance motion-blur bloom glow \
+         fog mist volumetrics caustics ssr reflections",
+        "",
+        "effects such as blur, glow and fog are not rendered, so leave it out",
+    ),
+    (
+        "near far znear zfar near-plane far-plane clip-start clip-end clipping-range",
+        "",
+        "the near and far planes are placed around the model; a scene file can set them, and \
+         `alberti scene doc Perspective` says how",
+    ),
+    (
+        "sun sun-direction sun-angle light-direction light-position light-color light-dir",
+        "",
+        "`--light-intensity 2` makes the lights stronger; a scene file places them, and \
+         `alberti scene doc Light` says how",
+    ),
+    (
+        "subdivide subdivision subdivision-level bevel modifier decimate simplify remesh merge weld \
+         triangulate center-model normalize-scale fit-to-unit",
+        "",
+        "models are drawn as they are; change them in another program, such as Blender",
+    ),
+    (
+        "translate translation rotate-x rotate-z scale-model object-rotation model-rotation rotation",
+        "",
+        "`--azimuth 30` and `--elevation 20` turn the view; to move or turn a model use a scene file, \
+         which `alberti scene init model.glb` creates",
+    ),
+    (
+        "gamma color-management colorspace-out color-space ocio brightness-contrast contrast saturation",
+        "",
+        "pictures are in sRGB; `--exposure 1` makes them brighter, and `--tone-mapping aces` sets the \
+         tone curve",
+    ),
+    (
+        "hide-ground no-ground no-floor hide-floor",
+        "",
+        "there is no ground unless `--ground shadow` asks for one, so leave it out",
+    ),
+    (
+        "collection object objects node nodes part parts only hide exclude include show select layer \
+         view-layer mesh-index",
+        "render",
+        "the whole scene of the file is drawn; `--scene 0` chooses one of its scenes by index or name",
+    ),
+    (
+        "views view",
+        "sheet",
+        "a scene file chooses the views of a sheet, and `alberti scene doc SheetView` says how",
+    ),
+    (
+        "host bind address listen ip interface",
+        "explore",
+        "the page is served to this machine only, at 127.0.0.1; to see it from another one forward \
+         the port with `ssh -L`",
+    ),
+    ("browser", "explore", "`--open` opens the page in the browser"),
+    (
+        "no-browser no-open headless",
+        "explore",
+        "no browser is opened unless `--open` asks for it, so leave it out",
+    ),
+    (
+        "headless offscreen no-gui nogui no-window background-mode no-render-window",
+        "",
+        "nothing opens a window here, so leave it out",
+    ),
+    (
+        "help-all",
+        "",
+        "`alberti --help` lists the commands, and `alberti reference` prints all flags",
+    ),
     ("version", "", "run `alberti --version`"),
     ("progress animation-progress", "", "a terminal shows the progress by itself, so leave it out"),
     (
@@ -323,7 +411,7 @@ pub(super) const FOREIGN_HABITS: &[(&str, &str, &str)] = &[
         "a film begins again by itself in `-o film.gif` and `-o film.png`: leave it out",
     ),
     (
-        "rotate flip flop trim blur strip border gravity extent colorspace negate gamma level \
+        "rotate flip flop trim blur strip border gravity extent colorspace negate level \
          sharpen unsharp sepia-tone monochrome grayscale colors dither quantize composite append \
          annotate draw label font shave splice chop distort repage adjoin compress interlace fuzz \
          opaque modulate normalize equalize edge emboss charcoal posterize mattecolor bordercolor \
@@ -391,39 +479,86 @@ pub(super) const FOREIGN_VALUES: &[(&str, &str, &str)] = &[
     ("view", "3d perspective angled corner threequarter 3/4", "three-quarter"),
     ("tone-mapping", "filmic aces-filmic hill", "aces"),
     ("tone-mapping", "linear off raw standard", "none"),
+    ("tone-mapping", "khronos pbr-neutral khronos-pbr-neutral", "neutral"),
+    ("samples", "2 3 4x 4xmsaa", "4"),
+    ("samples", "5 6 7 8x 8xmsaa", "8"),
+    ("samples", "9 10 12 16x 32 64 100 128 256 512 1024 2048 4096", "16"),
+    ("size", "720p hd", "1280x720"),
+    ("size", "1080p 1080 fullhd full-hd fhd", "1920x1080"),
+    ("size", "1440p qhd", "2560x1440"),
+    ("size", "4k 2160p uhd", "3840x2160"),
+    ("shadows", "true yes 1 enabled", "on"),
+    ("shadows", "false no 0 none disabled", "off"),
+    ("ground", "off no false", "none"),
+    ("ground", "on yes true shadow-catcher catcher", "shadow"),
+    ("unit", "meter meters metre metres", "m"),
+    ("unit", "millimeter millimeters millimetre millimetres", "mm"),
+    ("unit", "centimeter centimeters centimetre centimetres", "cm"),
+    ("unit", "micron microns micrometer micrometre", "um"),
+    ("unit", "inch inches", "in"),
+    ("unit", "foot feet", "ft"),
+    ("environment", "hdri sunset outdoor day daylight", "sky"),
+    ("environment", "indoor neutral room softbox", "studio"),
+    ("environment", "off no false black", "none"),
+    ("colormap", "rainbow jet", "turbo"),
+    ("colormap", "gray grey greyscale grays greys", "grayscale"),
+    ("colormap", "plasma magma hot", "inferno"),
+    ("colormap", "coolwarm rdbu bwr diverging", "cool-warm"),
     ("up", "+x", "x"),
     ("up", "+y", "y"),
     ("up", "+z", "z"),
 ];
 
-/// Commands of other programs, and what to write.
-pub(super) const FOREIGN_COMMANDS: &[(&str, &str)] = &[
+/// Commands of other programs: their names, the command before them, and what to write.
+pub(super) const FOREIGN_COMMANDS: &[(&str, &str, &str)] = &[
     (
         "view show open display preview",
+        "alberti",
         "to look at a model run `alberti explore model.glb`; to make a picture, `alberti render model.glb`",
     ),
-    ("thumbnail thumb", "run `alberti render model.glb --size 256x256 -o thumb.png`"),
-    ("turntable spin video film movie", "run `alberti animate model.glb --turntable -o turn.gif`"),
+    ("thumbnail thumb", "alberti", "run `alberti render model.glb --size 256x256 -o thumb.png`"),
+    (
+        "turntable spin video film movie",
+        "alberti",
+        "run `alberti animate model.glb --turntable -o turn.gif`",
+    ),
     (
         "draw drawing lines",
+        "alberti",
         "run `alberti render model.glb --style lines -o drawing.svg`, or `alberti sheet model.glb` for views to scale",
     ),
-    ("validate lint verify", "run `alberti check model.glb`"),
-    ("inspect stat stats identify", "run `alberti info model.glb`"),
+    ("validate lint verify", "alberti", "run `alberti check model.glb`"),
+    ("inspect stat stats identify", "alberti", "run `alberti info model.glb`"),
     (
         "convert export magick",
+        "alberti",
         "to make a picture run `alberti render model.glb -o picture.png`; models are not converted: use another program for that, such as Blender",
     ),
     (
         "montage mogrify composite",
+        "alberti",
         "to make pictures of many models run `alberti batch models --out-dir pictures`",
     ),
-    ("init new", "run `alberti scene init model.glb`"),
+    ("init new", "alberti", "run `alberti scene init model.glb`"),
     (
         "compare diff",
+        "alberti",
         "`alberti render model.glb --compare reference.png` compares a new picture with one in a file; for two pictures use ImageMagick: `magick compare a.png b.png difference.png`",
     ),
-    ("serve server web", "run `alberti explore model.glb`, which serves a page on this machine"),
-    ("formats list list-formats", "`alberti render --help` names the formats of models"),
-    ("version", "run `alberti --version`"),
+    (
+        "serve server web",
+        "alberti",
+        "run `alberti explore model.glb`, which serves a page on this machine",
+    ),
+    ("formats list list-formats", "alberti", "`alberti render --help` names the formats of models"),
+    ("version", "alberti", "run `alberti --version`"),
+    ("matrices transform projection", "alberti", "run `alberti matrix`"),
+    ("formula formulas equations", "alberti", "run `alberti reference formulas`"),
+    ("quit exit", "alberti", "each command ends by itself"),
+    ("validate lint verify", "scene", "run `alberti scene check scene.ron`"),
+    ("format", "scene", "run `alberti scene fmt scene.ron`"),
+    ("new create make", "scene", "run `alberti scene init model.glb`"),
+    ("show reference docs fields", "scene", "run `alberti scene doc`"),
+    ("render draw", "scene", "run `alberti render scene.ron`"),
+    ("explore view open", "scene", "run `alberti render scene.ron`"),
 ];

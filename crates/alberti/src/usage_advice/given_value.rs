@@ -31,7 +31,7 @@ pub(super) fn with_given_value(
     // A word that chooses what the flag is set to, such as `wireframe`, is no example.
     let is_choice =
         has_choices(command, name) || example == "transparent" || example == "environment";
-    if is_choice || example.starts_with("--") {
+    if example.starts_with("--") {
         return Given::Nothing;
     }
     if let Some(factor) = percent(&given).filter(|_| name == "size") {
@@ -39,6 +39,7 @@ pub(super) fn with_given_value(
     }
     match accepted_value(name, &given, command) {
         Some(value) => Given::Fits(advice.replacen(example, &quoted(&value), 1)),
+        None if is_choice => Given::Nothing,
         None => Given::FitsNot(flag.to_owned()),
     }
 }
@@ -62,7 +63,9 @@ pub(super) fn quoted(value: &str) -> String {
 
 /// A value that a flag takes: the one that was given, or what it means in another program.
 pub(super) fn accepted_value(flag: &str, given: &str, command: &Command) -> Option<String> {
-    let meant = [Some(given.to_owned()), foreign_value(flag, given), rewritten(flag, given)];
+    let lower = given.to_ascii_lowercase();
+    let meant =
+        [Some(given.to_owned()), Some(lower), foreign_value(flag, given), rewritten(flag, given)];
     meant.into_iter().flatten().find(|value| is_accepted(flag, value, command))
 }
 
@@ -80,21 +83,26 @@ pub(super) fn foreign_value(flag: &str, given: &str) -> Option<String> {
 fn rewritten(flag: &str, given: &str) -> Option<String> {
     match flag {
         "size" => {
-            let given = given.trim_end_matches(['!', '^', '>', '<']);
-            let sides: Vec<&str> = given.split([',', ' ', ':', '*', 'X']).collect();
+            let given = given.trim_matches(['!', '^', '>', '<', '(', ')', '[', ']']);
+            let sides = given.trim_end_matches("px").split([',', ' ', ':', '*', 'X', '×', 'x']);
+            let sides: Vec<&str> = sides.filter(|side| !side.is_empty()).collect();
             Some(sides.join("x"))
         }
-        "background" if given.eq_ignore_ascii_case("none") => Some("transparent".to_owned()),
-        "background" => {
-            let channels = given.trim_start_matches("rgb(").trim_end_matches(')').split([',', ' ']);
-            let channels = channels.filter(|word| !word.is_empty());
-            let channels: Vec<f64> =
-                channels.map(|word| word.trim().parse().ok()).collect::<Option<_>>()?;
-            let [red, green, blue] = channels[..] else { return None };
-            let whole = if channels.iter().all(|channel| *channel <= 1.0) { 255.0 } else { 1.0 };
-            let [red, green, blue] = [red, green, blue].map(|it| (it * whole).round() as u8);
-            Some(format!("#{red:02x}{green:02x}{blue:02x}"))
+        "zoom" => percent(given).map(|factor| factor.to_string()),
+        "azimuth" | "elevation" | "fov" | "crease" | "environment-rotation" | "turntable" => {
+            let number = given.trim_end_matches(|c: char| c.is_alphabetic() || c == '°');
+            Some(number.trim().to_owned())
         }
+        "exposure" => Some(given.to_ascii_lowercase().trim_end_matches("ev").trim().to_owned()),
+        "scalar-range" => {
+            let ends = given.trim_matches(['(', ')', '[', ']']).split([':', ' ', ';', ',']);
+            let ends: Vec<&str> = ends.filter(|end| !end.is_empty()).collect();
+            Some(ends.join(","))
+        }
+        "scale" => drawing_scale(given),
+        "background" if given.eq_ignore_ascii_case("none") => Some("transparent".to_owned()),
+        "background" if given.starts_with("0x") => Some(format!("#{}", &given[2..])),
+        "background" => hex_color(given).or_else(|| Some(given.replace([' ', '-', '_'], ""))),
         "crop" => {
             let (size, [x, y]) = given.split_once('+').and_then(|(size, place)| {
                 let (x, y) = place.split_once('+')?;
@@ -104,10 +112,52 @@ fn rewritten(flag: &str, given: &str) -> Option<String> {
             Some(format!("{x},{y},{width},{height}"))
         }
         "eye" | "target" | "view-up" => {
-            Some(given.split_whitespace().collect::<Vec<_>>().join(","))
+            let numbers = given.split([' ', ',', ';', '(', ')', '[', ']', '<', '>']);
+            Some(numbers.filter(|number| !number.is_empty()).collect::<Vec<_>>().join(","))
         }
         _ => None,
     }
+}
+
+/// A color of three numbers, to 1 or to 255, in hexadecimal digits; four with an alpha of 0 are
+/// transparent.
+fn hex_color(given: &str) -> Option<String> {
+    let numbers = given.trim_start_matches(|c: char| c.is_alphabetic() || "([".contains(c));
+    let numbers = numbers.trim_end_matches([')', ']']).split([',', ' ']);
+    let numbers = numbers.filter(|word| !word.is_empty());
+    let channels: Vec<f64> = numbers.map(|word| word.trim().parse().ok()).collect::<Option<_>>()?;
+    let [red, green, blue] = match channels[..] {
+        [.., alpha] if channels.len() == 4 && alpha == 0.0 => {
+            return Some("transparent".to_owned());
+        }
+        [red, green, blue] | [red, green, blue, _] => [red, green, blue],
+        _ => return None,
+    };
+    let whole = if channels.iter().all(|channel| *channel <= 1.0) { 255.0 } else { 1.0 };
+    let [red, green, blue] = [red, green, blue].map(|it| (it * whole).round() as u8);
+    Some(format!("#{red:02x}{green:02x}{blue:02x}"))
+}
+
+/// The scale of a drawing from another notation: `0.5`, `50%`, `1/2` or `2`, as `1:2` or `2:1`.
+fn drawing_scale(given: &str) -> Option<String> {
+    if let Some((paper, model)) = given.split_once(['/', ':']) {
+        return Some(format!("{}:{}", paper.trim(), model.trim()));
+    }
+    let factor = percent(given).or_else(|| given.parse().ok())?;
+    let whole = if factor < 1.0 { 1.0 / factor } else { factor };
+    let is_whole = factor > 0.0 && (whole - whole.round()).abs() < 1e-9 * whole;
+    is_whole.then(|| {
+        let whole = whole.round();
+        if factor < 1.0 { format!("1:{whole}") } else { format!("{whole}:1") }
+    })
+}
+
+/// A color whose name is almost that of a flag's value.
+pub(super) fn similar_color(flag: &str, given: &str) -> Option<String> {
+    let names = scene_file::color_names().chain(["transparent", "environment"]);
+    let names: Vec<&str> = names.collect();
+    let similar = || scene_file::closest_name(given, &names).map(str::to_owned);
+    (flag == "background").then(similar).flatten()
 }
 
 /// The factor of a percentage, such as 0.5 of `50%`.

@@ -147,6 +147,7 @@ const FIELDS: &[(&str, &str, &str)] = &[
 fn materials_of_other_forms_are_answered_with_a_list() {
     for (field, followed) in [
         ("material: \"red\"", "materials: [(base_color: \"red\")]"),
+        ("material: Color(\"red\")", "materials: [(base_color: \"red\")]"),
         ("materials: \"#aabbcc\"", "materials: [(base_color: \"#aabbcc\")]"),
         (
             "materials: {\"wood\": (base_color: \"red\"), \"iron\": \"gray\"}",

@@ -18,7 +18,7 @@ fn mistakes_and_loads(text: &str, is_check: bool) -> (usize, usize) {
     let mut options = ResolveOptions::default();
     options.import.timings = timings.clone();
     let count = if is_check {
-        validate_scene(&origin, &file, &options).len()
+        validate_scene(&origin, &file, &options).1.len()
     } else {
         let error = Scene::resolve(&origin, &file, &options).expect_err("mistakes");
         match error {
@@ -33,8 +33,7 @@ fn mistakes_and_loads(text: &str, is_check: bool) -> (usize, usize) {
 fn each_model_is_loaded_once_whatever_is_wrong_with_the_scene() {
     let models = "(path: \"a.obj\"), (path: \"missing.obj\"), (path: \"b.obj\"), (path: \"a.obj\")";
     let text = format!("Scene(models: [{models}], image: (samples: 3), caption: \"\")");
-    // `check` reports the models' files by another way.
-    assert_eq!(mistakes_and_loads(&text, true), (2, 2));
+    assert_eq!(mistakes_and_loads(&text, true), (3, 2));
     assert_eq!(mistakes_and_loads(&text, false), (3, 2));
     let text = "Scene(models: [(path: \"a.obj\")], camera: (view: LookTo(eye: (0, 0, 0), gaze: (0, 0, 0))))";
     assert_eq!(mistakes_and_loads(text, false), (1, 1));

@@ -6,8 +6,12 @@ use crate::schema::{Declared, FieldEntry, Shape, TypeEntry, ValueType};
 use crate::syntax::{Node, NodeKind, SyntaxItem};
 
 /// A string as a struct: as the only required field, `(path: "a.glb")`, or a color as the first
-/// color of a struct that requires nothing, `(base_color: "red")`.
+/// color of a struct that requires nothing, `(base_color: "red")`; `Color("red")` is that string.
 pub(super) fn bracket_string(node: &Node<'_>, entry: &TypeEntry) -> Option<String> {
+    let color = node.group().filter(|group| {
+        group.name.as_ref().is_some_and(|name| name.name == "Color") && group.items.len() == 1
+    });
+    let node = color.map_or(node, |group| &group.items[0].value);
     let (NodeKind::String(text), Shape::Fields(fields)) = (&node.kind, entry.shape) else {
         return None;
     };
