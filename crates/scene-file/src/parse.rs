@@ -359,6 +359,18 @@ mod tests {
         paths.iter().map(|path| fs::read_to_string(path).expect("the scene is there")).collect()
     }
 
+    /// Whoever reads a scene by serde alone is told the field.
+    #[test]
+    fn errors_of_other_readers_name_the_field() {
+        let text = "Scene(models: [(path: \"a.glb\"), (path: \"b.glb\", crease_degrees: \"x\")])";
+        let error = scene_ron_options().from_str::<SceneFile>(text).expect_err("a string");
+        assert!(error.to_string().contains("`models[1].crease_degrees`: "), "{error}");
+        let text = "(camera: (projection: Perspective(fov_y_degrees: 500)))";
+        let error = scene_ron_options().from_str::<SceneFile>(text).expect_err("an angle");
+        let told = "`camera.projection.fov_y_degrees`: expected an angle between 0 and 180 degrees";
+        assert!(error.to_string().contains(told), "{error}");
+    }
+
     #[test]
     fn the_checker_finds_nothing_wrong_with_what_ron_reads_and_something_with_the_rest() {
         let scenes = texts_in("scenes", ".ron");

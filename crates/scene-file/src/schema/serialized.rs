@@ -141,7 +141,10 @@ impl<'de> Visitor<'de> for PlainVisitor<'_> {
             return Err(A::Error::custom("expected one value, not a list"));
         };
         let mut list = Vec::new();
-        while let Some(data) = elements.next_element_seed(Reader(element))? {
+        while let Some(data) = elements
+            .next_element_seed(Reader(element))
+            .map_err(|error| error_in(&format!("[{}]", list.len()), error))?
+        {
             list.push(data);
         }
         Ok(Data::List(list))
@@ -192,11 +195,11 @@ impl<'de> Visitor<'de> for FieldsVisitor {
             }
             let value_type = (field.value_type)();
             let value = if field.accepts_none {
-                map.next_value_seed(OptionalReader(&value_type))?
+                map.next_value_seed(OptionalReader(&value_type))
             } else {
-                map.next_value_seed(Reader(&value_type))?
+                map.next_value_seed(Reader(&value_type))
             };
-            values.push((field.name, value));
+            values.push((field.name, value.map_err(|error| error_in(field.name, error))?));
         }
         let is_missing = |field: &&FieldEntry| {
             !field.is_optional && values.iter().all(|(name, _)| *name != field.name)
@@ -205,6 +208,19 @@ impl<'de> Visitor<'de> for FieldsVisitor {
             Some(field) => Err(A::Error::custom(missing_field(field.name))),
             None => Ok(Data::Fields(values)),
         }
+    }
+}
+
+/// The error of a value with the field or element that it stands in, as in
+/// `` `camera.projection.near`: expected … ``.
+fn error_in<E: Error>(place: &str, error: E) -> E {
+    let text = error.to_string();
+    match text.strip_prefix('`').and_then(|rest| rest.split_once("`: ")) {
+        Some((path, message)) if path.starts_with('[') => {
+            E::custom(format_args!("`{place}{path}`: {message}"))
+        }
+        Some((path, message)) => E::custom(format_args!("`{place}.{path}`: {message}")),
+        None => E::custom(format_args!("`{place}`: {text}")),
     }
 }
 
