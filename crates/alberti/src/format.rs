@@ -73,18 +73,6 @@ impl OutputFormat {
                 ),
             )
         };
-        let animate = || {
-            let gif = output.with_extension("gif");
-            let gif = visible_path(&gif);
-            let turn = "alberti animate MODEL --turntable";
-            let help = match ending {
-                "gif" => format!("`{turn} -o {gif}` writes an animation"),
-                _ => format!(
-                    "`{turn} -o {gif}` writes an animation; for a video pipe the frames to ffmpeg: `{turn} --size 960x720 --background white -o - | ffmpeg -f rawvideo -pixel_format rgba -video_size 960x720 -framerate 30 -i - -pix_fmt yuv420p {name}`"
-                ),
-            };
-            CliError::Usage(format!("{name}: this command writes still pictures\n  = help: {help}"))
-        };
         match ending {
             "exr" | "npy" => unwritten(
                 &format!("{} picture", ending.to_uppercase()),
@@ -93,7 +81,6 @@ impl OutputFormat {
                      picture: `--passes depth --pass-format {ending} -o picture.png`"
                 ),
             ),
-            "hdr" => unwritten("HDR picture", "`--bits 16 -o picture.png` has finer steps".into()),
             "glb" | "gltf" | "obj" | "stl" | "ply" | "3mf" | "fbx" | "usdz" => unwritten(
                 "model",
                 "this program draws models and does not convert them; use one such as Blender"
@@ -103,10 +90,7 @@ impl OutputFormat {
                 "DWG",
                 format!("write {} instead", visible_path(output.with_extension("dxf"))),
             ),
-            "html" | "htm" => {
-                unwritten("HTML", "`alberti explore MODEL` shows a model in a page".into())
-            }
-            "txt" | "csv" | "json" => {
+            "csv" | "json" => {
                 unwritten("text", "`--json` prints a report about the picture".into())
             }
             "ppm" | "pgm" | "pnm" | "ico" | "heic" | "jp2" | "jxl" => {
@@ -120,7 +104,9 @@ impl OutputFormat {
                 "PostScript",
                 format!("write {} instead", output.with_extension("pdf").display()),
             ),
-            "gif" | "mp4" | "m4v" | "mov" | "webm" | "mkv" | "avi" => animate(),
+            "gif" | "mp4" | "m4v" | "mov" | "webm" | "mkv" | "avi" => {
+                moving_picture_error(output, ending)
+            }
             _ if output.is_dir() => CliError::Usage(format!(
                 "{name} is a folder\n  = help: name a file in it, such as -o '{}'",
                 visible_path(output.join("{stem}.png"))
@@ -160,6 +146,20 @@ impl OutputFormat {
             }
         }
     }
+}
+
+/// The error of a film as the output of a command that writes stills.
+fn moving_picture_error(output: &Path, ending: &str) -> CliError {
+    let (name, gif) = (visible_path(output), output.with_extension("gif"));
+    let gif = visible_path(&gif);
+    let turn = "alberti animate MODEL --turntable";
+    let help = match ending {
+        "gif" => format!("`{turn} -o {gif}` writes an animation"),
+        _ => format!(
+            "`{turn} -o {gif}` writes an animation; for a video pipe the frames to ffmpeg: `{turn} --size 960x720 --background white -o - | ffmpeg -f rawvideo -pixel_format rgba -video_size 960x720 -framerate 30 -i - -pix_fmt yuv420p {name}`"
+        ),
+    };
+    CliError::Usage(format!("{name}: this command writes still pictures\n  = help: {help}"))
 }
 
 /// The error of ImageMagick's `png:-` and `png:out.png`, if a name is one.

@@ -275,9 +275,8 @@ fn open_stdin(options: &ImportOptions) -> Result<(Origin, SceneFile), CliError> 
     if FileFormat::from_content(&bytes).is_some() {
         return Ok(Origin::from_model_bytes("stdin", bytes));
     }
-    let text = String::from_utf8(bytes).map_err(|_| {
-        stdin_error("it is neither a scene nor a model of a known format".to_owned())
-    })?;
+    let text = String::from_utf8(bytes)
+        .map_err(|_| stdin_error("it is neither a scene nor a model of a known format"))?;
     let origin = Origin::from_text("<stdin>", text, PathBuf::new());
     Ok(origin.parse_with_includes(&options.allow_outside)?)
 }
@@ -290,16 +289,16 @@ pub(super) fn read_stdin(options: &ImportOptions) -> Result<Vec<u8>, CliError> {
     let limit = options.limits.file_bytes;
     let mut bytes = Vec::new();
     let read = std::io::stdin().lock().take(limit.saturating_add(1)).read_to_end(&mut bytes);
-    read.map_err(|cause| stdin_error(cause.to_string()))?;
+    read.map_err(|cause| stdin_error(&cause.to_string()))?;
     if bytes.len() as u64 > limit {
         let why = format!("it has more than {limit} bytes; --max-file-bytes allows more");
-        return Err(stdin_error(why));
+        return Err(stdin_error(&why));
     }
     Ok(bytes)
 }
 
 /// The error of an unreadable standard input.
-fn stdin_error(why: String) -> CliError {
+fn stdin_error(why: &str) -> CliError {
     CliError::Usage(format!("cannot read the standard input: {why}"))
 }
 

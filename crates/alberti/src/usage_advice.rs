@@ -13,7 +13,7 @@ use super::negative_numbers::called_command;
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Command, CommandFactory as _, Error, FromArgMatches as _};
-use foreign_words::{FOREIGN_COMMANDS, FOREIGN_FLAGS, FOREIGN_HABITS};
+use foreign_words::foreign_words;
 use given_value::{
     Given, accepted_value, foreign_value, invalid_value, quoted, similar_color, value_of,
     with_given_value,
@@ -180,11 +180,8 @@ fn whole_word(told: &str, words: &[OsString]) -> String {
 /// What to do about a flag of another program that has no counterpart, or several.
 fn foreign_habit(word: &str, command: &Command) -> Option<&'static str> {
     let word = with_hyphens(word);
-    let is_meant = |(words, only, _): &&(&str, &str, &str)| {
-        (only.is_empty() || *only == command.get_name())
-            && words.split(' ').any(|known| known == word)
-    };
-    FOREIGN_HABITS.iter().find(is_meant).map(|(.., help)| *help)
+    let holds = |owner: &str| owner.is_empty() || owner == command.get_name();
+    foreign_words("habit").find(|row| holds(row.owner) && row.has(&word)).map(|row| row.advice)
 }
 
 /// A name as the tables have it: single letters keep their case.
@@ -226,12 +223,9 @@ fn takes_value(command: &Command, name: &str) -> bool {
 /// What to write for a flag of another program.
 fn foreign_flag(word: &str, command: &Command) -> Option<&'static str> {
     let word = with_hyphens(word);
-    let is_meant = |(words, flag, _): &&(&str, &str, &str)| {
-        let is_known =
-            if flag.is_empty() { has_flag(command, "style") } else { has_flag(command, flag) };
-        is_known && words.split(' ').any(|known| known == word)
-    };
-    FOREIGN_FLAGS.iter().find(is_meant).map(|(.., advice)| *advice)
+    // What draws has a style.
+    let is_known = |flag: &str| has_flag(command, if flag.is_empty() { "style" } else { flag });
+    foreign_words("flag").find(|row| is_known(row.owner) && row.has(&word)).map(|row| row.advice)
 }
 
 /// What to write for a value that was given apart from a flag that wants an equals sign, as in
@@ -256,10 +250,9 @@ fn advise_on_command(error: &Error, words: &[OsString], program: &Command) -> Op
         help if help.get_name() == "help" => program,
         command => command,
     };
-    let is_meant = |(words, only, _): &&(&str, &str, &str)| {
-        *only == command.get_name() && words.split(' ').any(|known| known == word)
-    };
-    if let Some((.., advice)) = FOREIGN_COMMANDS.iter().find(is_meant) {
+    let mut commands = foreign_words("command");
+    let meant = commands.find(|row| row.owner == command.get_name() && row.has(word));
+    if let Some(advice) = meant.map(|row| row.advice) {
         return Some(format!("`{word}` is not a command of `{}`; {advice}", full_name(command)));
     }
     let path = Path::new(word);
@@ -377,7 +370,6 @@ fn advise_on_conflict(error: &mut Error) {
 
 #[cfg(test)]
 mod tests {
-    use super::foreign_words::FOREIGN_VALUES;
     use super::*;
     use crate::args::Args;
 
@@ -393,12 +385,13 @@ mod tests {
     #[test]
     fn advice_is_accepted_by_the_commands_that_get_it() {
         let program = built_program();
-        for (words, flag, advice) in FOREIGN_FLAGS {
-            let flag = if flag.is_empty() { "style" } else { flag };
+        for row in foreign_words("flag") {
+            let advice = row.advice;
+            let flag = if row.owner.is_empty() { "style" } else { row.owner };
             let with_flag = program.get_subcommands().filter(|command| has_flag(command, flag));
             let mut count = 0;
             for command in with_flag.filter(|command| !command.is_hide_set()) {
-                for word in words.split(' ') {
+                for word in row.words() {
                     let is_own = has_flag(command, word);
                     assert!(!is_own || foreign_flag(word, command).is_some(), "{word}");
                 }
@@ -419,18 +412,19 @@ mod tests {
     fn every_value_of_the_table_exists() {
         let program = built_program();
         let render = program.find_subcommand("render").expect("render");
-        for (flag, words, value) in FOREIGN_VALUES {
+        for row in foreign_words("value") {
+            let value = row.advice;
             let flag = render
                 .get_arguments()
-                .find(|known| known.get_long() == Some(flag))
+                .find(|known| known.get_long() == Some(row.owner))
                 .expect("a flag");
             let names: Vec<String> = flag
                 .get_possible_values()
                 .iter()
                 .map(|known| known.get_name().to_owned())
                 .collect();
-            assert!(names.iter().any(|name| name == value), "{value}: {names:?}");
-            for word in words.split(' ') {
+            assert!(accepted_value(row.owner, value, render).is_some(), "{value}");
+            for word in row.words() {
                 assert!(!names.iter().any(|name| name == word), "{word} is a value itself");
             }
         }
@@ -442,9 +436,10 @@ mod tests {
     fn what_habits_lead_to_exists() {
         let program = built_program();
         let exists = |flag: &str| program.get_subcommands().any(|it| has_flag(it, flag));
-        for (words, only, help) in FOREIGN_HABITS {
+        for row in foreign_words("habit") {
+            let (only, help) = (row.owner, row.advice);
             assert!(only.is_empty() || program.find_subcommand(only).is_some(), "{only}");
-            for word in words.split(' ') {
+            for word in row.words() {
                 assert_eq!(with_hyphens(word), word, "names are looked up in this form");
             }
             for quoted in help.split('`').skip(1).step_by(2) {

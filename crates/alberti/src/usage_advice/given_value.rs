@@ -1,7 +1,7 @@
 //! Values that were given in the manner of another program, in the manner of this one.
 
 use super::context;
-use super::foreign_words::FOREIGN_VALUES;
+use super::foreign_words::foreign_words;
 use clap::error::{ContextKind, ErrorKind};
 use clap::{Command, Error};
 
@@ -72,10 +72,8 @@ pub(super) fn accepted_value(flag: &str, given: &str, command: &Command) -> Opti
 /// The value here for one of another program.
 pub(super) fn foreign_value(flag: &str, given: &str) -> Option<String> {
     let given = given.to_ascii_lowercase().replace('_', "-");
-    let is_meant = |(name, words, _): &&(&str, &str, &str)| {
-        *name == flag && words.split(' ').any(|known| known == given)
-    };
-    FOREIGN_VALUES.iter().find(is_meant).map(|(.., meant)| (*meant).to_owned())
+    let mut values = foreign_words("value");
+    values.find(|row| row.owner == flag && row.has(&given)).map(|row| row.advice.to_owned())
 }
 
 /// A value in the form of this program: `200,150` as `200x150`, `1,0,0` as `#ff0000`, and

@@ -143,7 +143,7 @@ impl<'de> Visitor<'de> for PlainVisitor<'_> {
         let mut list = Vec::new();
         while let Some(data) = elements
             .next_element_seed(Reader(element))
-            .map_err(|error| error_in(&format!("[{}]", list.len()), error))?
+            .map_err(|error| error_in(&format!("[{}]", list.len()), &error))?
         {
             list.push(data);
         }
@@ -199,7 +199,7 @@ impl<'de> Visitor<'de> for FieldsVisitor {
             } else {
                 map.next_value_seed(Reader(&value_type))
             };
-            values.push((field.name, value.map_err(|error| error_in(field.name, error))?));
+            values.push((field.name, value.map_err(|error| error_in(field.name, &error))?));
         }
         let is_missing = |field: &&FieldEntry| {
             !field.is_optional && values.iter().all(|(name, _)| *name != field.name)
@@ -213,7 +213,7 @@ impl<'de> Visitor<'de> for FieldsVisitor {
 
 /// The error of a value with the field or element that it stands in, as in
 /// `` `camera.projection.near`: expected … ``.
-fn error_in<E: Error>(place: &str, error: E) -> E {
+fn error_in<E: Error>(place: &str, error: &E) -> E {
     let text = error.to_string();
     match text.strip_prefix('`').and_then(|rest| rest.split_once("`: ")) {
         Some((path, message)) if path.starts_with('[') => {
