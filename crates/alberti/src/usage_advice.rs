@@ -92,6 +92,8 @@ fn advise_on_flag(error: &Error, words: &[OsString], program: &Command) -> Optio
             return Some(format!("`{name}` needs two hyphens here: `--{stem}{text}`"));
         }
         Some(format!("use `--{stem}{text}`"))
+    } else if let Some(format) = chosen_format(stem, &words, command) {
+        Some(format!("use `--format {format}`"))
     } else if let Some(help) = foreign_habit(stem, command) {
         Some(help.to_owned())
     } else {
@@ -108,8 +110,8 @@ fn advise_on_flag(error: &Error, words: &[OsString], program: &Command) -> Optio
         let command = full_name(command);
         return Some(format!("`{name}` is not a flag of `{command}`; {help}"));
     }
-    if before_command {
-        return advise_before_command(&name, program);
+    if let Some(advice) = before_command.then(|| advise_before_command(&name, program)).flatten() {
+        return Some(advice);
     }
     if !name.starts_with('-') && Path::new(&name).extension().is_some() {
         let command = full_name(command);
@@ -117,8 +119,8 @@ fn advise_on_flag(error: &Error, words: &[OsString], program: &Command) -> Optio
             "`{command}` reads one file, and `{name}` is a second one; for several files use a loop: `for f in *.glb; do {command} \"$f\"; done`"
         ));
     }
-    if !name.starts_with("--") {
-        return advise_on_detached_value(&words, command);
+    if let Some(advice) = advise_on_detached_value(&words, command) {
+        return Some(advice);
     }
     let names: Vec<&str> = command.get_arguments().filter_map(|flag| flag.get_long()).collect();
     let similar = closest_name(stem, &names).filter(|similar| !differs_widely(stem, similar));
@@ -135,6 +137,12 @@ fn advise_on_switch(error: &Error) -> Option<String> {
     let flag = context(error, ContextKind::InvalidArg)?;
     let value = context(error, ContextKind::InvalidValue)?;
     Some(format!("`{flag}` takes no value: leave out `={value}`"))
+}
+
+/// The format that `-f svg` chooses in other programs, unless it is the number of a frame.
+fn chosen_format(stem: &str, words: &[String], command: &Command) -> Option<String> {
+    let value = value_of("-f", words).filter(|_| stem == "f" && has_flag(command, "format"))?;
+    accepted_value("format", &value, command)
 }
 
 /// What to do about Blender's `-b` or `--background` before a file: it draws without a window.
@@ -157,7 +165,7 @@ fn advise_on_no_window(name: &str, words: &[String]) -> Option<String> {
 
 /// What to do about a flag before any command.
 fn advise_before_command(name: &str, program: &Command) -> Option<String> {
-    let stem = name.strip_prefix("--")?;
+    let stem = if name == "-o" { "output" } else { name.strip_prefix("--")? };
     has_flag(program.find_subcommand("render")?, stem).then(|| {
         format!(
             "`{name}` is not a flag of `alberti` itself; flags come after the command, as in `alberti render model.glb {name} …`"
@@ -443,7 +451,8 @@ mod tests {
                 assert_eq!(with_hyphens(word), word, "names are looked up in this form");
             }
             for quoted in help.split('`').skip(1).step_by(2) {
-                let words: Vec<&str> = quoted.split(' ').collect();
+                let command = quoted.split(" > ").next().unwrap_or(quoted);
+                let words: Vec<&str> = command.split(' ').collect();
                 // Flags of the program itself end it with what they print.
                 if words.iter().any(|word| ["--help", "--version"].contains(word)) {
                     continue;

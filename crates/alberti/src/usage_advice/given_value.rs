@@ -37,6 +37,13 @@ pub(super) fn with_given_value(
     if let Some(factor) = percent(&given).filter(|_| name == "size") {
         return Given::Fits(format!("--scale {factor}"));
     }
+    // One number may be the width or the height.
+    if name == "size" && given.chars().all(|c| c.is_ascii_digit()) {
+        return Given::FitsNot(flag.to_owned());
+    }
+    if let Some(degrees) = degrees_of_radians(name, &given) {
+        return Given::Fits(format!("{flag} {degrees}"));
+    }
     match accepted_value(name, &given, command) {
         Some(value) => Given::Fits(advice.replacen(example, &quoted(&value), 1)),
         None if is_choice => Given::Nothing,
@@ -84,9 +91,16 @@ fn rewritten(flag: &str, given: &str) -> Option<String> {
             let given = given.trim_matches(['!', '^', '>', '<', '(', ')', '[', ']']);
             let sides = given.trim_end_matches("px").split([',', ' ', ':', '*', 'X', '×', 'x']);
             let sides: Vec<&str> = sides.filter(|side| !side.is_empty()).collect();
-            Some(sides.join("x"))
+            match sides[..] {
+                [side] => Some(format!("{side}x{side}")),
+                _ => Some(sides.join("x")),
+            }
         }
-        "zoom" => percent(given).map(|factor| factor.to_string()),
+        "zoom" => percent(given)
+            .map(|factor| factor.to_string())
+            .or_else(|| Some(given.trim_end_matches(['x', 'X']).to_owned())),
+        "fps" => Some(given.trim_end_matches(|c: char| c.is_alphabetic()).trim().to_owned()),
+        "from" | "to" | "time" => seconds(given),
         "azimuth" | "elevation" | "fov" | "crease" | "environment-rotation" | "turntable" => {
             let number = given.trim_end_matches(|c: char| c.is_alphabetic() || c == '°');
             Some(number.trim().to_owned())
@@ -156,6 +170,20 @@ pub(super) fn similar_color(flag: &str, given: &str) -> Option<String> {
     let names: Vec<&str> = names.collect();
     let similar = || scene_file::closest_name(given, &names).map(str::to_owned);
     (flag == "background").then(similar).flatten()
+}
+
+/// A field of view in degrees that was given in radians, as programs in Python take it.
+fn degrees_of_radians(name: &str, given: &str) -> Option<f64> {
+    let radians: f64 = given.parse().ok().filter(|_| name == "fov")?;
+    let degrees = libm::round(radians.to_degrees() * 10.0) / 10.0;
+    (0.0..core::f64::consts::PI).contains(&radians).then_some(degrees)
+}
+
+/// The number of seconds of `1.5s` or `00:01:30`.
+fn seconds(given: &str) -> Option<String> {
+    let parts = given.trim_end_matches("sec").trim_end_matches('s').split(':');
+    let parts: Vec<f64> = parts.map(|part| part.trim().parse().ok()).collect::<Option<_>>()?;
+    Some(parts.into_iter().fold(0.0, |sum, part| 60.0 * sum + part).to_string())
 }
 
 /// The factor of a percentage, such as 0.5 of `50%`.
