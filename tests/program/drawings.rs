@@ -236,7 +236,7 @@ fn drawing_errors_are_reported_and_leave_no_file() {
     write_box(&sandbox, "box", [1.0, 1.0, 1.0]);
     let failing = [
         (
-            &["render", "box.gltf", "-o", "out.dwg"][..],
+            &["render", "box.gltf", "-o", "out.xyz"][..],
             "unsupported output format; use .png, .jpg, .webp, .svg, .pdf or .dxf",
         ),
         (

@@ -36,8 +36,9 @@ fn every_command_has_a_manual_page() {
         );
     }
     assert_eq!(page("alberti-render.1").expect("the page"), render);
-    let run = sandbox.run(&["man", "rendr"]);
+    let run = sandbox.run(&["man", "cook"]);
     assert!(run.code == 1 && run.stderr.contains("render, sheet"), "{}", run.stderr);
+    assert!(!run.stderr.contains("batch-worker"), "{}", run.stderr);
 }
 
 #[test]

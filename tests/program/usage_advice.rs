@@ -65,7 +65,7 @@ fn habits_of_other_programs_do_not_make_wrong_files() {
     for (words, told) in [
         (
             &["render", "teapot.glb", "-quality", "80"][..],
-            "`-quality` needs two hyphens here: `--quality 80`",
+            "`-quality` is not a flag of `alberti render`; it needs two hyphens here: `--quality 80`",
         ),
         (&["render", "teapot.glb", "out.jpg"], "run `alberti render teapot.glb -o out.jpg`"),
         (
@@ -80,7 +80,7 @@ fn habits_of_other_programs_do_not_make_wrong_files() {
         (&["render", "teapot.glb", "--crop", "9x8+1+2"], "write `--crop 1,2,9,8`"),
         (&["render", "teapot.glb", "--color", "1,0,0"], "`--color` says when messages are colored"),
         (&["render", "teapot.glb", "-o", "png:-"], "write `--format png -o -`"),
-        (&["render", "teapot.glb", "+repage", "-o", "a.png"], "flags begin with two hyphens"),
+        (&["render", "teapot.glb", "+repage", "-o", "a.png"], "a flag begins with `--`"),
         (
             &["render", "teapot.glb", "-o", "a.png", "--", "--gpu"],
             "everything after `--` is taken as a model",
@@ -184,7 +184,7 @@ fn habits_that_were_tried_are_answered() {
         (&["compare", "a.png", "b.png"], "`magick compare a.png b.png difference.png`"),
         (&["sheet", "teapot.glb", "--size", "800x600"], "`--paper a4` gives the size of the page"),
         (&["batch", "nothere", "--out-dir", "th"], "failed: nothere: the file does not exist"),
-        (&["render", "+Iteapot.glb", "+W64", "+Oo.png"], "flags begin with two hyphens"),
+        (&["render", "+Iteapot.glb", "+W64", "+Oo.png"], "a flag begins with `--`"),
         (&["batch", "empty", "-o", "thumbs"], "use `--out-dir thumbs`"),
         (&["batch", "empty", "--out-dir", "th"], "warning: there is nothing to draw"),
         (&["thumbnailer", "-s", "128", "teapot.glb", "t.png"], "--size 128` gives the side"),
@@ -220,7 +220,7 @@ fn values_of_other_programs_are_translated() {
     sandbox.write_file("text.png", "not a picture");
     for (words, told) in [
         (&["--camera-view-up", "0,0,1"][..], "use `--view-up 0,0,1 --eye 4,3,6 --target 0,0,0`"),
-        (&["--focal-length", "50"], "`--fov 27` is the vertical angle of view in degrees"),
+        (&["--focal-length", "50"], "use `--fov 27`, the vertical angle of view of a 50 mm lens"),
         (&["--max-size=100"], "`--max-file-bytes 100MiB`"),
         (&["--shadow", "off"], "use `--shadows off`"),
         (&["--view-transform", "AgX"], "use `--tone-mapping agx`"),
@@ -260,11 +260,36 @@ fn values_of_other_programs_are_translated() {
         (&["check", "teapot.glb", "-o", "a.txt"], "`alberti check model.glb > report.txt`"),
         (&["simplify", "teapot.glb"], "models are only read here and never changed"),
         (&["-o", "a.png", "teapot.glb"], "flags come after the command"),
+        (&["-v"], "`alberti --version` prints the version"),
+        (&["sheet", "teapot.glb", "--format", "svg"], "as in `-o sheet.pdf`, so leave it out"),
+        (&["info", "-i", "teapot.glb"], "as in `alberti info model.glb`"),
+        (&["animate", "teapot.glb", "--frames", "1..10", "-o", "a.gif"], "write `--frames 10`"),
+        (&["animate", "teapot.glb", "-o", "film"], "the name has no ending"),
+        (&["render", "scene.ron"], "scene.ron: the file does not exist"),
         (&["explore", "--host", "0.0.0.0"], "the page is served to this machine only"),
     ] {
         let run = sandbox.run(words);
         assert!(run.code != 0 && run.stderr.contains(told), "{words:?}: {}", run.stderr);
     }
+}
+
+/// What is done is said where it is probably not what was meant.
+#[test]
+fn flags_without_an_effect_are_warnings() {
+    let sandbox = sandbox_with_teapot("idle_flags");
+    let film = ["animate", "teapot.glb", "--turntable", "--frames=2", "--size=8x8", "-o", "a.gif"];
+    let run = sandbox.run(&[&film[..], &["--to", "1"]].concat());
+    assert!(run.stderr.contains("a turntable has no times"), "{}", run.stderr);
+    let run = sandbox.run(&["render", "teapot.glb", "--size=8x8", "--format=JPEG", "-o", "a.png"]);
+    assert_eq!(
+        run.stderr,
+        "warning: a.png holds a JPG, whatever its name ends in, because of --format\n"
+    );
+    let run = sandbox.run(&["render", "teapot.glb", "--size=8x8", "--view", "Front"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    std::fs::create_dir(sandbox.path_of("scenes")).expect("a folder");
+    let run = sandbox.run(&["scene", "init", "teapot.glb", "-o", "scenes/teapot.ron"]);
+    assert!(run.stderr.ends_with("need --allow-outside .\n"), "{}", run.stderr);
 }
 
 /// Scenes and models in each other's place, and what other languages have in the place of RON.
@@ -276,8 +301,20 @@ fn scenes_of_other_languages_are_answered() {
     sandbox.write_file("json.ron", "{\"models\": [{\"path\": \"teapot.glb\"}]}\n");
     sandbox.write_file("yaml.ron", "models:\n  - path: teapot.glb\n");
     sandbox.write_file("quoted.ron", "Scene(models: [(path: 'teapot.glb')])\n");
+    let scene = |field: &str| format!("Scene(models: [(path: \"teapot.glb\")], {field})\n");
+    sandbox.write_file("hash.ron", scene("image: (background: Color(#ff8800))"));
+    sandbox.write_file("number.ron", scene("image: (background: Color(0xff8800))"));
+    sandbox.write_file("light.ron", scene("lights: [(type: \"sun\", strength: 3.0)]"));
+    sandbox.write_file("size.ron", scene("image: (width: 64, height: 48)"));
     for (words, told) in [
-        (&["info", "scene.ron"][..], "this is a scene and not a model"),
+        (&["scene", "check", "hash.ron"][..], "colors are written in quotation marks: \"#ff8800\""),
+        (&["scene", "check", "number.ron"], "colors are written in quotation marks: \"#ff8800\""),
+        (
+            &["scene", "check", "light.ron"],
+            "write one of Directional(…), Point(…), Spot(…), FromModels",
+        ),
+        (&["scene", "check", "size.ron"], "the size is written size: (640, 480)"),
+        (&["info", "scene.ron"], "this is a scene and not a model"),
         (&["scene", "check", "teapot.glb"], "teapot.glb is not a scene"),
         (&["scene", "check", "scene.ron"], "comments begin with `//`"),
         (&["scene", "check", "pov.ron"], "pov.ron: 1 mistake"),

@@ -148,6 +148,7 @@ impl AnimateArgs {
                 Motion::Turntable { angle: degrees.map_or(360.0, Finite::value).to_radians() }
             }
         };
+        self.warn_of_times(&motion, path.is_some(), end);
         let frames = match (&motion, self.frames) {
             (_, Some(frames)) => frames as usize,
             (Motion::Turntable { .. }, None) if path.is_none() => 120,
@@ -157,6 +158,24 @@ impl AnimateArgs {
         match path {
             None => Ok(film),
             Some(path) => Ok(film.with_camera_path(origin, &path, [from, to])?),
+        }
+    }
+}
+
+impl AnimateArgs {
+    /// Warns where `--from` and `--to` have no meaning, or lead behind the end.
+    fn warn_of_times(&self, motion: &Motion, has_path: bool, end: f64) {
+        let is_timeless = matches!(motion, Motion::Turntable { .. }) && !has_path;
+        if is_timeless && (self.from.is_some() || self.to.is_some()) {
+            let message = "--from and --to do nothing here: a turntable has no times; its length is \
+                           --frames divided by --fps";
+            print_message("warning", message);
+        } else if !is_timeless && self.to.is_some_and(|to| to.value() > end) {
+            let message = format!(
+                "the animation ends at {end} s: the frames after it show its last pose (--from and \
+                 --to are in seconds)"
+            );
+            print_message("warning", &message);
         }
     }
 }

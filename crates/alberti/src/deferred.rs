@@ -20,7 +20,7 @@ impl<T: Args> Args for Deferred<T> {
     }
 }
 
-/// Adds the arguments to a command.
+/// Adds the arguments to a command. Values may be written in capitals, as in `--view Front`.
 ///
 /// The command keeps its own description, where that of the type would take its place, and the
 /// global flags that it has already come last.
@@ -35,7 +35,10 @@ fn declare_arguments<T: Args>(command: Command) -> Command {
     for flag in global {
         command = command.mut_arg(flag, |flag| flag);
     }
-    command
+    command.mut_args(|flag| {
+        let takes_values = flag.get_action().takes_values();
+        flag.ignore_case(takes_values)
+    })
 }
 
 impl<T: FromArgMatches> FromArgMatches for Deferred<T> {

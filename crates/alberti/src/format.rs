@@ -162,6 +162,21 @@ fn moving_picture_error(output: &Path, ending: &str) -> CliError {
     CliError::Usage(format!("{name}: this command writes still pictures\n  = help: {help}"))
 }
 
+/// Refuses `//out/render_`, which begins at the folder of the scene in Blender and at the root of
+/// the disk everywhere else.
+///
+/// # Errors
+/// If the path begins with two slashes.
+pub(crate) fn refuse_blender_path(output: &Path) -> Result<(), CliError> {
+    let name = visible_path(output);
+    match name.strip_prefix("//") {
+        Some(rest) if !rest.contains('#') => Err(CliError::Usage(format!(
+            "{name}: two slashes at the beginning of a path have no meaning here\n  = help: for a path from the current folder on write -o {rest}"
+        ))),
+        _ => Ok(()),
+    }
+}
+
 /// The error of ImageMagick's `png:-` and `png:out.png`, if a name is one.
 fn prefix_error(name: &str) -> Option<CliError> {
     let (format, rest) = name.split_once(':')?;

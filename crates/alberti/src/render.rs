@@ -233,7 +233,10 @@ fn check_is_file(input: &Path) -> Result<(), CliError> {
     let mut names: Vec<String> =
         entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
     names.sort();
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let is_readable = |name: &&str| {
+        is_scene_file(Path::new(name)) || FileFormat::from_extension(Path::new(name)).is_some()
+    };
+    let names: Vec<&str> = names.iter().map(String::as_str).filter(is_readable).collect();
     let help = match closest_name(&wanted.to_string_lossy(), &names) {
         Some(similar) => {
             Some(format!("did you mean `{}`?", visible_path(input.with_file_name(similar))))

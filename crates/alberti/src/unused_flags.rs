@@ -8,6 +8,7 @@ use super::format::OutputFormat;
 use super::render::tasks::RenderTask;
 use super::scene_overrides::SceneOverrideArgs;
 use clap::ValueEnum as _;
+use files::visible_path;
 use pipeline::Scene;
 use scene::Style;
 use scene_file::file::{BackgroundFile, StyleFile};
@@ -31,6 +32,14 @@ pub(super) fn find_unused_flags(
             "--quality does nothing here: it applies only to JPEG; write a .jpg to use it"
                 .to_owned(),
         );
+    }
+    let named = task.output.as_deref().and_then(|path| OutputFormat::from_path(path).ok());
+    if let (Some(output), true) = (&task.output, named.is_some_and(|named| named != task.format)) {
+        let format = task.format.extension().to_uppercase();
+        warnings.push(format!(
+            "{} holds a {format}, whatever its name ends in, because of --format",
+            visible_path(output)
+        ));
     }
     if task.overrides.background == Some(BackgroundFile::Transparent)
         && task.format == OutputFormat::Jpeg

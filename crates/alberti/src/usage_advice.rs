@@ -6,6 +6,8 @@
 
 mod foreign_words;
 mod given_value;
+mod unknown_flag;
+mod wrong_value;
 
 use super::args::Args;
 use super::help_groups;
@@ -14,13 +16,12 @@ use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Command, CommandFactory as _, Error, FromArgMatches as _};
 use foreign_words::foreign_words;
-use given_value::{
-    Given, accepted_value, foreign_value, invalid_value, quoted, similar_color, value_of,
-    with_given_value,
-};
+
 use scene_file::closest_name;
 use std::ffi::OsString;
 use std::path::Path;
+use unknown_flag::advise_on_flag;
+use wrong_value::advise_on_value;
 
 /// Parses the command line.
 ///
@@ -72,124 +73,11 @@ fn context(error: &Error, kind: ContextKind) -> Option<&str> {
     }
 }
 
-/// What to write in place of a flag that does not exist.
-fn advise_on_flag(error: &Error, words: &[OsString], program: &Command) -> Option<String> {
-    let command = called_command(program, words);
-    let word = whole_word(context(error, ContextKind::InvalidArg)?, words);
-    let words: Vec<String> = words.iter().map(|it| it.to_string_lossy().into_owned()).collect();
-    let name = word.split('=').next().unwrap_or(&word).to_owned();
-    let stem = name.trim_start_matches('-');
-    let before_command = command.get_name() == program.get_name();
-    if let Some(advice) = before_command.then(|| advise_on_no_window(&name, &words)).flatten() {
-        return Some(advice);
-    }
-    let is_ours = has_flag(command, stem);
-    let help = if !name.starts_with("--") && is_ours {
-        let value = value_of(&word, &words).filter(|_| takes_value(command, stem));
-        let meant = value.as_ref().and_then(|value| accepted_value(stem, value, command));
-        let text = meant.as_ref().map_or(String::new(), |meant| format!(" {}", quoted(meant)));
-        if meant == value || meant.is_none() {
-            return Some(format!("`{name}` needs two hyphens here: `--{stem}{text}`"));
-        }
-        Some(format!("use `--{stem}{text}`"))
-    } else if let Some(format) = chosen_format(stem, &words, command) {
-        Some(format!("use `--format {format}`"))
-    } else if let Some(help) = foreign_habit(stem, command) {
-        Some(help.to_owned())
-    } else {
-        foreign_flag(stem, command).map(|advice| {
-            match with_given_value(advice, &word, &words, command) {
-                _ if advice.starts_with("alberti ") => format!("run `{advice}`"),
-                Given::Nothing => format!("use `{advice}`"),
-                Given::Fits(advice) => format!("use `{advice}`"),
-                Given::FitsNot(flag) => format!("the flag here is `{flag}`, as in `{advice}`"),
-            }
-        })
-    };
-    if let Some(help) = help {
-        let command = full_name(command);
-        return Some(format!("`{name}` is not a flag of `{command}`; {help}"));
-    }
-    if let Some(advice) = before_command.then(|| advise_before_command(&name, program)).flatten() {
-        return Some(advice);
-    }
-    if !name.starts_with('-') && Path::new(&name).extension().is_some() {
-        let command = full_name(command);
-        return Some(format!(
-            "`{command}` reads one file, and `{name}` is a second one; for several files use a loop: `for f in *.glb; do {command} \"$f\"; done`"
-        ));
-    }
-    if let Some(advice) = advise_on_detached_value(&words, command) {
-        return Some(advice);
-    }
-    let names: Vec<&str> = command.get_arguments().filter_map(|flag| flag.get_long()).collect();
-    let similar = closest_name(stem, &names).filter(|similar| !differs_widely(stem, similar));
-    let command = full_name(command);
-    let help = match similar {
-        Some(similar) => format!("did you mean `--{similar}`?"),
-        None => format!("`{command} --help` lists its flags"),
-    };
-    Some(format!("`{name}` is not a flag of `{command}`; {help}"))
-}
-
 /// What to do about a flag that takes no value and has one, as in `--ambient-occlusion=true`.
 fn advise_on_switch(error: &Error) -> Option<String> {
     let flag = context(error, ContextKind::InvalidArg)?;
     let value = context(error, ContextKind::InvalidValue)?;
     Some(format!("`{flag}` takes no value: leave out `={value}`"))
-}
-
-/// The format that `-f svg` chooses in other programs, unless it is the number of a frame.
-fn chosen_format(stem: &str, words: &[String], command: &Command) -> Option<String> {
-    let value = value_of("-f", words).filter(|_| stem == "f" && has_flag(command, "format"))?;
-    accepted_value("format", &value, command)
-}
-
-/// What to do about Blender's `-b` or `--background` before a file: it draws without a window.
-fn advise_on_no_window(name: &str, words: &[String]) -> Option<String> {
-    let file = value_of(name, words).filter(|value| Path::new(value).extension().is_some())?;
-    if !matches!(name, "-b" | "--background") {
-        return None;
-    }
-    let help = if file.to_ascii_lowercase().ends_with(".blend") {
-        "export the .blend file as .glb and run `alberti render model.glb`".to_owned()
-    } else {
-        format!("run `alberti render {}`", quoted(&file))
-    };
-    let color = match name {
-        "-b" => "",
-        _ => ", whose `--background` is the color behind the model",
-    };
-    Some(format!("nothing opens a window here, so leave `{name}` out: {help}{color}"))
-}
-
-/// What to do about a flag before any command.
-fn advise_before_command(name: &str, program: &Command) -> Option<String> {
-    let stem = if name == "-o" { "output" } else { name.strip_prefix("--")? };
-    has_flag(program.find_subcommand("render")?, stem).then(|| {
-        format!(
-            "`{name}` is not a flag of `alberti` itself; flags come after the command, as in `alberti render model.glb {name} …`"
-        )
-    })
-}
-
-/// The word that was typed: of `-resize` the parser tells `-r` alone.
-fn whole_word(told: &str, words: &[OsString]) -> String {
-    let is_long = |word: &&str| {
-        !word.starts_with("--")
-            && word.starts_with(told)
-            && word[1..].chars().all(|c| c.is_alphanumeric() || ":_-".contains(c))
-    };
-    let typed = (told.chars().count() == 2 && !told.starts_with("--"))
-        .then(|| words.iter().filter_map(|word| word.to_str()).find(is_long));
-    typed.flatten().unwrap_or(told).to_owned()
-}
-
-/// What to do about a flag of another program that has no counterpart, or several.
-fn foreign_habit(word: &str, command: &Command) -> Option<&'static str> {
-    let word = with_hyphens(word);
-    let holds = |owner: &str| owner.is_empty() || owner == command.get_name();
-    foreign_words("habit").find(|row| holds(row.owner) && row.has(&word)).map(|row| row.advice)
 }
 
 /// A name as the tables have it: single letters keep their case.
@@ -228,29 +116,6 @@ fn takes_value(command: &Command, name: &str) -> bool {
     flag.is_some_and(|flag| flag.get_action().takes_values())
 }
 
-/// What to write for a flag of another program.
-fn foreign_flag(word: &str, command: &Command) -> Option<&'static str> {
-    let word = with_hyphens(word);
-    // What draws has a style.
-    let is_known = |flag: &str| has_flag(command, if flag.is_empty() { "style" } else { flag });
-    foreign_words("flag").find(|row| is_known(row.owner) && row.has(&word)).map(|row| row.advice)
-}
-
-/// What to write for a value that was given apart from a flag that wants an equals sign, as in
-/// `--turntable 180`.
-fn advise_on_detached_value(words: &[String], command: &Command) -> Option<String> {
-    words.windows(2).find_map(|pair| {
-        let [flag, value] = pair else { return None };
-        let name = flag.strip_prefix("--")?;
-        let wants_equals =
-            |known: &clap::Arg| known.get_long() == Some(name) && known.is_require_equals_set();
-        value.parse::<f64>().ok()?;
-        command.get_arguments().any(wants_equals).then(|| {
-            format!("the value of `{flag}` comes after an equals sign: write `{flag}={value}`")
-        })
-    })
-}
-
 /// What to do with a file, a folder or another program's command in the place of a command.
 fn advise_on_command(error: &Error, words: &[OsString], program: &Command) -> Option<String> {
     let word = context(error, ContextKind::InvalidSubcommand)?;
@@ -286,88 +151,6 @@ fn advise_on_command(error: &Error, words: &[OsString], program: &Command) -> Op
     ))
 }
 
-/// Puts the value that another program's one means in the place of clap's tip; says more where a
-/// flag of this name has another meaning.
-fn advise_on_value(error: &mut Error, words: &[OsString], program: &Command) -> Option<String> {
-    let (flag, given) = invalid_value(error)?;
-    if flag == "color" && given.contains([',', '#']) {
-        return Some(format!(
-            "`--color` says when messages are colored (auto, always or never), and does not accept \
-             {given}; the colors of a model come from its file, and `--style clay` ignores them"
-        ));
-    }
-    if flag == "background" && given.is_empty() {
-        return Some(
-            "`--background` is the color behind the model, such as `--background white` or \
-             `--background transparent`; nothing opens a window here"
-                .to_owned(),
-        );
-    }
-    let command = called_command(program, words);
-    if flag == "view" && given.contains(',') && has_flag(command, "views") {
-        return Some(format!(
-            "`--view` takes one direction; `--views {given}` draws a picture from each"
-        ));
-    }
-    if let Some(expected) = expected_number(error) {
-        return Some(format!("invalid value '{given}' for '--{flag}': {expected}"));
-    }
-    if let Some(help) = other_file_help(&flag, &given) {
-        return Some(format!("invalid value '{given}' for '--{flag}': {help}"));
-    }
-    let meant = foreign_value(&flag, &given).or_else(|| accepted_value(&flag, &given, command));
-    if let Some(meant) = meant.or_else(|| similar_color(&flag, &given)) {
-        error.remove(ContextKind::SuggestedValue);
-        let tip = StyledStr::from(format!("write `--{flag} {}`", quoted(&meant)));
-        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
-    } else if context(error, ContextKind::SuggestedValue)
-        .is_some_and(|similar| differs_widely(&given, similar))
-    {
-        error.remove(ContextKind::SuggestedValue);
-    }
-    None
-}
-
-/// What to do with a file that a flag does not take, but that could be made into one.
-fn other_file_help(flag: &str, given: &str) -> Option<String> {
-    let path = Path::new(given);
-    let ending = path.extension()?.to_str()?.to_ascii_lowercase();
-    let is_picture = ["exr", "png", "jpg", "jpeg", "webp", "hdr"].contains(&ending.as_str());
-    match flag {
-        "environment" if is_picture => {
-            let hdr = path.with_extension("hdr");
-            let hdr = quoted(&hdr.to_string_lossy());
-            let given = quoted(given);
-            Some(format!(
-                "environments are read from .hdr files; convert it, for example with ImageMagick: \
-                 `magick {given} {hdr}`"
-            ))
-        }
-        "background" if is_picture => Some(format!(
-            "expected a color; a scene file puts a picture behind the model, as in \
-             `image: (background: Picture(path: \"{given}\"))`"
-        )),
-        _ => None,
-    }
-}
-
-/// The numbers that a flag takes, where clap gives them in the notation of Rust: `0 is not in
-/// 1..=100000`.
-fn expected_number(error: &Error) -> Option<String> {
-    let reason = std::error::Error::source(error)?.to_string();
-    if let Some((_, range)) = reason.split_once(" is not in ") {
-        let (least, most) = range.split_once("..=")?;
-        return Some(format!("expected a whole number from {least} to {most}"));
-    }
-    let is_whole = ["invalid digit", "number too large", "number too small"];
-    let text = if reason.starts_with(is_whole[0]) {
-        "expected a whole number, without a unit"
-    } else {
-        "the number is out of range"
-    };
-    is_whole.iter().any(|start| reason.starts_with(start)).then(|| text.to_owned())
-}
-
 /// Says what to do about two flags that exclude each other.
 fn advise_on_conflict(error: &mut Error) {
     let is_repeated = error.get(ContextKind::InvalidArg) == error.get(ContextKind::PriorArg);
@@ -378,6 +161,8 @@ fn advise_on_conflict(error: &mut Error) {
 
 #[cfg(test)]
 mod tests {
+    use super::given_value::accepted_value;
+    use super::unknown_flag::foreign_flag;
     use super::*;
     use crate::args::Args;
 
@@ -446,7 +231,8 @@ mod tests {
         let exists = |flag: &str| program.get_subcommands().any(|it| has_flag(it, flag));
         for row in foreign_words("habit") {
             let (only, help) = (row.owner, row.advice);
-            assert!(only.is_empty() || program.find_subcommand(only).is_some(), "{only}");
+            let is_command = only == "alberti" || program.find_subcommand(only).is_some();
+            assert!(only.is_empty() || is_command, "{only}");
             for word in row.words() {
                 assert_eq!(with_hyphens(word), word, "names are looked up in this form");
             }

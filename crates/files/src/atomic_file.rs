@@ -10,12 +10,19 @@ use std::path::{Path, PathBuf};
 
 /// The error of an output file that could not be written.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot write {}: {cause}{}", visible_path(path), self.remedy())]
+#[error("cannot write {}: {}{}", visible_path(path), reason(cause), self.remedy())]
 pub struct OutputError {
     /// The target file.
     pub path: PathBuf,
     /// The error of the operating system.
     pub cause: std::io::Error,
+}
+
+/// The message of the operating system without its number, which says nothing to most readers.
+fn reason(cause: &std::io::Error) -> String {
+    let text = cause.to_string();
+    let number = cause.raw_os_error().map(|code| format!(" (os error {code})"));
+    number.and_then(|number| text.strip_suffix(&number).map(str::to_owned)).unwrap_or(text)
 }
 
 impl OutputError {

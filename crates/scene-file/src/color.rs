@@ -94,6 +94,11 @@ fn check_color(node: &Node<'_>, checker: &mut Checker<'_>) {
         NodeKind::Group(_) => color_of_numbers(node).map_or_else(hex_help, |[r, g, b]| {
             format!("write \"#{r:02x}{g:02x}{b:02x}\", if the numbers are sRGB from 0 to 1")
         }),
+        NodeKind::Number(word)
+            if word.starts_with("0x") && Color::parse(&word.replacen("0x", "#", 1)).is_some() =>
+        {
+            format!("colors are written in quotation marks: \"{}\"", word.replacen("0x", "#", 1))
+        }
         _ => hex_help(),
     };
     checker.report_type(node, "a color", Some(help));
@@ -117,7 +122,7 @@ fn check_color_string(node: &Node<'_>, checker: &mut Checker<'_>) {
     if Color::parse(&text).is_none() {
         let names: Vec<&str> = CSS_COLORS.iter().map(|(name, _)| *name).collect();
         let help = match closest_name(&text, &names).filter(|_| !text.starts_with('#')) {
-            Some(name) => format!("did you mean `{name}`? {}", hex_help()),
+            Some(name) => format!("did you mean \"{name}\"?"),
             None => hex_help(),
         };
         let message = format!("`{text}` is not a color");
@@ -127,7 +132,7 @@ fn check_color_string(node: &Node<'_>, checker: &mut Checker<'_>) {
 
 /// The help on the notation of colors.
 fn hex_help() -> String {
-    "write #rgb, #rrggbb, such as #1a1f26, or a CSS color name".to_owned()
+    "write \"#rrggbb\", such as \"#1a1f26\", or a CSS color name, such as \"white\"".to_owned()
 }
 
 /// The 8-bit color of a tuple of three or four numbers from 0 to 1, for the hint in a message;

@@ -10,6 +10,7 @@
 //! Frames arrive in order and are not stored: each is encoded and written before the next arrives.
 
 use crate::CliError;
+use crate::format::refuse_blender_path;
 use batch::NameTemplate;
 use pipeline::sequence::Sequence;
 use pipeline::{AtomicFile, OutputError, Picture};
@@ -65,6 +66,7 @@ impl FrameSink {
         if name == "-" {
             return Ok(Self::Raw);
         }
+        refuse_blender_path(output)?;
         let stem = input.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let template =
             NameTemplate::parse(&name, &["stem"], &["frame"]).map_err(CliError::Usage)?;
@@ -83,9 +85,16 @@ impl FrameSink {
             Some("mp4" | "m4v" | "mov" | "mkv" | "webm" | "avi" | "webp") => {
                 Err(unwritten_video_error(input, output, film.image_size(), fps))
             }
-            _ => Err(CliError::Usage(format!(
-                "unsupported output {name}: expected NAME_{{frame:04}}.png, .png, .gif or -"
-            ))),
+            ending => {
+                let what = if ending.is_some() {
+                    "this ending is not supported"
+                } else {
+                    "the name has no ending"
+                };
+                Err(CliError::Usage(format!(
+                    "{name}: {what}\n  = help: write NAME.gif or NAME.png for one animated file, NAME_{{frame:04}}.png for a file per frame, or - for raw frames"
+                )))
+            }
         }
     }
 

@@ -6,7 +6,7 @@
 use super::missing_input_help;
 use crate::CliError;
 use crate::args::RenderArgs;
-use crate::format::OutputFormat;
+use crate::format::{OutputFormat, refuse_blender_path};
 use crate::scene_overrides::SceneOverrideArgs;
 use batch::NameTemplate;
 use clap::ValueEnum;
@@ -54,6 +54,7 @@ pub(super) fn plan_tasks(args: &RenderArgs) -> Result<Vec<RenderTask>, CliError>
             "cannot write {count} pictures to the standard output\n  = help: use a template such as -o '{{stem}}.png'"
         )));
     }
+    args.output.as_deref().map_or(Ok(()), refuse_blender_path)?;
     let template = output_template(args)?;
     let mut jobs = Vec::new();
     for input in &args.inputs {
@@ -103,7 +104,9 @@ fn refuse_words_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
         Some('-') => {
             "everything after `--` is taken as a model; leave `--` and what follows out".to_owned()
         }
-        Some('+') => format!("{name} is taken as a model; flags begin with two hyphens"),
+        Some('+') => format!(
+            "{name} is taken as a model; a flag begins with `--`, or with `-` and one letter"
+        ),
         _ => missing_input_help(word).unwrap_or_else(|| "check the name".to_owned()),
     };
     Err(CliError::Usage(format!("{name}: the file does not exist\n  = help: {help}")))
@@ -177,9 +180,10 @@ fn check_distinct_outputs(jobs: &[RenderTask]) -> Result<(), CliError> {
         let Some(output) = job.output.as_deref() else { continue };
         if let Some(first) = taken.insert(output, job) {
             let [first, second] = [first, job].map(|job| visible_path(&job.input));
-            let output = visible_path(output);
+            let template = output.with_file_name("{stem}_{index}.png");
+            let (output, template) = (visible_path(output), visible_path(template));
             return Err(CliError::Usage(format!(
-                "the pictures of {first} and {second} would both be written to {output}\n  = help: use a template such as -o '{{stem}}_{{index}}.png'"
+                "the pictures of {first} and {second} would both be written to {output}\n  = help: use a template such as -o '{template}'; to draw several models in one picture, list them in a scene file"
             )));
         }
     }

@@ -75,7 +75,8 @@ pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
         print_text(&format!("{}\n", visible_path(&output)))?;
     }
     if path.starts_with("..") || Path::new(&path).is_absolute() {
-        let folder = visible_path(args.model.parent().unwrap_or(Path::new(".")));
+        let folder = args.model.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let folder = visible_path(folder.unwrap_or(Path::new(".")));
         let message = format!(
             "the model is not below the scene's folder: commands that read the scene need --allow-outside {folder}"
         );

@@ -39,12 +39,17 @@ pub(super) fn with_given_value(
     }
     // One number may be the width or the height.
     if name == "size" && given.chars().all(|c| c.is_ascii_digit()) {
-        return Given::FitsNot(flag.to_owned());
+        let sides = following_numbers(word.split('=').next().unwrap_or(word), name, words, command);
+        return sides.map_or_else(
+            || Given::FitsNot(flag.to_owned()),
+            |sides| Given::Fits(format!("{flag} {sides}")),
+        );
     }
     if let Some(degrees) = degrees_of_radians(name, &given) {
         return Given::Fits(format!("{flag} {degrees}"));
     }
-    match accepted_value(name, &given, command) {
+    let numbers = || following_numbers(word.split('=').next()?, name, words, command);
+    match accepted_value(name, &given, command).or_else(numbers) {
         Some(value) => Given::Fits(advice.replacen(example, &quoted(&value), 1)),
         None if is_choice => Given::Nothing,
         None => Given::FitsNot(flag.to_owned()),
@@ -62,6 +67,26 @@ pub(super) fn value_of(word: &str, words: &[String]) -> Option<String> {
     given.filter(|value| !value.is_empty() && (!value.starts_with('-') || is_number(value)))
 }
 
+/// A value whose numbers were given apart, as in `--size 64 48` or `--eye 3 2 5`.
+pub(super) fn following_numbers(
+    word: &str,
+    flag: &str,
+    words: &[String],
+    command: &Command,
+) -> Option<String> {
+    let joined = format!("{word}=");
+    let place = words.iter().position(|it| it == word || it.starts_with(&joined))?;
+    let first = words[place].strip_prefix(&joined).map(str::to_owned);
+    let rest = words[place + 1..].iter().cloned();
+    let numbers: Vec<String> =
+        first.into_iter().chain(rest).take_while(|it| it.parse::<f64>().is_ok()).collect();
+    let counts = (2..=numbers.len().min(16)).rev();
+    counts.map(|count| numbers[..count].join(",")).find_map(|given| {
+        let meant = if flag == "size" { given.replace(',', "x") } else { given };
+        accepted_value(flag, &meant, command)
+    })
+}
+
 /// A value as a shell takes it.
 pub(super) fn quoted(value: &str) -> String {
     let is_plain = value.chars().all(|c| c.is_ascii_alphanumeric() || "._-,/=+:".contains(c));
@@ -71,8 +96,17 @@ pub(super) fn quoted(value: &str) -> String {
 /// A value that a flag takes: the one that was given, or what it means in another program.
 pub(super) fn accepted_value(flag: &str, given: &str, command: &Command) -> Option<String> {
     let lower = given.to_ascii_lowercase();
-    let meant =
-        [Some(given.to_owned()), Some(lower), foreign_value(flag, given), rewritten(flag, given)];
+    // Values from a list are written as the help has them.
+    if has_choices(command, flag) && is_accepted(flag, &lower, command) {
+        return Some(lower);
+    }
+    let meant = [
+        Some(given.to_owned()),
+        Some(lower),
+        foreign_value(flag, given),
+        rewritten(flag, given),
+        percent(given).map(|factor| factor.to_string()),
+    ];
     meant.into_iter().flatten().find(|value| is_accepted(flag, value, command))
 }
 
@@ -96,9 +130,13 @@ fn rewritten(flag: &str, given: &str) -> Option<String> {
                 _ => Some(sides.join("x")),
             }
         }
-        "zoom" => percent(given)
-            .map(|factor| factor.to_string())
-            .or_else(|| Some(given.trim_end_matches(['x', 'X']).to_owned())),
+        "zoom" => Some(given.trim_end_matches(['x', 'X']).to_owned()),
+        "fov" if given.ends_with("mm") => lens_angle(given.trim_end_matches("mm")),
+        "frames" => {
+            let (first, last) = given.split_once("..").or_else(|| given.split_once(['-', ':']))?;
+            let ends: [u32; 2] = [first.trim().parse().ok()?, last.trim().parse().ok()?];
+            Some((ends[1].checked_sub(ends[0])? + 1).to_string())
+        }
         "fps" => Some(given.trim_end_matches(|c: char| c.is_alphabetic()).trim().to_owned()),
         "from" | "to" | "time" => seconds(given),
         "azimuth" | "elevation" | "fov" | "crease" | "environment-rotation" | "turntable" => {
@@ -177,6 +215,13 @@ fn degrees_of_radians(name: &str, given: &str) -> Option<f64> {
     let radians: f64 = given.parse().ok().filter(|_| name == "fov")?;
     let degrees = libm::round(radians.to_degrees() * 10.0) / 10.0;
     (0.0..core::f64::consts::PI).contains(&radians).then_some(degrees)
+}
+
+/// The vertical angle of view in degrees of a lens of so many millimeters before a frame of 24 mm.
+pub(super) fn lens_angle(millimeters: &str) -> Option<String> {
+    let length: f64 = millimeters.trim().parse().ok().filter(|length| *length > 0.0)?;
+    let degrees = 2.0 * libm::atan(12.0 / length).to_degrees();
+    Some((libm::round(degrees * 10.0) / 10.0).to_string())
 }
 
 /// The number of seconds of `1.5s` or `00:01:30`.

@@ -412,7 +412,17 @@ impl<'a> Checker<'a> {
                 suggest_variant(entry, text.trim_matches('"'), self.top_level_field()).help
             }
             (None, _) => {
-                format!("`alberti scene doc {}` lists the words that are possible", entry.name)
+                let written = |variant: &VariantEntry| match variant.has_brackets() {
+                    true => format!("{}(…)", variant.name),
+                    false => variant.name.to_owned(),
+                };
+                let written: Vec<String> = variants.iter().take(6).map(written).collect();
+                let more = if variants.len() > 6 { ", …" } else { "" };
+                format!(
+                    "write one of {}{more}; `alberti scene doc {}` explains them",
+                    written.join(", "),
+                    entry.name
+                )
             }
         };
         let quotes = if matches!(node.kind, NodeKind::String(_)) && named_file(node).is_none() {

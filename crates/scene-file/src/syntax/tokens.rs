@@ -67,6 +67,10 @@ fn token_kind_and_length(rest: &str, first: char) -> (TokenKind, usize) {
         ')' | ']' | '}' => (TokenKind::Close, 1),
         ',' => (TokenKind::Comma, 1),
         ':' => (TokenKind::Colon, 1),
+        // A color without its quotation marks.
+        '#' if rest[1..].starts_with(|c: char| c.is_ascii_hexdigit()) => {
+            (TokenKind::Word, word_length(rest, first))
+        }
         '#' => (TokenKind::LineComment, rest.find(']').map_or_else(line, |end| end + 1)),
         '"' => (TokenKind::Word, 1 + string_length(&rest[1..])),
         '/' if rest.starts_with("//") => (TokenKind::LineComment, line()),

@@ -1,0 +1,185 @@
+//! Flags that a command does not have: what to type in their place.
+
+use super::foreign_words::foreign_words;
+use super::given_value::{Given, accepted_value, lens_angle, quoted, value_of, with_given_value};
+use super::{context, differs_widely, full_name, has_flag, takes_value, with_hyphens};
+use crate::negative_numbers::called_command;
+use clap::error::ContextKind;
+use clap::{Command, Error};
+use scene_file::closest_name;
+use std::ffi::OsString;
+use std::path::Path;
+
+/// What to write in place of a flag that does not exist.
+pub(super) fn advise_on_flag(
+    error: &Error,
+    words: &[OsString],
+    program: &Command,
+) -> Option<String> {
+    let command = called_command(program, words);
+    let word = whole_word(context(error, ContextKind::InvalidArg)?, words);
+    let words: Vec<String> = words.iter().map(|it| it.to_string_lossy().into_owned()).collect();
+    let name = word.split('=').next().unwrap_or(&word).to_owned();
+    let stem = name.trim_start_matches('-');
+    let before_command = command.get_name() == program.get_name();
+    if let Some(advice) = before_command.then(|| advise_on_no_window(&name, &words)).flatten() {
+        return Some(advice);
+    }
+    if let Some(help) = what_to_write(&name, &word, &words, command) {
+        let command = full_name(command);
+        return Some(format!("`{name}` is not a flag of `{command}`; {help}"));
+    }
+    if let Some(advice) = before_command.then(|| advise_before_command(&name, program)).flatten() {
+        return Some(advice);
+    }
+    if !name.starts_with('-') && Path::new(&name).extension().is_some() {
+        let command = full_name(command);
+        return Some(format!(
+            "`{command}` reads one file, and `{name}` is a second one; for several files use a loop: `for f in *.glb; do {command} \"$f\"; done`"
+        ));
+    }
+    if let Some(advice) = advise_on_detached_value(&words, command) {
+        return Some(advice);
+    }
+    let names: Vec<&str> = command.get_arguments().filter_map(|flag| flag.get_long()).collect();
+    let similar = closest_name(stem, &names).filter(|similar| !differs_widely(stem, similar));
+    let command = full_name(command);
+    let help = match similar {
+        Some(similar) => format!("did you mean `--{similar}`?"),
+        None => format!("`{command} --help` lists its flags"),
+    };
+    Some(format!("`{name}` is not a flag of `{command}`; {help}"))
+}
+
+/// What to write in place of a flag: the same with two hyphens, or what another program's means.
+fn what_to_write(name: &str, word: &str, words: &[String], command: &Command) -> Option<String> {
+    let stem = name.trim_start_matches('-');
+    let is_ours = has_flag(command, stem);
+    if !name.starts_with("--") && is_ours {
+        let value = value_of(word, words).filter(|_| takes_value(command, stem));
+        let meant = value.as_ref().and_then(|value| accepted_value(stem, value, command));
+        let text = meant.as_ref().map_or(String::new(), |meant| format!(" {}", quoted(meant)));
+        if meant == value || meant.is_none() {
+            return Some(format!("it needs two hyphens here: `--{stem}{text}`"));
+        }
+        Some(format!("use `--{stem}{text}`"))
+    } else if let Some(format) = chosen_format(stem, words, command) {
+        Some(format!("use `--format {format}`"))
+    } else if let Some(help) = lens_advice(stem, words, command) {
+        Some(help)
+    } else if let Some(help) = foreign_habit(stem, command) {
+        Some(help.to_owned())
+    } else {
+        foreign_flag(stem, command).map(|advice| {
+            let advice = without_given_flags(advice, words);
+            let advice = advice.as_str();
+            match with_given_value(advice, word, words, command) {
+                _ if advice.starts_with("alberti ") => format!("run `{advice}`"),
+                Given::Nothing => format!("use `{advice}`"),
+                Given::Fits(advice) => format!("use `{advice}`"),
+                Given::FitsNot(flag) => format!("the flag here is `{flag}`, as in `{advice}`"),
+            }
+        })
+    }
+}
+
+/// The format that `-f svg` chooses in other programs, unless it is the number of a frame.
+fn chosen_format(stem: &str, words: &[String], command: &Command) -> Option<String> {
+    let value = value_of("-f", words).filter(|_| stem == "f" && has_flag(command, "format"))?;
+    accepted_value("format", &value, command)
+}
+
+/// Advice without further flags that were given: `--target 0,0,0 --eye 4,3,6` beside an `--eye`.
+fn without_given_flags(advice: &str, words: &[String]) -> String {
+    let is_given = |part: &str| {
+        let flag = format!("--{}", part.split(' ').next().unwrap_or(part));
+        words.iter().any(|word| *word == flag || word.starts_with(&format!("{flag}=")))
+    };
+    if advice.starts_with("alberti ") {
+        return advice.to_owned();
+    }
+    let mut parts = advice.split(" --");
+    let first = parts.next().unwrap_or(advice).to_owned();
+    parts.filter(|part| !is_given(part)).fold(first, |kept, part| format!("{kept} --{part}"))
+}
+
+/// What to do about a focal length in millimeters: the angle of view that it stands for.
+fn lens_advice(stem: &str, words: &[String], command: &Command) -> Option<String> {
+    let is_length = ["focal-length", "focal", "lens", "lens-mm"].contains(&&*with_hyphens(stem));
+    let length = value_of(&format!("--{stem}"), words).filter(|_| is_length)?;
+    let length = length.trim_end_matches("mm").trim();
+    let angle = lens_angle(length).filter(|_| has_flag(command, "fov"))?;
+    Some(format!(
+        "use `--fov {angle}`, the vertical angle of view of a {length} mm lens on full frame"
+    ))
+}
+
+/// What to do about Blender's `-b` or `--background` before a file: it draws without a window.
+fn advise_on_no_window(name: &str, words: &[String]) -> Option<String> {
+    let file = value_of(name, words).filter(|value| Path::new(value).extension().is_some())?;
+    if !matches!(name, "-b" | "--background") {
+        return None;
+    }
+    let help = if file.to_ascii_lowercase().ends_with(".blend") {
+        "export the .blend file as .glb and run `alberti render model.glb`".to_owned()
+    } else {
+        format!("run `alberti render {}`", quoted(&file))
+    };
+    let color = match name {
+        "-b" => "",
+        _ => ", whose `--background` is the color behind the model",
+    };
+    Some(format!("nothing opens a window here, so leave `{name}` out: {help}{color}"))
+}
+
+/// What to do about a flag before any command.
+fn advise_before_command(name: &str, program: &Command) -> Option<String> {
+    let stem = if name == "-o" { "output" } else { name.strip_prefix("--")? };
+    has_flag(program.find_subcommand("render")?, stem).then(|| {
+        format!(
+            "`{name}` is not a flag of `alberti` itself; flags come after the command, as in `alberti render model.glb {name} …`"
+        )
+    })
+}
+
+/// The word that was typed: of `-resize` the parser tells `-r` alone.
+fn whole_word(told: &str, words: &[OsString]) -> String {
+    let is_long = |word: &&str| {
+        !word.starts_with("--")
+            && word.starts_with(told)
+            && word[1..].chars().all(|c| c.is_alphanumeric() || ":_-".contains(c))
+    };
+    let typed = (told.chars().count() == 2 && !told.starts_with("--"))
+        .then(|| words.iter().filter_map(|word| word.to_str()).find(is_long));
+    typed.flatten().unwrap_or(told).to_owned()
+}
+
+/// What to do about a flag of another program that has no counterpart, or several.
+fn foreign_habit(word: &str, command: &Command) -> Option<&'static str> {
+    let word = with_hyphens(word);
+    let holds = |owner: &str| owner.is_empty() || owner == command.get_name();
+    foreign_words("habit").find(|row| holds(row.owner) && row.has(&word)).map(|row| row.advice)
+}
+
+/// What to write for a flag of another program.
+pub(super) fn foreign_flag(word: &str, command: &Command) -> Option<&'static str> {
+    let word = with_hyphens(word);
+    // What draws has a style.
+    let is_known = |flag: &str| has_flag(command, if flag.is_empty() { "style" } else { flag });
+    foreign_words("flag").find(|row| is_known(row.owner) && row.has(&word)).map(|row| row.advice)
+}
+
+/// What to write for a value that was given apart from a flag that wants an equals sign, as in
+/// `--turntable 180`.
+fn advise_on_detached_value(words: &[String], command: &Command) -> Option<String> {
+    words.windows(2).find_map(|pair| {
+        let [flag, value] = pair else { return None };
+        let name = flag.strip_prefix("--")?;
+        let wants_equals =
+            |known: &clap::Arg| known.get_long() == Some(name) && known.is_require_equals_set();
+        value.parse::<f64>().ok()?;
+        command.get_arguments().any(wants_equals).then(|| {
+            format!("the value of `{flag}` comes after an equals sign: write `{flag}={value}`")
+        })
+    })
+}

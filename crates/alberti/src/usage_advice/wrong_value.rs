@@ -1,0 +1,119 @@
+//! Values that a flag does not take: what was probably meant.
+
+use super::given_value::{
+    accepted_value, following_numbers, foreign_value, invalid_value, quoted, similar_color,
+};
+use super::{context, differs_widely, has_flag};
+use crate::format::OutputFormat;
+use crate::negative_numbers::called_command;
+use clap::builder::StyledStr;
+use clap::error::{ContextKind, ContextValue};
+use clap::{Command, Error};
+use std::ffi::OsString;
+use std::path::Path;
+
+/// Puts the value that another program's one means in the place of clap's tip; says more where a
+/// flag of this name has another meaning.
+pub(super) fn advise_on_value(
+    error: &mut Error,
+    words: &[OsString],
+    program: &Command,
+) -> Option<String> {
+    let (flag, given) = invalid_value(error)?;
+    if flag == "color" && given.contains([',', '#']) {
+        return Some(format!(
+            "`--color` says when messages are colored (auto, always or never), and does not accept \
+             {given}; the colors of a model come from its file, and `--style clay` ignores them"
+        ));
+    }
+    if flag == "background" && given.is_empty() {
+        return Some(
+            "`--background` is the color behind the model and needs a value, such as \
+             `--background white` or `--background '#ff8800'`, in quotation marks because `#` \
+             begins a comment in a shell"
+                .to_owned(),
+        );
+    }
+    let command = called_command(program, words);
+    if flag == "view" && given.contains(',') && has_flag(command, "views") {
+        return Some(format!(
+            "`--view` takes one direction; `--views {given}` draws a picture from each"
+        ));
+    }
+    let texts: Vec<String> = words.iter().map(|it| it.to_string_lossy().into_owned()).collect();
+    let apart = following_numbers(&format!("--{flag}"), &flag, &texts, command);
+    let accepted =
+        || foreign_value(&flag, &given).or_else(|| accepted_value(&flag, &given, command));
+    let meant = apart.or_else(accepted);
+    if let Some(expected) = expected_number(error, &given) {
+        let tip = meant.map_or(String::new(), |meant| format!("; write `--{flag} {meant}`"));
+        return Some(format!("invalid value '{given}' for '--{flag}': {expected}{tip}"));
+    }
+    if let Some(help) = unwritten_format_help(&flag, &given) {
+        return Some(format!("invalid value '{given}' for '--{flag}': {help}"));
+    }
+    if let Some(help) = other_file_help(&flag, &given) {
+        return Some(format!("invalid value '{given}' for '--{flag}': {help}"));
+    }
+    if let Some(meant) = meant.or_else(|| similar_color(&flag, &given)) {
+        error.remove(ContextKind::SuggestedValue);
+        let tip = StyledStr::from(format!("write `--{flag} {}`", quoted(&meant)));
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
+    } else if context(error, ContextKind::SuggestedValue)
+        .is_some_and(|similar| differs_widely(&given, similar))
+    {
+        error.remove(ContextKind::SuggestedValue);
+    }
+    None
+}
+
+/// What to do about a format that pictures are not written in.
+fn unwritten_format_help(flag: &str, given: &str) -> Option<String> {
+    let ending = given.to_ascii_lowercase().replace(['_', '-'], "").replace("openexr", "exr");
+    let path = format!("picture.{ending}");
+    let error = OutputFormat::from_path(Path::new(&path)).err().filter(|_| flag == "format")?;
+    let message = error.to_string();
+    let (message, help) = message.strip_prefix(&format!("{path}: "))?.split_once("\n  = help: ")?;
+    Some(format!("{message}; {help}"))
+}
+
+/// What to do with a file that a flag does not take, but that could be made into one.
+fn other_file_help(flag: &str, given: &str) -> Option<String> {
+    let path = Path::new(given);
+    let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+    let is_picture = ["exr", "png", "jpg", "jpeg", "webp", "hdr"].contains(&ending.as_str());
+    match flag {
+        "environment" if is_picture => {
+            let hdr = path.with_extension("hdr");
+            let hdr = quoted(&hdr.to_string_lossy());
+            let given = quoted(given);
+            Some(format!(
+                "environments are read from .hdr files; convert it, for example with ImageMagick: \
+                 `magick {given} {hdr}`"
+            ))
+        }
+        "background" if is_picture => Some(format!(
+            "expected a color; a scene file puts a picture behind the model, as in \
+             `image: (background: Picture(path: \"{given}\"))`"
+        )),
+        _ => None,
+    }
+}
+
+/// The numbers that a flag takes, where clap gives them in the notation of Rust: `0 is not in
+/// 1..=100000`.
+fn expected_number(error: &Error, given: &str) -> Option<String> {
+    let reason = std::error::Error::source(error)?.to_string();
+    if let Some((_, range)) = reason.split_once(" is not in ") {
+        let (least, most) = range.split_once("..=")?;
+        return Some(format!("expected a whole number from {least} to {most}"));
+    }
+    let is_whole = ["invalid digit", "number too large", "number too small"];
+    let text = if reason.starts_with(is_whole[0]) {
+        let has_unit = given.ends_with(|c: char| c.is_alphabetic() || c == '%');
+        if has_unit { "expected a whole number, without a unit" } else { "expected a whole number" }
+    } else {
+        "the number is out of range"
+    };
+    is_whole.iter().any(|start| reason.starts_with(start)).then(|| text.to_owned())
+}
