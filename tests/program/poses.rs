@@ -160,6 +160,28 @@ fn poses_are_those_of_the_specification() {
     assert_eq!(described["materials"][0]["base_color"], json!([1.0, 0.0, 0.0, 1.0]), "at rest");
 }
 
+/// Nothing moves behind the end of an animation, and whoever asked for it is told.
+#[test]
+fn times_behind_the_end_are_said() {
+    let sandbox = Sandbox::new("late_times");
+    write_animated_model(&sandbox);
+    let late = sandbox.run(&["render", "moving.gltf", "--size=8x8", "--time", "9"]);
+    assert!(late.stderr.contains("the animation ends at 2 s, before --time 9"), "{}", late.stderr);
+    let film = ["animate", "moving.gltf", "--size=8x8", "--frames=2", "-o", "film.gif", "--to"];
+    let run = sandbox.run(&[&film[..], &["9"]].concat());
+    assert!(
+        run.stderr.contains("the animation ends at 2 s: the frames after it"),
+        "{}",
+        run.stderr
+    );
+    for whole in [
+        sandbox.run(&[&film[..], &["2"]].concat()),
+        sandbox.run(&["render", "moving.gltf", "--size=8x8", "--time", "2"]),
+    ] {
+        assert!(!whole.stderr.contains("ends at"), "{}", whole.stderr);
+    }
+}
+
 #[test]
 fn animation_pointers_to_nothing_are_reported_and_skipped() {
     let sandbox = Sandbox::new("lost_pointers");

@@ -50,7 +50,7 @@ pub(crate) struct AnimateArgs {
     /// Frames per second
     #[arg(long, value_name = "N", default_value = "30", value_parser = parse_frame_rate)]
     fps: f64,
-    /// Start time in seconds [default: 0]
+    /// Start time in seconds; one after --to plays the animation backwards [default: 0]
     #[arg(long, value_name = "SECONDS", value_parser = parse_finite, allow_hyphen_values = true)]
     from: Option<Finite>,
     /// End time in seconds [default: the end of the animation]

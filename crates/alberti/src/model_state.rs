@@ -72,6 +72,8 @@ impl ModelStateArgs {
                 print_message("warning", &message);
             }
             path.place_camera(origin, time, scene).map_err(ResolveError::from)?;
+        } else {
+            warn_of_late_time(time.value(), scene);
         }
         Ok(())
     }
@@ -89,6 +91,18 @@ impl ModelStateArgs {
         replace(&self.variant, &mut model.variant);
         replace(&self.animation, &mut model.animation);
         model.time = self.time.or(model.time);
+    }
+}
+
+/// Warns of a time after the end of every animation.
+fn warn_of_late_time(time: f64, scene: &Scene) {
+    let animations = scene.models.iter().flat_map(|placed| &placed.model.animations);
+    let end = animations.map(|animation| animation.duration_seconds).fold(0.0, f64::max);
+    if end > 0.0 && time > end {
+        let message = format!(
+            "the animation ends at {end} s, before --time {time}: the picture shows its last pose"
+        );
+        print_message("warning", &message);
     }
 }
 

@@ -146,7 +146,7 @@ fn unknown_format(bytes: &[u8]) -> Diagnostic {
     let known = FOREIGN_FORMATS.iter().find(|(start, ..)| bytes.starts_with(start));
     let (message, help) = match known {
         Some((_, name, help)) => (format!("this is {name}, which is not read"), *help),
-        None if bytes.is_empty() => ("the file is empty".to_owned(), GIVE_A_MODEL),
+        None if bytes.is_empty() => ("the file is empty".to_owned(), "export it again"),
         None => ("this is not a model in a known format".to_owned(), GIVE_A_MODEL),
     };
     Diagnostic::error(codes::UNKNOWN_FORMAT, "", message, help)
