@@ -57,6 +57,16 @@ impl OutputFormat {
         }
     }
 
+    /// Whether a file is a picture or a film by its extension, of a format that is written or not.
+    pub(super) fn is_known(output: &Path) -> bool {
+        let ending = output.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let known = [
+            "png", "jpg", "jpeg", "jpe", "webp", "svg", "pdf", "dxf", "tif", "tiff", "bmp", "exr",
+            "gif", "mp4", "mov", "webm", "mkv", "avi", "avif", "tga", "ps", "eps", "hdr",
+        ];
+        ending.is_some_and(|ending| known.contains(&ending.as_str()))
+    }
+
     /// The error of an extension that is not written, with the way to such a file if there is one.
     fn unknown_extension_error(output: &Path, ending: &str) -> CliError {
         let name = visible_path(output);

@@ -24,6 +24,7 @@ use scene::Outputs;
 use scene_file::closest_name;
 use scene_file::file::SceneFile;
 use scene_file::is_scene_file;
+use std::collections::BTreeSet;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -51,7 +52,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, CliError> {
 /// Renders all pictures once.
 fn render_all(args: &RenderArgs) -> Result<ExitCode, CliError> {
     let tasks = tasks::plan_tasks(args)?;
-    let mut code = ExitCode::SUCCESS;
+    let (mut code, mut told) = (ExitCode::SUCCESS, BTreeSet::new());
     for task in &tasks {
         match render_task(args, task) {
             Err(failure) if tasks.len() > 1 => {
@@ -59,7 +60,10 @@ fn render_all(args: &RenderArgs) -> Result<ExitCode, CliError> {
                 let prefix = format!("{name}: ");
                 // Most messages begin with the file that they are about.
                 let rest = message.strip_prefix(&prefix).unwrap_or(&message);
-                print_message("error", &format!("{prefix}{rest}"));
+                let message = format!("{prefix}{rest}");
+                if told.insert(message.clone()) {
+                    print_message("error", &message);
+                }
                 code = ExitCode::FAILURE;
             }
             Ok(false) => code = ExitCode::FAILURE,
@@ -261,6 +265,11 @@ pub(super) fn missing_input_help(input: &Path) -> Option<String> {
              marks, or run `alberti batch models --out-dir pictures` for all models in a folder"
                 .to_owned(),
         );
+    }
+    if word.ends_with(".json") {
+        return Some(format!(
+            "`--json` takes no value and prints a report: redirect it, as in `--json > {word}`"
+        ));
     }
     matches!(&*word, "on" | "off" | "true" | "false" | "yes" | "no")
         .then(|| format!("the flag before it takes no value: leave out `{word}`"))

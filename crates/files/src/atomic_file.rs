@@ -30,7 +30,7 @@ impl OutputError {
     fn remedy(&self) -> String {
         let folder = self.path.parent().filter(|folder| !folder.as_os_str().is_empty());
         match folder {
-            Some(folder) if self.cause.kind() == ErrorKind::NotFound => {
+            Some(folder) if self.cause.kind() == ErrorKind::NotFound && !folder.exists() => {
                 format!("\n  = help: create the folder `{}` first", visible_path(folder))
             }
             _ => String::new(),

@@ -82,10 +82,11 @@ pub(super) fn plan_tasks(args: &RenderArgs) -> Result<Vec<RenderTask>, CliError>
 fn refuse_output_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
     let is_flag = |path: &Path| path.to_string_lossy().starts_with('+');
     let is_output =
-        |path: &&PathBuf| !path.exists() && !is_flag(path) && OutputFormat::from_path(path).is_ok();
+        |path: &&PathBuf| !path.exists() && !is_flag(path) && OutputFormat::is_known(path);
     let (Some(output), [first, ..]) = (inputs.iter().skip(1).find(is_output), inputs) else {
         return Ok(());
     };
+    OutputFormat::from_path(output)?;
     let [output, first] = [output, first].map(visible_path);
     Err(CliError::Usage(format!(
         "{output} is not a model\n  = help: to write the picture to it, run `alberti render {first} -o {output}`"

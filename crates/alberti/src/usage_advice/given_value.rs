@@ -105,7 +105,9 @@ pub(super) fn accepted_value(flag: &str, given: &str, command: &Command) -> Opti
         Some(lower),
         foreign_value(flag, given),
         rewritten(flag, given),
-        percent(given).map(|factor| factor.to_string()),
+        percent(given)
+            .filter(|_| ["zoom", "scale", "light-intensity"].contains(&flag))
+            .map(|factor| factor.to_string()),
     ];
     meant.into_iter().flatten().find(|value| is_accepted(flag, value, command))
 }
@@ -139,7 +141,18 @@ fn rewritten(flag: &str, given: &str) -> Option<String> {
         }
         "fps" => Some(given.trim_end_matches(|c: char| c.is_alphabetic()).trim().to_owned()),
         "from" | "to" | "time" => seconds(given),
-        "azimuth" | "elevation" | "fov" | "crease" | "environment-rotation" | "turntable" => {
+        "quality" => {
+            let quality: f64 = given.trim_end_matches('%').trim().parse().ok()?;
+            let whole = if quality < 1.0 { 100.0 } else { 1.0 };
+            Some(libm::round(quality * whole).to_string())
+        }
+        "azimuth"
+        | "elevation"
+        | "fov"
+        | "crease"
+        | "environment-rotation"
+        | "turntable"
+        | "point-size" => {
             let number = given.trim_end_matches(|c: char| c.is_alphabetic() || c == '°');
             Some(number.trim().to_owned())
         }

@@ -33,6 +33,9 @@ pub(super) fn advise_on_flag(
         return Some(advice);
     }
     if !name.starts_with('-') && Path::new(&name).extension().is_some() {
+        if let Some(advice) = advise_on_output(&name, &words, command) {
+            return Some(advice);
+        }
         let command = full_name(command);
         return Some(format!(
             "`{command}` reads one file, and `{name}` is a second one; for several files use a loop: `for f in *.glb; do {command} \"$f\"; done`"
@@ -40,6 +43,11 @@ pub(super) fn advise_on_flag(
     }
     if let Some(advice) = advise_on_detached_value(&words, command) {
         return Some(advice);
+    }
+    if !name.starts_with('-') {
+        let number = name.parse::<u16>().is_ok() && has_flag(command, "port");
+        let help = if number { format!(": use `--port {name}`") } else { String::new() };
+        return Some(format!("unexpected `{name}` behind `{}`{help}", full_name(command)));
     }
     let names: Vec<&str> = command.get_arguments().filter_map(|flag| flag.get_long()).collect();
     let similar = closest_name(stem, &names).filter(|similar| !differs_widely(stem, similar));
@@ -75,12 +83,34 @@ fn what_to_write(name: &str, word: &str, words: &[String], command: &Command) ->
             let advice = advice.as_str();
             match with_given_value(advice, word, words, command) {
                 _ if advice.starts_with("alberti ") => format!("run `{advice}`"),
+                Given::Nothing if is_only_an_example(advice) => {
+                    let flag = advice.split(' ').next().unwrap_or(advice);
+                    format!("the flag here is `{flag}`, as in `{advice}`")
+                }
                 Given::Nothing => format!("use `{advice}`"),
                 Given::Fits(advice) => format!("use `{advice}`"),
                 Given::FitsNot(flag) => format!("the flag here is `{flag}`, as in `{advice}`"),
             }
         })
     }
+}
+
+/// What to do about the name of an output without its flag, as in `alberti animate a.glb film.gif`.
+fn advise_on_output(name: &str, words: &[String], command: &Command) -> Option<String> {
+    let ending = Path::new(name).extension()?.to_str()?.to_ascii_lowercase();
+    let is_output = !["glb", "gltf", "stl", "obj", "ply", "3mf"].contains(&ending.as_str());
+    let input = words
+        .iter()
+        .take_while(|word| *word != name)
+        .skip(2)
+        .find(|word| Path::new(word).extension().is_some() && !word.starts_with('-'));
+    let input = input.map_or(String::new(), |input| format!(" {}", quoted(input)));
+    (is_output && has_flag(command, "output")).then(|| {
+        let command = full_name(command);
+        format!(
+            "`{name}` is not a flag of `{command}`; to write to it, run `{command}{input} -o {name}`"
+        )
+    })
 }
 
 /// The format that `-f svg` chooses in other programs, unless it is the number of a frame.
@@ -101,6 +131,13 @@ fn without_given_flags(advice: &str, words: &[String]) -> String {
     let mut parts = advice.split(" --");
     let first = parts.next().unwrap_or(advice).to_owned();
     parts.filter(|part| !is_given(part)).fold(first, |kept, part| format!("{kept} --{part}"))
+}
+
+/// Whether the value of a piece of advice is a name that few models or folders have.
+fn is_only_an_example(advice: &str) -> bool {
+    let flags = ["environment", "scalars", "compare", "camera", "animation", "variant", "pose"];
+    let flag = advice.split(' ').next().and_then(|flag| flag.strip_prefix("--"));
+    flag.is_some_and(|flag| flags.contains(&flag))
 }
 
 /// What to do about a focal length in millimeters: the angle of view that it stands for.

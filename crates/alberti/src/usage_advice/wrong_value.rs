@@ -49,16 +49,29 @@ pub(super) fn advise_on_value(
         let tip = meant.map_or(String::new(), |meant| format!("; write `--{flag} {meant}`"));
         return Some(format!("invalid value '{given}' for '--{flag}': {expected}{tip}"));
     }
+    if flag == "up" && given.starts_with('-') {
+        return Some(format!(
+            "invalid value '{given}' for '--up': the axis that points up is x, y or z; to turn a \
+             model over use `rotation_degrees` in a scene file"
+        ));
+    }
     if let Some(help) = unwritten_format_help(&flag, &given) {
         return Some(format!("invalid value '{given}' for '--{flag}': {help}"));
     }
     if let Some(help) = other_file_help(&flag, &given) {
         return Some(format!("invalid value '{given}' for '--{flag}': {help}"));
     }
-    if let Some(meant) = meant.or_else(|| similar_color(&flag, &given)) {
+    let tip = match meant.or_else(|| similar_color(&flag, &given)) {
+        Some(meant) => Some(format!("write `--{flag} {}`", quoted(&meant))),
+        None if flag == "view" && context(error, ContextKind::SuggestedValue).is_none() => {
+            Some("other directions are given as in `--azimuth 45 --elevation 20`".to_owned())
+        }
+        None => None,
+    };
+    if let Some(tip) = tip {
         error.remove(ContextKind::SuggestedValue);
-        let tip = StyledStr::from(format!("write `--{flag} {}`", quoted(&meant)));
-        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
+        let tip = ContextValue::StyledStrs(vec![StyledStr::from(tip)]);
+        error.insert(ContextKind::Suggested, tip);
     } else if context(error, ContextKind::SuggestedValue)
         .is_some_and(|similar| differs_widely(&given, similar))
     {
