@@ -2,6 +2,7 @@
 
 use crate::words::{Language, Sentence};
 use pipeline::{RenderError, ResolveError};
+use scene_file::file::InvalidNumber;
 
 /// A request that cannot be answered. The explorer is as before; the next request works.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
@@ -27,6 +28,11 @@ impl ExplorerError {
         help: impl Into<String>,
     ) -> Self {
         Self { code, message: message.into(), help: help.into() }
+    }
+
+    /// A scene that makes no sense, by the message of the error that says so.
+    pub(crate) fn invalid_scene(error: &impl ToString) -> Self {
+        Self::new("invalid_scene", error.to_string(), RESET)
     }
 
     /// The error as one of the user's own model, if it speaks of its file.
@@ -66,6 +72,12 @@ impl From<ResolveError> for ExplorerError {
             }
             other => Self::new("broken_model", other.to_string(), OTHER_FILE),
         }
+    }
+}
+
+impl From<InvalidNumber> for ExplorerError {
+    fn from(error: InvalidNumber) -> Self {
+        Self::invalid_scene(&error)
     }
 }
 

@@ -6,7 +6,7 @@ use crate::depth_pane::depth_svg;
 use crate::facts::Facts;
 use crate::lesson_state::LessonState;
 use crate::line_of_sight::LineOfSight;
-use crate::model_store::{LoadedScene, ModelStore, PictureOptions};
+use crate::model_store::{LoadedScene, ModelStore, named_style};
 use crate::pane_picture::{Drawn, PanePicture, thread_count};
 use crate::pane_scene::Observer;
 use crate::pick::pick_json;
@@ -16,7 +16,8 @@ use crate::volume_pane::volume_scene;
 use crate::words::sentence;
 use crate::world_pane::{Pointer, world_scene};
 use pipeline::{CancelToken, Picture, Textures, draw_lines};
-use scene::Scene;
+use scene::{ResolveError, Scene};
+use scene_file::parse_scene;
 use std::sync::Arc;
 
 /// The answer to a request.
@@ -114,21 +115,28 @@ impl Explorer {
         size: [u32; 2],
         samples: u32,
     ) -> Result<(String, LoadedScene), ExplorerError> {
-        let values = state.values(size);
-        let mut description = (state.lesson.describe)(&values);
-        if let Some(style) = state.style {
-            description.style = if style == "Lines" { "Lines()".into() } else { style.into() };
-        }
         self.check_models(state)?;
-        if !description.file.is_empty() {
-            let picture = PictureOptions { size, samples, style: state.style };
-            return self.store.resolve_file(&description.file, &picture);
-        }
-        let text = description.to_text(state.lesson.title.en, size, samples);
+        let lesson = state.lesson;
         let own = state.model.as_deref().unwrap_or_default();
-        let loaded = self.store.resolve(&text, &description.models);
+        let own_text = lesson.draws_own_file().then(|| self.store.scene_text(own));
+        let mut file = match &own_text {
+            Some(text) => parse_scene(own, text).map_err(ResolveError::Scene)?,
+            None => (lesson.describe)(&state.values(size))?,
+        };
+        (file.image.size, file.image.samples) = (size.into(), samples);
+        file.style = state.style.and_then(named_style).unwrap_or(file.style);
+        let text = match own_text {
+            Some(text) => text,
+            None => {
+                let text = file.to_ron().map_err(|error| ExplorerError::invalid_scene(&error))?;
+                format!("// {}{}\n{text}", lesson.title.en, lesson.remark)
+            }
+        };
+        // The text of a scene file stays, whatever its size, samples and style.
+        let key = format!("{size:?} {samples} {:?} {text}", state.style);
+        let loaded = self.store.resolve(key, &text, &file);
         let loaded = loaded.map_err(|error| error.about_model(own))?;
-        Ok((text, LoadedScene { first_view: description.first_view, ..loaded }))
+        Ok((text, LoadedScene { first_view: lesson.first_view, ..loaded }))
     }
 
     /// Checks that the models of a state have been added.
@@ -165,7 +173,6 @@ impl Explorer {
     ) -> Result<Answer, ExplorerError> {
         let (text, loaded) = self.load(&request.state, request.size, request.samples)?;
         let drawn = Drawn { scene: &loaded.scene, textures: &loaded.models.textures, cancel };
-        // The text of a scene file stays, whatever its size, samples and style.
         let Request { state, size, samples, .. } = request;
         let key = format!("{size:?} {samples} {:?} {text}", state.style);
         answer_with_pixels(&mut self.picture, request, &key, drawn)

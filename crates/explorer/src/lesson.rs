@@ -1,10 +1,12 @@
 //! A lesson: its statement, its parameters, and the scene that they make.
 
 use crate::facts::Facts;
+use crate::lesson_scene::LessonScene;
 use crate::lessons::{ALL_PANES, HOUSE};
-use crate::scene_description::SceneDescription;
+use crate::number_text::scene_number;
 use crate::words::{Sentence, Words, words};
 use explain::ApiConventions;
+use scene_file::SceneFile;
 
 /// A lesson of the explorer.
 #[derive(Debug)]
@@ -29,8 +31,12 @@ pub(crate) struct Lesson {
     pub(crate) orbit: [f64; 2],
     /// The conventions of all numbers that are told.
     pub(crate) conventions: ApiConventions,
-    /// The scene of some values.
-    pub(crate) describe: fn(&Values<'_>) -> SceneDescription,
+    /// The scene of some values; its picture's size, sampling and style are up to the request.
+    pub(crate) describe: fn(&Values<'_>) -> LessonScene,
+    /// What readers of the scene are told behind its title.
+    pub(crate) remark: &'static str,
+    /// The first viewport that shows the model.
+    pub(crate) first_view: usize,
     /// The consequences of the values, besides what is clipped.
     pub(crate) consequences: fn(&Values<'_>, &Facts) -> Vec<Sentence>,
     /// The point of the world that is pinned at first, where it depends on the values.
@@ -70,12 +76,19 @@ impl Lesson {
         pin: RIDGE,
         orbit: [78.0, 20.0],
         conventions: ApiConventions::OpenGl,
-        describe: |_| SceneDescription::default(),
+        describe: |_| Ok(SceneFile::default()),
+        remark: "",
+        first_view: 0,
         consequences: |_, _| Vec::new(),
         point: |_| None,
         volume: |_| VolumeStage::Divided,
         pointer: |_| None,
     };
+
+    /// Whether the user's own scene file is drawn as it is, and none is described.
+    pub(crate) fn draws_own_file(&self) -> bool {
+        self.id == "scene"
+    }
 }
 
 /// Where a lesson comes from.
@@ -131,6 +144,10 @@ pub(crate) struct Choice {
     pub(crate) value: &'static str,
     pub(crate) label: Words,
 }
+
+/// The parameters of a window on the near plane, and of the planes.
+pub(crate) const WINDOW: [&str; 4] = ["left", "right", "bottom", "top"];
+pub(crate) const PLANES: [&str; 2] = ["near", "far"];
 
 /// A number from `range[0]` to `range[1]`.
 pub(crate) const fn number(
@@ -189,6 +206,11 @@ impl Values<'_> {
             Some(ParameterValue::Number(number)) => number,
             _ => 0.0,
         }
+    }
+
+    /// The numbers of parameters, as a scene file has them.
+    pub(crate) fn scene_numbers<const N: usize>(&self, keys: [&str; N]) -> [f64; N] {
+        keys.map(|key| scene_number(self.number(key)))
     }
 
     /// The choice of a parameter.

@@ -6,8 +6,7 @@ use crate::triangle_survey::WorldTriangles;
 use import::MemoryFolder;
 use model::ModelInstance;
 use pipeline::{Origin, Scene, SceneFile, Textures};
-use scene_file::file::StyleFile;
-use scene_file::parse_scene;
+use scene_file::file::{ModelFile, StyleFile};
 use std::sync::Arc;
 
 /// How many sets of models are kept: the lesson at hand and the one before it.
@@ -37,8 +36,8 @@ impl LoadedScene {
 /// The models of a scene, and what is computed from them once.
 #[derive(Debug)]
 pub(crate) struct LoadedModels {
-    /// The `models` of the scene file.
-    entries: Vec<String>,
+    /// As the scene file has them.
+    files: Vec<ModelFile>,
     instances: Vec<ModelInstance>,
     pub(crate) textures: Textures<'static>,
     pub(crate) triangles: WorldTriangles,
@@ -74,76 +73,36 @@ impl ModelStore {
         self.folder.file(name).is_some()
     }
 
-    /// Resolves the text of a scene; its models are loaded unless they are at hand.
+    /// The text of a scene file that has been added.
+    pub(crate) fn scene_text(&self, name: &str) -> String {
+        String::from_utf8_lossy(self.folder.file(name).unwrap_or_default()).into_owned()
+    }
+
+    /// Resolves the scene of a text; its models are loaded unless they are at hand. `key` stands for
+    /// the scene.
     ///
     /// # Errors
     /// A mistake in the scene, or a model that cannot be loaded.
     pub(crate) fn resolve(
         &mut self,
+        key: String,
         text: &str,
-        entries: &[String],
+        file: &SceneFile,
     ) -> Result<LoadedScene, ExplorerError> {
-        if let Some(at) = self.scenes.iter().position(|(known, _)| known == text) {
-            let found = self.scenes.remove(at);
-            self.scenes.push(found);
-            return Ok(self.scenes[self.scenes.len() - 1].1.clone());
-        }
-        let loaded = self.resolve_anew(text, entries)?;
-        self.keep_scene(text.to_owned(), &loaded);
-        Ok(loaded)
-    }
-
-    /// Resolves a scene file that has been added, with another size, sampling and style of its
-    /// picture, and gives its text.
-    ///
-    /// # Errors
-    /// A mistake in the scene, or a model that cannot be loaded.
-    pub(crate) fn resolve_file(
-        &mut self,
-        name: &str,
-        picture: &PictureOptions,
-    ) -> Result<(String, LoadedScene), ExplorerError> {
-        let bytes = self.folder.file(name).unwrap_or_default();
-        let text = String::from_utf8_lossy(bytes).into_owned();
-        let key = format!("{name} {picture:?}");
-        if let Some((_, known)) = self.scenes.iter().find(|(known, _)| *known == key) {
-            return Ok((text, known.clone()));
-        }
-        let mistakes = |errors| ExplorerError::from(pipeline::ResolveError::Scene(errors));
-        let mut file = parse_scene(name, &text).map_err(mistakes)?;
-        picture.apply_to(&mut file);
-        let loaded = self.load_scene(name, &text, &file, &[name.to_owned()])?;
-        self.keep_scene(key, &loaded);
-        Ok((text, loaded))
-    }
-
-    fn keep_scene(&mut self, key: String, loaded: &LoadedScene) {
+        let loaded = match self.scenes.iter().position(|(known, _)| *known == key) {
+            Some(at) => self.scenes.remove(at).1,
+            None => self.resolve_anew(text, file)?,
+        };
         if self.scenes.len() == KEPT_SCENES {
             self.scenes.remove(0);
         }
         self.scenes.push((key, loaded.clone()));
+        Ok(loaded)
     }
 
-    fn resolve_anew(
-        &mut self,
-        text: &str,
-        entries: &[String],
-    ) -> Result<LoadedScene, ExplorerError> {
-        let file = parse_scene("scene.ron", text)
-            .map_err(|errors| ExplorerError::from(pipeline::ResolveError::Scene(errors)))?;
-        self.load_scene("scene.ron", text, &file, entries)
-    }
-
-    /// Resolves a scene; its models are loaded unless they are at hand. `entries` stand for them.
-    fn load_scene(
-        &mut self,
-        name: &str,
-        text: &str,
-        file: &SceneFile,
-        entries: &[String],
-    ) -> Result<LoadedScene, ExplorerError> {
-        let origin = Origin::from_text_in_memory(name, text, self.folder.clone());
-        if let Some(models) = self.models.iter().find(|models| models.entries == entries) {
+    fn resolve_anew(&mut self, text: &str, file: &SceneFile) -> Result<LoadedScene, ExplorerError> {
+        let origin = Origin::from_text_in_memory("scene.ron", text, self.folder.clone());
+        if let Some(models) = self.models.iter().find(|models| models.files == file.models) {
             let models = Arc::clone(models);
             let scene = Scene::from_models(&origin, file, &models.instances)?;
             return Ok(LoadedScene { scene: Arc::new(scene), models, first_view: 0 });
@@ -152,8 +111,8 @@ impl ModelStore {
         let instances = scene.models.clone();
         let textures = Textures::for_models(&instances).into_owned();
         let triangles = WorldTriangles::new(&instances);
-        let entries = entries.to_vec();
-        let models = Arc::new(LoadedModels { entries, instances, textures, triangles });
+        let files = file.models.clone();
+        let models = Arc::new(LoadedModels { files, instances, textures, triangles });
         if self.models.len() == KEPT_SETS {
             self.models.remove(0);
         }
@@ -162,27 +121,8 @@ impl ModelStore {
     }
 }
 
-/// The options of a scene file's picture that requests change.
-#[derive(Clone, Debug)]
-pub(crate) struct PictureOptions {
-    pub(crate) size: [u32; 2],
-    pub(crate) samples: u32,
-    /// The name of a style in scene files; `None` for the scene's own.
-    pub(crate) style: Option<&'static str>,
-}
-
-impl PictureOptions {
-    fn apply_to(&self, file: &mut SceneFile) {
-        file.image.size = self.size.into();
-        file.image.samples = self.samples;
-        if let Some(style) = self.style.and_then(named_style) {
-            file.style = style;
-        }
-    }
-}
-
 /// The style of a name, with the default of each of its fields.
-fn named_style(name: &str) -> Option<StyleFile> {
+pub(crate) fn named_style(name: &str) -> Option<StyleFile> {
     let flag = style_flag(name);
     StyleFile::NAMED.into_iter().find(|(known, _)| *known == flag).map(|(_, make)| make())
 }
@@ -191,6 +131,7 @@ fn named_style(name: &str) -> Option<StyleFile> {
 mod tests {
     use super::*;
     use crate::lesson_state::STYLES;
+    use scene_file::parse_scene;
 
     #[test]
     fn styles_are_those_that_scene_files_call_so() {

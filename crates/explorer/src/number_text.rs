@@ -1,16 +1,9 @@
 //! Numbers in scene files and in sentences.
 
 /// A number as a person would write it in a scene file: rounded to six decimals.
-pub(crate) fn scene_number(value: f64) -> String {
-    let rounded = libm::round(value * 1e6) / 1e6;
+pub(crate) fn scene_number(value: f64) -> f64 {
     // −0 is 0 to a reader.
-    format!("{}", rounded + 0.0)
-}
-
-/// Numbers in brackets, as a scene file has its points.
-pub(crate) fn scene_tuple(values: &[f64]) -> String {
-    let numbers: Vec<String> = values.iter().map(|value| scene_number(*value)).collect();
-    format!("({})", numbers.join(", "))
+    libm::round(value * 1e6) / 1e6 + 0.0
 }
 
 /// A number with so many decimals at most, without trailing zeros.
@@ -25,9 +18,8 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        assert_eq!(scene_number(0.1 + 0.2), "0.3");
-        assert_eq!(scene_number(-1e-9), "0");
-        assert_eq!(scene_tuple(&[1.0, -2.5]), "(1, -2.5)");
+        assert_eq!(scene_number(0.1 + 0.2).to_string(), "0.3");
+        assert_eq!(scene_number(-1e-9).to_string(), "0");
         assert_eq!(decimals(36.869_897, 1), "36.9");
     }
 }

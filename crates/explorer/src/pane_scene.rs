@@ -11,7 +11,8 @@ use model::{Material, Mesh, Model, ModelInstance, Node, Primitive, Topology};
 use page::palette;
 use pipeline::{Origin, Scene};
 use projection::{Convention, Orthographic};
-use scene_file::parse_scene;
+use scene_file::SceneFile;
+use scene_file::file::{BackgroundFile, Color, LightFile, ProjectionFile, StyleFile};
 use shade::color::srgb_to_linear_table;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -26,15 +27,6 @@ pub(crate) const COLORS: [(&str, [u8; 3]); 4] = [
 
 /// The index of the color of the line of sight.
 const SIGHT: usize = 3;
-
-/// The common parts of the panes; camera, size and overlays follow.
-const SCENE: &str = r##"Scene(
-    models: [Model(path: "triangles")],
-    camera: Camera(projection: Orthographic()),
-    lights: [Directional(direction: (-1, -2, -1.5), intensity: 1.6), Ambient(intensity: 1)],
-    style: Flat,
-    image: Image(background: Color("#ffffff")),
-)"##;
 
 /// The margin around what is framed, as a part of the picture's side.
 const PADDING: f64 = 0.07;
@@ -83,12 +75,15 @@ impl PaneGeometry {
         observer: Observer,
         framed: Vec<Point<World>>,
     ) -> Result<Scene, ExplorerError> {
-        let mut file = parse_scene("pane", SCENE)
-            .map_err(|errors| ExplorerError::from(pipeline::ResolveError::Scene(errors)))?;
-        let origin = Origin::from_text("pane", SCENE, PathBuf::new());
-        let [width, height] = observer.size;
-        file.image.size = (width, height);
+        let mut file = SceneFile::from_model_path("triangles".to_owned());
+        file.camera.projection = Some(ProjectionFile::ORTHOGRAPHIC);
+        let key_light = LightFile::directional([-1.0, -2.0, -1.5], 1.6)?;
+        file.lights = Some(vec![key_light, LightFile::ambient(1.0)?]);
+        file.style = StyleFile::Flat;
+        file.image.background = Some(BackgroundFile::Color(Color::WHITE));
+        file.image.size = observer.size.into();
         file.image.samples = observer.samples;
+        let origin = Origin::from_text("pane", "", PathBuf::new());
         let instance = self.into_model(&framed);
         let mut scene = Scene::from_models(&origin, &file, &[instance])?;
         scene.view_projection = observer_view(observer, framed)?;

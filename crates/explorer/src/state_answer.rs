@@ -75,7 +75,7 @@ fn value_json(value: ParameterValue) -> Json {
 fn command(request: &Request, text: &str) -> String {
     let Request { state, size: [width, height], samples, .. } = request;
     match &state.model {
-        Some(file) if state.lesson.id == "scene" => {
+        Some(file) if state.lesson.draws_own_file() => {
             let style = state.style.map(|style| format!(" --style {}", style_flag(style)));
             let style = style.unwrap_or_default();
             let name = file.replace('\'', "'\\''");

@@ -21,7 +21,7 @@ mod serialized;
 mod values;
 
 pub(super) use checker::Checker;
-pub(crate) use data::{Data, read_named, write_named, written_field};
+pub(crate) use data::{Data, push_field, read_named, write_named};
 use declare::join_doc_lines;
 pub(crate) use declare::{
     default_value, documentation, field_entry, inner_type, named_enum, named_values, read_fields,

@@ -1,13 +1,14 @@
 //! The lessons of the chapter on viewing: its two view volumes and the depth between its planes.
 
+use super::PARALLEL_PANES;
 use super::effects::{distortion, planes_only_clip};
-use super::{HOUSE, PARALLEL_PANES};
 use crate::facts::Facts;
 use crate::lesson::{Lesson, Parameter, Source, Values, number};
-use crate::number_text::{decimals, scene_number};
-use crate::scene_description::{SceneDescription, look_at};
+use crate::lesson_scene::house_scene;
+use crate::number_text::decimals;
 use crate::words::{Sentence, sentence, words};
 use explain::ApiConventions;
+use scene_file::file::ProjectionFile;
 
 /// The common parts of the chapter's lessons.
 const USUAL: Lesson =
@@ -23,16 +24,12 @@ const fn plane_f(default: f64) -> Parameter {
     number("f", label, "", [-60.0, -11.5], [0.5, default])
 }
 
-/// The text of a projection through the chapter's window: n and f are coordinates there, and
-/// distances in scene files.
-fn through_window(name: &str, values: &Values<'_>) -> String {
-    let [l, r, b, t] = ["l", "r", "b", "t"].map(|key| scene_number(values.number(key)));
-    let [n, f] = ["n", "f"].map(|key| scene_number(-values.number(key)));
-    format!("{name}(left: {l}, right: {r}, bottom: {b}, top: {t}, near: {n}, far: {f})")
-}
+/// The window of the chapter.
+const WINDOW: [&str; 4] = ["l", "r", "b", "t"];
 
-fn house(projection: String) -> SceneDescription {
-    SceneDescription::new(HOUSE, look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]), projection)
+/// The distances of the planes, which scene files have; n and f are coordinates.
+fn planes(values: &Values<'_>) -> [f64; 2] {
+    values.scene_numbers(["n", "f"]).map(|z| -z)
 }
 
 /// OR-1: the orthographic view volume, in the chapter's own signs.
@@ -54,7 +51,10 @@ pub(super) static ORTHOGRAPHIC_VOLUME: Lesson = Lesson {
     ],
     panes: PARALLEL_PANES,
     orbit: [72.0, 22.0],
-    describe: |values| house(through_window("Orthographic", values)),
+    describe: |values| {
+        let window = values.scene_numbers(WINDOW);
+        house_scene(ProjectionFile::orthographic(window, planes(values))?)
+    },
     consequences: |values, facts| {
         let size = values.number("r") - values.number("l");
         let pixels = decimals(f64::from(facts.size[0]) / size, 1);
@@ -86,7 +86,9 @@ pub(super) static PERSPECTIVE_VOLUME: Lesson = Lesson {
         plane_n(-4.0),
         plane_f(-18.0),
     ],
-    describe: |values| house(through_window("Frustum", values)),
+    describe: |values| {
+        house_scene(ProjectionFile::frustum(values.scene_numbers(WINDOW), planes(values))?)
+    },
     consequences: |values, facts| {
         let [n, f] = ["n", "f"].map(|key| values.number(key));
         let shrink = decimals(n / f, 3);
@@ -121,10 +123,7 @@ pub(super) static MIDPOINT_DEPTH: Lesson = Lesson {
         "P 保持深度的次序，但不保持比例：中点 z = (n + f)/2 变到 (n² + f²)/(n + f)，更靠近 f。n 与 f 相差越大，深度范围越多地用在近处。",
     ),
     parameters: &[plane_n(-4.0), plane_f(-40.0)],
-    describe: |values| {
-        let [n, f] = ["n", "f"].map(|key| scene_number(-values.number(key)));
-        house(format!("Perspective(fov_y_degrees: 40, near: {n}, far: {f})"))
-    },
+    describe: |values| house_scene(ProjectionFile::perspective(40.0, planes(values))?),
     consequences: |values, facts| {
         let [n, f] = ["n", "f"].map(|key| values.number(key));
         let (middle, image) = (0.5 * (n + f), (n * n + f * f) / (n + f));

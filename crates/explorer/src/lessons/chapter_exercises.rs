@@ -3,10 +3,11 @@
 use super::HOUSE;
 use crate::facts::Facts;
 use crate::lesson::{Choice, Lesson, Source, Values, choice, number};
-use crate::number_text::{decimals, scene_number, scene_tuple};
-use crate::scene_description::{SceneDescription, look_at};
+use crate::lesson_scene::{LessonScene, house_scene, model_scene};
+use crate::number_text::{decimals, scene_number};
 use crate::words::{Sentence, sentence, words};
 use explain::ApiConventions;
+use scene_file::file::{CameraFile, LabelSize, OverlayFile, ProjectionFile, ViewFile};
 
 /// The ends of the segment of exercise 11: along the ridge of the house.
 const RIDGE_ENDS: [[f64; 3]; 2] = [[0.0, 4.38, 3.15], [0.0, 4.38, -3.15]];
@@ -46,36 +47,23 @@ pub(super) static EXERCISES: Lesson = Lesson {
     pin: [2.0, 3.25, 8.0],
     conventions: ApiConventions::Chapter,
     describe: |values| match values.choice("exercise") {
-        "2" => {
-            let projection =
-                "Orthographic(left: -4, right: 4, bottom: -2.5, top: 2.5, near: 4, far: 18)";
-            straight_ahead(projection)
+        "2" => straight_ahead(ProjectionFile::orthographic([-4.0, 4.0, -2.5, 2.5], [4.0, 18.0])?),
+        "10" => {
+            let (eye, gaze, up) = ([0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [1.0, 0.0, 0.0]);
+            let view = ViewFile::LookTo { eye: eye.into(), gaze: gaze.into(), up: up.into() };
+            let projection = ProjectionFile::orthographic([-1.6, 1.6, -1.0, 1.0], [-0.5, 2.0])?;
+            let camera = CameraFile { view, ..CameraFile::default() };
+            model_scene(CRATE, camera.with_projection(projection))
         }
-        "10" => SceneDescription::new(
-            CRATE,
-            "LookTo(eye: (0, 1, 0), gaze: (0, -1, 0), up: (1, 0, 0))".to_owned(),
-            "Orthographic(left: -1.6, right: 1.6, bottom: -1, top: 1, near: -0.5, far: 2)"
-                .to_owned(),
-        ),
         "11" => {
-            let point = segment_point(values.number("t"));
-            let ends = RIDGE_ENDS.map(|end| scene_tuple(&end));
-            let projection = "Perspective(fov_y_degrees: 40, near: 4, far: 18)".to_owned();
-            let view = look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]);
-            let overlays = vec![
-                format!("Label(at: {}, text: \"a\", leader: true)", ends[0]),
-                format!("Label(at: {}, text: \"b\", leader: true)", ends[1]),
-                format!(
-                    "Label(at: {}, text: \"t = {}\", leader: true)",
-                    scene_tuple(&point),
-                    scene_number(values.number("t"))
-                ),
-            ];
-            SceneDescription { overlays, ..SceneDescription::new(HOUSE, view, projection) }
+            let [t] = values.scene_numbers(["t"]);
+            let [a, b] = RIDGE_ENDS;
+            let mut scene = house_scene(ProjectionFile::perspective(40.0, [4.0, 18.0])?)?;
+            let point = segment_point(values.number("t")).map(scene_number);
+            scene.overlays = vec![label(a, "a"), label(b, "b"), label(point, &format!("t = {t}"))];
+            Ok(scene)
         }
-        _ => straight_ahead(
-            "Frustum(left: -2, right: 2, bottom: -1.25, top: 1.25, near: 4, far: 18)",
-        ),
+        _ => straight_ahead(ProjectionFile::frustum([-2.0, 2.0, -1.25, 1.25], [4.0, 18.0])?),
     },
     consequences: exercise_consequences,
     point: |values| match values.choice("exercise") {
@@ -89,9 +77,21 @@ pub(super) static EXERCISES: Lesson = Lesson {
 /// The model of exercise 10: a cube whose top is at y = 1.
 const CRATE: &str = "models/crate.glb";
 
-fn straight_ahead(projection: &str) -> SceneDescription {
-    let view = "LookTo(eye: (0, 2, 12), gaze: (0, 0, -1))".to_owned();
-    SceneDescription::new(HOUSE, view, projection.to_owned())
+fn straight_ahead(projection: ProjectionFile) -> LessonScene {
+    let camera = CameraFile::look_to([0.0, 2.0, 12.0], [0.0, 0.0, -1.0]);
+    model_scene(HOUSE, camera.with_projection(projection))
+}
+
+/// Text at the end of a leader line.
+fn label(at: [f64; 3], text: &str) -> OverlayFile {
+    OverlayFile::Label {
+        at: at.into(),
+        text: text.to_owned(),
+        offset: None,
+        color: None,
+        size: LabelSize::DEFAULT,
+        leader: true,
+    }
 }
 
 fn segment_point(t: f64) -> [f64; 3] {

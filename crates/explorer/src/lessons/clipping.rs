@@ -2,9 +2,9 @@
 
 use crate::facts::Facts;
 use crate::lesson::{Choice, Lesson, Source, Values, VolumeStage, choice, number};
-use crate::number_text::scene_number;
-use crate::scene_description::SceneDescription;
+use crate::lesson_scene::model_scene;
 use crate::words::{Sentence, sentence, words};
+use scene_file::file::{CameraFile, ProjectionFile};
 
 /// A floor that passes under the eye.
 const FLOOR: &str = "models/floor.glb";
@@ -43,10 +43,10 @@ pub(super) static TEAR: Lesson = Lesson {
     pin: [0.5, 0.0, -6.0],
     orbit: [62.0, 22.0],
     describe: |values| {
-        let [z, near] = ["z", "near"].map(|key| scene_number(values.number(key)));
-        let view = format!("LookTo(eye: (0.5, 0.8, {z}), gaze: (-0.05, -0.02, -1))");
-        let projection = format!("Perspective(fov_y_degrees: 62, near: {near}, far: 40)");
-        SceneDescription::new(FLOOR, view, projection)
+        let [z, near] = values.scene_numbers(["z", "near"]);
+        let camera = CameraFile::look_to([0.5, 0.8, z], [-0.05, -0.02, -1.0]);
+        let projection = ProjectionFile::perspective(62.0, [near, 40.0])?;
+        model_scene(FLOOR, camera.with_projection(projection))
     },
     consequences: tear_consequences,
     volume: |values| match values.choice("order") {

@@ -3,10 +3,11 @@
 use super::effects::{distortion, planes_only_clip};
 use super::{HOUSE, PARALLEL_PANES};
 use crate::facts::Facts;
-use crate::lesson::{Choice, Lesson, Values, choice, number};
+use crate::lesson::{Choice, Lesson, PLANES, Values, WINDOW, choice, number};
+use crate::lesson_scene::{house_scene, model_scene};
 use crate::number_text::{decimals, scene_number};
-use crate::scene_description::{SceneDescription, look_at};
 use crate::words::{Sentence, sentence, words};
+use scene_file::file::{CameraFile, InvalidNumber, ProjectionFile};
 
 /// C62: the field of view enlarges, a wrong aspect distorts, near and far only clip.
 pub(super) static PERSPECTIVE: Lesson = Lesson {
@@ -29,10 +30,7 @@ pub(super) static PERSPECTIVE: Lesson = Lesson {
         number("near", words("near plane", "近平面"), "", [0.5, 11.0], [0.1, 4.0]),
         number("far", words("far plane", "远平面"), "", [11.5, 60.0], [0.5, 18.0]),
     ],
-    describe: |values| {
-        let projection = perspective(values);
-        SceneDescription::new(HOUSE, look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]), projection)
-    },
+    describe: |values| house_scene(perspective(values)?),
     consequences: |values, facts| {
         let fov = values.number("fov");
         let factor = libm::tan(20_f64.to_radians()) / libm::tan((0.5 * fov).to_radians());
@@ -50,16 +48,16 @@ pub(super) static PERSPECTIVE: Lesson = Lesson {
 
 /// A perspective by its angle; through a window of another shape if the aspect ratio is not that of
 /// the picture.
-fn perspective(values: &Values<'_>) -> String {
-    let [fov, aspect, near, far] = ["fov", "aspect", "near", "far"].map(|key| values.number(key));
-    let [n, f] = [near, far].map(scene_number);
+fn perspective(values: &Values<'_>) -> Result<ProjectionFile, InvalidNumber> {
+    let [fov, aspect, near] = ["fov", "aspect", "near"].map(|key| values.number(key));
+    let planes = values.scene_numbers(PLANES);
     if (aspect - values.aspect()).abs() < 1e-9 {
-        return format!("Perspective(fov_y_degrees: {}, near: {n}, far: {f})", scene_number(fov));
+        return ProjectionFile::perspective(scene_number(fov), planes);
     }
     // right = aspect · top (GL-2)
     let top = near * libm::tan((0.5 * fov).to_radians());
     let [r, t] = [aspect * top, top].map(scene_number);
-    format!("Frustum(left: -{r}, right: {r}, bottom: -{t}, top: {t}, near: {n}, far: {f})")
+    ProjectionFile::frustum([-r, r, -t, t], planes)
 }
 
 /// C63, C64: the window stays, so near changes the angle; the apex that moves (M12).
@@ -97,11 +95,17 @@ pub(super) static FRUSTUM: Lesson = Lesson {
         ),
     ],
     describe: |values| {
-        let name = if values.choice("apex") == "moved" { "ApexMovedFrustum" } else { "Frustum" };
-        let fields = ["left", "right", "bottom", "top", "near", "far"]
-            .map(|key| format!("{key}: {}", scene_number(values.number(key))));
-        let projection = format!("{name}({})", fields.join(", "));
-        SceneDescription::new(HOUSE, look_at([3.0, 3.0, 10.5], [0.0, 2.2, 0.0]), projection)
+        let (window, planes) = (values.scene_numbers(WINDOW), values.scene_numbers(PLANES));
+        let projection = match ProjectionFile::frustum(window, planes)? {
+            ProjectionFile::Frustum { left, right, bottom, top, near, far }
+                if values.choice("apex") == "moved" =>
+            {
+                ProjectionFile::ApexMovedFrustum { left, right, bottom, top, near, far }
+            }
+            frustum => frustum,
+        };
+        let camera = CameraFile::look_at([3.0, 3.0, 10.5], [0.0, 2.2, 0.0]);
+        model_scene(HOUSE, camera.with_projection(projection))
     },
     consequences: frustum_consequences,
     ..Lesson::USUAL
@@ -160,10 +164,8 @@ pub(super) static ORTHO: Lesson = Lesson {
     panes: PARALLEL_PANES,
     orbit: [72.0, 22.0],
     describe: |values| {
-        let fields = ["left", "right", "bottom", "top", "near", "far"]
-            .map(|key| format!("{key}: {}", scene_number(values.number(key))));
-        let projection = format!("Orthographic({})", fields.join(", "));
-        SceneDescription::new(HOUSE, look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]), projection)
+        let (window, planes) = (values.scene_numbers(WINDOW), values.scene_numbers(PLANES));
+        house_scene(ProjectionFile::orthographic(window, planes)?)
     },
     consequences: |values, facts| {
         let width = values.number("right") - values.number("left");

@@ -3,11 +3,16 @@
 use super::effects::{distortion, planes_only_clip};
 use super::{ALL_PANES, HOUSE};
 use crate::facts::Facts;
-use crate::lesson::{Choice, Lesson, Values, choice, number};
+use crate::lesson::{Choice, Lesson, PLANES, Values, choice, number};
+use crate::lesson_scene::{LessonScene, house_scene, model_scene};
 use crate::line_of_sight::LineOfSight;
-use crate::number_text::{decimals, scene_number, scene_tuple};
-use crate::scene_description::{SceneDescription, look_at};
+use crate::number_text::{decimals, scene_number};
 use crate::words::{Sentence, sentence, words};
+use scene_file::SceneFile;
+use scene_file::file::{
+    BackgroundFile, BorderFile, CameraFile, Color, InvalidNumber, ProjectionFile, StereoFile,
+    ViewportFile,
+};
 
 /// C65: two eyes, each with an off-axis window.
 pub(super) static STEREO: Lesson = Lesson {
@@ -37,13 +42,14 @@ pub(super) static STEREO: Lesson = Lesson {
         ),
     ],
     describe: |values| {
-        let [eyes, convergence] =
-            ["eyes", "convergence"].map(|key| scene_number(values.number(key)));
-        let mode = if values.choice("mode") == "side" { "SideBySide" } else { "Anaglyph" };
-        let stereo = format!("stereo: {mode}(eye_distance: {eyes}, convergence: {convergence})");
-        let projection = "Perspective(fov_y_degrees: 52, near: 4, far: 18)".to_owned();
-        let view = look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]);
-        SceneDescription { fields: vec![stereo], ..SceneDescription::new(HOUSE, view, projection) }
+        let [eyes, convergence] = values.scene_numbers(["eyes", "convergence"]);
+        let (eye_distance, convergence) = (Some(eyes.try_into()?), Some(convergence.try_into()?));
+        let mut scene = house_scene(ProjectionFile::perspective(52.0, [4.0, 18.0])?)?;
+        scene.stereo = Some(match values.choice("mode") {
+            "side" => StereoFile::SideBySide { eye_distance, convergence },
+            _ => StereoFile::Anaglyph { eye_distance, convergence },
+        });
+        Ok(scene)
     },
     consequences: stereo_consequences,
     ..Lesson::USUAL
@@ -98,15 +104,10 @@ pub(super) static VIEWPORT: Lesson = Lesson {
     ],
     describe: |values| {
         let [x, y, width, height] = viewport_rectangle(values);
-        let at = scene_tuple(&[x, 1.0 - y - height, width, height]);
-        SceneDescription {
-            viewports: vec![framed_viewport(
-                &at,
-                "Frustum(left: -2, right: 2, bottom: -1.25, top: 1.25, near: 4, far: 18)",
-            )],
-            ..around_viewport()
-        }
+        let projection = ProjectionFile::frustum([-2.0, 2.0, -1.25, 1.25], [4.0, 18.0])?;
+        around_viewports(vec![framed_viewport([x, 1.0 - y - height, width, height], projection)?])
     },
+    remark: AROUND_VIEWPORTS,
     consequences: |values, facts| {
         let [x, y, width, height] = viewport_rectangle(values);
         let [picture_width, picture_height] = values.size.map(f64::from);
@@ -134,31 +135,28 @@ fn viewport_rectangle(values: &Values<'_>) -> [f64; 4] {
 }
 
 /// A viewport with a border.
-pub(super) fn framed_viewport(at: &str, projection: &str) -> String {
-    let view = look_at([4.4, 3.2, 11.0], [0.0, 2.2, 0.0]);
-    format!(
-        r##"Viewport(
-            at: {at},
-            camera: Camera(
-                view: {view},
-                projection: {projection},
-            ),
-            background: Color("#ffffff"),
-            border: Border(color: "#1a5680"),
-        )"##
-    )
+pub(super) fn framed_viewport(
+    at: [f64; 4],
+    projection: ProjectionFile,
+) -> Result<ViewportFile, InvalidNumber> {
+    let camera = CameraFile::look_at([4.4, 3.2, 11.0], [0.0, 2.2, 0.0]);
+    Ok(ViewportFile {
+        camera: Some(camera.with_projection(projection)),
+        background: Some(BackgroundFile::Color(Color::WHITE)),
+        border: Some(BorderFile { color: Color([0x1a, 0x56, 0x80]), ..BorderFile::default() }),
+        ..ViewportFile::at(at.map(scene_number))?
+    })
 }
 
+/// The remark on a scene of which only the viewports show something.
+pub(super) const AROUND_VIEWPORTS: &str =
+    ": the scene's own camera looks away, so that only the viewport shows the model";
+
 /// A scene of which only the viewports show something.
-pub(super) fn around_viewport() -> SceneDescription {
-    SceneDescription {
-        comment: ": the scene's own camera looks away, so that only the viewport shows the model",
-        ..SceneDescription::new(
-            HOUSE,
-            "LookTo(eye: (0, 0, 100), gaze: (0, 0, 1))".to_owned(),
-            "Orthographic(height: 1, near: 1, far: 2)".to_owned(),
-        )
-    }
+pub(super) fn around_viewports(viewports: Vec<ViewportFile>) -> LessonScene {
+    let camera = CameraFile::look_to([0.0, 0.0, 100.0], [0.0, 0.0, 1.0]);
+    let projection = ProjectionFile::perspective(35.0, [1.0, 2.0])?;
+    Ok(SceneFile { viewports, ..model_scene(HOUSE, camera.with_projection(projection))? })
 }
 
 /// The mouse: from a pixel back to the world.
@@ -180,10 +178,7 @@ pub(super) static PICKING: Lesson = Lesson {
             [0.5, 60.0],
         ),
     ],
-    describe: |_| {
-        let projection = "Perspective(fov_y_degrees: 40, near: 4, far: 18)".to_owned();
-        SceneDescription::new(HOUSE, look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]), projection)
-    },
+    describe: |_| house_scene(ProjectionFile::perspective(40.0, [4.0, 18.0])?),
     consequences: |values, facts| {
         let Some(pointer) = (values.lesson.pointer)(values) else { return Vec::new() };
         let Some(line) = LineOfSight::through_picture(&facts.view_projection, pointer) else {
@@ -232,9 +227,7 @@ pub(super) static DEPTH_TABLE: Lesson = Lesson {
     ],
     panes: ALL_PANES,
     describe: |values| {
-        let [near, far] = ["near", "far"].map(|key| scene_number(values.number(key)));
-        let projection = format!("Perspective(fov_y_degrees: 40, near: {near}, far: {far})");
-        SceneDescription::new(HOUSE, look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]), projection)
+        house_scene(ProjectionFile::perspective(40.0, values.scene_numbers(PLANES))?)
     },
     consequences: |values, facts| {
         let [near, far] = ["near", "far"].map(|key| values.number(key));

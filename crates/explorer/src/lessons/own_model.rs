@@ -1,11 +1,11 @@
 //! The lesson of any model.
 
-use super::slides_parallel::direction;
 use crate::facts::Facts;
 use crate::lesson::{Choice, Lesson, Source, choice, number};
-use crate::number_text::{decimals, scene_number, scene_tuple};
-use crate::scene_description::SceneDescription;
+use crate::lesson_scene::{framed, model_scene};
+use crate::number_text::decimals;
 use crate::words::{Sentence, sentence, words};
+use scene_file::file::{EnvironmentFile, ProjectionFile, StyleFile};
 
 /// The user's own model, by any projection.
 pub(super) static MODEL: Lesson = Lesson {
@@ -44,23 +44,24 @@ pub(super) static MODEL: Lesson = Lesson {
     ],
     pin: [0.0, 0.0, 0.0],
     describe: |values| {
-        let direction = direction(values.number("azimuth"), values.number("elevation"));
-        let frame = format!("Frame(from: Direction({}))", scene_tuple(&direction));
-        let fov = scene_number(values.number("fov"));
-        let (view, projection) = match values.choice("projection") {
-            "orthographic" => (frame, "Orthographic()".to_owned()),
-            // These have a direction of their own.
-            "isometric" => (String::new(), "Isometric".to_owned()),
-            "cavalier" => (String::new(), "Cavalier()".to_owned()),
-            "cabinet" => (String::new(), "Cabinet()".to_owned()),
-            "two-point" => (String::new(), "TwoPoint()".to_owned()),
-            _ => (frame, format!("Perspective(fov_y_degrees: {fov})")),
+        let [fov] = values.scene_numbers(["fov"]);
+        let projection = match values.choice("projection") {
+            "orthographic" => ProjectionFile::ORTHOGRAPHIC,
+            "isometric" => ProjectionFile::Isometric,
+            "cavalier" => ProjectionFile::cavalier(),
+            "cabinet" => ProjectionFile::cabinet(),
+            "two-point" => ProjectionFile::two_point(),
+            _ => ProjectionFile::perspective(fov, None)?,
         };
-        SceneDescription {
-            style: "Shaded".to_owned(),
-            fields: vec!["environment: Studio(strength: 0.5)".to_owned()],
-            ..SceneDescription::new(values.model.unwrap_or_default(), view, projection)
-        }
+        let angles = ["azimuth", "elevation"].map(|key| values.number(key));
+        // Classical projections have a direction of their own.
+        let from = (!projection.is_classical()).then_some(angles);
+        let mut scene =
+            model_scene(values.model.unwrap_or_default(), framed(projection, 5.0, from)?)?;
+        scene.style = StyleFile::Shaded;
+        let strength = 0.5.try_into()?;
+        scene.environment = Some(EnvironmentFile::Studio { strength, rotation_degrees: None });
+        Ok(scene)
     },
     consequences: |_, facts| describe_model(facts),
     ..Lesson::USUAL

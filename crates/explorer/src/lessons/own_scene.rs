@@ -2,7 +2,6 @@
 
 use crate::lesson::{Lesson, Source};
 use crate::lessons::own_model;
-use crate::scene_description::SceneDescription;
 use crate::words::words;
 
 /// The user's own scene file, as it is.
@@ -16,10 +15,6 @@ pub(super) static SCENE: Lesson = Lesson {
     ),
     models: &[],
     pin: [0.0, 0.0, 0.0],
-    describe: |values| SceneDescription {
-        file: values.model.unwrap_or_default().to_owned(),
-        ..SceneDescription::default()
-    },
     consequences: |_, facts| own_model::describe_model(facts),
     ..Lesson::USUAL
 };

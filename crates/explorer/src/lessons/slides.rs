@@ -1,12 +1,15 @@
 //! The lessons of the slides on normalization, window and viewport, and height fields.
 
-use super::learn_webgl_screen::{around_viewport, framed_viewport};
-use super::slides_parallel::direction;
+use super::learn_webgl_screen::{AROUND_VIEWPORTS, around_viewports, framed_viewport};
 use super::{ALL_PANES, HOUSE};
-use crate::lesson::{Choice, Lesson, Source, Values, VolumeStage, choice, number};
-use crate::number_text::{decimals, scene_number, scene_tuple};
-use crate::scene_description::{SceneDescription, look_at};
+use crate::lesson::{Choice, Lesson, PLANES, Source, Values, VolumeStage, WINDOW, choice, number};
+use crate::lesson_scene::{framed, model_scene};
+use crate::number_text::{decimals, scene_number};
 use crate::words::{sentence, words};
+use scene_file::SceneFile;
+use scene_file::file::{
+    BackgroundFile, CameraFile, Color, ProjectionFile, StyleFile, ViewportFile,
+};
 
 /// The common parts of these lessons.
 const USUAL: Lesson = Lesson { source: Source::Slides, ..Lesson::USUAL };
@@ -42,10 +45,9 @@ pub(super) static NORMALIZATION: Lesson = Lesson {
         number("far", words("far plane", "远平面"), "", [11.5, 60.0], [0.5, 18.0]),
     ],
     describe: |values| {
-        let fields = ["left", "right", "bottom", "top", "near", "far"]
-            .map(|key| format!("{key}: {}", scene_number(values.number(key))));
-        let projection = format!("Frustum({})", fields.join(", "));
-        SceneDescription::new(HOUSE, look_at([1.0, 3.0, 11.0], [-1.0, 2.2, 0.0]), projection)
+        let (window, planes) = (values.scene_numbers(WINDOW), values.scene_numbers(PLANES));
+        let camera = CameraFile::look_at([1.0, 3.0, 11.0], [-1.0, 2.2, 0.0]);
+        model_scene(HOUSE, camera.with_projection(ProjectionFile::frustum(window, planes)?))
     },
     consequences: |values, _| {
         let [left, right, bottom, top, near] =
@@ -122,19 +124,18 @@ pub(super) static WINDOW_VIEWPORT: Lesson = Lesson {
     describe: |values| {
         let [width, height] = ["window_width", "window_height"].map(|key| 0.5 * values.number(key));
         let [w, h] = [width, height].map(scene_number);
-        let projection = format!(
-            "Orthographic(left: -{w}, right: {w}, bottom: -{h}, top: {h}, near: 2, far: 20)"
-        );
+        let projection = ProjectionFile::orthographic([-w, w, -h, h], [2.0, 20.0])?;
         let size = values.size.map(f64::from);
         let at = |[width, height]: [f64; 2]| {
             let [width, height] = [width / size[0], height / size[1]];
-            scene_tuple(&[0.5 - 0.5 * width, 0.5 - 0.5 * height, width, height])
+            [0.5 - 0.5 * width, 0.5 - 0.5 * height, width, height].map(scene_number)
         };
-        let bars =
-            format!("Viewport(at: {}, background: Color(\"#1a1f26\"))", at(viewport(values)));
-        let view = framed_viewport(&at(shown_pixels(values)), &projection);
-        SceneDescription { viewports: vec![bars, view], first_view: 1, ..around_viewport() }
+        let background = Some(BackgroundFile::Color(Color([0x1a, 0x1f, 0x26])));
+        let bars = ViewportFile { background, ..ViewportFile::at(at(viewport(values)))? };
+        around_viewports(vec![bars, framed_viewport(at(shown_pixels(values)), projection)?])
     },
+    remark: AROUND_VIEWPORTS,
+    first_view: 1,
     consequences: |values, _| {
         let pixels = shown_pixels(values);
         let [sx, sy] = [(pixels[0], "window_width"), (pixels[1], "window_height")]
@@ -207,20 +208,15 @@ pub(super) static MEXICAN_HAT: Lesson = Lesson {
     panes: ALL_PANES,
     pin: [0.0, 0.9, 0.0],
     describe: |values| {
-        let direction = direction(values.number("azimuth"), values.number("elevation"));
-        let direction = scene_tuple(&direction);
-        let view = format!("Frame(from: Direction({direction}), padding_percent: 6)");
-        let fov = scene_number(values.number("fov"));
-        let projection = format!("Perspective(fov_y_degrees: {fov})");
+        let [fov] = values.scene_numbers(["fov"]);
         let (model, style) = match values.choice("mesh") {
-            "polylines" => (HAT_LINES, "Shaded"),
-            "wireframe" => (HAT, "Wireframe"),
-            _ => (HAT, "Shaded"),
+            "polylines" => (HAT_LINES, StyleFile::Shaded),
+            "wireframe" => (HAT, StyleFile::Wireframe),
+            _ => (HAT, StyleFile::Shaded),
         };
-        SceneDescription {
-            style: style.to_owned(),
-            ..SceneDescription::new(model, view, projection)
-        }
+        let from = ["azimuth", "elevation"].map(|key| values.number(key));
+        let camera = framed(ProjectionFile::perspective(fov, None)?, 6.0, Some(from))?;
+        Ok(SceneFile { style, ..model_scene(model, camera)? })
     },
     consequences: |_, _| {
         vec![sentence(

@@ -2,9 +2,12 @@
 
 use super::PARALLEL_PANES;
 use crate::lesson::{Choice, Lesson, Source, Values, choice, number};
-use crate::number_text::{decimals, scene_tuple};
-use crate::scene_description::SceneDescription;
+use crate::lesson_scene::{LessonScene, framed, line_drawing};
+use crate::number_text::decimals;
 use crate::words::{Sentence, sentence, words};
+use projection::PrincipalView;
+use scene_file::SceneFile;
+use scene_file::file::{CameraFile, OverlayFile, ProjectionFile, ViewportFile, ViewportsScale};
 
 /// The common parts of these lessons.
 const USUAL: Lesson = Lesson { source: Source::Slides, panes: PARALLEL_PANES, ..Lesson::USUAL };
@@ -34,9 +37,9 @@ pub(super) static MULTIVIEW: Lesson = Lesson {
         ],
     )],
     describe: |values| match values.choice("view") {
-        "front" => SceneDescription::line_drawing("Multiview(Front)".to_owned(), 12),
-        "side" => SceneDescription::line_drawing("Multiview(Right)".to_owned(), 12),
-        "top" => SceneDescription::line_drawing("Multiview(Top)".to_owned(), 12),
+        "front" => line_drawing(ProjectionFile::Multiview(PrincipalView::Front), 12.0),
+        "side" => line_drawing(ProjectionFile::Multiview(PrincipalView::Right), 12.0),
+        "top" => line_drawing(ProjectionFile::Multiview(PrincipalView::Top), 12.0),
         _ => four_views(),
     },
     consequences: |values, _| {
@@ -63,26 +66,24 @@ pub(super) static MULTIVIEW: Lesson = Lesson {
 };
 
 /// Front, top, side and an isometric view at one scale.
-fn four_views() -> SceneDescription {
-    let view = |at: &str, projection: &str, caption: &str| {
-        format!(
-            "Viewport(
-            at: {at},
-            camera: Camera(projection: {projection}),
-            caption: \"{caption}\",
-        )"
-        )
+fn four_views() -> LessonScene {
+    let view = |[left, top]: [f64; 2], projection: ProjectionFile, caption: &str| {
+        Ok(ViewportFile {
+            camera: Some(CameraFile::default().with_projection(projection)),
+            caption: Some(caption.to_owned()),
+            ..ViewportFile::at([left, top, 0.5, 0.5])?
+        })
     };
-    SceneDescription {
-        fields: vec!["viewports_scale: Shared".to_owned()],
+    Ok(SceneFile {
+        viewports_scale: ViewportsScale::Shared,
         viewports: vec![
-            view("(0, 0.5, 0.5, 0.5)", "Multiview(Front)", "front: x, y"),
-            view("(0.5, 0.5, 0.5, 0.5)", "Multiview(Right)", "right side: z, y"),
-            view("(0, 0, 0.5, 0.5)", "Multiview(Top)", "top: x, z"),
-            view("(0.5, 0, 0.5, 0.5)", "Isometric", "isometric"),
+            view([0.0, 0.5], ProjectionFile::Multiview(PrincipalView::Front), "front: x, y")?,
+            view([0.5, 0.5], ProjectionFile::Multiview(PrincipalView::Right), "right side: z, y")?,
+            view([0.0, 0.0], ProjectionFile::Multiview(PrincipalView::Top), "top: x, z")?,
+            view([0.5, 0.0], ProjectionFile::Isometric, "isometric")?,
         ],
-        ..SceneDescription::line_drawing("Multiview(Front)".to_owned(), 5)
-    }
+        ..line_drawing(ProjectionFile::Multiview(PrincipalView::Front), 5.0)?
+    })
 }
 
 /// AX-1: turned by α and tilted by β, then onto XOY.
@@ -101,21 +102,18 @@ pub(super) static AXONOMETRIC: Lesson = Lesson {
     describe: |values| {
         let [alpha, beta] = ["alpha", "beta"].map(|key| values.number(key));
         // Straight from above, the direction alone does not say what is up in the picture.
-        let direction = scene_tuple(&direction(alpha, beta.min(89.9)));
-        SceneDescription {
-            view: format!("Frame(from: Direction({direction}), padding_percent: 10)"),
-            overlays: vec!["Axes(length: 5)".to_owned()],
-            ..SceneDescription::line_drawing("Orthographic()".to_owned(), 10)
-        }
+        let from = Some([alpha, beta.min(89.9)]);
+        let camera = framed(ProjectionFile::ORTHOGRAPHIC, 10.0, from)?;
+        Ok(SceneFile { camera, ..with_axes(ProjectionFile::ORTHOGRAPHIC)? })
     },
     consequences: |values, _| vec![foreshortening(values)],
     ..USUAL
 };
 
-/// The unit vector of an azimuth and an elevation in degrees.
-pub(super) fn direction(azimuth: f64, elevation: f64) -> [f64; 3] {
-    let [(sa, ca), (se, ce)] = [azimuth, elevation].map(|angle| libm::sincos(angle.to_radians()));
-    [sa * ce, se, ca * ce]
+/// The house as a line drawing, with the axes of the world.
+fn with_axes(projection: ProjectionFile) -> LessonScene {
+    let axes = OverlayFile::Axes { length: Some(5.0.try_into()?) };
+    Ok(SceneFile { overlays: vec![axes], ..line_drawing(projection, 10.0)? })
 }
 
 fn foreshortening(values: &Values<'_>) -> Sentence {
@@ -161,13 +159,9 @@ pub(super) static OBLIQUE: Lesson = Lesson {
         number("phi", words("φ, direction of depth", "φ，深度方向"), "°", [0.0, 90.0], [1.0, 45.0]),
     ],
     describe: |values| {
-        let [length, phi] =
-            ["length", "phi"].map(|key| crate::number_text::scene_number(values.number(key)));
-        let projection = format!("Oblique(length: {length}, angle_degrees: {phi})");
-        SceneDescription {
-            overlays: vec!["Axes(length: 5)".to_owned()],
-            ..SceneDescription::line_drawing(projection, 10)
-        }
+        let [length, phi] = values.scene_numbers(["length", "phi"]);
+        let (length, angle_degrees) = (length.try_into()?, phi.try_into()?);
+        with_axes(ProjectionFile::Oblique { length, angle_degrees })
     },
     consequences: |values, _| {
         let length = values.number("length");

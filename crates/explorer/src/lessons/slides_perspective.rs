@@ -1,19 +1,19 @@
 //! The lessons of the slides on vanishing points: perspectives with one, two and three of them.
 
 use crate::lesson::{Lesson, Source, Values, number};
-use crate::number_text::{scene_number, scene_tuple};
-use crate::scene_description::SceneDescription;
+use crate::lesson_scene::{LessonScene, line_drawing};
+use crate::number_text::scene_number;
 use crate::words::{Sentence, sentence, words};
+use scene_file::SceneFile;
+use scene_file::file::{Finite, InvalidNumber, OverlayFile, ProjectionFile};
 
 /// The common parts of these lessons.
 const USUAL: Lesson = Lesson { source: Source::Slides, ..Lesson::USUAL };
 
 /// A construction: the house as a line drawing, with horizon and vanishing points.
-fn construction(projection: String) -> SceneDescription {
-    SceneDescription {
-        overlays: vec!["Horizon".to_owned(), "VanishingPoints".to_owned()],
-        ..SceneDescription::line_drawing(projection, 16)
-    }
+fn construction(projection: ProjectionFile) -> LessonScene {
+    let overlays = vec![OverlayFile::Horizon, OverlayFile::VanishingPoints];
+    Ok(SceneFile { overlays, ..line_drawing(projection, 16.0)? })
 }
 
 /// The bottom row of the matrix, as the slides speak of it.
@@ -24,8 +24,9 @@ fn bottom_row(row: &str, which: [&str; 2]) -> Vec<Sentence> {
     )]
 }
 
-fn point(values: &Values<'_>, keys: [&str; 2]) -> String {
-    scene_tuple(&keys.map(|key| values.number(key)))
+fn point(values: &Values<'_>, keys: [&str; 2]) -> Result<(Finite, Finite), InvalidNumber> {
+    let [x, y] = values.scene_numbers(keys);
+    Ok((x.try_into()?, y.try_into()?))
 }
 
 /// ONE-1: the front parallel to the picture.
@@ -43,9 +44,9 @@ pub(super) static ONE_POINT: Lesson = Lesson {
         number("distance", words("distance of the eye", "视距"), "", [1.2, 8.0], [0.1, 2.2]),
     ],
     describe: |values| {
-        let distance = scene_number(values.number("distance"));
-        let at = point(values, ["x", "y"]);
-        construction(format!("OnePoint(at: {at}, distance: {distance})"))
+        let [distance] = values.scene_numbers(["distance"]);
+        let (at, distance) = (point(values, ["x", "y"])?, distance.try_into()?);
+        construction(ProjectionFile::OnePoint { at, distance })
     },
     consequences: |values, _| {
         let distance = scene_number(values.number("distance"));
@@ -96,9 +97,9 @@ pub(super) static TWO_POINT: Lesson = Lesson {
         ),
     ],
     describe: |values| {
-        let [x, z] = [point(values, ["x", "horizon"]), point(values, ["z", "horizon"])];
-        let fraction = scene_number(values.number("fraction"));
-        construction(format!("TwoPoint(x: {x}, z: {z}, fraction: {fraction})"))
+        let (x, z) = (point(values, ["x", "horizon"])?, point(values, ["z", "horizon"])?);
+        let [fraction] = values.scene_numbers(["fraction"]);
+        construction(ProjectionFile::TwoPoint { x, z, fraction: fraction.try_into()? })
     },
     consequences: |values, _| {
         let apart = scene_number(values.number("z") - values.number("x"));
@@ -143,9 +144,10 @@ pub(super) static THREE_POINT: Lesson = Lesson {
         ),
     ],
     describe: |values| {
-        let [x, z] = [point(values, ["x", "horizon"]), point(values, ["z", "horizon"])];
-        let y = scene_tuple(&[0.1, values.number("y")]);
-        construction(format!("ThreePoint(x: {x}, y: {y}, z: {z})"))
+        let (x, z) = (point(values, ["x", "horizon"])?, point(values, ["z", "horizon"])?);
+        let [y] = values.scene_numbers(["y"]);
+        let y = (0.1.try_into()?, y.try_into()?);
+        construction(ProjectionFile::ThreePoint { x, y, z })
     },
     consequences: |values, _| {
         let y = scene_number(values.number("y"));

@@ -1,8 +1,9 @@
 //! Scenes written in Rust: short forms for what most of them have.
 
-use super::{CameraFile, LightFile, ModelFile, ProjectionFile, SceneFile, ViewFile};
+use super::projection::NO_SHIFT;
+use super::{CameraFile, LightFile, ModelFile, ProjectionFile, SceneFile, ViewFile, ViewportFile};
 use crate::color::LightColor;
-use crate::number::{InvalidNumber, NonNegative, Scale, Triple};
+use crate::number::{InvalidNumber, NonNegative, Positive, Scale, Triple};
 
 impl SceneFile {
     /// A scene of these models with every default.
@@ -76,10 +77,88 @@ impl CameraFile {
         Self { view, ..Self::default() }
     }
 
+    /// A camera at `eye` that looks in a direction, with y upwards, in perspective.
+    #[must_use]
+    pub fn look_to(eye: impl Into<Triple>, gaze: impl Into<Triple>) -> Self {
+        let view = ViewFile::LookTo { eye: eye.into(), gaze: gaze.into(), up: Triple::Y_AXIS };
+        Self { view, ..Self::default() }
+    }
+
     /// The camera with another projection.
     #[must_use]
     pub fn with_projection(self, projection: ProjectionFile) -> Self {
         Self { projection: Some(projection), ..self }
+    }
+}
+
+impl ProjectionFile {
+    /// Perspective by its vertical field of view in degrees, between a near and a far plane; `None`
+    /// fits them to the models.
+    ///
+    /// # Errors
+    /// If the angle is not between 0 and 180 degrees, or a distance not greater than 0.
+    pub fn perspective(
+        fov_y_degrees: f64,
+        planes: impl Into<Option<[f64; 2]>>,
+    ) -> Result<Self, InvalidNumber> {
+        let [near, far] = planes.into().map_or([None; 2], |planes| planes.map(Some));
+        Ok(Self::Perspective {
+            fov_y_degrees: Some(fov_y_degrees.try_into()?),
+            fov_x_degrees: None,
+            fov_diagonal_degrees: None,
+            shift: NO_SHIFT,
+            near: near.map(Positive::try_from).transpose()?,
+            far: far.map(Positive::try_from).transpose()?,
+        })
+    }
+
+    /// Orthographic through a window with a left, right, bottom and top border, between a near and
+    /// a far plane.
+    ///
+    /// # Errors
+    /// If a number is not finite.
+    pub fn orthographic(window: [f64; 4], planes: [f64; 2]) -> Result<Self, InvalidNumber> {
+        let [left, right, bottom, top] = window;
+        let [near, far] = planes;
+        Ok(Self::Orthographic {
+            height: None,
+            left: Some(left.try_into()?),
+            right: Some(right.try_into()?),
+            bottom: Some(bottom.try_into()?),
+            top: Some(top.try_into()?),
+            near: Some(near.try_into()?),
+            far: Some(far.try_into()?),
+        })
+    }
+
+    /// Perspective through a window on the near plane, with a left, right, bottom and top border.
+    ///
+    /// # Errors
+    /// If a number is not finite, or the distance of a plane not greater than 0.
+    pub fn frustum(window: [f64; 4], planes: [f64; 2]) -> Result<Self, InvalidNumber> {
+        let [left, right, bottom, top] = window;
+        let [near, far] = planes;
+        Ok(Self::Frustum {
+            left: left.try_into()?,
+            right: right.try_into()?,
+            bottom: bottom.try_into()?,
+            top: top.try_into()?,
+            near: near.try_into()?,
+            far: Some(far.try_into()?),
+        })
+    }
+}
+
+impl ViewportFile {
+    /// A view of the scene in a rectangle: its left, top, width and height as fractions of the
+    /// picture.
+    ///
+    /// # Errors
+    /// If one of them is not from 0 to 1.
+    pub fn at(rectangle: [f64; 4]) -> Result<Self, InvalidNumber> {
+        let [left, top, width, height] = rectangle;
+        let at = Some((left.try_into()?, top.try_into()?, width.try_into()?, height.try_into()?));
+        Ok(Self { at, ..Self::default() })
     }
 }
 

@@ -261,7 +261,7 @@ impl ProjectionFile {
 }
 
 /// The lens in the middle of the picture.
-const NO_SHIFT: (Finite, Finite) = point(0.0, 0.0);
+pub(super) const NO_SHIFT: (Finite, Finite) = point(0.0, 0.0);
 
 /// 45 degrees, the direction of depth in most oblique drawings.
 const HALF_RIGHT_ANGLE: Finite = Finite::constant(45.0);

@@ -33,11 +33,6 @@ pub(crate) enum Data {
 }
 
 impl Data {
-    /// The fields that are written.
-    pub(crate) fn of_fields<const N: usize>(fields: [Option<(&'static str, Self)>; N]) -> Self {
-        Self::Fields(fields.into_iter().flatten().collect())
-    }
-
     /// A variant, and what is behind its name.
     pub(crate) fn of_variant(name: &'static str, value: Self) -> Self {
         Self::Variant(name, Box::new(value))
@@ -107,14 +102,16 @@ pub(super) fn missing_field(name: &str) -> String {
     format!("missing field `{name}`")
 }
 
-/// A field as it is written; `None` if it has the value that it has when it is left out.
-pub(crate) fn written_field<T: SceneValue>(
+/// Adds a field to those that are written, unless it has the value that it has when it is left out.
+pub(crate) fn push_field<T: SceneValue>(
+    fields: &mut Vec<(&'static str, Data)>,
     name: &'static str,
     value: &T,
     default: fn() -> Option<T>,
-) -> Option<(&'static str, Data)> {
-    let is_written = default().is_none_or(|default| default != *value);
-    is_written.then(|| (name, value.to_data()))
+) {
+    if default().is_none_or(|default| default != *value) {
+        fields.push((name, value.to_data()));
+    }
 }
 
 /// Reads a value by its name.

@@ -290,13 +290,16 @@ macro_rules! read_variant {
 
 /// Writes the fields that are bound to variables, without those that have their defaults.
 macro_rules! write_fields {
-    ($($field:ident: $type:ty $(= $default:expr)?),*) => {
-        $crate::schema::Data::of_fields([$($crate::schema::written_field(
+    ($($field:ident: $type:ty $(= $default:expr)?),*) => {{
+        let mut fields = Vec::new();
+        $($crate::schema::push_field(
+            &mut fields,
             stringify!($field),
             $field,
             $crate::schema::default_value!($type $(= $default)?),
-        )),*])
-    };
+        );)*
+        $crate::schema::Data::Fields(fields)
+    }};
 }
 
 /// Writes what is behind the name of a variant.
