@@ -66,7 +66,7 @@ fn fields_are_found_by_name_by_type_and_by_path() {
     assert!(doc("lines").contains("crease_degrees: Crease"));
     assert!(sandbox.run(&["reference", "--size"]).stdout.contains("--size <WxH>"));
     assert!(sandbox.run(&["reference", "scene fmt"]).stdout.contains("--check"));
-    let run = sandbox.run(&["scene", "doc", "fov_degrees"]);
+    let run = sandbox.run(&["scene", "doc", "fov_y_degres"]);
     assert!(
         run.code == 1 && run.stderr.contains("did you mean `fov_y_degrees`?"),
         "{}",

@@ -166,6 +166,11 @@ impl AnimateArgs {
     /// Warns where `--from` and `--to` have no meaning, or lead behind the end.
     fn warn_of_times(&self, motion: &Motion, has_path: bool, end: f64) {
         let is_timeless = matches!(motion, Motion::Turntable { .. }) && !has_path;
+        if self.overrides.model_state.time.is_some() {
+            let message =
+                "--time does nothing here: each frame has its own time; use --from and --to";
+            print_message("warning", message);
+        }
         if is_timeless && (self.from.is_some() || self.to.is_some()) {
             let message = "--from and --to do nothing here: a turntable has no times; its length is \
                            --frames divided by --fps";

@@ -190,8 +190,10 @@ pub(crate) fn refuse_blender_path(output: &Path) -> Result<(), CliError> {
 /// The error of ImageMagick's `png:-` and `png:out.png`, if a name is one.
 fn prefix_error(name: &str) -> Option<CliError> {
     let (format, rest) = name.split_once(':')?;
-    let format = if format == "jpg" { "jpeg" } else { format };
-    OutputFormat::from_str(format, true).ok()?;
+    let format = format.trim_end_matches(|c: char| c.is_ascii_digit());
+    let format = if format.eq_ignore_ascii_case("jpg") { "jpeg" } else { format };
+    let format = format.to_ascii_lowercase();
+    OutputFormat::from_str(&format, true).ok()?;
     Some(CliError::Usage(format!(
         "{name}: a format in front of the name is not supported\n  = help: write `--format {format} -o {rest}`"
     )))

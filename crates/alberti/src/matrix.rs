@@ -7,7 +7,6 @@
 mod build;
 mod builders;
 mod code;
-mod parse;
 
 use super::explain::{SubjectPoint, parse_point};
 use super::{CliError, print_stdout};
@@ -20,7 +19,7 @@ use explain::{
 };
 use glam::DMat4;
 use homog::HPoint;
-use parse::{GivenMatrix, parse_matrix};
+use recognition::{GivenMatrix, parse_matrix};
 use std::io::Read as _;
 
 /// The examples of the help.
@@ -127,7 +126,8 @@ fn run_ordered(args: &MatrixArgs) -> Result<(), CliError> {
     }
     options.check_unused()?;
     let text = if args.numbers.is_empty() { read_stdin()? } else { args.numbers.join(" ") };
-    let parsed = parse_matrix(&text, args.column_major).map_err(CliError::Usage)?;
+    let parsed = parse_matrix(&text, args.column_major);
+    let parsed = parsed.map_err(|error| CliError::Usage(error.to_string()))?;
     let (code, found) = match parsed.matrix {
         GivenMatrix::Space(rows) => {
             let found = explain_matrix(rows).map_err(CliError::Usage)?;

@@ -37,7 +37,7 @@ pub(super) fn find_unused_flags(
     if let (Some(output), true) = (&task.output, named.is_some_and(|named| named != task.format)) {
         let format = task.format.extension().to_uppercase();
         warnings.push(format!(
-            "{} holds a {format}, whatever its name ends in, because of --format",
+            "{} contains {format}, because --format overrides the ending of the name",
             visible_path(output)
         ));
     }

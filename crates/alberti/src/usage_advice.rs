@@ -17,6 +17,8 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Command, CommandFactory as _, Error, FromArgMatches as _};
 use foreign_words::foreign_words;
 
+use files::visible_text;
+use given_value::quoted;
 use scene_file::closest_name;
 use std::ffi::OsString;
 use std::path::Path;
@@ -59,10 +61,49 @@ fn advise(mut error: Error, words: &[OsString], program: &Command) -> Error {
         }
         _ => None,
     };
+    let message = message.or_else(|| advise_on_help(&error, words, program));
     match message {
-        Some(message) => Error::raw(error.kind(), message + "\n").with_cmd(program),
+        Some(message) => {
+            let message = with_given_model(&message, words);
+            Error::raw(ErrorKind::UnknownArgument, message + "\n").with_cmd(program)
+        }
         None => error,
     }
+}
+
+/// The message with the model that was named in the place of the example's.
+fn with_given_model(message: &str, words: &[OsString]) -> String {
+    let is_model = |word: &&str| {
+        let ending = Path::new(word).extension().map(std::ffi::OsStr::to_ascii_lowercase);
+        ending.is_some_and(|it| {
+            ["glb", "gltf", "stl", "obj", "ply", "3mf"].iter().any(|of| it == *of)
+        })
+    };
+    let words: Vec<&str> = words.iter().filter_map(|word| word.to_str()).collect();
+    match words.iter().filter(|word| is_model(word)).collect::<Vec<_>>()[..] {
+        [name] if !name.starts_with('-') && visible_text(name) == **name => {
+            message.replace("model.glb", &quoted(name))
+        }
+        _ => message.to_owned(),
+    }
+}
+
+/// What to do about `-hide_banner`, which clap takes for `-h`.
+fn advise_on_help(error: &Error, words: &[OsString], program: &Command) -> Option<String> {
+    let is_long = |word: &&str| {
+        word.starts_with("-h")
+            && word.len() > 3
+            && word.chars().skip(1).all(|c| c.is_alphabetic() || c == '_')
+    };
+    let word = words.iter().filter_map(|word| word.to_str()).find(is_long)?;
+    (error.kind() == ErrorKind::DisplayHelp).then(|| {
+        let command = called_command(program, words);
+        let texts: Vec<String> = words.iter().map(|it| it.to_string_lossy().into_owned()).collect();
+        let help = unknown_flag::what_to_write(word, word, &texts, command);
+        let name = full_name(command);
+        let help = help.unwrap_or_else(|| format!("`{name} --help` lists its flags"));
+        format!("`{word}` is not a flag of `{name}`; {help}")
+    })
 }
 
 /// The string of a context of an error.
@@ -100,6 +141,11 @@ fn differs_widely(word: &str, name: &str) -> bool {
     3 * shared.count() < 2 * longest
 }
 
+/// Whether a word is probably a misspelling of a name: similar, and beginning alike.
+fn is_misspelling(word: &str, name: &str) -> bool {
+    !differs_widely(word, name) && word.chars().next() == name.chars().next()
+}
+
 /// The name of a command with those before it, such as `alberti scene init`.
 fn full_name(command: &Command) -> String {
     command.get_bin_name().unwrap_or(command.get_name()).to_owned()
@@ -133,7 +179,7 @@ fn advise_on_command(error: &Error, words: &[OsString], program: &Command) -> Op
         let shown = command.get_subcommands().filter(|command| !command.is_hide_set());
         let names: Vec<&str> = shown.map(Command::get_name).collect();
         let command = full_name(command);
-        let help = match closest_name(word, &names).filter(|name| !differs_widely(word, name)) {
+        let help = match closest_name(word, &names).filter(|name| is_misspelling(word, name)) {
             Some(name) => format!("did you mean `{name}`?"),
             None => format!("`{command} --help` lists the commands"),
         };

@@ -99,7 +99,10 @@ impl FileFormat {
         let named = Self::from_extension(path);
         let is_scene = path.extension().is_some_and(|ending| ending == "ron");
         let unknown = || if is_scene { scene_as_model() } else { unknown_format(bytes) };
-        Self::from_content(bytes).or(named).ok_or_else(unknown)
+        let is_foreign =
+            || named.is_some() && MISLEADING.iter().any(|start| bytes.starts_with(start));
+        let found = Self::from_content(bytes).or(named.filter(|_| !is_foreign()));
+        found.ok_or_else(unknown)
     }
 }
 
@@ -117,11 +120,28 @@ fn begins_with_obj_statement(text: &[u8]) -> bool {
     is_statement && words.next().is_some() && !text.contains(&0)
 }
 
+/// How files begin that only have the name of a model.
+const MISLEADING: [&[u8]; 6] =
+    [b"version https://git-lfs", b"<!DOCTYPE", b"<!doctype", b"<html", b"\x1f\x8b", b"\x89PNG"];
+
 /// Formats that are not read: how they begin, what they are called, and what to do.
-const FOREIGN_FORMATS: [(&[u8], &str, &str); 14] = [
+const FOREIGN_FORMATS: [(&[u8], &str, &str); 19] = [
+    (
+        b"version https://git-lfs",
+        "a Git LFS pointer and not the model itself",
+        "run `git lfs pull`",
+    ),
+    (b"<!DOCTYPE", "a web page", "download the model again"),
+    (b"<!doctype", "a web page", "download the model again"),
+    (b"<html", "a web page", "download the model again"),
+    (b"\x1f\x8b", "a gzip archive", "unpack it first, as in `gunzip model.glb.gz`"),
     (b"Kaydara FBX Binary", "an FBX file", "export it as .glb from the program that made it"),
     (b"; FBX", "an FBX file", "export it as .glb from the program that made it"),
-    (b"ISO-10303-21", "a STEP file", "convert it, for instance by gmsh part.step -2 -o part.stl"),
+    (
+        b"ISO-10303-21",
+        "a STEP file",
+        "convert it first, for example with `gmsh part.step -2 -o part.stl`",
+    ),
     (b"PXR-USDC", "a USD file", "export it as .glb from the program that made it"),
     (b"#usda", "a USD file", "export it as .glb from the program that made it"),
     (b"BLENDER", "a Blender file", "export it as .glb from Blender"),
@@ -129,9 +149,9 @@ const FOREIGN_FORMATS: [(&[u8], &str, &str); 14] = [
     (b"\xff\xd8\xff", "a JPEG picture", GIVE_A_MODEL),
     (b"PK\x03\x04", "a ZIP archive", "extract it, and give a model in it"),
     (b"%PDF", "a PDF file", GIVE_A_MODEL),
-    (b"# vtk", "a VTK file", "convert it to .ply or .stl, for instance with ParaView"),
-    (b"OFF", "an OFF file", "convert it to .ply or .obj, for instance with MeshLab"),
-    (b"xof ", "a DirectX file", "convert it to .glb, for instance with Blender"),
+    (b"# vtk", "a VTK file", "convert it to .ply or .stl, for example with ParaView"),
+    (b"OFF", "an OFF file", "convert it to .ply or .obj, for example with MeshLab"),
+    (b"xof ", "a DirectX file", "convert it to .glb, for example with Blender"),
     (b"<?xml", "an XML file (COLLADA, AMF, X3D …)", "export it as .glb or .3mf"),
 ];
 
@@ -145,7 +165,7 @@ fn scene_as_model() -> Diagnostic {
 fn unknown_format(bytes: &[u8]) -> Diagnostic {
     let known = FOREIGN_FORMATS.iter().find(|(start, ..)| bytes.starts_with(start));
     let (message, help) = match known {
-        Some((_, name, help)) => (format!("this is {name}, which is not read"), *help),
+        Some((_, name, help)) => (format!("this is {name}, which is not supported"), *help),
         None if bytes.is_empty() => ("the file is empty".to_owned(), "export it again"),
         None => ("this is not a model in a known format".to_owned(), GIVE_A_MODEL),
     };

@@ -38,6 +38,7 @@
 //! | the meaning of a 4×4 matrix, or a misprint in it | [`recognize`] |
 //! | the meaning of a 3×3 matrix | [`recognize_planar`] |
 //! | the slip in a matrix whose projection is known | [`misprint_of`] |
+//! | the numbers of a matrix in text or source code | [`parse_matrix`] |
 //! | the parameters of a matrix in a known convention | [`projection::decompose()`] |
 //!
 //! Column vectors, f64. Example: `doctor`, which reads sixteen numbers.
@@ -49,6 +50,7 @@ mod affine;
 mod classical;
 mod convention_list;
 mod matrix_reading;
+mod matrix_text;
 mod meaning;
 mod misprint;
 mod parallel;
@@ -62,6 +64,7 @@ mod suspicion;
 mod viewport;
 
 pub use matrix_reading::{MatrixReading, Recognition, recognize};
+pub use matrix_text::{GivenMatrix, MatrixTextError, ParsedMatrix, parse_matrix, parse_number};
 pub use meaning::{Lens, MatrixMeaning};
 pub use misprint::{IntendedProjection, Misprint, misprint_of};
 pub use planar::{PlanarMatrix, PlanarReading, recognize_planar};

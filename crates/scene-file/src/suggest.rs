@@ -14,10 +14,13 @@ pub fn closest_name<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
     (similarity(best) > SIMILAR).then_some(best)
 }
 
-/// `possible here: …` with all names.
+/// `expected one of …` with all names.
 pub(super) fn list_names<S: AsRef<str>>(names: &[S]) -> String {
     let names: Vec<String> = names.iter().map(|name| format!("`{}`", name.as_ref())).collect();
-    format!("possible here: {}", names.join(", "))
+    match names.as_slice() {
+        [only] => format!("the only one is {only}"),
+        names => format!("expected one of {}", names.join(", ")),
+    }
 }
 
 /// "Did you mean", or the list of the names that are possible; `None` if there are none.

@@ -148,7 +148,7 @@ fn instance_transforms(
         } => {
             let at = || {
                 let help = Some("such as (0, 1, 0) for a level circle".to_owned());
-                let message = "the axis of the circle is (0, 0, 0), which is no direction";
+                let message = "the axis of the circle is (0, 0, 0), which has no length";
                 origin.error_at(&instances_path(number, &[Field("axis")]), message, help)
             };
             let axis = normalize_vector(axis.0).ok_or_else(at)?;

@@ -265,8 +265,12 @@ fn resolve_direction(
 ) -> Result<Vector<World>, SceneError> {
     Vector::<World>::from(direction.0).normalized().ok_or_else(|| {
         let path = [Field("lights"), Index(index), Field("direction")];
-        let help = "such as (-1, -2, -1): from the right, above and the front".to_owned();
-        origin.error_at(&path, "the direction of the light is (0, 0, 0)", Some(help))
+        let help = "write one such as (-1, -2, -1): from the right, above and the front".to_owned();
+        origin.error_at(
+            &path,
+            "the direction of the light is (0, 0, 0), which has no length",
+            Some(help),
+        )
     })
 }
 

@@ -24,7 +24,7 @@ impl Outputs {
         let bits = file.image.bits;
         if bits != 8 && bits != 16 {
             let message = format!("a channel cannot have {bits} bits");
-            let help = Some("possible are 8 and 16".to_owned());
+            let help = Some("write 8 or 16".to_owned());
             return Err(origin.error_at(&[Field("image"), Field("bits")], message, help));
         }
         let mut passes = file.passes.write.clone();

@@ -215,7 +215,7 @@ pub(super) fn resolve_image_size(
 fn resolve_samples(origin: &Origin, file: &SceneFile) -> Result<Samples, SceneError> {
     Samples::from_count(file.image.samples).ok_or_else(|| {
         let message = format!("a pixel cannot have {} samples", file.image.samples);
-        let help = Some("possible are 1, 4, 8 and 16".to_owned());
+        let help = Some("write 1, 4, 8 or 16".to_owned());
         origin.error_at(&[Field("image"), Field("samples")], message, help)
     })
 }

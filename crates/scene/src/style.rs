@@ -67,7 +67,7 @@ pub(super) fn resolve_iso_group(
 ) -> Result<IsoLineGroup, SceneError> {
     IsoLineGroup::from_wide_width(wide.value()).ok_or_else(|| {
         let message = format!("ISO 128 has no line group of width {}", wide.value());
-        let help = "possible are 0.25, 0.35, 0.5, 0.7, 1, 1.4 and 2".to_owned();
+        let help = "write 0.25, 0.35, 0.5, 0.7, 1, 1.4 or 2".to_owned();
         origin.error_at(path, message, Some(help))
     })
 }

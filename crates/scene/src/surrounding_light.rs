@@ -112,7 +112,7 @@ pub(super) fn resolve_environment(
             let sun = normalize_direction(sun.0).ok_or_else(|| {
                 let at = [Field("environment"), Field("sun")];
                 let help = Some("such as (1, 1, 1): to the right, above and before".to_owned());
-                origin.error_at(&at, "the sun's direction is (0, 0, 0), which is none", help)
+                origin.error_at(&at, "the sun's direction is (0, 0, 0), which has no length", help)
             })?;
             let strength = strength.value() as f32;
             let bits = sun.map(|c| u64::from(c.to_bits()));

@@ -6,11 +6,11 @@
 
 use super::super::CliError;
 use super::builders::*;
-use super::parse::parse_number;
 use clap::{Arg, ArgAction, ArgGroup, ArgMatches, Command};
 use explain::ApiConventions;
 use glam::DMat4;
 use projection::Convention;
+use recognition::parse_number;
 
 /// The sentence about near and far of all flags but `--p`, in the help and in messages.
 pub(super) const DISTANCES: &str = "near and far are distances ahead of the eye, 0 < near < far \
@@ -199,7 +199,7 @@ impl clap::Args for BuildArgs {
 #[derive(Clone, Debug)]
 pub(super) struct NumberList(pub(super) Vec<f64>);
 
-fn parse_list(text: &str) -> Result<NumberList, String> {
+fn parse_list(text: &str) -> Result<NumberList, recognition::MatrixTextError> {
     text.split(',').map(|word| parse_number(word.trim())).collect::<Result<_, _>>().map(NumberList)
 }
 

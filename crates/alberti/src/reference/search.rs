@@ -221,7 +221,12 @@ fn unknown_word(sections: &[ReferenceSection], word: &str) -> String {
         .flat_map(|section| &section.entries)
         .for_each(|entry| collect_names(entry, &mut names));
     let last = word.rsplit('.').next().unwrap_or(word);
-    let hint = closest_name(last, &names).map_or_else(
+    let begins_alike = |name: &&str| {
+        let [word, name] =
+            [last, *name].map(|it| it.chars().next().map(|c| c.to_ascii_lowercase()));
+        word == name
+    };
+    let hint = closest_name(last, &names).filter(begins_alike).map_or_else(
         || {
             "`alberti scene doc` lists all fields of scenes, `alberti --help` all commands"
                 .to_owned()

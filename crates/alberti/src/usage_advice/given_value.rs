@@ -45,6 +45,10 @@ pub(super) fn with_given_value(
             |sides| Given::Fits(format!("{flag} {sides}")),
         );
     }
+    let percentage: Option<f64> = given.parse().ok().filter(|_| word.contains("percentage"));
+    if let Some(percentage) = percentage {
+        return Given::Fits(format!("{flag} {}", percentage / 100.0));
+    }
     if let Some(degrees) = degrees_of_radians(name, &given) {
         return Given::Fits(format!("{flag} {degrees}"));
     }

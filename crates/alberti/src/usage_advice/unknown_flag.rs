@@ -1,8 +1,10 @@
 //! Flags that a command does not have: what to type in their place.
 
 use super::foreign_words::foreign_words;
-use super::given_value::{Given, accepted_value, lens_angle, quoted, value_of, with_given_value};
-use super::{context, differs_widely, full_name, has_flag, takes_value, with_hyphens};
+use super::given_value::{
+    Given, accepted_value, following_numbers, lens_angle, quoted, value_of, with_given_value,
+};
+use super::{context, full_name, has_flag, is_misspelling, takes_value, with_hyphens};
 use crate::negative_numbers::called_command;
 use clap::error::ContextKind;
 use clap::{Command, Error};
@@ -23,6 +25,9 @@ pub(super) fn advise_on_flag(
     let stem = name.trim_start_matches('-');
     let before_command = command.get_name() == program.get_name();
     if let Some(advice) = before_command.then(|| advise_on_no_window(&name, &words)).flatten() {
+        return Some(advice);
+    }
+    if let Some(advice) = advise_on_negative_number(&name, &words, command) {
         return Some(advice);
     }
     if let Some(help) = what_to_write(&name, &word, &words, command) {
@@ -50,7 +55,7 @@ pub(super) fn advise_on_flag(
         return Some(format!("unexpected `{name}` behind `{}`{help}", full_name(command)));
     }
     let names: Vec<&str> = command.get_arguments().filter_map(|flag| flag.get_long()).collect();
-    let similar = closest_name(stem, &names).filter(|similar| !differs_widely(stem, similar));
+    let similar = closest_name(stem, &names).filter(|similar| is_misspelling(stem, similar));
     let command = full_name(command);
     let help = match similar {
         Some(similar) => format!("did you mean `--{similar}`?"),
@@ -60,7 +65,12 @@ pub(super) fn advise_on_flag(
 }
 
 /// What to write in place of a flag: the same with two hyphens, or what another program's means.
-fn what_to_write(name: &str, word: &str, words: &[String], command: &Command) -> Option<String> {
+pub(super) fn what_to_write(
+    name: &str,
+    word: &str,
+    words: &[String],
+    command: &Command,
+) -> Option<String> {
     let stem = name.trim_start_matches('-');
     let is_ours = has_flag(command, stem);
     if !name.starts_with("--") && is_ours {
@@ -71,7 +81,7 @@ fn what_to_write(name: &str, word: &str, words: &[String], command: &Command) ->
             return Some(format!("it needs two hyphens here: `--{stem}{text}`"));
         }
         Some(format!("use `--{stem}{text}`"))
-    } else if let Some(format) = chosen_format(stem, words, command) {
+    } else if let Some(format) = chosen_format(name, words, command) {
         Some(format!("use `--format {format}`"))
     } else if let Some(help) = lens_advice(stem, words, command) {
         Some(help)
@@ -113,10 +123,32 @@ fn advise_on_output(name: &str, words: &[String], command: &Command) -> Option<S
     })
 }
 
-/// The format that `-f svg` chooses in other programs, unless it is the number of a frame.
-fn chosen_format(stem: &str, words: &[String], command: &Command) -> Option<String> {
-    let value = value_of("-f", words).filter(|_| stem == "f" && has_flag(command, "format"))?;
-    accepted_value("format", &value, command)
+/// The format that `-f svg`, `-Tsvg` or `--export-type=svg` chooses in other programs, unless it is
+/// the number of a frame.
+fn chosen_format(name: &str, words: &[String], command: &Command) -> Option<String> {
+    let known = [
+        "f",
+        "F",
+        "T",
+        "export-type",
+        "export-format",
+        "render-format",
+        "output-format",
+        "image-format",
+    ];
+    let joined = name.strip_prefix("-T").filter(|format| !format.is_empty());
+    let is_known = known.contains(&&*with_hyphens(name.trim_start_matches('-')));
+    let value = joined.map(str::to_owned).or_else(|| value_of(name, words).filter(|_| is_known))?;
+    has_flag(command, "format").then(|| accepted_value("format", &value, command)).flatten()
+}
+
+/// What to do about a negative number behind another one, as in `--eye 3 -2 5`.
+fn advise_on_negative_number(name: &str, words: &[String], command: &Command) -> Option<String> {
+    name.parse::<f64>().ok()?;
+    let before = words.iter().take_while(|word| *word != name);
+    let flag = before.filter(|word| word.starts_with("--")).last()?.split('=').next()?;
+    let meant = following_numbers(flag, flag.trim_start_matches('-'), words, command)?;
+    Some(format!("`{flag}` takes one value: write `{flag} {meant}`"))
 }
 
 /// Advice without further flags that were given: `--target 0,0,0 --eye 4,3,6` beside an `--eye`.

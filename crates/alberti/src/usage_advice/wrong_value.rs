@@ -20,19 +20,8 @@ pub(super) fn advise_on_value(
     program: &Command,
 ) -> Option<String> {
     let (flag, given) = invalid_value(error)?;
-    if flag == "color" && given.contains([',', '#']) {
-        return Some(format!(
-            "`--color` says when messages are colored (auto, always or never), and does not accept \
-             {given}; the colors of a model come from its file, and `--style clay` ignores them"
-        ));
-    }
-    if flag == "background" && given.is_empty() {
-        return Some(
-            "`--background` is the color behind the model and needs a value, such as \
-             `--background white` or `--background '#ff8800'`, in quotation marks because `#` \
-             begins a comment in a shell"
-                .to_owned(),
-        );
+    if let Some(advice) = other_meaning(&flag, &given) {
+        return Some(advice);
     }
     let command = called_command(program, words);
     if flag == "view" && given.contains(',') && has_flag(command, "views") {
@@ -49,21 +38,17 @@ pub(super) fn advise_on_value(
         let tip = meant.map_or(String::new(), |meant| format!("; write `--{flag} {meant}`"));
         return Some(format!("invalid value '{given}' for '--{flag}': {expected}{tip}"));
     }
-    if flag == "up" && given.starts_with('-') {
-        return Some(format!(
-            "invalid value '{given}' for '--up': the axis that points up is x, y or z; to turn a \
-             model over use `rotation_degrees` in a scene file"
-        ));
-    }
-    if let Some(help) = unwritten_format_help(&flag, &given) {
-        return Some(format!("invalid value '{given}' for '--{flag}': {help}"));
-    }
-    if let Some(help) = other_file_help(&flag, &given) {
+    let is_other =
+        || unwritten_format_help(&flag, &given).or_else(|| other_file_help(&flag, &given));
+    if let Some(help) = is_other() {
         return Some(format!("invalid value '{given}' for '--{flag}': {help}"));
     }
     let tip = match meant.or_else(|| similar_color(&flag, &given)) {
         Some(meant) => Some(format!("write `--{flag} {}`", quoted(&meant))),
-        None if flag == "view" && context(error, ContextKind::SuggestedValue).is_none() => {
+        None if flag == "view"
+            && context(error, ContextKind::SuggestedValue)
+                .is_none_or(|similar| differs_widely(&given, similar)) =>
+        {
             Some("other directions are given as in `--azimuth 45 --elevation 20`".to_owned())
         }
         None => None,
@@ -76,6 +61,39 @@ pub(super) fn advise_on_value(
         .is_some_and(|similar| differs_widely(&given, similar))
     {
         error.remove(ContextKind::SuggestedValue);
+    }
+    None
+}
+
+/// What to do about a value of a kind that a flag of this name takes elsewhere.
+fn other_meaning(flag: &str, given: &str) -> Option<String> {
+    if flag == "color" && given.contains([',', '#']) {
+        return Some(format!(
+            "`--color` says when messages are colored (auto, always or never), and does not accept \
+             {given}; the colors of a model come from its file, and `--style clay` ignores them"
+        ));
+    }
+    if flag == "background" && given.is_empty() {
+        return Some(
+            "`--background` is the color behind the model and needs a value, such as \
+             `--background white` or `--background '#ff8800'`, in quotation marks because `#` \
+             begins a comment in a shell"
+                .to_owned(),
+        );
+    }
+    let hex = given.strip_prefix('#').filter(|hex| hex.chars().all(|c| c.is_ascii_hexdigit()));
+    if let Some(hex) = hex.filter(|hex| flag == "background" && matches!(hex.len(), 4 | 8)) {
+        let color = &hex[..hex.len() / 4 * 3];
+        return Some(format!(
+            "invalid value '{given}' for '--background': a background color has no alpha; write \
+             `--background '#{color}'` or `--background transparent`"
+        ));
+    }
+    if flag == "up" && given.starts_with('-') {
+        return Some(format!(
+            "invalid value '{given}' for '--up': the axis that points up is x, y or z; to turn a \
+             model over use `rotation_degrees` in a scene file"
+        ));
     }
     None
 }

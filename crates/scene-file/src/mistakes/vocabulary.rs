@@ -39,7 +39,7 @@ const WORDS: [(&str, &str); 66] = [
     ("background: Color(\"white\")", "image: (background: …)"),
     ("image: (background: \"white\")", "`Color(\"white\")`"),
     ("image: (background: white)", "`Color(\"white\")`"),
-    ("fog: 1", "possible here"),
+    ("fog: 1", "expected one of"),
     ("wireframe: true", "`style`"),
     ("style: MeshNormalMaterial", "`Normals`"),
     // Blender

@@ -307,7 +307,12 @@ impl<'a> Checker<'a> {
             return;
         }
         let found = self.describe(&item.value);
-        let help = "a field is written `name: value`; numbers have a decimal point and no comma";
+        let help = match item.value.kind {
+            NodeKind::Number(_) => {
+                "a field is written `name: value`; numbers have a decimal point and no comma"
+            }
+            _ => "a field is written `name: value`",
+        };
         let message = format!("expected the name of a field, found {found}");
         self.report(item.value.span.clone(), message, Some(help.to_owned()));
     }

@@ -10,7 +10,7 @@ pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
     // Cameras: three.js PerspectiveCamera and OrthographicCamera, glTF camera.perspective, Blender
     // and f3d's --camera-… options.
     (
-        "fov fovy yfov vfov fieldofview viewangle camerafov cameraviewangle focallength lens angley",
+        "fov fovy yfov vfov fovdegrees fieldofview viewangle camerafov cameraviewangle focallength lens angley",
         "Projection::Perspective",
         "fov_y_degrees",
     ),

@@ -1,4 +1,5 @@
-//! Sixteen or nine numbers as people and programs write them, source code included.
+//! Matrices in text: sixteen or nine numbers as people and programs write them, source code
+//! included.
 //!
 //! ```text
 //!  1 0 0 2  0 1 0 1/2  0 0 1 -1e3  0 0 0 1              row by row
@@ -7,19 +8,38 @@
 //!  const double m[16] = { /* column by column */ … };    as the comment says
 //! ```
 
-/// A matrix of space or of the plane, by rows.
+use alloc::borrow::ToOwned as _;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+/// A matrix for column vectors, by rows: translation is in the last column.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) enum GivenMatrix {
+pub enum GivenMatrix {
+    /// Of space, in homogeneous coordinates.
     Space([[f64; 4]; 4]),
+    /// Of the plane, in homogeneous coordinates.
     Plane([[f64; 3]; 3]),
 }
 
 /// A matrix, and for source code the order in which it was read.
-#[derive(PartialEq, Debug)]
-pub(super) struct ParsedMatrix {
-    pub(super) matrix: GivenMatrix,
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ParsedMatrix {
+    /// The matrix.
+    pub matrix: GivenMatrix,
     /// Such as `column by column, as mat constructors are`; `None` for plain numbers.
-    pub(super) order: Option<&'static str>,
+    pub order: Option<&'static str>,
+}
+
+/// Why a text is not a matrix.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MatrixTextError {
+    /// A word is not a number.
+    #[error("`{0}` is not a number")]
+    NotANumber(String),
+    /// There are neither sixteen nor nine numbers.
+    #[error("expected 16 numbers, or 9 of a 3 × 3 matrix, found {0}")]
+    WrongCount(usize),
 }
 
 /// Words by which source code tells the order of numbers, in lower case; the first found counts.
@@ -43,11 +63,21 @@ const ORDERS: [(&str, bool, &str); 13] = [
 /// spaces, or from source code.
 ///
 /// Rows are for column vectors: translation is in the last column. Numbers stored column by
-/// column, as in OpenGL, are transposed here.
+/// column, as in OpenGL, are transposed here; with `column_major` all are taken for that.
+///
+/// ```
+/// use recognition::{GivenMatrix, parse_matrix};
+///
+/// let parsed = parse_matrix("mat3(1, 0, 0, 0, 1, 0, 2/3, 0.5, 1)", false)?;
+/// let rows = [[1.0, 0.0, 2.0 / 3.0], [0.0, 1.0, 0.5], [0.0, 0.0, 1.0]];
+/// assert_eq!(parsed.matrix, GivenMatrix::Plane(rows));
+/// assert_eq!(parsed.order, Some("column by column, as mat constructors are"));
+/// # Ok::<(), recognition::MatrixTextError>(())
+/// ```
 ///
 /// # Errors
-/// If there are not sixteen or nine numbers.
-pub(super) fn parse_matrix(text: &str, column_major: bool) -> Result<ParsedMatrix, String> {
+/// If a word is not a number, or there are neither sixteen nor nine of them.
+pub fn parse_matrix(text: &str, column_major: bool) -> Result<ParsedMatrix, MatrixTextError> {
     if !is_code(text) {
         let matrix = matrix_of(&split_words(text), column_major)?;
         return Ok(ParsedMatrix { matrix, order: None });
@@ -100,28 +130,31 @@ fn without_suffix(word: &str) -> &str {
     suffixes.iter().find_map(|suffix| word.strip_suffix(suffix)).unwrap_or(word)
 }
 
-fn matrix_of(words: &[&str], columns: bool) -> Result<GivenMatrix, String> {
+fn matrix_of(words: &[&str], columns: bool) -> Result<GivenMatrix, MatrixTextError> {
     let numbers: Vec<f64> =
         words.iter().map(|word| parse_number(word)).collect::<Result<_, _>>()?;
     match numbers.len() {
         16 => Ok(GivenMatrix::Space(arrange(&numbers, columns))),
         9 => Ok(GivenMatrix::Plane(arrange(&numbers, columns))),
-        found => Err(format!("expected 16 numbers, or 9 of a 3 × 3 matrix, found {found}")),
+        found => Err(MatrixTextError::WrongCount(found)),
     }
 }
 
 /// The rows of N × N numbers listed by rows, or by columns.
 fn arrange<const N: usize>(listed: &[f64], columns: bool) -> [[f64; N]; N] {
     let at = |row: usize, column: usize| if columns { N * column + row } else { N * row + column };
-    std::array::from_fn(|row| std::array::from_fn(|column| listed[at(row, column)]))
+    core::array::from_fn(|row| core::array::from_fn(|column| listed[at(row, column)]))
 }
 
 /// Parses a number or a fraction such as `2/3`, also with the minus sign of printed text.
 ///
 /// A division by zero gives an infinite number, which is rejected later with all others that are
 /// not finite.
-pub(super) fn parse_number(word: &str) -> Result<f64, String> {
-    let fault = || format!("`{word}` is not a number");
+///
+/// # Errors
+/// If the word is neither.
+pub fn parse_number(word: &str) -> Result<f64, MatrixTextError> {
+    let fault = || MatrixTextError::NotANumber(word.to_owned());
     let parse = |digits: &str| digits.replace('−', "-").parse::<f64>().map_err(|_| fault());
     match word.split_once('/') {
         Some((above, below)) => Ok(parse(above)? / parse(below)?),
@@ -132,12 +165,14 @@ pub(super) fn parse_number(word: &str) -> Result<f64, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use alloc::string::ToString as _;
 
     const ROWS: [[f64; 4]; 4] =
         [[1.0, 0.0, 0.0, 2.0], [0.0, 1.0, 0.0, 0.5], [0.0, 0.0, 1.0, -1e3], [0.0, 0.0, 0.0, 1.0]];
 
     fn parse(text: &str, columns: bool) -> Result<GivenMatrix, String> {
-        parse_matrix(text, columns).map(|parsed| parsed.matrix)
+        let parsed = parse_matrix(text, columns).map(|parsed| parsed.matrix);
+        parsed.map_err(|error| error.to_string())
     }
 
     #[test]
