@@ -225,9 +225,11 @@ mod tests {
         assert_eq!(of("a.obj", b"# nothing else"), Ok(FileFormat::Obj));
         let message = of("a.step", b"ISO-10303-21;\nHEADER;").unwrap_err();
         assert!(
-            message.starts_with("this is a STEP file, which is not read; convert"),
+            message.starts_with("this is a STEP file, which is not supported; convert"),
             "{message}"
         );
+        let pointer = of("a.glb", b"version https://git-lfs.github.com/spec/v1").unwrap_err();
+        assert!(pointer.ends_with("run `git lfs pull`"), "{pointer}");
         assert!(of("a", b"\0\0").unwrap_err().contains("known format"));
     }
 }

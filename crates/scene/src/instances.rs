@@ -147,7 +147,7 @@ fn instance_transforms(
             rotate_copies,
         } => {
             let at = || {
-                let help = Some("such as (0, 1, 0) for a level circle".to_owned());
+                let help = Some("write one such as (0, 1, 0), for a level circle".to_owned());
                 let message = "the axis of the circle is (0, 0, 0), which has no length";
                 origin.error_at(&instances_path(number, &[Field("axis")]), message, help)
             };
@@ -290,11 +290,7 @@ mod tests {
             ("instances: Grid(count: (2, 0, 2), step: (1, 1, 1))", "not one copy", "(2, 0, 2)"),
             ("instances: Circle(count: 0, radius: 1)", "not one copy", "0"),
             ("instances: List([])", "not one copy", "List([])"),
-            (
-                "instances: Circle(count: 3, radius: 1, axis: (0, 0, 0))",
-                "no direction",
-                "(0, 0, 0)",
-            ),
+            ("instances: Circle(count: 3, radius: 1, axis: (0, 0, 0))", "no length", "(0, 0, 0)"),
             (
                 "instances: Grid(count: (4294967295, 4294967295, 4294967295), step: (1, 1, 1))",
                 "more than 100000",
