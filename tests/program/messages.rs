@@ -109,7 +109,7 @@ fn a_camera_that_is_not_there_is_answered_with_those_that_are() {
     let run = sandbox.run(&["render", "room.glb", "--camera", "nobody", "--size", "16x16"]);
     assert_eq!(run.code, 1);
     assert!(
-        run.stderr.contains("nobody") && run.stderr.contains("expected one of"),
+        run.stderr.contains("nobody") && run.stderr.contains("the cameras are 0 `from the door`"),
         "{}",
         run.stderr
     );

@@ -91,7 +91,7 @@ fn habits_of_other_programs_do_not_make_wrong_files() {
             &["render", "teapot.glb", "-o", "a.png", "--", "--gpu"],
             "everything after `--` is taken as a model",
         ),
-        (&["render", "teapot.glb", "-o", "//frame_####"], "use -o 'frame_{frame:04}.png'"),
+        (&["render", "teapot.glb", "-o", "//frame_####"], "use -o 'frame_{index:04}.png'"),
         (&["render", "teapot.glb", "-o", "png:out.png"], "write `--format png -o out.png`"),
         (&["--background", "teapot.glb", "-f", "1"], "run `alberti render teapot.glb`"),
         (&["-b", "teapot.glb", "-o", "//a", "-f", "1"], "run `alberti render teapot.glb`"),
@@ -269,6 +269,26 @@ const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
     (&["-hide_banner"], "only warnings and errors are printed"),
     (&["--actions", "x"], "`alberti render --help` lists its flags"),
     (&["-o", "PNG32:a.png"], "write `--format png -o a.png`"),
+    (&["--camera-rotation-x", "3"], "`alberti render --help` lists its flags"),
+    (&["-a"], "`--samples 8` smooths edges"),
+    (&["-s", "1"], "`alberti animate model.glb --from 0 --to 2.5 -o film.gif` a range of frames"),
+    (&["--colour", "white"], "`--background white` is the color behind the model"),
+    (&["--size", "50%"], "`--scale 0.5` scales the width and height"),
+    (&["--background", "rgba(255,255,255,0.5)"], "a background color has no alpha"),
+    (&["-w", "64", "-h", "48"], "use `--size 64x48`"),
+    (&["-h", "48"], "`--size 1920x1080` gives the size"),
+    (&["--width", "64", "--height", "48"], "use `--size 64x48`"),
+    (&["--view", "45,30"], "for angles use `--azimuth 45 --elevation 30`"),
+    (&["--elev", "30"], "use `--elevation 30`"),
+    (&["--tone", "aces"], "did you mean `--tone-mapping`?"),
+    (&["-ss", "1.5"], "use `--time 1.5`"),
+    (&["--figsize", "8,6"], "sizes are in pixels"),
+    (&["--camera", "perspective"], "`--projection` for projections"),
+    (&["--up", "0,0,1"], "tip: write `--up z`"),
+    (&["--color", "red"], "`--color` says when messages are colored"),
+    (&["--output-dir", "out/"], "as in `-o 'out/{stem}.png'`"),
+    (&["-o", "out/"], "is a folder"),
+    (&["\u{2014}size", "64x48"], "it begins with a dash and not with two hyphens"),
     (&["-o", "a.exr"], "`--passes depth --pass-format exr -o picture.png`"),
     (&["--qwerty"], "`--qwerty` is not a flag of `alberti render`; `alberti render --help` lists"),
     (&["--samplse", "4"], "did you mean `--samples`?"),
@@ -278,6 +298,7 @@ const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
 const COMMAND_LINES: &[(&[&str], &str)] = &[
     (&["scene", "validate", "a.ron"], "run `alberti scene check scene.ron`"),
     (&["sheet", "teapot.glb", "--scale", "50%"], "tip: write `--scale 1:2`"),
+    (&["teapot.glb", "-o", "a.png"], "run `alberti render teapot.glb -o a.png`"),
     (&["rendr", "teapot.glb"], "`rendr` is not a command of `alberti`; did you mean `render`?"),
     (&["man", "rendr"], "did you mean `render`?"),
     (&["-v"], "`alberti --version` prints the version"),
@@ -288,6 +309,10 @@ const COMMAND_LINES: &[(&[&str], &str)] = &[
     (&["animate", "teapot.glb", "-ss", "1", "-o", "a.gif"], "use `--from 1`"),
     (&["render", "lfs.glb"], "this is a Git LFS pointer and not the model itself"),
     (&["render", "page.glb"], "this is a web page, which is not supported; download the model"),
+    (&["batch", "teapot.glb", "--out-dir", "a", "-j4"], "use `--threads 4`"),
+    (&["animate", "teapot.glb", "-o", "f_%03d.png"], "use -o 'f_{frame:03}.png'"),
+    (&["render"], "or `-` to read one from the standard input"),
+    (&["render", "scene.yaml"], "`alberti scene init model.glb` writes one"),
     (&["animate", "teapot.glb", "a.gif"], "run `alberti animate teapot.glb -o a.gif`"),
     (&["explore", "teapot.glb", "8080"], "use `--port 8080`"),
     (&["render", "scene.ron"], "scene.ron: the file does not exist"),
@@ -308,6 +333,7 @@ const COMMAND_LINES: &[(&[&str], &str)] = &[
 fn values_of_other_programs_are_translated() {
     let sandbox = sandbox_with_teapot("translated_values");
     sandbox.write_file("text.png", "not a picture");
+    sandbox.write_file("scene.yaml", "models:\n  - path: teapot.glb\n");
     sandbox.write_file("lfs.glb", "version https://git-lfs.github.com/spec/v1\n");
     sandbox.write_file("page.glb", "<!DOCTYPE html>\n<title>Sign in</title>\n");
     for (words, told) in FLAGS_OF_RENDER {
@@ -354,6 +380,8 @@ fn scenes_of_other_languages_are_answered() {
     sandbox.write_file("hash.ron", scene("image: (background: Color(#ff8800))"));
     sandbox.write_file("number.ron", scene("image: (background: Color(0xff8800))"));
     sandbox.write_file("light.ron", scene("lights: [(type: \"sun\", strength: 3.0)]"));
+    sandbox.write_file("turned.ron", scene("camera: (rotation: (60, 0, 45))"));
+    sandbox.write_file("frame.ron", scene("frame: 12"));
     sandbox.write_file("exposure.ron", scene("exposure: 1.0"));
     sandbox.write_file("size.ron", scene("image: (width: 64, height: 48)"));
     for (words, told) in [
@@ -363,6 +391,8 @@ fn scenes_of_other_languages_are_answered() {
             &["scene", "check", "light.ron"],
             "write one of Directional(…), Point(…), Spot(…), FromModels",
         ),
+        (&["scene", "check", "turned.ron"], "a camera has no rotation angles"),
+        (&["scene", "check", "frame.ron"], "the moment of an animation is a model's `time`"),
         (&["scene", "check", "exposure.ron"], "write it as image: (exposure_ev: …)"),
         (&["scene", "check", "size.ron"], "the size is written size: (640, 480)"),
         (&["info", "scene.ron"], "this is a scene and not a model"),

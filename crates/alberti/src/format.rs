@@ -87,8 +87,8 @@ impl OutputFormat {
             "exr" | "npy" => unwritten(
                 &format!("{} picture", ending.to_uppercase()),
                 format!(
-                    "depth, normals and other passes are written as such files, beside the \
-                     picture: `--passes depth --pass-format {ending} -o picture.png`"
+                    "depth, normals and other passes are written as {} files, beside the picture: `--passes depth --pass-format {ending} -o picture.png`",
+                    ending.to_uppercase()
                 ),
             ),
             "glb" | "gltf" | "obj" | "stl" | "ply" | "3mf" | "fbx" | "usdz" => unwritten(
@@ -117,7 +117,7 @@ impl OutputFormat {
             "gif" | "mp4" | "m4v" | "mov" | "webm" | "mkv" | "avi" => {
                 moving_picture_error(output, ending)
             }
-            _ if output.is_dir() => CliError::Usage(format!(
+            _ if output.is_dir() || name.ends_with('/') => CliError::Usage(format!(
                 "{name} is a folder\n  = help: name a file in it, such as -o '{}'",
                 visible_path(output.join("{stem}.png"))
             )),

@@ -6,20 +6,19 @@
 
 mod build;
 mod builders;
-mod code;
 
 use super::explain::{SubjectPoint, parse_point};
 use super::{CliError, print_stdout};
 use build::{BuildArgs, BuildOptions, BuiltMatrix, DISTANCES};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args as _, FromArgMatches as _};
-use code::CodeLanguage;
 use explain::{
     ApiConventions, BareMap, Explanation, ExplanationEntry, ItemValue, Step, explain_matrix,
     explain_planar_matrix, without_rounding,
 };
 use glam::DMat4;
 use homog::HPoint;
-use recognition::{GivenMatrix, parse_matrix};
+use recognition::{CodeLanguage, GivenMatrix, parse_matrix};
 use std::io::Read as _;
 
 /// The examples of the help.
@@ -31,6 +30,24 @@ Examples:
                                                   XMMatrixLookAtLH
   alberti matrix --viewport 640,480 --perspective 60,4/3,0.1,100 --look-at 4,3,6,0,0,0 --point 0,1,0
                                                   a point of the world to pixels";
+
+/// The languages of `--code`, with their names and descriptions.
+const LANGUAGES: [(&str, &str, CodeLanguage); 5] = [
+    ("c", "C array of 16 doubles, column by column", CodeLanguage::C),
+    ("glsl", "GLSL mat4", CodeLanguage::Glsl),
+    ("python", "Python list of rows", CodeLanguage::Python),
+    ("rust", "Rust array of columns, as glam takes them", CodeLanguage::Rust),
+    ("latex", "LaTeX bmatrix", CodeLanguage::Latex),
+];
+
+/// Parses the name of a language.
+fn code_parser() -> impl TypedValueParser<Value = CodeLanguage> {
+    let values = LANGUAGES.map(|(name, help, _)| PossibleValue::new(name).help(help));
+    PossibleValuesParser::new(values).map(|name| {
+        let found = LANGUAGES.iter().find(|(known, ..)| known.eq_ignore_ascii_case(&name));
+        found.map_or(CodeLanguage::Rust, |(.., language)| *language)
+    })
+}
 
 /// Arguments of `alberti matrix`.
 #[derive(Debug, clap::Args)]
@@ -52,7 +69,7 @@ pub(crate) struct MatrixArgs {
     #[arg(long)]
     json: bool,
     /// Print the matrix alone, as source code or LaTeX
-    #[arg(long, value_name = "LANGUAGE", conflicts_with = "json")]
+    #[arg(long, value_name = "LANGUAGE", conflicts_with = "json", value_parser = code_parser())]
     code: Option<CodeLanguage>,
     /// Map a point by the matrix; with W a homogeneous point, or a direction if W is 0
     #[arg(

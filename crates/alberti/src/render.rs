@@ -52,6 +52,16 @@ pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, CliError> {
 /// Renders all pictures once.
 fn render_all(args: &RenderArgs) -> Result<ExitCode, CliError> {
     let tasks = tasks::plan_tasks(args)?;
+    let goes_to_a_file = std::fs::metadata("/dev/stdout").is_ok_and(|output| output.is_file());
+    if args.output.is_none() && !args.json && goes_to_a_file {
+        let output =
+            tasks.first().and_then(|task| task.output.as_deref()).unwrap_or(Path::new("-"));
+        let message = format!(
+            "the picture is written to {}, and nothing to the standard output; for that use `-o -`",
+            visible_path(output)
+        );
+        print_message("warning", &message);
+    }
     let (mut code, mut told) = (ExitCode::SUCCESS, BTreeSet::new());
     for task in &tasks {
         match render_task(args, task) {
@@ -265,6 +275,9 @@ pub(super) fn missing_input_help(input: &Path) -> Option<String> {
              marks, or run `alberti batch models --out-dir pictures` for all models in a folder"
                 .to_owned(),
         );
+    }
+    if word.starts_with(['–', '—']) {
+        return Some("it begins with a dash and not with two hyphens, as in `--size`".to_owned());
     }
     if word.ends_with(".json") {
         return Some(format!(

@@ -55,6 +55,10 @@ fn advise(mut error: Error, words: &[OsString], program: &Command) -> Error {
         ErrorKind::InvalidValue | ErrorKind::ValueValidation => {
             advise_on_value(&mut error, words, program)
         }
+        ErrorKind::MissingRequiredArgument => {
+            advise_on_input(&mut error);
+            None
+        }
         ErrorKind::ArgumentConflict => {
             advise_on_conflict(&mut error);
             None
@@ -95,7 +99,17 @@ fn advise_on_help(error: &Error, words: &[OsString], program: &Command) -> Optio
             && word.len() > 3
             && word.chars().skip(1).all(|c| c.is_alphabetic() || c == '_')
     };
-    let word = words.iter().filter_map(|word| word.to_str()).find(is_long)?;
+    let all: Vec<&str> = words.iter().filter_map(|word| word.to_str()).collect();
+    let number = |pair: &&[&str]| pair[0] == "-h" && pair[1].parse::<u32>().is_ok();
+    if error.kind() == ErrorKind::DisplayHelp
+        && let Some(pair) = all.windows(2).find(number)
+    {
+        return Some(format!(
+            "`-h` prints the help, and `{}` is not a part of that; `--size 1920x1080` gives the size",
+            pair[1]
+        ));
+    }
+    let word = all.iter().copied().find(is_long)?;
     (error.kind() == ErrorKind::DisplayHelp).then(|| {
         let command = called_command(program, words);
         let texts: Vec<String> = words.iter().map(|it| it.to_string_lossy().into_owned()).collect();
@@ -191,10 +205,28 @@ fn advise_on_command(error: &Error, words: &[OsString], program: &Command) -> Op
             program.get_name()
         ));
     }
+    let typed = words.iter().skip(1).map(|word| quoted(&word.to_string_lossy()));
+    let typed: Vec<String> = typed.collect();
     Some(format!(
-        "`{word}` is a file, not a command; to render it, run `{} render {word}`",
-        program.get_name()
+        "`{word}` is a file, not a command; to render it, run `{} render {}`",
+        program.get_name(),
+        typed.join(" ")
     ))
+}
+
+/// Says what an input may be where none was given.
+fn advise_on_input(error: &mut Error) {
+    let is_input = match error.get(ContextKind::InvalidArg) {
+        Some(ContextValue::Strings(missing)) => {
+            missing.iter().any(|it| it.starts_with("<INPUT>..."))
+        }
+        _ => false,
+    };
+    if is_input {
+        let tip = "name a scene or a model, or `-` to read one from the standard input";
+        let tip = ContextValue::StyledStrs(vec![StyledStr::from(tip)]);
+        error.insert(ContextKind::Suggested, tip);
+    }
 }
 
 /// Says what to do about two flags that exclude each other.

@@ -42,7 +42,9 @@ fn counter_of_others(text: &str, number: &str) -> Option<String> {
     let before = text[..counter.start].trim_start_matches("//");
     let after = &text[counter.end..];
     let ending = if after.contains('.') { "" } else { ".png" };
-    let meant = format!("{before}{{{number}:04}}{after}{ending}");
+    let digits: String = text[counter.clone()].chars().filter(char::is_ascii_digit).collect();
+    let digits: usize = digits.parse().ok().filter(|digits| *digits > 0).unwrap_or(4);
+    let meant = format!("{before}{{{number}:0{digits}}}{after}{ending}");
     Some(format!(
         "`{}` is not a counter here\n  = help: to write one file per picture, use -o '{meant}'",
         &text[counter]

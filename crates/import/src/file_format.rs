@@ -163,14 +163,21 @@ fn scene_as_model() -> Diagnostic {
 
 /// The error for a file whose format neither its content nor its name says.
 fn unknown_format(bytes: &[u8]) -> Diagnostic {
+    let is_text = bytes.len() > 8
+        && bytes.iter().take(512).all(|b| b.is_ascii_graphic() || b.is_ascii_whitespace());
     let known = FOREIGN_FORMATS.iter().find(|(start, ..)| bytes.starts_with(start));
     let (message, help) = match known {
         Some((_, name, help)) => (format!("this is {name}, which is not supported"), *help),
         None if bytes.is_empty() => ("the file is empty".to_owned(), "export it again"),
+        None if is_text => ("this is a text and not a model".to_owned(), WRITE_A_SCENE),
         None => ("this is not a model in a known format".to_owned(), GIVE_A_MODEL),
     };
     Diagnostic::error(codes::UNKNOWN_FORMAT, "", message, help)
 }
+
+/// The remedy for a text that may be meant as a scene.
+const WRITE_A_SCENE: &str = "give a .gltf, .glb, .stl, .obj, .ply or .3mf file; scenes are written in \
+                             RON, in a .ron file: `alberti scene init model.glb` writes one";
 
 /// The remedy for a file of an unknown format.
 const GIVE_A_MODEL: &str = "give a .gltf, .glb, .stl, .obj, .ply or .3mf file";

@@ -39,6 +39,7 @@
 //! | the meaning of a 3×3 matrix | [`recognize_planar`] |
 //! | the slip in a matrix whose projection is known | [`misprint_of`] |
 //! | the numbers of a matrix in text or source code | [`parse_matrix`] |
+//! | a matrix as source code or LaTeX | [`CodeLanguage::format_matrix`] |
 //! | the parameters of a matrix in a known convention | [`projection::decompose()`] |
 //!
 //! Column vectors, f64. Example: `doctor`, which reads sixteen numbers.
@@ -49,6 +50,7 @@ extern crate alloc;
 mod affine;
 mod classical;
 mod convention_list;
+mod matrix_code;
 mod matrix_reading;
 mod matrix_text;
 mod meaning;
@@ -63,6 +65,7 @@ mod rounded;
 mod suspicion;
 mod viewport;
 
+pub use matrix_code::CodeLanguage;
 pub use matrix_reading::{MatrixReading, Recognition, recognize};
 pub use matrix_text::{GivenMatrix, MatrixTextError, ParsedMatrix, parse_matrix, parse_number};
 pub use meaning::{Lens, MatrixMeaning};

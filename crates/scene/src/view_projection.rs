@@ -31,7 +31,7 @@ use projection::{
 use scene_file::file::{
     CameraChoice, CameraFile, Finite, FromFile, Positive, ProjectionFile, ViewFile,
 };
-use scene_file::{SceneError, suggest_name};
+use scene_file::{SceneError, closest_name};
 
 /// Camera and projection of a scene.
 pub(super) fn resolve_view_projection(
@@ -336,24 +336,40 @@ impl<'a> CameraResolver<'a> {
                 if is_chosen {
                     return Ok((placed, instance, lens));
                 }
-                names.extend(lens.name.clone().or_else(|| node.name.clone()));
-                names.push(number.to_string());
+                let name = lens.name.as_ref().or(node.name.as_ref());
+                names.push((number, name.cloned().unwrap_or_default()));
             }
         }
         Err(self.unknown_camera_error(choice, &names))
     }
 
     /// A camera that no model has, with the names of those that exist.
-    fn unknown_camera_error(&self, choice: &CameraChoice, names: &[String]) -> SceneError {
+    fn unknown_camera_error(
+        &self,
+        choice: &CameraChoice,
+        cameras: &[(usize, String)],
+    ) -> SceneError {
         let wanted = match choice {
             CameraChoice::Index(index) => index.to_string(),
             CameraChoice::Name(name) => name.clone(),
         };
-        let (message, help) = if names.is_empty() {
-            let help = "choose a view instead: the flag --view front, or `view: Frame(from: Front)` in a scene";
-            ("the file has no cameras".to_owned(), Some(help.to_owned()))
+        let (message, help) = if cameras.is_empty() {
+            let help = "use `--view front` or `--eye 4,3,6 --target 0,0,0` instead, and \
+                        `--projection` for projections; in a scene write `view: Frame(from: Front)`";
+            let message = format!("there is no camera `{wanted}`: the models have no cameras");
+            (message, Some(help.to_owned()))
         } else {
-            (format!("there is no camera `{wanted}`"), suggest_name(&wanted, names))
+            let names: Vec<&str> = cameras.iter().map(|(_, name)| name.as_str()).collect();
+            let listed = cameras.iter().map(|(number, name)| match name.as_str() {
+                "" => number.to_string(),
+                name => format!("{number} `{name}`"),
+            });
+            let listed: Vec<String> = listed.collect();
+            let help = closest_name(&wanted, &names).map_or_else(
+                || format!("the cameras are {}", listed.join(", ")),
+                |name| format!("did you mean `{name}`?"),
+            );
+            (format!("there is no camera `{wanted}`"), Some(help))
         };
         self.origin.error_at(&VIEW_PATH, message, help)
     }

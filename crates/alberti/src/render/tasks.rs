@@ -22,7 +22,7 @@ const WORD_FIELDS: [&str; 6] = ["stem", "camera", "view", "style", "projection",
 /// The number fields of an output name template.
 ///
 /// `frame` starts again for each input, `index` does not.
-const NUMBER_FIELDS: [&str; 2] = ["frame", "index"];
+const NUMBER_FIELDS: [&str; 2] = ["index", "frame"];
 
 /// One picture to render.
 ///

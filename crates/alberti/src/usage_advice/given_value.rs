@@ -40,6 +40,7 @@ pub(super) fn with_given_value(
     // One number may be the width or the height.
     if name == "size" && given.chars().all(|c| c.is_ascii_digit()) {
         let sides = following_numbers(word.split('=').next().unwrap_or(word), name, words, command);
+        let sides = sides.or_else(|| both_sides(words));
         return sides.map_or_else(
             || Given::FitsNot(flag.to_owned()),
             |sides| Given::Fits(format!("{flag} {sides}")),
@@ -89,6 +90,17 @@ pub(super) fn following_numbers(
         let meant = if flag == "size" { given.replace(',', "x") } else { given };
         accepted_value(flag, &meant, command)
     })
+}
+
+/// The size whose sides were given by two flags, such as `--width 64 --height 48`.
+fn both_sides(words: &[String]) -> Option<String> {
+    let side = |names: [&str; 4]| {
+        let value = names.iter().find_map(|name| value_of(name, words))?;
+        value.parse::<u32>().ok()
+    };
+    let width = side(["--width", "-w", "-W", "--resolution-x"])?;
+    let height = side(["--height", "-h", "-H", "--resolution-y"])?;
+    Some(format!("{width}x{height}"))
 }
 
 /// A value as a shell takes it.
@@ -193,6 +205,11 @@ fn hex_color(given: &str) -> Option<String> {
     let numbers = numbers.trim_end_matches([')', ']']).split([',', ' ']);
     let numbers = numbers.filter(|word| !word.is_empty());
     let channels: Vec<f64> = numbers.map(|word| word.trim().parse().ok()).collect::<Option<_>>()?;
+    // An alpha between clear and opaque cannot be kept.
+    let has_alpha = matches!(channels[..], [_, _, _, alpha] if ![0.0, 1.0, 255.0].contains(&alpha));
+    if has_alpha {
+        return None;
+    }
     let [red, green, blue] = match channels[..] {
         [.., alpha] if channels.len() == 4 && alpha == 0.0 => {
             return Some("transparent".to_owned());

@@ -21,6 +21,7 @@ pub(super) fn advise_on_flag(
     let command = called_command(program, words);
     let word = whole_word(context(error, ContextKind::InvalidArg)?, words);
     let words: Vec<String> = words.iter().map(|it| it.to_string_lossy().into_owned()).collect();
+    let (word, words) = with_value_apart(word, words);
     let name = word.split('=').next().unwrap_or(&word).to_owned();
     let stem = name.trim_start_matches('-');
     let before_command = command.get_name() == program.get_name();
@@ -55,7 +56,13 @@ pub(super) fn advise_on_flag(
         return Some(format!("unexpected `{name}` behind `{}`{help}", full_name(command)));
     }
     let names: Vec<&str> = command.get_arguments().filter_map(|flag| flag.get_long()).collect();
+    let begun = || {
+        let mut longer =
+            names.iter().copied().filter(|name| stem.len() > 2 && name.starts_with(stem));
+        longer.next().filter(|_| longer.next().is_none())
+    };
     let similar = closest_name(stem, &names).filter(|similar| is_misspelling(stem, similar));
+    let similar = similar.or_else(begun);
     let command = full_name(command);
     let help = match similar {
         Some(similar) => format!("did you mean `--{similar}`?"),
@@ -83,6 +90,8 @@ pub(super) fn what_to_write(
         Some(format!("use `--{stem}{text}`"))
     } else if let Some(format) = chosen_format(name, words, command) {
         Some(format!("use `--format {format}`"))
+    } else if let Some(folder) = chosen_folder(stem, words, command) {
+        Some(format!("a template names the outputs, as in `-o '{folder}/{{stem}}.png'`"))
     } else if let Some(help) = lens_advice(stem, words, command) {
         Some(help)
     } else if let Some(help) = foreign_habit(stem, command) {
@@ -142,6 +151,23 @@ fn chosen_format(name: &str, words: &[String], command: &Command) -> Option<Stri
     has_flag(command, "format").then(|| accepted_value("format", &value, command)).flatten()
 }
 
+/// A short flag and its value, which stand together in `-j4`, as two words.
+fn with_value_apart(word: String, words: Vec<String>) -> (String, Vec<String>) {
+    let is_joined = word.len() > 2
+        && word.chars().nth(1).is_some_and(char::is_alphabetic)
+        && word[2..].chars().all(|c| c.is_ascii_digit());
+    if !word.starts_with('-') || !is_joined {
+        return (word, words);
+    }
+    let (flag, value) = word.split_at(2);
+    let apart = words.into_iter().flat_map(|it| match it == word {
+        true => vec![flag.to_owned(), value.to_owned()],
+        false => vec![it],
+    });
+    let apart = apart.collect();
+    (flag.to_owned(), apart)
+}
+
 /// What to do about a negative number behind another one, as in `--eye 3 -2 5`.
 fn advise_on_negative_number(name: &str, words: &[String], command: &Command) -> Option<String> {
     name.parse::<f64>().ok()?;
@@ -163,6 +189,14 @@ fn without_given_flags(advice: &str, words: &[String]) -> String {
     let mut parts = advice.split(" --");
     let first = parts.next().unwrap_or(advice).to_owned();
     parts.filter(|part| !is_given(part)).fold(first, |kept, part| format!("{kept} --{part}"))
+}
+
+/// The folder of outputs that was given to a command whose outputs are named by a template.
+fn chosen_folder(stem: &str, words: &[String], command: &Command) -> Option<String> {
+    let names = ["output-dir", "outdir", "out-dir", "output-folder"];
+    let is_meant = command.get_name() == "render" && names.contains(&&*with_hyphens(stem));
+    let folder = value_of(&format!("--{stem}"), words).filter(|_| is_meant)?;
+    Some(folder.trim_end_matches('/').to_owned())
 }
 
 /// Whether the value of a piece of advice is a name that few models or folders have.

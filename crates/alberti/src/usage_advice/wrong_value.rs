@@ -24,6 +24,13 @@ pub(super) fn advise_on_value(
         return Some(advice);
     }
     let command = called_command(program, words);
+    if let Some((azimuth, elevation)) = given.split_once(',').filter(|_| flag == "view")
+        && let (Ok(azimuth), Ok(elevation)) = (azimuth.parse::<f64>(), elevation.parse::<f64>())
+    {
+        return Some(format!(
+            "`--view` takes the name of a direction; for angles use `--azimuth {azimuth} --elevation {elevation}`"
+        ));
+    }
     if flag == "view" && given.contains(',') && has_flag(command, "views") {
         return Some(format!(
             "`--view` takes one direction; `--views {given}` draws a picture from each"
@@ -67,7 +74,7 @@ pub(super) fn advise_on_value(
 
 /// What to do about a value of a kind that a flag of this name takes elsewhere.
 fn other_meaning(flag: &str, given: &str) -> Option<String> {
-    if flag == "color" && given.contains([',', '#']) {
+    if flag == "color" {
         return Some(format!(
             "`--color` says when messages are colored (auto, always or never), and does not accept \
              {given}; the colors of a model come from its file, and `--style clay` ignores them"
@@ -87,6 +94,18 @@ fn other_meaning(flag: &str, given: &str) -> Option<String> {
         return Some(format!(
             "invalid value '{given}' for '--background': a background color has no alpha; write \
              `--background '#{color}'` or `--background transparent`"
+        ));
+    }
+    if flag == "background" && given.starts_with("rgba(") {
+        return Some(format!(
+            "invalid value '{given}' for '--background': a background color has no alpha; write a \
+             color such as `--background '#ff8800'`, or `--background transparent`"
+        ));
+    }
+    if let Some(percent) = given.strip_suffix('%').filter(|_| flag == "size") {
+        let factor = percent.parse::<f64>().ok()? / 100.0;
+        return Some(format!(
+            "invalid value '{given}' for '--size': `--scale {factor}` scales the width and height"
         ));
     }
     if flag == "up" && given.starts_with('-') {

@@ -13,6 +13,16 @@ const ADVICE: &[(&str, &str, &str)] = &[
         "turntable orbit spin circle rotate",
         "`alberti animate SCENE --turntable -o turn.png` rotates the models without a path; a path is written camera_path: (keys: [(time: 0, eye: (0, 2, 6), target: (0, 0, 0)), (time: 2, eye: (6, 2, 0), target: (0, 0, 0))])",
     ),
+    (
+        "Camera",
+        "rotation rotationeuler orientation",
+        "a camera has no rotation angles: write camera: (view: LookAt(eye: (4, 3, 6), target: (0, 0, 0)))",
+    ),
+    (
+        "Scene",
+        "frame",
+        "the moment of an animation is a model's `time`, in seconds, or `--time 1.5`; sheet: (frame: …) is the border of a drawing",
+    ),
     ("Scene", "exposure exposureev exposurevalue ev", "write it as image: (exposure_ev: …)"),
     ("Image", "width height", "the size is written size: (640, 480)"),
     ("Scene", "width height", "the size of the picture is written image: (size: (640, 480))"),

@@ -110,7 +110,7 @@ pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
     ("rotation environmentrotation rotate", "Environment::File", "rotation_degrees"),
     ("rotation environmentrotation rotate", "Environment::Studio", "rotation_degrees"),
     ("sunposition sundirection direction elevation", "Environment::Sky", "sun"),
-    ("url src file uri filename", "Environment::File", "path"),
+    ("url src file uri filename hdri hdr image texture map", "Environment::File", "path"),
     // Models: glTF nodes, three.js objects, Blender's transforms.
     ("position location translate offset", "Model", "translation"),
     (

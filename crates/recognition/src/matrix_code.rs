@@ -7,28 +7,41 @@
 //!
 //! Numbers have the fewest digits that give the same f64.
 
-use std::fmt::Write as _;
+use alloc::borrow::ToOwned as _;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::fmt::Write as _;
 
-/// The languages of `--code`.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
-pub(super) enum CodeLanguage {
-    /// C array of 16 doubles, column by column
+/// A language in which a matrix is written.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub enum CodeLanguage {
+    /// C: an array of 16 or 9 doubles, column by column.
     C,
-    /// GLSL mat4
+    /// GLSL: a `mat4` or `mat3`, column by column.
     Glsl,
-    /// Python list of rows
+    /// Python: a list of rows.
     Python,
-    /// Rust array of columns, as glam takes them
+    /// Rust: an array of columns, as glam takes them.
     Rust,
-    /// LaTeX bmatrix
+    /// LaTeX: a `bmatrix`.
     Latex,
 }
 
 impl CodeLanguage {
     /// The matrix with these rows as a statement, or as a formula in LaTeX.
-    pub(super) fn format_matrix<const N: usize>(self, rows: [[f64; N]; N]) -> String {
+    ///
+    /// ```
+    /// use recognition::CodeLanguage;
+    ///
+    /// let code = CodeLanguage::Python.format_matrix([[1.0, 0.5], [0.0, 1.0]]);
+    /// assert_eq!(code, "matrix = [  # row by row\n    [1.0, 0.5],\n    [0.0, 1.0],\n]\n");
+    /// ```
+    #[must_use]
+    pub fn format_matrix<const N: usize>(self, rows: [[f64; N]; N]) -> String {
         let columns: [[f64; N]; N] =
-            std::array::from_fn(|column| std::array::from_fn(|row| rows[row][column]));
+            core::array::from_fn(|column| core::array::from_fn(|row| rows[row][column]));
         match self {
             Self::C => {
                 let body = lines(columns, "    ", ",");
