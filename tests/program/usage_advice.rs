@@ -33,7 +33,11 @@ fn flags_of_other_programs_lead_to_ours() {
             "`--style wireframe` shows all edges of the mesh, and `--overlay edges` draws outlines \
              and creases over the picture",
         ),
-        (&["-b"], "nothing opens a window here, so leave it out"),
+        (
+            &["-b"],
+            "nothing opens a window here, so leave it out; `--background white` is the color behind the \
+             model",
+        ),
         (
             &["--engine", "CYCLES"],
             "there is one renderer, on the CPU and without ray tracing; `--samples 16` smooths edges",
@@ -270,6 +274,12 @@ const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
     (&["--actions", "x"], "`alberti render --help` lists its flags"),
     (&["-o", "PNG32:a.png"], "write `--format png -o a.png`"),
     (&["--camera-rotation-x", "3"], "`alberti render --help` lists its flags"),
+    (&["--size", "64", "x", "48"], "tip: write `--size 64x48`"),
+    (&["-b", "ffffff"], "`--background white` is the color behind the model"),
+    (&["--light=off"], "use `--light-intensity 0`"),
+    (&["--view=axes,scales"], "invalid value 'axes,scales'"),
+    (&["--views", "front,top", "-o", "a.png"], "use a template such as -o '{stem}_{view}.png'\n"),
+    (&["--paper", "a4"], "`alberti sheet model.glb --paper a4` draws on paper"),
     (&["-a"], "`--samples 8` smooths edges"),
     (&["-s", "1"], "`alberti animate model.glb --from 0 --to 2.5 -o film.gif` a range of frames"),
     (&["--colour", "white"], "`--background white` is the color behind the model"),

@@ -93,7 +93,7 @@ impl OutputFormat {
             ),
             "glb" | "gltf" | "obj" | "stl" | "ply" | "3mf" | "fbx" | "usdz" => unwritten(
                 "model",
-                "this program draws models and does not convert them; use one such as Blender"
+                "models are drawn here and not converted; use another program for that, such as Blender"
                     .into(),
             ),
             "dwg" => unwritten(

@@ -180,11 +180,18 @@ fn check_distinct_outputs(jobs: &[RenderTask]) -> Result<(), CliError> {
     for job in jobs {
         let Some(output) = job.output.as_deref() else { continue };
         if let Some(first) = taken.insert(output, job) {
+            let is_view = first.input == job.input && first.overrides.view != job.overrides.view;
             let [first, second] = [first, job].map(|job| visible_path(&job.input));
-            let template = output.with_file_name("{stem}_{index}.png");
+            let field = if is_view { "{view}" } else { "{index}" };
+            let template = output.with_file_name(format!("{{stem}}_{field}.png"));
+            let other = if is_view {
+                ""
+            } else {
+                "; to draw several models in one picture, list them in a scene file"
+            };
             let (output, template) = (visible_path(output), visible_path(template));
             return Err(CliError::Usage(format!(
-                "the pictures of {first} and {second} would both be written to {output}\n  = help: use a template such as -o '{template}'; to draw several models in one picture, list them in a scene file"
+                "the pictures of {first} and {second} would both be written to {output}\n  = help: use a template such as -o '{template}'{other}"
             )));
         }
     }

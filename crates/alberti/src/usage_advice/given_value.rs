@@ -83,8 +83,10 @@ pub(super) fn following_numbers(
     let place = words.iter().position(|it| it == word || it.starts_with(&joined))?;
     let first = words[place].strip_prefix(&joined).map(str::to_owned);
     let rest = words[place + 1..].iter().cloned();
-    let numbers: Vec<String> =
-        first.into_iter().chain(rest).take_while(|it| it.parse::<f64>().is_ok()).collect();
+    let is_between = |it: &str| ["x", "×", "by"].contains(&it);
+    let numbers = first.into_iter().chain(rest);
+    let numbers = numbers.take_while(|it| it.parse::<f64>().is_ok() || is_between(it));
+    let numbers: Vec<String> = numbers.filter(|it| !is_between(it)).collect();
     let counts = (2..=numbers.len().min(16)).rev();
     counts.map(|count| numbers[..count].join(",")).find_map(|given| {
         let meant = if flag == "size" { given.replace(',', "x") } else { given };

@@ -23,6 +23,7 @@ pub(super) fn advise_on_value(
     if let Some(advice) = other_meaning(&flag, &given) {
         return Some(advice);
     }
+    let given = Some(given).filter(|given| !given.is_empty())?;
     let command = called_command(program, words);
     if let Some((azimuth, elevation)) = given.split_once(',').filter(|_| flag == "view")
         && let (Ok(azimuth), Ok(elevation)) = (azimuth.parse::<f64>(), elevation.parse::<f64>())
@@ -31,7 +32,8 @@ pub(super) fn advise_on_value(
             "`--view` takes the name of a direction; for angles use `--azimuth {azimuth} --elevation {elevation}`"
         ));
     }
-    if flag == "view" && given.contains(',') && has_flag(command, "views") {
+    let are_views = || accepted_value("views", &given, command).is_some();
+    if flag == "view" && given.contains(',') && has_flag(command, "views") && are_views() {
         return Some(format!(
             "`--view` takes one direction; `--views {given}` draws a picture from each"
         ));
@@ -77,7 +79,8 @@ fn other_meaning(flag: &str, given: &str) -> Option<String> {
     if flag == "color" {
         return Some(format!(
             "`--color` says when messages are colored (auto, always or never), and does not accept \
-             {given}; the colors of a model come from its file, and `--style clay` ignores them"
+             {given}; the colors of a model come from its file, and a scene file replaces them, as in \
+             `materials: [(base_color: \"red\")]`"
         ));
     }
     if flag == "background" && given.is_empty() {

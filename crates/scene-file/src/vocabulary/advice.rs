@@ -23,6 +23,7 @@ const ADVICE: &[(&str, &str, &str)] = &[
         "frame",
         "the moment of an animation is a model's `time`, in seconds, or `--time 1.5`; sheet: (frame: …) is the border of a drawing",
     ),
+    ("Scene", "resolution", "the size of the picture is written image: (size: (640, 480))"),
     ("Scene", "exposure exposureev exposurevalue ev", "write it as image: (exposure_ev: …)"),
     ("Image", "width height", "the size is written size: (640, 480)"),
     ("Scene", "width height", "the size of the picture is written image: (size: (640, 480))"),
