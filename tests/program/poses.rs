@@ -160,7 +160,7 @@ fn poses_are_those_of_the_specification() {
     assert_eq!(described["materials"][0]["base_color"], json!([1.0, 0.0, 0.0, 1.0]), "at rest");
 }
 
-/// Nothing moves behind the end of an animation, and whoever asked for it is told.
+/// After its end an animation stands still; a later time is a warning.
 #[test]
 fn times_behind_the_end_are_said() {
     let sandbox = Sandbox::new("late_times");

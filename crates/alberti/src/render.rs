@@ -11,6 +11,7 @@ pub(super) mod tasks;
 mod watch;
 
 use super::args::RenderArgs;
+use super::format::OutputFormat;
 use super::messages::{print_message, print_note, print_warnings};
 use super::progress::Progress;
 use super::render_job::RenderJob;
@@ -52,8 +53,9 @@ pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, CliError> {
 /// Renders all pictures once.
 fn render_all(args: &RenderArgs) -> Result<ExitCode, CliError> {
     let tasks = tasks::plan_tasks(args)?;
-    let goes_to_a_file = std::fs::metadata("/dev/stdout").is_ok_and(|output| output.is_file());
-    if args.output.is_none() && !args.json && goes_to_a_file {
+    // A log is not meant for the picture, and `> picture.png` is.
+    let redirected = std::fs::read_link("/proc/self/fd/1").unwrap_or_default();
+    if args.output.is_none() && OutputFormat::is_known(&redirected) {
         let output =
             tasks.first().and_then(|task| task.output.as_deref()).unwrap_or(Path::new("-"));
         let message = format!(

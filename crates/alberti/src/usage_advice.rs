@@ -19,6 +19,7 @@ use foreign_words::foreign_words;
 
 use files::visible_text;
 use given_value::quoted;
+use import::FileFormat;
 use scene_file::closest_name;
 use std::ffi::OsString;
 use std::path::Path;
@@ -77,12 +78,7 @@ fn advise(mut error: Error, words: &[OsString], program: &Command) -> Error {
 
 /// The message with the model that was named in the place of the example's.
 fn with_given_model(message: &str, words: &[OsString]) -> String {
-    let is_model = |word: &&str| {
-        let ending = Path::new(word).extension().map(std::ffi::OsStr::to_ascii_lowercase);
-        ending.is_some_and(|it| {
-            ["glb", "gltf", "stl", "obj", "ply", "3mf"].iter().any(|of| it == *of)
-        })
-    };
+    let is_model = |word: &&str| FileFormat::from_extension(Path::new(word)).is_some();
     let words: Vec<&str> = words.iter().filter_map(|word| word.to_str()).collect();
     match words.iter().filter(|word| is_model(word)).collect::<Vec<_>>()[..] {
         [name] if !name.starts_with('-') && visible_text(name) == **name => {

@@ -253,7 +253,7 @@ fn degrees_of_radians(name: &str, given: &str) -> Option<f64> {
     (0.0..core::f64::consts::PI).contains(&radians).then_some(degrees)
 }
 
-/// The vertical angle of view in degrees of a lens of so many millimeters before a frame of 24 mm.
+/// The vertical angle of view in degrees of a lens on full frame, 24 mm high, by its focal length.
 pub(super) fn lens_angle(millimeters: &str) -> Option<String> {
     let length: f64 = millimeters.trim().parse().ok().filter(|length| *length > 0.0)?;
     let degrees = 2.0 * libm::atan(12.0 / length).to_degrees();

@@ -8,6 +8,7 @@ use super::{context, full_name, has_flag, is_misspelling, takes_value, with_hyph
 use crate::negative_numbers::called_command;
 use clap::error::ContextKind;
 use clap::{Command, Error};
+use import::FileFormat;
 use scene_file::closest_name;
 use std::ffi::OsString;
 use std::path::Path;
@@ -117,8 +118,7 @@ pub(super) fn what_to_write(
 
 /// What to do about the name of an output without its flag, as in `alberti animate a.glb film.gif`.
 fn advise_on_output(name: &str, words: &[String], command: &Command) -> Option<String> {
-    let ending = Path::new(name).extension()?.to_str()?.to_ascii_lowercase();
-    let is_output = !["glb", "gltf", "stl", "obj", "ply", "3mf"].contains(&ending.as_str());
+    let is_output = FileFormat::from_extension(Path::new(name)).is_none();
     let input = words
         .iter()
         .take_while(|word| *word != name)
