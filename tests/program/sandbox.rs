@@ -51,6 +51,15 @@ impl Sandbox {
         RunResult::of(output.expect("the program starts"))
     }
 
+    /// Runs the program here with its standard output in a file; returns its standard error stream.
+    pub(crate) fn stderr_with_output_in(&self, file: &str, arguments: &[&str]) -> String {
+        let output = std::fs::File::create(self.path_of(file)).expect("a file");
+        let mut command = Command::new(program());
+        let run = command.args(arguments).current_dir(&self.folder).stdout(output);
+        let run = run.stderr(Stdio::piped()).output().expect("the program starts");
+        String::from_utf8(run.stderr).expect("the program writes UTF-8")
+    }
+
     /// Runs the program here with another value of an environment variable.
     pub(crate) fn run_with_variable(
         &self,

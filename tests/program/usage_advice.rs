@@ -372,6 +372,11 @@ fn flags_without_an_effect_are_warnings() {
     );
     let run = sandbox.run(&["render", "teapot.glb", "--size=8x8", "--view", "Front"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let render = ["render", "teapot.glb", "--size=8x8"];
+    let told = sandbox.stderr_with_output_in("a.png", &render);
+    let expected = "the picture is written to teapot.png, and nothing to the standard output";
+    assert!(told.contains(expected), "{told}");
+    assert_eq!(sandbox.stderr_with_output_in("a.log", &render), "");
     std::fs::create_dir(sandbox.path_of("scenes")).expect("a folder");
     let run = sandbox.run(&["scene", "init", "teapot.glb", "-o", "scenes/teapot.ron"]);
     assert!(run.stderr.ends_with("need --allow-outside .\n"), "{}", run.stderr);
