@@ -225,6 +225,9 @@ fn habits_that_were_tried_are_answered() {
 
 /// What `alberti render teapot.glb` is given, and what it answers.
 const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
+    (&["-x"], "for axes use `--overlay axes`; a format needs no flag"),
+    (&["--threads", "0"], "leave it out to use all processors"),
+    (&["--camera=0,0,5"], "to place one use `--eye 0,0,5 --target 0,0,0`"),
     (&["--camera-view-up", "0,0,1"], "use `--view-up 0,0,1 --eye 4,3,6 --target 0,0,0`"),
     (&["--focal-length", "50"], "use `--fov 27`, the vertical angle of view of a 50 mm lens"),
     (&["--max-size=100"], "`--max-file-bytes 100MiB`"),
@@ -306,6 +309,7 @@ const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
 
 /// Command lines, and what they are answered with.
 const COMMAND_LINES: &[(&[&str], &str)] = &[
+    (&["montage", "teapot.glb"], "which writes `index.html` beside the pictures"),
     (&["scene", "validate", "a.ron"], "run `alberti scene check scene.ron`"),
     (&["sheet", "teapot.glb", "--scale", "50%"], "tip: write `--scale 1:2`"),
     (&["teapot.glb", "-o", "a.png"], "run `alberti render teapot.glb -o a.png`"),
@@ -370,6 +374,9 @@ fn flags_without_an_effect_are_warnings() {
         run.stderr,
         "warning: a.png contains JPG, because --format overrides the ending of the name\n"
     );
+    let run = sandbox.run(&["render", "teapot.glb", "--size=8x8", "--fov", "0.785"]);
+    assert_eq!(run.code, 0);
+    assert!(run.stderr.contains("if it is in radians, write --fov 45"), "{}", run.stderr);
     let run = sandbox.run(&["render", "teapot.glb", "--size=8x8", "--view", "Front"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let render = ["render", "teapot.glb", "--size=8x8"];
@@ -399,6 +406,10 @@ fn scenes_of_other_languages_are_answered() {
     sandbox.write_file("frame.ron", scene("frame: 12"));
     sandbox.write_file("exposure.ron", scene("exposure: 1.0"));
     sandbox.write_file("size.ron", scene("image: (width: 64, height: 48)"));
+    sandbox.write_file("type.ron", scene("style: Style(Toon())"));
+    sandbox.write_file("bare.ron", "Scene(models: [Model(\"teapot.glb\")])\n");
+    sandbox.write_file("lower.ron", "Scene(models: [model(path: \"teapot.glb\")])\n");
+    sandbox.write_file("scene.json", "{\"models\": [\"teapot.glb\"]}\n");
     for (words, told) in [
         (&["scene", "check", "hash.ron"][..], "colors are written in quotation marks: \"#ff8800\""),
         (&["scene", "check", "number.ron"], "colors are written in quotation marks: \"#ff8800\""),
@@ -410,6 +421,10 @@ fn scenes_of_other_languages_are_answered() {
         (&["scene", "check", "frame.ron"], "the moment of an animation is a model's `time`"),
         (&["scene", "check", "exposure.ron"], "write it as image: (exposure_ev: …)"),
         (&["scene", "check", "size.ron"], "the size is written size: (640, 480)"),
+        (&["scene", "check", "type.ron"], "leave out `Style(…)` and write Toon()"),
+        (&["scene", "check", "bare.ron"], "write Model(path: \"teapot.glb\")"),
+        (&["scene", "check", "lower.ron"], "write Model(…), or just (…)"),
+        (&["render", "scene.json"], "this looks like a scene in JSON"),
         (&["info", "scene.ron"], "this is a scene and not a model"),
         (&["scene", "check", "teapot.glb"], "teapot.glb is not a scene"),
         (&["scene", "check", "scene.ron"], "comments begin with `//`"),

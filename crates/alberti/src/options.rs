@@ -62,7 +62,9 @@ where
 /// Parses a number of threads.
 pub(crate) fn parse_thread_count(text: &str) -> Result<u16, String> {
     let count = text.parse().ok().filter(|count| (1..=256).contains(count));
-    count.ok_or_else(|| "expected a whole number from 1 to 256".to_owned())
+    count.ok_or_else(|| {
+        "expected a whole number from 1 to 256; leave it out to use all processors".to_owned()
+    })
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Flags of the camera: a direction around the models or a place, the field of view, the zoom.
 
 use super::CliError;
+use super::messages::print_message;
 use super::number_list::parse_numbers;
 use super::scene_overrides::frame_padding;
 use scene_file::file::{
@@ -109,12 +110,24 @@ fn set_field_of_view(file: &mut CameraFile, angle: FieldOfView) -> Result<(), Cl
             fov_y_degrees, fov_x_degrees, fov_diagonal_degrees, ..
         } => {
             (*fov_y_degrees, *fov_x_degrees, *fov_diagonal_degrees) = (Some(angle), None, None);
+            warn_of_radians(angle.value());
             Ok(())
         }
         _ => Err(CliError::Usage(
             "`--fov` cannot be used with this projection: it applies only to a plain perspective\n  = help: use `--projection perspective`, or `--zoom 1.5` instead of `--fov` to make the model larger"
                 .to_owned(),
         )),
+    }
+}
+
+/// Warns of an angle in degrees that would be a usual one in radians: below π.
+fn warn_of_radians(degrees: f64) {
+    if degrees < core::f64::consts::PI {
+        let meant = libm::round(degrees.to_degrees() * 10.0) / 10.0;
+        let message = format!(
+            "a field of view of {degrees} degrees is very narrow; if it is in radians, write --fov {meant}"
+        );
+        print_message("warning", &message);
     }
 }
 

@@ -354,10 +354,22 @@ impl<'a> CameraResolver<'a> {
             CameraChoice::Name(name) => name.clone(),
         };
         let (message, help) = if cameras.is_empty() {
-            let help = "use `--view front` or `--eye 4,3,6 --target 0,0,0` instead, and \
-                        `--projection` for projections; in a scene write `view: Frame(from: Front)`";
+            let numbers: Vec<&str> = wanted.split(',').map(str::trim).collect();
+            let is_place = numbers.len() > 2 && numbers.iter().all(|it| it.parse::<f64>().is_ok());
+            let help = if is_place {
+                let eye = numbers[..3].join(",");
+                let target =
+                    numbers.get(3..6).map_or_else(|| "0,0,0".to_owned(), |it| it.join(","));
+                format!(
+                    "`--camera` names a camera of the model; to place one use `--eye {eye} --target {target}`"
+                )
+            } else {
+                "use `--view front` or `--eye 4,3,6 --target 0,0,0` instead, and `--projection` \
+                 for projections; in a scene write `view: Frame(from: Front)`"
+                    .to_owned()
+            };
             let message = format!("there is no camera `{wanted}`: the models have no cameras");
-            (message, Some(help.to_owned()))
+            (message, Some(help))
         } else {
             let names: Vec<&str> = cameras.iter().map(|(_, name)| name.as_str()).collect();
             let listed = cameras.iter().map(|(number, name)| match name.as_str() {

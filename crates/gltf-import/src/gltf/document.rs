@@ -144,7 +144,12 @@ fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<()
     let asset = &value["asset"];
     let Some(version) = asset["version"].as_str() else {
         let message = "the version of glTF is missing";
-        let help = "check that this is a glTF file; a glTF 2.0 file says \"asset\": {\"version\": \"2.0\"}";
+        let help = if value["asset"].is_null() && value["models"].is_array() {
+            "this looks like a scene in JSON; scenes are written in RON, in a file that ends in \
+             .ron: Scene(models: [(path: \"model.glb\")])"
+        } else {
+            "check that this is a glTF file; a glTF 2.0 file says \"asset\": {\"version\": \"2.0\"}"
+        };
         return Err(Diagnostic::error(
             codes::UNSUPPORTED_VERSION,
             "/asset/version",

@@ -372,7 +372,12 @@ fn resolve_index(reference: i64, count: usize) -> Option<u32> {
 
 /// The message for a reference to a vertex that does not exist.
 fn missing_vertex(reference: &str, count: usize) -> String {
-    format!("there is no vertex {reference} among {count}")
+    match (reference, count) {
+        ("0", _) => "there is no vertex 0: the first one is 1".to_owned(),
+        (_, 0) => format!("there is no vertex {reference}: there are none before this line"),
+        (_, 1) => format!("there is no vertex {reference}: there is only one before this line"),
+        _ => format!("there is no vertex {reference}: there are {count} before this line"),
+    }
 }
 
 /// The message for a word that is no reference.

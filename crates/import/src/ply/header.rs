@@ -263,7 +263,7 @@ fn parse_property<'a>(
     let mut next = || words.next().unwrap_or("");
     let scalar_type = |name: &str| {
         ScalarType::from_name(name).ok_or_else(|| {
-            let message = format!("{:?} is no type of PLY's", shorten(name));
+            let message = format!("{:?} is not a type of PLY", shorten(name));
             Diagnostic::invalid(location, message)
         })
     };
@@ -349,7 +349,7 @@ mod tests {
             ("ply\nend_header\n", "line 2: the header has no `format` line"),
             ("ply\nformat ascii 1.0\nproperty int x\n", "line 3: there is a property before the"),
             ("ply\nelement vertex -1\n", "line 2: the number of \"vertex\" is \"-1\""),
-            ("ply\nelement a 1\nproperty half x\n", "line 3: \"half\" is no type of PLY's"),
+            ("ply\nelement a 1\nproperty half x\n", "line 3: \"half\" is not a type of PLY"),
             ("ply\nformat text 1.0\n", "line 2: the format \"text\" is none of PLY's"),
             ("ply\nelment vertex 1\n", "line 2: a line of a PLY header cannot begin with `elment`"),
         ];

@@ -197,8 +197,11 @@ impl ObjectMesh {
         let summary = lookup.summarize(triangles.len(), palette);
         if summary.missing > 0 {
             let message = match summary.missing {
-                1 => "1 triangle names a property that does not exist; it has none".to_owned(),
-                n => format!("{n} triangles name properties that do not exist; they have none"),
+                1 => "1 triangle names a property that does not exist and is drawn without it"
+                    .to_owned(),
+                n => format!(
+                    "{n} triangles name properties that do not exist and are drawn without them"
+                ),
             };
             warnings.push_warning(&object.location, message);
         }

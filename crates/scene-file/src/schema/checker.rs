@@ -223,7 +223,8 @@ impl<'a> Checker<'a> {
     fn report_struct_name(&mut self, name: &Key<'_>, entry: &'static TypeEntry) -> Option<()> {
         let message = format!("expected `{}`, found `{}`", entry.name, name.name);
         let suggestion = suggest_variant(entry, name.name, self.top_level_field());
-        let is_known = suggestion.is_known();
+        let is_misspelt = name.name.eq_ignore_ascii_case(entry.name);
+        let is_known = suggestion.is_known() && !is_misspelt;
         let help = if is_known {
             suggestion.help
         } else {
@@ -256,7 +257,7 @@ impl<'a> Checker<'a> {
             self.scopes.push(item.span());
             match &item.key {
                 None => {
-                    self.report_keyless_item(item);
+                    self.report_keyless_item(item, owner, declared);
                     if group.items.iter().all(|item| item.key.is_none()) {
                         self.scopes.pop();
                         return None;
@@ -302,19 +303,31 @@ impl<'a> Checker<'a> {
     }
 
     /// Reports a value without a name among fields, such as the 5 of `fov_y_degrees: 3,5`.
-    fn report_keyless_item(&mut self, item: &SyntaxItem<'_>) {
+    fn report_keyless_item(
+        &mut self,
+        item: &SyntaxItem<'_>,
+        owner: &Owner,
+        declared: &'static [FieldEntry],
+    ) {
         if item.value.kind == NodeKind::Invalid {
             return;
         }
         let found = self.describe(&item.value);
-        let help = match item.value.kind {
-            NodeKind::Number(_) => {
-                "a field is written `name: value`; numbers have a decimal point and no comma"
+        // The only field that must be there, such as `path` in `Model("model.glb")`.
+        let mut required = declared.iter().filter(|field| !field.is_optional);
+        let text = &self.source[item.value.span.clone()];
+        let help = match (&item.value.kind, required.next()) {
+            (NodeKind::String(_), Some(field)) if required.next().is_none() && text.len() <= 80 => {
+                format!("write {}({}: {text})", owner.shown, field.name)
             }
-            _ => "a field is written `name: value`",
+            (NodeKind::Number(_), _) => {
+                "a field is written `name: value`; numbers have a decimal point and no comma"
+                    .to_owned()
+            }
+            _ => "a field is written `name: value`".to_owned(),
         };
         let message = format!("expected the name of a field, found {found}");
-        self.report(item.value.span.clone(), message, Some(help.to_owned()));
+        self.report(item.value.span.clone(), message, Some(help));
     }
 
     /// Reports a field that is not declared. Returns the field of the same struct that is probably
@@ -377,9 +390,20 @@ impl<'a> Checker<'a> {
             if meant.is_some_and(VariantEntry::has_brackets) {
                 help.insert_str(help.len() - "`?".len(), "()");
             }
+            if name == entry.name
+                && let Some(inner) = group.and_then(|group| self.only_item(group))
+            {
+                help = format!("leave out `{name}(…)` and write {inner}");
+            }
             self.report(span, message, Some(help));
         }
         variant.map(|variant| (variant, group))
+    }
+
+    /// The text of the only item of a group, unless it is long.
+    fn only_item(&self, group: &Group<'_>) -> Option<&str> {
+        let [SyntaxItem { key: None, value }] = group.items.as_slice() else { return None };
+        Some(&self.source[value.span.clone()]).filter(|text| text.len() <= 60)
     }
 
     /// Reports a value that names no variant, with the variant that holds such values, if there is

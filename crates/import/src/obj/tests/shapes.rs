@@ -28,14 +28,18 @@ fn references_count_from_one_or_backwards() {
 #[test]
 fn references_to_nothing_say_where_and_are_left_out_leniently() {
     for (face, place, message) in [
-        ("f 1 2 5", "line 5, column 7", "there is no vertex 5 among 4"),
-        ("f 1 0 2", "line 5, column 5", "there is no vertex 0 among 4"),
-        ("f -5 1 2", "line 5, column 3", "there is no vertex -5 among 4"),
-        ("f 1 2 99999999999", "line 5, column 7", "there is no vertex 99999999999 among 4"),
+        ("f 1 2 5", "line 5, column 7", "there is no vertex 5: there are 4 before this line"),
+        ("f 1 0 2", "line 5, column 5", "there is no vertex 0: the first one is 1"),
+        ("f -5 1 2", "line 5, column 3", "there is no vertex -5: there are 4 before this line"),
+        (
+            "f 1 2 99999999999",
+            "line 5, column 7",
+            "there is no vertex 99999999999: there are 4 before this line",
+        ),
         ("f 1 2 x", "line 5, column 7", "\"x\" is not a reference"),
         ("f 1 2 3/1/1/1", "line 5, column 7", "\"3/1/1/1\" is not a reference"),
         ("f 1 2 3.5", "line 5, column 7", "\"3.5\" is not a reference"),
-        ("l 1 7", "line 5, column 5", "there is no vertex 7 among 4"),
+        ("l 1 7", "line 5, column 5", "there is no vertex 7: there are 4 before this line"),
     ] {
         let text = format!("{SQUARE}{face}\nf 1 2 3 4\n");
         let diagnostic = read(&text).unwrap_err().diagnostic;
