@@ -19,7 +19,7 @@ use glam::{DMat3, DMat4, DVec3, DVec4};
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Affine<A: Space, B: Space> {
-    raw: DMat4,
+    pub(crate) raw: DMat4,
     spaces: PhantomData<(A, B)>,
 }
 
@@ -27,13 +27,12 @@ impl<A: Space, B: Space> Affine<A, B> {
     /// The map that keeps the numbers and only changes the space they are read in.
     pub const IDENTITY: Self = Self::tagged(DMat4::IDENTITY);
 
-    const fn tagged(raw: DMat4) -> Self {
+    pub(crate) const fn tagged(raw: DMat4) -> Self {
         Self { raw, spaces: PhantomData }
     }
 
     /// Tags a matrix with its two spaces; `None` unless its bottom row is exactly (0, 0, 0, 1).
-    #[must_use]
-    pub fn from_raw(raw: DMat4) -> Option<Self> {
+    pub(crate) fn from_matrix(raw: DMat4) -> Option<Self> {
         (raw.row(3) == DVec4::W).then_some(Self::tagged(raw))
     }
 
@@ -41,17 +40,17 @@ impl<A: Space, B: Space> Affine<A, B> {
     #[must_use]
     pub fn from_frame(x: Vector<B>, y: Vector<B>, z: Vector<B>, origin: Point<B>) -> Self {
         Self::tagged(DMat4::from_cols(
-            x.raw().extend(0.0),
-            y.raw().extend(0.0),
-            z.raw().extend(0.0),
-            origin.raw().extend(1.0),
+            x.raw.extend(0.0),
+            y.raw.extend(0.0),
+            z.raw.extend(0.0),
+            origin.raw.extend(1.0),
         ))
     }
 
     /// Moves points by `by` and leaves vectors alone (HO-4).
     #[must_use]
     pub fn translation(by: Vector<B>) -> Self {
-        Self::tagged(DMat4::from_translation(by.raw()))
+        Self::tagged(DMat4::from_translation(by.raw))
     }
 
     /// Multiplies each coordinate by its factor. A factor of 0 flattens, a negative one mirrors.
@@ -64,7 +63,7 @@ impl<A: Space, B: Space> Affine<A, B> {
     /// at the viewer, anticlockwise. `None` if the axis is zero or not finite.
     #[must_use]
     pub fn rotation(axis: Vector<B>, angle: f64) -> Option<Self> {
-        let [x, y, z] = axis.normalized()?.raw().to_array();
+        let [x, y, z] = axis.normalized()?.raw.to_array();
         let (s, c) = libm::sincos(angle / 2.0);
         Self::from_quaternion([x * s, y * s, z * s, c])
     }
@@ -113,17 +112,11 @@ impl<A: Space, B: Space> Affine<A, B> {
         Self::tagged(DMat4::from_mat3(DMat3::from_cols(x, y, z)))
     }
 
-    /// The matrix, without its spaces; its bottom row is (0, 0, 0, 1).
-    #[must_use]
-    pub const fn raw(self) -> DMat4 {
-        self.raw
-    }
-
     /// The image of a point.
     #[must_use]
     #[inline(always)]
     pub fn transform_point(self, point: Point<A>) -> Point<B> {
-        Point::from_raw(self.raw.transform_point3(point.raw()))
+        Point::tagged(self.raw.transform_point3(point.raw))
     }
 
     /// Writes the images of `points` to `images`, as many as both have: the same bits as
@@ -137,7 +130,7 @@ impl<A: Space, B: Space> Affine<A, B> {
     /// The image of a vector: the translation does not touch it.
     #[must_use]
     pub fn transform_vector(self, vector: Vector<A>) -> Vector<B> {
-        Vector::from_raw(self.raw.transform_vector3(vector.raw()))
+        Vector::tagged(self.raw.transform_vector3(vector.raw))
     }
 
     /// The image of a normal, by the cofactors of the linear part: they are its transposed inverse
@@ -148,16 +141,16 @@ impl<A: Space, B: Space> Affine<A, B> {
         let [x, y, z] = self.linear_columns();
         let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
         let mirrored = x.dot(cofactors.x_axis) < 0.0;
-        let image = cofactors * normal.raw();
-        Normal::from_raw(if mirrored { -image } else { image })
+        let image = cofactors * normal.raw;
+        Normal::tagged(if mirrored { -image } else { image })
     }
 
     /// The image of a plane; `None` if the map flattens space, or the image has a coefficient that
     /// is not finite.
     #[must_use]
     pub fn transform_plane(self, plane: Plane<A>) -> Option<Plane<B>> {
-        let image = self.inverse()?.raw.transpose() * plane.raw();
-        image.is_finite().then_some(Plane::from_raw(image))
+        let image = self.inverse()?.raw.transpose() * plane.raw;
+        image.is_finite().then_some(Plane::tagged(image))
     }
 
     fn linear_columns(self) -> [DVec3; 3] {
@@ -290,7 +283,7 @@ mod tests {
         let moved = map.transform_hpoint(crate::HPoint::new(x, y, z, h));
         assert_eq!(moved.divide(), Some(Point::new(x / h + 1.0, y / h + 2.0, z / h + 3.0)));
         let direction = crate::HPoint::new(x, y, z, 0.0);
-        assert_eq!(map.transform_hpoint(direction).raw(), direction.raw());
+        assert_eq!(map.transform_hpoint(direction).raw, direction.raw);
     }
 
     #[test]
@@ -303,14 +296,10 @@ mod tests {
         ];
         let map = Map::from_rows(rows).expect("affine");
         let (p, h) = (Point::new(1.0, -2.0, 3.0), 4.0);
-        let lifted = crate::HPoint::from_raw(crate::HPoint::from(p).raw() * h);
+        let lifted = crate::HPoint::tagged(crate::HPoint::from(p).raw * h);
         let image = Projective::from(map).transform_hpoint(lifted);
         assert_eq!(image.w(), h);
-        assert_eq!(
-            image.raw(),
-            crate::HPoint::from(map.transform_point(p)).raw() * h,
-            "M(hp) = h Mp"
-        );
+        assert_eq!(image.raw, crate::HPoint::from(map.transform_point(p)).raw * h, "M(hp) = h Mp");
         assert_eq!(image.divide(), Some(Point::new(10.0, 8.5, 4.0)));
     }
 

@@ -24,19 +24,19 @@ impl<A: Space, B: Space> Projective<A, B> {
     /// The map with the given rows, as a book prints them. The caller vouches for the spaces.
     #[must_use]
     pub fn from_rows(rows: [[f64; 4]; 4]) -> Self {
-        Self::from_raw(DMat4::from_cols_array_2d(&transpose_columns(rows)))
+        Self::tagged(DMat4::from_cols_array_2d(&transpose_columns(rows)))
     }
 
     /// The rows of the matrix.
     #[must_use]
     pub fn rows(self) -> [[f64; 4]; 4] {
-        transpose_columns(self.raw().to_cols_array_2d())
+        transpose_columns(self.raw.to_cols_array_2d())
     }
 
     /// The map of sixteen numbers, row after row.
     #[must_use]
     pub fn from_row_major(entries: [f64; 16]) -> Self {
-        Self::from_raw(DMat4::from_cols_array(&entries).transpose())
+        Self::tagged(DMat4::from_cols_array(&entries).transpose())
     }
 
     /// The sixteen numbers, row after row.
@@ -48,13 +48,26 @@ impl<A: Space, B: Space> Projective<A, B> {
     /// The map of sixteen numbers, column after column.
     #[must_use]
     pub fn from_column_major(entries: [f64; 16]) -> Self {
-        Self::from_raw(DMat4::from_cols_array(&entries))
+        Self::tagged(DMat4::from_cols_array(&entries))
     }
 
     /// The sixteen numbers, column after column; also the row-major array of the row-vector form.
     #[must_use]
     pub fn to_column_major(self) -> [f64; 16] {
-        self.raw().to_cols_array()
+        self.raw.to_cols_array()
+    }
+
+    /// The map of sixteen numbers in single precision, column after column, as graphics cards have
+    /// them.
+    #[must_use]
+    pub fn from_column_major_f32(entries: [f32; 16]) -> Self {
+        Self::from_column_major(entries.map(f64::from))
+    }
+
+    /// The sixteen numbers in single precision, column after column.
+    #[must_use]
+    pub fn to_column_major_f32(self) -> [f32; 16] {
+        self.raw.as_mat4().to_cols_array()
     }
 }
 
@@ -62,19 +75,19 @@ impl<A: Space, B: Space> Affine<A, B> {
     /// The map with the given rows; `None` unless the last is exactly (0, 0, 0, 1).
     #[must_use]
     pub fn from_rows(rows: [[f64; 4]; 4]) -> Option<Self> {
-        Self::from_raw(DMat4::from_cols_array_2d(&transpose_columns(rows)))
+        Self::from_matrix(DMat4::from_cols_array_2d(&transpose_columns(rows)))
     }
 
     /// The rows of the matrix; the last is (0, 0, 0, 1).
     #[must_use]
     pub fn rows(self) -> [[f64; 4]; 4] {
-        transpose_columns(self.raw().to_cols_array_2d())
+        transpose_columns(self.raw.to_cols_array_2d())
     }
 
     /// The map of sixteen numbers, row after row; `None` unless the last four are 0, 0, 0, 1.
     #[must_use]
     pub fn from_row_major(entries: [f64; 16]) -> Option<Self> {
-        Self::from_raw(DMat4::from_cols_array(&entries).transpose())
+        Self::from_matrix(DMat4::from_cols_array(&entries).transpose())
     }
 
     /// The sixteen numbers, row after row.
@@ -87,13 +100,13 @@ impl<A: Space, B: Space> Affine<A, B> {
     /// 0, 0, 1.
     #[must_use]
     pub fn from_column_major(entries: [f64; 16]) -> Option<Self> {
-        Self::from_raw(DMat4::from_cols_array(&entries))
+        Self::from_matrix(DMat4::from_cols_array(&entries))
     }
 
     /// The sixteen numbers, column after column; also the row-major array of the row-vector form.
     #[must_use]
     pub fn to_column_major(self) -> [f64; 16] {
-        self.raw().to_cols_array()
+        self.raw.to_cols_array()
     }
 }
 
@@ -101,19 +114,19 @@ impl Homography {
     /// The map with the given rows, as a book prints them.
     #[must_use]
     pub fn from_rows(rows: [[f64; 3]; 3]) -> Self {
-        Self::from_raw(DMat3::from_cols_array_2d(&transpose_columns(rows)))
+        Self::tagged(DMat3::from_cols_array_2d(&transpose_columns(rows)))
     }
 
     /// The rows of the matrix.
     #[must_use]
     pub fn rows(self) -> [[f64; 3]; 3] {
-        transpose_columns(self.raw().to_cols_array_2d())
+        transpose_columns(self.raw.to_cols_array_2d())
     }
 
     /// The map of nine numbers, row after row.
     #[must_use]
     pub fn from_row_major(entries: [f64; 9]) -> Self {
-        Self::from_raw(DMat3::from_cols_array(&entries).transpose())
+        Self::tagged(DMat3::from_cols_array(&entries).transpose())
     }
 
     /// The nine numbers, row after row.
@@ -125,13 +138,13 @@ impl Homography {
     /// The map of nine numbers, column after column.
     #[must_use]
     pub fn from_column_major(entries: [f64; 9]) -> Self {
-        Self::from_raw(DMat3::from_cols_array(&entries))
+        Self::tagged(DMat3::from_cols_array(&entries))
     }
 
     /// The nine numbers, column after column.
     #[must_use]
     pub fn to_column_major(self) -> [f64; 9] {
-        self.raw().to_cols_array()
+        self.raw.to_cols_array()
     }
 }
 

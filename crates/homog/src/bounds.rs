@@ -28,14 +28,14 @@ impl<S: Space> Bounds<S> {
     pub fn from_points(points: impl IntoIterator<Item = Point<S>>) -> Option<Self> {
         let mut points = points.into_iter();
         let first = points.next()?;
-        let (mut min, mut max) = (first.raw(), first.raw());
+        let (mut min, mut max) = (first.raw, first.raw);
         let mut finite = first.is_finite();
         for point in points {
             finite &= point.is_finite();
-            min = min.min(point.raw());
-            max = max.max(point.raw());
+            min = min.min(point.raw);
+            max = max.max(point.raw);
         }
-        finite.then_some(Self { min: Point::from_raw(min), max: Point::from_raw(max) })
+        finite.then_some(Self { min: Point::tagged(min), max: Point::tagged(max) })
     }
 
     /// The least x, y and z.
@@ -54,8 +54,8 @@ impl<S: Space> Bounds<S> {
     #[must_use]
     pub fn union(self, other: Self) -> Self {
         Self {
-            min: Point::from_raw(self.min.raw().min(other.min.raw())),
-            max: Point::from_raw(self.max.raw().max(other.max.raw())),
+            min: Point::tagged(self.min.raw.min(other.min.raw)),
+            max: Point::tagged(self.max.raw.max(other.max.raw)),
         }
     }
 
@@ -63,14 +63,14 @@ impl<S: Space> Bounds<S> {
     /// the greatest z.
     #[must_use]
     pub fn corners(self) -> [Point<S>; 8] {
-        let ends = [self.min.raw(), self.max.raw()];
+        let ends = [self.min.raw, self.max.raw];
         core::array::from_fn(|i| Point::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z))
     }
 
     /// The middle of the box.
     #[must_use]
     pub fn center(self) -> Point<S> {
-        Point::from_raw(self.min.raw() * 0.5 + self.max.raw() * 0.5)
+        Point::tagged(self.min.raw * 0.5 + self.max.raw * 0.5)
     }
 
     /// From the least corner to the greatest: the three edge lengths. Infinite where the numbers do
@@ -89,7 +89,7 @@ impl<S: Space> Bounds<S> {
     /// True if `point` is inside or on the box.
     #[must_use]
     pub fn contains(self, point: Point<S>) -> bool {
-        self.min.raw().cmple(point.raw()).all() && self.max.raw().cmpge(point.raw()).all()
+        self.min.raw.cmple(point.raw).all() && self.max.raw.cmpge(point.raw).all()
     }
 
     /// The bounds of the image of this box, in general larger than the bounds of what is in the

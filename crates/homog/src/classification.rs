@@ -15,7 +15,7 @@ use crate::{Affine, Homography, Projective, Space};
 use core::fmt;
 
 /// The three kinds of maps that a matrix on homogeneous points can be.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum MapKind {
     /// Keeps the origin, parallels and proportions.
     Linear,
@@ -185,12 +185,13 @@ impl<A: Space, B: Space> Projective<A, B> {
     /// ```
     /// use homog::{Affine, Model, Projective, Vector, World};
     /// let shift = Affine::<Model, World>::translation(Vector::new(1.0, 2.0, 3.0));
-    /// let thrice = Projective::<Model, World>::from_raw(shift.raw() * 3.0);
+    /// let thrice = shift.rows().map(|row| row.map(|entry| 3.0 * entry));
+    /// let thrice = Projective::<Model, World>::from_rows(thrice);
     /// assert_eq!(thrice.to_affine(), Some(shift));
     /// ```
     #[must_use]
     pub fn to_affine(self) -> Option<Affine<A, B>> {
-        let h = self.raw().w_axis.w;
+        let h = self.raw.w_axis.w;
         let rows = self.rows().map(|row| row.map(|entry| entry / h));
         Affine::from_rows(rows).filter(|map| map.is_finite())
     }
@@ -233,7 +234,7 @@ mod tests {
         );
         let moved = turn.then(Affine::<World, World>::translation(Vector::new(0.0, 2.5, 0.0)));
         assert_eq!(moved.classify().reason, KindReason::OriginMoves { to: [0.0, 2.5, 0.0] });
-        let scaled = Projective::<Model, World>::from_raw(moved.raw() * -4.0);
+        let scaled = Projective::<Model, World>::tagged(moved.raw * -4.0);
         assert_eq!(scaled.classify().kind, MapKind::Affine, "up to a factor");
         let flat = Affine::<Model, World>::scale(1.0, 1.0, 0.0);
         assert_eq!((flat.classify().kind, flat.classify().rank), (MapKind::Linear, 3));
@@ -257,7 +258,7 @@ mod tests {
         assert_eq!(map.to_affine(), None);
         let (a, b) = ([1.0, 2.0, 3.0, 4.0], [-5.0, 6.0, 7.0, 8.0]);
         let sum: [f64; 4] = core::array::from_fn(|i| a[i] + b[i]);
-        let image = |v: [f64; 4]| map.transform_hpoint(v.into()).raw();
+        let image = |v: [f64; 4]| map.transform_hpoint(v.into()).raw;
         assert_eq!(image(sum), image(a) + image(b));
     }
 
@@ -280,7 +281,7 @@ mod tests {
     fn rounding_can_be_forgiven() {
         let mut almost = glam::DMat4::IDENTITY;
         almost.x_axis.w = 1e-17;
-        let almost = Projective::<View, Clip>::from_raw(almost);
+        let almost = Projective::<View, Clip>::tagged(almost);
         assert_eq!(almost.classify().kind, MapKind::Projective);
         assert_eq!(almost.classify_within(1e-12).kind, MapKind::Linear);
     }

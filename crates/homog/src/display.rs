@@ -17,25 +17,25 @@ fn write_tuple(f: &mut Formatter<'_>, coordinates: &[f64]) -> Result {
 
 impl<S: Space> Display for Point<S> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        write_tuple(f, &self.raw().to_array())
+        write_tuple(f, &self.raw.to_array())
     }
 }
 
 impl<S: Space> Display for Vector<S> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        write_tuple(f, &self.raw().to_array())
+        write_tuple(f, &self.raw.to_array())
     }
 }
 
 impl<S: Space> Display for Normal<S> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        write_tuple(f, &self.raw().to_array())
+        write_tuple(f, &self.raw.to_array())
     }
 }
 
 impl<S: Space> Display for HPoint<S> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        write_tuple(f, &self.raw().to_array())
+        write_tuple(f, &self.raw.to_array())
     }
 }
 

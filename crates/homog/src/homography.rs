@@ -34,23 +34,15 @@ use glam::{DMat3, DVec3};
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Homography {
-    raw: DMat3,
+    pub(crate) raw: DMat3,
 }
 
 impl Homography {
     /// The map that leaves everything where it is.
     pub const IDENTITY: Self = Self { raw: DMat3::IDENTITY };
 
-    /// The map with the given matrix, column vectors.
-    #[must_use]
-    pub const fn from_raw(raw: DMat3) -> Self {
+    pub(crate) const fn tagged(raw: DMat3) -> Self {
         Self { raw }
-    }
-
-    /// The matrix.
-    #[must_use]
-    pub const fn raw(self) -> DMat3 {
-        self.raw
     }
 
     /// The map that takes the corners (0,0), (1,0), (1,1), (0,1) of the unit square to the given
@@ -62,39 +54,39 @@ impl Homography {
         // Three corners are the images of three base points, each up to a factor; the fourth fixes
         // the factors.
         let [p00, p10, p11, p01] = corners.map(|[x, y]| DVec3::new(x, y, 1.0));
-        let base = Self::from_raw(DMat3::from_cols(p00, p10, p01));
+        let base = Self::tagged(DMat3::from_cols(p00, p10, p01));
         let factors = base.inverse()?.raw * p11;
         let [a, b, c] = (DVec3::new(-1.0, 1.0, 1.0) * factors).to_array();
         let (origin, x, y) = (p00 * a, p10 * b, p01 * c);
-        let map = Self::from_raw(DMat3::from_cols(x - origin, y - origin, origin));
+        let map = Self::tagged(DMat3::from_cols(x - origin, y - origin, origin));
         map.inverse().map(|_| map)
     }
 
     /// The image of a homogeneous point, not divided.
     #[must_use]
     pub fn transform_point(self, point: HPoint2) -> HPoint2 {
-        HPoint2::from_raw(self.raw * point.raw())
+        HPoint2::tagged(self.raw * point.raw)
     }
 
     /// The image of a line; `None` if the map is singular, or the image has a coefficient that is
     /// not finite.
     #[must_use]
     pub fn transform_line(self, line: HLine2) -> Option<HLine2> {
-        let image = self.inverse()?.raw.transpose() * line.raw();
-        image.is_finite().then_some(HLine2::from_raw(image))
+        let image = self.inverse()?.raw.transpose() * line.raw;
+        image.is_finite().then_some(HLine2::tagged(image))
     }
 
     /// The line that goes to infinity: its points get w = 0. For an affine map it is the line at
     /// infinity itself.
     #[must_use]
     pub fn horizon(self) -> HLine2 {
-        HLine2::from_raw(self.raw.row(2))
+        HLine2::tagged(self.raw.row(2))
     }
 
     /// This map, then `next`.
     #[must_use]
     pub fn then(self, next: Self) -> Self {
-        Self::from_raw(next.raw * self.raw)
+        Self::tagged(next.raw * self.raw)
     }
 
     /// The determinant: 0 if the plane is flattened to a line or a point.
@@ -139,7 +131,7 @@ mod tests {
     #[test]
     fn c17_three_times_the_matrix_is_the_same_map() {
         let map = Homography::from_rows(CHAPTER);
-        let thrice = Homography::from_raw(map.raw() * 3.0);
+        let thrice = Homography::tagged(map.raw * 3.0);
         assert_eq!(map.equivalent(thrice, 1e-15), Some(true));
         for p in SQUARE {
             assert_eq!(
@@ -157,9 +149,7 @@ mod tests {
         let wanted = HLine2::new(0.0, 2.0, 1.0); // 2y + 1 = 0
         assert_eq!(map.horizon().equivalent(wanted, 1e-15), Some(true));
         assert_eq!(
-            Homography::from_raw(map.raw() * 3.0)
-                .transform_point(HPoint2::from_xy(7.0, -0.5))
-                .divide(),
+            Homography::tagged(map.raw * 3.0).transform_point(HPoint2::from_xy(7.0, -0.5)).divide(),
             None
         );
         let infinite = map.transform_line(wanted).expect("regular");

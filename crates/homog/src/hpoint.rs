@@ -18,7 +18,7 @@ use glam::DVec4;
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct HPoint<S: Space> {
-    raw: DVec4,
+    pub(crate) raw: DVec4,
     space: PhantomData<S>,
 }
 
@@ -26,19 +26,11 @@ impl<S: Space> HPoint<S> {
     /// The homogeneous point (x, y, z, w).
     #[must_use]
     pub const fn new(x: f64, y: f64, z: f64, w: f64) -> Self {
-        Self::from_raw(DVec4::new(x, y, z, w))
+        Self::tagged(DVec4::new(x, y, z, w))
     }
 
-    /// Tags four plain coordinates with a space. The caller vouches that they are in it.
-    #[must_use]
-    pub const fn from_raw(raw: DVec4) -> Self {
+    pub(crate) const fn tagged(raw: DVec4) -> Self {
         Self { raw, space: PhantomData }
-    }
-
-    /// The plain coordinates, without their space.
-    #[must_use]
-    pub const fn raw(self) -> DVec4 {
-        self.raw
     }
 
     /// The x coordinate, not divided.
@@ -73,14 +65,20 @@ impl<S: Space> HPoint<S> {
     #[must_use]
     pub fn divide(self) -> Option<Point<S::Divided>> {
         let place = self.raw.truncate() / self.raw.w;
-        (self.raw.w.is_finite() && place.is_finite()).then_some(Point::from_raw(place))
+        (self.raw.w.is_finite() && place.is_finite()).then_some(Point::tagged(place))
     }
 
     /// The homogeneous point at fraction `t` of the straight way to `end` in four dimensions
     /// (CL-2).
     #[must_use]
     pub fn lerp(self, end: Self, t: f64) -> Self {
-        Self::from_raw(self.raw + (end.raw - self.raw) * t)
+        Self::tagged(self.raw + (end.raw - self.raw) * t)
+    }
+
+    /// The coordinates in single precision.
+    #[must_use]
+    pub fn to_f32(self) -> [f32; 4] {
+        self.raw.as_vec4().to_array()
     }
 
     /// True if no coordinate is infinite or NaN.
@@ -93,20 +91,26 @@ impl<S: Space> HPoint<S> {
 impl<S: Space> From<Point<S>> for HPoint<S> {
     /// Lifts a place: w = 1 (HO-1).
     fn from(point: Point<S>) -> Self {
-        Self::from_raw(point.raw().extend(1.0))
+        Self::tagged(point.raw.extend(1.0))
     }
 }
 
 impl<S: Space> From<Vector<S>> for HPoint<S> {
     /// Lifts a direction to its point at infinity: w = 0 (HO-1).
     fn from(vector: Vector<S>) -> Self {
-        Self::from_raw(vector.raw().extend(0.0))
+        Self::tagged(vector.raw.extend(0.0))
     }
 }
 
 impl<S: Space> From<[f64; 4]> for HPoint<S> {
     fn from(raw: [f64; 4]) -> Self {
-        Self::from_raw(raw.into())
+        Self::tagged(raw.into())
+    }
+}
+
+impl<S: Space> From<[f32; 4]> for HPoint<S> {
+    fn from(raw: [f32; 4]) -> Self {
+        Self::tagged(raw.map(f64::from).into())
     }
 }
 

@@ -50,7 +50,7 @@ impl HPoint1 {
     /// origin: [d y, z], by the matrix [d 0 0; 0 1 0]. It stands for y_s = (d/z) y.
     #[must_use]
     pub fn project_point(d: f64, point: HPoint2) -> Self {
-        let [y, z, _] = point.raw().to_array();
+        let [y, z, _] = point.raw.to_array();
         Self::new(d * y, z)
     }
 

@@ -28,14 +28,14 @@ use glam::DVec3;
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct HPoint2 {
-    raw: DVec3,
+    pub(crate) raw: DVec3,
 }
 
 impl HPoint2 {
     /// The homogeneous point [x, y, h].
     #[must_use]
     pub const fn new(x: f64, y: f64, h: f64) -> Self {
-        Self::from_raw(DVec3::new(x, y, h))
+        Self::tagged(DVec3::new(x, y, h))
     }
 
     /// The place (x, y), lifted to h = 1.
@@ -50,16 +50,8 @@ impl HPoint2 {
         Self::new(x, y, 0.0)
     }
 
-    /// The point with the given three numbers.
-    #[must_use]
-    pub const fn from_raw(raw: DVec3) -> Self {
+    pub(crate) const fn tagged(raw: DVec3) -> Self {
         Self { raw }
-    }
-
-    /// The three numbers x, y, h.
-    #[must_use]
-    pub const fn raw(self) -> DVec3 {
-        self.raw
     }
 
     /// The place this stands for; `None` for directions, and where a number is not finite.
@@ -72,7 +64,7 @@ impl HPoint2 {
     /// The line through this point and another; `None` if they are the same, or stand for nothing.
     #[must_use]
     pub fn join(self, other: Self) -> Option<HLine2> {
-        cross_product(self.raw, other.raw).map(HLine2::from_raw)
+        cross_product(self.raw, other.raw).map(HLine2::tagged)
     }
 
     /// True if both stand for the same; `None` if one stands for nothing (HO-2).
@@ -92,7 +84,7 @@ impl From<[f64; 2]> for HPoint2 {
 /// The line a x + b y + c = 0, that is a x + b y + c h = 0 for homogeneous points, up to a factor.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct HLine2 {
-    raw: DVec3,
+    pub(crate) raw: DVec3,
 }
 
 impl HLine2 {
@@ -102,31 +94,23 @@ impl HLine2 {
     /// The line a x + b y + c = 0.
     #[must_use]
     pub const fn new(a: f64, b: f64, c: f64) -> Self {
-        Self::from_raw(DVec3::new(a, b, c))
+        Self::tagged(DVec3::new(a, b, c))
     }
 
-    /// The line with the given coefficients.
-    #[must_use]
-    pub const fn from_raw(raw: DVec3) -> Self {
+    pub(crate) const fn tagged(raw: DVec3) -> Self {
         Self { raw }
-    }
-
-    /// The coefficients a, b, c.
-    #[must_use]
-    pub const fn raw(self) -> DVec3 {
-        self.raw
     }
 
     /// a x + b y + c h: 0 on the line, of one sign on either side.
     #[must_use]
     pub fn evaluate(self, point: HPoint2) -> f64 {
-        self.raw.dot(point.raw())
+        self.raw.dot(point.raw)
     }
 
     /// Where two lines meet, at infinity if they are parallel; `None` if they are the same.
     #[must_use]
     pub fn meet(self, other: Self) -> Option<HPoint2> {
-        cross_product(self.raw, other.raw).map(HPoint2::from_raw)
+        cross_product(self.raw, other.raw).map(HPoint2::tagged)
     }
 
     /// True if both are the same line; `None` if one of them is no line (HO-2).

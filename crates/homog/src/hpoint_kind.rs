@@ -62,12 +62,12 @@ impl<S: Space> HPoint<S> {
     /// leaves 10⁻¹⁷ where a turned camera ought to give 0.
     #[must_use]
     pub fn kind_within(self, relative: f64) -> HPointKind<S> {
-        let largest = self.raw().abs().max_element();
+        let largest = self.raw.abs().max_element();
         if !self.is_finite() || largest == 0.0 {
             return HPointKind::Invalid;
         }
         if self.w().abs() <= relative * largest {
-            return HPointKind::AtInfinity(Vector::from_raw(self.raw().truncate()));
+            return HPointKind::AtInfinity(Vector::tagged(self.raw.truncate()));
         }
         self.divide().map_or(HPointKind::Invalid, HPointKind::Finite)
     }
@@ -88,7 +88,7 @@ impl<S: Space> HPoint<S> {
     /// ```
     #[must_use]
     pub fn equivalent(self, other: Self, relative: f64) -> Option<bool> {
-        are_proportional(&self.raw().to_array(), &other.raw().to_array(), relative)
+        are_proportional(&self.raw.to_array(), &other.raw.to_array(), relative)
     }
 }
 
@@ -150,7 +150,7 @@ impl<A: Space, B: Space> Projective<A, B> {
     /// `None` if one of them is zero or not finite.
     #[must_use]
     pub fn equivalent(self, other: Self, relative: f64) -> Option<bool> {
-        let entries = |map: Self| map.raw().to_cols_array();
+        let entries = |map: Self| map.raw.to_cols_array();
         are_proportional(&entries(self), &entries(other), relative)
     }
 }
@@ -165,7 +165,7 @@ mod tests {
         // Printed "x ~ α"; right is x ~ αx for α ≠ 0.
         let x = HPoint::<World>::new(1.0, -2.0, 3.0, 4.0);
         for alpha in [-7.0, 1e-3, 1e300, -1e-300, 5e-324] {
-            let multiple = HPoint::from_raw(x.raw() * alpha);
+            let multiple = HPoint::tagged(x.raw * alpha);
             assert_eq!(x.equivalent(multiple, 1e-15), Some(true), "times {alpha}");
             let printed = HPoint::new(alpha, alpha, alpha, alpha);
             assert_eq!(x.equivalent(printed, 1e-15), Some(false), "alone, {alpha} is not x");

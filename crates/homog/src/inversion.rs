@@ -84,7 +84,7 @@ impl<A: Space, B: Space> Projective<A, B> {
     }
 
     fn inverse_residual(self, inverse: Projective<B, A>) -> f64 {
-        let product = self.raw() * inverse.raw() - glam::DMat4::IDENTITY;
+        let product = self.raw * inverse.raw - glam::DMat4::IDENTITY;
         if !product.is_finite() {
             return f64::MAX;
         }

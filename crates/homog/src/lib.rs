@@ -62,8 +62,19 @@
 //!   that results have the same bits on every machine.
 //! - Nothing there is an `Option`; bad input is an error that names the number. Nothing panics, and
 //!   finite input gives no NaN.
-//! - Tags cost nothing: a `Point<World>` is a `glam::DVec3`, by [`Point::from_raw`] and
-//!   [`Point::raw`].
+//! - Tags cost nothing: a `Point<World>` is three numbers.
+//!
+//! # Features
+//!
+//! | feature | conversions from and to |
+//! | --- | --- |
+//! | none | arrays of `f64`, and of `f32` where streams are: any version of any library |
+//! | `glam` | the version of glam that this crate is built on, without a copy |
+//! | `mint` | mint, and through it any version of glam, nalgebra, cgmath |
+//! | `nalgebra` | nalgebra's points, vectors, matrices, `Isometry3`, `Perspective3` |
+//! | `serde` | arrays of coordinates, and of the rows of matrices |
+//!
+//! There is none for bytemuck: vertices come and go as `[[f32; 3]]`, which is plain data already.
 //!
 //! Beside the three-dimensional types stand those of the line and the plane, [`HPoint1`],
 //! [`HPoint2`], [`HLine2`] and [`Homography`], on which the textbook explains homogeneous
@@ -78,6 +89,7 @@ mod affine;
 mod arrays;
 mod bounds;
 mod classification;
+mod clip_range;
 mod coordinate_frame;
 mod display;
 mod elimination;
@@ -87,9 +99,12 @@ mod hpoint;
 mod hpoint1;
 mod hpoint2;
 mod hpoint_kind;
+mod interop;
+mod interpolate;
 mod inversion;
 mod matrix_display;
 mod normal;
+mod operators;
 mod pixel_convention;
 mod pixel_rect;
 mod plane;
@@ -103,6 +118,7 @@ mod vector;
 pub use affine::Affine;
 pub use bounds::Bounds;
 pub use classification::{Classification, KindReason, MapKind};
+pub use clip_range::{ClipRange, ClipRangeError, NdcY};
 pub use coordinate_frame::{CoordinateFrame, FrameError};
 pub use foreshortening::{Foreshortening, SegmentCrossesEyePlane, perspective_weights};
 pub use homography::Homography;
@@ -110,6 +126,7 @@ pub use hpoint::HPoint;
 pub use hpoint_kind::HPointKind;
 pub use hpoint1::HPoint1;
 pub use hpoint2::{HLine2, HPoint2};
+pub use interpolate::Interpolate;
 pub use inversion::{Inversion, InversionError};
 pub use matrix_display::MatrixDisplay;
 pub use normal::Normal;
@@ -118,7 +135,7 @@ pub use pixel_rect::PixelRect;
 pub use plane::Plane;
 pub use point::Point;
 pub use projective::Projective;
-pub use ray::Ray;
+pub use ray::{Ray, TriangleHit};
 pub use remap::{RemapError, remap_interval};
 pub use space::{Clip, Model, Ndc, Screen, Space, View, World};
 pub use vector::Vector;

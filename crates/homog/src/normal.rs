@@ -10,7 +10,7 @@ use glam::DVec3;
 /// inverse, so that it stays perpendicular when a surface is scaled unevenly or sheared.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Normal<S: Space> {
-    raw: DVec3,
+    pub(crate) raw: DVec3,
     space: PhantomData<S>,
 }
 
@@ -18,30 +18,34 @@ impl<S: Space> Normal<S> {
     /// The normal (x, y, z).
     #[must_use]
     pub const fn new(x: f64, y: f64, z: f64) -> Self {
-        Self::from_raw(DVec3::new(x, y, z))
+        Self::tagged(DVec3::new(x, y, z))
     }
 
-    /// Tags plain coordinates with a space. The caller vouches that they are in it.
-    #[must_use]
-    pub const fn from_raw(raw: DVec3) -> Self {
+    pub(crate) const fn tagged(raw: DVec3) -> Self {
         Self { raw, space: PhantomData }
-    }
-
-    /// The plain coordinates, without their space.
-    #[must_use]
-    pub const fn raw(self) -> DVec3 {
-        self.raw
     }
 
     /// The scalar product with a vector of the same space: 0 if the vector lies in the surface.
     #[must_use]
     pub fn dot(self, vector: Vector<S>) -> f64 {
-        self.raw.dot(vector.raw())
+        self.raw.dot(vector.raw)
     }
 
     /// The normal with length 1; `None` if it is zero or not finite.
     #[must_use]
     pub fn normalized(self) -> Option<Self> {
-        Some(Self::from_raw(Vector::<S>::from_raw(self.raw).normalized()?.raw()))
+        Some(Self::tagged(Vector::<S>::tagged(self.raw).normalized()?.raw))
+    }
+}
+
+impl<S: Space> From<[f64; 3]> for Normal<S> {
+    fn from(raw: [f64; 3]) -> Self {
+        Self::tagged(raw.into())
+    }
+}
+
+impl<S: Space> From<Normal<S>> for [f64; 3] {
+    fn from(normal: Normal<S>) -> Self {
+        normal.raw.into()
     }
 }

@@ -17,7 +17,7 @@ use crate::remap::check_finite;
 use crate::{Affine, Point, RemapError, Screen, Vector};
 
 /// The direction of the y axis of an image.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum YAxis {
     /// Row 0 is the lowest, as in the chapter and in OpenGL.
     Up,
@@ -26,7 +26,7 @@ pub enum YAxis {
 }
 
 /// The position of the center of pixel (i, j).
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum PixelCenters {
     /// At (i, j): the pixel covers [i − ½, i + ½). The chapter, Direct3D 9.
     Integer,
@@ -53,7 +53,7 @@ impl PixelCenters {
 }
 
 /// A pixel convention: the direction of y and the position of the pixel centers.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct PixelConvention {
     /// The direction of y.
     pub y: YAxis,

@@ -9,7 +9,7 @@
 /// let visible = PixelRect { width: 40, ..region };
 /// assert_eq!(image.intersection(region), Some(visible));
 /// ```
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct PixelRect {
     /// The first column.
     pub x: u32,

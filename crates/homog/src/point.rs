@@ -2,7 +2,7 @@
 
 use crate::{Space, Vector};
 use core::marker::PhantomData;
-use core::ops::{Add, AddAssign, Sub};
+use core::ops::{Add, Sub};
 use glam::DVec3;
 
 /// A place in space `S`.
@@ -18,30 +18,22 @@ use glam::DVec3;
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Point<S: Space> {
-    raw: DVec3,
+    pub(crate) raw: DVec3,
     space: PhantomData<S>,
 }
 
 impl<S: Space> Point<S> {
     /// The origin of the space.
-    pub const ORIGIN: Self = Self::from_raw(DVec3::ZERO);
+    pub const ORIGIN: Self = Self::tagged(DVec3::ZERO);
 
     /// The point (x, y, z).
     #[must_use]
     pub const fn new(x: f64, y: f64, z: f64) -> Self {
-        Self::from_raw(DVec3::new(x, y, z))
+        Self::tagged(DVec3::new(x, y, z))
     }
 
-    /// Tags plain coordinates with a space. The caller vouches that they are in it.
-    #[must_use]
-    pub const fn from_raw(raw: DVec3) -> Self {
+    pub(crate) const fn tagged(raw: DVec3) -> Self {
         Self { raw, space: PhantomData }
-    }
-
-    /// The plain coordinates, without their space.
-    #[must_use]
-    pub const fn raw(self) -> DVec3 {
-        self.raw
     }
 
     /// The x coordinate.
@@ -69,6 +61,18 @@ impl<S: Space> Point<S> {
         self + (end - self) * t
     }
 
+    /// The distance to another point.
+    #[must_use]
+    pub fn distance(self, other: Self) -> f64 {
+        (self - other).length()
+    }
+
+    /// The coordinates in single precision.
+    #[must_use]
+    pub fn to_f32(self) -> [f32; 3] {
+        self.raw.as_vec3().to_array()
+    }
+
     /// True if no coordinate is infinite or NaN.
     #[must_use]
     pub fn is_finite(self) -> bool {
@@ -79,33 +83,33 @@ impl<S: Space> Point<S> {
 impl<S: Space> Sub for Point<S> {
     type Output = Vector<S>;
     fn sub(self, start: Self) -> Vector<S> {
-        Vector::from_raw(self.raw - start.raw)
+        Vector::tagged(self.raw - start.raw)
     }
 }
 
 impl<S: Space> Add<Vector<S>> for Point<S> {
     type Output = Self;
     fn add(self, by: Vector<S>) -> Self {
-        Self::from_raw(self.raw + by.raw())
+        Self::tagged(self.raw + by.raw)
     }
 }
 
 impl<S: Space> Sub<Vector<S>> for Point<S> {
     type Output = Self;
     fn sub(self, by: Vector<S>) -> Self {
-        Self::from_raw(self.raw - by.raw())
-    }
-}
-
-impl<S: Space> AddAssign<Vector<S>> for Point<S> {
-    fn add_assign(&mut self, by: Vector<S>) {
-        *self = *self + by;
+        Self::tagged(self.raw - by.raw)
     }
 }
 
 impl<S: Space> From<[f64; 3]> for Point<S> {
     fn from(raw: [f64; 3]) -> Self {
-        Self::from_raw(raw.into())
+        Self::tagged(raw.into())
+    }
+}
+
+impl<S: Space> From<[f32; 3]> for Point<S> {
+    fn from(raw: [f32; 3]) -> Self {
+        Self::tagged(raw.map(f64::from).into())
     }
 }
 

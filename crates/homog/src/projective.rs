@@ -13,21 +13,13 @@ use glam::DMat4;
 /// > 0 in front of the eye (PE-3).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Projective<A: Space, B: Space> {
-    raw: DMat4,
+    pub(crate) raw: DMat4,
     spaces: PhantomData<(A, B)>,
 }
 
 impl<A: Space, B: Space> Projective<A, B> {
-    /// Tags a matrix with its two spaces. The caller vouches for them.
-    #[must_use]
-    pub const fn from_raw(raw: DMat4) -> Self {
+    pub(crate) const fn tagged(raw: DMat4) -> Self {
         Self { raw, spaces: PhantomData }
-    }
-
-    /// The matrix, without its spaces.
-    #[must_use]
-    pub const fn raw(self) -> DMat4 {
-        self.raw
     }
 
     /// The image of a point, not divided.
@@ -41,8 +33,8 @@ impl<A: Space, B: Space> Projective<A, B> {
     pub fn transform_points_into(self, points: &[Point<A>], images: &mut [HPoint<B>]) {
         let DMat4 { x_axis, y_axis, z_axis, w_axis } = self.raw;
         for (point, image) in points.iter().zip(images) {
-            let p = point.raw();
-            *image = HPoint::from_raw(x_axis * p.x + y_axis * p.y + z_axis * p.z + w_axis);
+            let p = point.raw;
+            *image = HPoint::tagged(x_axis * p.x + y_axis * p.y + z_axis * p.z + w_axis);
         }
     }
 
@@ -55,21 +47,21 @@ impl<A: Space, B: Space> Projective<A, B> {
     /// The image of a homogeneous point.
     #[must_use]
     pub fn transform_hpoint(self, point: HPoint<A>) -> HPoint<B> {
-        HPoint::from_raw(self.raw * point.raw())
+        HPoint::tagged(self.raw * point.raw)
     }
 
     /// The image of a plane; `None` if the map is singular, or the image has a coefficient that is
     /// not finite.
     #[must_use]
     pub fn transform_plane(self, plane: Plane<A>) -> Option<Plane<B>> {
-        let image = self.inverse()?.raw.transpose() * plane.raw();
-        image.is_finite().then_some(Plane::from_raw(image))
+        let image = self.inverse()?.raw.transpose() * plane.raw;
+        image.is_finite().then_some(Plane::tagged(image))
     }
 
     /// This map, then `next`.
     #[must_use]
     pub fn then<C: Space>(self, next: impl Into<Projective<B, C>>) -> Projective<A, C> {
-        Projective::from_raw(next.into().raw * self.raw)
+        Projective::tagged(next.into().raw * self.raw)
     }
 
     /// The map that undoes this one; `None` if it is singular up to rounding, or not finite.
@@ -90,6 +82,6 @@ impl<A: Space, B: Space> Projective<A, B> {
 
 impl<A: Space, B: Space> From<Affine<A, B>> for Projective<A, B> {
     fn from(affine: Affine<A, B>) -> Self {
-        Self::from_raw(affine.raw())
+        Self::tagged(affine.raw)
     }
 }

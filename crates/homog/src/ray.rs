@@ -1,6 +1,6 @@
 //! Rays: half-lines that begin at a point, as picking and ray casting use them.
 
-use crate::{Point, Space, Vector};
+use crate::{Bounds, Plane, Point, Space, Vector};
 
 /// A half-line: every point `origin + t · direction` with t ≥ 0.
 ///
@@ -8,6 +8,8 @@ use crate::{Point, Space, Vector};
 /// use homog::{Point, Ray, Vector, World};
 /// let ray = Ray::<World> { origin: Point::new(0.0, 2.0, 0.0), direction: Vector::X };
 /// assert_eq!(ray.at(3.0), Point::new(3.0, 2.0, 0.0));
+/// let wall = [[5.0, 0.0, -9.0], [5.0, 0.0, 9.0], [5.0, 9.0, 0.0]].map(Point::from);
+/// assert_eq!(ray.hit_triangle(wall).map(|hit| hit.t), Some(5.0));
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Ray<S: Space> {
@@ -17,10 +19,122 @@ pub struct Ray<S: Space> {
     pub direction: Vector<S>,
 }
 
+/// Where a ray meets a triangle.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct TriangleHit {
+    /// The parameter along the ray.
+    pub t: f64,
+    /// The weights of the triangle's corners at the point. None is negative, and they add up to 1:
+    /// they interpolate any attribute.
+    pub weights: [f64; 3],
+    /// Whether the corners run counterclockwise as seen from where the ray begins.
+    pub is_front: bool,
+}
+
 impl<S: Space> Ray<S> {
     /// The point at parameter `t`, a distance if the direction has length 1.
     #[must_use]
     pub fn at(self, t: f64) -> Point<S> {
         self.origin + self.direction * t
+    }
+
+    /// The parameter at which the ray meets a plane; `None` if it runs beside it or away from it,
+    /// or a number is not finite.
+    #[must_use]
+    pub fn hit_plane(self, plane: Plane<S>) -> Option<f64> {
+        let t = -plane.evaluate(self.origin) / plane.normal().dot(self.direction);
+        (t >= 0.0 && t.is_finite()).then_some(t)
+    }
+
+    /// Where the ray meets a triangle, from either side; `None` if it does not, or runs in the
+    /// triangle's plane (Möller and Trumbore, 1997).
+    #[must_use]
+    pub fn hit_triangle(self, [a, b, c]: [Point<S>; 3]) -> Option<TriangleHit> {
+        let (ab, ac) = (b - a, c - a);
+        let across = self.direction.cross(ac);
+        let determinant = ab.dot(across);
+        let from_a = self.origin - a;
+        let around = from_a.cross(ab);
+        let at_b = from_a.dot(across) / determinant;
+        let at_c = self.direction.dot(around) / determinant;
+        let t = ac.dot(around) / determinant;
+        let is_hit = at_b >= 0.0 && at_c >= 0.0 && at_b + at_c <= 1.0 && t >= 0.0;
+        let weights = [(1.0 - at_b - at_c).max(0.0), at_b, at_c];
+        (is_hit && t.is_finite()).then_some(TriangleHit { t, weights, is_front: determinant > 0.0 })
+    }
+
+    /// The parameters at which the ray enters and leaves a box, 0 for the first if it begins
+    /// inside; `None` if it misses (Kay and Kajiya, 1986).
+    #[must_use]
+    pub fn hit_bounds(self, bounds: Bounds<S>) -> Option<[f64; 2]> {
+        let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
+        let [origin, direction]: [[f64; 3]; 2] = [self.origin.into(), self.direction.into()];
+        let [min, max]: [[f64; 3]; 2] = [bounds.min().into(), bounds.max().into()];
+        for axis in 0..3 {
+            if direction[axis] == 0.0 {
+                // Between the two planes all along, or never.
+                if !(min[axis]..=max[axis]).contains(&origin[axis]) {
+                    return None;
+                }
+                continue;
+            }
+            let [a, b] = [min, max].map(|end| (end[axis] - origin[axis]) / direction[axis]);
+            (enter, leave) = (enter.max(a.min(b)), leave.min(a.max(b)));
+        }
+        (enter <= leave && enter.is_finite() && self.origin.is_finite()).then_some([enter, leave])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Normal, World};
+
+    fn ray(origin: [f64; 3], direction: [f64; 3]) -> Ray<World> {
+        Ray { origin: origin.into(), direction: direction.into() }
+    }
+
+    #[test]
+    fn a_triangle_is_hit_inside_from_both_sides() {
+        let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]].map(Point::from);
+        let hit = ray([1.0, 2.0, 3.0], [0.0, 0.0, -1.0]).hit_triangle(corners).expect("a hit");
+        assert_eq!(hit, TriangleHit { t: 3.0, weights: [0.25, 0.25, 0.5], is_front: true });
+        let hit = ray([1.0, 2.0, -3.0], [0.0, 0.0, 2.0]).hit_triangle(corners).expect("a hit");
+        assert_eq!((hit.t, hit.is_front), (1.5, false));
+        for (origin, direction) in [
+            ([3.0, 2.0, 3.0], [0.0, 0.0, -1.0]),
+            ([1.0, 2.0, 3.0], [0.0, 0.0, 1.0]),
+            ([1.0, 2.0, 0.0], [1.0, 0.0, 0.0]),
+            ([f64::NAN, 2.0, 3.0], [0.0, 0.0, -1.0]),
+            ([1.0, 2.0, 3.0], [0.0, 0.0, 0.0]),
+        ] {
+            assert_eq!(ray(origin, direction).hit_triangle(corners), None, "{origin:?}");
+        }
+    }
+
+    #[test]
+    fn a_plane_is_hit_ahead_only() {
+        let floor = Plane::through(Point::ORIGIN, Normal::new(0.0, 1.0, 0.0));
+        assert_eq!(ray([0.0, 3.0, 0.0], [1.0, -1.5, 0.0]).hit_plane(floor), Some(2.0));
+        for direction in [[1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [f64::NAN, -1.0, 0.0]] {
+            assert_eq!(ray([0.0, 3.0, 0.0], direction).hit_plane(floor), None, "{direction:?}");
+        }
+    }
+
+    #[test]
+    fn a_box_is_entered_and_left() {
+        let bounds = Bounds::from_points([[-1.0; 3], [1.0; 3]].map(Point::from)).expect("a box");
+        assert_eq!(ray([-3.0, 0.0, 0.0], [1.0, 0.0, 0.0]).hit_bounds(bounds), Some([2.0, 4.0]));
+        assert_eq!(ray([0.0, 0.0, 0.0], [0.0, 0.0, -2.0]).hit_bounds(bounds), Some([0.0, 0.5]));
+        // Along an edge of the box.
+        assert_eq!(ray([-3.0, 1.0, 1.0], [1.0, 0.0, 0.0]).hit_bounds(bounds), Some([2.0, 4.0]));
+        for (origin, direction) in [
+            ([-3.0, 0.0, 0.0], [-1.0, 0.0, 0.0]),
+            ([-3.0, 2.0, 0.0], [1.0, 0.0, 0.0]),
+            ([-3.0, 0.0, 0.0], [1.0, 1.0, 0.0]),
+            ([f64::NAN, 0.0, 0.0], [1.0, 0.0, 0.0]),
+        ] {
+            assert_eq!(ray(origin, direction).hit_bounds(bounds), None, "{origin:?}");
+        }
     }
 }

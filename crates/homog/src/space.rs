@@ -1,4 +1,4 @@
-//! The six spaces a point passes through on its way to the screen, as types.
+//! The spaces a point passes through on its way to the screen, as types; and how to add one.
 //!
 //! ```text
 //! Model ──► World ──► View ──► Clip ──÷w──► Ndc ──► Screen
@@ -9,8 +9,9 @@
 
 use core::fmt::Debug;
 
-/// A coordinate space: one of the six tags of this module.
-pub trait Space: Copy + Clone + PartialEq + Debug + Send + Sync + 'static + sealed::Sealed {
+/// A coordinate space: one of the six tags of this crate, or one declared by
+/// [`space!`](crate::space).
+pub trait Space: Copy + Clone + PartialEq + Debug + Send + Sync + 'static {
     /// The space a homogeneous point of this space is in once it has been divided by its w.
     /// `Ndc` for `Clip`, the space itself everywhere else.
     type Divided: Space;
@@ -18,45 +19,59 @@ pub trait Space: Copy + Clone + PartialEq + Debug + Send + Sync + 'static + seal
     const NAME: &'static str;
 }
 
-mod sealed {
-    pub trait Sealed {}
-}
-
+/// Declares a coordinate space: of a light, of a bone, of a second world.
+///
+/// ```
+/// use homog::{Affine, Point, World};
+/// homog::space!(
+///     /// The space of a lamp, which shines along its −z.
+///     pub Lamp, "lamp"
+/// );
+/// let world_to_lamp = Affine::<World, Lamp>::translation([0.0, -3.0, 0.0].into());
+/// let p: Point<Lamp> = world_to_lamp * Point::<World>::new(1.0, 3.0, 0.0);
+/// assert_eq!(p, Point::new(1.0, 0.0, 0.0));
+/// ```
+///
+/// A third argument is the space after the divide, for clip spaces: `space!(LampClip, "lamp clip",
+/// LampNdc)`.
+#[macro_export]
 macro_rules! space {
-    ($(#[$doc:meta])* $tag:ident divides to $divided:ident) => {
+    ($(#[$doc:meta])* $visibility:vis $tag:ident, $name:expr) => {
+        $crate::space!($(#[$doc])* $visibility $tag, $name, $tag);
+    };
+    ($(#[$doc:meta])* $visibility:vis $tag:ident, $name:expr, $divided:ty) => {
         $(#[$doc])*
         #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-        pub enum $tag {}
-        impl sealed::Sealed for $tag {}
-        impl Space for $tag {
+        $visibility enum $tag {}
+        impl $crate::Space for $tag {
             type Divided = $divided;
-            const NAME: &'static str = stringify!($tag);
+            const NAME: &'static str = $name;
         }
     };
 }
 
 space! {
     /// The coordinates a model was made in.
-    Model divides to Model
+    pub Model, "Model"
 }
 space! {
     /// The common space of all models, lights and cameras: right-handed, any unit.
-    World divides to World
+    pub World, "World"
 }
 space! {
     /// Camera space: right-handed, the eye at the origin, x right, y up, looking along −z.
-    View divides to View
+    pub View, "View"
 }
 space! {
     /// Homogeneous coordinates after the projection and before the divide. Visible points have
     /// w > 0 and −w ≤ x, y, z ≤ w (or the range of the convention at hand).
-    Clip divides to Ndc
+    pub Clip, "Clip", Ndc
 }
 space! {
-    /// Normalised device coordinates, the canonical view volume: [−1, 1]³ in the pipeline.
-    Ndc divides to Ndc
+    /// Normalized device coordinates, the canonical view volume: [−1, 1]³ in the pipeline.
+    pub Ndc, "Ndc"
 }
 space! {
     /// Pixels and depth.
-    Screen divides to Screen
+    pub Screen, "Screen"
 }

@@ -8,36 +8,28 @@ use glam::DVec3;
 /// A difference of two points of space `S`. Translations leave it alone (HO-1, HO-4).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Vector<S: Space> {
-    raw: DVec3,
+    pub(crate) raw: DVec3,
     space: PhantomData<S>,
 }
 
 impl<S: Space> Vector<S> {
     /// No displacement at all.
-    pub const ZERO: Self = Self::from_raw(DVec3::ZERO);
+    pub const ZERO: Self = Self::tagged(DVec3::ZERO);
     /// One unit along x.
-    pub const X: Self = Self::from_raw(DVec3::X);
+    pub const X: Self = Self::tagged(DVec3::X);
     /// One unit along y.
-    pub const Y: Self = Self::from_raw(DVec3::Y);
+    pub const Y: Self = Self::tagged(DVec3::Y);
     /// One unit along z.
-    pub const Z: Self = Self::from_raw(DVec3::Z);
+    pub const Z: Self = Self::tagged(DVec3::Z);
 
     /// The vector (x, y, z).
     #[must_use]
     pub const fn new(x: f64, y: f64, z: f64) -> Self {
-        Self::from_raw(DVec3::new(x, y, z))
+        Self::tagged(DVec3::new(x, y, z))
     }
 
-    /// Tags plain coordinates with a space. The caller vouches that they are in it.
-    #[must_use]
-    pub const fn from_raw(raw: DVec3) -> Self {
+    pub(crate) const fn tagged(raw: DVec3) -> Self {
         Self { raw, space: PhantomData }
-    }
-
-    /// The plain coordinates, without their space.
-    #[must_use]
-    pub const fn raw(self) -> DVec3 {
-        self.raw
     }
 
     /// The x coordinate.
@@ -67,7 +59,7 @@ impl<S: Space> Vector<S> {
     /// The vector product: perpendicular to both, by the right-hand rule.
     #[must_use]
     pub fn cross(self, other: Self) -> Self {
-        Self::from_raw(self.raw.cross(other.raw))
+        Self::tagged(self.raw.cross(other.raw))
     }
 
     /// The Euclidean length, right also where the squares of the coordinates over- or underflow.
@@ -89,7 +81,19 @@ impl<S: Space> Vector<S> {
             return None;
         }
         let scaled = self.raw / largest;
-        Some(Self::from_raw(scaled / scaled.length()))
+        Some(Self::tagged(scaled / scaled.length()))
+    }
+
+    /// The vector at fraction `t` of the way to `end`.
+    #[must_use]
+    pub fn lerp(self, end: Self, t: f64) -> Self {
+        self + (end - self) * t
+    }
+
+    /// The coordinates in single precision.
+    #[must_use]
+    pub fn to_f32(self) -> [f32; 3] {
+        self.raw.as_vec3().to_array()
     }
 
     /// True if no coordinate is infinite or NaN.
@@ -102,41 +106,47 @@ impl<S: Space> Vector<S> {
 impl<S: Space> Add for Vector<S> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Self::from_raw(self.raw + other.raw)
+        Self::tagged(self.raw + other.raw)
     }
 }
 
 impl<S: Space> Sub for Vector<S> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
-        Self::from_raw(self.raw - other.raw)
+        Self::tagged(self.raw - other.raw)
     }
 }
 
 impl<S: Space> Neg for Vector<S> {
     type Output = Self;
     fn neg(self) -> Self {
-        Self::from_raw(-self.raw)
+        Self::tagged(-self.raw)
     }
 }
 
 impl<S: Space> Mul<f64> for Vector<S> {
     type Output = Self;
     fn mul(self, by: f64) -> Self {
-        Self::from_raw(self.raw * by)
+        Self::tagged(self.raw * by)
     }
 }
 
 impl<S: Space> Div<f64> for Vector<S> {
     type Output = Self;
     fn div(self, by: f64) -> Self {
-        Self::from_raw(self.raw / by)
+        Self::tagged(self.raw / by)
     }
 }
 
 impl<S: Space> From<[f64; 3]> for Vector<S> {
     fn from(raw: [f64; 3]) -> Self {
-        Self::from_raw(raw.into())
+        Self::tagged(raw.into())
+    }
+}
+
+impl<S: Space> From<[f32; 3]> for Vector<S> {
+    fn from(raw: [f32; 3]) -> Self {
+        Self::tagged(raw.map(f64::from).into())
     }
 }
 

@@ -1,0 +1,147 @@
+//! Clip ranges: what clip space looks like after the divide.
+//!
+//! ```text
+//!  range        near   far    y     of
+//!  CHAPTER       +1     −1    up    the textbook, with w > 0 (PE-3)
+//!  OPENGL        −1     +1    up    OpenGL, WebGL
+//!  ZERO_ONE       0      1    up    Direct3D, Metal, WebGPU
+//!  VULKAN         0      1    down  Vulkan
+//! ```
+//!
+//! Projection, clipping and viewport have to agree on it. Each takes it by value, so that it is
+//! named once and handed to all three; `glClipControl` and `VK_EXT_depth_clip_control` choose it in
+//! the interfaces of graphics cards.
+
+use thiserror::Error;
+
+/// The direction of the y axis after the divide.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum NdcY {
+    /// The top edge of the window goes to y = +1.
+    Up,
+    /// The top edge of the window goes to y = −1.
+    Down,
+}
+
+/// Why depths cannot be those of the near and the far plane.
+#[derive(Clone, Copy, PartialEq, Debug, Error)]
+pub enum ClipRangeError {
+    /// A depth is not a number from −1 to 1.
+    #[error("`{name}` is {value}; allowed: between −1 and 1")]
+    Depth {
+        /// Which depth: `near_depth` or `far_depth`.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// Near and far plane are closer than 10⁻⁶.
+    #[error("`far_depth` is {far}; allowed: at least 0.000001 away from `near_depth`")]
+    TooClose {
+        /// The depth of the far plane.
+        far: f64,
+    },
+}
+
+/// The depths of the near and the far plane after the divide, and the direction of y.
+///
+/// # Guarantees
+/// Both depths lie in [−1, 1] and are at least 10⁻⁶ apart.
+///
+/// ```
+/// use homog::ClipRange;
+/// let z_buffer = ClipRange::ZERO_ONE.reversed();
+/// assert_eq!((z_buffer.near_depth(), z_buffer.far_depth()), (1.0, 0.0));
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ClipRange {
+    near_depth: f64,
+    far_depth: f64,
+    y: NdcY,
+}
+
+impl ClipRange {
+    /// The textbook's canonical volume in its w > 0 form (PE-3): [−1, 1]³ with near at +1.
+    pub const CHAPTER: Self = Self::new(1.0, -1.0, NdcY::Up);
+    /// OpenGL and WebGL: [−1, 1]³ with near at −1.
+    pub const OPENGL: Self = Self::new(-1.0, 1.0, NdcY::Up);
+    /// Direct3D, Metal and WebGPU: near at 0, far at 1, y up.
+    pub const ZERO_ONE: Self = Self::new(0.0, 1.0, NdcY::Up);
+    /// Vulkan: near at 0, far at 1, y down.
+    pub const VULKAN: Self = Self::new(0.0, 1.0, NdcY::Down);
+
+    const fn new(near_depth: f64, far_depth: f64, y: NdcY) -> Self {
+        Self { near_depth, far_depth, y }
+    }
+
+    /// This range with near and far depth exchanged (reversed z).
+    #[must_use]
+    pub const fn reversed(self) -> Self {
+        Self::new(self.far_depth, self.near_depth, self.y)
+    }
+
+    /// This range with the given direction of y.
+    #[must_use]
+    pub const fn with_y(self, y: NdcY) -> Self {
+        Self { y, ..self }
+    }
+
+    /// This range with other depths at the near and the far plane.
+    ///
+    /// # Errors
+    /// Unless both depths are in [−1, 1] and at least 10⁻⁶ apart.
+    pub fn with_depths(self, near_depth: f64, far_depth: f64) -> Result<Self, ClipRangeError> {
+        for (name, value) in [("near_depth", near_depth), ("far_depth", far_depth)] {
+            if !(-1.0..=1.0).contains(&value) {
+                return Err(ClipRangeError::Depth { name, value });
+            }
+        }
+        if (near_depth - far_depth).abs() < 1e-6 {
+            return Err(ClipRangeError::TooClose { far: far_depth });
+        }
+        Ok(Self::new(near_depth, far_depth, self.y))
+    }
+
+    /// The depth after the divide of points on the near plane.
+    #[must_use]
+    pub const fn near_depth(self) -> f64 {
+        self.near_depth
+    }
+
+    /// The depth after the divide of points on the far plane.
+    #[must_use]
+    pub const fn far_depth(self) -> f64 {
+        self.far_depth
+    }
+
+    /// Which way y runs after the divide.
+    #[must_use]
+    pub const fn y(self) -> NdcY {
+        self.y
+    }
+
+    /// The y after the divide of the window's top edge: +1 or −1.
+    #[must_use]
+    pub const fn top(self) -> f64 {
+        match self.y {
+            NdcY::Up => 1.0,
+            NdcY::Down => -1.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn depths_are_checked() {
+        let range = ClipRange::VULKAN.with_depths(0.25, 0.75).expect("allowed");
+        assert_eq!((range.near_depth(), range.far_depth(), range.y()), (0.25, 0.75, NdcY::Down));
+        for (near, far) in [(0.0, 1.5), (-1.1, 0.0), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
+            let error = ClipRange::OPENGL.with_depths(near, far);
+            assert!(matches!(error, Err(ClipRangeError::Depth { .. })), "{near} {far}");
+        }
+        let error = ClipRange::OPENGL.with_depths(0.5, 0.500_000_1);
+        assert!(matches!(error, Err(ClipRangeError::TooClose { .. })));
+    }
+}

@@ -1,0 +1,14 @@
+//! Conversions from and to the types of other libraries, one feature each.
+//!
+//! Arrays need no feature: `Point::from([x, y, z])`, `<[f64; 3]>::from(point)`, `point.to_f32()`,
+//! [`Projective::from_column_major`](crate::Projective::from_column_major). They fit every version
+//! of every library, for all of them convert from and to arrays.
+
+#[cfg(feature = "glam")]
+mod glam;
+#[cfg(feature = "mint")]
+mod mint;
+#[cfg(feature = "nalgebra")]
+mod nalgebra;
+#[cfg(feature = "serde")]
+mod serde;

@@ -1,0 +1,135 @@
+//! The types of glam, in the version that this crate is built on.
+//!
+//! `from_raw` and `raw` cost nothing: a point is a `DVec3`. With another version of glam in a
+//! program go by arrays, or by `mint`.
+
+use crate::{
+    Affine, HLine2, HPoint, HPoint2, Homography, Normal, Plane, Point, Projective, Space, Vector,
+};
+use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4, Mat4, Vec3};
+
+macro_rules! raw_coordinates {
+    ($name:ident, $raw:ty, $what:literal) => {
+        impl<S: Space> $name<S> {
+            #[doc = concat!("Tags ", $what, " with a space. The caller vouches for it.")]
+            #[must_use]
+            pub const fn from_raw(raw: $raw) -> Self {
+                Self::tagged(raw)
+            }
+
+            #[doc = concat!("The ", $what, ", without their space.")]
+            #[must_use]
+            pub const fn raw(self) -> $raw {
+                self.raw
+            }
+        }
+
+        impl<S: Space> From<$raw> for $name<S> {
+            fn from(raw: $raw) -> Self {
+                Self::tagged(raw)
+            }
+        }
+
+        impl<S: Space> From<$name<S>> for $raw {
+            fn from(value: $name<S>) -> Self {
+                value.raw
+            }
+        }
+    };
+}
+raw_coordinates!(Point, DVec3, "plain coordinates");
+raw_coordinates!(Vector, DVec3, "plain coordinates");
+raw_coordinates!(Normal, DVec3, "plain coordinates");
+raw_coordinates!(HPoint, DVec4, "four plain coordinates");
+raw_coordinates!(Plane, DVec4, "four plain coefficients (a, b, c, d)");
+
+impl<S: Space> From<Vec3> for Point<S> {
+    fn from(raw: Vec3) -> Self {
+        Self::tagged(raw.as_dvec3())
+    }
+}
+
+impl<S: Space> From<Vec3> for Vector<S> {
+    fn from(raw: Vec3) -> Self {
+        Self::tagged(raw.as_dvec3())
+    }
+}
+
+impl<A: Space, B: Space> Projective<A, B> {
+    /// Tags a matrix with its two spaces. The caller vouches for them.
+    #[must_use]
+    pub const fn from_raw(raw: DMat4) -> Self {
+        Self::tagged(raw)
+    }
+
+    /// The matrix, without its spaces.
+    #[must_use]
+    pub const fn raw(self) -> DMat4 {
+        self.raw
+    }
+}
+
+impl<A: Space, B: Space> From<DMat4> for Projective<A, B> {
+    fn from(raw: DMat4) -> Self {
+        Self::tagged(raw)
+    }
+}
+
+impl<A: Space, B: Space> From<Mat4> for Projective<A, B> {
+    fn from(raw: Mat4) -> Self {
+        Self::tagged(raw.as_dmat4())
+    }
+}
+
+impl<A: Space, B: Space> From<Projective<A, B>> for DMat4 {
+    fn from(map: Projective<A, B>) -> Self {
+        map.raw
+    }
+}
+
+impl<A: Space, B: Space> Affine<A, B> {
+    /// Tags a matrix with its two spaces; `None` unless its bottom row is exactly (0, 0, 0, 1).
+    #[must_use]
+    pub fn from_raw(raw: DMat4) -> Option<Self> {
+        Self::from_matrix(raw)
+    }
+
+    /// The matrix, without its spaces; its bottom row is (0, 0, 0, 1).
+    #[must_use]
+    pub const fn raw(self) -> DMat4 {
+        self.raw
+    }
+}
+
+impl<A: Space, B: Space> From<DAffine3> for Affine<A, B> {
+    fn from(map: DAffine3) -> Self {
+        Self::tagged(DMat4::from_mat3_translation(map.matrix3, map.translation))
+    }
+}
+
+impl<A: Space, B: Space> From<Affine<A, B>> for DMat4 {
+    fn from(map: Affine<A, B>) -> Self {
+        map.raw
+    }
+}
+
+macro_rules! raw_plane {
+    ($name:ident, $raw:ty, $from:literal, $to:literal) => {
+        impl $name {
+            #[doc = $from]
+            #[must_use]
+            pub const fn from_raw(raw: $raw) -> Self {
+                Self::tagged(raw)
+            }
+
+            #[doc = $to]
+            #[must_use]
+            pub const fn raw(self) -> $raw {
+                self.raw
+            }
+        }
+    };
+}
+raw_plane!(HPoint2, DVec3, "The point with the given three numbers.", "The numbers x, y, h.");
+raw_plane!(HLine2, DVec3, "The line with the given coefficients.", "The coefficients a, b, c.");
+raw_plane!(Homography, DMat3, "The map with the given matrix.", "The matrix.");
