@@ -3,10 +3,11 @@
 use crate::finite::Finite;
 use crate::random::Random;
 use crate::subject::Subject;
+use homog::NdcY;
 use homog::{Clip, Projective, View};
 use projection::{
     ApexMovedFrustum, Axonometric, Classical, ConstructedPerspective, Convention, Decomposed,
-    DepthCurve, DepthFormat, FourAngles, Fov, Frustum, Handedness, Jitter, NPoint, NdcY, Oblique,
+    DepthCurve, DepthFormat, FourAngles, Fov, Frustum, Handedness, Jitter, NPoint, Oblique,
     Orthographic, Perspective, Planometric, PrincipalView, ProjectionError, Projector, SensorSize,
     VanishingPoint, ViewOffset, ViewVolume, Window, api, chapter, decompose, oblique_near_plane,
     opening_angle_of, principal_vanishing_points, readings, third_row, vanishing_point,
@@ -201,13 +202,20 @@ pub const SUBJECTS: &[Subject] = &[
         decomposed(frustum.view_to_clip(c).raw(), r)
     }),
     ("projection::readings", |r| {
-        let mut read = readings(r.matrix4());
+        let mut read = readings(Projective::from_raw(r.matrix4()));
         Some(read.all(|(_, reading)| reading.factor.is_finite()))
     }),
     ("recognition::recognize", |r| {
-        let found = recognize(r.matrix4());
+        let found = recognize(r.matrix4().transpose().to_cols_array_2d());
         let factors = found.readings.iter().all(|reading| reading.factor.is_finite());
-        Some(factors && found.suspicions.iter().all(|slip| slip.remedied.finite()))
+        Some(
+            factors
+                && found.suspicions.iter().all(|slip| {
+                    slip.remedied.is_none_or(|rows| {
+                        rows.as_flattened().iter().all(|entry| entry.is_finite())
+                    })
+                }),
+        )
     }),
     ("recognition::recognize_planar", |r| {
         let rows = r.matrix4().transpose().to_cols_array_2d();
@@ -353,7 +361,7 @@ fn depth(curve: Made<DepthCurve>, r: &mut Random) -> Option<bool> {
 
 fn decomposed(matrix: glam::DMat4, r: &mut Random) -> Option<bool> {
     let c = convention(r);
-    let found = decompose(matrix, c).ok()?;
+    let found = decompose(Projective::from_raw(matrix), c).ok()?;
     let finite = match found.kind {
         Decomposed::Frustum(frustum) => frustum.view_to_clip(c).finite(),
         Decomposed::ApexMoved(lesson) => lesson.view_to_clip(c).finite(),

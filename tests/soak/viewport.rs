@@ -3,7 +3,7 @@
 use crate::finite::Finite;
 use crate::random::Random;
 use crate::subject::Subject;
-use homog::{Clip, PixelConvention, PixelRect, View};
+use homog::{Clip, ClipRange, PixelConvention, PixelRect, View};
 use viewport::{
     DepthRange, DrawingScale, FitPolicy, Limits, Paper, PickRay, PointGrid, Rectangle, Resolution,
     Viewport, WindowToViewport, tiles,
@@ -28,8 +28,8 @@ pub const SUBJECTS: &[Subject] = &[
         let viewport = any_viewport(r)?;
         Some((viewport.ndc_to_screen(), viewport.screen_to_ndc()).finite())
     }),
-    ("viewport::Viewport::image", |r| {
-        let viewport = Viewport::image(r.count(), r.count()).ok()?;
+    ("viewport::Viewport::image_for", |r| {
+        let viewport = Viewport::image_for(r.count(), r.count(), any_range(r)?).ok()?;
         Some((viewport.ndc_to_screen(), viewport.screen_to_ndc()).finite())
     }),
     ("viewport::Viewport::chapter", |r| {
@@ -51,7 +51,7 @@ pub const SUBJECTS: &[Subject] = &[
     }),
     ("viewport::Unprojector::ray", |r| {
         let unprojector = any_viewport(r)?.unprojector::<View>(r.projective::<Clip, View>());
-        let PickRay { ray, near, far } = unprojector.pick_ray(r.numbers(), r.numbers())?;
+        let PickRay { ray, near, far } = unprojector.pick_ray(r.numbers())?;
         Some((ray.origin, ray.direction, near, far).finite())
     }),
     ("viewport::tiles", |r| {
@@ -124,12 +124,19 @@ fn any_rectangle(r: &mut Random) -> Option<Rectangle> {
     Rectangle::new(r.number(), r.number(), r.size(), r.size()).ok()
 }
 
+fn any_range(r: &mut Random) -> Option<ClipRange> {
+    let [near, far] = r.numbers();
+    let fixed = [ClipRange::CHAPTER, ClipRange::OPENGL, ClipRange::ZERO_ONE, ClipRange::VULKAN];
+    let range = r.pick(&fixed);
+    if r.coin() { Some(range) } else { range.with_depths(near, far).ok() }
+}
+
 fn any_viewport(r: &mut Random) -> Option<Viewport> {
     let fixed =
         [DepthRange::KEEP, DepthRange::ZERO_ONE, DepthRange::ZERO_ONE_FLIPPED, DepthRange::NEGATED];
     let depth =
         if r.coin() { r.pick(&fixed) } else { DepthRange::new(r.numbers(), r.numbers()).ok()? };
-    Some(Viewport::new(any_rectangle(r)?, r.pick(&PixelConvention::ALL), depth))
+    Some(Viewport::new(any_rectangle(r)?, r.pick(&PixelConvention::ALL), any_range(r)?, depth))
 }
 
 fn fit(r: &mut Random) -> FitPolicy {

@@ -11,7 +11,7 @@ use crate::vectors::projection::build_projection;
 use crate::vectors::windows::full_image_viewport;
 use camera::{Camera, CameraError};
 use clip::Volume;
-use homog::{Clip, HPoint, Point, Projective, View, World};
+use homog::{Clip, ClipRange, HPoint, Point, Projective, View, World};
 use serde_json::Value;
 use viewport::Viewport;
 
@@ -56,7 +56,7 @@ struct ViewChain {
 /// Properties of the projection that the rest of the chain needs.
 struct ProjectionKind {
     volume: Volume,
-    near_far: [f64; 2],
+    range: ClipRange,
     /// −1 for M_per, whose visible points have w < 0.
     sign: f64,
 }
@@ -66,12 +66,14 @@ impl ViewChain {
         let mut parameters = case["projection"].clone();
         parameters["builder"] = parameters["kind"].clone();
         let (forth, back) = build_projection(&parameters)?.map_err(|error| error.to_string())?;
+        let kind = projection_kind(text_field(&case["projection"], "kind")?);
+        let viewport = full_image_viewport(&case["viewport"])?;
         Ok(Self {
             camera: parse_camera(&case["camera"])?.map_err(|error| error.to_string())?,
             view_to_clip: Projective::from_raw(forth),
             clip_to_view: Projective::from_raw(back),
-            viewport: full_image_viewport(&case["viewport"])?.map_err(|error| error.to_string())?,
-            kind: projection_kind(text_field(&case["projection"], "kind")?),
+            viewport: viewport.map_err(|error| error.to_string())?.with_range(kind.range),
+            kind,
         })
     }
 
@@ -89,13 +91,14 @@ impl ViewChain {
 }
 
 fn projection_kind(name: &str) -> ProjectionKind {
-    let (volume, near_far) = match name {
-        "per" | "orth" => (Volume::CHAPTER, [1.0, -1.0]),
-        name if name.contains("_zo_rev") => (Volume::ZERO_ONE_REVERSED, [1.0, 0.0]),
-        name if name.contains("_zo") => (Volume::ZERO_ONE, [0.0, 1.0]),
-        _ => (Volume::OPENGL, [-1.0, 1.0]),
+    let range = match name {
+        "per" | "orth" => ClipRange::CHAPTER,
+        name if name.contains("_zo_rev") => ClipRange::ZERO_ONE.reversed(),
+        name if name.contains("_zo") => ClipRange::ZERO_ONE,
+        _ => ClipRange::OPENGL,
     };
-    ProjectionKind { volume, near_far, sign: if name == "per" { -1.0 } else { 1.0 } }
+    let sign = if name == "per" { -1.0 } else { 1.0 };
+    ProjectionKind { volume: Volume::for_range(range), range, sign }
 }
 
 fn check_pipeline_points(case: &Value, out: &Value) -> Result<(), String> {
@@ -181,8 +184,7 @@ fn check_pick_rays(case: &Value, out: &Value) -> Result<(), String> {
 fn check_rays(chain: &ViewChain, case: &Value, out: &Value) -> Result<(), String> {
     let back = chain.viewport.unprojector(chain.clip_to_world());
     for (pixel, theirs) in zip_arrays(&case["pixels"], &out["rays"])? {
-        let pick =
-            back.pick_ray(parse_numbers(pixel)?, chain.kind.near_far).ok_or("there is no ray")?;
+        let pick = back.pick_ray(parse_numbers(pixel)?).ok_or("there is no ray")?;
         let far = pick.far.divide().ok_or("the far point is at infinity")?;
         let points = [("near_point", pick.near), ("far_point", far), ("origin", pick.ray.origin)];
         for (name, ours) in points {

@@ -5,7 +5,7 @@ use crate::vectors::numbers::{parse_array, parse_number, parse_numbers, zip_arra
 use camera::Camera;
 use camera::ViewProjection;
 use hidden_line::{Occluders, Projector, Tolerance};
-use homog::{Point, Vector, World};
+use homog::{ClipRange, Point, Vector, World};
 use projection::{Convention, Frustum, Orthographic};
 use serde_json::Value;
 use viewport::Viewport;
@@ -19,7 +19,8 @@ const TOLERANCE: f64 = 1e-9;
 fn check_hidden_lines(input: &Value, out: &Value) -> Result<(), String> {
     let sight = Projector::new(
         &parse_view_projection(input)?,
-        &Viewport::image(IMAGE_SIDE, IMAGE_SIDE).map_err(|e| e.to_string())?,
+        &Viewport::image_for(IMAGE_SIDE, IMAGE_SIDE, ClipRange::CHAPTER)
+            .map_err(|e| e.to_string())?,
     );
     let triangles: Vec<[Point<World>; 3]> = parse_array(&input["triangles"])?
         .iter()

@@ -8,7 +8,7 @@ use crate::vectors::numbers::{
 };
 use glam::DMat3;
 use homog::{
-    Affine, Homography, Ndc, PixelCenters, PixelConvention, Point, Screen, View, YAxis,
+    Affine, ClipRange, Homography, Ndc, PixelCenters, PixelConvention, Point, Screen, View, YAxis,
     remap_interval,
 };
 use projection::chapter;
@@ -207,7 +207,9 @@ fn parse_rectangle(case: &Value) -> Result<Result<Viewport, ViewportError>, Stri
     let number = |name| number_field(case, name);
     let area = Rectangle::new(number("x0")?, number("y0")?, number("width")?, number("height")?);
     let depth = DepthRange::new([-1.0, 1.0], [number("depth_near")?, number("depth_far")?]);
-    Ok(area.and_then(|area| Ok(Viewport::new(area, PixelConvention::OPENGL, depth?))))
+    Ok(area.and_then(|area| {
+        Ok(Viewport::new(area, PixelConvention::OPENGL, ClipRange::OPENGL, depth?))
+    }))
 }
 
 /// Exercise 2: the product of viewport and box, and the same map as one windowing.

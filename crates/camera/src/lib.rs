@@ -83,6 +83,8 @@ pub use camera::Camera;
 pub use error::{CameraError, FramingError};
 pub use extrinsics::{CameraAxes, Extrinsics};
 pub use framing::{Framing, FramingConstraint, Slopes, frame_perspective};
+/// The types of points, maps and spaces, so that a program needs no second dependency.
+pub use homog;
 pub use named_view::{NamedView, UnknownView};
 pub use orbit::Orbit;
 pub use orientation::Orientation;

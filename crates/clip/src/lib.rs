@@ -30,6 +30,7 @@
 //! | a triangle | [`clip_triangle`] | a convex polygon with weights, without allocation |
 //! | a convex polygon | [`clip_convex`] | the same for any number of corners |
 //! | a solid | [`cut_triangle`], [`Outline`] | its part behind a plane, outline and cap |
+//! | anything, in any space | [`ConvexVolume`] | polygons with attributes, segments, frustum culling |
 //!
 //! A [`Volume`] is a table of planes: any convention's canonical volume, with or without a far
 //! plane, with a guard band, with planes of your own. Attributes follow by fractions and weights,
@@ -75,6 +76,7 @@ extern crate std;
 
 mod bulk_outcodes;
 mod cap;
+mod convex_volume;
 mod outcode;
 mod outline;
 mod plane_outcome;
@@ -88,6 +90,9 @@ mod triangle_section;
 mod volume;
 
 pub use bulk_outcodes::OutcodeSummary;
+pub use convex_volume::ConvexVolume;
+/// The types of points, maps and spaces, so that a program needs no second dependency.
+pub use homog;
 pub use outcode::{MAX_PLANES, Outcode, PlaneIndex};
 pub use outline::Outline;
 pub use plane_outcome::{PlaneOutcome, PlaneOutcomes};

@@ -17,7 +17,7 @@ use core::ops::{BitAnd, BitOr, BitOrAssign};
 pub const MAX_PLANES: usize = 16;
 
 /// The place of a plane in its volume: six with names, then those added by hand.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct PlaneIndex(u8);
 
 impl PlaneIndex {
@@ -67,7 +67,7 @@ impl fmt::Display for PlaneIndex {
 }
 
 /// A set of planes: those a point is outside of.
-#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Default, Debug)]
 pub struct Outcode(u16);
 
 impl Outcode {

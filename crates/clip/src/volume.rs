@@ -14,7 +14,7 @@ use crate::sutherland_hodgman::safe_scale;
 use crate::{MAX_PLANES, Outcode, PlaneIndex};
 use core::fmt;
 use glam::DVec4;
-use homog::{Clip, HPoint, Plane};
+use homog::{Clip, ClipRange, HPoint, Plane};
 use thiserror::Error;
 
 /// An error of a plane or a guard band.
@@ -62,18 +62,37 @@ pub struct Volume {
 
 impl Volume {
     /// [−1, 1]³ with near at z = +1: the chapter's volume, and the pipeline's (PE-3).
-    pub const CHAPTER: Self = Self::canonical(W_MINUS_Z, W_PLUS_Z);
+    pub const CHAPTER: Self = Self::canonical(ClipRange::CHAPTER);
     /// [−1, 1]³ with near at z = −1: OpenGL's volume (CL-1, GL-1).
-    pub const OPENGL: Self = Self::canonical(W_PLUS_Z, W_MINUS_Z);
+    pub const OPENGL: Self = Self::canonical(ClipRange::OPENGL);
     /// z in [0, 1] with near at 0: the volume of Direct3D, Vulkan, Metal and WebGPU (CL-1, D3D-1 to
     /// D3D-6).
-    pub const ZERO_ONE: Self = Self::canonical(Z, W_MINUS_Z);
+    pub const ZERO_ONE: Self = Self::canonical(ClipRange::ZERO_ONE);
     /// z in [0, 1] with near at 1: the same for reversed depth (RV-1).
-    pub const ZERO_ONE_REVERSED: Self = Self::canonical(W_MINUS_Z, Z);
+    pub const ZERO_ONE_REVERSED: Self = Self::canonical(ClipRange::ZERO_ONE.reversed());
     /// The widest guard band: beyond it plane equations would lose too many digits.
     pub const MAX_GUARD_BAND: f64 = 1_048_576.0;
 
-    const fn canonical(near: DVec4, far: DVec4) -> Self {
+    /// The canonical volume of a clip range: a [`ClipRange`] or a `projection::Convention`.
+    ///
+    /// y runs from −w to w whichever way is up, so that only depths matter here.
+    ///
+    /// ```
+    /// use clip::Volume;
+    /// use homog::ClipRange;
+    /// assert_eq!(Volume::for_range(ClipRange::VULKAN), Volume::ZERO_ONE);
+    /// ```
+    #[must_use]
+    pub fn for_range(range: impl Into<ClipRange>) -> Self {
+        Self::canonical(range.into())
+    }
+
+    const fn canonical(range: ClipRange) -> Self {
+        // The side of a depth on which the other is; 0 − x, for −0 has no place in a table.
+        let (near, far) = (range.near_depth(), range.far_depth());
+        let side = if far < near { -1.0 } else { 1.0 };
+        let near = DVec4::new(0.0, 0.0, side, 0.0 - side * near);
+        let far = DVec4::new(0.0, 0.0, -side, 0.0 + side * far);
         let mut planes = [DVec4::ZERO; MAX_PLANES];
         planes[0] = DVec4::new(1.0, 0.0, 0.0, 1.0);
         planes[1] = DVec4::new(-1.0, 0.0, 0.0, 1.0);
@@ -256,10 +275,6 @@ impl fmt::Display for Volume {
 
 /// The bits of the six planes of the box.
 const BOX_BITS: u16 = 0b11_1111;
-
-const W_PLUS_Z: DVec4 = DVec4::new(0.0, 0.0, 1.0, 1.0);
-const W_MINUS_Z: DVec4 = DVec4::new(0.0, 0.0, -1.0, 1.0);
-const Z: DVec4 = DVec4::new(0.0, 0.0, 1.0, 0.0);
 
 #[cfg(test)]
 mod tests {

@@ -11,6 +11,7 @@ use crate::{Drawing, FaceFill};
 use camera::ViewProjection;
 use glam::DVec3;
 use hidden_line::{DrawError, DrawOptions, FaceHatching, Projector, Subject, WeldedSurface};
+use homog::ClipRange;
 use viewport::Viewport;
 
 /// Draws the edges of a subject with hidden-line removal and the fill of its faces, with up to
@@ -60,7 +61,8 @@ fn face_luma(
     [width, height]: [u32; 2],
     fill: FaceFill,
 ) -> Result<impl Fn([DVec3; 3], [f32; 3]) -> f64, DrawError> {
-    let projector = Projector::new(view_projection, &Viewport::image(width, height)?);
+    let projector =
+        Projector::new(view_projection, &Viewport::image_for(width, height, ClipRange::CHAPTER)?);
     let key_light = KeyLight::new(view_projection, projector);
     let colors_count = fill == FaceFill::Hatching;
     Ok(move |vertices, color| {

@@ -10,7 +10,7 @@ use super::gray_fill::gray_pixel;
 use camera::ViewProjection;
 use glam::DVec3;
 use hidden_line::{DrawError, Projector, rasterize_faces};
-use homog::{Vector, View};
+use homog::{ClipRange, Vector, View};
 use picture::Picture;
 use shade::color::SrgbEncoder;
 use viewport::Viewport;
@@ -112,7 +112,8 @@ pub(super) fn rasterize_fill(
     let longest = f64::from(size[0].max(size[1]));
     let scale = fill.scale.min(MAX_FILL_SIDE / longest);
     let [width, height] = size.map(|side| (f64::from(side) * scale).ceil().max(1.0) as u32);
-    let projector = Projector::new(view_projection, &Viewport::image(width, height)?);
+    let projector =
+        Projector::new(view_projection, &Viewport::image_for(width, height, ClipRange::CHAPTER)?);
     let key_light = KeyLight::new(view_projection, projector);
     let is_gray = fill.face_fill == FaceFill::Gray;
     let mut colors: Vec<[u8; 4]> = Vec::new();

@@ -30,7 +30,7 @@ impl ChapterMatrices {
     /// The factors of a projection to the textbook's canonical volume; `None` for other kinds, and
     /// where the far plane is infinite.
     pub(super) fn from_projection(view_to_clip: Projective<View, Clip>) -> Option<Self> {
-        let kind = decompose(view_to_clip.raw(), Convention::CHAPTER).ok()?.kind;
+        let kind = decompose(view_to_clip, Convention::CHAPTER).ok()?.kind;
         let (window, n, f) = match kind {
             Decomposed::Frustum(frustum) => (frustum.window(), -frustum.near(), -frustum.far()),
             Decomposed::Orthographic(volume) => (volume.window(), -volume.near(), -volume.far()),

@@ -14,8 +14,9 @@
 //! the world and the pixel under a point stay as they are; matrices, outcodes and depth values
 //! change.
 
+use homog::NdcY;
 use homog::{Affine, PixelConvention, View};
-use projection::{Convention, Handedness, NdcY};
+use projection::{Convention, Handedness};
 use std::str::FromStr;
 use viewport::{DepthRange, Rectangle, Viewport, ViewportError};
 
@@ -151,15 +152,13 @@ impl ApiConventions {
     }
 
     /// Where pixel centers are and which way rows run.
-    ///
-    /// In Vulkan y runs down already in clip space: nothing is left to flip.
     #[must_use]
     pub const fn pixel_convention(self) -> PixelConvention {
         match self {
             Self::Chapter => PixelConvention::CHAPTER,
             Self::ChapterYDown => PixelConvention::CHAPTER_Y_DOWN,
-            Self::OpenGl | Self::Vulkan => PixelConvention::OPENGL,
-            Self::Alberti | Self::Direct3d | Self::WebGpu => PixelConvention::IMAGE,
+            Self::OpenGl => PixelConvention::OPENGL,
+            Self::Alberti | Self::Vulkan | Self::Direct3d | Self::WebGpu => PixelConvention::IMAGE,
         }
     }
 
@@ -192,9 +191,15 @@ impl ApiConventions {
     ///
     /// # Errors
     /// If width or height is 0.
-    pub(super) fn viewport(self, width: u32, height: u32) -> Result<Viewport, ViewportError> {
-        let area = Rectangle::from_size(width.into(), height.into())?;
-        Ok(Viewport::new(area, self.pixel_convention(), self.depth_range()))
+    pub(super) fn image(self, width: u32, height: u32) -> Result<Viewport, ViewportError> {
+        Ok(self.viewport(Rectangle::from_size(width.into(), height.into())?))
+    }
+
+    /// The viewport on a rectangle of the image.
+    #[must_use]
+    pub const fn viewport(self, area: Rectangle) -> Viewport {
+        let range = self.canonical_volume().range();
+        Viewport::new(area, self.pixel_convention(), range, self.depth_range())
     }
 }
 

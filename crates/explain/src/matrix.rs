@@ -36,7 +36,7 @@ const LESS_LIKELY: u32 = 10;
 pub fn explain_matrix(rows: [[f64; 4]; 4]) -> Result<Explanation, String> {
     check_finite(&rows)?;
     let map = Projective::<View, Clip>::from_rows(rows);
-    let found = recognize(map.raw());
+    let found = recognize(map.rows());
     let mut steps = vec![kind_step(rows, map), inverse_step(map)];
     steps.extend(affine_step(map, &found.first().meaning));
     steps.push(vanishing_points_step(map));
@@ -235,7 +235,7 @@ fn entry_words(rows: [[f64; 4]; 4], found: &Recognition) -> String {
 
 /// The first entry that the remedy changes, by row and column from 0.
 fn changed_entry(rows: [[f64; 4]; 4], slip: &Suspicion) -> Option<[usize; 2]> {
-    let remedied = slip.remedied?.transpose().to_cols_array_2d();
+    let remedied = slip.remedied?;
     let at = (0..16).find(|at| rows[at / 4][at % 4] != remedied[at / 4][at % 4])?;
     Some([at / 4, at % 4])
 }
@@ -275,16 +275,12 @@ fn misprint_step(at: usize, rows: [[f64; 4]; 4], slip: &Suspicion) -> Step {
     let likely = slip.strength == SuspicionStrength::Likely;
     let is_read = at == 0 && likely && mended.contains(&slip.misprint);
     match slip.remedied {
-        Some(remedied) if is_read => {
-            step.with_item("remedied", "then", Projective::<View, Clip>::from_raw(remedied).rows())
-        }
-        Some(remedied) => step
-            .with_item("remedied", "then", Projective::<View, Clip>::from_raw(remedied).rows())
-            .with_item(
-                "remedied_reading",
-                "which is",
-                describe_meaning(&recognize(remedied).first()),
-            ),
+        Some(remedied) if is_read => step.with_item("remedied", "then", remedied),
+        Some(remedied) => step.with_item("remedied", "then", remedied).with_item(
+            "remedied_reading",
+            "which is",
+            describe_meaning(&recognize(remedied).first()),
+        ),
         None => step,
     }
 }

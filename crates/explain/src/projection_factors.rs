@@ -28,7 +28,7 @@ pub(super) fn add_projection_factors(
     conventions: ApiConventions,
 ) {
     let volume = conventions.canonical_volume();
-    let Ok(decomposition) = decompose(view_to_clip.raw(), volume) else { return };
+    let Ok(decomposition) = decompose(view_to_clip, volume) else { return };
     step.formula = formula_ids_of_kind(&decomposition.kind, conventions);
     step.add_item("kind", "it is", describe_projection(&decomposition.kind));
     let on_the_page =
@@ -103,8 +103,7 @@ fn describe_projection(kind: &Decomposed) -> String {
 /// Such as `PE-1, PE-3, VV-2`; `None` for a matrix that is not recognized.
 #[must_use]
 pub fn formula_ids(view_to_clip: Projective<View, Clip>) -> Option<&'static str> {
-    let decomposition =
-        decompose(view_to_clip.raw(), ApiConventions::Alberti.canonical_volume()).ok()?;
+    let decomposition = decompose(view_to_clip, ApiConventions::Alberti.canonical_volume()).ok()?;
     formula_ids_of_kind(&decomposition.kind, ApiConventions::Alberti)
 }
 

@@ -62,7 +62,7 @@ impl TransformChain {
         let own_volume = ApiConventions::Alberti.canonical_volume();
         let view_to_clip = own_volume.convert(conventions.canonical_volume(), view_to_clip);
         let (width, height) = size;
-        let viewport = conventions.viewport(width, height)?;
+        let viewport = conventions.image(width, height)?;
         let world_to_view = camera.world_to_view().then(conventions.view_flip());
         let transform = ViewTransform::with_world_to_clip(
             world_to_view.then_project(view_to_clip),

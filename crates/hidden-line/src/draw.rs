@@ -32,7 +32,7 @@ use super::{EdgeClass, EdgeSegment, LineDrawing, Warning};
 use crate::{DrawError, Subject};
 use camera::ViewProjection;
 use glam::{DVec2, DVec3};
-use homog::Point;
+use homog::{ClipRange, Point};
 use model::{ModelInstance, Primitive, Topology};
 use std::ops::Range;
 use std::sync::Arc;
@@ -115,7 +115,10 @@ pub fn draw_surface(
     face_hatching: FaceHatching<'_>,
     threads: usize,
 ) -> Result<LineDrawing, DrawError> {
-    let projector = Projector::new(view_projection, &Viewport::image(size[0], size[1])?);
+    let projector = Projector::new(
+        view_projection,
+        &Viewport::image_for(size[0], size[1], ClipRange::CHAPTER)?,
+    );
     let mut candidates = surface.mesh_edges(&projector, options);
     let cover = view_cover(surface, projector, size, options);
     // Other views need other intersections: all are found once, unless they are too many.
@@ -169,7 +172,10 @@ fn draw_candidates(
     options: &DrawOptions,
     threads: usize,
 ) -> Result<LineDrawing, DrawError> {
-    let projector = Projector::new(view_projection, &Viewport::image(size[0], size[1])?);
+    let projector = Projector::new(
+        view_projection,
+        &Viewport::image_for(size[0], size[1], ClipRange::CHAPTER)?,
+    );
     let mut warnings = surface.warnings().to_vec();
     warnings.extend(is_cut_off.then_some(Warning::IntersectionsIncomplete));
     let mut regions = outlines(surface, &projector, options);

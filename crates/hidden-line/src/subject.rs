@@ -1,7 +1,7 @@
 //! Subject of a line drawing: models, camera with projection, image size and section planes.
 
 use camera::ViewProjection;
-use homog::{Plane, World};
+use homog::{ClipRange, Plane, World};
 use model::ModelInstance;
 use viewport::{Viewport, ViewportError};
 
@@ -29,7 +29,7 @@ impl Subject<'_> {
     /// # Errors
     /// If the image has no pixels, or too many.
     pub fn viewport(&self) -> Result<Viewport, ViewportError> {
-        Viewport::image(self.size[0], self.size[1])
+        Viewport::image_for(self.size[0], self.size[1], ClipRange::CHAPTER)
     }
 
     /// The part of the image's height, from the top, that shows the view.

@@ -16,7 +16,7 @@ use super::face_raster::rasterize_faces;
 use super::projector::Projector;
 use crate::{DrawError, Subject};
 use glam::{DMat4, DVec2, DVec3};
-use homog::Point;
+use homog::{ClipRange, Point};
 use viewport::Viewport;
 
 /// The longest side of the z-buffer image in pixels.
@@ -140,7 +140,10 @@ impl ZBufferImage {
         let drawing_projector = Projector::new(&subject.view_projection, &subject.viewport()?);
         let finer = (MAX_Z_BUFFER_SIDE / width.max(height)).clamp(1, SUPERSAMPLING);
         let (width, height) = (width * finer, height * finer);
-        let projector = Projector::new(&subject.view_projection, &Viewport::image(width, height)?);
+        let projector = Projector::new(
+            &subject.view_projection,
+            &Viewport::image_for(width, height, ClipRange::CHAPTER)?,
+        );
         let to_world = drawing_projector.world_to_screen().inverse();
         let surface = WeldedSurface::new(subject.models, subject.sections, subject.uncut);
         let mut planes = Vec::new();

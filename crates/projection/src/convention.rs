@@ -14,9 +14,8 @@
 //! [`Convention::convert`].
 
 use crate::ProjectionError;
-use crate::error::check_finite;
 use glam::DMat4;
-use homog::{Clip, Projective, View};
+use homog::{Clip, ClipRange, NdcY, Projective, View};
 
 /// The side to which the camera looks along its own z axis.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -25,15 +24,6 @@ pub enum Handedness {
     Right,
     /// View space is left-handed: x right, y up, looking along +z.
     Left,
-}
-
-/// The direction of the y axis after the divide.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum NdcY {
-    /// The top edge of the window goes to y = +1.
-    Up,
-    /// The top edge of the window goes to y = −1.
-    Down,
 }
 
 /// How view space and clip space are laid out (C30, C100).
@@ -49,34 +39,40 @@ pub enum NdcY {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Convention {
     handedness: Handedness,
-    ndc_y: NdcY,
-    near_depth: f64,
-    far_depth: f64,
+    range: ClipRange,
 }
 
 impl Convention {
     /// The textbook's canonical volume in its w > 0 form (PE-3): [−1, 1]³ with near at +1 and far
     /// at −1.
-    pub const CHAPTER: Self = Self::new(Handedness::Right, NdcY::Up, 1.0, -1.0);
+    pub const CHAPTER: Self = Self::new(Handedness::Right, ClipRange::CHAPTER);
     /// OpenGL and WebGL (GL-1): near at −1, far at +1.
-    pub const OPENGL: Self = Self::new(Handedness::Right, NdcY::Up, -1.0, 1.0);
+    pub const OPENGL: Self = Self::new(Handedness::Right, ClipRange::OPENGL);
     /// Vulkan: y down, near at 0, far at 1.
-    pub const VULKAN: Self = Self::new(Handedness::Right, NdcY::Down, 0.0, 1.0);
+    pub const VULKAN: Self = Self::new(Handedness::Right, ClipRange::VULKAN);
     /// Direct3D as its helper library had it (D3D-1): left-handed, near at 0, far at 1.
-    pub const DIRECT3D: Self = Self::new(Handedness::Left, NdcY::Up, 0.0, 1.0);
+    pub const DIRECT3D: Self = Self::new(Handedness::Left, ClipRange::ZERO_ONE);
     /// Metal with a right-handed view space: near at 0, far at 1.
-    pub const METAL: Self = Self::new(Handedness::Right, NdcY::Up, 0.0, 1.0);
+    pub const METAL: Self = Self::new(Handedness::Right, ClipRange::ZERO_ONE);
     /// WebGPU with a right-handed view space (D3D-2): near at 0, far at 1.
     pub const WEBGPU: Self = Self::METAL;
 
-    const fn new(handedness: Handedness, ndc_y: NdcY, near_depth: f64, far_depth: f64) -> Self {
-        Self { handedness, ndc_y, near_depth, far_depth }
+    /// The convention of a handedness and a clip range.
+    #[must_use]
+    pub const fn new(handedness: Handedness, range: ClipRange) -> Self {
+        Self { handedness, range }
+    }
+
+    /// What clip space looks like: hand it to the viewport and to the clip volume.
+    #[must_use]
+    pub const fn range(self) -> ClipRange {
+        self.range
     }
 
     /// This convention with near and far depth exchanged (reversed z).
     #[must_use]
     pub const fn reversed(self) -> Self {
-        Self::new(self.handedness, self.ndc_y, self.far_depth, self.near_depth)
+        Self { range: self.range.reversed(), ..self }
     }
 
     /// This convention for a view space that looks along −z.
@@ -100,7 +96,7 @@ impl Convention {
     /// This convention with the given direction of y after the divide.
     #[must_use]
     pub const fn with_ndc_y(self, ndc_y: NdcY) -> Self {
-        Self { ndc_y, ..self }
+        Self { range: self.range.with_y(ndc_y), ..self }
     }
 
     /// This convention with other depths at the near and the far plane.
@@ -108,18 +104,7 @@ impl Convention {
     /// # Errors
     /// Unless both depths are in [−1, 1] and at least 10⁻⁶ apart.
     pub fn with_depths(self, near_depth: f64, far_depth: f64) -> Result<Self, ProjectionError> {
-        for (parameter, value) in [("near_depth", near_depth), ("far_depth", far_depth)] {
-            if check_finite(parameter, value)?.abs() > 1.0 {
-                let allowed = "between −1 and 1";
-                return Err(ProjectionError::OutOfRange { parameter, value, allowed });
-            }
-        }
-        if (near_depth - far_depth).abs() < 1e-6 {
-            let allowed = "at least 0.000001 away from `near_depth`";
-            let parameter = "far_depth";
-            return Err(ProjectionError::OutOfRange { parameter, value: far_depth, allowed });
-        }
-        Ok(Self { near_depth, far_depth, ..self })
+        Ok(Self { range: self.range.with_depths(near_depth, far_depth)?, ..self })
     }
 
     /// Which way view space looks.
@@ -131,19 +116,19 @@ impl Convention {
     /// Which way y runs after the divide.
     #[must_use]
     pub const fn ndc_y(self) -> NdcY {
-        self.ndc_y
+        self.range.y()
     }
 
     /// The depth after the divide of points on the near plane.
     #[must_use]
     pub const fn near_depth(self) -> f64 {
-        self.near_depth
+        self.range.near_depth()
     }
 
     /// The depth after the divide of points on the far plane.
     #[must_use]
     pub const fn far_depth(self) -> f64 {
-        self.far_depth
+        self.range.far_depth()
     }
 
     /// The z of a view-space point one unit ahead of the eye: −1 or +1.
@@ -158,10 +143,7 @@ impl Convention {
     /// The y after the divide of the window's top edge: +1 or −1.
     #[must_use]
     pub const fn top(self) -> f64 {
-        match self.ndc_y {
-            NdcY::Up => 1.0,
-            NdcY::Down => -1.0,
-        }
+        self.range.top()
     }
 
     /// Converts a projection matrix of this convention to convention `to`.
@@ -180,7 +162,7 @@ impl Convention {
     #[must_use]
     pub fn convert(self, to: Self, view_to_clip: Projective<View, Clip>) -> Projective<View, Clip> {
         let mut rows = view_to_clip.raw().transpose();
-        if self.ndc_y != to.ndc_y {
+        if self.ndc_y() != to.ndc_y() {
             rows.y_axis = -rows.y_axis;
         }
         let (factor, offset) = self.depth_remap(to);
@@ -206,9 +188,17 @@ impl Convention {
 
     /// Factor and offset of the linear map between the depths of two conventions.
     fn depth_remap(self, to: Self) -> (f64, f64) {
-        let length = self.far_depth - self.near_depth;
-        let factor = (to.far_depth - to.near_depth) / length;
-        let offset = (to.near_depth * self.far_depth - to.far_depth * self.near_depth) / length;
+        let length = self.far_depth() - self.near_depth();
+        let factor = (to.far_depth() - to.near_depth()) / length;
+        let offset =
+            (to.near_depth() * self.far_depth() - to.far_depth() * self.near_depth()) / length;
         (factor, offset)
+    }
+}
+
+/// What the viewport and the clip volume ask for.
+impl From<Convention> for ClipRange {
+    fn from(convention: Convention) -> Self {
+        convention.range
     }
 }

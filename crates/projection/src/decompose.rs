@@ -21,7 +21,7 @@ use crate::{
     ProjectionError, Window,
 };
 use glam::{DMat4, DVec3, DVec4};
-use homog::{Affine, HPoint, Normal, Plane, View};
+use homog::{Affine, Clip, HPoint, Normal, Plane, Projective, View};
 use thiserror::Error;
 
 /// The projection that a matrix was recognized as.
@@ -143,7 +143,8 @@ pub enum DecomposeError {
 /// ```
 /// use projection::{Convention, Decomposed, Frustum, decompose};
 /// let made = Frustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?;
-/// let found = decompose(made.view_to_clip(Convention::VULKAN).raw() * -5.0, Convention::VULKAN)?;
+/// let rows = made.view_to_clip(Convention::VULKAN).rows().map(|row| row.map(|entry| -5.0 * entry));
+/// let found = decompose(homog::Projective::from_rows(rows), Convention::VULKAN)?;
 /// assert_eq!(found.factor, -5.0);
 /// let Decomposed::Frustum(found) = found.kind else { panic!("a frustum") };
 /// assert!((found.far() - 6.0).abs() < 1e-12 && (found.window().left() + 1.0).abs() < 1e-12);
@@ -152,7 +153,11 @@ pub enum DecomposeError {
 ///
 /// # Errors
 /// If an entry is not finite, or the matrix is no projection of this convention.
-pub fn decompose(matrix: DMat4, convention: Convention) -> Result<Decomposition, DecomposeError> {
+pub fn decompose(
+    view_to_clip: Projective<View, Clip>,
+    convention: Convention,
+) -> Result<Decomposition, DecomposeError> {
+    let matrix = view_to_clip.raw();
     check_finite(matrix)?;
     let found = decompose_recognized(matrix, convention)?;
     let lost = ProjectionError::Unrepresentable { what: "projection in this matrix" };
@@ -182,7 +187,9 @@ fn decompose_recognized(
 }
 
 /// Every named convention in which the matrix makes sense, with the projection it then is.
-pub fn readings(matrix: DMat4) -> impl Iterator<Item = (Convention, Decomposition)> {
+pub fn readings(
+    view_to_clip: Projective<View, Clip>,
+) -> impl Iterator<Item = (Convention, Decomposition)> {
     let named = [
         Convention::OPENGL,
         Convention::CHAPTER,
@@ -194,7 +201,7 @@ pub fn readings(matrix: DMat4) -> impl Iterator<Item = (Convention, Decompositio
         Convention::DIRECT3D.reversed(),
         Convention::OPENGL.left_handed(),
     ];
-    named.into_iter().filter_map(move |c| Some((c, decompose(matrix, c).ok()?)))
+    named.into_iter().filter_map(move |c| Some((c, decompose(view_to_clip, c).ok()?)))
 }
 
 fn check_finite(matrix: DMat4) -> Result<(), DecomposeError> {

@@ -1,5 +1,6 @@
 //! Errors of projection parameters.
 
+use homog::ClipRangeError;
 use thiserror::Error;
 
 /// A parameter was refused. Every message names the parameter, its value and what is allowed.
@@ -117,5 +118,23 @@ pub(crate) fn check_opening_angle(
         Ok(value)
     } else {
         Err(ProjectionError::OutOfRange { parameter, value, allowed })
+    }
+}
+
+impl From<ClipRangeError> for ProjectionError {
+    fn from(error: ClipRangeError) -> Self {
+        match error {
+            ClipRangeError::Depth { name: parameter, value } if !value.is_finite() => {
+                Self::NotFinite { parameter, value }
+            }
+            ClipRangeError::Depth { name: parameter, value } => {
+                Self::OutOfRange { parameter, value, allowed: "between −1 and 1" }
+            }
+            ClipRangeError::TooClose { far: value } => Self::OutOfRange {
+                parameter: "far_depth",
+                value,
+                allowed: "at least 0.000001 away from `near_depth`",
+            },
+        }
     }
 }

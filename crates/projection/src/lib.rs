@@ -102,12 +102,14 @@ pub use apex_moved::{ApexMovedFrustum, ApexMovedSteps};
 pub use axonometric::{Axonometric, AxonometricKind};
 pub use classical::Classical;
 pub use construction::ConstructedPerspective;
-pub use convention::{Convention, Handedness, NdcY};
+pub use convention::{Convention, Handedness};
 pub use decompose::{DecomposeError, Decomposed, Decomposition, decompose, readings};
 pub use depth_curve::{DepthCurve, DepthFormat, third_row};
 pub use error::ProjectionError;
 pub use fov::{Fov, HalfSlopes, SensorSize, opening_angle_of};
 pub use frustum::Frustum;
+/// The types of points, maps and spaces, so that a program needs no second dependency.
+pub use homog;
 pub use intrinsics::{Intrinsics, PixelCenters};
 pub use multiview::{PrincipalPlane, PrincipalView, SheetAngle};
 pub use normalize::{FrustumFactors, ParallelFactors};

@@ -100,6 +100,8 @@ pub use error::RasterError;
 pub use fragment::Fragment;
 pub use fragment_lanes::{F32x8, Fragments, LANES, WeightLanes};
 pub use frame::{Frame, MAX_SIDE, MeshTriangles};
+/// The types of points, maps and spaces, so that a program needs no second dependency.
+pub use homog;
 pub use parallel::for_each_parallel;
 pub use primitive::{CullMode, Opacity, SourceWeights};
 pub use samples::Samples;

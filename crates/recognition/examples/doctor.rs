@@ -7,21 +7,23 @@
 
 #![allow(clippy::print_stdout, reason = "an example speaks on its standard output")]
 
-use glam::DMat4;
 use recognition::recognize;
 
 /// Ortho(−1, 3, −2, 1, 2, 6) with + (far + near)/(far − near) at the end of its third row.
-const SLIDE: [f64; 16] =
-    [0.5, 0.0, 0.0, -0.5, 0.0, 2.0 / 3.0, 0.0, 1.0 / 3.0, 0.0, 0.0, -0.5, 2.0, 0.0, 0.0, 0.0, 1.0];
+const SLIDE: [[f64; 4]; 4] = [
+    [0.5, 0.0, 0.0, -0.5],
+    [0.0, 2.0 / 3.0, 0.0, 1.0 / 3.0],
+    [0.0, 0.0, -0.5, 2.0],
+    [0.0, 0.0, 0.0, 1.0],
+];
 
 fn main() {
     let given: Vec<f64> =
         std::env::args().skip(1).filter_map(|number| number.parse().ok()).collect();
-    let rows: [f64; 16] = given.try_into().unwrap_or(SLIDE);
-    let matrix = DMat4::from_cols_array(&rows).transpose();
-    show("The matrix", matrix);
+    let rows = given.as_chunks::<4>().0.try_into().unwrap_or(SLIDE);
+    show("The matrix", rows);
 
-    let found = recognize(matrix);
+    let found = recognize(rows);
     println!("It can be read as");
     for reading in found.readings.iter().take(4) {
         println!("  {:?}, times {} (cost {})", reading.meaning, reading.factor, reading.cost);
@@ -37,10 +39,9 @@ fn main() {
     }
 }
 
-fn show(title: &str, matrix: DMat4) {
+fn show(title: &str, rows: [[f64; 4]; 4]) {
     println!("{title}:");
-    for row in 0..4 {
-        let [a, b, c, d] = matrix.row(row).to_array();
+    for [a, b, c, d] in rows {
         println!("  {a:9.4} {b:9.4} {c:9.4} {d:9.4}");
     }
 }

@@ -1,6 +1,7 @@
 //! The conventions a matrix is tried in, with how rarely each is met.
 
-use projection::{Convention, NdcY};
+use homog::NdcY;
+use projection::Convention;
 
 const DOWN: NdcY = NdcY::Down;
 

@@ -15,20 +15,19 @@
 //! has no such reading, or a misprinted one needs clearly fewer digits.
 //!
 //! ```
-//! use glam::DMat4;
 //! use projection::{Convention, Fov, Perspective};
 //! use recognition::{MatrixMeaning, recognize};
 //!
 //! let lens = Perspective::new(Fov::vertical_degrees(60.0), 1.5, 0.1, 100.0)?;
-//! let matrix = lens.view_to_clip(Convention::VULKAN).raw();
-//! let meaning = recognize(matrix).first().meaning;
+//! let matrix = lens.view_to_clip(Convention::VULKAN);
+//! let meaning = recognize(matrix.rows()).first().meaning;
 //! let MatrixMeaning::Perspective { lens, convention, .. } = meaning else {
 //!     panic!("a perspective")
 //! };
 //! assert_eq!((lens.fov_y_degrees, convention), (60.0, Convention::VULKAN));
 //!
 //! // Its transpose is what row vectors take.
-//! let slip = recognize(matrix.transpose()).misprint().map(|found| found.misprint);
+//! let slip = recognize(homog::Projective::<homog::View, homog::Clip>::from_row_major(matrix.to_column_major()).rows()).misprint().map(|found| found.misprint);
 //! assert_eq!(slip, Some(recognition::Misprint::Transposed));
 //! # Ok::<(), projection::ProjectionError>(())
 //! ```

@@ -6,7 +6,6 @@ use crate::{
     placed, rigid, suspicion, viewport,
 };
 use alloc::vec::Vec;
-use glam::DMat4;
 
 /// The cost of a matrix that nothing is known of.
 pub(crate) const UNNAMED: u32 = 1000;
@@ -63,7 +62,7 @@ impl Recognition {
     }
 }
 
-/// Recognizes a 4×4 matrix for column vectors.
+/// Recognizes a 4×4 matrix for column vectors, given by its rows.
 ///
 /// A matrix with entries that are not finite, or beyond 1e-40 to 1e40, has one reading: a map
 /// without a name.
@@ -72,17 +71,16 @@ impl Recognition {
 /// and parameters have the fewest digits that give the same rounded matrix.
 ///
 /// ```
-/// use glam::{DMat4, DVec4};
 /// use projection::Convention;
 /// use recognition::{MatrixMeaning, recognize};
 /// // gluPerspective(60°, 16/9, 0.1, 100), printed with four decimals.
-/// let matrix = DMat4::from_cols(
-///     DVec4::new(0.9743, 0.0, 0.0, 0.0),
-///     DVec4::new(0.0, 1.7321, 0.0, 0.0),
-///     DVec4::new(0.0, 0.0, -1.002, -1.0),
-///     DVec4::new(0.0, 0.0, -0.2002, 0.0),
-/// );
-/// let MatrixMeaning::Perspective { frustum, lens, convention } = recognize(matrix).first().meaning
+/// let rows = [
+///     [0.9743, 0.0, 0.0, 0.0],
+///     [0.0, 1.7321, 0.0, 0.0],
+///     [0.0, 0.0, -1.002, -0.2002],
+///     [0.0, 0.0, -1.0, 0.0],
+/// ];
+/// let MatrixMeaning::Perspective { frustum, lens, convention } = recognize(rows).first().meaning
 /// else {
 ///     panic!("a perspective")
 /// };
@@ -90,8 +88,7 @@ impl Recognition {
 /// assert_eq!((lens.fov_y_degrees, frustum.near(), frustum.far()), (60.0, 0.1, 100.0));
 /// ```
 #[must_use]
-pub fn recognize(matrix: DMat4) -> Recognition {
-    let rows = matrix.transpose().to_cols_array_2d();
+pub fn recognize(rows: [[f64; 4]; 4]) -> Recognition {
     let mut entries = measure_entries(rows);
     let mut cost = least_cost(&entries);
     // One entry with more digits than the others does not make the others exact.

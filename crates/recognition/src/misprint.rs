@@ -6,6 +6,7 @@
 //! numbers alone.
 
 use glam::{DMat4, DVec4};
+use homog::{Clip, Projective, View};
 use projection::{ApexMovedFrustum, Convention, Frustum, Orthographic, Perspective};
 
 /// A known slip: its number among M1 to M28, and in brackets its row in the formula collection's
@@ -160,8 +161,11 @@ impl Misprint {
 
     /// The wanted matrix with this slip in it; `None` where the slip does not apply.
     #[must_use]
-    pub fn misprinted_matrix(self, wanted: IntendedProjection) -> Option<DMat4> {
-        let right = wanted.correct_matrix();
+    pub fn misprinted_matrix(self, wanted: IntendedProjection) -> Option<Projective<View, Clip>> {
+        self.misprint(wanted.correct_matrix().raw(), wanted).map(Projective::from_raw)
+    }
+
+    fn misprint(self, right: DMat4, wanted: IntendedProjection) -> Option<DMat4> {
         match (self, wanted) {
             (Self::Transposed, _) => Some(right.transpose()),
             (Self::DepthReversed, _) => {
@@ -202,12 +206,12 @@ impl Misprint {
 impl IntendedProjection {
     /// The right matrix, in OpenGL's convention.
     #[must_use]
-    pub fn correct_matrix(self) -> DMat4 {
+    pub fn correct_matrix(self) -> Projective<View, Clip> {
         let c = Convention::OPENGL;
         match self {
-            Self::Frustum(frustum) => frustum.view_to_clip(c).raw(),
-            Self::Perspective(lens) => lens.view_to_clip(c).raw(),
-            Self::Orthographic(volume) => volume.view_to_clip(c).raw(),
+            Self::Frustum(frustum) => frustum.view_to_clip(c),
+            Self::Perspective(lens) => lens.view_to_clip(c),
+            Self::Orthographic(volume) => volume.view_to_clip(c).into(),
         }
     }
 
@@ -262,18 +266,23 @@ fn apex_moved(frustum: Frustum) -> Option<DMat4> {
 /// use recognition::{Misprint, IntendedProjection, misprint_of};
 /// let volume = Orthographic::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?;
 /// let wanted = IntendedProjection::Orthographic(volume);
-/// let mut slide = wanted.correct_matrix();
-/// slide.w_axis.z = 2.0; // + (far + near)/(far − near)
+/// let mut rows = wanted.correct_matrix().rows();
+/// rows[2][3] = 2.0; // + (far + near)/(far − near)
+/// let slide = homog::Projective::from_rows(rows);
 /// assert_eq!(misprint_of(slide, wanted), Some(Misprint::OrthoOffsetSign));
 /// # Ok::<(), projection::ProjectionError>(())
 /// ```
 #[must_use]
-pub fn misprint_of(matrix: DMat4, wanted: IntendedProjection) -> Option<Misprint> {
-    if nearly_equal(matrix, wanted.correct_matrix()) {
+pub fn misprint_of(
+    view_to_clip: Projective<View, Clip>,
+    wanted: IntendedProjection,
+) -> Option<Misprint> {
+    let (matrix, right) = (view_to_clip.raw(), wanted.correct_matrix().raw());
+    if nearly_equal(matrix, right) {
         return None;
     }
     Misprint::ALL.into_iter().find(|misprint| {
-        misprint.misprinted_matrix(wanted).is_some_and(|printed| nearly_equal(matrix, printed))
+        misprint.misprint(right, wanted).is_some_and(|printed| nearly_equal(matrix, printed))
     })
 }
 

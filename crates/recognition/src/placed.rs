@@ -16,6 +16,7 @@ use super::rounded::{Entries, Rounded, divide_entries};
 use super::{CameraReading, MatrixMeaning, MatrixReading};
 use alloc::vec::Vec;
 use glam::{DMat3, DMat4, DVec3};
+use homog::Projective;
 use projection::{Convention, Decomposed, Frustum, Orthographic, decompose};
 
 /// The cost of a camera upside down in the world, where a rival reading has it upright.
@@ -266,10 +267,10 @@ fn placed_box(
 /// Adds the reading as a perspective whose near plane is inclined (Lengyel 2005), from the origin.
 pub(crate) fn read_oblique_near(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let rows = m.map(|row| row.map(|entry| entry.value));
-    let matrix = DMat4::from_cols_array_2d(&rows).transpose();
+    let view_to_clip = Projective::from_rows(rows);
     let named = [Convention::OPENGL, Convention::WEBGPU, Convention::VULKAN, Convention::DIRECT3D];
     for convention in named {
-        let Ok(found_there) = decompose(matrix, convention) else { continue };
+        let Ok(found_there) = decompose(view_to_clip, convention) else { continue };
         let Decomposed::ObliqueNear { placement, slopes, near_plane } = found_there.kind else {
             continue;
         };

@@ -9,7 +9,6 @@ use super::rounded::{Entries, Rounded};
 use super::{MatrixMeaning, MatrixReading};
 use crate::Misprint;
 use alloc::vec::Vec;
-use glam::DMat4;
 use projection::{Convention, Frustum};
 
 /// How much better a reading must be before a slip is assumed.
@@ -36,16 +35,16 @@ pub struct Suspicion {
     pub misprint: Misprint,
     /// How sure it is.
     pub strength: SuspicionStrength,
-    /// The matrix that was probably meant; `None` where the numbers that are missing cannot be had
+    /// The rows of the matrix that was probably meant; `None` where the numbers that are missing cannot be had
     /// back.
-    pub remedied: Option<DMat4>,
+    pub remedied: Option<[[f64; 4]; 4]>,
 }
 
 /// A slip undone: the cost of the best reading then, and the matrix.
 struct Remedy {
     misprint: Misprint,
     cost: u32,
-    remedied: Option<DMat4>,
+    remedied: Option<[[f64; 4]; 4]>,
 }
 
 /// The slips that may be in a matrix with these readings, the surest first.
@@ -83,8 +82,8 @@ pub(crate) fn suspicions_of(m: &Entries<4>, readings: &[MatrixReading]) -> Vec<S
     remedies.into_iter().map(suspicion).collect()
 }
 
-fn matrix_of(m: &Entries<4>) -> DMat4 {
-    DMat4::from_cols_array_2d(&m.map(|row| row.map(|entry| entry.value))).transpose()
+fn matrix_of(m: &Entries<4>) -> [[f64; 4]; 4] {
+    m.map(|row| row.map(|entry| entry.value))
 }
 
 /// The best reading of the remedied entries that has a wanted meaning, and what it costs.
@@ -249,7 +248,7 @@ fn undo_wrong_sign(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
 fn tell_moved_apex(_: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let MatrixMeaning::ApexMoved { frustum, convention } = best.meaning else { return None };
     let through = Frustum::from_window(frustum.window(), frustum.near(), frustum.far()).ok()?;
-    let remedied = Some(through.view_to_clip(convention).raw());
+    let remedied = Some(through.view_to_clip(convention).rows());
     Some(Remedy { misprint: Misprint::ApexMoved, cost: best.cost, remedied })
 }
 

@@ -4,7 +4,7 @@
 //! Run it with `cargo run -p alberti-viewport --example sheet`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
 
-use homog::{PixelConvention, Point};
+use homog::{ClipRange, PixelConvention, Point};
 use viewport::{
     DepthRange, DrawingScale, FitPolicy, Paper, Rectangle, Resolution, Viewport, ViewportError,
 };
@@ -41,7 +41,8 @@ fn main() -> Result<(), ViewportError> {
         let on_paper = size.map(|length| scale.to_paper_length(length));
         let place = FitPolicy::Contain.place_picture(window, cell, [0.5, 0.5])?;
         let pixels = print.to_pixel_rectangle(place)?.snap_to_pixels()?;
-        let view = Viewport::new(pixels, PixelConvention::IMAGE, DepthRange::ZERO_ONE);
+        let view =
+            Viewport::new(pixels, PixelConvention::IMAGE, ClipRange::CHAPTER, DepthRange::ZERO_ONE);
         let corner = view.ndc_to_screen().transform_point(Point::new(-1.0, 1.0, 0.0));
         println!(
             "{name:>6}: {:5.1} by {:5.1} mm of {:5.1} by {:5.1} mm,",

@@ -16,9 +16,10 @@
 //! ```
 //!
 //! Everything that is often left unsaid is explicit: whether y runs up or down and where pixels
-//! have their centers ([`PixelConvention`](homog::PixelConvention)), and the range of depth
-//! ([`DepthRange`]). [`Viewport::image`] is the pipeline's own way, [`Viewport::chapter`] the
-//! textbook's; every other is made from parts.
+//! have their centers ([`PixelConvention`](homog::PixelConvention)), what clip space looks like
+//! ([`ClipRange`](homog::ClipRange)), and the range of depth ([`DepthRange`]).
+//! [`Viewport::image_for`] is an image file's way, [`Viewport::chapter`] the textbook's; every
+//! other is made from parts.
 //!
 //! | what | by |
 //! | --- | --- |
@@ -37,11 +38,11 @@
 //! # Example
 //! A corner of the view in two conventions, and the inverse:
 //! ```
-//! use homog::{PixelConvention, Point};
+//! use homog::{ClipRange, PixelConvention, Point};
 //! use viewport::Viewport;
 //! let corner = Point::new(-1.0, 1.0, -1.0); // upper left, far
 //!
-//! let image = Viewport::image(640, 480)?;
+//! let image = Viewport::image_for(640, 480, ClipRange::CHAPTER)?;
 //! assert_eq!(image.ndc_to_screen().transform_point(corner), Point::new(0.0, 0.0, 0.0));
 //!
 //! let chapter = Viewport::chapter(640, 480)?;
@@ -76,6 +77,8 @@ mod window_to_viewport;
 pub use depth_range::DepthRange;
 pub use error::ViewportError;
 pub use fit::FitPolicy;
+/// The types of points, maps and spaces, so that a program needs no second dependency.
+pub use homog;
 pub use paper::{DrawingScale, MILLIMETERS_PER_INCH, Paper, Resolution};
 pub use point_grid::PointGrid;
 pub use rectangle::Rectangle;

@@ -53,7 +53,7 @@ impl Viewport {
         let (area, part) = (self.area(), Rectangle::from(tile));
         let (x, y) = (area.x() - part.x(), area.y() - part.y());
         let moved = Rectangle::new_unchecked(x, y, area.width(), area.height());
-        Self::new(moved, self.convention(), self.depth())
+        Self::new(moved, self.convention(), self.range(), self.depth())
     }
 
     /// The tile's borders in the coordinates of this viewport's convention, for

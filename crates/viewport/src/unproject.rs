@@ -17,14 +17,14 @@ use homog::{Clip, HPoint, Point, Projective, Ray, Screen, Space, Vector};
 /// camera.
 ///
 /// ```
-/// use homog::{Clip, Point, Projective, View};
+/// use homog::{Clip, ClipRange, Projective, View};
 /// use viewport::Viewport;
 /// // P of the chapter, times −1 (PE-3), for n = −1 and f = −3.
 /// let [x, y, z] = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 4.0, 3.0]];
 /// let view_to_clip = Projective::<View, Clip>::from_rows([x, y, z, [0.0, 0.0, -1.0, 0.0]]);
 /// let clip_to_view = view_to_clip.inverse().expect("regular");
-/// let back = Viewport::image(200, 100)?.unprojector(clip_to_view);
-/// let pick = back.pick_ray([100.0, 50.0], [1.0, -1.0]).expect("the middle of the picture");
+/// let back = Viewport::image_for(200, 100, ClipRange::CHAPTER)?.unprojector(clip_to_view);
+/// let pick = back.pick_ray([100.0, 50.0]).expect("the middle of the picture");
 /// assert_eq!(pick.ray.direction.z(), -1.0);
 /// # Ok::<(), viewport::ViewportError>(())
 /// ```
@@ -111,18 +111,18 @@ impl<S: Space> Unprojector<S> {
         self.screen_to_source.transform_direction(Vector::Z)
     }
 
-    /// The ray of a place in the picture (UN-2), given the canonical depths of the near and the far
-    /// plane: `[1.0, -1.0]` in the chapter's volume, `[-1.0, 1.0]` in OpenGL's, `[0.0, 1.0]` in
-    /// Direct3D's.
+    /// The ray of a place in the picture (UN-2), from the near to the far plane of the viewport's
+    /// clip range.
     ///
     /// `None` where there is no such ray: the map is singular or something is not finite.
     #[must_use]
-    pub fn pick_ray(&self, [x, y]: [f64; 2], near_far: [f64; 2]) -> Option<PickRay<S>> {
+    pub fn pick_ray(&self, [x, y]: [f64; 2]) -> Option<PickRay<S>> {
         let at = |z: f64| {
             let depth = self.viewport.depth().ndc_to_depth(z);
             self.screen_to_source.transform_point(Point::new(x, y, depth))
         };
-        let [near_z, far_z] = near_far;
+        let range = self.viewport.range();
+        let (near_z, far_z) = (range.near_depth(), range.far_depth());
         let (near, far) = (divide_point(at(near_z))?, at(far_z));
         // The far plane may be at infinity; half-way in depth is a place in any case.
         let beyond = match divide_point(far) {

@@ -2,7 +2,7 @@
 
 use crate::error::check_positive;
 use crate::{DepthRange, Rectangle, ViewportError};
-use homog::{Affine, Ndc, PixelConvention, Point, Screen, Vector, YAxis};
+use homog::{Affine, ClipRange, Ndc, PixelConvention, Point, Screen, Vector, YAxis};
 
 /// A rectangle of pixels on which the canonical square [−1, 1]² is drawn, and the range depth goes
 /// to.
@@ -10,30 +10,56 @@ use homog::{Affine, Ndc, PixelConvention, Point, Screen, Vector, YAxis};
 /// The rectangle is counted in whole pixels from the image's corner: `x = 10, width = 5` are pixels
 /// 10 to 14, whatever the convention. The convention decides the coordinates: those five pixels
 /// cover [10, 15] with half-integer centers and [9½, 14½] with integer ones. y counts from the
-/// lowest row if it runs up, from the topmost if it runs down; in both cases y = +1 of the
-/// canonical square is at the upper border of the picture.
+/// lowest row if it runs up, from the topmost if it runs down; in both cases the top of the
+/// canonical square, y = +1 or, in Vulkan's range, −1, is at the upper border of the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Viewport {
     area: Rectangle,
     convention: PixelConvention,
+    range: ClipRange,
     depth: DepthRange,
 }
 
 impl Viewport {
-    /// The viewport on `area`.
+    /// The viewport on `area`, for points of clip space whose range is `range`.
     #[must_use]
-    pub const fn new(area: Rectangle, convention: PixelConvention, depth: DepthRange) -> Self {
-        Self { area, convention, depth }
+    pub const fn new(
+        area: Rectangle,
+        convention: PixelConvention,
+        range: ClipRange,
+        depth: DepthRange,
+    ) -> Self {
+        Self { area, convention, range, depth }
     }
 
-    /// The whole of an image as the pipeline counts it: half-integer centers, y down, and depth 1
-    /// at the near, 0 at the far plane of the chapter's canonical volume (near at z = +1).
+    /// The whole of an image as the pipeline counts it: half-integer centers, y down, depth 1 at
+    /// the near and 0 at the far plane. `range` is that of the projection: a
+    /// [`ClipRange`] or a `projection::Convention`.
+    ///
+    /// ```
+    /// use homog::{ClipRange, Point};
+    /// use viewport::Viewport;
+    /// // The upper left corner at the near plane, in OpenGL's and in Vulkan's clip space.
+    /// for (range, corner) in [
+    ///     (ClipRange::OPENGL, Point::new(-1.0, 1.0, -1.0)),
+    ///     (ClipRange::VULKAN, Point::new(-1.0, -1.0, 0.0)),
+    /// ] {
+    ///     let image = Viewport::image_for(640, 480, range)?;
+    ///     assert_eq!(image.ndc_to_screen() * corner, Point::new(0.0, 0.0, 1.0));
+    /// }
+    /// # Ok::<(), viewport::ViewportError>(())
+    /// ```
     ///
     /// # Errors
     /// If the image has no pixels.
-    pub fn image(width: u32, height: u32) -> Result<Self, ViewportError> {
-        let area = Rectangle::from_size(width.into(), height.into())?;
-        Ok(Self::new(area, PixelConvention::IMAGE, DepthRange::ZERO_ONE))
+    pub fn image_for(
+        width: u32,
+        height: u32,
+        range: impl Into<ClipRange>,
+    ) -> Result<Self, ViewportError> {
+        let (area, range) = (Rectangle::from_size(width.into(), height.into())?, range.into());
+        let depth = DepthRange::new([range.near_depth(), range.far_depth()], [1.0, 0.0])?;
+        Ok(Self::new(area, PixelConvention::IMAGE, range, depth))
     }
 
     /// The whole of an image of `nx` by `ny` pixels as the chapter counts it: integer centers, y
@@ -48,13 +74,19 @@ impl Viewport {
             check_positive("nx", nx.into())?,
             check_positive("ny", ny.into())?,
         )?;
-        Ok(Self::new(area, PixelConvention::CHAPTER, DepthRange::KEEP))
+        Ok(Self::new(area, PixelConvention::CHAPTER, ClipRange::CHAPTER, DepthRange::KEEP))
     }
 
     /// This viewport in another pixel convention.
     #[must_use]
     pub const fn with_convention(self, convention: PixelConvention) -> Self {
         Self { convention, ..self }
+    }
+
+    /// This viewport for another clip space; depth stays as it is mapped.
+    #[must_use]
+    pub const fn with_range(self, range: ClipRange) -> Self {
+        Self { range, ..self }
     }
 
     /// This viewport with another range of depth.
@@ -75,6 +107,12 @@ impl Viewport {
         self.convention
     }
 
+    /// The range of the clip space it takes.
+    #[must_use]
+    pub const fn range(&self) -> ClipRange {
+        self.range
+    }
+
     /// The range of depth.
     #[must_use]
     pub const fn depth(&self) -> DepthRange {
@@ -85,7 +123,7 @@ impl Viewport {
     ///
     /// ```text
     /// [ w/2   0   0  x + w/2 + c ]      c = −½ for integer centers, 0 for half-integer ones;
-    /// [  0  ±h/2  0  y + h/2 + c ]      + for y up, − for y down;
+    /// [  0  ±h/2  0  y + h/2 + c ]      + if y runs the same way before and after, − if not;
     /// [  0    0   s       o      ]      s, o of the depth range
     /// [  0    0   0       1      ]
     /// ```
@@ -120,7 +158,7 @@ impl Viewport {
             YAxis::Up => 0.5,
             YAxis::Down => -0.5,
         };
-        [self.area.width() * 0.5, self.area.height() * up]
+        [self.area.width() * 0.5, self.area.height() * (up * self.range.top())]
     }
 
     fn pixel_center(&self) -> [f64; 2] {
@@ -160,9 +198,30 @@ mod tests {
 
     #[test]
     fn near_is_one_and_far_is_zero_in_the_pipelines_image() {
-        let map = Viewport::image(4, 2).expect("has pixels").ndc_to_screen();
+        let map =
+            Viewport::image_for(4, 2, ClipRange::CHAPTER).expect("has pixels").ndc_to_screen();
         assert_eq!(map.transform_point(Point::new(-1.0, 1.0, 1.0)), Point::new(0.0, 0.0, 1.0));
         assert_eq!(map.transform_point(Point::new(1.0, -1.0, -1.0)), Point::new(4.0, 2.0, 0.0));
-        assert!(Viewport::image(0, 2).is_err());
+        assert!(Viewport::image_for(0, 2, ClipRange::CHAPTER).is_err());
+    }
+    /// Finding 6.3: a Vulkan projection on an image came out upside down.
+    #[test]
+    fn up_is_up_and_near_is_one_in_every_range() {
+        let reversed = ClipRange::ZERO_ONE.reversed();
+        let odd = ClipRange::VULKAN.with_depths(0.25, -0.5).expect("allowed");
+        for range in [
+            ClipRange::CHAPTER,
+            ClipRange::OPENGL,
+            ClipRange::ZERO_ONE,
+            ClipRange::VULKAN,
+            reversed,
+            odd,
+        ] {
+            let map = Viewport::image_for(4, 2, range).expect("has pixels").ndc_to_screen();
+            let upper_left = Point::new(-1.0, range.top(), range.near_depth());
+            let lower_right = Point::new(1.0, -range.top(), range.far_depth());
+            assert_eq!(map * upper_left, Point::new(0.0, 0.0, 1.0), "{range:?}");
+            assert_eq!(map * lower_right, Point::new(4.0, 2.0, 0.0), "{range:?}");
+        }
     }
 }

@@ -38,7 +38,7 @@ pub const ENTRIES: &[Entry] = &[
     )
     .with_extras(chain_extras),
     Entry::new("UN-2", "n_x n_y l r b t n f \\mathbf{e} \\mathbf{g} \\mathbf{t} x_s y_s", |v| {
-        let ray = unprojector(v)?.pick_ray(v.these("x_s y_s")?, [1.0, -1.0]).ok_or("no ray")?;
+        let ray = unprojector(v)?.pick_ray(v.these("x_s y_s")?).ok_or("no ray")?;
         give(ray.ray.direction.normalized().ok_or("no direction")?)
     })
     .with_extras(ray_extras),

@@ -2,7 +2,7 @@
 
 use super::inputs::{Answer, Inputs, give};
 use super::{Entry, Extras};
-use homog::{PixelConvention, Point, perspective_weights, remap_interval};
+use homog::{ClipRange, PixelConvention, Point, perspective_weights, remap_interval};
 use raster::{SUBPIXELS, ScreenVertex, signed_area};
 use std::error::Error;
 use viewport::{DepthRange, Limits, PointGrid, Rectangle, Viewport, WindowToViewport};
@@ -20,7 +20,7 @@ pub const ENTRIES: &[Entry] = &[
         let [x, y, width, height, near, far] = v.numbers()?;
         let depth = DepthRange::new([-1.0, 1.0], [near, far])?;
         let area = Rectangle::new(x, y, width, height)?;
-        give(Viewport::new(area, PixelConvention::OPENGL, depth).ndc_to_screen())
+        give(Viewport::new(area, PixelConvention::OPENGL, ClipRange::OPENGL, depth).ndc_to_screen())
     }),
     Entry::new("VP-4", "n_y x y", to_image),
     Entry::new("DP-1.gl", "z", |v| give(DepthRange::ZERO_ONE.ndc_to_depth(v.number("z")?))),

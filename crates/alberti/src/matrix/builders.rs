@@ -10,7 +10,7 @@ use projection::{
     ApexMovedFrustum, Axonometric, Convention, Fov, Frustum, Intrinsics, NPoint, Oblique,
     Orthographic, Perspective, ProjectionError, chapter,
 };
-use viewport::{Limits, Rectangle, Viewport, WindowToViewport};
+use viewport::{Limits, Rectangle, WindowToViewport};
 
 fn built(subject: String, formula: &'static str, matrix: DMat4) -> BuiltMatrix {
     BuiltMatrix { formula: Some(formula), ..BuiltMatrix::new(subject, matrix) }
@@ -300,7 +300,7 @@ pub(super) fn build_viewport(list: &NumberList, options: BuildOptions) -> Built 
     };
     let area = Rectangle::new(x, y, width, height).map_err(refused)?;
     let conventions = options.conventions();
-    let viewport = Viewport::new(area, conventions.pixel_convention(), conventions.depth_range());
+    let viewport = conventions.viewport(area);
     let subject = format!("A viewport of {width} × {height} pixels at ({x}, {y})");
     Ok(built(subject, conventions.viewport_formulas(), viewport.ndc_to_screen().raw()))
 }

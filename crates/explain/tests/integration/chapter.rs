@@ -7,7 +7,7 @@ mod stages;
 #[path = "chapter/volumes.rs"]
 mod volumes;
 
-use homog::{HPoint, Model, Point, World};
+use homog::{ClipRange, HPoint, Model, Point, World};
 use pipeline::{Picture, render};
 use scene::parse_scene;
 use scene::{Origin, Scene};
@@ -27,7 +27,8 @@ fn render_scene(scene: &Scene) -> Picture {
 
 /// The pixel position of a world point.
 fn pixel_position(scene: &Scene, place: Point<World>) -> [f64; 2] {
-    let viewport = viewport::Viewport::image(scene.image.width, scene.image.height);
+    let viewport =
+        viewport::Viewport::image_for(scene.image.width, scene.image.height, ClipRange::CHAPTER);
     let clip = scene.view_projection.world_to_clip().transform_point(place);
     let ndc = clip.divide().expect("a place in front of the eye");
     let screen = viewport.expect("a viewport").ndc_to_screen().transform_point(ndc);

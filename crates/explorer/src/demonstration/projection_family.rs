@@ -88,7 +88,7 @@ fn projection_notes(
 ) -> Vec<String> {
     let world_to_clip = view_projection.world_to_clip();
     let decomposition =
-        decompose(view_projection.view_to_clip.raw(), Convention::CHAPTER).map(|found| found.kind);
+        decompose(view_projection.view_to_clip, Convention::CHAPTER).map(|found| found.kind);
     let is_parallel =
         AXES.iter().all(|(_, axis)| world_to_clip.transform_direction(*axis).w() == 0.0);
     let volume = decomposition.ok().and_then(|kind| view_window(&kind));

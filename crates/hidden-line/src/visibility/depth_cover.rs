@@ -328,7 +328,7 @@ fn area_within(images: [DVec3; 3], size: DVec2) -> f64 {
 mod tests {
     use super::*;
     use camera::{Camera, ViewProjection};
-    use homog::{Point, Vector};
+    use homog::{ClipRange, Point, Vector};
     use projection::{Convention, Fov, Orthographic, Perspective};
     use viewport::Viewport;
 
@@ -343,7 +343,10 @@ mod tests {
             lens.view_to_clip(Convention::CHAPTER)
         };
         let view_projection = ViewProjection { camera, view_to_clip };
-        Projector::new(&view_projection, &Viewport::image(400, 400).expect("pixels"))
+        Projector::new(
+            &view_projection,
+            &Viewport::image_for(400, 400, ClipRange::CHAPTER).expect("pixels"),
+        )
     }
 
     fn triangle(z: f64, size: f64) -> [DVec3; 3] {

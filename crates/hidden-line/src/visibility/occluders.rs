@@ -74,7 +74,7 @@ pub struct EdgeParts {
 /// let window = Orthographic::new(-2.0, 2.0, -2.0, 2.0, 1.0, 10.0)?;
 /// let view_to_clip = window.view_to_clip(Convention::CHAPTER);
 /// let view_projection = ViewProjection { camera, view_to_clip };
-/// let projector = Projector::new(&view_projection, &Viewport::image(400, 400)?);
+/// let projector = Projector::new(&view_projection, &Viewport::image_for(400, 400, Convention::CHAPTER)?);
 /// let face = [Point::new(-1.0, -1.0, 0.0), Point::new(1.0, -1.0, 0.0), Point::new(0.0, 1.0, 0.0)];
 /// let occluders = Occluders::new([face], projector, Tolerance::for_scene(4.0));
 ///

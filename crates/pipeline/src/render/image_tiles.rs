@@ -12,7 +12,7 @@
 //! the region: regions therefore fit together bit for bit.
 
 use super::RenderError;
-use homog::{Clip, PixelRect, Projective, World};
+use homog::{Clip, ClipRange, PixelRect, Projective, World};
 use raster::MAX_SIDE as TILE_SIDE;
 use scene::{ImageSpec, MAX_IMAGE_SIDE, Scene};
 use viewport::Viewport;
@@ -55,7 +55,8 @@ impl ImageTile {
     ) -> Result<Projective<World, Clip>, RenderError> {
         let world_to_clip = scene.view_projection.world_to_clip();
         let Some([width, height]) = self.image_size else { return Ok(world_to_clip) };
-        let pick_matrix = Viewport::image(width, height)?.pick_matrix(self.rect.into())?;
+        let pick_matrix = Viewport::image_for(width, height, ClipRange::CHAPTER)?
+            .pick_matrix(self.rect.into())?;
         Ok(Projective::from_raw(pick_matrix.raw() * world_to_clip.raw()))
     }
 }

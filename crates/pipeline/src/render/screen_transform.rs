@@ -13,7 +13,7 @@ use super::image_tiles::ImageTile;
 use camera::{ViewProjection, ViewTransform};
 use clip::{Outcode, OutcodeSummary, Volume, clip_segment};
 use glam::{DMat4, DVec3, DVec4, Vec3};
-use homog::{Affine, Clip, HPoint, Model, Ndc, Point, Projective, Screen, World};
+use homog::{Affine, Clip, ClipRange, HPoint, Model, Ndc, Point, Projective, Screen, World};
 use raster::{GUARD_BAND, ScreenVertex};
 use scene::Scene;
 use viewport::Viewport;
@@ -59,7 +59,7 @@ impl ScreenTransform {
         width: u32,
         height: u32,
     ) -> Result<Self, RenderError> {
-        let viewport = Viewport::image(width, height)?;
+        let viewport = Viewport::image_for(width, height, ClipRange::CHAPTER)?;
         // The rasterizer's grid ends GUARD_BAND pixels beyond the raster; one more as a margin for
         // rounding in the divide.
         let band = |side: u32| {

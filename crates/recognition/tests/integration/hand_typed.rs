@@ -7,7 +7,7 @@ use projection::{Classical, Convention, Planometric, ProjectionClass};
 use recognition::{MatrixMeaning, Misprint, Recognition, recognize};
 
 fn recognized(rows: Rows) -> Recognition {
-    recognize(DMat4::from_cols_array_2d(&rows).transpose())
+    recognize(rows)
 }
 
 /// An isometric camera at (5, 5, 5): 1/√2, 1/√6 and 1/√3 with five or six decimals, −5√3 with more.

@@ -29,7 +29,7 @@ fn a_rounded_isometric_projection_is_isometric() {
         let [side, down, up] = [0.5_f64, 1.0 / 6.0, 2.0 / 3.0].map(|square| round(square.sqrt()));
         let columns = [[side, -down], [0.0, up], [-side, -down]];
         let [x, y, z] = columns.map(|[x, y]| DVec4::new(x, y, 0.0, 0.0));
-        let found = recognize(DMat4::from_cols(x, y, z, DVec4::W)).first().meaning;
+        let found = recognize(rows_of(DMat4::from_cols(x, y, z, DVec4::W))).first().meaning;
         let MatrixMeaning::AxonometricOntoPlane { projection } = found else {
             panic!("{decimals}: {found:?}")
         };
@@ -48,14 +48,14 @@ fn the_perspective_from_the_origin_onto_a_plane_is_recognized() {
             DVec4::new(0.0, 0.0, 1.0, 1.0 / plane),
             DVec4::ZERO,
         );
-        let found = recognize(rows * multiple);
+        let found = recognize(rows_of(rows * multiple));
         let expected = MatrixMeaning::CentralOntoPlane { plane_z: plane, onto_plane: false };
         assert_eq!((found.first().meaning, found.first().factor), (expected, multiple));
         assert_eq!(found.misprint(), None, "{plane}");
     }
     // A third, rounded to four decimals.
     let rounded = DVec4::new(0.0, 0.0, 1.0, 0.3333);
-    let found = recognize(DMat4::from_cols(DVec4::X, DVec4::Y, rounded, DVec4::ZERO));
+    let found = recognize(rows_of(DMat4::from_cols(DVec4::X, DVec4::Y, rounded, DVec4::ZERO)));
     let expected = MatrixMeaning::CentralOntoPlane { plane_z: 3.0, onto_plane: false };
     assert_eq!(found.first().meaning, expected);
 }
@@ -65,7 +65,7 @@ fn the_perspective_from_the_origin_onto_a_plane_is_recognized() {
 fn the_perspective_onto_a_plane_may_drop_z() {
     let rows = DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::W, DVec4::ZERO);
     let expected = MatrixMeaning::CentralOntoPlane { plane_z: 1.0, onto_plane: true };
-    assert_eq!(recognize(rows).first().meaning, expected);
+    assert_eq!(recognize(rows_of(rows)).first().meaning, expected);
 }
 
 proptest::proptest! {
@@ -74,7 +74,7 @@ proptest::proptest! {
     /// Any numbers whatever have a reading, if only as a map without a name, and nothing panics.
     #[test]
     fn any_matrix_has_a_reading(entries in proptest::array::uniform16(any_entry())) {
-        let found = recognize(DMat4::from_cols_array(&entries));
+        let found = recognize(rows_of(DMat4::from_cols_array(&entries)));
         proptest::prop_assert!(!found.readings.is_empty());
     }
 }
@@ -85,4 +85,8 @@ fn any_entry() -> impl proptest::strategy::Strategy<Value = f64> {
         1 => proptest::num::f64::ANY,
         2 => proptest::sample::select(vec![0.0, -0.0, 1.0, -1.0, f64::MAX, 5e-324]),
     ]
+}
+
+fn rows_of(matrix: DMat4) -> [[f64; 4]; 4] {
+    matrix.transpose().to_cols_array_2d()
 }

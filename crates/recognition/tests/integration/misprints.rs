@@ -52,21 +52,22 @@ fn printed(misprint: Misprint, wanted: IntendedProjection) -> DMat4 {
     let matrix = misprint.misprinted_matrix(wanted).expect("the slip applies");
     assert_eq!(misprint_of(matrix, wanted), Some(misprint));
     assert_eq!(misprint_of(wanted.correct_matrix(), wanted), None, "the right matrix is healthy");
-    matrix
+    matrix.raw()
 }
 
 /// The doctor finds the slip in the numbers alone, and its remedy is the wanted matrix.
 fn cured(matrix: DMat4, misprint: Misprint, wanted: DMat4) {
-    let told = recognize(matrix).suspicions;
+    let told = recognize(rows_of(matrix)).suspicions;
     let found = told.iter().find(|found| found.misprint == misprint).expect("recognized");
     let remedied = found.remedied.expect("a remedy");
+    let remedied = DMat4::from_cols_array_2d(&remedied).transpose();
     assert!(distance(remedied, wanted) < 1e-9, "{remedied}");
 }
 
 #[test]
 fn m4_without_p_nothing_is_foreshortened() {
     let slip = printed(Misprint::PerspectiveLeftOut, wanted_frustum());
-    assert!(!fits(slip, FAR / NEAR) && fits(wanted_frustum().correct_matrix(), FAR / NEAR));
+    assert!(!fits(slip, FAR / NEAR) && fits(wanted_frustum().correct_matrix().raw(), FAR / NEAR));
     let (near, far) = (image(slip, 1.0, 0.0, -2.0), image(slip, 1.0, 0.0, -6.0));
     assert_eq!(near.map(Point::x), far.map(Point::x), "the same size near and far");
 }
@@ -75,7 +76,7 @@ fn m4_without_p_nothing_is_foreshortened() {
 #[test]
 fn m8_opengl_has_the_same_box_but_the_opposite_depth() {
     let per = chapter::m_per(LEFT, RIGHT, BOTTOM, TOP, -NEAR, -FAR).expect("valid").raw();
-    let gl = wanted_frustum().correct_matrix();
+    let gl = wanted_frustum().correct_matrix().raw();
     let flip = DMat4::from_diagonal(DVec4::new(1.0, 1.0, -1.0, 1.0));
     assert!(distance(flip * -per, gl) < 1e-14, "M_OpenGL = diag(1, 1, −1, 1)(−M_per)");
     let depth = |matrix| image(matrix, 0.0, 0.0, -NEAR).expect("in front").z();
@@ -93,7 +94,7 @@ fn m8_the_raw_sign_of_w_is_the_same_map_but_fails_the_clip_test() {
     let inside =
         |p: HPoint<Clip>| p.x().abs() <= p.w() && p.y().abs() <= p.w() && p.z().abs() <= p.w();
     assert!(!inside(raw) && inside(turned));
-    let found = recognize(per.raw());
+    let found = recognize(per.rows());
     assert!(found.first().factor < 0.0 && found.misprint().is_none(), "a convention of sign");
 }
 
@@ -130,7 +131,7 @@ fn m12_the_lessons_frustum_is_another_projection() {
     let slip = printed(Misprint::ApexMoved, wanted_frustum());
     assert_eq!(slip, lesson.view_to_clip(Convention::OPENGL).raw());
     assert!(!fits(slip, FAR / NEAR));
-    let gl = wanted_frustum().correct_matrix();
+    let gl = wanted_frustum().correct_matrix().raw();
     let near = |m| image(m, 0.3, -0.4, -NEAR).expect("in front");
     assert!((near(slip) - near(gl)).length() < 1e-14, "they agree on the near plane");
     cured(slip, Misprint::ApexMoved, gl);
@@ -148,25 +149,25 @@ fn m14_a_one_in_the_bottom_row_makes_w_the_distance_plus_one() {
         "n = 2 goes to −0.667"
     );
     assert!(
-        (image(lens(1.0).correct_matrix(), 0.0, 0.0, -NEAR).expect("w = 2").z() + 1.0).abs()
+        (image(lens(1.0).correct_matrix().raw(), 0.0, 0.0, -NEAR).expect("w = 2").z() + 1.0).abs()
             < 1e-12
     );
-    cured(slip, Misprint::BottomRowOne, lens(1.0).correct_matrix());
+    cured(slip, Misprint::BottomRowOne, lens(1.0).correct_matrix().raw());
 }
 
 #[test]
 fn m15_the_wrong_sign_sends_near_and_far_out_of_the_cube() {
     let slip = printed(Misprint::OrthoOffsetSign, wanted_box());
     assert_eq!(image(slip, 0.0, 0.0, -NEAR).map(Point::z), Some(3.0));
-    assert!(!fits(slip, 1.0) && fits(wanted_box().correct_matrix(), 1.0));
-    cured(slip, Misprint::OrthoOffsetSign, wanted_box().correct_matrix());
+    assert!(!fits(slip, 1.0) && fits(wanted_box().correct_matrix().raw(), 1.0));
+    cured(slip, Misprint::OrthoOffsetSign, wanted_box().correct_matrix().raw());
 }
 
 #[test]
 fn m16_a_difference_for_a_sum_misplaces_the_window() {
     let slip = printed(Misprint::FrustumOffsetOne, wanted_frustum());
-    assert!(!fits(slip, FAR / NEAR) && fits(wanted_frustum().correct_matrix(), FAR / NEAR));
-    let told = recognize(slip).suspicions;
+    assert!(!fits(slip, FAR / NEAR) && fits(wanted_frustum().correct_matrix().raw(), FAR / NEAR));
+    let told = recognize(rows_of(slip)).suspicions;
     assert!(told.iter().any(|found| found.misprint == Misprint::FrustumOffsetOne));
 }
 
@@ -176,11 +177,11 @@ fn m17_half_of_the_tangent_is_not_the_tangent_of_the_half() {
     let slip = printed(Misprint::HalfOfTangent, wanted);
     assert!(
         (slip.y_axis.y - 1.155).abs() < 5e-4
-            && (wanted.correct_matrix().y_axis.y - 1.732).abs() < 5e-4
+            && (wanted.correct_matrix().raw().y_axis.y - 1.732).abs() < 5e-4
     );
     let top = NEAR * libm::tan(30_f64.to_radians());
     assert!(
-        (image(wanted.correct_matrix(), 0.0, top, -NEAR).expect("in front").y() - 1.0).abs()
+        (image(wanted.correct_matrix().raw(), 0.0, top, -NEAR).expect("in front").y() - 1.0).abs()
             < 1e-12
     );
     assert!((image(slip, 0.0, top, -NEAR).expect("in front").y() - 1.0).abs() > 0.3);
@@ -199,9 +200,9 @@ fn m19_forty_five_degrees_are_not_forty_five_radians() {
     let slip = printed(Misprint::Degrees, wanted);
     assert!(
         (slip.y_axis.y - 1.79).abs() < 5e-3
-            && (wanted.correct_matrix().y_axis.y - 2.41).abs() < 5e-3
+            && (wanted.correct_matrix().raw().y_axis.y - 2.41).abs() < 5e-3
     );
-    cured(slip, Misprint::Degrees, wanted.correct_matrix());
+    cured(slip, Misprint::Degrees, wanted.correct_matrix().raw());
 }
 
 #[test]
@@ -308,7 +309,11 @@ fn printed_49_near_and_far_go_to_zero_and_one_they_are_not_set_to_them() {
 #[test]
 fn row_vectors_are_recognized() {
     for wanted in [wanted_frustum(), lens(1.0), wanted_box()] {
-        cured(printed(Misprint::Transposed, wanted), Misprint::Transposed, wanted.correct_matrix());
+        cured(
+            printed(Misprint::Transposed, wanted),
+            Misprint::Transposed,
+            wanted.correct_matrix().raw(),
+        );
     }
 }
 
@@ -328,7 +333,7 @@ proptest! {
         let bounded = Perspective::new(Fov::Vertical(p.fov_y()), p.aspect(), p.near(), p.far())
             .expect("valid");
         let likely = |matrix: DMat4| {
-            let found = recognize(matrix).suspicions;
+            let found = recognize(rows_of(matrix)).suspicions;
             found.iter().any(|slip| slip.strength == SuspicionStrength::Likely)
         };
         prop_assert!(!likely(bounded.view_to_clip(Convention::OPENGL).raw()));
@@ -346,14 +351,16 @@ proptest! {
         factor in 0.1..9.0,
     ) {
         for wanted in [IntendedProjection::Frustum(f), IntendedProjection::Perspective(p), IntendedProjection::Orthographic(o)] {
-            prop_assert_eq!(misprint_of(wanted.correct_matrix() * factor, wanted), None);
+            let right = Projective::from_raw(wanted.correct_matrix().raw() * factor);
+            prop_assert_eq!(misprint_of(right, wanted), None);
             for misprint in Misprint::ALL {
                 let Some(slip) = misprint.misprinted_matrix(wanted) else { continue };
+                let slip = slip.raw();
                 // Where the slip changes nothing or equals another one, as for centered windows, any
                 // name will do.
-                if let Some(found) = misprint_of(slip * factor, wanted) {
+                if let Some(found) = misprint_of(Projective::from_raw(slip * factor), wanted) {
                     let same =
-                        found.misprinted_matrix(wanted).is_some_and(|other| distance(other, slip) < 1e-5);
+                        found.misprinted_matrix(wanted).is_some_and(|other| distance(other.raw(), slip) < 1e-5);
                     prop_assert!(found == misprint || same, "{misprint:?} is taken for {found:?}");
                 }
             }
@@ -368,7 +375,11 @@ proptest! {
         let snapped = entries.map(|entry| if entry.abs() < 1.0 { 0.0 } else { entry.round() });
         for matrix in [entries, snapped, entries.map(|entry| 1.0 / (entry - entry))] {
             let matrix = DMat4::from_cols_array(&matrix);
-            let _ = (recognize(matrix).readings.len(), projection::decompose(matrix, c));
+            let _ = (recognize(rows_of(matrix)).readings.len(), projection::decompose(Projective::from_raw(matrix), c));
         }
     }
+}
+
+fn rows_of(matrix: DMat4) -> [[f64; 4]; 4] {
+    matrix.transpose().to_cols_array_2d()
 }

@@ -2,12 +2,11 @@
 //! and boxes of pixels from the upper left corner.
 
 use super::formulas::*;
-use glam::DMat4;
 use projection::Convention;
 use recognition::{MatrixMeaning, Misprint, Recognition, recognize};
 
 fn recognized(rows: Rows) -> Recognition {
-    recognize(DMat4::from_cols_array_2d(&rows).transpose())
+    recognize(rows)
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

@@ -185,7 +185,7 @@ fn ten_thousand_random_matrices_are_read_back() {
     let (mut first, mut equal, mut lost, mut called) = (0, 0, Vec::new(), Vec::new());
     for count in 0..10_000 {
         let (matrix, expected) = BUILDERS[count % BUILDERS.len()](&mut random).expect("valid");
-        let found = recognize(matrix);
+        let found = recognize(matrix.transpose().to_cols_array_2d());
         let right = |meaning: &MatrixMeaning| is_expected(meaning, &expected, 1e-6);
         if right(&found.first().meaning) {
             first += 1;
@@ -213,7 +213,7 @@ fn rounded_matrices_are_not_called_misprints() {
         for printed in
             [formulas::rounded(rows, 3), formulas::rounded(rows, 4), formulas::single(rows)]
         {
-            let found = recognize(matrix_of(printed));
+            let found = recognize(printed);
             if let Some(misprint) = found.misprint() {
                 called.push(format!("{expected:?} is called {:?}: {printed:?}", misprint.misprint));
             }

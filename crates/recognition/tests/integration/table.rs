@@ -2,7 +2,6 @@
 
 use super::formulas::Rows;
 use super::{right_matrices, wrong_matrices};
-use glam::DMat4;
 use projection::{Convention, PrincipalPlane};
 use recognition::{MatrixMeaning, Misprint, Recognition, SuspicionStrength, recognize};
 
@@ -177,7 +176,7 @@ fn is_expected_transform(found: &MatrixMeaning, expected: Expected, tolerance: f
 }
 
 fn recognized(rows: Rows) -> Recognition {
-    recognize(DMat4::from_cols_array_2d(&rows).transpose())
+    recognize(rows)
 }
 
 /// The complaint about a row; `None` if it is recognized.

@@ -20,7 +20,7 @@ use super::view_request::ViewSide;
 use drawing::{ClipArea, ClipSide, Drawing, HiddenLines, LineStyle, point_at};
 use glam::DVec2;
 use hidden_line::{RegionEdge, WeldedSurface, region_edges};
-use homog::{Plane, Point, Vector, World};
+use homog::{ClipRange, Plane, Point, Vector, World};
 use viewport::DrawingScale;
 
 /// Half the width of the gap of a broken view, in millimeters of the paper.
@@ -271,8 +271,8 @@ impl PartDrawing<'_, '_> {
     fn within_outline(&mut self, line: &[DVec2]) -> Result<Vec<Vec<DVec2>>, SheetError> {
         let (view_projection, size) = self.view.view_projection()?;
         let surface: &WeldedSurface = self.surfaces.cut_by(&[]);
-        let viewport =
-            viewport::Viewport::image(size[0], size[1]).map_err(hidden_line::DrawError::from)?;
+        let viewport = viewport::Viewport::image_for(size[0], size[1], ClipRange::CHAPTER)
+            .map_err(hidden_line::DrawError::from)?;
         let projector = hidden_line::Projector::new(&view_projection, &viewport);
         let triangles = surface.occluder_triangles().map(|vertices| vertices.map(Point::raw));
         Ok(parts_within(line, &region_edges(triangles, &projector)))

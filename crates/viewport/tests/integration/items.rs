@@ -1,7 +1,7 @@
 //! Items of the sources that the laws leave out, each against its formula.
 
 use glam::DMat4;
-use homog::{Ndc, PixelConvention, Point};
+use homog::{ClipRange, Ndc, PixelConvention, Point};
 use viewport::{DepthRange, Rectangle, Viewport};
 
 /// VP-1, entry by entry: scale by n/2, center at (n − 1)/2, z as it is.
@@ -38,7 +38,8 @@ fn c5_pixels_have_their_centers_at_integers() {
 fn c59_an_image_of_the_windows_aspect_undoes_the_squeeze() {
     let window = [2.0, 1.0];
     let stretch = |nx: u32, ny: u32| {
-        let map = Viewport::image(nx, ny).expect("has pixels").ndc_to_screen();
+        let map =
+            Viewport::image_for(nx, ny, ClipRange::CHAPTER).expect("has pixels").ndc_to_screen();
         let at =
             |x: f64, y: f64| map.transform_point(Point::new(x / window[0], y / window[1], 0.0));
         let (right, up) = (at(0.5, 0.0) - at(0.0, 0.0), at(0.0, 0.5) - at(0.0, 0.0));
@@ -56,7 +57,8 @@ fn c75_front_top_and_side_line_up_on_a_sheet() {
     let cells: Vec<Rectangle> = sheet.split_grid(2, 2, 20.0).expect("room").collect();
     let [top, _, front, side] = cells.as_slice() else { panic!("four cells") };
     let drawn = |cell: &Rectangle, x: f64, y: f64| {
-        let view = Viewport::new(*cell, PixelConvention::IMAGE, DepthRange::KEEP);
+        let view =
+            Viewport::new(*cell, PixelConvention::IMAGE, ClipRange::CHAPTER, DepthRange::KEEP);
         view.ndc_to_screen().transform_point(Point::<Ndc>::new(x, y, 0.0))
     };
     let (width, height, depth) = (0.4, 0.7, -0.3);

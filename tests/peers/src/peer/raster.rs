@@ -5,7 +5,7 @@ use super::look::Look;
 use super::{AREA, Peer, Quantized};
 use crate::scene::{Part, SIZE, Scene};
 use clip::{Outcode, Volume, clip_triangle};
-use homog::{Affine, Clip, HPoint, Ndc, Projective, Screen, World};
+use homog::{Affine, Clip, ClipRange, HPoint, Ndc, Projective, Screen, World};
 use projection::Convention;
 use raster::{
     Clusters, CullMode, Frame, GUARD_BAND, MeshSelection, MeshTriangles, Opacity, Samples,
@@ -41,7 +41,8 @@ pub struct Raster<'a> {
 impl<'a> Raster<'a> {
     /// With `samples` for each pixel and so many threads.
     pub fn new(scene: &'a Scene, samples: Samples, threads: usize) -> Result<Self, String> {
-        let viewport = Viewport::image(SIZE.0, SIZE.1).map_err(|error| error.to_string())?;
+        let viewport = Viewport::image_for(SIZE.0, SIZE.1, ClipRange::CHAPTER)
+            .map_err(|error| error.to_string())?;
         let band = |side: u32| 1.0 - (GUARD_BAND.start() + 1.0) / (0.5 * f64::from(side));
         let volume = Volume::CHAPTER.with_guard_band(band(SIZE.0), band(SIZE.1));
         let positions: Vec<[f32; 3]> = scene.vertices.iter().map(|v| v.position).collect();

@@ -5,7 +5,7 @@ use explain::{
     ApiConventions, Explanation, ItemValue, TransformChain, VertexRef, explain_segment,
     explain_vertex,
 };
-use homog::{Point, World};
+use homog::{ClipRange, Point, World};
 use scene::Scene;
 use viewport::Viewport;
 
@@ -57,13 +57,13 @@ fn c1_rays_of_pixels_meet_what_the_forward_map_draws_there() {
              image: (size: (90, 60), samples: 1))"
         ));
         let picture = render_scene(&scene);
-        let viewport = Viewport::image(90, 60).expect("a viewport");
+        let viewport = Viewport::image_for(90, 60, ClipRange::CHAPTER).expect("a viewport");
         let to_world = scene.view_projection.world_to_clip().inverse().expect("a computer's one");
         let unprojector = viewport.unprojector(to_world);
         let mut covered = 0;
         for (x, y) in (0..60).flat_map(|y| (0..90).map(move |x| (x, y))) {
             let center = [f64::from(x) + 0.5, f64::from(y) + 0.5];
-            let ray = unprojector.pick_ray(center, [1.0, 0.0]).expect("a ray").ray;
+            let ray = unprojector.pick_ray(center).expect("a ray").ray;
             let place = ray.at(0.7);
             let [back_x, back_y] = pixel_position(&scene, place);
             let gap = (back_x - center[0]).abs().max((back_y - center[1]).abs());

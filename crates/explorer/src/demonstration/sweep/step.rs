@@ -72,7 +72,7 @@ impl SweepBase {
     pub(super) fn new(scene: &Scene, vary: SweepParameter) -> Result<Self, DemonstrationError> {
         let unsuited =
             |reason: &str| DemonstrationError::UnsupportedParameter { vary, reason: reason.into() };
-        let kind = decompose(scene.view_projection.view_to_clip.raw(), Convention::CHAPTER);
+        let kind = decompose(scene.view_projection.view_to_clip, Convention::CHAPTER);
         let lens = match kind.map(|found| found.kind) {
             Ok(Decomposed::Frustum(frustum)) => BaseProjection::Perspective(frustum),
             Ok(Decomposed::Orthographic(volume)) => BaseProjection::Parallel(volume),

@@ -5,13 +5,15 @@ use crate::exercise::entries::{Entries, Multiples};
 use crate::exercise::mistake::{Wrong, mistake};
 use crate::exercise::{Exercise, NUMBERS};
 use crate::words::words;
-use homog::{PixelCenters, PixelConvention, Point, YAxis};
+use homog::{ClipRange, PixelCenters, PixelConvention, Point, YAxis};
 use raster::{Frame, Opacity, Samples, ScreenVertex};
 use viewport::Viewport;
 
 /// The position of (1/4, 3/10) in an image of 200 × 100 pixels.
 fn position(y: YAxis, centers: PixelCenters) -> Option<Entries> {
-    let viewport = Viewport::image(200, 100).ok()?.with_convention(PixelConvention { y, centers });
+    let viewport = Viewport::image_for(200, 100, ClipRange::CHAPTER)
+        .ok()?
+        .with_convention(PixelConvention { y, centers });
     let place = viewport.ndc_to_screen().transform_point(Point::new(0.25, 0.3, 0.0));
     Some(vec![vec![place.x(), place.y()]])
 }

@@ -2,7 +2,7 @@
 
 use super::load_scene;
 use homog::PixelRect;
-use homog::{Point, World};
+use homog::{ClipRange, Point, World};
 use pipeline::render::passes::PassValues;
 use pipeline::render::{Pass, inspect_pixel, render_passes};
 use pipeline::{Picture, Scene, Timings, render};
@@ -27,7 +27,7 @@ fn places_are_the_unprojections_of_pixels_and_depths() {
             render_passes(&scene, whole, &wanted, 2, &Timings::default()).expect("passes");
         let clip_to_world =
             scene.view_projection.world_to_clip().inverse().expect("a map with an inverse");
-        let viewport = Viewport::image(160, 120).expect("a viewport");
+        let viewport = Viewport::image_for(160, 120, ClipRange::CHAPTER).expect("a viewport");
         let unprojector = viewport.unprojector(clip_to_world);
         let world_to_view = scene.view_projection.camera.world_to_view();
         let mut seen = 0;
@@ -40,7 +40,7 @@ fn places_are_the_unprojections_of_pixels_and_depths() {
                 continue;
             }
             seen += 1;
-            let ray = unprojector.pick_ray([f64::from(x) + 0.5, f64::from(y) + 0.5], [1.0, -1.0]);
+            let ray = unprojector.pick_ray([f64::from(x) + 0.5, f64::from(y) + 0.5]);
             let ray = ray.expect("a ray").ray;
             let ahead = |p: Point<World>| -world_to_view.transform_point(p).z();
             let per_step = ahead(ray.origin + ray.direction) - ahead(ray.origin);

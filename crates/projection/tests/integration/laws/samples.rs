@@ -1,10 +1,10 @@
 //! Random valid parameters and the comparisons the laws need.
 
 use glam::DMat4;
+use homog::NdcY;
 use homog::{Affine, Point, Vector, View};
 use projection::{
-    Axonometric, Convention, Fov, Frustum, Handedness, NPoint, NdcY, Oblique, Orthographic,
-    Perspective,
+    Axonometric, Convention, Fov, Frustum, Handedness, NPoint, Oblique, Orthographic, Perspective,
 };
 use proptest::prelude::*;
 
