@@ -7,9 +7,11 @@
 //! the stream are ignored, because a display that cannot be drawn is no reason to fail. The display
 //! must be dropped before a message is printed, which would otherwise be appended to the line.
 
-use pipeline::Timings;
+use pipeline::Monitor;
+use std::fmt::{Display, Formatter};
 use std::io::{IsTerminal, Write};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -21,35 +23,36 @@ const DISPLAY_DELAY: Duration = Duration::from_millis(400);
 /// The interval between two updates of the elapsed time.
 const REFRESH_INTERVAL: Duration = Duration::from_millis(100);
 
-/// A terminal line with the current stage and the elapsed time, removed on drop.
+/// A terminal line with the current stage, the elapsed time and what is done, removed on drop.
 ///
 /// A thread of its own redraws the line; stages are sent to it through a channel, and closing the
 /// channel ends it.
 #[derive(Debug)]
 pub(crate) struct Progress {
     /// The channel to the thread that draws the line, and its handle; `None` without a terminal.
-    stages: Option<(Sender<Stage>, JoinHandle<()>)>,
+    stages: Option<(Sender<&'static str>, JoinHandle<()>)>,
+    /// How much of the stage is done.
+    done: Arc<Percentage>,
 }
 
-/// What the line shows.
-struct Stage {
-    name: &'static str,
-    /// The stopwatch that counts finished bands of rows, and their number.
-    bands: Option<(Timings, usize)>,
-}
+/// The percentage that is done of a stage; 0 while nobody counts.
+#[derive(Debug, Default)]
+struct Percentage(AtomicU64);
 
-impl Stage {
-    /// The percentage that is done of a picture in several bands: `, 34 %`.
-    fn percentage(&self) -> String {
-        let Some((timings, total)) = self.bands.as_ref().filter(|(_, total)| *total > 1) else {
-            return String::new();
-        };
-        format!(", {} %", (100 * timings.count(BAND_STAGE) / total).min(100))
+impl Monitor for Percentage {
+    fn report_progress(&self, done: u64, total: u64) {
+        self.0.fetch_max(done.min(total) * 100 / total, Ordering::Relaxed);
     }
 }
 
-/// The stage of the stopwatch that ends each band.
-const BAND_STAGE: &str = "encode";
+impl Display for Percentage {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        match self.0.load(Ordering::Relaxed) {
+            0 | 100 => Ok(()),
+            percent => write!(f, ", {percent} %"),
+        }
+    }
+}
 
 impl Progress {
     /// Starts the display, if the standard error stream is a terminal.
@@ -63,19 +66,21 @@ impl Progress {
     /// rendering … 51.0 s, 34 %
     /// ```
     pub(crate) fn start(stage: &'static str) -> Self {
+        let done = Arc::<Percentage>::default();
         if !std::io::stderr().is_terminal() {
-            return Self { stages: None };
+            return Self { stages: None, done };
         }
         let (sender, receiver) = channel();
+        let percentage = Arc::clone(&done);
         let watcher = std::thread::spawn(move || {
-            let (mut stage, begin) = (Stage { name: stage, bands: None }, Instant::now());
+            let (mut stage, begin) = (stage, Instant::now());
             loop {
                 match receiver.recv_timeout(REFRESH_INTERVAL) {
                     Ok(next) => stage = next,
                     Err(RecvTimeoutError::Timeout) if begin.elapsed() > DISPLAY_DELAY => {
-                        let (seconds, name) = (begin.elapsed().as_secs_f32(), stage.name);
-                        let done = stage.percentage();
-                        let _ = write!(std::io::stderr(), "\r\x1b[K{name} … {seconds:.1} s{done}");
+                        let line =
+                            format!("{stage} … {:.1} s{percentage}", begin.elapsed().as_secs_f32());
+                        let _ = write!(std::io::stderr(), "\r\x1b[K{line}");
                     }
                     Err(RecvTimeoutError::Timeout) => {}
                     Err(RecvTimeoutError::Disconnected) => break,
@@ -85,7 +90,7 @@ impl Progress {
                 let _ = write!(std::io::stderr(), "\r\x1b[K");
             }
         });
-        Self { stages: Some((sender, watcher)) }
+        Self { stages: Some((sender, watcher)), done }
     }
 
     /// Shows another stage from now on.
@@ -93,23 +98,15 @@ impl Progress {
     /// The elapsed time goes on: it is that of the command, not that of the stage. `--timings` has
     /// the stages.
     pub(crate) fn enter_stage(&self, stage: &'static str) {
-        self.send(Stage { name: stage, bands: None });
-    }
-
-    /// Shows from now on how many bands of a picture the stopwatch has counted.
-    pub(crate) fn enter_bands(&self, stage: &'static str, timings: &Timings, total: usize) {
-        self.send(Stage { name: stage, bands: Some((timings.clone(), total)) });
-    }
-
-    /// Whether the line is shown, if work takes long enough.
-    pub(crate) const fn is_shown(&self) -> bool {
-        self.stages.is_some()
-    }
-
-    fn send(&self, stage: Stage) {
+        self.done.0.store(0, Ordering::Relaxed);
         if let Some((sender, _)) = &self.stages {
             let _ = sender.send(stage);
         }
+    }
+
+    /// The monitor whose progress the line shows.
+    pub(crate) fn monitor(&self) -> Arc<dyn Monitor> {
+        Arc::<Percentage>::clone(&self.done)
     }
 }
 

@@ -97,15 +97,14 @@ fn render_all(args: &RenderArgs) -> Result<ExitCode, CliError> {
 /// the result of `--compare` last. With `--json` warnings and comparison are part of the report and
 /// are not repeated.
 ///
-/// Times are measured only if they will be printed, or a terminal shows progress: the stopwatch is
-/// cheap, but not free.
+/// Times are measured only if they will be printed: the stopwatch is cheap, but not free.
 ///
 /// # Errors
 /// If the input is invalid, flags contradict each other, or a file cannot be written. No output
 /// file has been changed then, except if `--verify` or `--show` fails, which come after the files.
 fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     let progress = Progress::start("loading");
-    let is_measured = args.timings || args.json || progress.is_shown();
+    let is_measured = args.timings || args.json;
     let timings = if is_measured { Timings::enabled() } else { Timings::default() };
     let import = ImportOptions {
         timings: timings.clone(),

@@ -23,7 +23,7 @@ use drawing::Warning;
 use homog::PixelRect;
 use pipeline::render::{BitDepth, render_passes, rows_per_band};
 use pipeline::{
-    AtomicFile, OutputError, Picture, RenderContext, Renderer, Scene, Textures, Timings,
+    AtomicFile, OutputError, Picture, RenderContext, Renderer, Scene, Textures, Timings, Workers,
     draw_lines, dxf_options,
 };
 use scene::Outputs;
@@ -133,7 +133,7 @@ impl RenderJob<'_> {
         let reference = self.args.compare.load_reference(region)?;
         let EncodedPicture { sink, picture, warnings } = match self.task.format {
             format if format.is_raster() => self.encode_picture(region, progress)?,
-            _ => self.encode_drawing()?,
+            _ => self.encode_drawing(progress)?,
         };
         let (mut drafts, mut comparison) = (Vec::new(), None);
         if let Some(output) = &self.task.output {
@@ -226,9 +226,12 @@ impl RenderJob<'_> {
         progress: &Progress,
     ) -> Result<EncodedPicture, CliError> {
         let textures = self.timings.measure("mip chains", || Textures::for_scene(self.scene));
+        let monitor = progress.monitor();
         let context = RenderContext::new(self.scene, &textures, self.threads);
+        let context = context.with_timings(self.timings).with_monitor(&monitor);
         let mut renderer = Renderer::default();
-        let mut prepared = renderer.prepare(&context.with_timings(self.timings))?;
+        let mut prepared = renderer.prepare(&context)?;
+        progress.enter_stage("rendering");
         if self.task.format != OutputFormat::Png {
             self.task.format.check_size([region.width, region.height])?;
             let mut whole = Picture::default();
@@ -244,7 +247,6 @@ impl RenderJob<'_> {
         let mut sink = self.open_sink()?;
         let mut picture = self.needs_picture().then(Picture::default);
         let rows = rows_per_band(region.width);
-        progress.enter_bands("rendering", self.timings, region.bands(rows).count());
         let depth = if self.outputs.sixteen_bit { BitDepth::Sixteen } else { BitDepth::Eight };
         let written = prepared.write_png(&mut sink, region, rows, depth, picture.as_mut());
         written.map_err(|error| match error {
@@ -258,8 +260,10 @@ impl RenderJob<'_> {
     ///
     /// A drawing is small, so it is encoded in memory. Its warnings are moved out of the page and
     /// printed after the file is written.
-    fn encode_drawing(&self) -> Result<EncodedPicture, CliError> {
-        let mut page = draw_lines(self.scene, self.threads, self.timings)?;
+    fn encode_drawing(&self, progress: &Progress) -> Result<EncodedPicture, CliError> {
+        let monitor = progress.monitor();
+        let workers = Workers::monitored(self.threads, &*monitor);
+        let mut page = draw_lines(self.scene, workers, self.timings)?;
         let format = self.task.format;
         let mut warnings = std::mem::take(&mut page.warnings);
         warnings.extend(image_warning(format, &page));

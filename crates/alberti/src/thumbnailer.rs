@@ -20,12 +20,14 @@ use import::Limits;
 use import::{ImportError, ImportOptions};
 use model::codes;
 use pipeline::{
-    OutputError, RenderContext, RenderError, Renderer, ResolveError, Scene, Textures, write_file,
+    Monitor, OutputError, RenderContext, RenderError, Renderer, ResolveError, Scene, Textures,
+    write_file,
 };
 use scene::{ResolveOptions, Style};
 use std::fs::OpenOptions;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Arguments of `alberti thumbnailer`.
 #[derive(Debug, clap::Args)]
@@ -126,11 +128,11 @@ fn render_thumbnail(args: &ThumbnailerArgs, input: &Path, output: &Path) -> Resu
     }
     let textures = Textures::for_scene(&scene);
     let threads = thread_count(None).min(MAX_THREADS);
-    let context =
-        RenderContext::new(&scene, &textures, threads).with_cancel(deadline.cancel_token());
+    let monitor: Arc<dyn Monitor> = Arc::new(deadline.cancel_token().clone());
+    let context = RenderContext::new(&scene, &textures, threads).with_monitor(&monitor);
     match Renderer::default().render_png(&context) {
         Ok((png, _)) => deadline.finish(|| Ok(write_thumbnail(output, &png)?)),
-        Err(RenderError::Cancelled) => deadline.finish(|| Err(deadline::timeout(args.max_seconds))),
+        Err(RenderError::Canceled) => deadline.finish(|| Err(deadline::timeout(args.max_seconds))),
         Err(error) => Err(error.into()),
     }
 }

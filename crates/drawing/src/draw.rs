@@ -10,25 +10,27 @@ use super::face_fill::{FillOptions, KeyLight, rasterize_fill};
 use crate::{Drawing, FaceFill};
 use camera::ViewProjection;
 use glam::DVec3;
-use hidden_line::{DrawError, DrawOptions, FaceHatching, Projector, Subject, WeldedSurface};
+use hidden_line::{
+    DrawError, DrawOptions, FaceHatching, Projector, Subject, WeldedSurface, Workers,
+};
 use homog::ClipRange;
 use viewport::Viewport;
 
-/// Draws the edges of a subject with hidden-line removal and the fill of its faces, with up to
-/// `threads` threads; their number does not change the drawing.
+/// Draws the edges of a subject with hidden-line removal and the fill of its faces. `workers` is
+/// the number of threads, which does not change the drawing, or that with a monitor.
 ///
 /// # Errors
 /// As [`hidden_line::draw`], or if the image of the fill is out of range.
-pub fn draw(
+pub fn draw<'a>(
     subject: &Subject<'_>,
     options: &DrawOptions,
     fill: &FillOptions,
-    threads: usize,
+    workers: impl Into<Workers<'a>>,
 ) -> Result<Drawing, DrawError> {
     let Subject { view_projection, size, .. } = subject;
     let luma = face_luma(view_projection, *size, fill.face_fill)?;
     let hatching = face_hatching(fill.face_fill, &luma);
-    let (lines, faces) = hidden_line::draw_hatched(subject, options, hatching, threads)?;
+    let (lines, faces) = hidden_line::draw_hatched(subject, options, hatching, workers)?;
     let face_fill = rasterize_fill(faces.colored(), view_projection, *size, fill)?;
     Ok(Drawing { face_fill, ..lines.into() })
 }
@@ -38,18 +40,18 @@ pub fn draw(
 ///
 /// # Errors
 /// As [`draw`].
-pub fn draw_surface(
+pub fn draw_surface<'a>(
     surface: &WeldedSurface,
     view_projection: &ViewProjection,
     size: [u32; 2],
     options: &DrawOptions,
     fill: &FillOptions,
-    threads: usize,
+    workers: impl Into<Workers<'a>>,
 ) -> Result<Drawing, DrawError> {
     let luma = face_luma(view_projection, size, fill.face_fill)?;
     let hatching = face_hatching(fill.face_fill, &luma);
     let lines =
-        hidden_line::draw_surface(surface, view_projection, size, options, hatching, threads)?;
+        hidden_line::draw_surface(surface, view_projection, size, options, hatching, workers)?;
     let face_fill = rasterize_fill(surface.faces_with_colors(), view_projection, size, fill)?;
     Ok(Drawing { face_fill, ..lines.into() })
 }

@@ -15,7 +15,7 @@ use crate::state_answer::state_json;
 use crate::volume_pane::volume_scene;
 use crate::words::sentence;
 use crate::world_pane::{Pointer, world_scene};
-use pipeline::{CancelToken, Picture, Textures, draw_lines};
+use pipeline::{CancelToken, Monitor, Picture, Textures, draw_lines};
 use scene::{ResolveError, Scene};
 use scene_file::parse_scene;
 use std::sync::Arc;
@@ -83,25 +83,26 @@ impl Explorer {
     /// An unknown, repeated or malformed key; a model that is missing or broken; a scene that makes
     /// no sense. The explorer is as before.
     pub fn answer(&mut self, query: &str) -> Result<Answer, ExplorerError> {
-        self.answer_unless_cancelled(query, &CancelToken::default())
+        self.answer_unless_canceled(query, &CancelToken::default())
     }
 
     /// Answers a request as [`answer`](Self::answer) does, unless another thread cancels it. Line
     /// drawings and models that are being loaded run to their end first.
     ///
     /// # Errors
-    /// As `answer`, and `cannot_render` for a picture that was cancelled.
-    pub fn answer_unless_cancelled(
+    /// As `answer`, and `cannot_render` for a picture that was canceled.
+    pub fn answer_unless_canceled(
         &mut self,
         query: &str,
         cancel: &CancelToken,
     ) -> Result<Answer, ExplorerError> {
+        let monitor: Arc<dyn Monitor> = Arc::new(cancel.clone());
         let request = Request::parse(query)?;
         match request.question {
             Question::Lessons => Ok(json_answer(&catalogue_json())),
             Question::State => self.state(&request),
-            Question::Picture => self.picture(&request, cancel),
-            Question::World | Question::Volume => self.pane(&request, cancel),
+            Question::Picture => self.picture(&request, &monitor),
+            Question::World | Question::Volume => self.pane(&request, &monitor),
             Question::Depth => self.depth(&request),
             Question::Drawing => self.drawing(&request),
             Question::Pick => self.pick(&request),
@@ -169,10 +170,10 @@ impl Explorer {
     fn picture(
         &mut self,
         request: &Request,
-        cancel: &CancelToken,
+        monitor: &Arc<dyn Monitor>,
     ) -> Result<Answer, ExplorerError> {
         let (text, loaded) = self.load(&request.state, request.size, request.samples)?;
-        let drawn = Drawn { scene: &loaded.scene, textures: &loaded.models.textures, cancel };
+        let drawn = Drawn { scene: &loaded.scene, textures: &loaded.models.textures, monitor };
         let Request { state, size, samples, .. } = request;
         let key = format!("{size:?} {samples} {:?} {text}", state.style);
         answer_with_pixels(&mut self.picture, request, &key, drawn)
@@ -201,7 +202,11 @@ impl Explorer {
     }
 
     /// A pane around the picture.
-    fn pane(&mut self, request: &Request, cancel: &CancelToken) -> Result<Answer, ExplorerError> {
+    fn pane(
+        &mut self,
+        request: &Request,
+        monitor: &Arc<dyn Monitor>,
+    ) -> Result<Answer, ExplorerError> {
         let Request { question, state, size, samples, .. } = request;
         let is_world = *question == Question::World;
         let orbit = if is_world { state.orbit() } else { state.volume_orbit() };
@@ -229,7 +234,7 @@ impl Explorer {
         let pane = if is_world { &mut self.world } else { &mut self.volume };
         pane.scene = Some((key.clone(), Arc::clone(&scene)));
         let textures = Textures::for_models(&[]);
-        let drawn = Drawn { scene: &scene, textures: &textures, cancel };
+        let drawn = Drawn { scene: &scene, textures: &textures, monitor };
         answer_with_pixels(&mut pane.picture, request, &key, drawn)
     }
 }

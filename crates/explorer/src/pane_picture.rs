@@ -2,20 +2,21 @@
 
 use crate::ExplorerError;
 use homog::PixelRect;
-use pipeline::{CancelToken, Picture, RenderContext, Renderer, Scene, Textures};
+use pipeline::{Monitor, Picture, RenderContext, Renderer, Scene, Textures};
 use scene::Style;
+use std::sync::Arc;
 
-/// What a picture shows, and the flag that ends its rendering.
+/// What a picture shows, and the monitor that may end its rendering.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Drawn<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) textures: &'a Textures<'a>,
-    pub(crate) cancel: &'a CancelToken,
+    pub(crate) monitor: &'a Arc<dyn Monitor>,
 }
 
 impl<'a> Drawn<'a> {
     fn context(self) -> RenderContext<'a> {
-        RenderContext::new(self.scene, self.textures, thread_count()).with_cancel(self.cancel)
+        RenderContext::new(self.scene, self.textures, thread_count()).with_monitor(self.monitor)
     }
 }
 

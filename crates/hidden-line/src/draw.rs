@@ -34,9 +34,10 @@ use camera::ViewProjection;
 use glam::{DVec2, DVec3};
 use homog::{ClipRange, Point};
 use model::{ModelInstance, Primitive, Topology};
+use raster::Workers;
 use std::ops::Range;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use viewport::Viewport;
 
 /// The faces of a subject that was drawn, for a fill under its lines.
@@ -50,30 +51,30 @@ impl DrawnFaces {
     }
 }
 
-/// Draws the edges of a subject with hidden-line removal, with up to `threads` threads.
-///
-/// The drawing does not depend on the number of threads.
+/// Draws the edges of a subject with hidden-line removal. `workers` is the number of threads, on
+/// which the drawing does not depend, or that with a monitor.
 ///
 /// # Errors
 /// If the image has no pixels, or if copies of meshes have too many triangles.
-pub fn draw(
+pub fn draw<'a>(
     subject: &Subject<'_>,
     options: &DrawOptions,
-    threads: usize,
+    workers: impl Into<Workers<'a>>,
 ) -> Result<LineDrawing, DrawError> {
-    Ok(draw_hatched(subject, options, FaceHatching::None, threads)?.0)
+    Ok(draw_hatched(subject, options, FaceHatching::None, workers)?.0)
 }
 
 /// As [`draw`], with hatch lines on faces, and the faces that were drawn.
 ///
 /// # Errors
 /// As [`draw`].
-pub fn draw_hatched(
+pub fn draw_hatched<'a>(
     subject: &Subject<'_>,
     options: &DrawOptions,
     face_hatching: FaceHatching<'_>,
-    threads: usize,
+    workers: impl Into<Workers<'a>>,
 ) -> Result<(LineDrawing, DrawnFaces), DrawError> {
+    let workers = workers.into();
     let projector = Projector::new(&subject.view_projection, &subject.viewport()?);
     if !options.is_unlimited {
         refuse_many_copies(subject.models)?;
@@ -89,11 +90,11 @@ pub fn draw_hatched(
     surface.forget_half_edges();
     let cover = view_cover(&surface, projector, subject.size, options);
     let hiding = cover.as_ref().map(|view| &view.cover);
-    let is_cut_off = surface.add_intersections(&mut candidates, options, hiding, threads);
+    let is_cut_off = surface.add_intersections(&mut candidates, options, hiding, workers);
     let candidates = Candidates { edges: candidates, is_cut_off, cover, face_hatching };
     let Subject { view_projection, size, .. } = subject;
     let mut drawing =
-        draw_candidates(&surface, candidates, view_projection, *size, options, threads)?;
+        draw_candidates(&surface, candidates, view_projection, *size, options, workers)?;
     let draws_whole = has_cut_outs && !options.leaves_out_cut_outs;
     drawing.warnings.extend(draws_whole.then_some(Warning::CutOutsDrawnWhole));
     drawing.warnings.extend(idle_section_warnings(subject.models, subject.sections));
@@ -107,14 +108,15 @@ pub fn draw_hatched(
 ///
 /// # Errors
 /// As [`draw`].
-pub fn draw_surface(
+pub fn draw_surface<'a>(
     surface: &WeldedSurface,
     view_projection: &ViewProjection,
     size: [u32; 2],
     options: &DrawOptions,
     face_hatching: FaceHatching<'_>,
-    threads: usize,
+    workers: impl Into<Workers<'a>>,
 ) -> Result<LineDrawing, DrawError> {
+    let workers = workers.into();
     let projector = Projector::new(
         view_projection,
         &Viewport::image_for(size[0], size[1], ClipRange::CHAPTER)?,
@@ -123,9 +125,9 @@ pub fn draw_surface(
     let cover = view_cover(surface, projector, size, options);
     // Other views need other intersections: all are found once, unless they are too many.
     let crowd = cover.as_ref().and_then(ViewCover::crowd);
-    let is_cut_off = surface.add_intersections(&mut candidates, options, crowd, threads);
+    let is_cut_off = surface.add_intersections(&mut candidates, options, crowd, workers);
     let candidates = Candidates { edges: candidates, is_cut_off, cover, face_hatching };
-    draw_candidates(surface, candidates, view_projection, size, options, threads)
+    draw_candidates(surface, candidates, view_projection, size, options, workers)
 }
 
 /// What may be visible of a surface.
@@ -170,7 +172,7 @@ fn draw_candidates(
     view_projection: &ViewProjection,
     size: [u32; 2],
     options: &DrawOptions,
-    threads: usize,
+    workers: Workers<'_>,
 ) -> Result<LineDrawing, DrawError> {
     let projector = Projector::new(
         view_projection,
@@ -194,7 +196,10 @@ fn draw_candidates(
     }
     edges.sort_by_key(|candidate| candidate.object);
     let divider = EdgeDivider::new(surface, projector, options, crowd);
-    let (segments, is_complete) = divider.divide_edges(&edges, threads);
+    let (segments, is_complete) = divider.divide_edges(&edges, workers);
+    if workers.is_canceled() {
+        return Err(DrawError::Canceled);
+    }
     warnings.extend((!is_complete).then_some(Warning::VisibilityIncomplete));
     warnings.sort_unstable();
     warnings.dedup();
@@ -317,20 +322,28 @@ impl<'a> EdgeDivider<'a> {
     ///
     /// The work is divided among groups of edges that do not depend on the number of threads, so
     /// that what is left out does not either.
-    fn divide_edges(&self, edges: &[CandidateEdge], threads: usize) -> (Vec<EdgeSegment>, bool) {
+    fn divide_edges(
+        &self,
+        edges: &[CandidateEdge],
+        workers: Workers<'_>,
+    ) -> (Vec<EdgeSegment>, bool) {
+        let (done, total) = (AtomicU64::new(0), edges.len() as u64);
         let is_complete = AtomicBool::new(true);
         let for_each = (self.max_comparisons / edges.len().max(1) as u64).max(MIN_COMPARISONS);
         let divide =
             |range: Range<usize>, scratch: &mut OcclusionScratch, segments: &mut Vec<_>| {
                 scratch.work_left = Some(for_each.saturating_mul(range.len() as u64));
+                let count = range.len() as u64;
                 for index in range {
                     self.divide_edge(&edges[index], index as u32, scratch, segments);
                 }
                 if scratch.work_left == Some(0) {
                     is_complete.store(false, Ordering::Relaxed);
                 }
+                let done = done.fetch_add(count, Ordering::Relaxed) + count;
+                workers.report_progress(done, total);
             };
-        let segments = map_in_order(edges.len(), threads, divide);
+        let segments = map_in_order(edges.len(), workers, divide);
         (segments, is_complete.into_inner())
     }
 

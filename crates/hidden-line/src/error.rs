@@ -13,6 +13,9 @@ pub enum DrawError {
     /// There are more triangles than the z-buffer has ids for.
     #[error("the scene has more than {} points, lines and triangles", u32::MAX)]
     TooManyPrimitives,
+    /// The [monitor](raster::Monitor) asked for the end.
+    #[error("the drawing was canceled")]
+    Canceled,
     /// Copies of meshes have more triangles than lines are drawn of, unless
     /// [`DrawOptions::is_unlimited`](crate::DrawOptions::is_unlimited) is set.
     #[error(

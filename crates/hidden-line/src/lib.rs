@@ -56,6 +56,7 @@ pub use line_drawing::{EdgeClass, EdgeSegment, LineDrawing};
 pub use mirror_symmetry::MirrorSymmetry;
 pub use options::{DrawOptions, EdgeClasses, HiddenEdges, SilhouetteMethod};
 pub use projector::Projector;
+pub use raster::{Monitor, Workers};
 pub use region::{Region, RegionEdge, RegionHatching, region_edges};
 pub use retained_points::{idle_section_warning, retained_points};
 pub use subject::Subject;

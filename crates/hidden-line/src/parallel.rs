@@ -10,6 +10,7 @@
 //! sorted by their start afterwards, the result does not depend on the number of threads or on
 //! their timing.
 
+use raster::Workers;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -20,11 +21,12 @@ const CHUNK_SIZE: usize = 512;
 /// the order of the items.
 ///
 /// Each thread has scratch memory `M` of its own, made when it starts. The calling thread works
-/// too, so one thread spawns none, and 0 counts as 1. A panic in `work` is raised again in the
+/// too, so one thread spawns none, and 0 counts as 1. Work that is canceled ends with a chunk, and
+/// what comes back is incomplete. A panic in `work` is raised again in the
 /// caller.
 pub(super) fn map_in_order<M: Default, T: Send>(
     count: usize,
-    threads: usize,
+    workers: Workers<'_>,
     work: impl Fn(Range<usize>, &mut M, &mut Vec<T>) + Sync,
 ) -> Vec<T> {
     let next = AtomicUsize::new(0);
@@ -32,7 +34,7 @@ pub(super) fn map_in_order<M: Default, T: Send>(
         let (mut memory, mut done) = (M::default(), Vec::new());
         loop {
             let start = next.fetch_add(CHUNK_SIZE, Ordering::Relaxed);
-            if start >= count {
+            if start >= count || workers.is_canceled() {
                 return done;
             }
             let mut results = Vec::new();
@@ -40,7 +42,7 @@ pub(super) fn map_in_order<M: Default, T: Send>(
             done.push((start, results));
         }
     };
-    let threads = threads.min(count.div_ceil(CHUNK_SIZE));
+    let threads = workers.threads.min(count.div_ceil(CHUNK_SIZE));
     // WebAssembly has no threads: their code would be dead weight.
     if threads <= 1 || cfg!(target_family = "wasm") {
         return take().into_iter().flat_map(|(_, results)| results).collect();
@@ -69,8 +71,8 @@ mod tests {
         let count = 3 * CHUNK_SIZE + 7;
         for threads in [0, 1, 2, 5, 64] {
             let work = |range: Range<usize>, (): &mut (), out: &mut Vec<usize>| out.extend(range);
-            assert!(map_in_order(count, threads, work).into_iter().eq(0..count));
+            assert!(map_in_order(count, threads.into(), work).into_iter().eq(0..count));
         }
-        assert!(map_in_order(0, 4, |_, (): &mut (), _: &mut Vec<()>| panic!()).is_empty());
+        assert!(map_in_order(0, 4.into(), |_, (): &mut (), _: &mut Vec<()>| panic!()).is_empty());
     }
 }

@@ -1,28 +1,33 @@
-//! Cancellation: ends a rendering early from another thread.
+//! Cancellation and progress: monitors of a rendering.
 //!
-//! The rasterizer polls the flag once per row of tiles, so that a cancelled picture costs at most a
-//! few milliseconds more. Line drawings and shadow maps run to their end first.
+//! The rasterizer asks its monitor once per row of tiles, so that a canceled picture costs at most
+//! a few milliseconds more; hidden lines ask every few hundred edges. Shadow maps run to their end
+//! first.
 
+use raster::Monitor;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A flag that ends a rendering early. Clones share it: one goes into a
-/// [`RenderContext`](crate::RenderContext), another stays with the thread that may cancel.
+/// [`RenderContext`](crate::RenderContext) as its monitor, another stays with the thread that may
+/// cancel.
 ///
 /// ```no_run
-/// # use pipeline::{CancelToken, Picture, RenderContext, RenderError, Renderer, Scene, Textures};
+/// # use pipeline::{CancelToken, Monitor, Picture, RenderContext, RenderError, Renderer, Scene, Textures};
+/// # use std::sync::Arc;
 /// # fn wait_for_the_window_to_close() {}
 /// # fn draw(scene: &Scene) {
 /// let cancel = CancelToken::default();
+/// let monitor: Arc<dyn Monitor> = Arc::new(cancel.clone());
 /// std::thread::scope(|scope| {
 ///     let work = scope.spawn(|| {
 ///         let textures = Textures::for_scene(scene);
-///         let context = RenderContext::new(scene, &textures, 2).with_cancel(&cancel);
+///         let context = RenderContext::new(scene, &textures, 2).with_monitor(&monitor);
 ///         Renderer::default().render(&context, &mut Picture::<u8>::default())
 ///     });
 ///     wait_for_the_window_to_close();
 ///     cancel.cancel();
-///     assert!(matches!(work.join(), Ok(Ok(_) | Err(RenderError::Cancelled))));
+///     assert!(matches!(work.join(), Ok(Ok(_) | Err(RenderError::Canceled))));
 /// });
 /// # }
 /// ```
@@ -39,12 +44,46 @@ impl CancelToken {
 
     /// Whether the end was requested.
     #[must_use]
-    pub fn is_cancelled(&self) -> bool {
+    pub fn is_canceled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
+}
 
-    /// The flag as the rasterizer polls it.
-    pub(crate) fn stop_flag(&self) -> Arc<AtomicBool> {
-        Arc::clone(&self.0)
+impl Monitor for CancelToken {
+    fn is_canceled(&self) -> bool {
+        Self::is_canceled(self)
+    }
+}
+
+/// A monitor that is asked for the end of a part of the work, and not told of its progress.
+#[derive(Debug)]
+pub(crate) struct CancelOnly(pub(crate) Arc<dyn Monitor>);
+
+impl Monitor for CancelOnly {
+    fn is_canceled(&self) -> bool {
+        self.0.is_canceled()
+    }
+}
+
+/// The monitor of one frame: what is done of it counts as pixels of the whole work.
+#[derive(Debug)]
+pub(crate) struct PartMonitor {
+    /// The monitor of the whole work.
+    pub(crate) outer: Arc<dyn Monitor>,
+    /// The pixels that were done before.
+    pub(crate) done: u64,
+    /// The pixels of this frame.
+    pub(crate) pixels: u64,
+    /// The pixels of the whole work.
+    pub(crate) total: u64,
+}
+
+impl Monitor for PartMonitor {
+    fn is_canceled(&self) -> bool {
+        self.outer.is_canceled()
+    }
+
+    fn report_progress(&self, done: u64, total: u64) {
+        self.outer.report_progress(self.done + self.pixels * done / total, self.total);
     }
 }

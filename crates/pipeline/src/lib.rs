@@ -30,7 +30,7 @@
 //! | the syntax of scene files | [`scene::reference`] | |
 //! | a tour of the stages, with the file of each | [`mod@render`] | |
 //!
-//! A rendering is stopped by a [`CancelToken`], a sequence by an error of the function that takes
+//! A rendering is observed by a [`Monitor`] and stopped by a [`CancelToken`], a sequence by an error of the function that takes
 //! its pictures.
 //!
 //! Nothing here prints, and nothing is global: scenes, renderers and pictures can be sent to any
@@ -49,6 +49,7 @@ pub use import;
 pub use model;
 pub use model::Timings;
 pub use picture::{self, Channel, Picture, PngRows, encode_png};
+pub use raster::{Monitor, Workers};
 pub use render::{
     PreparedScene, RenderContext, RenderError, Renderer, Textures, WritePngError, draw_lines,
     dxf_options, render,

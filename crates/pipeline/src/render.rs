@@ -113,10 +113,10 @@ pub enum RenderError {
     Viewport(#[from] viewport::ViewportError),
     /// The lines of the scene cannot be drawn.
     #[error(transparent)]
-    Draw(#[from] hidden_line::DrawError),
-    /// The rendering was cancelled by a [`CancelToken`](crate::CancelToken).
-    #[error("the picture was cancelled")]
-    Cancelled,
+    Draw(hidden_line::DrawError),
+    /// The [monitor](raster::Monitor) asked for the end.
+    #[error("the picture was canceled")]
+    Canceled,
     /// Ambient occlusion needs the whole depth buffer, and the picture is larger than one tile.
     #[error("ambient occlusion is for pictures of {} pixels a side at most", raster::MAX_SIDE)]
     OcclusionTooLarge,
@@ -125,10 +125,19 @@ pub enum RenderError {
     TooManyPrimitives,
 }
 
+impl From<hidden_line::DrawError> for RenderError {
+    fn from(error: hidden_line::DrawError) -> Self {
+        match error {
+            hidden_line::DrawError::Canceled => Self::Canceled,
+            error => Self::Draw(error),
+        }
+    }
+}
+
 /// Renders a scene with up to `threads` threads, whose number does not change the picture.
 ///
 /// A shortcut for one picture; a [`Renderer`] renders several faster, measures, and can be
-/// cancelled.
+/// observed and canceled.
 ///
 /// # Errors
 /// If the picture's size is out of range or the scene has too many primitives.

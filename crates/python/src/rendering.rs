@@ -13,10 +13,11 @@ use crate::scene_options::apply_options;
 use crate::subject::Subject;
 use homog::PixelRect;
 use pipeline::render::passes::{PassBuffer, PassValues};
-use pipeline::{CancelToken, Picture, RenderContext, Renderer, Scene, SceneFile};
+use pipeline::{CancelToken, Monitor, Picture, RenderContext, Renderer, Scene, SceneFile};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scene_file::Pass;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
@@ -215,7 +216,8 @@ impl<'a> RenderJob<'a> {
         cancel: &CancelToken,
     ) -> Fallible<(Option<Picture>, Vec<PassBuffer>, Vec<String>)> {
         let textures = self.subject.textures();
-        let context = RenderContext::new(scene, textures, self.threads).with_cancel(cancel);
+        let monitor: Arc<dyn Monitor> = Arc::new(cancel.clone());
+        let context = RenderContext::new(scene, textures, self.threads).with_monitor(&monitor);
         let (mut picture, mut warnings) = (None, Vec::new());
         if self.has_color {
             let mut colors = Picture::default();
@@ -289,7 +291,7 @@ fn render_jobs(
         let mut done = Vec::new();
         loop {
             let number = next.fetch_add(1, Ordering::Relaxed);
-            let Some(job) = jobs.get(number).filter(|_| !cancel.is_cancelled()) else {
+            let Some(job) = jobs.get(number).filter(|_| !cancel.is_canceled()) else {
                 return Ok(done);
             };
             match job.render(cancel) {
@@ -320,7 +322,7 @@ fn render_jobs(
     for result in results {
         match result {
             Ok(done) => rendered.extend(done),
-            // Those that were cancelled because of another come after it.
+            // Those that were canceled because of another come after it.
             Err(failure)
                 if first_failure.as_ref().is_none_or(|first| is_cause(&failure, first)) =>
             {
@@ -338,6 +340,6 @@ fn render_jobs(
 
 /// Whether a failure says more than another: it is not that of a job that was stopped.
 fn is_cause(one: &(usize, Failure), other: &(usize, Failure)) -> bool {
-    let is_stopped = |failure: &Failure| failure.message.contains("cancelled");
+    let is_stopped = |failure: &Failure| failure.message.contains("canceled");
     (is_stopped(&one.1), one.0) < (is_stopped(&other.1), other.0)
 }

@@ -1,25 +1,12 @@
 //! Triangles straight into a `tiny_skia::Pixmap`, and tiny-skia's strokes over them: `pixmap.png`.
 //!
-//! `Frame::draw` takes any slice of pixels, and what becomes of a colour is a closure: here one of
+//! `Frame::draw` takes any slice of pixels, and what becomes of a color is a closure: here one of
 //! the pixels that tiny-skia works with, whose codes are multiplied by alpha. Where nothing is
 //! drawn the pixmap stays transparent.
 
 use homog::Point;
-use raster::{CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, Surface};
+use raster::{CullMode, Frame, Opacity, Samples, ScreenVertex, surface_fn};
 use tiny_skia::{Paint, PathBuilder, Pixmap, PremultipliedColorU8, Stroke, Transform};
-
-/// The facets of a star, each lighter than the one before.
-struct Facets;
-
-impl Surface for Facets {
-    fn passes_alpha_test(&self, _: &Fragment<'_>) -> bool {
-        true
-    }
-    fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
-        let light = 0.2 + 0.07 * fragment.id as f32;
-        [light, 0.8 * light, 0.3 * light, 1.0]
-    }
-}
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut pixmap = Pixmap::new(256, 256).ok_or("no room")?;
@@ -36,7 +23,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let mut frame = Frame::new(256, 256, Samples::Sixteen)?;
     frame.add_mesh(&vertices, &triangles, 0, Opacity::Opaque, CullMode::Nothing);
-    frame.draw(&Facets, [0.0; 4], 2, pixmap.pixels_mut(), |[r, g, b, alpha]: [f32; 4]| {
+    // The facets of a star, each lighter than the one before.
+    let facets = surface_fn(|fragment| {
+        let light = 0.2 + 0.07 * fragment.id as f32;
+        [light, 0.8 * light, 0.3 * light, 1.0]
+    });
+    frame.draw(&facets, [0.0; 4], 2, pixmap.pixels_mut(), |[r, g, b, alpha]: [f32; 4]| {
         // Light becomes codes by a square root, near enough to sRGB; then codes are multiplied by
         // alpha.
         let code = |light: f32| ((light * alpha).sqrt() * 255.0 + 0.5) as u8;

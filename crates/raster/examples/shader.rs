@@ -7,32 +7,22 @@
 //! checker fades to its mean.
 
 use homog::{HPoint, Screen};
-use raster::{CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, Surface};
+use raster::{
+    CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, VertexAttribute, surface_fn,
+};
 
 /// The corners of the floor: x to the right, distance ahead.
 const FLOOR: [[f32; 2]; 4] = [[-9.0, 1.0], [9.0, 1.0], [400.0, 400.0], [-400.0, 400.0]];
 const TRIANGLES: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
-struct Checker;
-
-impl Surface for Checker {
-    fn passes_alpha_test(&self, _: &Fragment<'_>) -> bool {
-        true
-    }
-
-    fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
-        let place = |weights: [f32; 3]| {
-            let corners = TRIANGLES[fragment.id as usize].map(|n| FLOOR[n as usize]);
-            [0, 1].map(|k| (0..3).map(|n| weights[n] * corners[n][k]).sum::<f32>())
-        };
-        let here = place(fragment.weights);
-        let reach = |[x, ahead]: [f32; 2]| x.abs().max(ahead.abs());
-        let (right, below) = (place(fragment.weights_dx()), place(fragment.weights_dy()));
-        let fade = (1.0 - reach(right).max(reach(below))).max(0.0);
-        let odd = (here[0].floor() + here[1].floor()).rem_euclid(2.0) == 1.0;
-        let light = 0.5 + if odd { 0.35 } else { -0.35 } * fade;
-        [light, light * 0.95, light * 0.85, 1.0]
-    }
+fn checker(fragment: &Fragment<'_>) -> [f32; 4] {
+    let place = VertexAttribute { first_id: 0, triangles: &TRIANGLES, values: &FLOOR };
+    let (here, [right, below]) = (place.at(fragment), place.derivatives(fragment));
+    let reach = |[x, ahead]: [f32; 2]| x.abs().max(ahead.abs());
+    let fade = (1.0 - reach(right).max(reach(below))).max(0.0);
+    let odd = (here[0].floor() + here[1].floor()).rem_euclid(2.0) == 1.0;
+    let light = 0.5 + if odd { 0.35 } else { -0.35 } * fade;
+    [light, light * 0.95, light * 0.85, 1.0]
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -48,7 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     frame.add_mesh(&vertices, &TRIANGLES, 0, Opacity::Opaque, CullMode::Nothing);
     let mut pixels = vec![[0_u8; 3]; (width * height) as usize];
     let sky = [0.55, 0.72, 0.9, 1.0];
-    frame.draw(&Checker, sky, 2, &mut pixels, |[r, g, b, _]: [f32; 4]| {
+    frame.draw(&surface_fn(checker), sky, 2, &mut pixels, |[r, g, b, _]: [f32; 4]| {
         [r, g, b].map(|channel| (channel.sqrt() * 255.0 + 0.5) as u8)
     });
     let mut encoder = png::Encoder::new(std::fs::File::create("shader.png")?, width, height);

@@ -1,23 +1,10 @@
 //! A spinning triangle, twelve frames on one strip: `triangle.png`.
 //!
-//! Everything a frame needs: vertices on the screen, indices, and a surface that says what colour
+//! Everything a frame needs: vertices on the screen, indices, and a surface that says what color
 //! they have.
 
 use homog::Point;
-use raster::{CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, Surface};
-
-/// Red, green and blue at the corners, blended between them.
-struct Corners;
-
-impl Surface for Corners {
-    fn passes_alpha_test(&self, _: &Fragment<'_>) -> bool {
-        true
-    }
-    fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
-        let [r, g, b] = fragment.weights;
-        [r, g, b, 1.0]
-    }
-}
+use raster::{CullMode, Frame, Opacity, Samples, ScreenVertex, surface_fn};
 
 const SIDE: u32 = 96;
 const FRAMES: u32 = 12;
@@ -36,7 +23,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let mut pixels = vec![[0_u8; 4]; (frame.width() * frame.height()) as usize];
     let to_bytes = |color: [f32; 4]| color.map(|channel| (channel * 255.0 + 0.5) as u8);
-    frame.draw(&Corners, [0.0; 4], 2, &mut pixels, to_bytes);
+    // Red, green and blue at the corners, blended between them.
+    let corners = surface_fn(|fragment| {
+        let [r, g, b] = fragment.weights;
+        [r, g, b, 1.0]
+    });
+    frame.draw(&corners, [0.0; 4], 2, &mut pixels, to_bytes);
 
     let file = std::fs::File::create("triangle.png")?;
     let mut encoder = png::Encoder::new(file, frame.width(), frame.height());

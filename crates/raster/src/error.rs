@@ -21,4 +21,12 @@ pub enum RasterError {
         /// The requested height in pixels.
         height: u32,
     },
+    /// A depth buffer has another number of samples than the frame.
+    #[error("a depth buffer of {found} samples does not fit a frame of {expected}")]
+    DepthCount {
+        /// The samples of the frame.
+        expected: usize,
+        /// Those of the buffer.
+        found: usize,
+    },
 }

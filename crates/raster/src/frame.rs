@@ -16,11 +16,13 @@ use crate::primitive::{
 use crate::screen_vertex::SUBPIXELS;
 use crate::tile_grid::{TileGrid, TileRange};
 use crate::triangle_buffer::{CHUNK_TRIANGLES, TriangleBuffer, TriangleChunk};
-use crate::{CullMode, Opacity, RasterError, Samples, ScreenVertex, SimdLevel, SourceWeights};
+use crate::{
+    CullMode, DepthBuffer, DepthCompare, Monitor, Opacity, RasterError, Samples, ScreenVertex,
+    SimdLevel, SourceWeights,
+};
 use core::ops::Range;
 use homog::PixelRect;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The longest side of a picture in pixels.
 pub const MAX_SIDE: u32 = 16384;
@@ -48,8 +50,12 @@ pub struct Frame {
     pub(crate) source_weights: Vec<SourceWeights>,
     /// The most threads that assemble a mesh.
     threads: usize,
-    /// Drawing ends early once this is true.
-    cancel: Option<Arc<AtomicBool>>,
+    /// The depth function.
+    pub(crate) compare: DepthCompare,
+    /// The depths that drawing begins with; nothing anywhere if there are none.
+    pub(crate) initial_depth: Option<Arc<DepthBuffer>>,
+    /// Who is told of bands that are drawn, and may end drawing.
+    pub(crate) monitor: Option<Arc<dyn Monitor>>,
     /// Buffers of the last drawing, for the next.
     pub(crate) buffers: BufferPool,
 }
@@ -95,7 +101,9 @@ impl Frame {
             triangles: TriangleBuffer::default(),
             source_weights: Vec::new(),
             threads: 1,
-            cancel: None,
+            compare: DepthCompare::default(),
+            initial_depth: None,
+            monitor: None,
             buffers: BufferPool::default(),
         })
     }
@@ -114,19 +122,37 @@ impl Frame {
         Self { threads, ..self }
     }
 
-    /// This frame, with [drawing](Self::draw) cancelled once `cancel` is true: no further row of
-    /// tiles is begun. The target then holds an unfinished picture.
+    /// This frame, with `monitor` told of each row of tiles that is drawn, and asked before the
+    /// next is begun. The target of a drawing that ends early holds an unfinished picture.
     #[must_use]
-    pub fn with_cancel_flag(self, cancel: Arc<AtomicBool>) -> Self {
-        Self { cancel: Some(cancel), ..self }
+    pub fn with_monitor(self, monitor: Arc<dyn Monitor>) -> Self {
+        Self { monitor: Some(monitor), ..self }
     }
 
-    /// Whether drawing has been canceled.
+    /// This frame, without its primitives, and with another depth function.
+    #[must_use]
+    pub fn with_depth_compare(mut self, compare: DepthCompare) -> Self {
+        self.clear();
+        Self { compare, ..self }
+    }
+
+    /// This frame, drawn over depths that are there already: a second pass.
     ///
-    /// The load is relaxed: nothing else is ordered by the flag, and a late look costs one row of
-    /// tiles.
+    /// Fragments that do not pass against them are absent, in pictures and in buffers of ids alike.
+    ///
+    /// # Errors
+    /// [`RasterError::DepthCount`] if the buffer has other pixels or samples than the frame.
+    pub fn with_depth_buffer(self, depths: Arc<DepthBuffer>) -> Result<Self, RasterError> {
+        if !depths.fits(self.region, self.samples) {
+            let expected = self.region.area() * self.samples.count();
+            return Err(RasterError::DepthCount { expected, found: depths.sample_count() });
+        }
+        Ok(Self { initial_depth: Some(depths), ..self })
+    }
+
+    /// Whether drawing shall end.
     pub(crate) fn is_canceled(&self) -> bool {
-        self.cancel.as_ref().is_some_and(|cancel| cancel.load(Ordering::Relaxed))
+        self.monitor.as_ref().is_some_and(|monitor| monitor.is_canceled())
     }
 
     /// The vector instructions that the frame is drawn with.
@@ -136,12 +162,14 @@ impl Frame {
     }
 
     /// Removes all primitives for a picture of another size or other samples, and keeps the memory.
+    /// The depths that the frame began with, and its monitor, are forgotten.
     ///
     /// # Errors
     /// As [`new`](Self::new); the frame is then unchanged.
     pub fn reset(&mut self, width: u32, height: u32, samples: Samples) -> Result<(), RasterError> {
         self.region = check_region(PixelRect::from_size(width, height))?;
         self.samples = samples;
+        (self.initial_depth, self.monitor) = (None, None);
         self.clear();
         Ok(())
     }
@@ -200,7 +228,7 @@ impl Frame {
     /// and with it the winner among equal depths, does not depend on how the chunks are divided up.
     pub fn add_mesh_runs(&mut self, mesh: MeshTriangles<'_>, runs: &[Range<usize>]) {
         // One rectangle test for all triangles of the mesh: it depends on the frame alone.
-        let bounds = self.sample_bounds();
+        let (bounds, compare) = (self.sample_bounds(), self.compare);
         let count: usize = runs.iter().map(ExactSizeIterator::len).sum();
         if self.threads > 1 && count >= PARALLEL_TRIANGLES {
             // Chunk n takes what the runs have of the n-th 4096 triangles of the mesh, so that
@@ -214,7 +242,7 @@ impl Frame {
                 let before = runs.partition_point(|run| run.end <= slice.start);
                 for run in runs[before..].iter().take_while(|run| run.start < slice.end) {
                     let run = run.start.max(slice.start)..run.end.min(slice.end);
-                    mesh.assemble_triangles(bounds, run, chunk);
+                    mesh.assemble_triangles(bounds, compare, run, chunk);
                 }
             });
             self.triangles.remove_empty_chunks(first);
@@ -226,7 +254,7 @@ impl Frame {
             while !rest.is_empty() {
                 let (chunk, space) = self.triangles.open_with_space();
                 let end = rest.end.min(rest.start + space);
-                mesh.assemble_triangles(bounds, rest.start..end, chunk);
+                mesh.assemble_triangles(bounds, compare, rest.start..end, chunk);
                 rest.start = end;
             }
         }
@@ -284,6 +312,7 @@ impl Frame {
         // Off the region, or between samples.
         let Some(tiles) = self.sample_bounds().touched_tiles(vertices) else { return };
         let area = signed_area(vertices);
+        let vertices = oriented_depths(self.compare, vertices);
         if let Some(triangle) = assemble_triangle(vertices, area, id, opacity) {
             self.triangles.push(triangle, tiles);
         }
@@ -310,7 +339,7 @@ impl Frame {
         // An index instead of nine weights: most triangles have none, and all stay small.
         let source = WeightSource::Clipped(self.source_weights.len() as u32);
         self.source_weights.push(weights);
-        let vertices = normalize_inv_w(vertices);
+        let vertices = normalize_inv_w(oriented_depths(self.compare, vertices));
         self.triangles.push(ScreenTriangle { vertices, id, source, opacity }, tiles);
     }
 
@@ -343,6 +372,7 @@ impl MeshTriangles<'_> {
     fn assemble_triangles(
         &self,
         bounds: SampleBounds,
+        compare: DepthCompare,
         run: Range<usize>,
         chunk: &mut TriangleChunk,
     ) {
@@ -360,11 +390,23 @@ impl MeshTriangles<'_> {
             }
             // Of a mesh finer than the pixels most triangles end here, before any set-up.
             let Some(tiles) = bounds.touched_tiles([p, q, r]) else { continue };
-            if let Some(triangle) = assemble_triangle([p, q, r], area, id, self.opacity) {
+            let vertices = oriented_depths(compare, [p, q, r]);
+            if let Some(triangle) = assemble_triangle(vertices, area, id, self.opacity) {
                 chunk.push(triangle, tiles);
             }
         }
     }
+}
+
+/// The vertices with depths of which the greater one wins.
+#[inline(always)]
+fn oriented_depths(compare: DepthCompare, mut vertices: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
+    if compare.negates() {
+        for vertex in &mut vertices {
+            vertex.depth = -vertex.depth;
+        }
+    }
+    vertices
 }
 
 /// A whole triangle with its vertices clockwise on the screen; `None` if it is degenerate.

@@ -63,8 +63,13 @@
 //! # Ok::<(), raster::RasterError>(())
 //! ```
 
+mod attributes;
 mod buffer_pool;
+#[cfg(feature = "clip")]
+mod clipped_mesh;
 mod clusters;
+mod depth_buffer;
+mod depth_compare;
 mod edge_function;
 mod edge_pixels;
 mod error;
@@ -74,6 +79,7 @@ mod frame;
 mod front_fragments;
 mod layer_blending;
 mod micro_triangles;
+mod monitor;
 mod parallel;
 mod primitive;
 mod rasterize;
@@ -94,7 +100,12 @@ mod triangle_setup;
 mod vertex_projection;
 mod visibility_buffer;
 
+pub use attributes::VertexAttribute;
+#[cfg(feature = "clip")]
+pub use clipped_mesh::{ScreenProjection, SourceMesh};
 pub use clusters::{Cluster, Clusters, MeshSelection};
+pub use depth_buffer::DepthBuffer;
+pub use depth_compare::DepthCompare;
 pub use edge_function::signed_area;
 pub use error::RasterError;
 pub use fragment::Fragment;
@@ -102,12 +113,13 @@ pub use fragment_lanes::{F32x8, Fragments, LANES, WeightLanes};
 pub use frame::{Frame, MAX_SIDE, MeshTriangles};
 /// The types of points, maps and spaces, so that a program needs no second dependency.
 pub use homog;
+pub use monitor::{Monitor, Workers};
 pub use parallel::for_each_parallel;
 pub use primitive::{CullMode, Opacity, SourceWeights};
 pub use samples::Samples;
 pub use screen_vertex::{GUARD_BAND, MAX_DEPTH, SUBPIXEL_BITS, SUBPIXELS, ScreenVertex};
 pub use simd_level::{Kernel, SimdLevel};
-pub use surface::{Encode, Surface, TranslucentColors, shade_each};
+pub use surface::{Encode, Surface, SurfaceFn, TranslucentColors, shade_each, surface_fn};
 pub use surface_depth::SurfaceDepth;
 pub use vertex_projection::VertexProjection;
 pub use visibility_buffer::VisibilityBuffer;

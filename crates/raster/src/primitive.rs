@@ -32,7 +32,8 @@ pub enum CullMode {
 impl CullMode {
     /// Whether a triangle with this [signed area](crate::signed_area) is drawn.
     #[inline(always)]
-    pub(crate) const fn retains(self, area: i64) -> bool {
+    #[must_use]
+    pub const fn retains(self, area: i64) -> bool {
         match self {
             Self::Nothing => true,
             Self::Clockwise => area < 0,

@@ -26,6 +26,7 @@
 
 mod triangle_lanes;
 
+use crate::DepthCompare;
 use crate::sample_plane::{BLOCK_SIDE, BLOCKS_PER_ROW, SamplePlane};
 use crate::triangle_setup::{SampleStart, TriangleFunctions};
 use fearless_simd::prelude::*;
@@ -238,7 +239,7 @@ impl SamplePlane {
     /// Calls `each(array index, x, y, depth)` for every covered sample that passes the depth test.
     ///
     /// Nothing is written: for masked triangles, whose alpha test comes in between, and translucent
-    /// ones. The test is strict unless `or_equal`.
+    /// ones. `compare` is the depth test.
     ///
     /// `each` may write to the plane: the depth test of a row is done before its samples are
     /// visited, and no sample is visited twice.
@@ -248,14 +249,19 @@ impl SamplePlane {
         simd: S,
         lanes: &TriangleLanes<S>,
         start: &SampleStart,
-        or_equal: bool,
+        compare: DepthCompare,
         mut each: impl FnMut(&mut Self, usize, usize, usize, f32),
     ) {
         let functions = &lanes.functions;
         for block in blocks_in_bounds(functions) {
-            if functions.max_depth < self.block_farthest[block.index]
-                || lanes.rejects_block(start, block)
-            {
+            // Beyond the visible region the bound is +∞: nothing is to be done there.
+            let farthest = self.block_farthest[block.index];
+            let is_hidden = if compare == DepthCompare::Always {
+                farthest == f32::INFINITY
+            } else {
+                functions.max_depth < farthest
+            };
+            if is_hidden || lanes.rejects_block(start, block) {
                 continue;
             }
             let columns = lanes.block_columns(simd, block);
@@ -266,8 +272,8 @@ impl SamplePlane {
                 let depth = lanes.clamp_depth(columns.depths + row_depth);
                 let first = block.row_index(row);
                 let old = f32x8::from_slice(simd, &self.depth[first..first + BLOCK_SIDE]);
-                let nearer = if or_equal { depth.simd_ge(old) } else { depth.simd_gt(old) };
-                let mut visible = (covered & nearer).to_bitmask();
+                let passing = compare.passes(depth, old);
+                let mut visible = (covered & passing).to_bitmask();
                 while visible != 0 {
                     let lane = visible.trailing_zeros() as usize;
                     visible &= visible - 1;

@@ -85,6 +85,23 @@ impl SamplePlane {
         (self.tile_farthest, self.stale_blocks) = (f32::NEG_INFINITY, 0);
     }
 
+    /// Finds the bounds of the blocks in the visible part of the tile from its depths. Pixels of a
+    /// block beyond it are at −∞, and hold back its farthest bound, which is safe.
+    pub(crate) fn find_block_bounds(&mut self, visible: TileRect) {
+        let columns = visible.left as usize / 8..visible.right.div_ceil(8) as usize;
+        for row in visible.top as usize / 8..visible.bottom.div_ceil(8) as usize {
+            for column in columns.clone() {
+                let block = row * BLOCKS_PER_ROW + column;
+                let depths = &self.depth[block * BLOCK_SIDE * BLOCK_SIDE..];
+                let depths = &depths[..BLOCK_SIDE * BLOCK_SIDE];
+                self.block_farthest[block] = depths.iter().copied().fold(f32::INFINITY, f32::min);
+                self.block_nearest[block] =
+                    depths.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+            }
+        }
+        self.tile_farthest = self.block_farthest.iter().copied().fold(f32::INFINITY, f32::min);
+    }
+
     /// A depth that no sample of the tile is farther than: whatever is farther is hidden.
     pub(crate) fn tile_farthest(&self) -> f32 {
         self.tile_farthest

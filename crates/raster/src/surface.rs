@@ -8,8 +8,13 @@ use crate::{Fragment, Fragments, Frame};
 
 /// The appearance of the primitives of a frame: alpha test and shading.
 pub trait Surface: Sync {
-    /// The alpha test: whether a masked primitive is present in this fragment.
-    fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool;
+    /// The alpha test: whether a masked primitive is present in this fragment. The default is
+    /// `true`: only frames with masked primitives ask.
+    #[inline(always)]
+    fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
+        let _ = fragment;
+        true
+    }
 
     /// The alpha test for eight adjacent fragments of one masked primitive.
     ///
@@ -85,6 +90,35 @@ pub struct TranslucentColors {
     pub color: [F32x8; 4],
     /// The factors of what is behind, for red, green and blue; 0 to 1.
     pub transmittance: [F32x8; 3],
+}
+
+/// A surface of which each fragment has the color that a function returns: linear red, green and
+/// blue, premultiplied by alpha, and alpha.
+///
+/// ```
+/// # use raster::{Frame, Samples, surface_fn};
+/// # let frame = Frame::new(2, 2, Samples::One)?;
+/// let stripes = surface_fn(|fragment| [if fragment.x % 8 < 4 { 1.0 } else { 0.2 }; 4]);
+/// let mut pixels = vec![0_u32; 4];
+/// frame.draw(&stripes, [0.0; 4], 1, &mut pixels, |color: [f32; 4]| u32::from_le_bytes(color.map(|c| (c * 255.0) as u8)));
+/// # Ok::<(), raster::RasterError>(())
+/// ```
+pub const fn surface_fn<F>(shade: F) -> SurfaceFn<F>
+where
+    F: Fn(&Fragment<'_>) -> [f32; 4] + Sync,
+{
+    SurfaceFn(shade)
+}
+
+/// A surface by a function: see [`surface_fn`].
+#[derive(Clone, Copy, Debug)]
+pub struct SurfaceFn<F>(F);
+
+impl<F: Fn(&Fragment<'_>) -> [f32; 4] + Sync> Surface for SurfaceFn<F> {
+    #[inline(always)]
+    fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
+        (self.0)(fragment)
+    }
 }
 
 /// A reference to a surface is one, so that `&dyn Surface` can be drawn: one copy of the machine

@@ -63,8 +63,10 @@ impl Frame {
                 if index != last {
                     (last, slopes) = (index, self.triangles.get(index).map(clamped_depth_slopes));
                 }
-                if let Some([dx, dy]) = slopes {
-                    *target = SurfaceDepth { depth: tile.sample_depth(0, at), dx, dy };
+                if let Some(slopes) = slopes {
+                    let [dx, dy] = slopes.map(|slope| self.compare.to_internal(slope));
+                    let depth = self.compare.to_internal(tile.sample_depth(0, at));
+                    *target = SurfaceDepth { depth, dx, dy };
                 }
             }
         }

@@ -13,6 +13,7 @@ use crate::tile_resolve::RowScratch;
 use crate::tile_visibility::TileVisibility;
 use crate::{Frame, Surface};
 use homog::PixelRect;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A tile whose visibility has been determined.
 pub(crate) struct FilledTile<'a, P> {
@@ -28,7 +29,7 @@ impl Frame {
     /// triangles.
     ///
     /// Uses up to `threads` threads. A `target` that is too short has fewer bands, or shorter ones.
-    /// Cancellation is checked once a band, about every 64 rows of pixels.
+    /// The monitor is asked and told once a band, about every 64 rows of pixels.
     pub(crate) fn for_each_tile<S: Surface, P: Send>(
         &self,
         surface: &S,
@@ -42,10 +43,14 @@ impl Frame {
         workers.resize_with(threads.max(1), ThreadBuffers::default);
         // One band is one item of work: threads take the next when they are done.
         let bands = Bands { region: self.region, rows: tile_rows(self.region), target };
+        let (done, total) = (AtomicU64::new(0), bands.len() as u64);
         for_each_with_workers(&mut workers, bands, |worker, mut band| {
             if !self.is_canceled() {
                 begin(band.pixels);
                 self.for_each_tile_in_band(&mut band, &bins, worker, surface, &each);
+            }
+            if let Some(monitor) = &self.monitor {
+                monitor.report_progress(done.fetch_add(1, Ordering::Relaxed) + 1, total);
             }
         });
         self.buffers.recycle_buffers(DrawBuffers { bins, workers });

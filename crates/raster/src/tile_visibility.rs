@@ -16,7 +16,7 @@ use crate::simd_level::dispatch;
 use crate::tile_grid::{TILE, TileRect};
 use crate::triangle_batch::{self, BatchStarts, TriangleBatch};
 use crate::triangle_setup::TriangleSetup;
-use crate::{Fragments, Frame, Opacity, Surface};
+use crate::{DepthCompare, Fragments, Frame, Opacity, Surface};
 use fearless_simd::Simd;
 
 /// A translucent triangle in one pixel.
@@ -77,6 +77,11 @@ impl TileVisibility {
         // Clear depth and visibility buffer to the background.
         self.planes.iter_mut().for_each(|plane| plane.clear(rect));
         self.farthest_depth = f32::NEG_INFINITY;
+        if let Some(initial) = &frame.initial_depth {
+            for (sample, plane) in self.planes.iter_mut().enumerate() {
+                initial.copy_into_plane(frame.compare, sample, rect, plane);
+            }
+        }
         self.layers.clear();
         let level = frame.simd_level.level();
         dispatch!(level, simd => self.rasterize_batches(simd, frame, rect, bin, surface));
@@ -97,6 +102,7 @@ impl TileVisibility {
         bin: &[u32],
         surface: &dyn Surface,
     ) {
+        let is_strict = frame.compare.is_strict();
         let mut has_translucent = false;
         let mut rest = bin.iter();
         let mut indices = [0; triangle_batch::BATCH_SIZE];
@@ -117,6 +123,7 @@ impl TileVisibility {
             // Rasterize in submission order, which breaks ties in depth.
             for (lane, &index) in some.iter().enumerate() {
                 match triangles[lane].opacity {
+                    _ if !is_strict => self.rasterize_masked(simd, frame, rect, index, surface),
                     Opacity::Opaque if batch.is_prepared(lane) => {
                         self.rasterize_small(simd, &batch, lane, index);
                     }
@@ -208,7 +215,8 @@ impl TileVisibility {
         self.farthest_depth = farthest;
     }
 
-    /// Rasterizes an alpha-tested triangle: depth test, alpha test, then depth write.
+    /// Rasterizes a triangle sample by sample: depth test, alpha test if it is masked, then depth
+    /// write.
     #[inline(always)]
     fn rasterize_masked<S: Simd>(
         &mut self,
@@ -225,10 +233,13 @@ impl TileVisibility {
         // Alpha is a matter of the pixel, not of its samples: it is tested once, for eight pixels
         // of a block's row together. One bit per pixel and row says whether it was, and whether it
         // passed.
-        let (mut tested, mut passed) = ([0_u64; TILE as usize], [0_u64; TILE as usize]);
+        let tests_alpha = triangle.opacity == Opacity::Masked;
+        let all = if tests_alpha { 0 } else { u64::MAX };
+        let (mut tested, mut passed) = ([all; TILE as usize], [all; TILE as usize]);
         for (plane, offset) in self.planes.iter_mut().zip(frame.samples.sample_offsets()) {
             let start = setup.sample_start(offset);
-            plane.visit_visible_samples(simd, &lanes, &start, false, |plane, at, x, y, depth| {
+            let compare = frame.compare;
+            plane.visit_visible_samples(simd, &lanes, &start, compare, |plane, at, x, y, depth| {
                 let pixel = 1 << x;
                 // The first sample of the pixel that survives the depth test runs the alpha test.
                 if tested[y] & pixel == 0 {
@@ -257,12 +268,17 @@ impl TileVisibility {
         let Some(setup) = TriangleSetup::new(triangle, rect, range) else { return };
         let lanes = TriangleLanes::new(simd, &setup.functions);
         let first = self.layers.len();
+        // At equal depth a decal is drawn over the surface below it.
+        let compare = match frame.compare {
+            DepthCompare::Greater => DepthCompare::GreaterEqual,
+            DepthCompare::Less => DepthCompare::LessEqual,
+            other => other,
+        };
         let Self { planes, layers, .. } = self;
         let samples = planes.iter_mut().zip(frame.samples.sample_offsets()).enumerate();
         for (sample, (plane, offset)) in samples {
             let start = setup.sample_start(offset);
-            // `or_equal`: a decal at the depth of the surface below it is drawn over it.
-            plane.visit_visible_samples(simd, &lanes, &start, true, |_, _, x, y, depth| {
+            plane.visit_visible_samples(simd, &lanes, &start, compare, |_, _, x, y, depth| {
                 if rect.is_visible(x, y) {
                     let pixel = (y * TILE as usize + x) as u16;
                     let mask = 1 << sample;

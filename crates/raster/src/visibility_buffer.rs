@@ -75,7 +75,8 @@ impl Frame {
             {
                 let at = pixel_index(x as usize, y as usize);
                 if let Some(triangle) = self.triangles.get(tile.triangle(0, at)) {
-                    each(rect.x + x, rect.y + y, tile.sample_depth(0, at), triangle);
+                    let depth = self.compare.to_internal(tile.sample_depth(0, at));
+                    each(rect.x + x, rect.y + y, depth, triangle);
                 }
             }
         }

@@ -1,5 +1,5 @@
 //! Lanes: threads that answer one request after the other. Requests of clients that have gone are
-//! cancelled.
+//! canceled.
 //!
 //! ```text
 //!  thread of a connection ─► queue ─► thread of the lane: its explorer computes
@@ -112,7 +112,7 @@ impl Queue {
     fn push(&self, query: &str, cancel: &CancelToken) -> Result<Receiver<Computed>, Unanswered> {
         let (reply, answer) = channel();
         let mut jobs = self.jobs.lock().unwrap_or_else(PoisonError::into_inner);
-        jobs.retain(|job| !job.cancel.is_cancelled());
+        jobs.retain(|job| !job.cancel.is_canceled());
         if jobs.len() >= MAX_WAITING {
             return Err(Unanswered::Busy);
         }
@@ -126,7 +126,7 @@ impl Queue {
         let mut jobs = self.jobs.lock().unwrap_or_else(PoisonError::into_inner);
         loop {
             match jobs.pop_front() {
-                Some(job) if job.cancel.is_cancelled() => {}
+                Some(job) if job.cancel.is_canceled() => {}
                 Some(job) => return job,
                 None => {
                     jobs = self.has_job.wait(jobs).unwrap_or_else(PoisonError::into_inner);
@@ -141,7 +141,7 @@ impl Queue {
             let Job { query, cancel, reply } = self.next();
             // In a separate thread: a panic ends that thread, not the lane.
             let computed = std::thread::scope(|scope| {
-                scope.spawn(|| explorer.answer_unless_cancelled(&query, &cancel)).join()
+                scope.spawn(|| explorer.answer_unless_canceled(&query, &cancel)).join()
             });
             if let Ok(outcome) = computed {
                 // Whoever has asked may have gone.

@@ -1,4 +1,4 @@
-//! The time limit of a thumbnail: a cancelled rendering, and then the end of the process.
+//! The time limit of a thumbnail: a canceled rendering, and then the end of the process.
 
 use crate::CliError;
 use crate::messages::print_message;
@@ -6,16 +6,16 @@ use pipeline::CancelToken;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Time for the rendering to end by itself after it was cancelled.
+/// Time for the rendering to end by itself after it was canceled.
 const GRACE: Duration = Duration::from_millis(250);
 
 /// A time limit: a thread that cancels the rendering, and then ends the process.
 ///
-/// Decoders, the assembly of meshes and line drawings cannot be cancelled, so that the process has
+/// Decoders, the assembly of meshes and line drawings cannot be canceled, so that the process has
 /// to end under them. It holds nothing that would have to be put in order: the only file is written
 /// at the very end, when the limit is no longer in force.
 pub(super) struct Deadline {
-    /// Cancelled when the time is over.
+    /// Canceled when the time is over.
     cancel: CancelToken,
     /// Whether the work is done. Whoever holds the lock decides how the process ends.
     is_done: Arc<Mutex<bool>>,
@@ -44,7 +44,7 @@ impl Deadline {
         })
     }
 
-    /// The token that is cancelled when the time is over.
+    /// The token that is canceled when the time is over.
     pub(super) const fn cancel_token(&self) -> &CancelToken {
         &self.cancel
     }
@@ -64,7 +64,7 @@ pub(super) fn timeout(seconds: u32) -> CliError {
 }
 
 /// Ends the process, whatever its other threads are doing.
-#[expect(clippy::exit, reason = "decoders cannot be cancelled")]
+#[expect(clippy::exit, reason = "decoders cannot be canceled")]
 fn end_process(seconds: u32) {
     print_message("error", &timeout(seconds).to_message());
     std::process::exit(1);

@@ -18,6 +18,7 @@ use super::world_mesh::{Face, WorldMesh};
 use crate::parallel::map_in_order;
 use crate::visibility::{Aabb, Bvh, DepthCover, ScreenBox};
 use glam::DVec3;
+use raster::Workers;
 use std::cell::OnceCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -72,7 +73,7 @@ pub(super) fn intersect_faces(
     borders: &[BorderEdge],
     weld_radii: &WeldRadii,
     SearchBounds { touching, cover, is_unlimited }: SearchBounds<'_>,
-    threads: usize,
+    workers: Workers<'_>,
 ) -> Intersections {
     // Without what is out of sight there is less to compare.
     let in_sight = cover.map(|cover| FacesInSight::new(mesh, cover));
@@ -98,7 +99,7 @@ pub(super) fn intersect_faces(
     };
     let is_cut_off = AtomicBool::new(false);
     let mut pairs: Vec<IntersectingPair> =
-        map_in_order(leaves.len(), threads, |range, memory: &mut LeafMemory, pairs| {
+        map_in_order(leaves.len(), workers, |range, memory: &mut LeafMemory, pairs| {
             for &leaf in &leaves[range] {
                 let LeafMemory { stack, own, bounds } = memory;
                 own.clear();

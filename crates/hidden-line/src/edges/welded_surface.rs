@@ -23,6 +23,7 @@ use crate::{DrawOptions, EdgeClass, EdgeClasses, SilhouetteMethod, Warning};
 use glam::DVec3;
 use homog::{Plane, Point, World};
 use model::ModelInstance;
+use raster::Workers;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
@@ -318,7 +319,7 @@ impl WeldedSurface {
         candidates: &mut Vec<CandidateEdge>,
         options: &DrawOptions,
         cover: Option<&DepthCover>,
-        threads: usize,
+        workers: Workers<'_>,
     ) -> bool {
         if !options.classes.contains(EdgeClass::Intersection) {
             return false;
@@ -327,11 +328,11 @@ impl WeldedSurface {
         let is_unlimited = options.is_unlimited;
         let Intersections { segments, is_cut_off } = match cover {
             Some(_) => {
-                of_view = self.find_intersections(cover, is_unlimited, threads);
+                of_view = self.find_intersections(cover, is_unlimited, workers);
                 &of_view
             }
             None => {
-                let find = || self.find_intersections(None, is_unlimited, threads);
+                let find = || self.find_intersections(None, is_unlimited, workers);
                 self.intersections.get_or_init(find)
             }
         };
@@ -346,12 +347,12 @@ impl WeldedSurface {
         &self,
         cover: Option<&DepthCover>,
         is_unlimited: bool,
-        threads: usize,
+        workers: Workers<'_>,
     ) -> Intersections {
         let touching = self.touch_tolerance().world;
         let bounds = SearchBounds { touching, cover, is_unlimited };
         let (borders, weld_radii) = (self.border_edges.as_slice(), &self.weld_radii);
-        intersect_faces(&self.mesh, self.face_bvh(), borders, weld_radii, bounds, threads)
+        intersect_faces(&self.mesh, self.face_bvh(), borders, weld_radii, bounds, workers)
     }
 
     /// The depths behind which nothing of the surface is visible.

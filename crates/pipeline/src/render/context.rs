@@ -1,8 +1,10 @@
-//! The inputs of a rendering: scene, textures, threads, stopwatch and cancellation in one value.
+//! The inputs of a rendering: scene, textures, threads, stopwatch and monitor in one value.
 
 use super::mip_chains::Textures;
-use crate::{CancelToken, Timings};
+use crate::Timings;
+use raster::{Monitor, Workers};
 use scene::Scene;
+use std::sync::Arc;
 
 /// All that a rendering depends on besides the pixels it fills.
 ///
@@ -29,15 +31,15 @@ pub struct RenderContext<'a> {
     pub threads: usize,
     /// The stopwatch of the stages.
     timings: Option<&'a Timings>,
-    /// The flag that ends the rendering.
-    cancel: Option<&'a CancelToken>,
+    /// Who is told of progress, and may end the rendering.
+    pub(super) monitor: Option<&'a Arc<dyn Monitor>>,
 }
 
 impl<'a> RenderContext<'a> {
-    /// A context that measures nothing and cannot be cancelled.
+    /// A context that measures nothing and has no monitor.
     #[must_use]
     pub const fn new(scene: &'a Scene, textures: &'a Textures<'a>, threads: usize) -> Self {
-        Self { scene, textures, threads, timings: None, cancel: None }
+        Self { scene, textures, threads, timings: None, monitor: None }
     }
 
     /// Adds the time of each stage to `timings`.
@@ -46,11 +48,12 @@ impl<'a> RenderContext<'a> {
         Self { timings: Some(timings), ..self }
     }
 
-    /// Ends the rendering with [`RenderError::Cancelled`](crate::RenderError::Cancelled) once
-    /// `cancel` says so. The picture is incomplete then.
+    /// Tells `monitor` of the pixels that are rendered and of the edges that are drawn, and ends the
+    /// rendering with [`RenderError::Canceled`](crate::RenderError::Canceled) once it says so. The
+    /// picture is incomplete then. A [`CancelToken`](crate::CancelToken) is a monitor.
     #[must_use]
-    pub const fn with_cancel(self, cancel: &'a CancelToken) -> Self {
-        Self { cancel: Some(cancel), ..self }
+    pub const fn with_monitor(self, monitor: &'a Arc<dyn Monitor>) -> Self {
+        Self { monitor: Some(monitor), ..self }
     }
 
     /// The context of another scene of the same models, such as an inset.
@@ -79,8 +82,8 @@ impl<'a> RenderContext<'a> {
         self.timings.cloned().unwrap_or_default()
     }
 
-    /// The flag that ends the rendering; one that is never set without a [`CancelToken`].
-    pub(super) fn cancel_token(&self) -> CancelToken {
-        self.cancel.cloned().unwrap_or_default()
+    /// The threads and the monitor of the rendering.
+    pub(super) fn workers(&self) -> Workers<'a> {
+        Workers { threads: self.threads, monitor: self.monitor.map(|monitor| &**monitor as _) }
     }
 }

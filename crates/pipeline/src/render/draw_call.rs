@@ -9,10 +9,8 @@
 //! the eye has no meaningful picture after it.
 
 use super::projected_mesh::ProjectedMesh;
-use super::screen_transform::{ScreenTransform, all_vertices};
-use clip::{Outcode, clip_triangle};
-use glam::DVec3;
-use homog::{Clip, HPoint};
+use super::screen_transform::ScreenTransform;
+use clip::Outcode;
 use model::{Primitive, Topology};
 use raster::{CullMode, Frame, MeshTriangles, Opacity, signed_area};
 use std::ops::Range;
@@ -80,11 +78,7 @@ impl DrawCall<'_> {
     /// A line is clipped like a triangle, and drawn as a rectangle of constant width.
     fn submit_line(&mut self, ends: [u32; 2], id: u32) {
         let ends = ends.map(|vertex| self.mesh.clip_positions[vertex as usize]);
-        let Some(visible) = self.transform.clip_line(ends) else { return };
-        if let Some(ends) = self.transform.snap_vertices([visible.start, visible.end]) {
-            let parameters = [visible.t0 as f32, visible.t1 as f32];
-            self.frame.add_clipped_line(ends, parameters, LINE_WIDTH_PIXELS, id, self.opacity);
-        }
+        self.frame.clip_line(&self.transform.screen, ends, LINE_WIDTH_PIXELS, id, self.opacity);
     }
 
     /// Culls, clips and submits one triangle. The fragments of its parts carry barycentric weights
@@ -92,62 +86,16 @@ impl DrawCall<'_> {
     pub(super) fn submit_triangle(&mut self, vertices: [u32; 3], id: u32) {
         let ProjectedMesh { clip_positions, outcodes, screen_vertices, .. } = self.mesh;
         let vertices = vertices.map(|vertex| vertex as usize);
-        if let Some(corners) = all_vertices(vertices.map(|vertex| screen_vertices[vertex])) {
-            if passes_culling(self.cull_mode, -signed_area(corners).signum() as f64) {
-                self.frame.add_triangle(corners, id, self.opacity);
+        if let [Some(p), Some(q), Some(r)] = vertices.map(|vertex| screen_vertices[vertex]) {
+            if self.cull_mode.retains(signed_area([p, q, r])) {
+                self.frame.add_triangle([p, q, r], id, self.opacity);
             }
             return;
         }
-        let points = vertices.map(|vertex| clip_positions[vertex]);
-        let outcodes = vertices.map(|vertex| outcodes[vertex]);
-        if !Outcode::trivially_rejects(&outcodes).is_inside()
-            || !passes_culling(self.cull_mode, clip_space_orientation(points))
-        {
-            return;
+        if Outcode::trivially_rejects(&vertices.map(|vertex| outcodes[vertex])).is_inside() {
+            let points = vertices.map(|vertex| clip_positions[vertex]);
+            let (opacity, cull) = (self.opacity, self.cull_mode);
+            self.frame.clip_triangle(&self.transform.screen, points, id, opacity, cull);
         }
-        // The clipped polygon as a triangle fan.
-        for part in clip_triangle(points, &self.transform.guard_band).triangles() {
-            if let Some(corners) = self.transform.snap_vertices(part.map(|vertex| vertex.point)) {
-                let weights = part.map(|vertex| vertex.weights.map(|weight| weight as f32));
-                self.frame.add_clipped_triangle(corners, weights, id, self.opacity);
-            }
-        }
-    }
-}
-
-/// Back-face culling of one triangle by the sign of its [`clip_space_orientation`].
-fn passes_culling(cull_mode: CullMode, orientation: f64) -> bool {
-    match cull_mode {
-        CullMode::Nothing => true,
-        CullMode::Clockwise => orientation > 0.0,
-        CullMode::CounterClockwise => orientation < 0.0,
-    }
-}
-
-/// The winding of a triangle before the divide: positive if counter-clockwise in the picture, y up.
-///
-/// The determinant of the (x, y, w) of its vertices (Olano and Greer, *Triangle Scan Conversion
-/// using 2D Homogeneous Coordinates*, 1997). Its sign is right also with vertices behind the eye,
-/// where the divide would reverse it.
-fn clip_space_orientation([p, q, r]: [HPoint<Clip>; 3]) -> f64 {
-    let column = |point: HPoint<Clip>| DVec3::new(point.x(), point.y(), point.w());
-    column(p).dot(column(q).cross(column(r)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn counter_clockwise_is_positive_also_with_corners_behind_the_eye() {
-        let corners =
-            [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)].map(|(x, y)| HPoint::new(x, y, 0.0, 1.0));
-        assert!(clip_space_orientation(corners) > 0.0);
-        let [p, q, r] = corners;
-        assert!(clip_space_orientation([p, r, q]) < 0.0);
-        // A vertex moved through the eye's plane, along the line from another: the surface still
-        // shows the same face.
-        let behind = HPoint::from_raw(q.raw() - (r.raw() * 3.0 - q.raw() * 3.0));
-        assert!(clip_space_orientation([p, behind, r]) > 0.0);
     }
 }

@@ -22,7 +22,8 @@ impl PrimitiveAssembler<'_> {
         let first_id = self.next_id;
         self.next_id = first_id.checked_add(2).ok_or(RenderError::TooManyPrimitives)?;
         let mut transform = self.transform;
-        transform.guard_band = transform.guard_band.without_near().without_far();
+        let unlimited = transform.screen.volume().without_near().without_far();
+        transform.screen = transform.screen.with_volume(unlimited);
         let mut vertices = self.memory.vertex_pool.pop().unwrap_or_default();
         vertices.clear();
         vertices.extend(ground.corners.map(|position| {

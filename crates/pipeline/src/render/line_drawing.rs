@@ -20,6 +20,7 @@ use model::Timings;
 use page::{
     Group, Ink, Join, Layer, MILLIMETERS_PER_PIXEL, Pen, PlacedImage, Polyline, to_micrometers,
 };
+use raster::Workers;
 use scene::{ImageSpec, Inset, Scene, Style};
 use shade::Backdrop;
 
@@ -33,12 +34,18 @@ const OVERLAY_INK: Ink = [20, 24, 30];
 ///
 /// Styles that show surfaces are drawn with hidden lines removed, in viewports too. An anaglyph is
 /// left out, with a warning. Blank paper is left out as well, so that the page can be laid over
-/// others. The number of threads does not change the page.
+/// others. `workers` is the number of threads, which does not change the page, or that with a
+/// [monitor](raster::Monitor), which is told of each drawing's edges.
 ///
 /// # Errors
 /// As [`render`](crate::render()).
-pub fn draw_lines(scene: &Scene, threads: usize, timings: &Timings) -> Result<Page, RenderError> {
-    let mut page = draw_view(scene, threads, timings)?;
+pub fn draw_lines<'a>(
+    scene: &Scene,
+    workers: impl Into<Workers<'a>>,
+    timings: &Timings,
+) -> Result<Page, RenderError> {
+    let workers = workers.into();
+    let mut page = draw_view(scene, workers, timings)?;
     if scene.image.is_blank_paper {
         page.paper = None;
     }
@@ -46,7 +53,7 @@ pub fn draw_lines(scene: &Scene, threads: usize, timings: &Timings) -> Result<Pa
         page.warnings.push(Warning::AnaglyphIgnored);
     } else {
         for (number, inset) in scene.insets.iter().enumerate() {
-            let view = draw_lines(&inset.scene, threads, timings)?;
+            let view = draw_lines(&inset.scene, workers, timings)?;
             paste_inset(&mut page, view, inset, number + 1);
         }
     }
@@ -62,13 +69,13 @@ pub fn draw_lines(scene: &Scene, threads: usize, timings: &Timings) -> Result<Pa
 /// Draws the lines of a scene without its insets and its caption.
 pub(super) fn draw_view(
     scene: &Scene,
-    threads: usize,
+    workers: Workers<'_>,
     timings: &Timings,
 ) -> Result<Page, RenderError> {
     let style = scene.style.line_style();
     let options = DrawOptions { is_unlimited: scene.unlimited_lines, ..style.to_draw_options() };
     let fill = style.to_fill_options();
-    let draw = || drawing::draw(&scene.drawing_subject(), &options, &fill, threads);
+    let draw = || drawing::draw(&scene.drawing_subject(), &options, &fill, workers);
     let drawing = timings.measure("lines", draw)?;
     let page = || {
         let mut page =
@@ -149,7 +156,7 @@ fn to_page_millimeters(pixels: u32) -> f64 {
 /// edges; with a warning if they are left out. None for styles that draw lines only.
 pub(super) fn surface_line_layers(
     scene: &Scene,
-    threads: usize,
+    workers: Workers<'_>,
 ) -> Result<(Vec<Layer>, Option<Warning>), RenderError> {
     let wants_edges = scene.overlays.iter().any(|overlay| matches!(overlay, Overlay::Edges));
     let style = match scene.style {
@@ -168,7 +175,7 @@ pub(super) fn surface_line_layers(
         is_unlimited: scene.unlimited_lines,
         ..style.to_draw_options()
     };
-    match drawing::draw(&scene.drawing_subject(), &options, &style.to_fill_options(), threads) {
+    match drawing::draw(&scene.drawing_subject(), &options, &style.to_fill_options(), workers) {
         Ok(drawing) => Ok((drawing.to_page(&style, "", None).layers, None)),
         // The surfaces are there without them.
         Err(DrawError::TooManyCopies { .. }) => Ok((Vec::new(), Some(Warning::OutlinesLeftOut))),

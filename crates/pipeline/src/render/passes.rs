@@ -171,8 +171,8 @@ impl TilePasses<'_, '_> {
         let no_shadows = ShadowMapRenderer::default();
         draw(&memory.frame, &fragment_shading(&scene, &memory, &no_shadows, None, None));
         self.memory.recycle_frame(memory);
-        if context.cancel_token().is_cancelled() {
-            return Err(RenderError::Cancelled);
+        if context.workers().is_canceled() {
+            return Err(RenderError::Canceled);
         }
         Ok(())
     }

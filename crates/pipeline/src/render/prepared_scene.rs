@@ -22,6 +22,7 @@ use super::transmission_framebuffer::{
     compute_whole_occlusion, needs_framebuffer, render_framebuffer,
 };
 use crate::Picture;
+use crate::cancel::PartMonitor;
 use drawing::{Page, Warning};
 use homog::PixelRect;
 use page::{Layer, draw_layers_over};
@@ -29,6 +30,7 @@ use raster::Surface;
 use scene::Inset;
 use shade::FrameChannel;
 use shade::{AmbientOcclusion, TransmissionFramebuffer};
+use std::sync::Arc;
 
 /// A scene of which any region can be rendered; made by [`Renderer::prepare`].
 ///
@@ -54,6 +56,8 @@ pub struct PreparedScene<'a> {
     only_color: OnlyColor,
     /// How many pixels were rendered.
     pixels_seen: usize,
+    /// The pixels of all regions that will be asked for, as progress counts them.
+    pub(super) pixels_due: u64,
     /// Warnings about this scene, without those of its insets.
     warnings: Vec<Warning>,
     /// The insets of the scene, in their order.
@@ -95,14 +99,14 @@ impl<'a> PreparedScene<'a> {
     ) -> Result<Self, RenderError> {
         let scene = context.scene;
         let draws_surfaces = scene.style.draws_surfaces();
-        let draw_view = || line_drawing::draw_view(scene, context.threads, &context.timings());
+        let draw_view = || line_drawing::draw_view(scene, context.workers(), &context.timings());
         let mut page = (!draws_surfaces).then(draw_view).transpose()?;
         let mut warnings =
             page.as_mut().map_or(Vec::new(), |page| std::mem::take(&mut page.warnings));
         let ignores_sections = draws_surfaces && !scene.sections.is_empty();
         warnings.extend(ignores_sections.then_some(Warning::SectionsIgnored));
         let (mut overlay_layers, left_out) =
-            line_drawing::surface_line_layers(scene, context.threads)?;
+            line_drawing::surface_line_layers(scene, context.workers())?;
         warnings.extend(left_out);
         if draws_surfaces {
             let overlays = line_drawing::overlay_layers(scene);
@@ -125,6 +129,7 @@ impl<'a> PreparedScene<'a> {
             transmission_framebuffer: None,
             only_color: OnlyColor::Unknown,
             pixels_seen: 0,
+            pixels_due: scene.image.pixel_rect().area() as u64,
             warnings,
             insets,
         })
@@ -151,7 +156,7 @@ impl<'a> PreparedScene<'a> {
     ///
     /// # Errors
     /// If the region is empty, too large or outside the picture, if the scene has too many
-    /// primitives, or the context was cancelled.
+    /// primitives, or the context's monitor asked for the end.
     pub fn render_region<C: FrameChannel>(
         &mut self,
         region: PixelRect,
@@ -223,8 +228,8 @@ impl<'a> PreparedScene<'a> {
                 tile.copy_into_region(&pixels, region, &mut picture.pixels);
             }
         }
-        if self.context.cancel_token().is_cancelled() {
-            return Err(RenderError::Cancelled);
+        if self.context.workers().is_canceled() {
+            return Err(RenderError::Canceled);
         }
         Ok(())
     }
@@ -254,6 +259,15 @@ impl<'a> PreparedScene<'a> {
         Ok(())
     }
 
+    /// The monitor of the frame of a region, which counts the pixels of the whole work.
+    fn frame_monitor(&self, region: TileRegion) -> Option<PartMonitor> {
+        let outer = Arc::clone(self.context.monitor?);
+        let pixels = region.pixel_count() as u64;
+        let total = self.pixels_due.max(pixels);
+        let done = (self.pixels_seen as u64).min(total - pixels);
+        Some(PartMonitor { outer, done, pixels, total })
+    }
+
     /// Renders the part of an image tile that a region needs: vertex processing and primitive
     /// assembly into a visibility buffer, then shading of its visible fragments.
     fn render_tile<C: FrameChannel>(
@@ -261,9 +275,10 @@ impl<'a> PreparedScene<'a> {
         region: TileRegion,
         pixels: &mut [[C; 4]],
     ) -> Result<(), RenderError> {
+        let monitor = self.frame_monitor(region);
         let Self { context, buffers, full_occlusion, transmission_framebuffer, .. } = self;
         let RenderContext { scene, threads, .. } = *context;
-        let memory = buffers.take_frame(context, region)?;
+        let memory = buffers.take_frame(context, region)?.with_monitor(monitor);
         let memory = context.measure("vertices", || assemble_scene(context, memory))?;
         let own_occlusion = match full_occlusion {
             None if scene.occlusion_radius.is_some() => context.measure("occlusion", || {

@@ -105,7 +105,7 @@ impl ProjectedMesh {
         for run in self.to_clip.vertices_within(0..positions.len()) {
             let clip = &mut self.clip_positions[run.clone()];
             let outcodes = &mut self.outcodes[run.clone()];
-            let guard_band = &transform.guard_band;
+            let guard_band = transform.screen.volume();
             guard_band.project_positions(model_to_clip, &positions[run.clone()], clip, outcodes);
             let screen = &mut self.screen_vertices[run];
             ScreenVertex::divide_and_snap_points(clip, ndc_to_screen, simd_level, screen);

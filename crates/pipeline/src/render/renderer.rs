@@ -9,10 +9,12 @@ use super::prepared_scene::PreparedScene;
 use super::projected_mesh::ProjectedMesh;
 use super::shadow_maps::ShadowMapRenderer;
 use crate::Picture;
+use crate::cancel::{CancelOnly, PartMonitor};
 use drawing::Warning;
 use homog::PixelRect;
 use raster::Frame;
 use shade::{Draw, DrawList, FrameChannel, Vertex};
+use std::sync::Arc;
 
 /// Renders whole pictures: surfaces or lines, outlines, overlays and insets.
 ///
@@ -48,7 +50,7 @@ impl Renderer {
     ///
     /// # Errors
     /// If the picture's size is out of range, the scene has too many primitives, or the context was
-    /// cancelled.
+    /// canceled.
     pub fn render<C: FrameChannel>(
         &mut self,
         context: &RenderContext<'_>,
@@ -121,6 +123,16 @@ pub(super) struct FrameMemory<'a> {
     pub(super) vertex_pool: Vec<Vec<Vertex>>,
 }
 
+impl FrameMemory<'_> {
+    /// This frame, with a monitor that is told of its progress, if there is one.
+    pub(super) fn with_monitor(self, monitor: Option<PartMonitor>) -> Self {
+        match monitor {
+            Some(monitor) => Self { frame: self.frame.with_monitor(Arc::new(monitor)), ..self },
+            None => self,
+        }
+    }
+}
+
 impl RenderBuffers {
     /// Takes the buffers out, with an empty frame for a region of a tile.
     ///
@@ -141,8 +153,10 @@ impl RenderBuffers {
             _ => Frame::for_region(PixelRect { x, y, width, height }, samples)?,
         };
         let frame = frame.with_threads(context.threads);
+        // It is told of nothing, until somebody counts its pixels.
+        let monitor = context.monitor.map(|monitor| CancelOnly(Arc::clone(monitor)));
         Ok(FrameMemory {
-            frame: frame.with_cancel_flag(context.cancel_token().stop_flag()),
+            frame: with_monitor(frame, monitor),
             tile: region.tile,
             draws: DrawList { draws: retype_empty_draws(std::mem::take(&mut self.draws)) },
             mesh: std::mem::take(&mut self.mesh),
@@ -168,4 +182,12 @@ impl RenderBuffers {
 fn retype_empty_draws<'b>(mut draws: Vec<Draw<'_>>) -> Vec<Draw<'b>> {
     draws.clear();
     draws.into_iter().map_while(|_| None).collect()
+}
+
+/// The frame with a monitor, if there is one.
+fn with_monitor(frame: Frame, monitor: Option<CancelOnly>) -> Frame {
+    match monitor {
+        Some(monitor) => frame.with_monitor(Arc::new(monitor)),
+        None => frame,
+    }
 }

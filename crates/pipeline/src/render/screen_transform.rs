@@ -11,10 +11,10 @@
 use super::RenderError;
 use super::image_tiles::ImageTile;
 use camera::{ViewProjection, ViewTransform};
-use clip::{Outcode, OutcodeSummary, Volume, clip_segment};
+use clip::{Outcode, OutcodeSummary, Volume};
 use glam::{DMat4, DVec3, DVec4, Vec3};
 use homog::{Affine, Clip, ClipRange, HPoint, Model, Ndc, Point, Projective, Screen, World};
-use raster::{GUARD_BAND, ScreenVertex};
+use raster::ScreenProjection;
 use scene::Scene;
 use viewport::Viewport;
 
@@ -23,9 +23,8 @@ use viewport::Viewport;
 pub(super) struct ScreenTransform {
     /// For an image tile: with the tile in the whole of the view volume.
     view: ViewTransform,
-    /// The clipping volume: near and far plane of the view volume, sides moved out to the guard
-    /// band.
-    pub(super) guard_band: Volume,
+    /// Clipping against near and far plane and the guard band, divide, viewport and snapping.
+    pub(super) screen: ScreenProjection,
     /// The inverse viewport transform.
     screen_to_ndc: Affine<Screen, Ndc>,
     /// Whether the projection mirrors the picture, which reverses the winding of triangles.
@@ -60,17 +59,9 @@ impl ScreenTransform {
         height: u32,
     ) -> Result<Self, RenderError> {
         let viewport = Viewport::image_for(width, height, ClipRange::CHAPTER)?;
-        // The rasterizer's grid ends GUARD_BAND pixels beyond the raster; one more as a margin for
-        // rounding in the divide.
-        let band = |side: u32| {
-            let half = 0.5 * f64::from(side);
-            (1.0 - (GUARD_BAND.start() + 1.0) / half).clamp(1.0, Volume::MAX_GUARD_BAND)
-        };
-        let volume = Volume::CHAPTER;
-        let guard_band = volume.with_guard_band(band(width), band(height)).unwrap_or(volume);
         Ok(Self {
             view: ViewTransform::new(view_projection, viewport.ndc_to_screen()),
-            guard_band,
+            screen: ScreenProjection::new(&viewport),
             screen_to_ndc: viewport.screen_to_ndc(),
             is_mirrored: view_projection.is_mirrored(),
         })
@@ -120,34 +111,13 @@ impl ScreenTransform {
         if !corners.iter().flatten().all(|c| c.abs() < 1e30) {
             return Containment::Intersecting;
         }
-        if summarize_outcodes(&self.guard_band, model_to_clip, &corners).is_inside() {
+        if summarize_outcodes(self.screen.volume(), model_to_clip, &corners).is_inside() {
             return Containment::Inside;
         }
         match summarize_outcodes(&Volume::CHAPTER, model_to_clip, &corners).is_outside() {
             true => Containment::Outside,
             false => Containment::Intersecting,
         }
-    }
-
-    /// Clips a line segment against near and far plane and the guard band; `None` if nothing of it
-    /// remains.
-    pub(super) fn clip_line(&self, ends: [HPoint<Clip>; 2]) -> Option<clip::ClippedSegment> {
-        clip_segment(ends[0], ends[1], &self.guard_band)
-    }
-
-    /// Perspective divide, viewport transform, and snapping to the rasterizer's grid of 1/256
-    /// pixel.
-    #[inline]
-    pub(super) fn snap_vertex(&self, point: HPoint<Clip>) -> Option<ScreenVertex> {
-        ScreenVertex::snap(self.view.project_to_screen(point)?, point.w())
-    }
-
-    /// The vertices of a primitive on the rasterizer's grid, or `None` if one is off the grid.
-    pub(super) fn snap_vertices<const N: usize>(
-        &self,
-        points: [HPoint<Clip>; N],
-    ) -> Option<[ScreenVertex; N]> {
-        all_vertices(points.map(|point| self.snap_vertex(point)))
     }
 }
 
@@ -159,18 +129,6 @@ fn summarize_outcodes(
 ) -> OutcodeSummary {
     let mut points = corners.map(|_| HPoint::new(0.0, 0.0, 0.0, 1.0));
     volume.project_positions(model_to_clip, corners, &mut points, &mut [Outcode::INSIDE; 8])
-}
-
-/// All vertices of a primitive, or `None` if one is missing.
-#[inline]
-pub(super) fn all_vertices<const N: usize>(
-    vertices: [Option<ScreenVertex>; N],
-) -> Option<[ScreenVertex; N]> {
-    let mut complete = [vertices[0]?; N];
-    for (slot, vertex) in complete.iter_mut().zip(vertices) {
-        *slot = vertex?;
-    }
-    Some(complete)
 }
 
 /// A vertex position in f64. All geometry before the rasterizer is f64: the models are f32, and

@@ -70,6 +70,7 @@ impl PreparedScene<'_> {
         if let Some(copy) = &mut copy {
             copy.resize(region.width, 0);
         }
+        self.pixels_due = region.area() as u64;
         let mut bands = region.bands(rows);
         let mut picture = Picture::<C>::default();
         self.render_region(bands.next().unwrap_or(region), &mut picture)?;

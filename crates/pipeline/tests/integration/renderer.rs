@@ -1,9 +1,11 @@
 //! A renderer's second picture: the bits of a picture rendered alone, without new allocations.
 
 use pipeline::{
-    CancelToken, Origin, Picture, RenderContext, RenderError, Renderer, Scene, Textures, render,
+    CancelToken, Monitor, Origin, Picture, RenderContext, RenderError, Renderer, Scene, Textures,
+    render,
 };
 use std::path::Path;
+use std::sync::Arc;
 
 /// A scene of the project at a small size.
 fn load_scene(name: &str, size: (u32, u32)) -> Scene {
@@ -66,17 +68,18 @@ fn pictures_do_not_depend_on_those_before() {
 }
 
 #[test]
-fn a_cancelled_picture_is_an_error_and_the_renderer_can_be_used_again() {
+fn a_canceled_picture_is_an_error_and_the_renderer_can_be_used_again() {
     let scene = load_scene("crates.ron", (160, 120));
     let textures = Textures::for_models(&scene.models);
     let (cancel, mut renderer) = (CancelToken::default(), Renderer::default());
     let mut picture = Picture::default();
     let context = RenderContext::new(&scene, &textures, 2);
-    let cancellable = context.with_cancel(&cancel);
-    assert!(renderer.render(&cancellable, &mut picture).is_ok(), "not cancelled yet");
+    let monitor: Arc<dyn Monitor> = Arc::new(cancel.clone());
+    let cancellable = context.with_monitor(&monitor);
+    assert!(renderer.render(&cancellable, &mut picture).is_ok(), "not canceled yet");
     cancel.cancel();
     let result = renderer.render(&cancellable, &mut picture);
-    assert!(matches!(result, Err(RenderError::Cancelled)));
+    assert!(matches!(result, Err(RenderError::Canceled)));
     assert!(renderer.render(&context, &mut picture).is_ok());
     assert!(picture == render(&scene, 1).expect("a picture"));
 }

@@ -29,7 +29,7 @@ impl Surface for Impatient {
 fn no_row_of_tiles_is_begun_once_drawing_is_to_stop() {
     let surface = Impatient::default();
     let frame = Frame::new(64, 1024, Samples::One).expect("a frame");
-    let mut frame = frame.with_cancel_flag(Arc::clone(&surface.stop));
+    let mut frame = frame.with_monitor(Arc::<AtomicBool>::clone(&surface.stop));
     let corners = [(0.0, 0.0), (64.0, 0.0), (0.0, 2048.0)]
         .map(|(x, y)| ScreenVertex::snap(Point::new(x, y, 0.5), 1.0).expect("on the grid"));
     frame.add_triangle(corners, 0, Opacity::Opaque);

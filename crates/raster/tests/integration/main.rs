@@ -1,6 +1,7 @@
 //! Tests of the public interface of `raster`, linked once.
 
 mod coverage;
+mod depth;
 mod drawing;
 mod frames;
 mod front;

@@ -1,0 +1,94 @@
+//! Vertex attributes in fragments: values at the vertices, interpolated perspective-correctly.
+
+use crate::Fragment;
+use homog::Interpolate;
+
+impl Fragment<'_> {
+    /// The value of an attribute here, from its values at the three vertices of the primitive
+    /// (IN-2).
+    #[must_use]
+    #[inline(always)]
+    pub fn interpolate<A: Interpolate>(&self, values: [A; 3]) -> A {
+        A::weighted_sum(values, self.weights.map(f64::from))
+    }
+
+    /// The derivative of an attribute by the column of the pixel: its change per pixel to the right.
+    #[must_use]
+    #[inline]
+    pub fn interpolate_dx<A: Interpolate>(&self, values: [A; 3]) -> A {
+        A::weighted_sum(values, self.weights_dx().map(f64::from))
+    }
+
+    /// The derivative of an attribute by the row of the pixel, downwards.
+    #[must_use]
+    #[inline]
+    pub fn interpolate_dy<A: Interpolate>(&self, values: [A; 3]) -> A {
+        A::weighted_sum(values, self.weights_dy().map(f64::from))
+    }
+}
+
+/// An attribute of the vertices of a mesh: texture coordinates, colors, or a struct of all there
+/// is.
+///
+/// ```
+/// use homog::Point;
+/// use raster::{CullMode, Frame, Opacity, Samples, ScreenVertex, VertexAttribute, surface_fn};
+///
+/// let colors = [[1.0_f32, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// let triangles = [[0_u32, 1, 2]];
+/// let places = [(0.0, 8.0), (8.0, 8.0), (4.0, 0.0)];
+/// let vertices = places.map(|(x, y)| ScreenVertex::snap(Point::new(x, y, 0.5), 1.0));
+/// let mut frame = Frame::new(8, 8, Samples::Four)?;
+/// frame.add_mesh(&vertices, &triangles, 0, Opacity::Opaque, CullMode::Nothing);
+///
+/// let color = VertexAttribute { first_id: 0, triangles: &triangles, values: &colors };
+/// let surface = surface_fn(|fragment| {
+///     let [r, g, b] = color.at(fragment);
+///     [r, g, b, 1.0]
+/// });
+/// let mut pixels = vec![[0.0_f32; 4]; 64];
+/// frame.draw(&surface, [0.0; 4], 1, &mut pixels, |color: [f32; 4]| color);
+/// let [r, g, b, alpha] = pixels[8 * 7 + 1];
+/// assert!(r > 0.7 && g < 0.2 && b < 0.2 && alpha == 1.0);
+/// # Ok::<(), raster::RasterError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct VertexAttribute<'a, A> {
+    /// The id that the first triangle was added with.
+    pub first_id: u32,
+    /// The triangles of the mesh.
+    pub triangles: &'a [[u32; 3]],
+    /// The value at each vertex.
+    pub values: &'a [A],
+}
+
+impl<A: Interpolate> VertexAttribute<'_, A> {
+    /// The value in a fragment of the mesh.
+    ///
+    /// # Panics
+    /// If the fragment belongs to no triangle of the mesh, or a vertex has no value.
+    #[must_use]
+    #[inline(always)]
+    pub fn at(&self, fragment: &Fragment<'_>) -> A {
+        fragment.interpolate(self.corners(fragment.id))
+    }
+
+    /// The change of the value per pixel to the right and downwards: what textures choose their mip
+    /// level by.
+    ///
+    /// # Panics
+    /// As [`at`](Self::at).
+    #[must_use]
+    #[inline]
+    pub fn derivatives(&self, fragment: &Fragment<'_>) -> [A; 2] {
+        let corners = self.corners(fragment.id);
+        [fragment.interpolate_dx(corners), fragment.interpolate_dy(corners)]
+    }
+
+    /// The values at the corners of a triangle.
+    #[inline(always)]
+    fn corners(&self, id: u32) -> [A; 3] {
+        let triangle = self.triangles[id.wrapping_sub(self.first_id) as usize];
+        triangle.map(|vertex| self.values[vertex as usize])
+    }
+}

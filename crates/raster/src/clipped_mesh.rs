@@ -1,0 +1,288 @@
+//! Clipped meshes: from positions to the frame, with clipping before the divide in between.
+//!
+//! ```text
+//!   positions ─source_to_clip─► outcodes ─► all inside ──────────────► ÷ w, snap ─► frame
+//!                                        └► some outside ─► clip_triangle ─┘
+//! ```
+//!
+//! [`Frame::add_mesh`] takes vertices on the screen, and a triangle with a vertex behind the eye
+//! has none there: it is left out, and with it a floor under the viewer's feet. Clipping cuts such
+//! triangles at the near plane while they are still in homogeneous coordinates (CL-3). At the sides
+//! of the picture a guard band far outside takes the place of the planes (CL-4).
+
+use crate::{CullMode, Frame, GUARD_BAND, Opacity, ScreenVertex, VertexProjection, signed_area};
+use clip::{ClippedSegment, Outcode, Volume, clip_segment, clip_triangle};
+use homog::{Affine, Clip, HPoint, Ndc, Projective, Screen, Space};
+use viewport::Viewport;
+
+/// The way from clip space to the pixels of a frame: what is clipped, and where the rest lands.
+#[derive(Clone, Copy, Debug)]
+pub struct ScreenProjection {
+    ndc_to_screen: Affine<Ndc, Screen>,
+    /// Near and far plane, and the sides moved out to the guard band.
+    volume: Volume,
+    /// The sign by which the winding on the screen differs from that in clip space.
+    winding: f64,
+}
+
+/// A mesh in model, world or any other space, as [`Frame::add_clipped_mesh`] takes it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SourceMesh<'a> {
+    /// The positions of the vertices.
+    pub positions: &'a [[f32; 3]],
+    /// The indices of each triangle's vertices.
+    pub triangles: &'a [[u32; 3]],
+    /// The id of the first triangle; the others count up from it.
+    pub first_id: u32,
+    /// How the triangles take part in visibility.
+    pub opacity: Opacity,
+    /// The winding of the triangles that are left out.
+    pub cull: CullMode,
+}
+
+impl ScreenProjection {
+    /// The way through a viewport, such as [`Viewport::image_for`] of the frame's size and the
+    /// projection's convention.
+    #[must_use]
+    pub fn new(viewport: &Viewport) -> Self {
+        // The grid ends GUARD_BAND pixels beyond the picture; one pixel less is a margin for
+        // rounding in the divide.
+        let area = viewport.area();
+        let band = |side: f64, center: f64| {
+            let half = 0.5 * side;
+            let low = center / half - (GUARD_BAND.start() + 1.0) / half;
+            let high = (GUARD_BAND.end() - 1.0) / half - center / half;
+            low.min(high).clamp(1.0, Volume::MAX_GUARD_BAND)
+        };
+        let [x, y] = area.center();
+        let volume = Volume::for_range(viewport.range());
+        let guarded = volume.with_guard_band(band(area.width(), x), band(area.height(), y));
+        let rows = viewport.ndc_to_screen().rows();
+        Self {
+            ndc_to_screen: viewport.ndc_to_screen(),
+            volume: guarded.unwrap_or(volume),
+            winding: rows[0][0].signum() * rows[1][1].signum(),
+        }
+    }
+
+    /// What geometry is clipped against.
+    #[must_use]
+    pub const fn volume(&self) -> &Volume {
+        &self.volume
+    }
+
+    /// This way with another clipping volume: one with further planes, or without near or far.
+    #[must_use]
+    pub const fn with_volume(self, volume: Volume) -> Self {
+        Self { volume, ..self }
+    }
+
+    /// The viewport transform.
+    #[must_use]
+    pub const fn ndc_to_screen(&self) -> Affine<Ndc, Screen> {
+        self.ndc_to_screen
+    }
+
+    /// Perspective divide, viewport transform and snapping; `None` if the point cannot be drawn
+    /// unclipped.
+    #[must_use]
+    #[inline]
+    pub fn snap(&self, point: HPoint<Clip>) -> Option<ScreenVertex> {
+        ScreenVertex::snap(self.ndc_to_screen.transform_point(point.divide()?), point.w())
+    }
+
+    /// The vertices of a primitive on the screen; `None` if one of them cannot be drawn.
+    #[must_use]
+    #[inline]
+    pub fn snap_all<const N: usize>(&self, points: [HPoint<Clip>; N]) -> Option<[ScreenVertex; N]> {
+        let mut vertices = [self.snap(*points.first()?)?; N];
+        for (vertex, point) in vertices.iter_mut().zip(points).skip(1) {
+            *vertex = self.snap(point)?;
+        }
+        Some(vertices)
+    }
+
+    /// Whether a triangle that may reach behind the eye has a winding that is kept.
+    ///
+    /// The sign of the determinant of the (x, y, w) of its vertices is its winding before the
+    /// divide (Olano and Greer, *Triangle Scan Conversion using 2D Homogeneous Coordinates*, 1997).
+    /// It is right also with vertices behind the eye, where the divide would reverse it.
+    fn retains(&self, cull: CullMode, [p, q, r]: [HPoint<Clip>; 3]) -> bool {
+        let [[px, py, _, pw], [qx, qy, _, qw], [rx, ry, _, rw]] = [p, q, r].map(<[f64; 4]>::from);
+        let determinant =
+            px * (qy * rw - ry * qw) + py * (qw * rx - rw * qx) + pw * (qx * ry - rx * qy);
+        cull.retains(sign(determinant * self.winding))
+    }
+}
+
+/// The sign as a number, 0 for 0 and NaN.
+fn sign(x: f64) -> i64 {
+    i64::from(x > 0.0) - i64::from(x < 0.0)
+}
+
+impl Frame {
+    /// Adds a mesh of any space: transforms, clips before the divide, culls and snaps it. What
+    /// crosses the near plane is cut there, and its fragments carry weights of the whole triangles.
+    ///
+    /// ```
+    /// use projection::{Convention, Fov, Perspective};
+    /// use raster::{Frame, Samples, ScreenProjection, SourceMesh};
+    /// use viewport::Viewport;
+    ///
+    /// // A floor one unit below the eye, from behind it to the horizon.
+    /// let corners = [[-900.0, -1.0, 9.0], [900.0, -1.0, 9.0], [0.0, -1.0, -900.0]];
+    /// let floor =
+    ///     SourceMesh { positions: &corners, triangles: &[[0, 1, 2]], ..Default::default() };
+    ///
+    /// let lens = Perspective::new(Fov::vertical_degrees(60.0), 4.0 / 3.0, 0.1, 100.0)?;
+    /// let convention = Convention::VULKAN;
+    /// let screen = ScreenProjection::new(&Viewport::image_for(48, 36, convention)?);
+    /// let mut frame = Frame::new(48, 36, Samples::One)?;
+    /// frame.add_clipped_mesh(&screen, lens.view_to_clip(convention), floor);
+    ///
+    /// let ids = frame.visibility_buffer().ids;
+    /// // All of the lower half: 18 rows of 48 pixels.
+    /// assert_eq!(ids.iter().filter(|id| id.is_some()).count(), 864);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn add_clipped_mesh<S: Space>(
+        &mut self,
+        screen: &ScreenProjection,
+        source_to_clip: Projective<S, Clip>,
+        mesh: SourceMesh<'_>,
+    ) {
+        let SourceMesh { positions, triangles, first_id, opacity, cull } = mesh;
+        let (mut vertices, simd_level) = (Vec::new(), self.simd_level());
+        if screen.holds_box_of(source_to_clip, positions) {
+            let (ndc_to_screen, threads) = (screen.ndc_to_screen, 1);
+            let way =
+                VertexProjection { to_clip: source_to_clip, ndc_to_screen, simd_level, threads };
+            way.project_positions(positions, &mut vertices);
+            return self.add_mesh(&vertices, triangles, first_id, opacity, cull);
+        }
+        let mut points = vec![HPoint::new(0.0, 0.0, 0.0, 1.0); positions.len()];
+        let mut outcodes = vec![Outcode::INSIDE; positions.len()];
+        screen.volume.project_positions(source_to_clip, positions, &mut points, &mut outcodes);
+        vertices.resize(positions.len(), None);
+        ScreenVertex::divide_and_snap_points(
+            &points,
+            screen.ndc_to_screen,
+            simd_level,
+            &mut vertices,
+        );
+        // Beyond the near plane a vertex may be on the screen all the same.
+        for (vertex, code) in vertices.iter_mut().zip(&outcodes) {
+            *vertex = vertex.filter(|_| code.is_inside());
+        }
+        for (id, triangle) in (first_id..).zip(triangles) {
+            let corners = triangle.map(|index| vertices.get(index as usize).copied().flatten());
+            if let [Some(p), Some(q), Some(r)] = corners {
+                if cull.retains(signed_area([p, q, r])) {
+                    self.add_triangle([p, q, r], id, opacity);
+                }
+                continue;
+            }
+            let corners = triangle.map(|index| points.get(index as usize).copied());
+            if let [Some(p), Some(q), Some(r)] = corners {
+                self.clip_triangle(screen, [p, q, r], id, opacity, cull);
+            }
+        }
+    }
+
+    /// Clips one triangle of clip space and adds what is left of it.
+    pub fn clip_triangle(
+        &mut self,
+        screen: &ScreenProjection,
+        points: [HPoint<Clip>; 3],
+        id: u32,
+        opacity: Opacity,
+        cull: CullMode,
+    ) {
+        if !screen.retains(cull, points) {
+            return;
+        }
+        // The clipped polygon as a fan.
+        for part in clip_triangle(points, &screen.volume).triangles() {
+            if let Some(corners) = screen.snap_all(part.map(|vertex| vertex.point)) {
+                let weights = part.map(|vertex| vertex.weights.map(|weight| weight as f32));
+                self.add_clipped_triangle(corners, weights, id, opacity);
+            }
+        }
+    }
+
+    /// Clips a line of clip space, `width` pixels wide, and adds what is left of it.
+    pub fn clip_line(
+        &mut self,
+        screen: &ScreenProjection,
+        ends: [HPoint<Clip>; 2],
+        width: f64,
+        id: u32,
+        opacity: Opacity,
+    ) {
+        let Some(visible) = clip_segment(ends[0], ends[1], &screen.volume) else { return };
+        let ClippedSegment { start, end, t0, t1, .. } = visible;
+        if let Some(ends) = screen.snap_all([start, end]) {
+            self.add_clipped_line(ends, [t0 as f32, t1 as f32], width, id, opacity);
+        }
+    }
+}
+
+impl ScreenProjection {
+    /// Whether the box around positions is inside the volume, so that nothing needs clipping.
+    fn holds_box_of<S: Space>(
+        &self,
+        source_to_clip: Projective<S, Clip>,
+        positions: &[[f32; 3]],
+    ) -> bool {
+        let (mut least, mut greatest) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+        let mut is_finite = true;
+        for position in positions {
+            for axis in 0..3 {
+                least[axis] = least[axis].min(position[axis]);
+                greatest[axis] = greatest[axis].max(position[axis]);
+                is_finite &= position[axis].is_finite();
+            }
+        }
+        if !is_finite || positions.is_empty() {
+            return false;
+        }
+        let ends = [least, greatest];
+        let corners: [[f32; 3]; 8] =
+            std::array::from_fn(|corner| [0, 1, 2].map(|axis| ends[corner >> axis & 1][axis]));
+        let mut points = corners.map(|_| HPoint::new(0.0, 0.0, 0.0, 1.0));
+        let mut outcodes = [Outcode::INSIDE; 8];
+        self.volume
+            .project_positions(source_to_clip, &corners, &mut points, &mut outcodes)
+            .is_inside()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use homog::ClipRange;
+
+    #[test]
+    fn the_winding_holds_also_with_corners_behind_the_eye() {
+        let screen =
+            |range| ScreenProjection::new(&Viewport::image_for(8, 8, range).expect("size"));
+        let up = screen(ClipRange::CHAPTER);
+        let corners =
+            [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)].map(|(x, y)| HPoint::new(x, y, 0.0, 1.0));
+        let [p, q, r] = corners;
+        // A vertex moved through the eye's plane, along the line from another: the surface still
+        // shows the same face.
+        let [[qx, qy, ..], [rx, ry, ..]] = [q, r].map(<[f64; 4]>::from);
+        let behind = HPoint::new(4.0 * qx - 3.0 * rx, 4.0 * qy - 3.0 * ry, 0.0, 1.0);
+        for triangle in [[p, q, r], [p, behind, r]] {
+            let [a, b, c] = triangle;
+            // Counterclockwise in the picture: a front face.
+            assert!(up.retains(CullMode::Clockwise, triangle));
+            assert!(!up.retains(CullMode::CounterClockwise, triangle));
+            assert!(!up.retains(CullMode::Clockwise, [a, c, b]));
+            assert!(up.retains(CullMode::Nothing, [a, c, b]));
+            // With y down the same numbers show the other face.
+            assert!(!screen(ClipRange::VULKAN).retains(CullMode::Clockwise, triangle));
+        }
+    }
+}
