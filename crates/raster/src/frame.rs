@@ -242,7 +242,7 @@ impl Frame {
                 let before = runs.partition_point(|run| run.end <= slice.start);
                 for run in runs[before..].iter().take_while(|run| run.start < slice.end) {
                     let run = run.start.max(slice.start)..run.end.min(slice.end);
-                    mesh.assemble_triangles(bounds, compare, run, chunk);
+                    mesh.assemble_run(bounds, compare, run, chunk);
                 }
             });
             self.triangles.remove_empty_chunks(first);
@@ -254,7 +254,7 @@ impl Frame {
             while !rest.is_empty() {
                 let (chunk, space) = self.triangles.open_with_space();
                 let end = rest.end.min(rest.start + space);
-                mesh.assemble_triangles(bounds, compare, rest.start..end, chunk);
+                mesh.assemble_run(bounds, compare, rest.start..end, chunk);
                 rest.start = end;
             }
         }
@@ -312,7 +312,7 @@ impl Frame {
         // Off the region, or between samples.
         let Some(tiles) = self.sample_bounds().touched_tiles(vertices) else { return };
         let area = signed_area(vertices);
-        let vertices = oriented_depths(self.compare, vertices);
+        let vertices = oriented_depths(self.compare.negates(), vertices);
         if let Some(triangle) = assemble_triangle(vertices, area, id, opacity) {
             self.triangles.push(triangle, tiles);
         }
@@ -339,7 +339,7 @@ impl Frame {
         // An index instead of nine weights: most triangles have none, and all stay small.
         let source = WeightSource::Clipped(self.source_weights.len() as u32);
         self.source_weights.push(weights);
-        let vertices = normalize_inv_w(oriented_depths(self.compare, vertices));
+        let vertices = normalize_inv_w(oriented_depths(self.compare.negates(), vertices));
         self.triangles.push(ScreenTriangle { vertices, id, source, opacity }, tiles);
     }
 
@@ -364,15 +364,29 @@ fn check_region(region: PixelRect) -> Result<PixelRect, RasterError> {
 }
 
 impl MeshTriangles<'_> {
+    /// Appends a run of triangles, with their depths negated if the depth function says so.
+    fn assemble_run(
+        &self,
+        bounds: SampleBounds,
+        compare: DepthCompare,
+        run: Range<usize>,
+        chunk: &mut TriangleChunk,
+    ) {
+        if compare.negates() {
+            self.assemble_triangles::<true>(bounds, run, chunk);
+        } else {
+            self.assemble_triangles::<false>(bounds, run, chunk);
+        }
+    }
+
     /// Primitive assembly: appends those triangles of a run that are not culled and may cover a
     /// sample.
     ///
     /// In order: missing vertices, winding, bounds, degeneracy. Most triangles of a fine mesh end
     /// at the bounds.
-    fn assemble_triangles(
+    fn assemble_triangles<const NEGATES: bool>(
         &self,
         bounds: SampleBounds,
-        compare: DepthCompare,
         run: Range<usize>,
         chunk: &mut TriangleChunk,
     ) {
@@ -390,7 +404,7 @@ impl MeshTriangles<'_> {
             }
             // Of a mesh finer than the pixels most triangles end here, before any set-up.
             let Some(tiles) = bounds.touched_tiles([p, q, r]) else { continue };
-            let vertices = oriented_depths(compare, [p, q, r]);
+            let vertices = oriented_depths(NEGATES, [p, q, r]);
             if let Some(triangle) = assemble_triangle(vertices, area, id, self.opacity) {
                 chunk.push(triangle, tiles);
             }
@@ -400,8 +414,8 @@ impl MeshTriangles<'_> {
 
 /// The vertices with depths of which the greater one wins.
 #[inline(always)]
-fn oriented_depths(compare: DepthCompare, mut vertices: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
-    if compare.negates() {
+fn oriented_depths(negates: bool, mut vertices: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
+    if negates {
         for vertex in &mut vertices {
             vertex.depth = -vertex.depth;
         }

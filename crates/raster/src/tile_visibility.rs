@@ -84,7 +84,11 @@ impl TileVisibility {
         }
         self.layers.clear();
         let level = frame.simd_level.level();
-        dispatch!(level, simd => self.rasterize_batches(simd, frame, rect, bin, surface));
+        if frame.compare.is_strict() {
+            dispatch!(level, simd => self.rasterize_batches(simd, frame, rect, bin, surface));
+        } else {
+            dispatch!(level, simd => self.rasterize_in_order(simd, frame, rect, bin, surface));
+        }
         self.sort_layers();
     }
 
@@ -102,7 +106,6 @@ impl TileVisibility {
         bin: &[u32],
         surface: &dyn Surface,
     ) {
-        let is_strict = frame.compare.is_strict();
         let mut has_translucent = false;
         let mut rest = bin.iter();
         let mut indices = [0; triangle_batch::BATCH_SIZE];
@@ -123,12 +126,11 @@ impl TileVisibility {
             // Rasterize in submission order, which breaks ties in depth.
             for (lane, &index) in some.iter().enumerate() {
                 match triangles[lane].opacity {
-                    _ if !is_strict => self.rasterize_masked(simd, frame, rect, index, surface),
                     Opacity::Opaque if batch.is_prepared(lane) => {
                         self.rasterize_small(simd, &batch, lane, index);
                     }
                     Opacity::Opaque => self.rasterize_opaque(simd, frame, rect, index),
-                    _ => self.rasterize_masked(simd, frame, rect, index, surface),
+                    _ => self.rasterize_masked::<S, true>(simd, frame, rect, index, surface),
                 }
             }
         }
@@ -136,9 +138,56 @@ impl TileVisibility {
         if has_translucent {
             for &index in bin {
                 if frame.triangles.triangle(index).opacity == Opacity::Translucent {
-                    self.collect_translucent(simd, frame, rect, index);
+                    self.collect_translucent::<S, true>(simd, frame, rect, index);
                 }
             }
+        }
+    }
+
+    /// Rasterizes the triangles of a bin one by one, the translucent ones last: for depth functions
+    /// that hide nothing as a whole.
+    #[inline(always)]
+    fn rasterize_in_order<S: Simd>(
+        &mut self,
+        simd: S,
+        frame: &Frame,
+        rect: TileRect,
+        bin: &[u32],
+        surface: &dyn Surface,
+    ) {
+        let opacity = |index: u32| frame.triangles.triangle(index).opacity;
+        for &index in bin.iter().filter(|&&index| opacity(index) != Opacity::Translucent) {
+            self.rasterize_samples(simd, frame, rect, index, surface);
+        }
+        for &index in bin.iter().filter(|&&index| opacity(index) == Opacity::Translucent) {
+            self.collect_translucent::<S, false>(simd, frame, rect, index);
+        }
+    }
+
+    /// Rasterizes a triangle for any depth function: depth test, alpha test if it is masked, depth
+    /// write.
+    #[inline(always)]
+    fn rasterize_samples<S: Simd>(
+        &mut self,
+        simd: S,
+        frame: &Frame,
+        rect: TileRect,
+        index: u32,
+        surface: &dyn Surface,
+    ) {
+        if frame.triangles.triangle(index).opacity == Opacity::Masked {
+            return self.rasterize_masked::<S, false>(simd, frame, rect, index, surface);
+        }
+        let triangle = frame.triangles.triangle(index);
+        let range = frame.samples.offset_range();
+        let Some(setup) = TriangleSetup::new(triangle, rect, range) else { return };
+        let lanes = TriangleLanes::new(simd, &setup.functions);
+        for (plane, offset) in self.planes.iter_mut().zip(frame.samples.sample_offsets()) {
+            let start = setup.sample_start(offset);
+            let compare = frame.compare;
+            plane.visit_visible_samples(simd, &lanes, &start, compare, |plane, at, _, _, depth| {
+                plane.write_sample(at, depth, index);
+            });
         }
     }
 
@@ -215,10 +264,9 @@ impl TileVisibility {
         self.farthest_depth = farthest;
     }
 
-    /// Rasterizes a triangle sample by sample: depth test, alpha test if it is masked, then depth
-    /// write.
+    /// Rasterizes an alpha-tested triangle: depth test, alpha test, then depth write.
     #[inline(always)]
-    fn rasterize_masked<S: Simd>(
+    fn rasterize_masked<S: Simd, const STRICT: bool>(
         &mut self,
         simd: S,
         frame: &Frame,
@@ -233,12 +281,10 @@ impl TileVisibility {
         // Alpha is a matter of the pixel, not of its samples: it is tested once, for eight pixels
         // of a block's row together. One bit per pixel and row says whether it was, and whether it
         // passed.
-        let tests_alpha = triangle.opacity == Opacity::Masked;
-        let all = if tests_alpha { 0 } else { u64::MAX };
-        let (mut tested, mut passed) = ([all; TILE as usize], [all; TILE as usize]);
+        let (mut tested, mut passed) = ([0_u64; TILE as usize], [0_u64; TILE as usize]);
         for (plane, offset) in self.planes.iter_mut().zip(frame.samples.sample_offsets()) {
             let start = setup.sample_start(offset);
-            let compare = frame.compare;
+            let compare = if STRICT { DepthCompare::Greater } else { frame.compare };
             plane.visit_visible_samples(simd, &lanes, &start, compare, |plane, at, x, y, depth| {
                 let pixel = 1 << x;
                 // The first sample of the pixel that survives the depth test runs the alpha test.
@@ -262,18 +308,20 @@ impl TileVisibility {
     /// Adds a layer for each pixel in which a sample of a translucent triangle is not behind an
     /// opaque surface.
     #[inline(always)]
-    fn collect_translucent<S: Simd>(&mut self, simd: S, frame: &Frame, rect: TileRect, index: u32) {
+    fn collect_translucent<S: Simd, const STRICT: bool>(
+        &mut self,
+        simd: S,
+        frame: &Frame,
+        rect: TileRect,
+        index: u32,
+    ) {
         let triangle = frame.triangles.triangle(index);
         let range = frame.samples.offset_range();
         let Some(setup) = TriangleSetup::new(triangle, rect, range) else { return };
         let lanes = TriangleLanes::new(simd, &setup.functions);
         let first = self.layers.len();
         // At equal depth a decal is drawn over the surface below it.
-        let compare = match frame.compare {
-            DepthCompare::Greater => DepthCompare::GreaterEqual,
-            DepthCompare::Less => DepthCompare::LessEqual,
-            other => other,
-        };
+        let compare = if STRICT { DepthCompare::GreaterEqual } else { frame.compare };
         let Self { planes, layers, .. } = self;
         let samples = planes.iter_mut().zip(frame.samples.sample_offsets()).enumerate();
         for (sample, (plane, offset)) in samples {
