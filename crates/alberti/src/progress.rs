@@ -24,9 +24,6 @@ const DISPLAY_DELAY: Duration = Duration::from_millis(400);
 const REFRESH_INTERVAL: Duration = Duration::from_millis(100);
 
 /// A terminal line with the current stage, the elapsed time and what is done, removed on drop.
-///
-/// A thread of its own redraws the line; stages are sent to it through a channel, and closing the
-/// channel ends it.
 #[derive(Debug)]
 pub(crate) struct Progress {
     /// The channel to the thread that draws the line, and its handle; `None` without a terminal.
@@ -57,9 +54,7 @@ impl Display for Percentage {
 impl Progress {
     /// Starts the display, if the standard error stream is a terminal.
     ///
-    /// Without a terminal no thread is started and nothing is ever written, so log files stay
-    /// clean. On a terminal the thread wakes every [`REFRESH_INTERVAL`], or at once for a new
-    /// stage:
+    /// Without a terminal nothing is ever written, so that log files stay clean.
     ///
     /// ```text
     /// rendering … 2.4 s
@@ -94,9 +89,6 @@ impl Progress {
     }
 
     /// Shows another stage from now on.
-    ///
-    /// The elapsed time goes on: it is that of the command, not that of the stage. `--timings` has
-    /// the stages.
     pub(crate) fn enter_stage(&self, stage: &'static str) {
         self.done.0.store(0, Ordering::Relaxed);
         if let Some((sender, _)) = &self.stages {
@@ -122,9 +114,6 @@ impl Drop for Progress {
 }
 
 /// A terminal line with the number of finished jobs and an estimate of the time left.
-///
-/// The estimate is the mean time of the finished jobs times the number of the remaining ones. It
-/// already accounts for parallel jobs, because the mean is over elapsed time.
 #[derive(Debug)]
 pub(crate) struct ProgressCounter {
     /// The number of jobs.
@@ -134,8 +123,6 @@ pub(crate) struct ProgressCounter {
     /// When the first job started.
     begin: Instant,
     /// Whether the line is shown.
-    ///
-    /// It is decided once, at the start: asking for each job would be a system call per frame.
     is_visible: bool,
 }
 

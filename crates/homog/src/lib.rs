@@ -76,13 +76,10 @@
 //!
 //! There is none for bytemuck: vertices come and go as `[[f32; 3]]`, which is plain data already.
 //!
-//! Beside the three-dimensional types stand those of the line and the plane, [`HPoint1`],
-//! [`HPoint2`], [`HLine2`] and [`Homography`], on which the textbook explains homogeneous
-//! coordinates. `cargo run -p alberti-homog --example railway` shows the crate at work.
+//! [`HPoint1`], [`HPoint2`], [`HLine2`] and [`Homography`] are those of the line and the plane.
 //!
 //! Source: P. Shirley, S. Marschner and others, *Fundamentals of Computer Graphics*, chapter 8,
-//! *Viewing*. Formula ids such as HO-2 or IN-1 in the documentation name entries of the project's
-//! list of formulas.
+//! *Viewing*. Formula ids such as HO-2 name entries of the project's list of formulas.
 #![no_std]
 
 mod affine;

@@ -152,7 +152,7 @@ impl Frame {
 
     /// Whether drawing shall end.
     pub(crate) fn is_canceled(&self) -> bool {
-        self.monitor.as_ref().is_some_and(|monitor| monitor.is_canceled())
+        self.monitor.as_ref().is_some_and(Monitor::is_canceled)
     }
 
     /// The vector instructions that the frame is drawn with.

@@ -211,7 +211,7 @@ impl IntendedProjection {
         match self {
             Self::Frustum(frustum) => frustum.view_to_clip(c),
             Self::Perspective(lens) => lens.view_to_clip(c),
-            Self::Orthographic(volume) => volume.view_to_clip(c).into(),
+            Self::Orthographic(volume) => volume.view_to_clip(c),
         }
     }
 

@@ -11,6 +11,7 @@ use glam::DMat3;
 
 /// The meaning of a 3×3 matrix for column vectors (x, y, w).
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[expect(clippy::large_enum_variant, reason = "there are few, and they are plain numbers")]
 pub enum PlanarMatrix {
     /// A map of the plane that leaves w alone; z of the meaning does not count.
     Plane(MatrixMeaning),

@@ -16,6 +16,7 @@ const NAMED_BY: &[(&str, &[&str])] = &[
             "crates/scene-file/src",
             "crates/gltf-import/src/gltf/located_json.rs",
             "crates/batch/src",
+            "crates/homog/src/interop/serde.rs",
         ],
     ),
     (
@@ -37,7 +38,7 @@ pub const LAYERS: &[(&str, Option<&[&str]>)] = &[
     ("recognition", Some(&["homog", "projection"])),
     ("clip", Some(&["homog"])),
     ("viewport", Some(&["homog"])),
-    ("raster", Some(&["homog"])),
+    ("raster", Some(&["homog", "clip", "viewport"])),
     ("arcs", Some(&[])),
     ("files", Some(&[])),
     ("picture", Some(&["files"])),
@@ -76,8 +77,10 @@ pub const LAYERS: &[(&str, Option<&[&str]>)] = &[
 const STAGES: &[&str] = &["homog", "camera", "projection", "clip", "viewport", "raster"];
 const STAGE_DEPENDENCIES: &[&str] = &["glam", "libm", "thiserror"];
 
-/// Exceptions: the vector instructions of the rasterizer.
-const EXTRA_DEPENDENCIES: &[(&str, &str)] = &[("raster", "fearless_simd")];
+/// Exceptions: the vector instructions of the rasterizer, and the libraries whose types `homog`
+/// converts behind features.
+const EXTRA_DEPENDENCIES: &[(&str, &str)] =
+    &[("raster", "fearless_simd"), ("homog", "mint"), ("homog", "nalgebra"), ("homog", "serde")];
 
 /// Packages that a crate must not be built with, however indirectly: users of the library do not
 /// compile those of the program, and a program of lines compiles no decoder of pictures.

@@ -224,12 +224,9 @@ impl<'a> Checker<'a> {
         let message = format!("expected `{}`, found `{}`", entry.name, name.name);
         let suggestion = suggest_variant(entry, name.name, self.top_level_field());
         let is_misspelt = name.name.eq_ignore_ascii_case(entry.name);
-        let is_known = suggestion.is_known() && !is_misspelt;
-        let help = if is_known {
-            suggestion.help
-        } else {
-            format!("write {}(…), or just (…)", entry.name)
-        };
+        let known = (suggestion.is_known() && !is_misspelt).then_some(suggestion.help);
+        let is_known = known.is_some();
+        let help = known.unwrap_or_else(|| format!("write {}(…), or just (…)", entry.name));
         self.report(name.span.clone(), message, Some(help));
         (!is_known).then_some(())
     }
@@ -315,17 +312,16 @@ impl<'a> Checker<'a> {
         let found = self.describe(&item.value);
         // The only field that must be there, such as `path` in `Model("model.glb")`.
         let mut required = declared.iter().filter(|field| !field.is_optional);
-        let text = &self.source[item.value.span.clone()];
-        let help = match (&item.value.kind, required.next()) {
-            (NodeKind::String(_), Some(field)) if required.next().is_none() && text.len() <= 80 => {
-                format!("write {}({}: {text})", owner.shown, field.name)
+        let only = required.next().filter(|_| required.next().is_none());
+        let mut help = "a field is written `name: value`".to_owned();
+        match (&item.value.kind, only) {
+            (NodeKind::String(_), Some(field)) if found.len() <= 80 => {
+                help =
+                    format!("write {}({}: {})", owner.shown, field.name, found.trim_matches('`'));
             }
-            (NodeKind::Number(_), _) => {
-                "a field is written `name: value`; numbers have a decimal point and no comma"
-                    .to_owned()
-            }
-            _ => "a field is written `name: value`".to_owned(),
-        };
+            (NodeKind::Number(_), _) => help += "; numbers have a decimal point and no comma",
+            _ => {}
+        }
         let message = format!("expected the name of a field, found {found}");
         self.report(item.value.span.clone(), message, Some(help));
     }
