@@ -26,6 +26,7 @@ mod release;
 #[path = "../../tests/skip.rs"]
 mod skip;
 mod soak;
+mod strangers;
 mod test;
 mod tidy;
 mod tool_chain;
@@ -119,6 +120,12 @@ const COMMANDS: &[Command] = &[
         arguments: "[--models DIR]",
         about: "Render every scene, or every model of a folder in every style, to one HTML page",
         run: gallery::run_gallery,
+    },
+    Command {
+        name: "strangers",
+        arguments: "[--time]",
+        about: "Build the programs of tests/strangers against packed crates and run them; --time compares with peers",
+        run: strangers::run_strangers,
     },
     Command {
         name: "soak",

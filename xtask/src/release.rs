@@ -13,7 +13,7 @@
 mod archives;
 mod build;
 mod contents;
-mod crates;
+pub mod crates;
 mod debian;
 mod sbom;
 mod third_party;

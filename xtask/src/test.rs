@@ -13,6 +13,7 @@
 mod artifacts;
 mod cpu_time;
 mod no_std;
+mod oldest_rust;
 mod schedule;
 mod step;
 mod steps;

@@ -102,7 +102,7 @@ impl PlanarPoints {
         let all = 0..loops.len();
         let depth = |j: usize| all.clone().filter(|&i| encloses(i, j)).count();
         let depths: Vec<usize> = all.clone().map(depth).collect();
-        let joined = all.clone().filter(|&i| depths[i].is_multiple_of(2)).map(|i| {
+        let joined = all.clone().filter(|&i| depths[i] % 2 == 0).map(|i| {
             let holes = all.clone().filter(|&j| depths[j] == depths[i] + 1 && encloses(i, j));
             let holes = holes.map(|j| self.orient_ring(&loops[j], -1.0)).collect();
             self.join_holes(self.orient_ring(&loops[i], 1.0), holes)

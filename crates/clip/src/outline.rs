@@ -101,10 +101,9 @@ impl<'a, S: Space> EdgeChains<'a, S> {
     }
 
     fn extend_chain(&mut self, chain: &mut Vec<Point<S>>) {
-        while let [start, .., end] = chain.as_slice()
-            && start != end
-            && let Some(next) = self.take_next_edge(*end)
-        {
+        while let [start, .., end] = chain.as_slice() {
+            let next = if start == end { None } else { self.take_next_edge(*end) };
+            let Some(next) = next else { return };
             chain.push(next);
         }
     }

@@ -36,6 +36,14 @@ pub trait Interpolate: Copy {
     #[must_use]
     fn weighted_sum<const N: usize>(values: [Self; N], weights: [f64; N]) -> Self;
 
+    /// [`weighted_sum`](Self::weighted_sum) with weights in single precision, as rasterizers have
+    /// them: a shortcut for values that are in single precision themselves.
+    #[must_use]
+    #[inline(always)]
+    fn weighted_sum_f32<const N: usize>(values: [Self; N], weights: [f32; N]) -> Self {
+        Self::weighted_sum(values, weights.map(f64::from))
+    }
+
     /// The value at fraction `t` of the way to `end`: this one at 0 and `end` at 1, exactly.
     #[must_use]
     #[inline(always)]
@@ -64,12 +72,26 @@ impl Interpolate for f32 {
         }
         sum
     }
+
+    #[inline(always)]
+    fn weighted_sum_f32<const N: usize>(values: [Self; N], weights: [f32; N]) -> Self {
+        let mut sum = 0.0;
+        for (value, weight) in values.into_iter().zip(weights) {
+            sum += value * weight;
+        }
+        sum
+    }
 }
 
 impl<T: Interpolate, const M: usize> Interpolate for [T; M] {
     #[inline(always)]
     fn weighted_sum<const N: usize>(values: [Self; N], weights: [f64; N]) -> Self {
         core::array::from_fn(|i| T::weighted_sum(values.map(|value| value[i]), weights))
+    }
+
+    #[inline(always)]
+    fn weighted_sum_f32<const N: usize>(values: [Self; N], weights: [f32; N]) -> Self {
+        core::array::from_fn(|i| T::weighted_sum_f32(values.map(|value| value[i]), weights))
     }
 }
 
@@ -85,6 +107,11 @@ macro_rules! interpolate_tuple {
             #[inline(always)]
             fn weighted_sum<const N: usize>(values: [Self; N], weights: [f64; N]) -> Self {
                 ($($name::weighted_sum(values.map(|value| value.$index), weights),)+)
+            }
+
+            #[inline(always)]
+            fn weighted_sum_f32<const N: usize>(values: [Self; N], weights: [f32; N]) -> Self {
+                ($($name::weighted_sum_f32(values.map(|value| value.$index), weights),)+)
             }
         }
     };

@@ -17,6 +17,7 @@
 //! | [`CoordinateFrame`] | an origin with three axes | moves |
 //! | [`Affine`] | a map that keeps parallels: points to points | |
 //! | [`Projective`] | a map that keeps lines: points to homogeneous points | |
+//! | [`HPoint1`], [`HPoint2`], [`HLine2`], [`Homography`] | those of the line and the plane | |
 //!
 //! ```
 //! use homog::{Affine, Clip, Model, Point, Projective, Vector, View, World};
@@ -68,15 +69,11 @@
 //!
 //! | feature | conversions from and to |
 //! | --- | --- |
-//! | none | arrays of `f64`, and of `f32` where streams are: any version of any library |
-//! | `glam` | the version of glam that this crate is built on, without a copy |
+//! | none | arrays of `f64`, and of `f32` where streams are, which bytemuck knows as they are |
+//! | `glam` | the version of glam that this crate is built on |
 //! | `mint` | mint, and through it any version of glam, nalgebra, cgmath |
 //! | `nalgebra` | nalgebra's points, vectors, matrices, `Isometry3`, `Perspective3` |
 //! | `serde` | arrays of coordinates, and of the rows of matrices |
-//!
-//! There is none for bytemuck: vertices come and go as `[[f32; 3]]`, which is plain data already.
-//!
-//! [`HPoint1`], [`HPoint2`], [`HLine2`] and [`Homography`] are those of the line and the plane.
 //!
 //! Source: P. Shirley, S. Marschner and others, *Fundamentals of Computer Graphics*, chapter 8,
 //! *Viewing*. Formula ids such as HO-2 name entries of the project's list of formulas.
@@ -137,7 +134,7 @@ pub use remap::{RemapError, remap_interval};
 pub use space::{Clip, Model, Ndc, Screen, Space, View, World};
 pub use vector::Vector;
 
-/// The examples of the README, compiled and run as a test.
+/// The examples of the README.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

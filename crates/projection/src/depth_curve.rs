@@ -169,7 +169,7 @@ impl DepthCurve {
                 allowed,
             });
         }
-        let parts = libm::ldexp(1.0, bits.cast_signed()) - 1.0;
+        let parts = libm::exp2(f64::from(bits)) - 1.0;
         let range = (self.convention.far_depth() - self.convention.near_depth()).abs();
         let slope = self.slope(distance).unwrap_or(0.0).abs();
         Ok(range / parts / slope)
@@ -179,9 +179,8 @@ impl DepthCurve {
     #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is the subject")]
     fn float_step(self, distance: f64) -> Option<f64> {
         let here = self.depth(distance)? as f32;
-        let towards =
-            if self.convention.far_depth() > self.convention.near_depth() { 1.0 } else { -1.0 };
-        let next = if towards > 0.0 { here.next_up() } else { here.next_down() };
+        let is_far_greater = self.convention.far_depth() > self.convention.near_depth();
+        let next = libm::nextafterf(here, if is_far_greater { f32::MAX } else { f32::MIN });
         let gap = f64::from(next) - f64::from(here);
         match self.shape {
             CurveShape::Central => {

@@ -94,7 +94,7 @@ fn max_coordinate(vector: DVec4) -> f64 {
 /// The cofactors of one row of the matrix.
 fn cofactors(matrix: DMat4, row: usize) -> DVec4 {
     let minor = |column: usize| {
-        let sign = if (row + column).is_multiple_of(2) { 1.0 } else { -1.0 };
+        let sign = if (row + column) % 2 == 0 { 1.0 } else { -1.0 };
         sign * DMat3::from_mat4_minor(matrix, column, row).determinant()
     };
     DVec4::new(minor(0), minor(1), minor(2), minor(3))

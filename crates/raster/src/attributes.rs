@@ -9,21 +9,21 @@ impl Fragment<'_> {
     #[must_use]
     #[inline(always)]
     pub fn interpolate<A: Interpolate>(&self, values: [A; 3]) -> A {
-        A::weighted_sum(values, self.weights.map(f64::from))
+        A::weighted_sum_f32(values, self.weights)
     }
 
     /// The derivative of an attribute by the column of the pixel: its change per pixel to the right.
     #[must_use]
     #[inline]
     pub fn interpolate_dx<A: Interpolate>(&self, values: [A; 3]) -> A {
-        A::weighted_sum(values, self.weights_dx().map(f64::from))
+        A::weighted_sum_f32(values, self.weights_dx())
     }
 
     /// The derivative of an attribute by the row of the pixel, downwards.
     #[must_use]
     #[inline]
     pub fn interpolate_dy<A: Interpolate>(&self, values: [A; 3]) -> A {
-        A::weighted_sum(values, self.weights_dy().map(f64::from))
+        A::weighted_sum_f32(values, self.weights_dy())
     }
 }
 

@@ -12,7 +12,7 @@
 
 use crate::{CullMode, Frame, GUARD_BAND, Opacity, ScreenVertex, VertexProjection, signed_area};
 use clip::{ClippedSegment, Outcode, Volume, clip_segment, clip_triangle};
-use homog::{Affine, Clip, HPoint, Ndc, Projective, Screen, Space};
+use homog::{Affine, Clip, ClipRange, HPoint, Ndc, Projective, Screen, Space};
 use viewport::Viewport;
 
 /// The way from clip space to the pixels of a frame: what is clipped, and where the rest lands.
@@ -63,6 +63,19 @@ impl ScreenProjection {
             volume: guarded.unwrap_or(volume),
             winding: rows[0][0].signum() * rows[1][1].signum(),
         }
+    }
+
+    /// The way to an image of `width` × `height` pixels for a projection of this range: a
+    /// [`ClipRange`] or a `projection::Convention`.
+    ///
+    /// # Errors
+    /// If the image has no pixels.
+    pub fn for_image(
+        width: u32,
+        height: u32,
+        range: impl Into<ClipRange>,
+    ) -> Result<Self, viewport::ViewportError> {
+        Ok(Self::new(&Viewport::image_for(width, height, range)?))
     }
 
     /// What geometry is clipped against.
@@ -127,7 +140,6 @@ impl Frame {
     /// ```
     /// use projection::{Convention, Fov, Perspective};
     /// use raster::{Frame, Samples, ScreenProjection, SourceMesh};
-    /// use viewport::Viewport;
     ///
     /// // A floor one unit below the eye, from behind it to the horizon.
     /// let corners = [[-900.0, -1.0, 9.0], [900.0, -1.0, 9.0], [0.0, -1.0, -900.0]];
@@ -136,7 +148,7 @@ impl Frame {
     ///
     /// let lens = Perspective::new(Fov::vertical_degrees(60.0), 4.0 / 3.0, 0.1, 100.0)?;
     /// let convention = Convention::VULKAN;
-    /// let screen = ScreenProjection::new(&Viewport::image_for(48, 36, convention)?);
+    /// let screen = ScreenProjection::for_image(48, 36, convention)?;
     /// let mut frame = Frame::new(48, 36, Samples::One)?;
     /// frame.add_clipped_mesh(&screen, lens.view_to_clip(convention), floor);
     ///
@@ -260,7 +272,6 @@ impl ScreenProjection {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use homog::ClipRange;
 
     #[test]
     fn the_winding_holds_also_with_corners_behind_the_eye() {

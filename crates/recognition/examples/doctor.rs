@@ -10,17 +10,14 @@
 use recognition::recognize;
 
 /// Ortho(−1, 3, −2, 1, 2, 6) with + (far + near)/(far − near) at the end of its third row.
-const SLIDE: [[f64; 4]; 4] = [
-    [0.5, 0.0, 0.0, -0.5],
-    [0.0, 2.0 / 3.0, 0.0, 1.0 / 3.0],
-    [0.0, 0.0, -0.5, 2.0],
-    [0.0, 0.0, 0.0, 1.0],
-];
+const SLIDE: [f64; 16] =
+    [0.5, 0.0, 0.0, -0.5, 0.0, 2.0 / 3.0, 0.0, 1.0 / 3.0, 0.0, 0.0, -0.5, 2.0, 0.0, 0.0, 0.0, 1.0];
 
 fn main() {
     let given: Vec<f64> =
         std::env::args().skip(1).filter_map(|number| number.parse().ok()).collect();
-    let rows = given.as_chunks::<4>().0.try_into().unwrap_or(SLIDE);
+    let entries: [f64; 16] = given.try_into().unwrap_or(SLIDE);
+    let rows = [0, 4, 8, 12].map(|first| [0, 1, 2, 3].map(|column| entries[first + column]));
     show("The matrix", rows);
 
     let found = recognize(rows);

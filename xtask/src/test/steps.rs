@@ -1,8 +1,8 @@
 //! The steps of the tests, in the order in which they run.
 
 use super::artifacts::TestPrograms;
-use super::no_std;
 use super::step::{Action, Step};
+use super::{no_std, oldest_rust};
 use crate::Outcome;
 use crate::program::{cargo_command, compile, run_visibly};
 use crate::tidy::NO_STD;
@@ -24,7 +24,11 @@ fn cheap_steps() -> Vec<Step> {
         Step::cargo(
             "fmt",
             "rustfmt would change nothing",
-            &["fmt --all --check", "fmt --manifest-path book/mdbook-alberti/Cargo.toml --check"],
+            &[
+                "fmt --all --check",
+                "fmt --manifest-path book/mdbook-alberti/Cargo.toml --check",
+                "fmt --manifest-path tests/strangers/Cargo.toml --all --check",
+            ],
         )
         .shared(),
         Step::built_in("tidy", "project rules that no lint covers", || crate::tidy::run_tidy(&[]))
@@ -143,6 +147,16 @@ fn release_steps() -> Vec<Step> {
             "package",
             "the Debian package works in an empty Debian, and its removal leaves nothing there",
             || crate::release::run_release(&["--deb".into()]),
+        ),
+        Step::built_in(
+            "oldest-rust",
+            "the crates of mathematics build with the oldest compiler that they name",
+            oldest_rust::check_oldest_rust,
+        ),
+        Step::built_in(
+            "strangers",
+            "programs of others build against the packed crates, and run",
+            || crate::strangers::run_strangers(&[]),
         ),
         Step::built_in("aarch64", "AArch64 in an emulator gives the same bytes", || {
             crate::determinism::run_determinism(&["--targets=aarch64".into()])

@@ -24,11 +24,7 @@ impl Random {
     fn number(&mut self, low: f64, high: f64) -> f64 {
         let part = (self.bits() >> 11) as f64 / (1_u64 << 53) as f64;
         let x = low + (high - low) * part;
-        if self.bits().is_multiple_of(2) {
-            x
-        } else {
-            format!("{x:.2e}").parse().expect("a number")
-        }
+        if self.bits() % 2 == 0 { x } else { format!("{x:.2e}").parse().expect("a number") }
     }
 
     fn pick<T: Copy>(&mut self, from: &[T]) -> T {

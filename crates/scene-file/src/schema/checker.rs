@@ -386,20 +386,16 @@ impl<'a> Checker<'a> {
             if meant.is_some_and(VariantEntry::has_brackets) {
                 help.insert_str(help.len() - "`?".len(), "()");
             }
-            if name == entry.name
-                && let Some(inner) = group.and_then(|group| self.only_item(group))
+            if let Some([SyntaxItem { key: None, value }]) =
+                group.map(|group| group.items.as_slice())
+                && name == entry.name
             {
+                let inner = &self.source[value.span.clone()];
                 help = format!("leave out `{name}(…)` and write {inner}");
             }
             self.report(span, message, Some(help));
         }
         variant.map(|variant| (variant, group))
-    }
-
-    /// The text of the only item of a group, unless it is long.
-    fn only_item(&self, group: &Group<'_>) -> Option<&str> {
-        let [SyntaxItem { key: None, value }] = group.items.as_slice() else { return None };
-        Some(&self.source[value.span.clone()]).filter(|text| text.len() <= 60)
     }
 
     /// Reports a value that names no variant, with the variant that holds such values, if there is

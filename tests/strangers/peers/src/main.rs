@@ -1,0 +1,51 @@
+//! One textured mesh by three rasterizers: `ours.rs`, `euc.rs` and `retrofire.rs` are the same program, and their lines are
+//! compared; so are their pictures, and with `--time` their speed, the best of several rounds in one process.
+//! Whole programs: the vertices are projected and the picture is cleared each time.
+
+mod euc;
+mod ours;
+mod retrofire;
+mod scene;
+
+use scene::Scene;
+use std::time::{Duration, Instant};
+
+fn main() {
+    for (name, is_sheet) in [("A sheet before the eye", true), ("Hills to the horizon", false)] {
+        println!("{name}:");
+        compare(&Scene::new(is_sheet));
+    }
+}
+
+fn compare(scene: &Scene) {
+    let rounds = if std::env::args().any(|word| word == "--time") { 25 } else { 1 };
+    let (mut one, mut two) = (ours::Program::new(scene, 1), ours::Program::new(scene, 2));
+    let (mut euc, mut retrofire) = (euc::Program::new(scene), retrofire::Program::new(scene));
+    let mut programs: [(&str, &mut dyn FnMut()); 4] = [
+        ("raster, one thread", &mut || one.draw()),
+        ("raster, two threads", &mut || two.draw()),
+        ("euc 0.5.3", &mut || euc.draw()),
+        ("retrofire 0.4.0", &mut || retrofire.draw()),
+    ];
+    let mut best = [Duration::MAX; 4];
+    for _ in 0..rounds {
+        for (index, (_, draw)) in programs.iter_mut().enumerate() {
+            let begin = Instant::now();
+            draw();
+            best[index] = best[index].min(begin.elapsed());
+        }
+    }
+    let names = programs.map(|(name, _)| name);
+    let pictures = [one.pixels(), two.pixels(), euc.pixels(), retrofire.pixels()];
+    for (index, name) in names.iter().enumerate() {
+        let same = pictures[index].iter().zip(pictures[0]);
+        let apart = same.filter(|(a, b)| (0..3).any(|k| a[k].abs_diff(b[k]) > 24)).count();
+        let ratio = best[index].as_secs_f64() / best[0].as_secs_f64();
+        let time =
+            format!(", {:.2} ms, {ratio:.2} times the first", best[index].as_secs_f64() * 1e3);
+        println!("{name:20} {apart} pixels differ{}", if rounds > 1 { &time } else { "" });
+        // Edges of texels and of bumps fall to the one or the other side.
+        assert!(apart < pictures[0].len() / 10, "{name}: {apart}");
+    }
+    assert!(pictures[0] == pictures[1], "the number of threads shows");
+}
