@@ -51,7 +51,7 @@ pub const SUBJECTS: &[Subject] = &[
     }),
     ("viewport::Unprojector::ray", |r| {
         let unprojector = any_viewport(r)?.unprojector::<View>(r.projective::<Clip, View>());
-        let PickRay { ray, near, far } = unprojector.pick_ray(r.numbers())?;
+        let PickRay { ray, near, far, .. } = unprojector.pick_ray(r.numbers())?;
         Some((ray.origin, ray.direction, near, far).finite())
     }),
     ("viewport::tiles", |r| {

@@ -3,7 +3,7 @@
 use super::number_list::parse_number_list;
 use super::options::option_parser;
 use camera::CameraAxes;
-use projection::PixelCenters;
+use homog::PixelCenters;
 use scene_file::file::{
     CameraFile, Finite, Positive, ProjectionFile, RotationFile, Triple, ViewFile,
 };

@@ -95,6 +95,7 @@ pub enum FramingConstraint {
 
 /// A camera in the right place, and how far the points reach in front of it.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct Framing {
     /// The camera.
     pub camera: Camera,

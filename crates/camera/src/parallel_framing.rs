@@ -21,6 +21,7 @@ use homog::{Point, Vector, View, World};
 
 /// A camera, a window and a depth range for a parallel projection.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct ParallelFraming {
     /// The camera. Its eye lies on the projector through the middle of the picture, before the
     /// nearest point by one diagonal of the points.

@@ -43,6 +43,7 @@ pub struct CameraView {
 
 /// The views of the left and the right eye.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct StereoPair {
     /// The left eye.
     pub left: CameraView,

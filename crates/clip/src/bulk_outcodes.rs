@@ -24,6 +24,7 @@ use homog::{Clip, HPoint, Point, Projective, Space};
 
 /// Where the points of an array are, taken together.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[non_exhaustive]
 pub struct OutcodeSummary {
     /// How many points were looked at: the length of the shortest slice.
     pub count: usize,

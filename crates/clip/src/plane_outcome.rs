@@ -15,6 +15,7 @@ pub enum PlaneOutcome {
 
 /// The effects of all planes of a volume on a shape.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+#[non_exhaustive]
 pub struct PlaneOutcomes {
     /// The planes that took a part away.
     pub clipped: Outcode,

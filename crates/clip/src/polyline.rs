@@ -6,6 +6,7 @@ use homog::{Clip, HPoint};
 
 /// A point of what is left of a polyline.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct PolylinePoint {
     /// Where it is, not divided.
     pub point: HPoint<Clip>,

@@ -21,6 +21,7 @@ use homog::{Clip, HPoint};
 /// - An end that is inside is here with its very bits. From q to p the same two points come out,
 ///   bit by bit.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct ClippedSegment {
     /// The first point that is inside.
     pub start: HPoint<Clip>,

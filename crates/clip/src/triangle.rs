@@ -18,6 +18,7 @@ const MAX_VERTICES: usize = 3 + MAX_PLANES;
 
 /// A vertex of what is left of a triangle.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct ClipVertex {
     /// Where it is, not divided. Its w is greater than 0.
     pub point: HPoint<Clip>,

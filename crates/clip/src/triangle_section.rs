@@ -21,6 +21,7 @@ use homog::{Plane, Point, Space};
 
 /// A vertex of what is left of a triangle behind a plane.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct SectionVertex<S: Space> {
     /// Where it is.
     pub point: Point<S>,

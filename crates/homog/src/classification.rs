@@ -58,6 +58,7 @@ pub enum KindReason {
 /// # use std::string::ToString;
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct Classification {
     /// Linear, affine or projective.
     pub kind: MapKind,

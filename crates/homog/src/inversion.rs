@@ -6,6 +6,7 @@ use crate::{Projective, Space};
 
 /// An inverse, and what it is worth.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct Inversion<A: Space, B: Space> {
     /// The inverse map.
     pub map: Projective<A, B>,

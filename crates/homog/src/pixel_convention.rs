@@ -26,12 +26,14 @@ pub enum YAxis {
 }
 
 /// The position of the center of pixel (i, j).
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub enum PixelCenters {
-    /// At (i, j): the pixel covers [i − ½, i + ½). The chapter, Direct3D 9.
+    /// At (i, j): the pixel covers [i − ½, i + ½). The chapter, OpenCV and most of computer vision,
+    /// Direct3D 9. The middle of 640 columns is at 319.5.
+    #[default]
     Integer,
     /// At (i + ½, j + ½): the pixel covers [i, i + 1). Direct3D since 10, OpenGL, Vulkan, Metal,
-    /// WebGPU.
+    /// WebGPU, COLMAP. The middle of 640 columns is at 320.
     Half,
 }
 

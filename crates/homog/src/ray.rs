@@ -21,6 +21,7 @@ pub struct Ray<S: Space> {
 
 /// Where a ray meets a triangle.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct TriangleHit {
     /// The parameter along the ray.
     pub t: f64,

@@ -40,6 +40,7 @@ pub struct ApexMovedFrustum {
 /// The four steps of the lesson, in the order a point passes them; their product is the matrix
 /// (C66).
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct ApexMovedSteps {
     /// Eq2: moves the apex to the origin.
     pub move_apex: Affine<View, View>,

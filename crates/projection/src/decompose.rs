@@ -79,6 +79,7 @@ pub enum Decomposed {
 
 /// The result of [`decompose`].
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct Decomposition {
     /// The projection, without the factor.
     pub kind: Decomposed,

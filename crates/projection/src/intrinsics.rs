@@ -14,32 +14,7 @@ use crate::frustum::check_planes;
 use crate::matrix::{DepthRow, from_rows, is_bounded, is_invertible};
 use crate::{Convention, Frustum, ProjectionError, Window};
 use glam::{DMat4, DVec4};
-use homog::{Clip, Point, Projective, View};
-
-/// The pixel coordinates of the center of the upper left pixel.
-///
-/// Programs disagree by half a pixel, and nothing in a matrix says which is meant.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub enum PixelCenters {
-    /// (0, 0): OpenCV, and with it most of computer vision. The corner of the picture is at
-    /// (−½, −½), and the middle of 640 columns at 319.5.
-    #[default]
-    Integer,
-    /// (½, ½): OpenGL, COLMAP, and this project. The corner of the picture is at (0, 0), and the
-    /// middle of 640 columns at 320.
-    Half,
-}
-
-impl PixelCenters {
-    /// The coordinate of the center of the first pixel: 0 or ½.
-    #[must_use]
-    pub const fn first(self) -> f64 {
-        match self {
-            Self::Integer => 0.0,
-            Self::Half => 0.5,
-        }
-    }
-}
+use homog::{Clip, PixelCenters, Point, Projective, View};
 
 /// The perspective of a pinhole camera by focal lengths and principal point in pixels.
 ///
@@ -48,7 +23,7 @@ impl PixelCenters {
 ///
 /// ```
 /// use homog::Point;
-/// use projection::{Intrinsics, PixelCenters};
+/// use projection::Intrinsics;
 /// let lens = Intrinsics::new([500.0, 500.0], [319.5, 239.5], [640, 480])?;
 /// // One unit to the right, two ahead: 250 columns beside the principal point.
 /// let pixel = lens.project(Point::new(1.0, 0.0, -2.0)).expect("ahead of the eye");
@@ -120,7 +95,7 @@ impl Intrinsics {
     /// This lens with its principal point told by another rule for pixel centers.
     #[must_use]
     pub fn in_pixel_centers(self, pixel_centers: PixelCenters) -> Self {
-        let by = pixel_centers.first() - self.pixel_centers.first();
+        let by = pixel_centers.first_center() - self.pixel_centers.first_center();
         let principal_point = self.principal_point.map(|center| center + by);
         Self { principal_point, pixel_centers, ..self }
     }

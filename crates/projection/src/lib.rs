@@ -110,7 +110,7 @@ pub use fov::{Fov, HalfSlopes, SensorSize, opening_angle_of};
 pub use frustum::Frustum;
 /// The types of points, maps and spaces, so that a program needs no second dependency.
 pub use homog;
-pub use intrinsics::{Intrinsics, PixelCenters};
+pub use intrinsics::Intrinsics;
 pub use multiview::{PrincipalPlane, PrincipalView, SheetAngle};
 pub use normalize::{FrustumFactors, ParallelFactors};
 pub use npoint::NPoint;

@@ -15,6 +15,7 @@ use homog::{Affine, Clip, Projective, View};
 
 /// The factors of a parallel projection, in the order a point passes them (VV-1, C86).
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct ParallelFactors {
     /// Makes the projectors perpendicular to the plane.
     pub shear: Affine<View, View>,
@@ -62,6 +63,7 @@ impl Oblique {
 
 /// The factors of a frustum, in the order a point passes them (VV-2, C87, C88).
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct FrustumFactors {
     /// Puts the center line of the volume on the line of sight.
     pub shear: Affine<View, View>,

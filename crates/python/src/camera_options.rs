@@ -4,7 +4,8 @@ use crate::arrays;
 use crate::failure::{Failure, Fallible};
 use crate::keywords::{Keywords, not_a};
 use camera::{CameraAxes, Extrinsics, NamedView};
-use projection::{Intrinsics, PixelCenters};
+use homog::PixelCenters;
+use projection::Intrinsics;
 use pyo3::prelude::*;
 use scene_file::file::{
     CameraChoice, CameraFile, DEFAULT_PADDING, FieldOfView, Finite, FromFile, Positive,

@@ -16,7 +16,7 @@ const FLOOR: [[f32; 2]; 4] = [[-9.0, 1.0], [9.0, 1.0], [400.0, 400.0], [-400.0, 
 const TRIANGLES: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
 fn checker(fragment: &Fragment<'_>) -> [f32; 4] {
-    let place = VertexAttribute { first_id: 0, triangles: &TRIANGLES, values: &FLOOR };
+    let place = VertexAttribute::new(&TRIANGLES, &FLOOR);
     let (here, [right, below]) = (place.at(fragment), place.derivatives(fragment));
     let reach = |[x, ahead]: [f32; 2]| x.abs().max(ahead.abs());
     let fade = (1.0 - reach(right).max(reach(below))).max(0.0);

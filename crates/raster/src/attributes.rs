@@ -41,7 +41,7 @@ impl Fragment<'_> {
 /// let mut frame = Frame::new(8, 8, Samples::Four)?;
 /// frame.add_mesh(&vertices, &triangles, 0, Opacity::Opaque, CullMode::Nothing);
 ///
-/// let color = VertexAttribute { first_id: 0, triangles: &triangles, values: &colors };
+/// let color = VertexAttribute::new(&triangles, &colors);
 /// let surface = surface_fn(|fragment| {
 ///     let [r, g, b] = color.at(fragment);
 ///     [r, g, b, 1.0]
@@ -53,6 +53,7 @@ impl Fragment<'_> {
 /// # Ok::<(), raster::RasterError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct VertexAttribute<'a, A> {
     /// The id that the first triangle was added with.
     pub first_id: u32,
@@ -62,7 +63,19 @@ pub struct VertexAttribute<'a, A> {
     pub values: &'a [A],
 }
 
-impl<A: Interpolate> VertexAttribute<'_, A> {
+impl<'a, A: Interpolate> VertexAttribute<'a, A> {
+    /// The values at the vertices of a mesh whose triangles have ids that count up from 0.
+    #[must_use]
+    pub const fn new(triangles: &'a [[u32; 3]], values: &'a [A]) -> Self {
+        Self { first_id: 0, triangles, values }
+    }
+
+    /// This attribute, for a mesh whose ids count up from `first_id`.
+    #[must_use]
+    pub const fn with_first_id(self, first_id: u32) -> Self {
+        Self { first_id, ..self }
+    }
+
     /// The value in a fragment of the mesh.
     ///
     /// # Panics

@@ -27,6 +27,7 @@ pub struct ScreenProjection {
 
 /// A mesh in model, world or any other space, as [`Frame::add_clipped_mesh`] takes it.
 #[derive(Clone, Copy, Debug, Default)]
+#[non_exhaustive]
 pub struct SourceMesh<'a> {
     /// The positions of the vertices.
     pub positions: &'a [[f32; 3]],
@@ -38,6 +39,33 @@ pub struct SourceMesh<'a> {
     pub opacity: Opacity,
     /// The winding of the triangles that are left out.
     pub cull: CullMode,
+}
+
+impl<'a> SourceMesh<'a> {
+    /// A mesh of opaque triangles whose ids count up from 0, and of which none is culled.
+    #[must_use]
+    pub const fn new(positions: &'a [[f32; 3]], triangles: &'a [[u32; 3]]) -> Self {
+        let (opacity, cull) = (Opacity::Opaque, CullMode::Nothing);
+        Self { positions, triangles, first_id: 0, opacity, cull }
+    }
+
+    /// This mesh with ids that count up from `first_id`.
+    #[must_use]
+    pub const fn with_first_id(self, first_id: u32) -> Self {
+        Self { first_id, ..self }
+    }
+
+    /// This mesh, alpha tested or translucent.
+    #[must_use]
+    pub const fn with_opacity(self, opacity: Opacity) -> Self {
+        Self { opacity, ..self }
+    }
+
+    /// This mesh without triangles of one winding.
+    #[must_use]
+    pub const fn with_culling(self, cull: CullMode) -> Self {
+        Self { cull, ..self }
+    }
 }
 
 impl ScreenProjection {
@@ -143,8 +171,7 @@ impl Frame {
     ///
     /// // A floor one unit below the eye, from behind it to the horizon.
     /// let corners = [[-900.0, -1.0, 9.0], [900.0, -1.0, 9.0], [0.0, -1.0, -900.0]];
-    /// let floor =
-    ///     SourceMesh { positions: &corners, triangles: &[[0, 1, 2]], ..Default::default() };
+    /// let floor = SourceMesh::new(&corners, &[[0, 1, 2]]);
     ///
     /// let lens = Perspective::new(Fov::vertical_degrees(60.0), 4.0 / 3.0, 0.1, 100.0)?;
     /// let convention = Convention::VULKAN;

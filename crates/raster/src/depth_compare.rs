@@ -13,6 +13,7 @@ use fearless_simd::{Simd, f32x8, mask32x8};
 /// Drawing is fastest with `Greater`, which every scene with depth 1 at the near plane wants. With
 /// the others hidden surfaces are found sample by sample.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+#[non_exhaustive]
 pub enum DepthCompare {
     /// Nearer fragments pass. At equal depth the primitive that was added first stays.
     #[default]

@@ -10,6 +10,7 @@ use homog::PixelRect;
 /// Depths and ids at the first sample of each pixel (its center, with one sample), rows from the
 /// top.
 #[derive(Clone, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct VisibilityBuffer {
     /// Depth: 1 at the near plane, 0 at the far plane and for the background.
     pub depth: Vec<f32>,

@@ -31,6 +31,7 @@ pub struct MatrixReading {
 
 /// Everything a matrix may be.
 #[derive(Clone, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct Recognition {
     /// The meanings, the most sensible first; never empty.
     pub readings: Vec<MatrixReading>,

@@ -9,6 +9,7 @@ use projection::{
 
 /// Angles and proportions of a perspective, read from its matrix with as many digits as matter.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct Lens {
     /// Horizontal angle of view: from the left to the right edge.
     pub fov_x_degrees: f64,

@@ -12,6 +12,7 @@ use projection::{ApexMovedFrustum, Convention, Frustum, Orthographic, Perspectiv
 /// A known slip: its number among M1 to M28, and in brackets its row in the formula collection's
 /// table of misprints.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+#[non_exhaustive]
 pub enum Misprint {
     /// M4 (7): P is left out of M_vp M_orth P M_cam; w stays 1 and nothing is foreshortened.
     PerspectiveLeftOut,

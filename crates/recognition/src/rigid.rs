@@ -9,6 +9,7 @@ use glam::{DMat3, DVec3};
 
 /// A camera's matrix from world to view space (CA-2): its position and its axes in the world.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct CameraReading {
     /// The position of the camera.
     pub eye: [f64; 3],

@@ -30,6 +30,7 @@ pub enum SuspicionStrength {
 
 /// A known misprint that a matrix may be.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct Suspicion {
     /// The slip.
     pub misprint: Misprint,

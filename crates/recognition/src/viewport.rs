@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 
 /// A viewport: from [−1, 1]² to a rectangle of pixels, and from depth [−1, 1] to a depth range.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct ViewportReading {
     /// The column of the left edge.
     pub x: f64,
@@ -25,6 +26,7 @@ pub struct ViewportReading {
 
 /// The intrinsic matrix K of a pinhole camera, in pixels (Hartley and Zisserman 2004, OpenCV).
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct IntrinsicsReading {
     /// Focal length in pixel widths.
     pub fx: f64,

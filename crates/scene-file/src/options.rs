@@ -11,7 +11,8 @@ use drawing::{EdgeSelection, FaceFill, HiddenLines};
 use hidden_line::SilhouetteMethod;
 use model::{Colormap, LengthUnit, UpAxis};
 use page::{Cap, Join};
-use projection::{PixelCenters, PrincipalView, SheetAngle};
+use projection::homog::PixelCenters;
+use projection::{PrincipalView, SheetAngle};
 use shade::{ImageFit, ToneMapping};
 use sheet::{DecimalMark, DimensionUnit, ExplosionAxis, SheetFrame, TitleBlockLanguage};
 

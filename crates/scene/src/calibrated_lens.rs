@@ -22,7 +22,7 @@ pub(super) fn calibrated_lens(
     };
     let size = size.map_or(picture_size, |(width, height)| [width, height]);
     // From the first pixel's center to the last one's.
-    let middle = size.map(|side| 0.5 * f64::from(side) - 0.5 + pixel_centers.first());
+    let middle = size.map(|side| 0.5 * f64::from(side) - 0.5 + pixel_centers.first_center());
     let center = [cx, cy].map(|given| given.map(Finite::value));
     let center = [center[0].unwrap_or(middle[0]), center[1].unwrap_or(middle[1])];
     let focal_length = [fx.value(), fy.map_or(fx.value(), Positive::value)];

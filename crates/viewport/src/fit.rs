@@ -20,6 +20,7 @@ use crate::{Rectangle, ViewportError};
 
 /// How a picture is fitted into a place of another shape.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[non_exhaustive]
 pub enum FitPolicy {
     /// Fill the place and let circles become ellipses.
     Stretch,

@@ -36,6 +36,7 @@ pub struct Unprojector<S: Space> {
 
 /// The ray through one position of the image, between the near and the far plane.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct PickRay<S: Space> {
     /// The ray away from the viewer, its direction of length 1. It begins at the center of
     /// projection, or, for a parallel projection, on the near plane.

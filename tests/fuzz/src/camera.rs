@@ -3,10 +3,10 @@
 use crate::numbers::Numbers;
 use crate::scene::resolve_and_draw;
 use camera::{CameraAxes, Extrinsics};
-use homog::Point;
+use homog::{PixelCenters, Point};
 use pipeline::Origin;
 use scene_file::parse_scene;
-use projection::{Convention, Intrinsics, PixelCenters};
+use projection::{Convention, Intrinsics};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/models");
 

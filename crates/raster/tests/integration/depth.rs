@@ -44,7 +44,7 @@ fn expected_ids(triangles: &[Corners], compare: DepthCompare) -> Vec<Option<u32>
                 DepthCompare::Less => *depth < place.0,
                 DepthCompare::LessEqual => *depth <= place.0,
                 DepthCompare::Equal => *depth == place.0,
-                DepthCompare::Always => true,
+                _ => true,
             };
             if id.is_some() && passes {
                 *place = (*depth, id);
@@ -155,12 +155,7 @@ fn lens() -> Projective<View, homog::Clip> {
 #[test]
 fn a_floor_under_the_eye_covers_the_lower_half() {
     let positions = [[-500.0, -1.0, 9.0], [500.0, -1.0, 9.0], [0.0, -1.0, -99.0_f32]];
-    let mesh = SourceMesh {
-        positions: &positions,
-        triangles: &[[0, 1, 2]],
-        first_id: 7,
-        ..Default::default()
-    };
+    let mesh = SourceMesh::new(&positions, &[[0, 1, 2]]).with_first_id(7);
     let screen = ScreenProjection::new(
         &Viewport::image_for(SIDE, SIDE, ClipRange::CHAPTER).expect("pixels"),
     );
@@ -186,7 +181,7 @@ fn a_floor_under_the_eye_covers_the_lower_half() {
     // Front faces are counterclockwise seen from above.
     for (cull, is_drawn) in [(CullMode::Clockwise, true), (CullMode::CounterClockwise, false)] {
         let mut floor = frame(Samples::One);
-        floor.add_clipped_mesh(&screen, lens(), SourceMesh { cull, ..mesh });
+        floor.add_clipped_mesh(&screen, lens(), mesh.with_culling(cull));
         let covered = floor.visibility_buffer().ids.iter().any(Option::is_some);
         assert_eq!(covered, is_drawn, "{cull:?}");
     }
@@ -202,8 +197,7 @@ fn positions_that_are_not_finite_are_left_out() {
         let positions = [[-1.0, -1.0, -2.0], [1.0, -1.0, -2.0], [0.0, 1.0, -2.0], [odd, 0.0, -2.0]];
         let mut drawn = frame(Samples::One);
         let triangles = [[0, 1, 3], [0, 1, 2], [0, 1, 9]];
-        let mesh =
-            SourceMesh { positions: &positions, triangles: &triangles, ..Default::default() };
+        let mesh = SourceMesh::new(&positions, &triangles);
         drawn.add_clipped_mesh(&screen, lens(), mesh);
         let ids = drawn.visibility_buffer().ids;
         assert!(ids.contains(&Some(1)), "{odd}");

@@ -2,7 +2,8 @@
 
 use crate::number::{FieldOfView, Finite, NonNegative, Positive};
 use crate::schema::scene_enum;
-use projection::{PixelCenters, PrincipalView};
+use projection::PrincipalView;
+use projection::homog::PixelCenters;
 
 scene_enum! {
     /// A projection.

@@ -23,13 +23,9 @@ impl<'a> Program<'a> {
             ScreenProjection::for_image(SIZE.0, SIZE.1, ClipRange::OPENGL).expect("pixels");
         let to_clip = Projective::<View, _>::from_column_major_f32(self.scene.to_clip);
         self.frame.clear();
-        self.frame.add_clipped_mesh(
-            &screen,
-            to_clip,
-            SourceMesh { positions, triangles, ..Default::default() },
-        );
+        self.frame.add_clipped_mesh(&screen, to_clip, SourceMesh::new(positions, triangles));
 
-        let uv = VertexAttribute { first_id: 0, triangles, values: uvs };
+        let uv = VertexAttribute::new(triangles, uvs);
         let surface = surface_fn(|fragment| {
             let [u, v] = uv.at(fragment);
             let [r, g, b] = self.scene.texel(u, v).map(f32::from);

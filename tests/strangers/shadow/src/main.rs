@@ -17,7 +17,7 @@ fn frame(
 ) -> Result<Frame, Box<dyn std::error::Error>> {
     let mut frame = Frame::new(size[0], size[1], Samples::One)?;
     let screen = ScreenProjection::for_image(size[0], size[1], Convention::CHAPTER)?;
-    let mesh = SourceMesh { positions, triangles: &TRIANGLES, ..Default::default() };
+    let mesh = SourceMesh::new(positions, &TRIANGLES);
     frame.add_clipped_mesh(&screen, lens * view.world_to_view(), mesh);
     Ok(frame)
 }
@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .view_to_clip(Convention::CHAPTER);
     let picture = frame([200; 2], eye, lens, &positions)?;
     let places = positions.map(Point::<World>::from);
-    let place = VertexAttribute { first_id: 0, triangles: &TRIANGLES, values: &places };
+    let place = VertexAttribute::new(&TRIANGLES, &places);
     let is_lit = |p: Point<World>| {
         let [x, y, z, _] = <[f64; 4]>::from(to_map * p);
         // Pixels and depth of the map; a little nearer, against rounding.

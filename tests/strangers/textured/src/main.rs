@@ -32,14 +32,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let convention = Convention::VULKAN;
     let lens = Perspective::new(Fov::vertical_degrees(60.0), 4.0 / 3.0, 0.1, 100.0)?;
     let mut frame = Frame::new(SIZE.0, SIZE.1, Samples::Four)?;
-    let mesh = SourceMesh { positions: &positions, triangles: &triangles, ..Default::default() };
+    let mesh = SourceMesh::new(&positions, &triangles);
     frame.add_clipped_mesh(
         &ScreenProjection::for_image(SIZE.0, SIZE.1, convention)?,
         lens.view_to_clip(convention),
         mesh,
     );
 
-    let uv = VertexAttribute { first_id: 0, triangles: &triangles, values: &uvs };
+    let uv = VertexAttribute::new(&triangles, &uvs);
     let surface = surface_fn(|fragment| {
         let [u, v] = uv.at(fragment);
         let light = if (u.floor() + v.floor()).rem_euclid(2.0) < 1.0 { 0.9 } else { 0.2 };

@@ -1,8 +1,8 @@
 //! K to matrix to K, and pixels by K against pixels by matrix, divide and viewport.
 
 use super::samples::{self, convention, distance, frustum};
-use homog::{Point, View};
-use projection::{Convention, Frustum, Intrinsics, PixelCenters, ProjectionError};
+use homog::{PixelCenters, Point, View};
+use projection::{Convention, Frustum, Intrinsics, ProjectionError};
 use proptest::prelude::*;
 
 /// Any lens, and planes for it.
