@@ -136,6 +136,22 @@ impl From<hidden_line::DrawError> for RenderError {
 
 /// Renders a scene with up to `threads` threads, whose number does not change the picture.
 ///
+/// ```
+/// # use pipeline::scene::file::{CameraFile, LightFile};
+/// # use pipeline::Scene;
+/// # let scene = Scene::builder()
+/// #     .mesh([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]], [0, 1, 2])
+/// #     .camera(CameraFile::look_at([0.0, 0.0, 4.0], [0.0; 3]))
+/// #     .light(LightFile::directional([0.0, 0.0, -1.0], 2.0)?)
+/// #     .size(64, 48)
+/// #     .build()?;
+/// let picture = pipeline::render(&scene, 2)?;
+/// assert_eq!((picture.width, picture.height), (64, 48));
+/// // The triangle is in the middle, and the corner shows the background.
+/// assert_ne!(picture.pixel(32, 24), picture.pixel(0, 0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// A shortcut for one picture; a [`Renderer`] renders several faster, measures, and can be
 /// observed and canceled.
 ///

@@ -37,6 +37,21 @@ const OVERLAY_INK: Ink = [20, 24, 30];
 /// others. `workers` is the number of threads, which does not change the page, or that with a
 /// [monitor](raster::Monitor), which is told of each drawing's edges.
 ///
+/// ```
+/// # use pipeline::scene::file::{CameraFile, LightFile};
+/// # use pipeline::Scene;
+/// # let scene = Scene::builder()
+/// #     .mesh([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]], [0, 1, 2])
+/// #     .camera(CameraFile::look_at([0.0, 0.0, 4.0], [0.0; 3]))
+/// #     .light(LightFile::directional([0.0, 0.0, -1.0], 2.0)?)
+/// #     .size(64, 48)
+/// #     .build()?;
+/// let page = pipeline::render::draw_lines(&scene, 2, &Default::default())?;
+/// let svg = page.to_svg();
+/// assert!(svg.contains("<path") && !page.layers.is_empty());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// As [`render`](crate::render()).
 pub fn draw_lines<'a>(

@@ -40,6 +40,26 @@ use shade::FrameChannel;
 /// Passes show the surfaces of the models, also of a scene whose style draws lines; overlays,
 /// environment, backdrop and ground are not in them.
 ///
+/// ```
+/// # use pipeline::scene::file::{CameraFile, LightFile};
+/// # use pipeline::Scene;
+/// # let scene = Scene::builder()
+/// #     .mesh([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]], [0, 1, 2])
+/// #     .camera(CameraFile::look_at([0.0, 0.0, 4.0], [0.0; 3]))
+/// #     .light(LightFile::directional([0.0, 0.0, -1.0], 2.0)?)
+/// #     .size(64, 48)
+/// #     .build()?;
+/// use pipeline::PixelRect;
+/// use pipeline::render::passes::{Pass, render_passes};
+///
+/// let whole = PixelRect::from_size(64, 48);
+/// let buffers = render_passes(&scene, whole, &[Pass::Depth], 2, &Default::default())?;
+/// // The distance ahead of the eye, which is 4 before the triangle.
+/// let depth = buffers[0].float_values(32, 24).map(|values| values[0]);
+/// assert!(depth.is_some_and(|depth| (depth - 4.0).abs() < 1e-5), "{depth:?}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// As [`render`](crate::render()).
 pub fn render_passes(

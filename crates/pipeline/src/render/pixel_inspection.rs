@@ -59,6 +59,21 @@ pub struct FragmentSource {
 /// Renders one pixel of a scene's picture and lists its fragments. `None` outside the picture, and
 /// for line drawings, which have no fragments.
 ///
+/// ```
+/// # use pipeline::scene::file::{CameraFile, LightFile};
+/// # use pipeline::Scene;
+/// # let scene = Scene::builder()
+/// #     .mesh([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]], [0, 1, 2])
+/// #     .camera(CameraFile::look_at([0.0, 0.0, 4.0], [0.0; 3]))
+/// #     .light(LightFile::directional([0.0, 0.0, -1.0], 2.0)?)
+/// #     .size(64, 48)
+/// #     .build()?;
+/// let pixel = pipeline::render::inspect_pixel(&scene, 32, 24)?.ok_or("inside")?;
+/// let triangle = pixel.fragments[0].source.ok_or("of a model")?;
+/// assert_eq!((triangle.model, triangle.element), (0, 0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// As [`render`](crate::render()).
 pub fn inspect_pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelFragments>, RenderError> {

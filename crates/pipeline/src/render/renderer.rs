@@ -48,6 +48,26 @@ impl Renderer {
     /// Renders a whole picture, and returns the warnings about what it lacks: each once, none for
     /// most pictures. The picture takes the size of the scene's image.
     ///
+    /// ```
+    /// # use pipeline::scene::file::{CameraFile, LightFile};
+    /// # use pipeline::Scene;
+    /// # let scene = Scene::builder()
+    /// #     .mesh([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]], [0, 1, 2])
+    /// #     .camera(CameraFile::look_at([0.0, 0.0, 4.0], [0.0; 3]))
+    /// #     .light(LightFile::directional([0.0, 0.0, -1.0], 2.0)?)
+    /// #     .size(64, 48)
+    /// #     .build()?;
+    /// use pipeline::{Picture, RenderContext, Renderer, Textures};
+    ///
+    /// let textures = Textures::for_scene(&scene);
+    /// let context = RenderContext::new(&scene, &textures, 2);
+    /// let mut picture = Picture::<u16>::default(); // 16 bits a channel
+    /// let warnings = Renderer::default().render(&context, &mut picture)?;
+    /// assert!(warnings.is_empty());
+    /// assert_eq!(picture.pixels.len(), 64 * 48);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// If the picture's size is out of range, the scene has too many primitives, or the context was
     /// canceled.
