@@ -26,7 +26,7 @@ pub fn run_strangers(flags: &[String]) -> Outcome {
     package_crates(false)?;
     for archive in list_files(&target_folder().join("package-sources/target/package"), "crate")? {
         let mut tar = Command::new("tar");
-        run_command(tar.arg("xzf").arg(&archive).arg("-C").arg(&crates))?;
+        run_command(tar.arg("xzmf").arg(&archive).arg("-C").arg(&crates))?;
     }
     copy_programs(&project_root().join("tests/strangers"), &programs)?;
     let mut cargo = cargo_command(&["build", "--quiet", "--workspace", "--locked"]);

@@ -22,7 +22,7 @@ use homog::{Clip, PixelCenters, Point, Projective, View};
 /// All numbers are finite, fx, fy, width and height above 0.
 ///
 /// ```
-/// use homog::Point;
+/// use homog::{PixelCenters, Point};
 /// use projection::Intrinsics;
 /// let lens = Intrinsics::new([500.0, 500.0], [319.5, 239.5], [640, 480])?;
 /// // One unit to the right, two ahead: 250 columns beside the principal point.
