@@ -1,5 +1,5 @@
-//! A photographer's round: walks about a house, keeps all of it in the picture, and ends with a
-//! stereo pair.
+//! A photographer's walk: around a house, keeping all of it in the picture, with a stereo pair at
+//! the end.
 //!
 //! Run it with `cargo run -p alberti-camera --example photographer`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
@@ -7,7 +7,7 @@
 use camera::{FramingError, NamedView, Slopes, StereoRig, frame_parallel, frame_perspective};
 use homog::Point;
 
-/// A house: four walls and a ridge, in metres.
+/// A house: four walls and a ridge, in meters.
 const HOUSE: [[f64; 3]; 10] = [
     [-4.0, 0.0, -6.0],
     [4.0, 0.0, -6.0],

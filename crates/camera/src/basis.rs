@@ -1,4 +1,4 @@
-//! The orientation of a camera: three unit vectors at right angles (CA-1).
+//! The orientation of a camera: three perpendicular unit vectors (CA-1).
 //!
 //! ```text
 //!        v (up in the picture)        w = −g / ‖g‖          against the gaze
@@ -10,16 +10,16 @@
 //!     w          g runs from the eye into the page, against w
 //! ```
 //!
-//! Source: chapter §8.1.3, formula CA-1.
+//! Source: the textbook (Shirley and Marschner, ch. 8), §8.1.3, formula CA-1.
 
 use crate::{CameraError, exact_cross};
 use homog::{Affine, Point, Vector, View, World};
 
 /// ‖t × g‖ ≤ this · ‖t‖ ‖g‖ counts as parallel. Directions a millionth of a radian apart are far
-/// from it.
+/// above it.
 const PARALLEL_SINE: f64 = 1e-12;
 
-/// The orientation of a camera: right-handed orthonormal axes u (right), v (up), w (backwards) in
+/// The orientation of a camera: right-handed orthonormal axes u (right), v (up), w (backward) in
 /// world space.
 ///
 /// ```
@@ -39,15 +39,14 @@ pub struct Basis {
 }
 
 impl Basis {
-    /// The axes of the world: looking along −z with y up.
+    /// The world axes: looking along −z with y up.
     pub const WORLD: Self = Self { u: Vector::X, v: Vector::Y, w: Vector::Z };
 
-    /// The basis that looks along `gaze` with the side of `up` upwards (CA-1). Lengths do not
-    /// matter.
+    /// The basis that looks along `gaze` with `up` toward the top (CA-1). Lengths do not matter.
     ///
     /// # Errors
-    /// A zero or non-finite vector; an `up` parallel to the gaze, that is with a sine of the angle
-    /// between them of at most 10⁻¹².
+    /// Returns an error if a vector is zero or not finite, or if `up` is parallel to the gaze, that
+    /// is, if the sine of the angle between them is at most 10⁻¹².
     pub fn from_gaze(gaze: Vector<World>, up: Vector<World>) -> Result<Self, CameraError> {
         let backwards = -unit_vector(gaze, "gaze", CameraError::ZeroGaze)?;
         unit_vector(up, "view-up", CameraError::ZeroUp)?;
@@ -61,11 +60,11 @@ impl Basis {
         Ok(Self::from_right(Vector::from_raw(right), backwards))
     }
 
-    /// As [`from_gaze`](Self::from_gaze), but an `up` that is zero or parallel to the gaze is
-    /// replaced by [`fallback_up`](Self::fallback_up) instead of being refused.
+    /// Like [`from_gaze`](Self::from_gaze), but replaces an `up` that is zero or parallel to the
+    /// gaze by [`fallback_up`](Self::fallback_up).
     ///
     /// # Errors
-    /// A gaze that is zero, or any vector that is not finite.
+    /// Returns an error if the gaze is zero or a vector is not finite.
     pub fn from_gaze_or_fallback(
         gaze: Vector<World>,
         up: Vector<World>,
@@ -78,9 +77,9 @@ impl Basis {
         })
     }
 
-    /// The view-up to take where the wanted one is of no use: −z when looking mostly down (as a map
-    /// has north at the top), +z when looking mostly up, +y otherwise. Never nearer to the gaze
-    /// than 45°.
+    /// A view-up to use when the given one does not work: −z when looking mostly down (north is at
+    /// the top of a map), +z when looking mostly up, +y otherwise. It is always at least 45° from
+    /// the gaze.
     #[must_use]
     pub fn fallback_up(gaze: Vector<World>) -> Vector<World> {
         let [x, y, z] = gaze.raw().abs().to_array();
@@ -95,14 +94,14 @@ impl Basis {
     fn from_right(right: Vector<World>, backwards: Vector<World>) -> Self {
         let w = backwards;
         let right = right / right.length();
-        // Both were rounded on ways of their own; this takes the last digit's error along w away.
+        // The two were rounded independently; this removes the error in the last digit along w.
         let right = right - w * right.dot(w);
         let u = right / right.length();
         let v = w.cross(u);
         Self { u, v: v / v.length(), w }
     }
 
-    /// Three axes that are orthonormal by the formula they come from.
+    /// Axes that are orthonormal by construction.
     pub(crate) const fn from_orthonormal(
         u: Vector<World>,
         v: Vector<World>,
@@ -111,32 +110,32 @@ impl Basis {
         Self { u, v, w }
     }
 
-    /// To the right in the picture: a unit vector.
+    /// The direction to the right in the picture: a unit vector.
     #[must_use]
     pub const fn u(self) -> Vector<World> {
         self.u
     }
 
-    /// Upwards in the picture: a unit vector.
+    /// The direction up in the picture: a unit vector.
     #[must_use]
     pub const fn v(self) -> Vector<World> {
         self.v
     }
 
-    /// Out of the picture towards the viewer, against the gaze: a unit vector.
+    /// The direction out of the picture toward the viewer, opposite to the gaze: a unit vector.
     #[must_use]
     pub const fn w(self) -> Vector<World> {
         self.w
     }
 
-    /// Where the camera looks: −w, a unit vector.
+    /// The gaze direction: −w, a unit vector.
     #[must_use]
     pub fn gaze(self) -> Vector<World> {
         -self.w
     }
 
-    /// The rotation that turns u, v, w into the axes x, y, z of view space: the left factor of
-    /// M_cam (CA-2).
+    /// The rotation that maps u, v, w to the axes x, y, z of view space: the left factor of M_cam
+    /// (CA-2).
     #[must_use]
     pub fn world_to_view_rotation(self) -> Affine<World, View> {
         let [u, v, w] = [self.u, self.v, self.w];
@@ -162,7 +161,7 @@ impl Basis {
     }
 }
 
-/// The unit vector along `vector`, or the error that says what it lacks.
+/// The unit vector along `vector`, or an error that says why there is none.
 fn unit_vector(
     vector: Vector<World>,
     name: &'static str,

@@ -8,19 +8,19 @@
 //!         [ 0  0  0  1 ] [ 0 0 0  1  ]
 //! ```
 //!
-//! Source: chapter §8.1.3, formula CA-2. (One set of notes prints the third row of the translation
-//! as 0 0 0 −ze, misprint M11: that matrix is singular and puts every point at one depth.)
+//! Source: the textbook (Shirley and Marschner, ch. 8), §8.1.3, formula CA-2. (One set of notes
+//! prints the third row of the translation as 0 0 0 −ze, misprint M11: that matrix is singular and
+//! puts every point at the same depth.)
 
 use crate::{Basis, CameraError};
 use homog::{Affine, Point, Space, Vector, View, World};
 
-/// The greatest coordinate of an eye: with it u · e still is a finite number.
+/// The largest coordinate of an eye for which u · e is still finite.
 const EYE_LIMIT: f64 = f64::MAX / 4.0;
 
-/// Where a camera stands and how it is turned. It knows nothing of lenses: that is a projection's
-/// business.
+/// The position and orientation of a camera. Lenses are left to the projection.
 ///
-/// A `Camera` is always usable: every constructor refuses what would give NaN.
+/// A `Camera` is always usable: every constructor rejects input that would give NaN.
 ///
 /// ```
 /// use camera::Camera;
@@ -40,7 +40,8 @@ impl Camera {
     /// The camera at `eye` with the given orientation.
     ///
     /// # Errors
-    /// An eye that is not finite, or with a coordinate beyond a quarter of the largest f64.
+    /// Returns an error if the eye is not finite or has a coordinate beyond a quarter of the
+    /// largest f64.
     pub fn new(eye: Point<World>, basis: Basis) -> Result<Self, CameraError> {
         check_position(eye, "eye")?;
         if eye.raw().abs().max_element() > EYE_LIMIT {
@@ -49,11 +50,11 @@ impl Camera {
         Ok(Self { eye, basis })
     }
 
-    /// The camera at `eye` that has `target` in the middle of the picture and the side of `up`
-    /// upwards.
+    /// The camera at `eye` with `target` at the center of the picture and `up` toward the top.
     ///
     /// # Errors
-    /// Eye and target the same; `up` zero or parallel to the gaze; any coordinate not finite.
+    /// Returns an error if eye and target are the same, `up` is zero or parallel to the gaze, or a
+    /// coordinate is not finite.
     pub fn look_at(
         eye: Point<World>,
         target: Point<World>,
@@ -62,11 +63,11 @@ impl Camera {
         Self::new(eye, Basis::from_gaze(gaze_between(eye, target)?, up)?)
     }
 
-    /// The camera at `eye` that looks along `gaze` with the side of `up` upwards. Lengths do not
-    /// matter.
+    /// The camera at `eye` that looks along `gaze` with `up` toward the top. Lengths do not matter.
     ///
     /// # Errors
-    /// Gaze or `up` zero, or parallel to each other; any coordinate not finite.
+    /// Returns an error if the gaze or `up` is zero, they are parallel, or a coordinate is not
+    /// finite.
     pub fn look_to(
         eye: Point<World>,
         gaze: Vector<World>,
@@ -75,11 +76,11 @@ impl Camera {
         Self::new(eye, Basis::from_gaze(gaze, up)?)
     }
 
-    /// As [`look_at`](Self::look_at), with [`Basis::fallback_up`] in place of an `up` that is zero
-    /// or parallel to the gaze: −z looking down, +z looking up, +y otherwise.
+    /// Like [`look_at`](Self::look_at), but uses [`Basis::fallback_up`] if `up` is zero or parallel
+    /// to the gaze: −z looking down, +z looking up, +y otherwise.
     ///
     /// # Errors
-    /// Eye and target the same, or any coordinate not finite.
+    /// Returns an error if eye and target are the same or a coordinate is not finite.
     pub fn look_at_or_fallback(
         eye: Point<World>,
         target: Point<World>,
@@ -88,11 +89,11 @@ impl Camera {
         Self::new(eye, Basis::from_gaze_or_fallback(gaze_between(eye, target)?, up)?)
     }
 
-    /// As [`look_to`](Self::look_to), with [`Basis::fallback_up`] in place of an `up` that is zero
-    /// or parallel to the gaze: −z looking down, +z looking up, +y otherwise.
+    /// Like [`look_to`](Self::look_to), but uses [`Basis::fallback_up`] if `up` is zero or parallel
+    /// to the gaze: −z looking down, +z looking up, +y otherwise.
     ///
     /// # Errors
-    /// A gaze that is zero, or any coordinate not finite.
+    /// Returns an error if the gaze is zero or a coordinate is not finite.
     pub fn look_to_or_fallback(
         eye: Point<World>,
         gaze: Vector<World>,
@@ -101,18 +102,18 @@ impl Camera {
         Self::new(eye, Basis::from_gaze_or_fallback(gaze, up)?)
     }
 
-    /// The camera at the origin of a frame, looking along its −z with its +y up, as the camera
-    /// nodes of glTF do. The frame may be scaled, sheared or mirrored; the camera is not.
+    /// The camera at the origin of a frame, looking along its −z with its +y up, like the camera
+    /// nodes of glTF. The frame may be scaled, sheared or mirrored; the camera is not.
     ///
     /// # Errors
-    /// A frame whose z axis is zero or parallel to its y axis, or that is not finite.
+    /// Returns an error if the frame is not finite or its z axis is zero or parallel to its y axis.
     pub fn from_frame<L: Space>(local_to_world: Affine<L, World>) -> Result<Self, CameraError> {
         let gaze = local_to_world.transform_vector(-Vector::Z);
         let up = local_to_world.transform_vector(Vector::Y);
         Self::look_to(local_to_world.transform_point(Point::ORIGIN), gaze, up)
     }
 
-    /// Where the camera stands; the center of projection if the projection is a perspective.
+    /// The position of the camera; the center of projection if the projection is a perspective.
     #[must_use]
     pub const fn eye(self) -> Point<World> {
         self.eye
@@ -124,43 +125,44 @@ impl Camera {
         self.basis
     }
 
-    /// To the right in the picture: the unit vector u of CA-1.
+    /// The direction to the right in the picture: the unit vector u of CA-1.
     #[must_use]
     pub const fn u(self) -> Vector<World> {
         self.basis.u()
     }
 
-    /// To the right in the picture, the same as [`u`](Self::u).
+    /// The direction to the right in the picture, the same as [`u`](Self::u).
     #[must_use]
     pub const fn right(self) -> Vector<World> {
         self.basis.u()
     }
 
-    /// Upwards in the picture: the unit vector v of CA-1, perpendicular to the gaze.
+    /// The direction up in the picture: the unit vector v of CA-1, perpendicular to the gaze.
     #[must_use]
     pub const fn v(self) -> Vector<World> {
         self.basis.v()
     }
 
-    /// Against the gaze, towards the viewer: the unit vector w of CA-1.
+    /// The direction toward the viewer, opposite to the gaze: the unit vector w of CA-1.
     #[must_use]
     pub const fn w(self) -> Vector<World> {
         self.basis.w()
     }
 
-    /// Where the camera looks: −w, a unit vector.
+    /// The gaze direction: −w, a unit vector.
     #[must_use]
     pub fn gaze(self) -> Vector<World> {
         self.basis.gaze()
     }
 
-    /// M_cam (CA-2): the eye goes to the origin, what is ahead gets a negative z.
+    /// M_cam (CA-2): it maps the eye to the origin, and points in front of the camera get a
+    /// negative z.
     #[must_use]
     pub fn world_to_view(self) -> Affine<World, View> {
         self.translation().then(self.rotation())
     }
 
-    /// The inverse of M_cam, without any elimination: its columns are u, v, w and the eye.
+    /// The inverse of M_cam, without elimination: its columns are u, v, w and the eye.
     #[must_use]
     pub fn view_to_world(self) -> Affine<View, World> {
         Affine::from_frame(self.u(), self.v(), self.w(), self.eye)
@@ -172,16 +174,16 @@ impl Camera {
         Affine::translation(Point::ORIGIN - self.eye)
     }
 
-    /// The left factor of M_cam, applied second: it turns u, v, w into the axes of view space.
+    /// The left factor of M_cam, applied second: it maps u, v, w to the axes of view space.
     #[must_use]
     pub fn rotation(self) -> Affine<World, View> {
         self.basis.world_to_view_rotation()
     }
 
-    /// This camera, moved by `by` with its orientation unchanged.
+    /// This camera moved by `by`, with its orientation unchanged.
     ///
     /// # Errors
-    /// As [`Camera::new`] for the new eye.
+    /// As for [`Camera::new`] with the new eye.
     pub fn moved(self, by: Vector<World>) -> Result<Self, CameraError> {
         Self::new(self.eye + by, self.basis)
     }
@@ -194,8 +196,7 @@ fn gaze_between(eye: Point<World>, target: Point<World>) -> Result<Vector<World>
     if gaze == Vector::ZERO {
         return Err(CameraError::TargetIsEye { eye });
     }
-    // Two points at opposite ends of the numbers are farther apart than a number can say; half of
-    // it can.
+    // The difference between two huge opposite points may overflow; half of it does not.
     let half = || Vector::from_raw(target.raw() * 0.5 - eye.raw() * 0.5);
     Ok(if gaze.is_finite() { gaze } else { half() })
 }

@@ -1,32 +1,32 @@
-//! Errors of cameras and framing, each with the values at fault.
+//! Camera and framing errors, with the offending values.
 
 use homog::{Point, Vector, View, World};
 
-/// Why no camera can be made of the given eye, gaze and view-up.
+/// The reason why an eye, gaze and view-up do not define a camera.
 #[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CameraError {
     /// A coordinate is infinite or NaN.
     #[error("the {name} {value} is not finite")]
     NotFinite {
-        /// Which input: "eye", "target", "gaze", "view-up" …
+        /// The input: "eye", "target", "gaze", "view-up" …
         name: &'static str,
-        /// Its three numbers.
+        /// Its three coordinates.
         value: Vector<World>,
     },
-    /// The gaze is the zero vector and points nowhere.
+    /// The gaze is the zero vector, which has no direction.
     #[error("the gaze is the zero vector: it must point where the camera looks")]
     ZeroGaze,
-    /// Eye and target are the same point, so that there is no direction between them.
+    /// Eye and target are the same point, so there is no direction between them.
     #[error("eye and target are both {eye}: move one of them")]
     TargetIsEye {
-        /// The place of both.
+        /// Their common position.
         eye: Point<World>,
     },
     /// The view-up is the zero vector.
     #[error("the view-up is the zero vector: it must point somewhere upwards in the picture")]
     ZeroUp,
-    /// View-up and gaze lie in one line, so that no side of the picture is up.
+    /// View-up and gaze are parallel, so no side of the picture is up.
     #[error(
         "the view-up {up} is parallel to the gaze {gaze}: choose another, such as {suggestion}"
     )]
@@ -35,21 +35,21 @@ pub enum CameraError {
         up: Vector<World>,
         /// The gaze as given.
         gaze: Vector<World>,
-        /// A view-up that works with this gaze: the one the `_or_fallback` constructors take.
+        /// A view-up that works with this gaze: the one used by the `_or_fallback` constructors.
         suggestion: Vector<World>,
     },
-    /// The eye is so far out that its distance cannot be computed.
+    /// The eye is too far away for its distance to be computed.
     #[error("the eye {eye} is too far from the origin: coordinates may reach {limit:e}")]
     EyeTooFar {
         /// The eye as given.
         eye: Point<World>,
-        /// The greatest coordinate allowed.
+        /// The largest coordinate allowed.
         limit: f64,
     },
     /// A number that must be finite is not.
     #[error("the {name} is {value}, which is not finite")]
     NumberNotFinite {
-        /// Which input.
+        /// The input.
         name: &'static str,
         /// Its value.
         value: f64,
@@ -57,7 +57,7 @@ pub enum CameraError {
     /// A number that must be greater than zero is not.
     #[error("the {name} is {value}: it must be greater than 0")]
     NotPositive {
-        /// Which input.
+        /// The input.
         name: &'static str,
         /// Its value.
         value: f64,
@@ -65,14 +65,14 @@ pub enum CameraError {
     /// A number is too large to compute with.
     #[error("the {name} is {value:e}: its size must not be above {limit:e}")]
     TooLarge {
-        /// Which input.
+        /// The input.
         name: &'static str,
         /// Its value.
         value: f64,
-        /// The greatest allowed.
+        /// The largest value allowed.
         limit: f64,
     },
-    /// A matrix that should be a rotation has rows that are not of length 1 and at right angles.
+    /// A matrix that should be a rotation has rows that are not perpendicular unit vectors.
     #[error(
         "the matrix is no rotation: dot products of its rows are off by {deviation:.2e}, \
          and 1e-4 is allowed"
@@ -81,10 +81,10 @@ pub enum CameraError {
         /// The largest difference of a dot product of two rows from 1 or 0.
         deviation: f64,
     },
-    /// A matrix that should be a rotation mirrors.
+    /// A matrix that should be a rotation mirrors instead.
     #[error("the matrix mirrors, its determinant is negative: negate one of its rows or columns")]
     MirroringRotation,
-    /// A quaternion is zero and turns nothing.
+    /// A quaternion is zero and does not represent a rotation.
     #[error("the quaternion is zero: one of its four numbers must be different from 0")]
     ZeroQuaternion,
     /// Two opposite sides of the window coincide.
@@ -104,10 +104,10 @@ pub enum CameraError {
     /// Two corners of the screen are the same point.
     #[error("two corners of the screen are both {corner}: it needs a width and a height")]
     FlatScreen {
-        /// The place of both.
+        /// Their common position.
         corner: Point<World>,
     },
-    /// The sides of the screen are not at right angles.
+    /// The sides of the screen are not perpendicular.
     #[error("the sides of the screen are not at right angles: their angle has the cosine {cosine}")]
     SkewedScreen {
         /// The cosine of the angle between them.
@@ -123,7 +123,7 @@ pub enum CameraError {
     },
 }
 
-/// Why some points cannot be framed.
+/// The reason why points cannot be framed.
 #[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FramingError {
@@ -165,28 +165,27 @@ pub enum FramingError {
         /// The ratio as given.
         aspect: f64,
     },
-    /// The padding leaves nothing of the frame, or is negative.
+    /// The padding is negative or leaves nothing of the frame.
     #[error("the padding is {padding}: it must be at least 0 and less than 0.5 of the frame")]
     Padding {
         /// The padding as given.
         padding: f64,
     },
-    /// The projectors run along the view plane and never meet it, or towards the viewer, or are not
-    /// finite.
+    /// The projectors are parallel to the view plane, point toward the viewer or are not finite.
     #[error("the projectors run along {direction} in view space: z must be negative")]
     Projectors {
         /// Their direction as given.
         direction: Vector<View>,
     },
-    /// Points or window are so large or so extreme that the camera leaves the finite numbers.
+    /// The points or the window are so large or so extreme that the camera is no longer finite.
     #[error(
         "the points, up to {farthest:e} from the origin, cannot be framed within the range of f64"
     )]
     OutOfRange {
-        /// The greatest coordinate among the points.
+        /// The largest coordinate of any point.
         farthest: f64,
     },
-    /// The camera itself is at fault.
+    /// The camera itself is invalid.
     #[error(transparent)]
     Camera(#[from] CameraError),
 }

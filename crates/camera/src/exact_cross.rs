@@ -1,16 +1,16 @@
-//! A vector product that keeps its digits when the vectors are nearly parallel.
+//! A cross product that keeps its digits even if the vectors are nearly parallel.
 //!
 //! Each coordinate of t × g is a difference a b − c d. For directions 10⁻⁶ rad apart the two
-//! products agree in six digits, so that rounding them first would leave the camera's right axis
-//! with ten. Here the rounding errors of the products are computed and put back (Dekker 1971, with
-//! Veltkamp's splitting), which makes u right to the last digits for any view-up that is accepted.
+//! products agree to six digits, and rounding them first would leave only ten digits in the
+//! camera's right axis. Here the rounding errors of the products are computed and added back
+//! (Dekker 1971, with Veltkamp's splitting). This makes u correct to the last digits for any
+//! accepted view-up.
 
 use glam::DVec3;
 
-/// `a × b` up to a positive factor, or zero. Both must be finite and not zero.
+/// `a × b` up to a positive factor, or zero. Both must be finite and nonzero.
 ///
-/// The vectors are first scaled by powers of two, which costs no digit, so that huge and tiny ones
-/// work.
+/// The vectors are first scaled by powers of two, which is exact, so huge and tiny ones work.
 pub(crate) fn cross_exact(a: DVec3, b: DVec3) -> DVec3 {
     let (a, b) = (scale_near_one(a), scale_near_one(b));
     DVec3::new(
@@ -20,7 +20,7 @@ pub(crate) fn cross_exact(a: DVec3, b: DVec3) -> DVec3 {
     )
 }
 
-/// The vector times the power of two that brings its largest coordinate into [½, 1).
+/// The vector times the power of two that scales its largest coordinate to [½, 1).
 pub(crate) fn scale_near_one(v: DVec3) -> DVec3 {
     let (_, exponent) = libm::frexp(v.abs().max_element());
     DVec3::from_array(v.to_array().map(|c| libm::scalbn(c, -exponent)))
@@ -33,7 +33,7 @@ fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
     (p - q) + (p_error - q_error)
 }
 
-/// The rounded product and what rounding took from it.
+/// The rounded product and its rounding error.
 fn two_product(a: f64, b: f64) -> (f64, f64) {
     let p = a * b;
     let ((a_high, a_low), (b_high, b_low)) = (veltkamp_split(a), veltkamp_split(b));
@@ -55,7 +55,7 @@ mod tests {
 
     #[test]
     fn a_difference_of_almost_equal_products_is_exact() {
-        // (1 + e)(1 − e) − 1 · 1 = −e², which two roundings would lose altogether.
+        // (1 + e)(1 − e) − 1 · 1 = −e², which two roundings would lose completely.
         let e = 1.0 / 1_073_741_824.0;
         let half = difference_of_products((1.0 + e) / 2.0, 1.0 - e, 0.5, 1.0);
         assert_eq!(half, -e * e / 2.0);

@@ -1,5 +1,5 @@
-//! Extrinsic parameters: where a camera stands, as calibration, photogrammetry and data sets write
-//! it.
+//! Extrinsic parameters: the camera position and orientation as calibration, photogrammetry and
+//! data sets write them.
 //!
 //! ```text
 //!  camera = R · world + t      eye = −Rᵀ t       pose [Rᵀ | eye]: camera to world
@@ -10,7 +10,7 @@
 //!  Pytorch3d left    up     ahead        PyTorch3D
 //! ```
 //!
-//! All three are right-handed: turns of view space by half a circle about one axis.
+//! All three are right-handed: half turns of view space about one axis.
 //!
 //! Source: R. Hartley, A. Zisserman, *Multiple View Geometry in Computer Vision*, 2nd ed., 2004,
 //! §6.1.
@@ -18,23 +18,23 @@
 use crate::{Basis, Camera, CameraError};
 use homog::{Point, Vector, World};
 
-/// Dot products of the rows of a rotation may be off by this: matrices are written with six digits.
+/// The tolerance for dot products of rotation rows: matrices are often written with six digits.
 const ROTATION_TOLERANCE: f64 = 1e-4;
 
-/// The directions of the axes of camera space in the picture.
+/// The directions of the camera axes in the picture.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum CameraAxes {
-    /// x to the right, y down, z ahead: OpenCV, COLMAP, the optical frames of ROS.
+    /// x right, y down, z forward: OpenCV, COLMAP, the optical frames of ROS.
     #[default]
     OpenCv,
-    /// x to the right, y up, z backwards: OpenGL, Blender, glTF, NeRF, and view space here.
+    /// x right, y up, z backward: OpenGL, Blender, glTF, NeRF, and view space here.
     OpenGl,
-    /// x to the left, y up, z ahead: PyTorch3D.
+    /// x left, y up, z forward: PyTorch3D.
     Pytorch3d,
 }
 
 impl CameraAxes {
-    /// The signs that turn coordinates of view space (right, up, backwards) into these, and back.
+    /// The signs that convert view coordinates (right, up, backward) to these axes and back.
     const fn signs(self) -> [f64; 3] {
         match self {
             Self::OpenCv => [1.0, -1.0, -1.0],
@@ -44,7 +44,7 @@ impl CameraAxes {
     }
 }
 
-/// A rotation R and a translation t from the world to a camera's space: camera = R · world + t.
+/// A rotation R and a translation t from world to camera space: camera = R · world + t.
 ///
 /// # Guarantees
 /// All numbers are finite, and R is a rotation within 10⁻⁴.
@@ -52,7 +52,7 @@ impl CameraAxes {
 /// ```
 /// use camera::{CameraAxes, Extrinsics};
 /// use homog::Point;
-/// // A camera of OpenCV that looks along +z of the world, three units before its origin.
+/// // An OpenCV camera that looks along world +z, three units in front of the origin.
 /// let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 /// let extrinsics = Extrinsics::new(identity, [0.0, 0.0, 3.0], CameraAxes::OpenCv)?;
 /// let camera = extrinsics.to_camera()?;
@@ -68,10 +68,10 @@ pub struct Extrinsics {
 }
 
 impl Extrinsics {
-    /// The camera with camera = R · world + t; `rotation` row by row.
+    /// The camera with camera = R · world + t, where `rotation` is given row by row.
     ///
     /// # Errors
-    /// A number that is not finite; a matrix that is no rotation within 10⁻⁴.
+    /// Returns an error if a number is not finite or the matrix is not a rotation within 10⁻⁴.
     pub fn new(
         rotation: [[f64; 3]; 3],
         translation: [f64; 3],
@@ -85,11 +85,10 @@ impl Extrinsics {
         Ok(Self { rotation, translation, axes })
     }
 
-    /// The camera whose pose, camera to world, has these axes as columns of its rotation and stands
-    /// at `eye`.
+    /// The camera at `eye` whose camera-to-world rotation has these axes as columns.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// See [`new`](Self::new).
     pub fn from_pose(
         rotation: [[f64; 3]; 3],
         eye: [f64; 3],
@@ -101,11 +100,11 @@ impl Extrinsics {
         Self::new(rotation, translation, axes)
     }
 
-    /// The camera of a quaternion (w, x, y, z) and a translation from world to camera, as in
-    /// COLMAP's `images.txt`. The quaternion need not have length 1.
+    /// The camera from a world-to-camera quaternion (w, x, y, z) and translation, as in COLMAP's
+    /// `images.txt`. The quaternion need not have length 1.
     ///
     /// # Errors
-    /// A number that is not finite, or a quaternion of length 0.
+    /// Returns an error if a number is not finite or the quaternion has length 0.
     pub fn from_quaternion(
         [w, x, y, z]: [f64; 4],
         translation: [f64; 3],
@@ -113,7 +112,7 @@ impl Extrinsics {
     ) -> Result<Self, CameraError> {
         check_finite("vector part of the quaternion", [x, y, z])?;
         check_finite("real part of the quaternion", [w, 0.0, 0.0])?;
-        // Scaled first, so that squares neither overflow nor vanish.
+        // Scaled first, so squares neither overflow nor vanish.
         let largest = [w, x, y, z].into_iter().fold(0.0, |most: f64, part| most.max(part.abs()));
         if largest == 0.0 {
             return Err(CameraError::ZeroQuaternion);
@@ -128,10 +127,10 @@ impl Extrinsics {
         Self::new(rotation, translation, axes)
     }
 
-    /// The camera of PyTorch3D's R and T, which multiply row vectors: camera = world · R + T.
+    /// The camera from PyTorch3D's R and T, which multiply row vectors: camera = world · R + T.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// See [`new`](Self::new).
     pub fn from_pytorch3d(
         rotation: [[f64; 3]; 3],
         translation: [f64; 3],
@@ -154,11 +153,11 @@ impl Extrinsics {
         Self { rotation, translation, axes }
     }
 
-    /// The camera with these parameters. A rotation with rounded numbers is made one: its third row
-    /// stays where it points, the second is turned into the plane at a right angle to it.
+    /// The camera with these parameters. A rotation with rounded numbers is corrected: the third
+    /// row keeps its direction, and the second row is made perpendicular to it.
     ///
     /// # Errors
-    /// A translation so large that the eye is out of range.
+    /// Returns an error if the translation is so large that the eye is out of range.
     pub fn to_camera(self) -> Result<Camera, CameraError> {
         let signs = self.axes.signs();
         let [_, up, backwards] = [0, 1, 2].map(|row| {
@@ -181,13 +180,13 @@ impl Extrinsics {
         Self { rotation, translation, axes }
     }
 
-    /// R, row by row: the world's axes turned into the camera's.
+    /// R, row by row: it maps world axes to camera axes.
     #[must_use]
     pub const fn rotation(self) -> [[f64; 3]; 3] {
         self.rotation
     }
 
-    /// t: the world's origin in the camera's space.
+    /// t: the world origin in camera space.
     #[must_use]
     pub const fn translation(self) -> [f64; 3] {
         self.translation
@@ -199,7 +198,7 @@ impl Extrinsics {
         self.axes
     }
 
-    /// The pose, camera to world: a rotation, row by row, and the eye.
+    /// The camera-to-world pose: a rotation, row by row, and the eye.
     #[must_use]
     pub fn to_pose(self) -> ([[f64; 3]; 3], [f64; 3]) {
         let rotation = transpose(self.rotation);
@@ -208,8 +207,8 @@ impl Extrinsics {
 
     /// The rotation as a quaternion (w, x, y, z) of length 1 with w not negative.
     ///
-    /// Source: S. W. Shepperd, *Quaternion from Rotation Matrix*, 1978: the largest of the four is
-    /// found first, so that nothing is divided by a small number.
+    /// Source: S. W. Shepperd, *Quaternion from Rotation Matrix*, 1978: the largest component is
+    /// computed first, to avoid dividing by a small number.
     #[must_use]
     pub fn to_quaternion(self) -> [f64; 4] {
         let [[a, b, c], [d, e, f], [g, h, i]] = self.rotation;
@@ -228,19 +227,19 @@ impl Extrinsics {
     }
 }
 
-/// Three numbers must be finite.
+/// Checks that the three numbers are finite.
 fn check_finite(name: &'static str, value: [f64; 3]) -> Result<(), CameraError> {
     let value = Vector::from(value);
     if value.is_finite() { Ok(()) } else { Err(CameraError::NotFinite { name, value }) }
 }
 
-/// The rows must have length 1, stand at right angles, and not mirror.
+/// Checks that the rows are perpendicular unit vectors and do not mirror.
 fn check_rotation(rotation: [[f64; 3]; 3]) -> Result<(), CameraError> {
     let [x, y, z] = rotation.map(Vector::<World>::from);
     let lengths = [x, y, z].map(|row| row.dot(row) - 1.0);
     let angles = [x.dot(y), y.dot(z), z.dot(x)];
     let deviation = lengths.into_iter().chain(angles).fold(0.0, |most: f64, d| most.max(d.abs()));
-    // Numbers that overflow deviate by infinity.
+    // On overflow the deviation is infinite.
     if deviation > ROTATION_TOLERANCE {
         return Err(CameraError::NotRotation { deviation });
     }
@@ -250,7 +249,7 @@ fn check_rotation(rotation: [[f64; 3]; 3]) -> Result<(), CameraError> {
     Ok(())
 }
 
-/// Rows become columns.
+/// Exchanges rows and columns.
 fn transpose(rows: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     [0, 1, 2].map(|column| [0, 1, 2].map(|row: usize| rows[row][column]))
 }

@@ -1,4 +1,4 @@
-//! Framing in perspective: where the eye must stand so that some points just fill the picture.
+//! Perspective framing: the eye position at which given points just fill the picture.
 //!
 //! ```text
 //!  v
@@ -11,29 +11,30 @@
 //!                   ‾‾‾──── lower side, of slope b
 //! ```
 //!
-//! Each side of the pyramid is pushed inwards, at its own slope, until it touches a point. In
+//! Each side of the pyramid moves inward, with its own slope, until it touches a point. In
 //! coordinates along u, v, w a point (x, y, z) is left of the right side, of slope r, if x − ex ≤ r
-//! (ez − z), that is if ex + r ez ≥ x + r z: one number per side and point, and of these only the
-//! greatest, R, counts. With the least, L, for the left side we have ex + r ez ≥ R and ex + l ez ≤
-//! L, hence ez ≥ (R − L)/(r − l): the least distance at which the width fits. The height gives
-//! another; the greater one counts, and in the other direction the picture is centered. There is no
-//! sphere around the points, no trial and no margin, and no point is cropped.
+//! (ez − z), that is, if ex + r ez ≥ x + r z. That is one number per side and point, and only the
+//! largest, R, matters. With the smallest, L, for the left side, ex + r ez ≥ R and ex + l ez ≤ L.
+//! Hence ez ≥ (R − L)/(r − l), the smallest distance at which the width fits. The height gives a
+//! second distance. The larger one decides, and the picture is centered in the other direction. No
+//! bounding sphere, iteration or safety margin is involved, and no point is cropped.
 
 use crate::point_coordinates::PointCoordinates;
 use crate::{Basis, Camera, FramingError};
 use homog::{Point, Vector, World};
 
-/// The nearest point stands at least this part of the points' diagonal in front of the eye.
+/// The minimum distance from the eye to the nearest point, as a fraction of the diagonal of the
+/// points.
 ///
-/// Otherwise a needle that points at the viewer, narrower than the pyramid, would be framed from
-/// its very tip.
+/// Otherwise the eye could touch the tip of a needle that points at the viewer and is narrower than
+/// the pyramid.
 const MIN_CLEARANCE: f64 = 1.0 / 64.0;
 
 /// The frame as the slopes of its four sides: the window at distance 1 in front of the eye.
 ///
 /// A symmetric frame with a vertical opening angle θ has `top` = −`bottom` = tan(θ/2) and `right` =
-/// −`left` = `top` × width/height. Frames off the axis, of a shifted lens or a stereo eye, are as
-/// welcome.
+/// −`left` = `top` × width/height. Off-axis frames, as for shifted lenses and stereo eyes, work
+/// too.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Slopes {
     /// Left side: x at distance 1, less than `right`.
@@ -51,8 +52,8 @@ impl Slopes {
     /// width/height (FOV-1).
     ///
     /// # Errors
-    /// An angle out of its range, an aspect that is not positive and finite, or both so extreme
-    /// that the frame is no longer a pair of numbers.
+    /// Returns an error if the angle is out of range, the aspect is not positive and finite, or the
+    /// slopes are too extreme to represent.
     pub fn vertical_angle(radians: f64, aspect: f64) -> Result<Self, FramingError> {
         if !(radians > 0.0 && radians < core::f64::consts::PI) {
             return Err(FramingError::Angle { radians });
@@ -64,11 +65,12 @@ impl Slopes {
         slopes.padded(0.0)
     }
 
-    /// The frame less `padding` of its width at the left and right, and of its height below and
-    /// above.
+    /// The frame reduced by `padding` of its width at the left and right, and of its height at the
+    /// top and bottom.
     ///
     /// # Errors
-    /// A window that is empty, mirrored or not finite; a padding outside [0, ½).
+    /// Returns an error if the window is empty, mirrored or not finite, or if the padding is
+    /// outside [0, ½).
     pub fn padded(self, padding: f64) -> Result<Self, FramingError> {
         let Self { left, right, bottom, top } = self;
         check_padding(padding)?;
@@ -81,48 +83,48 @@ impl Slopes {
     }
 }
 
-/// Which demand decided how far away the eye stands, or how large the window is.
+/// The constraint that decided the distance of the eye or the size of the window.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum FramingConstraint {
     /// The points touch the left and right sides of the padded frame, and fit within its height.
     Width,
     /// The points touch the lower and upper sides of the padded frame, and fit within its width.
     Height,
-    /// The points touch no side: their image would have no size, or the eye would stand in the
-    /// nearest of them.
+    /// The points touch no side: their image would have no size, or the eye would coincide with the
+    /// nearest point.
     Loose,
 }
 
-/// A camera in the right place, and how far the points reach in front of it.
+/// A framed camera, with the depth range of the points in front of it.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct Framing {
     /// The camera.
     pub camera: Camera,
-    /// Distance of the nearest point along the gaze, greater than 0. Not padded.
+    /// The distance of the nearest point along the gaze, greater than 0. Not padded.
     pub near: f64,
-    /// Distance of the farthest point along the gaze. Not padded: equal to `near` if the points lie
-    /// in one plane.
+    /// The distance of the farthest point along the gaze. Not padded: equal to `near` if the points
+    /// lie in one plane.
     pub far: f64,
     /// The constraint that decided the distance.
     pub constraint: FramingConstraint,
 }
 
-/// Places a camera of the given orientation so that the image of `points` just fills the frame.
+/// Places a camera with the given orientation where the image of `points` just fills the frame.
 ///
-/// In the direction that [`FramingConstraint`] names the image touches both sides of the padded
-/// frame; in the other it is centered, with the same margin on both sides. `padding` is the part of
-/// the frame's width and height to be left free on every side: 0.05 is 5 per cent. For bounds pass
-/// [`homog::Bounds::corners`]; the points themselves give a closer fit.
+/// In the direction named by [`FramingConstraint`], the image touches both sides of the padded
+/// frame; in the other it is centered. `padding` is the fraction of the frame's width and height
+/// left free on every side: 0.05 is 5%. To frame bounds, pass [`homog::Bounds::corners`]; the
+/// points themselves give a closer fit.
 ///
-/// A single point is framed as a cube of side 1 around it (or of a millionth of its distance from
-/// the origin, if that is more); so are points that lie closer together than 10⁻¹² of that
-/// distance. The eye keeps off the nearest point by at least 1/64 of the points' diagonal.
+/// A single point is framed as a cube with side 1 around it, or with a millionth of its distance
+/// from the origin if that is more. The same applies to points closer together than 10⁻¹² of that
+/// distance. The eye stays at least 1/64 of the diagonal of the points away from the nearest point.
 ///
 /// # Errors
-/// No points; a point that is not finite; an empty or mirrored window; a padding outside [0, ½);
-/// points so far out, or a frame so narrow or so far off the axis, that f64 has no place for the
-/// eye.
+/// Returns an error if there are no points, a point is not finite, the window is empty or mirrored,
+/// or the padding is outside [0, ½). Points may also be so far away, or the frame so narrow or so
+/// far off the axis, that f64 cannot represent the eye.
 ///
 /// ```
 /// use camera::{NamedView, Slopes, frame_perspective};
@@ -155,7 +157,7 @@ where
     Ok(Framing { camera, near, far, constraint: fit })
 }
 
-/// The four supporting planes: the greatest x + r z and y + t z, the least x + l z and y + b z.
+/// The four supporting planes: the maximum x + r z and y + t z, the minimum x + l z and y + b z.
 struct SupportPlanes {
     left: f64,
     right: f64,
@@ -179,7 +181,7 @@ impl SupportPlanes {
         sides
     }
 
-    /// The eye in coordinates along u, v, w from the points' middle.
+    /// The eye in coordinates along u, v, w relative to the center of the points.
     fn eye_coordinates<I: Iterator<Item = Point<World>> + Clone>(
         &self,
         points: &PointCoordinates<I>,
@@ -204,13 +206,12 @@ impl SupportPlanes {
 }
 
 impl<I: Iterator<Item = Point<World>> + Clone> PointCoordinates<I> {
-    /// The eye's coordinate within `range` for which the outermost slopes add up to `sum`, so that
-    /// the margins on both sides are alike. `along` picks x or y of a point; the eye is at height
-    /// `z`.
+    /// The coordinate of the eye within `range` at which the outermost slopes add up to `sum`,
+    /// which makes the margins equal. `along` selects x or y of a point; the eye is at height `z`.
     ///
-    /// Each point's slope (x − e)/D falls linearly with e, so that the sum of the greatest and the
-    /// least falls too, piece by piece. On the right piece one linear equation gives the answer;
-    /// the loop finds the piece.
+    /// The slope (x − e)/D of each point falls linearly with e, so the sum of the largest and the
+    /// smallest falls too, piece by piece. The loop finds the correct piece, and one linear
+    /// equation gives the answer.
     fn center_image(
         &self,
         z: f64,
@@ -236,7 +237,7 @@ impl<I: Iterator<Item = Point<World>> + Clone> PointCoordinates<I> {
         eye
     }
 
-    /// Coordinate and distance of the points with the greatest and the least slope as seen from
+    /// The coordinate and distance of the points with the largest and smallest slopes as seen from
     /// `eye`.
     fn outermost_slopes(
         &self,

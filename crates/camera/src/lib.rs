@@ -1,4 +1,4 @@
-//! Cameras that never yield NaN: look-at with typed failure, named views and exact framing.
+//! Cameras that never yield NaN: look-at with typed errors, named views and exact framing.
 //!
 //! ```text
 //!              v  up in the picture
@@ -11,20 +11,20 @@
 //!                 u  right
 //! ```
 //!
-//! A [`Camera`] is an eye and an orientation ([`Basis`]) in world space. View space is right-handed
-//! with the eye at the origin, x right, y up and the camera looking along −z. Any unit of length,
-//! angles in radians. A camera knows no lens: projections are a matter of their own.
+//! A [`Camera`] is an eye and an orientation ([`Basis`]) in world space. View space is
+//! right-handed, with the eye at the origin, x right, y up and the camera looking along −z. Lengths
+//! are in any unit and angles in radians. A camera has no lens: projections are separate.
 //!
 //! ```
 //! use camera::{Camera, NamedView, Slopes, frame_perspective};
 //! use homog::{Point, Vector};
 //!
-//! // A camera by hand …
+//! // A camera placed by the user …
 //! let camera = Camera::look_at(Point::new(4.0, 3.0, 6.0), Point::ORIGIN, Vector::Y)?;
 //! let ahead = camera.world_to_view().transform_point(Point::ORIGIN);
 //! assert!((ahead.z() + 61_f64.sqrt()).abs() < 1e-15);
 //!
-//! // … and one that finds its own place, with 5 per cent of the picture free on every side.
+//! // … and one placed automatically, with 5% of the picture free on every side.
 //! let tetrahedron = [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]];
 //! let frame = Slopes::vertical_angle(35_f64.to_radians(), 16.0 / 9.0)?;
 //! let view = NamedView::Isometric.basis();
@@ -33,29 +33,29 @@
 //! # Ok::<(), camera::FramingError>(())
 //! ```
 //!
-//! | to say where a camera stands | take |
+//! | to specify a camera by | use |
 //! | --- | --- |
 //! | eye and target, or eye and gaze | [`Camera::look_at`], [`Camera::look_to`] |
-//! | the same if any view-up will do | [`Camera::look_at_or_fallback`] |
+//! | the same, accepting any view-up | [`Camera::look_at_or_fallback`] |
 //! | front, top, isometric … by name | [`NamedView`] |
-//! | so that all is in the picture | [`frame_perspective`], [`frame_parallel`], [`frame_oblique`] |
-//! | round a target, or on a turntable | [`Orbit`] |
+//! | points that must fit | [`frame_perspective`], [`frame_parallel`], [`frame_oblique`] |
+//! | an orbit around a target, or a turntable | [`Orbit`] |
 //! | yaw, pitch and roll | [`Orientation`] |
 //! | a node of a scene | [`Camera::from_frame`] |
-//! | by R and t, a pose or a quaternion, of OpenCV, OpenGL, COLMAP, PyTorch3D | [`Extrinsics`] |
-//! | two eyes | [`StereoRig`], and [`apex_moved_view`] to see how not to |
-//! | before a screen that stands in the world | [`ScreenCorners`] |
+//! | R and t, a pose or a quaternion from OpenCV, OpenGL, COLMAP, PyTorch3D | [`Extrinsics`] |
+//! | two eyes | [`StereoRig`], and [`apex_moved_view`] for a common mistake |
+//! | an eye in front of a physical screen | [`ScreenCorners`] |
 //!
 //! # Conventions
 //!
-//! - Model and world: +y up, and things face +z, as in glTF. World and view space are right-handed.
+//! - Model and world: +y up, and models face +z, as in glTF. World and view space are right-handed.
 //! - A [`ViewWindow`] is four numbers in view space and the distance of their plane; [`Slopes`] are
-//!   those of the plane at distance 1. Give them to any projection.
-//! - No constructor returns a camera with NaN in it. What cannot be done is a [`CameraError`] or a
-//!   [`FramingError`] that names the values at fault and says what would do: a view-up along the
-//!   gaze comes back with one that works.
+//!   the same on the plane at distance 1. Pass them to any projection.
+//! - No constructor returns a camera that contains NaN. Errors are a [`CameraError`] or a
+//!   [`FramingError`] with the offending values and a remedy: if the view-up is parallel to the
+//!   gaze, the error suggests one that works.
 //!
-//! `cargo run -p alberti-camera --example photographer` shows the crate at work.
+//! `cargo run -p alberti-camera --example photographer` demonstrates the crate.
 //!
 //! Sources: P. Shirley, S. Marschner and others, *Fundamentals of Computer Graphics*, chapter 8,
 //! *Viewing* (CA-1 to CA-3); R. Kooima, *Generalized Perspective Projection*, 2008, for screens.
@@ -83,7 +83,7 @@ pub use camera::Camera;
 pub use error::{CameraError, FramingError};
 pub use extrinsics::{CameraAxes, Extrinsics};
 pub use framing::{Framing, FramingConstraint, Slopes, frame_perspective};
-/// The types of points, maps and spaces, so that a program needs no second dependency.
+/// The types of points, maps and spaces, re-exported to save a second dependency.
 pub use homog;
 pub use named_view::{NamedView, UnknownView};
 pub use orbit::Orbit;
@@ -96,7 +96,7 @@ pub use view_projection::ViewProjection;
 pub use view_transform::ViewTransform;
 pub use window::ViewWindow;
 
-/// The examples of the README, compiled and run as a test.
+/// Runs the README examples as a test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,4 +1,4 @@
-//! The views that have names: the six principal ones and the customary axonometric ones.
+//! Named views: the six principal views and the usual axonometric ones.
 //!
 //! ```text
 //!             Top
@@ -11,19 +11,18 @@
 //!            (−y)
 //! ```
 //!
-//! Models face +z with +y up, as in glTF: the viewer of the front view stands on +z and looks along
-//! −z, with +x on the right hand. "Right" is that side, as on a drawing, and not the right hand of
-//! whoever the model shows.
+//! Models face +z with +y up, as in glTF. The viewer of the front view is on +z and looks along −z,
+//! with +x on the right. "Right" is the viewer's right, as on a drawing, not the right hand of the
+//! figure.
 //!
-//! A name is a direction and a view-up. Where the camera stands on that direction is a matter of
-//! framing.
+//! A name selects a direction and a view-up. Framing decides how far away the camera is.
 
 use crate::Basis;
 use core::fmt;
 use core::str::FromStr;
 use homog::{Vector, World};
 
-/// A view with a name.
+/// A named view.
 ///
 /// ```
 /// use camera::NamedView;
@@ -42,24 +41,24 @@ pub enum NamedView {
     Left,
     /// From +x, the viewer's right hand in the front view.
     Right,
-    /// From +y, looking down; the front of the model is at the bottom of the picture.
+    /// From +y, looking down. The front of the model is at the bottom of the picture.
     Top,
-    /// From −y, looking up; the front of the model is at the top of the picture.
+    /// From −y, looking up. The front of the model is at the top of the picture.
     Bottom,
-    /// From (1, 1, 1): all three axes equally foreshortened, by √(2/3).
+    /// From (1, 1, 1): all three axes foreshortened equally, by √(2/3).
     Isometric,
-    /// From (1, 1, √7): x and y foreshortened alike and z half as much again, the ratios 1 : 1 : ½
-    /// of ISO 5456-3. The x axis runs at 7° to the horizontal and the z axis at 42°.
+    /// From (1, 1, √7): the foreshortening ratios of x, y and z are 1 : 1 : ½, as in ISO 5456-3.
+    /// The x axis is drawn at 7° to the horizontal and the z axis at 42°.
     Dimetric,
-    /// From (2, 3, 6): three different foreshortenings, √45/7, √40/7 and √13/7.
+    /// From (2, 3, 6): three different foreshortening factors, √45/7, √40/7 and √13/7.
     Trimetric,
-    /// From (2, 1, 2): halfway between front and right and a little from above, as a product is
-    /// photographed.
+    /// From (2, 1, 2): halfway between front and right and slightly from above, as in product
+    /// photographs.
     ThreeQuarter,
 }
 
 impl NamedView {
-    /// All of them, the principal ones first.
+    /// All views, the principal ones first.
     pub const ALL: [Self; 10] = [
         Self::Front,
         Self::Back,
@@ -73,11 +72,11 @@ impl NamedView {
         Self::ThreeQuarter,
     ];
 
-    /// The six along the axes, which multiview drawings are made of.
+    /// The six views along the axes, used in multiview drawings.
     pub const PRINCIPAL: [Self; 6] =
         [Self::Front, Self::Back, Self::Left, Self::Right, Self::Top, Self::Bottom];
 
-    /// The name, in lower case.
+    /// The name in lower case.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -116,7 +115,7 @@ impl NamedView {
         direction / direction.length()
     }
 
-    /// Where the camera looks: against [`from_direction`](Self::from_direction), a unit vector.
+    /// The gaze direction: opposite to [`from_direction`](Self::from_direction), a unit vector.
     #[must_use]
     pub fn gaze(self) -> Vector<World> {
         -self.from_direction()
@@ -135,7 +134,7 @@ impl NamedView {
     /// The orientation of a camera with this view.
     #[must_use]
     pub fn basis(self) -> Basis {
-        // No view's up is parallel to its gaze, as the tests show for each.
+        // No view has an up parallel to its gaze; the tests check each one.
         Basis::from_gaze(self.gaze(), self.up()).unwrap_or(Basis::WORLD)
     }
 }
@@ -146,7 +145,7 @@ impl fmt::Display for NamedView {
     }
 }
 
-/// The name is not that of a view.
+/// The text does not name a view.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 #[error(
     "there is no view of that name: use front, back, left, right, top, bottom, isometric, dimetric, \
@@ -157,8 +156,7 @@ pub struct UnknownView;
 impl FromStr for NamedView {
     type Err = UnknownView;
 
-    /// Upper and lower case, hyphens, underscores and spaces do not matter; `iso` is isometric,
-    /// `rear` is back.
+    /// Case, hyphens, underscores and spaces are ignored; `iso` means isometric, `rear` means back.
     fn from_str(text: &str) -> Result<Self, UnknownView> {
         let means = |name: &str| normalized_letters(text).eq(normalized_letters(name));
         match () {
@@ -169,7 +167,7 @@ impl FromStr for NamedView {
     }
 }
 
-/// The letters by which names are compared: lower case, without hyphens, underscores and spaces.
+/// The letters by which names are compared: lower case, without hyphens, underscores or spaces.
 fn normalized_letters(text: &str) -> impl Iterator<Item = char> {
     let filler = |c: &char| matches!(c, '-' | '_' | ' ');
     text.trim().chars().filter(move |c| !filler(c)).map(|c| c.to_ascii_lowercase())

@@ -1,4 +1,4 @@
-//! Cameras that go round a target: azimuth, elevation, distance.
+//! Cameras that orbit a target: azimuth, elevation, distance.
 //!
 //! ```text
 //!            +y                          elevation ε: up from the horizon
@@ -10,9 +10,9 @@
 //!          +z                            eye = target + distance · w
 //! ```
 //!
-//! The axes come from the angles and not from a view-up, so that the poles are places like any
-//! other: at ε = 90° the camera looks straight down and the azimuth says which side is up. A
-//! turntable never jumps there.
+//! The axes come from the angles, not from a view-up, so the poles need no special treatment. At
+//! ε = 90° the camera looks straight down, and the azimuth decides which side is up. A turntable
+//! never jumps there.
 
 use crate::window::{check_finite, check_positive};
 use crate::{Basis, Camera, CameraError};
@@ -35,20 +35,20 @@ use homog::{Point, Vector, World};
 pub struct Orbit {
     /// The point that the camera looks at.
     pub target: Point<World>,
-    /// Radians from the front (+z) towards the right (+x): the viewer walks anticlockwise as seen
+    /// Radians from the front (+z) toward the right (+x): the viewer moves counterclockwise as seen
     /// from above.
     pub azimuth: f64,
     /// Radians above the horizon. Beyond ±π/2 the picture is upside down.
     pub elevation: f64,
-    /// From the target to the eye, greater than 0.
+    /// The distance from the target to the eye, greater than 0.
     pub distance: f64,
 }
 
 impl Orbit {
-    /// The camera at this place.
+    /// The camera at this position.
     ///
     /// # Errors
-    /// A distance that is not positive; any number that is not finite.
+    /// Returns an error if the distance is not positive or a number is not finite.
     pub fn camera(self) -> Result<Camera, CameraError> {
         check_positive("distance of the orbit", self.distance)?;
         let basis = Basis::from_azimuth_elevation(self.azimuth, self.elevation)?;
@@ -59,8 +59,8 @@ impl Orbit {
         Camera::new(self.target + basis.w() * self.distance, basis)
     }
 
-    /// `frames` places, evenly spaced once round the vertical axis, starting here; the last is one
-    /// step before the first.
+    /// `frames` positions, evenly spaced around the vertical axis and starting here. The last is
+    /// one step before the first.
     pub fn turntable(self, frames: u32) -> impl ExactSizeIterator<Item = Self> + Clone {
         let step = TAU / f64::from(frames.max(1));
         (0..frames).map(move |i| {
@@ -69,8 +69,8 @@ impl Orbit {
         })
     }
 
-    /// The place of `camera` on the sphere around `target`; `None` if it does not look at the
-    /// target, or is rolled, or is too far from it for the distance to be a number.
+    /// The orbit position of `camera` around `target`. `None` if the camera does not look at the
+    /// target, is rolled, or is too far away for a finite distance.
     ///
     /// The inverse of [`camera`](Self::camera), with the azimuth in (−π, π] and the elevation in
     /// [−π/2, π/2].
@@ -89,11 +89,11 @@ impl Orbit {
 }
 
 impl Basis {
-    /// The orientation of a camera that stands at the given azimuth and elevation and looks at the
-    /// middle (see [`Orbit`]).
+    /// The orientation of a camera at the given azimuth and elevation that looks at the center (see
+    /// [`Orbit`]).
     ///
     /// # Errors
-    /// An angle that is not finite.
+    /// Returns an error if an angle is not finite.
     pub fn from_azimuth_elevation(azimuth: f64, elevation: f64) -> Result<Self, CameraError> {
         check_finite("azimuth", azimuth)?;
         check_finite("elevation", elevation)?;

@@ -1,4 +1,4 @@
-//! Orientation by yaw, pitch and roll, as of an aircraft or of a head.
+//! Orientation by yaw, pitch and roll, as for an aircraft or a head.
 //!
 //! ```text
 //! [ u v w ] = R_y(yaw) · R_x(pitch) · R_z(roll)
@@ -31,8 +31,8 @@ pub struct Orientation {
     pub yaw: f64,
     /// About the right axis; positive looks up.
     pub pitch: f64,
-    /// About the axis out of the picture; positive tips the camera anticlockwise, as its holder
-    /// sees it.
+    /// About the axis out of the picture; a positive roll tips the camera counterclockwise, as its
+    /// holder sees it.
     pub roll: f64,
 }
 
@@ -40,17 +40,17 @@ impl Orientation {
     /// The orientation with these angles.
     ///
     /// # Errors
-    /// An angle that is not finite.
+    /// Returns an error if an angle is not finite.
     pub fn basis(self) -> Result<Basis, CameraError> {
         check_finite("pitch", self.pitch)?;
-        // A camera that looks along −w stands, seen from what it looks at, in the direction of w.
+        // Seen from its target, a camera that looks along −w is in the direction of w.
         Basis::from_azimuth_elevation(self.yaw, -self.pitch)?.rolled(self.roll)
     }
 
     /// The angles of an orientation: yaw and roll in (−π, π], pitch in [−π/2, π/2].
     ///
-    /// Looking straight up or down only the sum or difference of yaw and roll is known; roll is 0
-    /// then.
+    /// When looking straight up or down, only the sum or difference of yaw and roll is determined,
+    /// and roll is set to 0.
     #[must_use]
     pub fn from_basis(basis: Basis) -> Self {
         let (u, v, w) = (basis.u(), basis.v(), basis.w());
@@ -67,11 +67,11 @@ impl Orientation {
 }
 
 impl Basis {
-    /// This orientation turned about its own w by `angle` radians: positive tips the camera
-    /// anticlockwise as its holder sees it, so that the picture turns clockwise.
+    /// This orientation rotated about its own w by `angle` radians. A positive angle tips the
+    /// camera counterclockwise as its holder sees it, so the picture turns clockwise.
     ///
     /// # Errors
-    /// An angle that is not finite.
+    /// Returns an error if the angle is not finite.
     pub fn rolled(self, angle: f64) -> Result<Self, CameraError> {
         check_finite("roll", angle)?;
         let (s, c) = libm::sincos(angle);

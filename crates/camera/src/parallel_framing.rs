@@ -1,4 +1,4 @@
-//! Framing in parallel projection: the smallest window that holds the image of some points.
+//! Framing in parallel projection: the smallest window that contains the image of given points.
 //!
 //! ```text
 //!        window
@@ -9,9 +9,9 @@
 //!       left    right
 //! ```
 //!
-//! The projectors run along the gaze (orthographic) or along any direction d that leads away from
-//! the viewer (oblique). A point (x, y, z) of view space has its image in the plane of the eye, z =
-//! 0, at (x − z dx/dz, y − z dy/dz). Sources: OB-1, VV-1.
+//! The projectors run along the gaze (orthographic) or along any direction d away from the viewer
+//! (oblique). A point (x, y, z) of view space has its image in the plane of the eye, z = 0, at (x −
+//! z dx/dz, y − z dy/dz). Sources: OB-1, VV-1.
 
 use crate::framing::{check_aspect, check_padding};
 use crate::point_coordinates::PointCoordinates;
@@ -23,39 +23,39 @@ use homog::{Point, Vector, View, World};
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct ParallelFraming {
-    /// The camera. Its eye lies on the projector through the middle of the picture, before the
-    /// nearest point by one diagonal of the points.
+    /// The camera. Its eye is on the projector through the center of the picture, one diagonal of
+    /// the points in front of the nearest point.
     pub camera: Camera,
-    /// Left side of the window in view space, in the plane z = 0 of the eye: −`right`.
+    /// The left side of the window in view space, in the plane z = 0 of the eye: −`right`.
     pub left: f64,
-    /// Right side.
+    /// The right side.
     pub right: f64,
-    /// Lower side: −`top`.
+    /// The lower side: −`top`.
     pub bottom: f64,
-    /// Upper side.
+    /// The upper side.
     pub top: f64,
-    /// Distance of the nearest point along the gaze, greater than 0. Not padded.
+    /// The distance of the nearest point along the gaze, greater than 0. Not padded.
     pub near: f64,
-    /// Distance of the farthest point along the gaze. Not padded: equal to `near` if the points lie
-    /// in one plane.
+    /// The distance of the farthest point along the gaze. Not padded: equal to `near` if the points
+    /// lie in one plane.
     pub far: f64,
-    /// Which dimension of the picture the size was decided by.
+    /// The dimension of the picture that decided the size.
     pub constraint: FramingConstraint,
 }
 
-/// Chooses camera and window of an orthographic projection so that the image of `points` just fills
-/// the frame.
+/// Chooses the camera and window of an orthographic projection in which the image of `points` just
+/// fills the frame.
 ///
 /// The image touches two opposite sides of the padded frame and is centered between the other two.
-/// `aspect` is width/height of the frame; `padding` the part of it to be left free on every side:
-/// 0.05 is 5 per cent. Points whose images are all one, on a line along the projectors, get a frame
-/// of the height of their diagonal. A single point is framed as a cube of side 1 around it (or of a
-/// millionth of its distance from the origin, if that is more).
+/// `aspect` is the width/height of the frame, and `padding` is the fraction of it left free on
+/// every side: 0.05 is 5%. If all images coincide, because the points are on one projector, the
+/// height of the frame is the diagonal of the points. A single point is framed as a cube with side
+/// 1 around it, or with a millionth of its distance from the origin if that is more.
 ///
 /// # Errors
-/// No points; a point that is not finite; an aspect that is not positive and finite; a padding
-/// outside [0, ½); points so far out, or an aspect or projectors so extreme, that f64 has no place
-/// for the eye.
+/// Returns an error if there are no points, a point is not finite, the aspect is not positive and
+/// finite, or the padding is outside [0, ½). Points may also be so far away, or the aspect or the
+/// projectors so extreme, that f64 cannot represent the eye.
 ///
 /// ```
 /// use camera::{NamedView, frame_parallel};
@@ -80,15 +80,15 @@ where
     frame_oblique(points, orientation, -Vector::Z, aspect, padding)
 }
 
-/// As [`frame_parallel`], with projectors along `projectors`: a direction in view space that leads
-/// away from the viewer, that is with z < 0. Its length does not matter; (0, 0, −1) is the
-/// orthographic projection.
+/// Like [`frame_parallel`], with projectors along `projectors`: a direction in view space away from
+/// the viewer, that is, with z < 0. Its length does not matter; (0, 0, −1) is the orthographic
+/// projection.
 ///
-/// The window lies in the plane of the eye, z = 0: a point (x, y, z) of view space has its image at
+/// The window is in the plane of the eye, z = 0: a point (x, y, z) of view space has its image at
 /// (x − z a/c, y − z b/c) for projectors (a, b, c).
 ///
 /// # Errors
-/// As [`frame_parallel`]; also projectors that are not finite, or with z ≥ 0.
+/// As for [`frame_parallel`]; also if the projectors are not finite or have z ≥ 0.
 pub fn frame_oblique<I>(
     points: I,
     orientation: Basis,
@@ -107,8 +107,8 @@ where
     let image = ImageBounds::from_points(&points, shear);
     let (half_width, half_height, fit) = image.padded_window(&points, aspect, padding);
 
-    // From the middle of the image, in the plane z = 0 of the points' middle, along the projector
-    // to the eye.
+    // From the center of the image, in the plane z = 0 through the center of the points, along the
+    // projector to the eye.
     let near = points.extent.diagonal();
     let z = points.extent.max.z + near;
     let middle = image.center();
@@ -120,14 +120,14 @@ where
     Ok(ParallelFraming { camera, left, right, bottom, top, near, far, constraint: fit })
 }
 
-/// How far x and y move per unit of z along a projector.
+/// The change of x and y per unit of z along a projector.
 fn projector_shear(projectors: Vector<View>) -> Result<DVec3, FramingError> {
     let shear = projectors.raw() / projectors.z();
     let usable = projectors.is_finite() && projectors.z() < 0.0 && shear.is_finite();
     usable.then_some(shear).ok_or(FramingError::Projectors { direction: projectors })
 }
 
-/// The box around the images, in the plane through the points' middle.
+/// The box around the images, in the plane through the center of the points.
 struct ImageBounds {
     min: DVec3,
     max: DVec3,

@@ -1,27 +1,26 @@
-//! The points to be framed, in coordinates along a camera's axes, counted from the middle of their
+//! Points to be framed, in coordinates along the camera axes relative to the center of their
 //! bounds.
 //!
-//! Counting from the middle keeps the digits of small things far from the origin. Things so small
-//! and so far that the coordinates of an eye could not tell their parts apart count as one point,
-//! and one point is framed as a cube.
+//! Coordinates relative to the center keep the digits of small objects far from the origin. Objects
+//! so small and far away that the coordinates of an eye could not distinguish their parts count as
+//! one point, and one point is framed as a cube.
 
 use crate::{Basis, Camera, FramingError};
 use glam::DVec3;
 use homog::{Bounds, Point, Vector, View, World};
 
-/// The greatest coordinate of a point: sums and products with those of a unit vector stay finite.
+/// The largest coordinate of a point: sums and products with unit vectors stay finite.
 const MAX_COORDINATE: f64 = 1e300;
-/// Points closer together than this part of their distance from the origin count as one.
+/// Points closer together than this fraction of their distance from the origin count as one.
 const SINGLE_POINT_TOLERANCE: f64 = 1e-12;
-/// An eye's coordinates are rounded by less than this part of them.
+/// The relative rounding error of an eye's coordinates is below this.
 const EYE_PRECISION: f64 = 1e-14;
-/// The side of the cube a lone point is framed as, where numbers are small enough to have such a
-/// cube.
+/// The side of the cube that frames a single point, if its coordinates are small enough.
 const SINGLE_POINT_SIDE: f64 = 1.0;
-/// Its least side as a part of the point's distance from the origin.
+/// The minimum side as a fraction of the point's distance from the origin.
 const SINGLE_POINT_RELATIVE_SIDE: f64 = 1e-6;
 
-/// Points that can be walked through several times, in the axes of `basis`, from `center`.
+/// Points that can be iterated several times, in the axes of `basis`, from `center`.
 pub(crate) struct PointCoordinates<I> {
     points: I,
     basis: Basis,
@@ -32,7 +31,7 @@ pub(crate) struct PointCoordinates<I> {
     pub(crate) extent: Extent,
 }
 
-/// The least and greatest coordinates along u, v and w.
+/// The minimum and maximum coordinates along u, v and w.
 #[derive(Clone, Copy)]
 pub(crate) struct Extent {
     pub(crate) min: DVec3,
@@ -64,7 +63,7 @@ impl<I: Iterator<Item = Point<World>> + Clone> PointCoordinates<I> {
         Ok(all)
     }
 
-    /// True if the points are one, and framed as a cube.
+    /// Returns whether the points count as one and are framed as a cube.
     pub(crate) fn is_single_point(&self) -> bool {
         self.margin > 0.0
     }
@@ -78,7 +77,7 @@ impl<I: Iterator<Item = Point<World>> + Clone> PointCoordinates<I> {
         extent
     }
 
-    /// Hands every point to `see`; of a lone point the corners of the cube it is framed as.
+    /// Calls `see` with every point, or with the corners of the cube that frames a single point.
     pub(crate) fn for_each(&self, mut see: impl FnMut(DVec3)) {
         if self.is_single_point() {
             let cube = [DVec3::splat(-self.margin), DVec3::splat(self.margin)]
@@ -94,8 +93,8 @@ impl<I: Iterator<Item = Point<World>> + Clone> PointCoordinates<I> {
         }
     }
 
-    /// The camera whose eye has the given coordinates. `smallest` is the least length that the
-    /// place of the eye must get right: so far out that it cannot, there is no camera.
+    /// The camera whose eye has the given coordinates. `smallest` is the smallest length that the
+    /// position of the eye must resolve; too far away for that, there is no camera.
     pub(crate) fn camera_at(
         &self,
         eye: Vector<View>,

@@ -1,4 +1,4 @@
-//! A camera for a screen that stands in the world: a wall, a table, one side of a cave.
+//! A camera for a physical screen in the world: a wall, a table, one side of a CAVE.
 //!
 //! ```text
 //!  upper left c ┌──────────┐
@@ -10,38 +10,38 @@
 //!                                          bottom = v · (a − e), top = v · (c − e)
 //! ```
 //!
-//! The picture is right for this eye wherever it is: the screen becomes a hole in the wall. The
-//! gaze is perpendicular to the screen, not towards its middle; the window is off the axis as far
-//! as the eye is.
+//! The picture is correct for this eye wherever it is: the screen becomes a hole in the wall. The
+//! gaze is perpendicular to the screen, not toward its center, and the window is as far off the
+//! axis as the eye is.
 //!
 //! Source: R. Kooima, *Generalized Perspective Projection*, 2008.
 
 use crate::{Basis, Camera, CameraError, CameraView, ViewWindow};
 use homog::{Point, Vector, World};
 
-/// Sides of a screen whose angle differs more than this from a right one, as a cosine, are refused.
+/// The largest cosine of the angle between the sides of a screen that counts as a right angle.
 const MAX_SKEW_COSINE: f64 = 1e-6;
 
-/// Three corners of a rectangular screen in the world, as its viewer sees it.
+/// Three corners of a rectangular screen in the world, as seen by its viewer.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ScreenCorners {
-    /// Lower left.
+    /// The lower left corner.
     pub lower_left: Point<World>,
-    /// Lower right.
+    /// The lower right corner.
     pub lower_right: Point<World>,
-    /// Upper left.
+    /// The upper left corner.
     pub upper_left: Point<World>,
 }
 
 impl ScreenCorners {
-    /// The camera at `eye` and the window, on the screen's plane, through which it sees the world
-    /// in the right places.
+    /// The camera at `eye`, and the window in the plane of the screen through which it sees the
+    /// world correctly.
     ///
-    /// [`ViewWindow::at_distance`] brings the window to the near plane wanted.
+    /// [`ViewWindow::at_distance`] moves the window to any near plane.
     ///
     /// # Errors
-    /// Corners or an eye that are not finite; a side of no length; sides that are not at right
-    /// angles; an eye in the screen's plane or behind it.
+    /// Returns an error if a corner or the eye is not finite, a side has no length, the sides are
+    /// not perpendicular, or the eye is in the plane of the screen or behind it.
     ///
     /// ```
     /// use camera::ScreenCorners;

@@ -1,4 +1,4 @@
-//! Stereo: two eyes side by side, and the window each of them must have.
+//! Stereo: two eyes side by side, each with its off-axis window.
 //!
 //! ```text
 //!  ●━━━━━━━━━━━━━━━━━━━●    the plane of zero parallax: the same rectangle for both eyes
@@ -10,25 +10,26 @@
 //!    left eye  right eye    interocular distance apart along u
 //! ```
 //!
-//! Both eyes look the same way; turning them inwards (toe-in) would shift things vertically. Their
-//! windows are off the axis instead: for an eye that is e to the right of the middle, each side is
-//! at l − e · distance/zero_parallax on the plane at that distance.
+//! Both eyes look in the same direction; turning them inward (toe-in) would shift points
+//! vertically. Their windows are off the axis instead: for an eye e to the right of the middle,
+//! each side is at l − e · distance/zero_parallax on the plane at that distance.
 //!
-//! [`apex_moved_view`] is what one lesson's `createFrustum` does with an off-axis window instead
-//! (LW-1, misprint M12): it moves the eye to the window's middle and keeps the frustum symmetric.
-//! The two agree on the window's plane and nowhere else, and a stereo pair made so has no plane of
-//! zero parallax where it was asked for. It is here to be compared.
+//! [`apex_moved_view`] does what one lesson's `createFrustum` does with an off-axis window (LW-1,
+//! misprint M12): it moves the eye opposite the center of the window and keeps the frustum
+//! symmetric. The two agree only in the plane of the window, and a stereo pair made this way does
+//! not have the requested plane of zero parallax. It is provided for comparison.
 
 use crate::window::{check_finite, check_positive};
 use crate::{Camera, CameraError, ViewWindow};
 
-/// How far apart the eyes are and where they meet.
+/// The separation of the eyes and the distance at which their views coincide.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct StereoRig {
-    /// Between the two eyes, in units of the world, greater than 0. People have about 0.064 m.
+    /// The distance between the eyes in world units, greater than 0. For people it is about 0.064
+    /// m.
     pub interocular: f64,
-    /// Distance along the gaze of the plane whose points both eyes see at the same place of the
-    /// picture, greater than 0.
+    /// The distance along the gaze of the plane whose points both eyes see at the same position in
+    /// the picture, greater than 0.
     pub zero_parallax: f64,
 }
 
@@ -52,12 +53,13 @@ pub struct StereoPair {
 }
 
 impl StereoRig {
-    /// The true off-axis pair around a middle camera with the given window: same gaze, eyes apart
-    /// along u, windows shifted so that both see the same rectangle in the plane of zero parallax.
+    /// The correct off-axis pair around a middle camera with the given window: same gaze, eyes
+    /// apart along u, and windows shifted to show both eyes the same rectangle in the plane of zero
+    /// parallax.
     ///
     /// # Errors
-    /// Distances of the rig that are not positive and finite; a window that is empty, not finite or
-    /// not in front of the eye; eyes too far out.
+    /// Returns an error if a distance of the rig is not positive and finite, the window is empty,
+    /// not finite or not in front of the eye, or an eye is too far away.
     ///
     /// ```
     /// use camera::{Basis, Camera, StereoRig, ViewWindow};
@@ -84,14 +86,14 @@ impl StereoRig {
         })
     }
 
-    /// The pair of [`off_axis_pair`](Self::off_axis_pair) with each frustum's apex moved to the
-    /// middle of its window (LW-1).
+    /// The pair from [`off_axis_pair`](Self::off_axis_pair), with the apex of each frustum moved
+    /// opposite the center of its window (LW-1).
     ///
-    /// For comparison only: the eyes then are closer together than asked for, and their pictures
-    /// meet elsewhere.
+    /// For comparison only: the eyes are closer together than requested, and their pictures
+    /// coincide at another distance.
     ///
     /// # Errors
-    /// As [`off_axis_pair`](Self::off_axis_pair).
+    /// See [`off_axis_pair`](Self::off_axis_pair).
     pub fn pair_apex_moved(
         self,
         middle: Camera,
@@ -102,12 +104,12 @@ impl StereoRig {
         Ok(StereoPair { left: moved(left)?, right: moved(right)? })
     }
 
-    /// How far the right eye's image of a point at `distance` lies to the right of the left eye's,
-    /// measured on the plane of zero parallax: negative in front of it, the interocular distance at
-    /// infinity.
+    /// The offset to the right of the right eye's image of a point at `distance` from the left
+    /// eye's image, measured on the plane of zero parallax. It is negative in front of that plane
+    /// and equals the interocular distance at infinity.
     ///
     /// # Errors
-    /// Any distance that is not positive and finite.
+    /// Returns an error if a distance is not positive and finite.
     pub fn parallax(self, distance: f64) -> Result<f64, CameraError> {
         check_positive("interocular distance", self.interocular)?;
         check_positive("distance of zero parallax", self.zero_parallax)?;
@@ -131,12 +133,13 @@ impl StereoRig {
     }
 }
 
-/// The camera and window that LW-1 makes of an off-axis window: the eye moves, parallel to the
-/// window, to opposite its middle, and the window becomes symmetric. The same picture on the
-/// window's plane, another everywhere else.
+/// The camera and window that LW-1 makes from an off-axis window: the eye moves, parallel to the
+/// window, opposite its center, and the window becomes symmetric. The picture is unchanged only in
+/// the plane of the window.
 ///
 /// # Errors
-/// A window that is empty, not finite or not in front of the eye; an eye too far out.
+/// Returns an error if the window is empty, not finite or not in front of the eye, or if the eye is
+/// too far away.
 pub fn apex_moved_view(camera: Camera, window: ViewWindow) -> Result<CameraView, CameraError> {
     window.check_perspective()?;
     let ViewWindow { left, right, bottom, top, distance } = window;

@@ -1,36 +1,36 @@
-//! A shot: camera and projection together, as the stages want them.
+//! A camera together with its projection, as the later stages take it.
 
 use crate::Camera;
 use glam::{DVec3, DVec4, Vec4Swizzles};
 use homog::{Clip, HPoint, Projective, View, World};
 
-/// Where the picture is taken from, and by which projection.
+/// A camera and its projection.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ViewProjection {
     /// The camera.
     pub camera: Camera,
-    /// The projection in the pipeline's convention: the chapter's canonical volume with w > 0 in
-    /// front (PE-3).
+    /// The projection in the pipeline's convention: the canonical volume of the textbook (Shirley
+    /// and Marschner, ch. 8) with w > 0 in front (PE-3).
     pub view_to_clip: Projective<View, Clip>,
 }
 
 impl ViewProjection {
-    /// From the world to clip space.
+    /// The map from the world to clip space.
     #[must_use]
     pub fn world_to_clip(&self) -> Projective<World, Clip> {
         self.camera.world_to_view().then_project(self.view_to_clip)
     }
 
-    /// Where the viewer is: the eye, or in a parallel projection the direction towards it, a point
-    /// at infinity.
+    /// The viewer: the eye, or in a parallel projection the direction toward it, a point at
+    /// infinity.
     ///
-    /// It is the one point that has no image: the rows of x, y and w of the matrix all give 0 for
-    /// it. Its sign is that of a step towards the viewer, in which depth grows: `viewer.xyz −
-    /// p·viewer.w` is the vector from a visible point p to where it is seen from.
+    /// It is the only point without an image: the rows of x, y and w of the matrix all give 0 for
+    /// it. Its sign is chosen so depth grows toward the viewer: `viewer.xyz − p·viewer.w` is the
+    /// vector from a visible point p to the viewer.
     ///
     /// w is 1 for an eye and 0 for a direction. It is −1 in reverse perspective, such as the bottom
-    /// row (p, q, r, 1) with r > 0: lines of sight meet *behind* the scene, and what is farthest
-    /// from their center hides what is nearer to it.
+    /// row (p, q, r, 1) with r > 0: the lines of sight meet *behind* the scene, and points farther
+    /// from their center hide nearer ones.
     #[must_use]
     pub fn viewer(&self) -> HPoint<World> {
         let viewer = self.blind_point();
@@ -38,19 +38,18 @@ impl ViewProjection {
         HPoint::from_raw(if viewer.w == 0.0 { viewer } else { viewer / viewer.w.abs() })
     }
 
-    /// Whether the picture shows the world as in a mirror: a window with left and right (or bottom
-    /// and top) exchanged.
+    /// Whether the picture is mirrored: a window with left and right (or bottom and top) exchanged.
     ///
-    /// The determinant of the matrix, the row of z times the point without an image, tells: depth
-    /// grows towards the viewer, who therefore has a positive z in clip space.
+    /// The sign comes from the determinant of the matrix, the row of z times the point without an
+    /// image: depth grows toward the viewer, who therefore has a positive z in clip space.
     #[must_use]
     pub fn is_mirrored(&self) -> bool {
         self.world_to_clip().raw().row(2).dot(self.blind_point()) > 0.0
     }
 
-    /// The point without an image, as the product of the rows of x, y and w in four dimensions: the
-    /// determinant of three points and this one is that of (x, y, w) of their images. The product
-    /// points away from the viewer unless the picture is mirrored.
+    /// The point without an image, as the four-dimensional cross product of the rows of x, y and w.
+    /// The determinant of three points and this one equals the determinant of (x, y, w) of their
+    /// images. The product points away from the viewer unless the picture is mirrored.
     fn blind_point(&self) -> DVec4 {
         let m = self.world_to_clip().raw();
         let rows = [m.row(0), m.row(1), m.row(3)];
@@ -118,7 +117,7 @@ mod tests {
             assert_eq!(viewer.w(), -r.signum());
             let center = viewer.divide().expect("a place");
             assert!((center - Point::new(0.0, 0.0, -1.0 / r)).length() < 1e-12, "{center:?}");
-            // In both, depth grows towards +z.
+            // In both, depth grows toward +z.
             assert!(viewer.z() > 0.0);
             assert!(!view_projection.is_mirrored());
         }

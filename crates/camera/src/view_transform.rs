@@ -1,4 +1,4 @@
-//! The view transform: from world space to pixels in one value, with the viewer (PL-1).
+//! The view transform: from world space to pixels in one value, including the viewer (PL-1).
 //!
 //! ```text
 //!  World ──world_to_clip──► Clip ──perspective divide──► Ndc ──ndc_to_screen──► Screen
@@ -6,21 +6,21 @@
 //!          projection
 //! ```
 //!
-//! Renderers, hidden-line removal and explanations share it, so that a point has the same pixel
-//! position, bit for bit, whichever of them computes it. Everything is f64.
+//! Renderers, hidden-line removal and explanations share it, so all of them compute bit-identical
+//! pixel positions. Everything is f64.
 
 use crate::ViewProjection;
 use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, Screen, Vector, World};
 
-/// World → clip → NDC → screen, and the point the picture is viewed from.
+/// World → clip → NDC → screen, and the point from which the picture is viewed.
 ///
-/// The crate knows no viewport: [`new`](Self::new) takes the finished map from NDC to pixels.
+/// This crate has no viewport type: [`new`](Self::new) takes the finished map from NDC to pixels.
 ///
 /// ```
 /// use camera::{Camera, ViewProjection, ViewTransform};
 /// use homog::{Affine, Clip, Ndc, Point, Screen, Vector, View};
 ///
-/// // A parallel view along −z; the projection keeps x and y, as it keeps the depth.
+/// // A parallel view along −z; the projection keeps x, y and the depth.
 /// let camera = Camera::look_to(Point::ORIGIN, -Vector::Z, Vector::Y)?;
 /// let view_to_clip = Affine::<View, Clip>::scale(1.0, 1.0, 1.0).into();
 /// // 200 × 100 pixels, y down.
@@ -47,9 +47,9 @@ impl ViewTransform {
         Self::with_world_to_clip(view_projection.world_to_clip(), ndc_to_screen, viewer)
     }
 
-    /// The transform with a clip space of its own: of another graphics API, or narrowed to one
-    /// tile of a larger image. `viewer` is the eye, or the point at infinity of a parallel view,
-    /// which is scaled to length 1.
+    /// The transform with a custom clip space, for another graphics API or for one tile of a larger
+    /// image. `viewer` is the eye, or the point at infinity of a parallel view, which is scaled to
+    /// length 1.
     #[must_use]
     pub fn with_world_to_clip(
         world_to_clip: Projective<World, Clip>,
@@ -63,7 +63,7 @@ impl ViewTransform {
         Self { world_to_clip, ndc_to_screen, viewer }
     }
 
-    /// The camera and projection matrices multiplied.
+    /// The product of the camera and projection matrices.
     #[must_use]
     pub const fn world_to_clip(&self) -> Projective<World, Clip> {
         self.world_to_clip
@@ -81,15 +81,15 @@ impl ViewTransform {
         Projective::from_raw(self.ndc_to_screen.raw() * self.world_to_clip.raw())
     }
 
-    /// The eye with w = 1, or in a parallel view the unit direction towards it with w = 0; in
+    /// The eye with w = 1, or in a parallel view the unit direction toward it with w = 0; in
     /// reverse perspective w = −1 (see [`ViewProjection::viewer`]).
     #[must_use]
     pub const fn viewer(&self) -> HPoint<World> {
         self.viewer
     }
 
-    /// The vector from a point to the eye; of length 1 in a parallel view, and away from the center
-    /// of a reverse perspective.
+    /// The vector from a point to the eye. It has length 1 in a parallel view, and points away from
+    /// the center of a reverse perspective.
     #[must_use]
     #[inline]
     pub fn vector_to_viewer(&self, from: Point<World>) -> Vector<World> {
@@ -97,15 +97,15 @@ impl ViewTransform {
         Vector::from_raw(viewer.truncate() - from.raw() * viewer.w)
     }
 
-    /// A world point in clip space, where it is clipped before the divide.
+    /// A world point in clip space, for clipping before the divide.
     #[must_use]
     #[inline]
     pub fn project_to_clip(&self, point: Point<World>) -> HPoint<Clip> {
         self.world_to_clip.transform_point(point)
     }
 
-    /// Perspective divide and viewport transform: pixels and depth of a clip-space point; `None`
-    /// where w is 0.
+    /// Perspective divide and viewport transform: pixels and depth of a clip-space point; `None` if
+    /// w is 0.
     #[must_use]
     #[inline]
     pub fn project_to_screen(&self, point: HPoint<Clip>) -> Option<Point<Screen>> {

@@ -6,35 +6,35 @@
 //!  left ────────┼───┼──── right  x to the right and y up from where the gaze meets it
 //! ```
 //!
-//! It is plain numbers, for a camera knows no projection: hand them to a frustum or an orthographic
-//! box whose near distance is `distance`.
+//! It is plain numbers, because a camera has no projection: pass them to a frustum or an
+//! orthographic box whose near distance is `distance`.
 
 use crate::{CameraError, Slopes};
 
-/// The greatest number of a window: rays through pixels far outside of it still are finite.
+/// The largest number of a window: rays through pixels far outside it are still finite.
 const WINDOW_LIMIT: f64 = 1e290;
 
 /// A rectangle on the plane at `distance` in front of an eye, in view space.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ViewWindow {
-    /// Left side: x in view space.
+    /// The left side: x in view space.
     pub left: f64,
-    /// Right side. Less than `left` in a mirrored picture.
+    /// The right side. Less than `left` in a mirrored picture.
     pub right: f64,
-    /// Lower side: y in view space.
+    /// The lower side: y in view space.
     pub bottom: f64,
-    /// Upper side. Less than `bottom` in a picture upside down.
+    /// The upper side. Less than `bottom` if the picture is upside down.
     pub top: f64,
-    /// How far ahead of the eye the plane is: −z in view space.
+    /// The distance of the plane in front of the eye: −z in view space.
     pub distance: f64,
 }
 
 impl ViewWindow {
-    /// The window on the plane at another distance that is seen under the same angles.
+    /// The window on the plane at another distance that subtends the same angles.
     ///
     /// # Errors
-    /// A distance, old or new, that is not positive and finite; a window that is empty or not
-    /// finite, then or before.
+    /// Returns an error if a distance, old or new, is not positive and finite, or if the window,
+    /// old or new, is empty or not finite.
     ///
     /// ```
     /// use camera::ViewWindow;
@@ -59,13 +59,13 @@ impl ViewWindow {
     /// The slopes of the four sides: the window on the plane at distance 1.
     ///
     /// # Errors
-    /// As [`at_distance`](Self::at_distance).
+    /// See [`at_distance`](Self::at_distance).
     pub fn slopes(self) -> Result<Slopes, CameraError> {
         let Self { left, right, bottom, top, .. } = self.at_distance(1.0)?;
         Ok(Slopes { left, right, bottom, top })
     }
 
-    /// Refuses numbers that are not finite or too large, and sides that coincide.
+    /// Rejects numbers that are not finite or too large, and sides that coincide.
     pub(crate) fn check_edges(self) -> Result<(), CameraError> {
         let Self { left, right, bottom, top, distance } = self;
         for (name, value) in [
@@ -86,7 +86,7 @@ impl ViewWindow {
         Ok(())
     }
 
-    /// As [`check_edges`](Self::check_edges), and the window must be in front of the eye.
+    /// Like [`check_edges`](Self::check_edges); the window must also be in front of the eye.
     pub(crate) fn check_perspective(self) -> Result<(), CameraError> {
         self.check_edges()?;
         check_positive("distance of the window", self.distance)
@@ -97,7 +97,8 @@ impl Slopes {
     /// The window of this frame on the plane at `distance`.
     ///
     /// # Errors
-    /// A distance that is not positive and finite; slopes that are not finite or coincide.
+    /// Returns an error if the distance is not positive and finite, or if slopes are not finite or
+    /// coincide.
     pub fn at_distance(self, distance: f64) -> Result<ViewWindow, CameraError> {
         let Self { left, right, bottom, top } = self;
         ViewWindow { left, right, bottom, top, distance: 1.0 }.at_distance(distance)

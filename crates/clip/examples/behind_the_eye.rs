@@ -1,19 +1,19 @@
-//! Why clipping comes before the divide: a rail that runs from ahead of the camera to behind it.
+//! Why clipping comes before the divide: a rail that runs from in front of the camera to behind it.
 //!
-//! Run it with `cargo run -p alberti-clip --example behind_the_eye`. It prints where the ends of the rail
-//! come out, once divided right away and once clipped first, and draws both pictures.
+//! Run it with `cargo run -p alberti-clip --example behind_the_eye`. It prints the images of the
+//! ends of the rail, divided immediately and clipped first, and draws both pictures.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
 
 use clip::{Volume, clip_segment};
 use homog::{Clip, HPoint, Ndc, Point, Projective, View};
 
-/// The picture is this wide and high in letters.
+/// The width and height of the picture in characters.
 const WIDTH: usize = 41;
 const HEIGHT: usize = 13;
 
 fn main() {
-    // The chapter's perspective with w > 0 in front of the eye (PE-3): window [−1, 1]², n = −1, f =
-    // −9.
+    // The perspective of the textbook (Shirley and Marschner, ch. 8) with w > 0 in front of the eye
+    // (PE-3): window [−1, 1]², n = −1, f = −9.
     let view_to_clip = Projective::<View, Clip>::from_rows([
         [1.0, 0.0, 0.0, 0.0],
         [0.0, 1.0, 0.0, 0.0],
@@ -50,7 +50,7 @@ fn show(point: HPoint<Clip>) -> String {
     format!("({:5.2}, {:5.2}, {:5.2}; w = {:5.2})", point.x(), point.y(), point.z(), point.w())
 }
 
-/// A segment of the canonical square in letters; what is outside of the square is left out.
+/// Draws a segment of the canonical square in characters; parts outside the square are omitted.
 fn draw(p: Point<Ndc>, q: Point<Ndc>) {
     let mut picture = vec![vec![' '; WIDTH]; HEIGHT];
     for step in 0..=400 {

@@ -1,8 +1,7 @@
-//! Arrays of points: projected and given outcodes in one pass.
+//! Arrays of points: projection and outcodes in one pass.
 //!
-//! Most meshes are wholly visible or wholly hidden. [`OutcodeSummary`] tells in two comparisons,
-//! and the triangles of the rest are sorted by the outcodes of their corners before any of them is
-//! cut:
+//! Most meshes are completely visible or completely hidden. [`OutcodeSummary`] decides with two
+//! comparisons. For the others, the outcodes of the corners sort the triangles before any clipping:
 //!
 //! ```
 //! use clip::{OutcodeSummary, Outcode, Volume};
@@ -14,7 +13,7 @@
 //! let volume = Volume::CHAPTER;
 //! let summary =
 //!     volume.project_positions(model_to_clip, &positions, &mut points, &mut outcodes);
-//! assert!(!summary.is_inside() && !summary.is_outside()); // look at single triangles
+//! assert!(!summary.is_inside() && !summary.is_outside()); // test each triangle
 //! assert_eq!(summary.count, 3);
 //! ```
 
@@ -22,29 +21,28 @@ use crate::{Outcode, Volume};
 use glam::{DVec4, Mat4, Vec4};
 use homog::{Clip, HPoint, Point, Projective, Space};
 
-/// Where the points of an array are, taken together.
+/// The outcodes of an array of points, combined.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub struct OutcodeSummary {
-    /// How many points were looked at: the length of the shortest slice.
+    /// The number of points examined: the length of the shortest slice.
     pub count: usize,
     /// The planes that at least one point is outside of.
     pub any_outside: Outcode,
-    /// The planes that all points are outside of. It is empty for no points.
+    /// The planes that all points are outside of. It is empty if there are no points.
     pub all_outside: Outcode,
 }
 
 impl OutcodeSummary {
     const EMPTY: Self = Self { count: 0, any_outside: Outcode::INSIDE, all_outside: Outcode::ALL };
 
-    /// True if every point is inside, and with them all that lies between them.
+    /// Returns whether every point is inside, and with them everything between them.
     #[must_use]
     pub fn is_inside(&self) -> bool {
         self.any_outside.is_inside()
     }
 
-    /// True if all points are on the outer side of one plane, and with them all that lies between
-    /// them.
+    /// Returns whether all points are outside of one plane, and with them everything between them.
     #[must_use]
     pub fn is_outside(&self) -> bool {
         !self.all_outside.is_inside()
@@ -62,7 +60,7 @@ impl OutcodeSummary {
 }
 
 impl Volume {
-    /// The outcodes of many points. It goes as far as the shorter of the two slices.
+    /// The outcodes of many points. Extra elements of the longer slice are ignored.
     pub fn compute_outcodes(
         &self,
         points: &[HPoint<Clip>],
@@ -76,8 +74,8 @@ impl Volume {
         summary.finish()
     }
 
-    /// Projects many positions in f64 and gives them outcodes. It goes as far as the shortest of
-    /// the slices.
+    /// Projects many positions in f64 and computes their outcodes. Extra elements of the longer
+    /// slices are ignored.
     pub fn project_positions<S: Space>(
         &self,
         source_to_clip: Projective<S, Clip>,
@@ -94,11 +92,11 @@ impl Volume {
         summary.finish()
     }
 
-    /// Projects many positions in f32: half the memory, about seven digits. For previews and
-    /// bounds; what decides about pixels goes by [`Self::project_positions`].
+    /// Projects many positions in f32: half the memory, about seven digits. Use it for previews and
+    /// bounds; where pixels depend on the result, use [`Self::project_positions`].
     ///
-    /// Every coordinate is ((x·m₀ + y·m₁) + z·m₂) + m₃ in this order, so that the bits are the same
-    /// everywhere.
+    /// Every coordinate is ((x·m₀ + y·m₁) + z·m₂) + m₃ in this order, so the bits are the same on
+    /// every machine.
     pub fn project_positions_f32<S: Space>(
         &self,
         source_to_clip: Projective<S, Clip>,

@@ -1,4 +1,4 @@
-//! Caps: the cut face of a section, filled with triangles.
+//! Caps: triangulated cut faces of sections.
 //!
 //! ```text
 //!   ┌───────────────┐        A hole is joined to its outline by a bridge that is walked twice,
@@ -8,19 +8,19 @@
 //!   └───────────────┘
 //! ```
 //!
-//! Only the points of the outline are used as corners, so that the cap meets the sides of the solid
-//! without cracks.
+//! Only points of the outline become corners, so the cap meets the sides of the solid without
+//! cracks.
 
 use crate::Outline;
 use alloc::vec::Vec;
 use homog::{Plane, Point, Space};
 
 impl<S: Space> Outline<S> {
-    /// The triangles of the cut face, as seen from the side that was cut away: counter-clockwise
-    /// there, with the plane's normal pointing away from the viewer.
+    /// The triangles of the cut face, seen from the removed side: counterclockwise there, with the
+    /// normal of the plane pointing away from the viewer.
     ///
-    /// Even-odd rule: areas within an odd number of loops are filled, in either direction; loops
-    /// that cross each other, which those of a solid do not, come out covered in part. The time
+    /// Even-odd rule: areas within an odd number of loops are filled, in either direction. Loops
+    /// that cross each other, which never happens for a solid, are covered only in part. The time
     /// grows with the square of the number of points.
     ///
     /// ```
@@ -45,18 +45,18 @@ impl<S: Space> Outline<S> {
     }
 }
 
-/// All points of the outline in two coordinates of the plane, turned so that they are seen from the
-/// side that was cut away.
+/// All points of the outline in two coordinates of the plane, oriented as seen from the removed
+/// side.
 struct PlanarPoints {
     points: Vec<[f64; 2]>,
 }
 
-/// Numbers of points.
+/// The indices of points.
 type VertexRing = Vec<usize>;
 
 impl PlanarPoints {
-    /// Leaves out the axis nearest to the normal, and swaps the others if the view would be from
-    /// the wrong side.
+    /// Drops the axis nearest to the normal, and swaps the others if the view would be from the
+    /// wrong side.
     fn project_loops<S: Space>(loops: &[Vec<Point<S>>], plane: Plane<S>) -> Self {
         let normal = plane.normal().raw().to_array();
         let size = normal.map(f64::abs);
@@ -67,7 +67,7 @@ impl PlanarPoints {
         Self { points: loops.iter().flatten().map(place).collect() }
     }
 
-    /// Twice the signed area of a triangle: positive if its corners run counter-clockwise.
+    /// Twice the signed area of a triangle: positive if its corners are counterclockwise.
     fn signed_area(&self, [a, b, c]: [usize; 3]) -> f64 {
         let [a, b, c] = [a, b, c].map(|i| self.points[i]);
         (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
@@ -78,7 +78,7 @@ impl PlanarPoints {
         ring.windows(2).map(|edge| self.signed_area([first, edge[0], edge[1]])).sum()
     }
 
-    /// True if a ray from the point to the right meets the ring an odd number of times.
+    /// Returns whether a ray from the point to the right meets the ring an odd number of times.
     fn ring_contains(&self, ring: &[usize], point: usize) -> bool {
         let [x, y] = self.points[point];
         ring_edges(ring).fold(false, |inside, (i, j)| {
@@ -88,8 +88,7 @@ impl PlanarPoints {
         })
     }
 
-    /// One ring for each outline that is not a hole, counter-clockwise, with its holes joined to
-    /// it.
+    /// One counterclockwise ring for each outline that is not a hole, joined with its holes.
     fn outer_rings<S: Space>(&self, loops: &[Vec<Point<S>>]) -> Vec<VertexRing> {
         let mut start = 0;
         let numbered = loops.iter().map(|points| {
@@ -97,7 +96,7 @@ impl PlanarPoints {
             (start - points.len()..start).collect::<VertexRing>()
         });
         let loops: Vec<VertexRing> = numbered.filter(|ring| ring.len() >= 3).collect();
-        // Loops of a solid do not touch, so that one point of a loop speaks for all of it.
+        // Loops of a solid do not touch, so one point of a loop represents all of it.
         let encloses = |i: usize, j: usize| i != j && self.ring_contains(&loops[i], loops[j][0]);
         let all = 0..loops.len();
         let depth = |j: usize| all.clone().filter(|&i| encloses(i, j)).count();
@@ -118,8 +117,8 @@ impl PlanarPoints {
         ring
     }
 
-    /// Joins holes to their outline, the rightmost first, so that no bridge crosses a hole that is
-    /// still to come.
+    /// Joins holes to their outline, starting with the rightmost, so no bridge crosses a hole that
+    /// is not joined yet.
     fn join_holes(&self, mut outline: VertexRing, mut holes: Vec<VertexRing>) -> VertexRing {
         let x = |&i: &usize| self.points[i][0];
         for hole in &mut holes {
@@ -143,15 +142,15 @@ impl PlanarPoints {
         outline
     }
 
-    /// The place in the outline of a corner that can be seen from a point inside: going right from
-    /// the point, the nearer end of the first edge that is met, or a corner that stands in the way
-    /// of seeing it.
+    /// The index in the outline of a corner visible from a point inside. Going right from the
+    /// point, it is the nearer end of the first edge met, or a corner that blocks the view of that
+    /// end.
     fn find_bridge(&self, outline: &[usize], point: usize) -> Option<usize> {
         let [x, y] = self.points[point];
         let mut nearest: Option<(f64, usize)> = None;
         for (at, (i, j)) in ring_edges(outline).enumerate() {
             let ([x0, y0], [x1, y1]) = (self.points[i], self.points[j]);
-            // The outline runs counter-clockwise, so that the edges to the right run upwards.
+            // The outline is counterclockwise, so the edges to the right go upward.
             if !(y0 <= y && y < y1) {
                 continue;
             }
@@ -165,8 +164,8 @@ impl PlanarPoints {
         Some(self.blocking_vertex(outline, point, meets, end).unwrap_or(end))
     }
 
-    /// Of the corners within the triangle from the point to the edge met and to the edge's end, the
-    /// one seen at the smallest angle from straight right.
+    /// Of the corners within the triangle from the point to the edge and to the end of that edge,
+    /// the one at the smallest angle from straight right.
     fn blocking_vertex(
         &self,
         outline: &[usize],
@@ -192,13 +191,12 @@ impl PlanarPoints {
         reflex.min_by(|&a, &b| slope(a).total_cmp(&slope(b)))
     }
 
-    /// Cuts ears until nothing is left.
+    /// Clips ears until nothing is left.
     fn clip_ears(&self, mut ring: VertexRing, triangles: &mut Vec<[usize; 3]>) {
         let (mut at, mut refused) = (0, 0);
         while ring.len() > 2 {
             at %= ring.len();
-            // After a whole round without an ear only flat corners are left, or the loops crossed
-            // each other.
+            // After a whole round without an ear, only flat corners are left, or the loops crossed.
             let stuck = refused > ring.len();
             let ear = ring_corner(&ring, at);
             if stuck || self.is_ear(&ring, ear) {
@@ -207,7 +205,7 @@ impl PlanarPoints {
                 }
                 ring.remove(at);
                 refused = 0;
-                // Going on two further makes fans less likely.
+                // Advancing by two makes fans less likely.
                 at += 1;
             } else {
                 refused += 1;
@@ -226,7 +224,7 @@ impl PlanarPoints {
     }
 }
 
-/// The edges of a ring, by the numbers of their points.
+/// The edges of a ring, as indices of their points.
 fn ring_edges(ring: &[usize]) -> impl Iterator<Item = (usize, usize)> {
     ring.iter().copied().zip(ring.iter().copied().cycle().skip(1))
 }

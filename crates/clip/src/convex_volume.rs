@@ -1,7 +1,7 @@
-//! Convex volumes of any planes in any space: clipping to a room, a light's cone, a camera's view.
+//! Convex volumes with any planes in any space: clipping to a room, a light cone, a camera view.
 //!
-//! [`Volume`](crate::Volume) is the table of a pipeline, in clip space, of at most sixteen planes
-//! and without allocation. This one has as many planes as are added to it, none to begin with, and
+//! [`Volume`](crate::Volume) is the table of the pipeline: in clip space, with at most sixteen
+//! planes and without allocation. This one starts without planes, accepts any number of them, and
 //! carries attributes along.
 
 use crate::VolumeError;
@@ -9,7 +9,8 @@ use crate::sutherland_hodgman::{RingStep, clip_ring};
 use alloc::vec::Vec;
 use homog::{Bounds, Clip, ClipRange, HPoint, Interpolate, Plane, Point, Projective, Space};
 
-/// The intersection of half-spaces of space `S`: where no plane is negative. Borders belong to it.
+/// The intersection of half-spaces of space `S`: the points where no plane is negative. The
+/// boundary belongs to it.
 ///
 /// ```
 /// use clip::ConvexVolume;
@@ -47,10 +48,10 @@ impl<S: Space> ConvexVolume<S> {
         Self { planes: Vec::new() }
     }
 
-    /// The volume on the positive side of one plane more.
+    /// The volume on the positive side of one more plane.
     ///
     /// # Errors
-    /// [`VolumeError::NoPlane`] if the coefficients are not finite, or all zero.
+    /// Returns [`VolumeError::NoPlane`] if the coefficients are not finite or all zero.
     pub fn with_plane(mut self, plane: Plane<S>) -> Result<Self, VolumeError> {
         let coefficients = plane.coefficients();
         let largest = coefficients.iter().fold(0.0_f64, |largest, c| largest.max(c.abs()));
@@ -62,7 +63,7 @@ impl<S: Space> ConvexVolume<S> {
         Ok(self)
     }
 
-    /// The volume that a box holds.
+    /// The volume of a box.
     #[must_use]
     pub fn from_bounds(bounds: Bounds<S>) -> Self {
         let ([x0, y0, z0], [x1, y1, z1]) =
@@ -78,10 +79,10 @@ impl<S: Space> ConvexVolume<S> {
         Self { planes: planes.to_vec() }
     }
 
-    /// The part of space that a projection shows: the six planes of its frustum, left, right,
-    /// bottom, top, near and far as they are in clip space (Gribb and Hartmann, 2001).
+    /// The part of space that a projection shows: the six planes of its frustum in clip-space order
+    /// (left, right, bottom, top, near, far; Gribb and Hartmann, 2001).
     ///
-    /// A far plane at infinity is left out, and so is what rounding leaves of it.
+    /// A far plane at infinity is omitted, and so is one that only rounding keeps finite.
     ///
     /// ```
     /// use clip::ConvexVolume;
@@ -98,7 +99,7 @@ impl<S: Space> ConvexVolume<S> {
     /// ```
     ///
     /// # Errors
-    /// [`VolumeError::NoPlane`] if the map is not finite, or loses a side.
+    /// Returns [`VolumeError::NoPlane`] if the map is not finite or loses a side.
     pub fn from_projection(
         source_to_clip: Projective<S, Clip>,
         range: impl Into<ClipRange>,
@@ -120,7 +121,7 @@ impl<S: Space> ConvexVolume<S> {
         ];
         let mut volume = Self::new();
         for (index, [a, b, c, d]) in rows.into_iter().enumerate() {
-            // A plane at infinity has no direction: a constant that is positive everywhere.
+            // A plane at infinity has no direction: its value is a positive constant everywhere.
             let is_at_infinity = a.abs().max(b.abs()).max(c.abs()) <= 1e-15 * d.abs();
             if index == 5 && is_at_infinity && d > 0.0 {
                 continue;
@@ -130,32 +131,32 @@ impl<S: Space> ConvexVolume<S> {
         Ok(volume)
     }
 
-    /// The planes, in the order in which they were added; the largest coefficient of each is ±1.
+    /// The planes in the order in which they were added; the largest coefficient of each is ±1.
     #[must_use]
     pub fn planes(&self) -> &[Plane<S>] {
         &self.planes
     }
 
-    /// Whether a point is inside or on the border. One that is not finite is outside.
+    /// Returns whether a point is inside or on the boundary. A point that is not finite is outside.
     #[must_use]
     pub fn contains(&self, point: impl Into<HPoint<S>>) -> bool {
         let point = point.into();
         point.is_finite() && self.planes.iter().all(|plane| plane.evaluate(point) >= 0.0)
     }
 
-    /// False if a box is outside for certain: all of it on the negative side of one plane. The
-    /// test of frustum culling.
+    /// Returns false if a box is certainly outside: completely on the negative side of one plane.
+    /// This is the test for frustum culling.
     #[must_use]
     pub fn may_touch(&self, bounds: Bounds<S>) -> bool {
         let corners = bounds.corners();
         self.planes.iter().all(|plane| corners.iter().any(|corner| plane.evaluate(*corner) >= 0.0))
     }
 
-    /// The part of a convex polygon that is inside, its corners with their attributes, in the same
-    /// order (CL-3; Sutherland and Hodgman, 1974). Corners are points, or homogeneous points.
+    /// The part of a convex polygon that is inside: its corners with their attributes, in the same
+    /// order (CL-3; Sutherland and Hodgman, 1974). Corners are points or homogeneous points.
     ///
-    /// Empty if nothing is left, or a corner is not finite. Corners that are inside keep their
-    /// bits, and an edge that two polygons share is cut at the same bits in both.
+    /// Empty if nothing is left or a corner is not finite. Corners that are inside keep their exact
+    /// bits, and an edge shared by two polygons is cut at the same bits in both.
     #[must_use]
     pub fn clip_polygon<P, A>(&self, polygon: &[(P, A)]) -> Vec<(P, A)>
     where
@@ -190,8 +191,8 @@ impl<S: Space> ConvexVolume<S> {
         ring
     }
 
-    /// The part of a segment that is inside: the fractions of the way at which it enters and
-    /// leaves, 0 and 1 if its ends are inside (Cyrus and Beck, 1978). `None` if nothing is.
+    /// The part of a segment that is inside: the fractions at which it enters and leaves, or 0 and
+    /// 1 if its ends are inside (Cyrus and Beck, 1978). `None` if nothing is inside.
     #[must_use]
     pub fn clip_segment(&self, ends: [impl Into<HPoint<S>>; 2]) -> Option<[f64; 2]> {
         let [p, q] = ends.map(Into::into);
@@ -212,7 +213,7 @@ impl<S: Space> ConvexVolume<S> {
     }
 }
 
-/// A point by itself may be asked for, without attributes.
+/// Plain points, without attributes, work too.
 impl<S: Space> ConvexVolume<S> {
     /// The part of a triangle that is inside, as a polygon: [`clip_polygon`](Self::clip_polygon)
     /// with the weights of the triangle's corners as attributes.
@@ -274,7 +275,7 @@ mod tests {
         assert!(cube.may_touch(Bounds::from_points(corners).expect("a box")));
     }
 
-    /// In homogeneous coordinates it cuts as the pipeline's own volume does.
+    /// In homogeneous coordinates it cuts like the pipeline's own volume.
     #[test]
     fn clip_space_is_one_space_among_others() {
         let mut volume = ConvexVolume::<Clip>::new();

@@ -1,10 +1,10 @@
 //! Clipping in homogeneous space, before the divide.
 //!
-//! Clipping makes of a shape the part of it that a volume contains. Here it comes before the divide
-//! by w, for the divide is where things go wrong: it takes points behind the eye to places in front
-//! of it. In clip space the volume is a wedge, |x| ≤ w and so on for y and z, and the picture is
-//! the line w = 1. The divide moves every point along its ray through the origin onto that line,
-//! those with w < 0 as well:
+//! Clipping reduces a shape to the part inside a volume. Here it happens before the divide by w,
+//! because the divide is where things go wrong: it moves points behind the eye to positions in
+//! front of it. In clip space the volume is a wedge, |x| ≤ w and likewise for y and z, and the
+//! picture is the line w = 1. The divide moves every point along its line through the origin to w =
+//! 1, including points with w < 0:
 //!
 //! ```text
 //!                 w
@@ -19,31 +19,32 @@
 //!                 │        q
 //! ```
 //!
-//! The part of a shape inside the wedge has w > 0 and divides without further care.
+//! The part of a shape inside the wedge has w > 0 and is safe to divide.
 //!
-//! | what | by | gives |
+//! | shape | function | result |
 //! | --- | --- | --- |
-//! | a point | [`clip_point`], [`Volume::outcode`] | inside or not, and which planes say no |
-//! | many points | [`Volume::project_positions`] | outcodes; all inside, or all outside? |
-//! | a segment | [`clip_segment`] | its ends, their fractions of the way, the planes that cut |
+//! | a point | [`clip_point`], [`Volume::outcode`] | inside or not, planes it is outside of |
+//! | many points | [`Volume::project_positions`] | outcodes; whether all are in or all out |
+//! | a segment | [`clip_segment`] | its ends with their fractions, and the clipping planes |
 //! | a polyline | [`clip_polyline`] | unbroken runs |
 //! | a triangle | [`clip_triangle`] | a convex polygon with weights, without allocation |
-//! | a convex polygon | [`clip_convex`] | the same for any number of corners |
-//! | a solid | [`cut_triangle`], [`Outline`] | its part behind a plane, outline and cap |
+//! | a convex polygon | [`clip_convex`] | the same, for any number of corners |
+//! | a solid | [`cut_triangle`], [`Outline`] | the part behind a plane, with outline and cap |
 //! | anything, in any space | [`ConvexVolume`] | polygons with attributes, segments, frustum culling |
 //!
-//! A [`Volume`] is a table of planes: any convention's canonical volume, with or without a far
-//! plane, with a guard band, with planes of your own. Attributes follow by fractions and weights,
-//! which need no perspective correction at this stage. Neighbours that share an edge get the same
-//! bits where it is cut. Nothing here panics, and nothing that comes out is infinite or NaN.
+//! A [`Volume`] is a table of planes: the canonical volume of any convention, with or without a far
+//! plane, with a guard band, or with user planes. Fractions and weights carry attributes along; no
+//! perspective correction is needed at this stage. Neighbors cut a shared edge at the same bits.
+//! Nothing here panics, and no result is infinite or NaN.
 //!
 //! # Example
-//! A floor tile under the camera: one corner is ahead, the others are beside and behind it.
+//! A floor tile under the camera: one corner is in front of it, the others are beside and behind
+//! it.
 //! ```
 //! use clip::{PlaneOutcome, PlaneIndex, Volume, clip_triangle};
 //! use homog::{Clip, Point, Projective, View};
 //!
-//! // The chapter's perspective with w > 0 in front (PE-3): window [−1, 1]², n = −1, f = −9.
+//! // The textbook's perspective with w > 0 in front (PE-3): window [−1, 1]², n = −1, f = −9.
 //! let view_to_clip = Projective::<View, Clip>::from_rows([
 //!     [1.0, 0.0, 0.0, 0.0],
 //!     [0.0, 1.0, 0.0, 0.0],
@@ -91,7 +92,7 @@ mod volume;
 
 pub use bulk_outcodes::OutcodeSummary;
 pub use convex_volume::ConvexVolume;
-/// The types of points, maps and spaces, so that a program needs no second dependency.
+/// The types of points, maps and spaces, re-exported to save a second dependency.
 pub use homog;
 pub use outcode::{MAX_PLANES, Outcode, PlaneIndex};
 pub use outline::Outline;
@@ -104,7 +105,7 @@ pub use triangle::{ClipVertex, ClippedPolygon, clip_triangle};
 pub use triangle_section::{CutTriangle, SectionVertex, cut_triangle};
 pub use volume::{Volume, VolumeError};
 
-/// The examples of the README, compiled and run as a test.
+/// Runs the README examples as a test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

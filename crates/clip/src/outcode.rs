@@ -1,4 +1,4 @@
-//! Which planes a point is outside of, one bit per plane (CL-1; Cohen and Sutherland, about 1967).
+//! Outcodes: one bit per plane that a point is outside of (CL-1; Cohen and Sutherland, about 1967).
 //!
 //! ```text
 //!   bit 0 left   1 right   2 bottom   3 top   4 near   5 far   6… planes added by hand
@@ -16,34 +16,34 @@ use core::ops::{BitAnd, BitOr, BitOrAssign};
 /// The largest number of planes of a volume: the six of the box and ten more.
 pub const MAX_PLANES: usize = 16;
 
-/// The place of a plane in its volume: six with names, then those added by hand.
+/// The index of a plane in its volume: six named planes, then the user planes.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct PlaneIndex(u8);
 
 impl PlaneIndex {
-    /// Where x is least.
+    /// The plane of minimum x.
     pub const LEFT: Self = Self(0);
-    /// Where x is greatest.
+    /// The plane of maximum x.
     pub const RIGHT: Self = Self(1);
-    /// Where y is least.
+    /// The plane of minimum y.
     pub const BOTTOM: Self = Self(2);
-    /// Where y is greatest.
+    /// The plane of maximum y.
     pub const TOP: Self = Self(3);
-    /// Towards the eye.
+    /// The plane toward the eye.
     pub const NEAR: Self = Self(4);
-    /// Away from the eye.
+    /// The plane away from the eye.
     pub const FAR: Self = Self(5);
     /// The six planes of the box, in order.
     pub const BOX: [Self; 6] =
         [Self::LEFT, Self::RIGHT, Self::BOTTOM, Self::TOP, Self::NEAR, Self::FAR];
 
-    /// The `n`-th plane added by hand, from 0; `None` beyond what a volume can hold.
+    /// The `n`-th user plane, from 0; `None` beyond the capacity of a volume.
     #[must_use]
     pub fn added(n: usize) -> Option<Self> {
         Self::new(n.checked_add(Self::BOX.len())?)
     }
 
-    /// The plane with this number; `None` if it is not below [`MAX_PLANES`].
+    /// The plane with this number; `None` unless it is below [`MAX_PLANES`].
     #[must_use]
     pub fn new(index: usize) -> Option<Self> {
         u8::try_from(index).ok().filter(|_| index < MAX_PLANES).map(Self)
@@ -66,7 +66,7 @@ impl fmt::Display for PlaneIndex {
     }
 }
 
-/// A set of planes: those a point is outside of.
+/// A set of planes that a point is outside of.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Default, Debug)]
 pub struct Outcode(u16);
 
@@ -76,50 +76,50 @@ impl Outcode {
     /// Every plane.
     pub const ALL: Self = Self(u16::MAX);
 
-    /// The set with these bits, bit i for the plane with number i.
+    /// The set with these bits: bit i represents plane i.
     #[must_use]
     pub const fn from_bits(bits: u16) -> Self {
         Self(bits)
     }
 
-    /// One bit per plane, bit i for the plane with number i.
+    /// One bit per plane: bit i represents plane i.
     #[must_use]
     pub const fn bits(self) -> u16 {
         self.0
     }
 
-    /// True if no plane is in the set.
+    /// Returns whether the set is empty.
     #[must_use]
     pub const fn is_inside(self) -> bool {
         self.0 == 0
     }
 
-    /// True if `plane` is in the set.
+    /// Returns whether `plane` is in the set.
     #[must_use]
     pub const fn contains(self, plane: PlaneIndex) -> bool {
         self.0 >> plane.0 & 1 == 1
     }
 
-    /// The set with `plane` in it.
+    /// The set with `plane` added.
     #[must_use]
     pub const fn with_plane(self, plane: PlaneIndex) -> Self {
         Self(self.0 | 1 << plane.0)
     }
 
-    /// The set with `plane` not in it.
+    /// The set with `plane` removed.
     #[must_use]
     pub const fn without_plane(self, plane: PlaneIndex) -> Self {
         Self(self.0 & !(1 << plane.0))
     }
 
-    /// True if points with these outcodes, and all that lies between them, are inside: `a | b | … =
-    /// 0`.
+    /// Returns whether points with these outcodes, and everything between them, are inside: `a |
+    /// b | … = 0`.
     #[must_use]
     pub fn trivially_accepts(outcodes: &[Self]) -> bool {
         outcodes.iter().all(|code| code.is_inside())
     }
 
-    /// The planes that all of these points are outside of, `a & b & …`: if there is one, nothing
+    /// The planes that all of these points are outside of, `a & b & …`. If there is one, nothing
     /// between the points is inside.
     #[must_use]
     pub fn trivially_rejects(outcodes: &[Self]) -> Self {
@@ -161,7 +161,7 @@ impl BitOrAssign for Outcode {
 }
 
 impl fmt::Display for Outcode {
-    /// The names of the planes with `+` between them, `inside` for none.
+    /// The names of the planes joined by `+`, or `inside` if there are none.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.is_inside() {
             return f.pad("inside");

@@ -1,4 +1,4 @@
-//! Outlines: the edges of a section cut joined into closed loops.
+//! Outlines: the edges of a section cut, joined into closed loops.
 
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
@@ -7,19 +7,19 @@ use homog::{Point, Space};
 /// The outline of a cut face.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Outline<S: Space> {
-    /// Closed loops; the last point is joined to the first. Seen from the positive side of the
-    /// plane the outer ones run counter-clockwise and holes clockwise, if the triangles of the
-    /// surface run counter-clockwise seen from outside.
+    /// Closed loops; the last point connects to the first. Seen from the positive side of the
+    /// plane, outer loops are counterclockwise and holes clockwise, provided that the triangles of
+    /// the surface are counterclockwise seen from outside.
     pub loops: Vec<Vec<Point<S>>>,
-    /// Chains that do not close, because the surface has a border. Empty for closed surfaces.
+    /// Chains that do not close because the surface has a boundary. Empty for closed surfaces.
     pub open: Vec<Vec<Point<S>>>,
 }
 
 impl<S: Space> Outline<S> {
-    /// Joins edges whose ends are the same numbers, as those of [`crate::CutTriangle::edge`] are.
+    /// Joins edges whose ends are exactly equal, like those from [`crate::CutTriangle::edge`].
     ///
-    /// Edges are joined end to start where possible. Where the surface is wound inconsistently they
-    /// are turned round.
+    /// Edges are joined end to start where possible. Where the winding of the surface is
+    /// inconsistent, they are reversed.
     ///
     /// ```
     /// use clip::{Outline, cut_triangle};
@@ -54,14 +54,14 @@ impl<S: Space> Outline<S> {
         outline
     }
 
-    /// True if every edge is part of a loop.
+    /// Returns whether every edge is part of a loop.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         self.open.is_empty()
     }
 }
 
-/// The exact coordinates of a point, with one zero only.
+/// The exact coordinates of a point, with −0 replaced by 0.
 type PointKey = [u64; 3];
 
 fn point_key<S: Space>(point: Point<S>) -> PointKey {
@@ -70,7 +70,7 @@ fn point_key<S: Space>(point: Point<S>) -> PointKey {
 
 struct EdgeChains<'a, S: Space> {
     edges: &'a [[Point<S>; 2]],
-    /// The edges at a point, those that start there first.
+    /// The edges at a point, with those that start there first.
     at: BTreeMap<PointKey, Vec<usize>>,
     used: Vec<bool>,
 }
@@ -86,13 +86,13 @@ impl<'a, S: Space> EdgeChains<'a, S> {
         Self { edges, at, used: edges.iter().map(|[a, b]| a == b).collect() }
     }
 
-    /// The longest chain with this edge in it, up to where it closes.
+    /// The longest chain that contains this edge, up to the point where it closes.
     fn take_chain(&mut self, first: usize) -> Vec<Point<S>> {
         self.used[first] = true;
         let mut chain = self.edges[first].to_vec();
         self.extend_chain(&mut chain);
         if chain.first() != chain.last() {
-            // It did not close, so it may go on at its other end.
+            // It did not close, so it may continue at its other end.
             chain.reverse();
             self.extend_chain(&mut chain);
             chain.reverse();

@@ -1,15 +1,15 @@
-//! Plane outcomes: which planes clipped or rejected a shape.
+//! Plane outcomes: the planes that clipped or rejected a shape.
 
 use crate::{Outcode, PlaneIndex};
 
 /// The effect of one plane on a shape.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum PlaneOutcome {
-    /// The plane took nothing away.
+    /// The plane removed nothing.
     Accepted,
-    /// The plane took a part away.
+    /// The plane removed a part.
     Clipped,
-    /// The plane took all that was left when its turn came.
+    /// The plane removed everything that was left at its turn.
     Rejected,
 }
 
@@ -17,10 +17,10 @@ pub enum PlaneOutcome {
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 #[non_exhaustive]
 pub struct PlaneOutcomes {
-    /// The planes that took a part away.
+    /// The planes that removed a part.
     pub clipped: Outcode,
-    /// The planes that took all that was left. Of several only those with the whole shape on their
-    /// outer side are named, or, if there is none, the one in whose turn nothing remained.
+    /// The planes that removed everything that was left. If several did, only those with the whole
+    /// shape outside are named; if none has, the one after which nothing remained.
     pub rejected: Outcode,
 }
 

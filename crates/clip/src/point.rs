@@ -3,11 +3,11 @@
 use crate::Volume;
 use homog::{Clip, HPoint};
 
-/// The point itself if it is inside the volume or on its border; `None` otherwise, and for what is
-/// not finite or is no point at all.
+/// The point itself if it is inside the volume or on its boundary; `None` otherwise, and if it is
+/// not finite or not a point.
 ///
-/// The test is made before the divide. Afterwards it would be too late: a point behind the eye
-/// divides into the cube like a visible one.
+/// The test comes before the divide. Afterward it would be too late: a point behind the eye divides
+/// into the cube like a visible one.
 ///
 /// ```
 /// use clip::{Volume, clip_point};

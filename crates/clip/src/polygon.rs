@@ -9,7 +9,7 @@ use homog::{Clip, HPoint};
 /// The visible part of a convex polygon: a convex polygon of the same winding, or nothing.
 ///
 /// # Guarantees
-/// Those of [`crate::ClippedPolygon`].
+/// See [`crate::ClippedPolygon`].
 #[derive(Clone, PartialEq, Debug)]
 pub struct ClippedConvex {
     points: Vec<HPoint<Clip>>,
@@ -20,26 +20,26 @@ pub struct ClippedConvex {
 }
 
 impl ClippedConvex {
-    /// The vertices, not divided, in the order of the source; none if nothing is left.
+    /// The vertices, not divided, in source order; none if nothing is left.
     #[must_use]
     pub fn points(&self) -> &[HPoint<Clip>] {
         &self.points
     }
 
-    /// How much of each vertex of the source is in vertex `i`; they sum to 1. `None` if there is no
-    /// such vertex.
+    /// The weights of the source vertices in vertex `i`; they sum to 1. `None` if there is no such
+    /// vertex.
     #[must_use]
     pub fn weights(&self, i: usize) -> Option<&[f64]> {
         self.weights.chunks_exact(self.sources.max(1)).nth(i)
     }
 
-    /// True if nothing is left.
+    /// Returns whether nothing is left.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.points.is_empty()
     }
 
-    /// The polygon as a fan of triangles around its first vertex, by the numbers of their vertices.
+    /// The polygon as a fan of triangles around its first vertex, as vertex indices.
     pub fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + use<> {
         (2..self.points.len()).map(|i| [0, i - 1, i])
     }
@@ -51,10 +51,10 @@ impl ClippedConvex {
 
 /// The part of a convex polygon inside a volume (CL-3; Sutherland and Hodgman, 1974).
 ///
-/// Every vertex of the result comes with its weights in the source, so that any attribute follows.
-/// A polygon with fewer than three vertices, or with one that is not finite, gives nothing. Concave
-/// polygons must be cut into convex ones before: here their separate parts would come out joined by
-/// a seam along the border.
+/// Every vertex of the result comes with its weights in the source, for interpolating any
+/// attribute. A polygon with fewer than three vertices, or with one that is not finite, gives
+/// nothing. Split concave polygons into convex ones first: their separate parts would come out
+/// joined by a seam along the boundary.
 ///
 /// ```
 /// use clip::{Volume, clip_convex};

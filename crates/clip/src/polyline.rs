@@ -1,26 +1,27 @@
-//! Polylines: what is left is one run of points or several.
+//! Polyline clipping: the result is one or more runs of points.
 
 use crate::{Volume, clip_segment};
 use alloc::vec::Vec;
 use homog::{Clip, HPoint};
 
-/// A point of what is left of a polyline.
+/// A point of a clipped polyline.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct PolylinePoint {
-    /// Where it is, not divided.
+    /// The position, not divided.
     pub point: HPoint<Clip>,
-    /// The segment of the source it is on: the one from point `segment` to point `segment + 1`.
+    /// The segment of the source that contains it: the one from point `segment` to point `segment +
+    /// 1`.
     pub segment: usize,
-    /// The fraction of the way along that segment. Attributes of its ends blended by it are right.
+    /// The fraction along that segment. Use it to interpolate attributes of the ends.
     pub t: f64,
 }
 
 /// The parts of a polyline inside a volume, in order, each an unbroken run of at least two points.
 ///
-/// Where the line goes on inside, the run goes on; dash patterns and joins can follow it. A closed
-/// line repeats its first point as its last; if that point is inside, the first and the last run
-/// meet there. Segments with an end that is not finite are left out.
+/// While the line stays inside, the run continues, so dash patterns and joins can follow it. A
+/// closed line repeats its first point as its last; if that point is inside, the first and last
+/// runs meet there. Segments with an end that is not finite are skipped.
 ///
 /// ```
 /// use clip::{Volume, clip_polyline};
@@ -28,7 +29,7 @@ pub struct PolylinePoint {
 /// let zigzag = [(0.0, 0.0), (0.0, 2.0), (0.5, 0.0), (0.9, 0.5)];
 /// let zigzag = zigzag.map(|(x, y)| HPoint::new(x, y, 0.0, 1.0));
 /// let runs = clip_polyline(&zigzag, &Volume::CHAPTER);
-/// assert_eq!(runs.len(), 2); // it leaves at the top, comes back, and stays
+/// assert_eq!(runs.len(), 2); // it leaves at the top, returns, and stays
 /// assert_eq!(runs[1].len(), 3);
 /// assert_eq!((runs[1][0].segment, runs[1][0].t), (1, 0.5));
 /// ```

@@ -16,10 +16,10 @@ use homog::{Clip, HPoint};
 /// The visible part of a segment from p to q.
 ///
 /// # Guarantees
-/// - 0 ≤ `t0` ≤ `t1` ≤ 1; both ends are finite, have w > 0 and lie inside the volume's box or on
-///   its border.
-/// - An end that is inside is here with its very bits. From q to p the same two points come out,
-///   bit by bit.
+/// - 0 ≤ `t0` ≤ `t1` ≤ 1; both ends are finite, have w > 0 and are inside the volume's box or on
+///   its boundary.
+/// - An end that is inside keeps its exact bits. The segment from q to p gives the same two points,
+///   bit for bit.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct ClippedSegment {
@@ -27,8 +27,8 @@ pub struct ClippedSegment {
     pub start: HPoint<Clip>,
     /// The last point that is inside. It equals `start` if only a point is left.
     pub end: HPoint<Clip>,
-    /// The fraction of the way from p to q at `start`. Attributes of the ends blended by it are
-    /// right without a further correction.
+    /// The fraction at `start` of the way from p to q. Use it to interpolate attributes of the
+    /// ends; no further correction is needed.
     pub t0: f64,
     /// The fraction at `end`.
     pub t1: f64,
@@ -39,7 +39,7 @@ pub struct ClippedSegment {
 }
 
 impl ClippedSegment {
-    /// True if only a point is left: the segment touches the volume, or had no length.
+    /// Returns whether only a point is left: the segment touches the volume, or has no length.
     #[must_use]
     pub fn is_point(&self) -> bool {
         self.start == self.end
@@ -60,13 +60,13 @@ impl ClippedSegment {
 /// The part of the segment from `p` to `q` inside a volume; `None` if there is none or an end is
 /// not finite.
 ///
-/// It is cut before the divide, so that segments that pass w = 0, start behind the eye or end at
-/// infinity come out right.
+/// Clipping comes before the divide, so segments that cross w = 0, start behind the eye or end at
+/// infinity are handled correctly.
 ///
 /// ```
 /// use clip::{PlaneIndex, Volume, clip_segment};
 /// use homog::HPoint;
-/// // From a place in front of the eye to one behind it.
+/// // From a point in front of the eye to one behind it.
 /// let (p, q) = (HPoint::new(0.0, 0.0, 0.0, 1.0), HPoint::new(0.0, 0.0, 3.0, -1.0));
 /// let visible = clip_segment(p, q, &Volume::CHAPTER).expect("it starts inside");
 /// assert_eq!((visible.t0, visible.t1), (0.0, 0.2));
@@ -75,7 +75,7 @@ impl ClippedSegment {
 /// ```
 #[must_use]
 pub fn clip_segment(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Option<ClippedSegment> {
-    // One of the two directions is computed, whichever was asked for: so both get the same bits.
+    // Only one of the two directions is ever computed, so both get the same bits.
     if compare_points(p.raw(), q.raw()) == Ordering::Greater {
         return Some(VisibleSpan::new(q, p, volume).ok()?.end_points(q, p, volume)?.reversed());
     }
@@ -84,8 +84,8 @@ pub fn clip_segment(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Option
 
 /// The effect of each plane on the segment from `p` to `q`: why it is clipped or rejected.
 ///
-/// A segment that passes by a corner of the volume is rejected by two planes: it leaves through the
-/// one before it has entered through the other.
+/// A segment that passes a corner of the volume is rejected by two planes: it leaves through one
+/// before it enters through the other.
 #[must_use]
 pub fn segment_outcomes(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> PlaneOutcomes {
     match VisibleSpan::new(p, q, volume) {
@@ -109,7 +109,7 @@ struct PlaneCrossing {
 }
 
 impl PlaneCrossing {
-    /// The point, given the end on the plane's inner side and the one on its outer side.
+    /// The point, given the end inside the plane and the end outside.
     fn crossing_point(
         self,
         inner: HPoint<Clip>,
@@ -128,7 +128,7 @@ impl PlaneCrossing {
     }
 }
 
-/// The last of the enterings and the first of the leavings.
+/// The last entry and the first exit.
 #[derive(Clone, Copy, Default)]
 struct VisibleSpan {
     enter: Option<PlaneCrossing>,
@@ -148,7 +148,7 @@ impl VisibleSpan {
         let mut span = Self::default();
         for plane in (p_outside | q_outside).planes() {
             let (a, b) = (volume.plane_distance(plane, p), volume.plane_distance(plane, q));
-            // What is a hair outside may come out at distance 0 when huge points are scaled down.
+            // A point slightly outside may end up at distance 0 when huge points are scaled down.
             if p_outside.contains(plane) {
                 let (a, b) = (a.min(-f64::MIN_POSITIVE), b.max(0.0));
                 span.enter_by(PlaneCrossing {
@@ -201,8 +201,8 @@ impl VisibleSpan {
     ) -> Option<ClippedSegment> {
         let start = self.enter.map_or(p, |enter| enter.crossing_point(q, p, volume));
         let end = self.exit.map_or(q, |exit| exit.crossing_point(p, q, volume));
-        // The zero vector is in every closed volume but is no point. A segment that ends there runs
-        // straight at the eye: all of it has the image of its other end.
+        // The zero vector is in every closed volume but is not a point. A segment that ends there
+        // runs straight toward the eye: all of it has the same image as its other end.
         let (start, end) = match (start.w() > 0.0, end.w() > 0.0) {
             (true, true) => (start, end),
             (true, false) => (start, start),

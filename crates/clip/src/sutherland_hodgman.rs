@@ -8,13 +8,13 @@
 //!        ╲──────┼─── c              c a      cross
 //! ```
 //!
-//! A crossing is always computed from the end nearer to the plane. That is where the blend is most
-//! exact, and as two polygons that share an edge walk it in opposite directions, both get the same
+//! A crossing is always computed from the end nearer to the plane, where the blend is most
+//! accurate. Two polygons that share an edge walk it in opposite directions, so both get the same
 //! bits this way.
 
 use glam::DVec4;
 
-/// A vertex of the ring behind a plane.
+/// A vertex of the ring after clipping to a plane.
 pub(crate) enum RingStep {
     /// The vertex with this number stays.
     Keep(usize),
@@ -22,8 +22,7 @@ pub(crate) enum RingStep {
     Cross { from: usize, to: usize, t: f64 },
 }
 
-/// Walks a ring, given the distances of its vertices from the plane, and emits the ring that is
-/// left.
+/// Walks a ring, given the distances of its vertices from the plane, and emits the clipped ring.
 pub(crate) fn clip_ring(distances: &[f64], mut emit: impl FnMut(RingStep)) {
     let count = distances.len();
     for start in 0..count {
@@ -48,7 +47,7 @@ fn ring_crossing(inner: (usize, f64), outer: (usize, f64)) -> RingStep {
     }
 }
 
-/// Where a plane crosses an edge, as the fraction of the way from the nearer end.
+/// The crossing of a plane with an edge, as the fraction from the nearer end.
 #[derive(Clone, Copy)]
 pub(crate) enum EdgeFraction {
     FromInner(f64),
@@ -64,15 +63,15 @@ pub(crate) fn crossing_fraction(inner: f64, outer: f64) -> EdgeFraction {
     }
 }
 
-/// A power of two that makes sums and differences of these coordinates safe from overflow: 1 for
-/// all but huge ones.
+/// A power of two that keeps sums and differences of these coordinates from overflowing: 1 unless
+/// they are huge.
 pub(crate) fn safe_scale<'a>(points: impl IntoIterator<Item = &'a DVec4>) -> f64 {
     const HUGE: f64 = 1e290;
     let is_huge = points.into_iter().any(|p| p.abs().max_element() > HUGE);
     if is_huge { SCALE_DOWN } else { 1.0 }
 }
 
-/// Undoes the scale. What rounding has carried beyond the largest number comes back to it.
+/// Undoes the scale. If rounding exceeds the largest number, the result is that number.
 pub(crate) fn unscaled(point: DVec4, scale: f64) -> DVec4 {
     (point / scale).clamp(DVec4::MIN, DVec4::MAX)
 }

@@ -1,4 +1,4 @@
-//! Triangles (CL-3): what is left is a convex polygon, as a fan of triangles.
+//! Triangles (CL-3): the clipped part is a convex polygon, given as a fan of triangles.
 //!
 //! ```text
 //!            ╱╲                        each plane takes a corner and leaves two:
@@ -16,15 +16,14 @@ use homog::{Clip, HPoint};
 /// A triangle has 3 vertices and each plane adds at most one.
 const MAX_VERTICES: usize = 3 + MAX_PLANES;
 
-/// A vertex of what is left of a triangle.
+/// A vertex of a clipped triangle.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct ClipVertex {
-    /// Where it is, not divided. Its w is greater than 0.
+    /// The position, not divided. Its w is greater than 0.
     pub point: HPoint<Clip>,
-    /// How much of each vertex of the source triangle is in it; they sum to 1. Blending any
-    /// attribute of the vertices by them is right without a further correction, for the blend is
-    /// made before the divide (CL-2).
+    /// The weights of the source vertices; they sum to 1. Use them to interpolate any attribute; no
+    /// further correction is needed, because the blend happens before the divide (CL-2).
     pub weights: [f64; 3],
 }
 
@@ -44,9 +43,9 @@ impl ClipVertex {
 ///
 /// # Guarantees
 /// - It has no vertices or at least three.
-/// - Every vertex is finite, inside the volume's box or on its border, and has w > 0.
-/// - Vertices of the triangle that are inside are here with their very bits, and an edge shared by
-///   two triangles is cut at the same bits in both, whichever way it runs.
+/// - Every vertex is finite, inside the volume's box or on its boundary, and has w > 0.
+/// - Vertices of the triangle that are inside keep their exact bits, and an edge shared by two
+///   triangles is cut at the same bits in both, whichever way it runs.
 #[derive(Clone, Copy, Debug)]
 pub struct ClippedPolygon {
     ring: PolygonVertices,
@@ -54,7 +53,7 @@ pub struct ClippedPolygon {
     pub outcomes: PlaneOutcomes,
 }
 
-/// Most triangles are kept whole; a copy of those need not carry room for the cut ones.
+/// Most triangles are kept whole; their copies need no room for the clipped vertices.
 #[derive(Clone, Copy, Debug)]
 #[expect(clippy::large_enum_variant, reason = "on the stack, and no allocation is the point")]
 enum PolygonVertices {
@@ -64,7 +63,7 @@ enum PolygonVertices {
 }
 
 impl ClippedPolygon {
-    /// The vertices in the triangle's order; none if nothing is left.
+    /// The vertices in the order of the triangle; none if nothing is left.
     #[must_use]
     pub fn vertices(&self) -> &[ClipVertex] {
         match &self.ring {
@@ -74,13 +73,13 @@ impl ClippedPolygon {
         }
     }
 
-    /// True if nothing is left.
+    /// Returns whether nothing is left.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         matches!(self.ring, PolygonVertices::Empty)
     }
 
-    /// True if the triangle is left as it was.
+    /// Returns whether the triangle is unchanged.
     #[must_use]
     pub const fn is_unclipped(&self) -> bool {
         matches!(self.ring, PolygonVertices::Unclipped(_))
@@ -99,10 +98,10 @@ impl ClippedPolygon {
 
 /// The part of a triangle inside a volume (CL-3; Sutherland and Hodgman, 1974).
 ///
-/// It is cut in homogeneous space, before the divide, so that triangles that pass behind the eye or
-/// have vertices at infinity come out right. Nothing is allocated. A triangle with a vertex that is
-/// not finite gives nothing, and so does one of which only a vertex or an edge touches the volume
-/// from outside, or that is seen edge-on from the eye itself (w = 0).
+/// Clipping happens in homogeneous space, before the divide, so triangles that pass behind the eye
+/// or have vertices at infinity are handled correctly. Nothing is allocated. The result is empty if
+/// a vertex is not finite, if only a vertex or an edge touches the volume from outside, or if the
+/// plane of the triangle contains the eye (w = 0).
 ///
 /// ```
 /// use clip::{Volume, clip_triangle};
@@ -145,8 +144,8 @@ fn source_vertices([a, b, c]: [HPoint<Clip>; 3]) -> [ClipVertex; 3] {
     ]
 }
 
-/// Every plane looks at every vertex, also where the outcodes of this triangle would allow to leave
-/// it out: so the fate of an edge depends on the edge alone, and a neighbour decides alike.
+/// Every plane is tested against every vertex, even where the outcodes of this triangle would allow
+/// skipping it. The result for an edge then depends only on the edge, and a neighbor decides alike.
 fn clip_by_planes(triangle: [HPoint<Clip>; 3], volume: &Volume) -> ClippedPolygon {
     let (mut one, mut other) = (VertexBuffer::default(), VertexBuffer::default());
     let (mut ring, mut rest) = (&mut one, &mut other);
@@ -168,7 +167,7 @@ fn clip_by_planes(triangle: [HPoint<Clip>; 3], volume: &Volume) -> ClippedPolygo
     for vertex in ring.vertices_mut() {
         vertex.point = HPoint::from_raw(volume.clamp_to_box(unscaled(vertex.point.raw(), scale)));
     }
-    // The zero vector is in every closed volume but is no point. Only triangles without an area in
+    // The zero vector is in every closed volume but is not a point. Only triangles without area in
     // the image reach it.
     let is_point = |vertex: &ClipVertex| vertex.point.w() > 0.0;
     let ring = if ring.vertices().iter().all(is_point) {
@@ -179,7 +178,7 @@ fn clip_by_planes(triangle: [HPoint<Clip>; 3], volume: &Volume) -> ClippedPolygo
     ClippedPolygon { ring, outcomes: fates }
 }
 
-/// Puts the ring behind a plane into `rest`; false if it is the same.
+/// Puts the ring clipped to a plane into `rest`; false if it is unchanged.
 fn clip_by_plane(
     volume: &Volume,
     index: PlaneIndex,
@@ -209,7 +208,7 @@ fn clip_by_plane(
     true
 }
 
-/// Room for the vertices, on the stack.
+/// Storage for the vertices, on the stack.
 #[derive(Clone, Copy)]
 struct VertexBuffer {
     vertices: [ClipVertex; MAX_VERTICES],
@@ -237,8 +236,8 @@ impl VertexBuffer {
         &mut self.vertices[..self.count]
     }
 
-    /// Rounding may make a ring a hair concave; only then could it outgrow its room, and loses a
-    /// vertex on a line.
+    /// Rounding may make a ring slightly concave. Only then could it outgrow its storage, and it
+    /// loses a vertex on a line.
     fn push(&mut self, vertex: ClipVertex) {
         if let Some(place) = self.vertices.get_mut(self.count) {
             *place = vertex;

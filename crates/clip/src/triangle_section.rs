@@ -1,4 +1,4 @@
-//! Section cuts: a solid cut open by a plane, and the outline of the cut face.
+//! Section cuts: a solid cut open by a plane, with the outline of the cut face.
 //!
 //! ```text
 //!          ╱╲                   plane ──────────────      what is left        the cap
@@ -9,23 +9,23 @@
 //! ```
 //!
 //! Cutting the triangles of a closed surface leaves it open. Every triangle that the plane crosses
-//! contributes one directed edge to the outline of the opening. Neighbours cut the edge they share
-//! at the same bits, so the edges join end to start without a tolerance, and the outline of a
-//! closed surface always closes.
+//! contributes one directed edge to the outline of the opening. Neighbors cut their shared edge at
+//! the same bits, so the edges join end to start without a tolerance, and the outline of a closed
+//! surface always closes.
 //!
-//! A corner on the plane counts as inside. So a face that lies in the plane is kept whole, and a
-//! solid that only touches the plane from inside gets no cap.
+//! A corner on the plane counts as inside. A face that lies in the plane is therefore kept whole,
+//! and a solid that only touches the plane from inside gets no cap.
 
 use crate::sutherland_hodgman::{EdgeFraction, RingStep, clip_ring, crossing_fraction};
 use homog::{Plane, Point, Space};
 
-/// A vertex of what is left of a triangle behind a plane.
+/// A vertex of a triangle cut by a plane.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct SectionVertex<S: Space> {
-    /// Where it is.
+    /// The position.
     pub point: Point<S>,
-    /// How much of each corner of the triangle is in it; they sum to 1.
+    /// The weights of the triangle's corners; they sum to 1.
     pub weights: [f64; 3],
 }
 
@@ -38,7 +38,7 @@ pub struct CutTriangle<S: Space> {
 }
 
 impl<S: Space> CutTriangle<S> {
-    /// The vertices of what is left, in the triangle's order: none, three or four.
+    /// The vertices of the remaining part, in the order of the triangle: none, three or four.
     #[must_use]
     pub fn vertices(&self) -> &[SectionVertex<S>] {
         &self.vertices[..self.count]
@@ -50,18 +50,19 @@ impl<S: Space> CutTriangle<S> {
         vertices.windows(2).skip(1).map(|edge| [vertices[0], edge[0], edge[1]])
     }
 
-    /// The edge that the plane cut into the triangle, directed so that it continues the border of
-    /// what is left. `None` if the plane did not cut it.
+    /// The edge that the plane cuts into the triangle, directed to continue the boundary of the
+    /// remaining part. `None` if the plane does not cut it.
     #[must_use]
     pub const fn edge(&self) -> Option<[Point<S>; 2]> {
         self.edge
     }
 }
 
-/// Cuts a triangle with a plane and keeps the positive side, the one the plane's normal points to.
+/// Cuts a triangle with a plane and keeps the positive side, to which the normal of the plane
+/// points.
 ///
-/// A triangle with a corner that is not finite, or too far away for its distance from the plane to
-/// be a number, gives nothing.
+/// A triangle with a corner that is not finite, or too far away for a finite distance from the
+/// plane, gives nothing.
 ///
 /// ```
 /// use clip::cut_triangle;
@@ -92,7 +93,7 @@ pub fn cut_triangle<S: Space>(triangle: [Point<S>; 3], plane: Plane<S>) -> CutTr
         };
         left.count += 1;
     });
-    // Between the far ends of the number range even a blend can overflow.
+    // Between points near the largest numbers, even a blend can overflow.
     let finite = left.vertices().iter().all(|vertex| vertex.point.is_finite());
     if !finite || left.count < 3 {
         left.count = 0;
@@ -106,7 +107,7 @@ fn lerp_vertices<S: Space>(a: &SectionVertex<S>, b: &SectionVertex<S>, t: f64) -
     SectionVertex { point: a.point.lerp(b.point, t), weights }
 }
 
-/// From where the border of the triangle leaves the inside to where it comes back.
+/// The edge from where the boundary of the triangle leaves the inside to where it returns.
 fn cut_edge<S: Space>(corners: [Point<S>; 3], distances: [f64; 3]) -> Option<[Point<S>; 2]> {
     let (mut leaves, mut returns) = (None, None);
     for i in 0..3 {

@@ -1,7 +1,7 @@
 //! View volumes as tables of planes in clip space.
 //!
-//! A plane is a row (a, b, c, d); a point is inside if a x + b y + c z + d w ≥ 0. Borders belong to
-//! the volume. Conventions differ in the two rows of z only:
+//! A plane is a row (a, b, c, d); a point is inside if a x + b y + c z + d w ≥ 0. The boundary
+//! belongs to the volume. Conventions differ only in the two rows for z:
 //!
 //! | volume | near | far | depth near … far |
 //! | --- | --- | --- | --- |
@@ -17,7 +17,7 @@ use glam::DVec4;
 use homog::{Clip, ClipRange, HPoint, Plane};
 use thiserror::Error;
 
-/// An error of a plane or a guard band.
+/// A plane or guard band error.
 #[derive(Clone, Copy, PartialEq, Debug, Error)]
 #[non_exhaustive]
 pub enum VolumeError {
@@ -29,10 +29,10 @@ pub enum VolumeError {
         /// The coefficients (a, b, c, d).
         coefficients: [f64; 4],
     },
-    /// All places for planes are taken.
+    /// All slots for planes are taken.
     #[error("a volume holds {MAX_PLANES} planes at most, six for the box and ten more")]
     TooManyPlanes,
-    /// A guard band has a factor out of its range.
+    /// A guard band factor is out of range.
     #[error(
         "guard band factor {name} = {value} is not allowed: it must lie from 1 to {max}",
         max = Volume::MAX_GUARD_BAND
@@ -61,21 +61,22 @@ pub struct Volume {
 }
 
 impl Volume {
-    /// [−1, 1]³ with near at z = +1: the chapter's volume, and the pipeline's (PE-3).
+    /// [−1, 1]³ with near at z = +1: the volume of the textbook (Shirley and Marschner, ch. 8) and
+    /// of the pipeline (PE-3).
     pub const CHAPTER: Self = Self::canonical(ClipRange::CHAPTER);
     /// [−1, 1]³ with near at z = −1: OpenGL's volume (CL-1, GL-1).
     pub const OPENGL: Self = Self::canonical(ClipRange::OPENGL);
-    /// z in [0, 1] with near at 0: the volume of Direct3D, Vulkan, Metal and WebGPU (CL-1, D3D-1 to
+    /// z in [0, 1] with near at 0: used by Direct3D, Vulkan, Metal and WebGPU (CL-1, D3D-1 to
     /// D3D-6).
     pub const ZERO_ONE: Self = Self::canonical(ClipRange::ZERO_ONE);
     /// z in [0, 1] with near at 1: the same for reversed depth (RV-1).
     pub const ZERO_ONE_REVERSED: Self = Self::canonical(ClipRange::ZERO_ONE.reversed());
-    /// The widest guard band: beyond it plane equations would lose too many digits.
+    /// The widest guard band; beyond it, plane equations would lose too many digits.
     pub const MAX_GUARD_BAND: f64 = 1_048_576.0;
 
     /// The canonical volume of a clip range: a [`ClipRange`] or a `projection::Convention`.
     ///
-    /// y runs from −w to w whichever way is up, so that only depths matter here.
+    /// y runs from −w to w whichever way is up, so only depths matter here.
     ///
     /// ```
     /// use clip::Volume;
@@ -88,7 +89,7 @@ impl Volume {
     }
 
     const fn canonical(range: ClipRange) -> Self {
-        // The side of a depth on which the other is; 0 − x, for −0 has no place in a table.
+        // The side of one depth that contains the other; 0 − x, to keep −0 out of the table.
         let (near, far) = (range.near_depth(), range.far_depth());
         let side = if far < near { -1.0 } else { 1.0 };
         let near = DVec4::new(0.0, 0.0, side, 0.0 - side * near);
@@ -103,30 +104,31 @@ impl Volume {
         Self { planes, active_planes: Outcode::from_bits(BOX_BITS) }
     }
 
-    /// This volume without its near plane: for geometry that may begin anywhere before the eye. The
-    /// planes of the sides keep w from going below 0; what is cut off by them has w > 0 but where
-    /// it passes through the eye itself.
+    /// This volume without its near plane, for geometry that may begin anywhere in front of the
+    /// eye. The side planes keep w from going below 0, and their cuts have w > 0 except at the eye
+    /// itself.
     #[must_use]
     pub fn without_near(mut self) -> Self {
         self.active_planes = self.active_planes.without_plane(PlaneIndex::NEAR);
         self
     }
 
-    /// The volume without its far plane, for projections that see to infinity (IF-1 to IF-3).
+    /// This volume without its far plane, for projections that reach infinity (IF-1 to IF-3).
     #[must_use]
     pub fn without_far(mut self) -> Self {
         self.active_planes = self.active_planes.without_plane(PlaneIndex::FAR);
         self
     }
 
-    /// The volume with its sides moved out to |x| ≤ `kx` w and |y| ≤ `ky` w (CL-4).
+    /// This volume with its sides moved out to |x| ≤ `kx` w and |y| ≤ `ky` w (CL-4).
     ///
-    /// Triangles that leave the image but not the band need no cutting there: the rasteriser's
-    /// bounding box does it. A band of k lets screen coordinates reach k times half the image's
-    /// size from its center.
+    /// Triangles that leave the image but not the band need no clipping there; the rasterizer's
+    /// bounding box takes care of them. With a band of k, screen coordinates reach up to k times
+    /// half the image size from the center.
     ///
     /// # Errors
-    /// [`VolumeError::GuardBand`] unless both factors are from 1 to [`Self::MAX_GUARD_BAND`].
+    /// Returns [`VolumeError::GuardBand`] unless both factors are from 1 to
+    /// [`Self::MAX_GUARD_BAND`].
     pub fn with_guard_band(mut self, kx: f64, ky: f64) -> Result<Self, VolumeError> {
         for (name, value) in [("kx", kx), ("ky", ky)] {
             if !(1.0..=Self::MAX_GUARD_BAND).contains(&value) {
@@ -139,13 +141,13 @@ impl Volume {
         Ok(self)
     }
 
-    /// The volume with one plane more; what is on the plane's negative side is outside.
+    /// This volume with one more plane; the negative side of the plane is outside.
     ///
-    /// A plane of the world comes here through [`homog::Projective::transform_plane`].
+    /// Use [`homog::Projective::transform_plane`] for a plane in world space.
     ///
     /// # Errors
-    /// [`VolumeError::NoPlane`] if the plane has no two sides, [`VolumeError::TooManyPlanes`] if
-    /// there is no room.
+    /// Returns [`VolumeError::NoPlane`] if the plane does not have two sides,
+    /// [`VolumeError::TooManyPlanes`] if there is no room.
     pub fn with_plane(mut self, plane: Plane<Clip>) -> Result<Self, VolumeError> {
         let largest = plane.raw().abs().max_element();
         if !plane.raw().is_finite() || largest == 0.0 {
@@ -159,13 +161,13 @@ impl Volume {
         Ok(self)
     }
 
-    /// The planes the volume has.
+    /// The planes of the volume.
     #[must_use]
     pub const fn active_planes(&self) -> Outcode {
         self.active_planes
     }
 
-    /// The plane with this index, scaled so that its largest coefficient is 1 (or the guard band's
+    /// The plane with this index, scaled to make its largest coefficient 1 (or the guard band
     /// factor); `None` if the volume has no such plane.
     #[must_use]
     pub fn plane(&self, index: PlaneIndex) -> Option<Plane<Clip>> {
@@ -173,23 +175,23 @@ impl Volume {
         present.then(|| Plane::from_raw(self.planes[index.index()]))
     }
 
-    /// The planes a point is outside of (CL-1). Whatever is not finite is outside of all of them.
+    /// The planes a point is outside of (CL-1). A point that is not finite is outside of all.
     #[inline]
     #[must_use]
     pub fn outcode(&self, point: HPoint<Clip>) -> Outcode {
         let raw = point.raw();
-        // Most points of most pictures are inside, which is the quickest to tell.
+        // Most points of most pictures are inside, which is the fastest test.
         if self.active_planes.bits() & !BOX_BITS == 0 && self.is_in_box(raw) {
             return Outcode::INSIDE;
         }
         if raw.is_finite() { self.full_outcode(raw) } else { self.active_planes }
     }
 
-    /// Whether a point is for certain inside of the six planes of the box, present or not, and
-    /// finite.
+    /// Returns whether a point is certainly finite and inside the six planes of the box, present or
+    /// not.
     #[inline]
     fn is_in_box(&self, point: DVec4) -> bool {
-        /// Beyond this the limit of x and y may not be a number.
+        /// Beyond this, the limits of x and y may not be finite.
         const SAFE: f64 = 1e300;
         let along_z = |plane: DVec4| plane.z * point.z + plane.w * point.w >= 0.0;
         (point.x.abs() <= self.planes[0].w * point.w)
@@ -200,8 +202,8 @@ impl Volume {
             & (point.w < SAFE)
     }
 
-    /// The outcode of a finite point. The sums of the box are those of [`Self::plane_distance`]
-    /// without the coefficients that are 0; they have the right sign even where they overflow.
+    /// The outcode of a finite point. The sums for the box are the ones in [`Self::plane_distance`]
+    /// without the zero coefficients; their sign is correct even on overflow.
     #[inline]
     fn full_outcode(&self, point: DVec4) -> Outcode {
         let [kx, ky] = [self.planes[0].w * point.w, self.planes[2].w * point.w];
@@ -233,20 +235,20 @@ impl Volume {
         added.planes().filter(outside).fold(Outcode::INSIDE, Outcode::with_plane)
     }
 
-    /// True if the point is inside or on the border, finite, and not the zero vector, which is no
-    /// point.
+    /// Returns whether the point is inside or on the boundary, finite, and not the zero vector,
+    /// which is not a point.
     #[must_use]
     pub fn contains(&self, point: HPoint<Clip>) -> bool {
         point.w() > 0.0 && self.outcode(point).is_inside()
     }
 
-    /// How far inside of a plane a point is, in the plane's own measure; negative outside.
+    /// The signed distance inside a plane, in the plane's own measure; negative outside.
     pub(crate) fn plane_distance(&self, index: PlaneIndex, point: DVec4) -> f64 {
         self.planes[index.index()].dot(point)
     }
 
-    /// Puts a computed crossing with a plane onto it exactly, if the plane is one of the box.
-    /// Planes added by hand are oblique as a rule, and have no coordinate that could be set.
+    /// Moves a computed crossing exactly onto its plane, if the plane is one of the box. User
+    /// planes are usually oblique and have no coordinate that could be set.
     pub(crate) fn snap_to_plane(&self, index: PlaneIndex, mut point: DVec4) -> DVec4 {
         if index <= PlaneIndex::FAR {
             let (axis, plane) = (index.index() / 2, self.planes[index.index()]);
@@ -255,7 +257,7 @@ impl Volume {
         point
     }
 
-    /// Puts a point that rounding left a hair outside of the box back onto it, so that clipping is
+    /// Moves a point that rounding left slightly outside the box back onto it, to make clipping
     /// idempotent.
     pub(crate) fn clamp_to_box(&self, point: DVec4) -> DVec4 {
         let outside = self.full_outcode(point).planes();

@@ -1,4 +1,4 @@
-//! A railway in perspective: parallel rails meet, sleepers crowd towards the horizon.
+//! A railway in perspective: parallel rails meet, and sleepers crowd toward the horizon.
 //!
 //! Run it with `cargo run -p alberti-homog --example railway`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
@@ -6,8 +6,8 @@
 use homog::{Clip, Foreshortening, HPoint, Point, Projective, Vector, View};
 
 fn main() {
-    // The eye is the origin, one and a half above the rails, looking along −z; w = −z is the
-    // distance ahead. Depth runs from +1 at distance 2 to −1 at distance 32.
+    // The eye is at the origin, 1.5 above the rails, looking along −z; w = −z is the distance
+    // ahead. Depth runs from +1 at distance 2 to −1 at distance 32.
     let view_to_clip = Projective::<View, Clip>::from_rows([
         [1.0, 0.0, 0.0, 0.0],
         [0.0, 1.0, 0.0, 0.0],

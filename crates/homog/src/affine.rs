@@ -1,4 +1,4 @@
-//! Affine maps: points to points, never a divide.
+//! Affine maps: points to points, with no divide.
 
 use crate::{Normal, Plane, Point, Projective, Space, Vector};
 use core::marker::PhantomData;
@@ -7,8 +7,8 @@ use glam::{DMat3, DMat4, DVec3, DVec4};
 /// An affine map from space `A` to space `B`: a 4×4 matrix with bottom row (0, 0, 0, 1), column
 /// vectors.
 ///
-/// Parallel lines stay parallel and w stays 1. Maps are chained by [`then`](Self::then), read in
-/// the order in which a point passes through them.
+/// Parallel lines stay parallel and w stays 1. Chain maps with [`then`](Self::then), in the order
+/// in which a point passes through them.
 ///
 /// ```
 /// use homog::{Affine, Model, Point, Vector, World};
@@ -24,7 +24,7 @@ pub struct Affine<A: Space, B: Space> {
 }
 
 impl<A: Space, B: Space> Affine<A, B> {
-    /// The map that keeps the numbers and only changes the space they are read in.
+    /// The map that keeps the coordinates and only changes their space.
     pub const IDENTITY: Self = Self::tagged(DMat4::IDENTITY);
 
     pub(crate) const fn tagged(raw: DMat4) -> Self {
@@ -47,20 +47,20 @@ impl<A: Space, B: Space> Affine<A, B> {
         ))
     }
 
-    /// Moves points by `by` and leaves vectors alone (HO-4).
+    /// Moves points by `by` and leaves vectors unchanged (HO-4).
     #[must_use]
     pub fn translation(by: Vector<B>) -> Self {
         Self::tagged(DMat4::from_translation(by.raw))
     }
 
-    /// Multiplies each coordinate by its factor. A factor of 0 flattens, a negative one mirrors.
+    /// Scales each coordinate by its factor. A factor of 0 flattens; a negative factor mirrors.
     #[must_use]
     pub fn scale(x: f64, y: f64, z: f64) -> Self {
         Self::tagged(DMat4::from_scale(DVec3::new(x, y, z)))
     }
 
-    /// Turns about `axis` by `angle` radians, by the right-hand rule: seen with the axis pointing
-    /// at the viewer, anticlockwise. `None` if the axis is zero or not finite.
+    /// Rotates about `axis` by `angle` radians by the right-hand rule: counterclockwise when the
+    /// axis points at the viewer. `None` if the axis is zero or not finite.
     #[must_use]
     pub fn rotation(axis: Vector<B>, angle: f64) -> Option<Self> {
         let [x, y, z] = axis.normalized()?.raw.to_array();
@@ -68,21 +68,21 @@ impl<A: Space, B: Space> Affine<A, B> {
         Self::from_quaternion([x * s, y * s, z * s, c])
     }
 
-    /// Turns about the x axis by `angle` radians: y towards z.
+    /// Rotates about the x axis by `angle` radians: y toward z.
     #[must_use]
     pub fn rotation_x(angle: f64) -> Self {
         let (s, c) = libm::sincos(angle);
         Self::from_linear(DVec3::X, DVec3::new(0.0, c, s), DVec3::new(0.0, -s, c))
     }
 
-    /// Turns about the y axis by `angle` radians: z towards x.
+    /// Rotates about the y axis by `angle` radians: z toward x.
     #[must_use]
     pub fn rotation_y(angle: f64) -> Self {
         let (s, c) = libm::sincos(angle);
         Self::from_linear(DVec3::new(c, 0.0, -s), DVec3::Y, DVec3::new(s, 0.0, c))
     }
 
-    /// Turns about the z axis by `angle` radians: x towards y.
+    /// Rotates about the z axis by `angle` radians: x toward y.
     #[must_use]
     pub fn rotation_z(angle: f64) -> Self {
         let (s, c) = libm::sincos(angle);
@@ -119,23 +119,23 @@ impl<A: Space, B: Space> Affine<A, B> {
         Point::tagged(self.raw.transform_point3(point.raw))
     }
 
-    /// Writes the images of `points` to `images`, as many as both have: the same bits as
-    /// [`transform_point`](Self::transform_point), in one pass.
+    /// Writes the images of `points` to `images` in one pass, with the same bits as
+    /// [`transform_point`](Self::transform_point). Extra elements of the longer slice are ignored.
     pub fn transform_points_into(self, points: &[Point<A>], images: &mut [Point<B>]) {
         for (point, image) in points.iter().zip(images) {
             *image = self.transform_point(*point);
         }
     }
 
-    /// The image of a vector: the translation does not touch it.
+    /// The image of a vector, which the translation does not affect.
     #[must_use]
     pub fn transform_vector(self, vector: Vector<A>) -> Vector<B> {
         Vector::tagged(self.raw.transform_vector3(vector.raw))
     }
 
-    /// The image of a normal, by the cofactors of the linear part: they are its transposed inverse
-    /// times its determinant, so that this works for flattening maps too and the normal of a
-    /// mirrored surface keeps its side.
+    /// The image of a normal, by the cofactors of the linear part. They are its inverse transpose
+    /// times its determinant, so this works for flattening maps too, and the normal of a mirrored
+    /// surface keeps its side.
     #[must_use]
     pub fn transform_normal(self, normal: Normal<A>) -> Normal<B> {
         let [x, y, z] = self.linear_columns();
@@ -145,8 +145,8 @@ impl<A: Space, B: Space> Affine<A, B> {
         Normal::tagged(if mirrored { -image } else { image })
     }
 
-    /// The image of a plane; `None` if the map flattens space, or the image has a coefficient that
-    /// is not finite.
+    /// The image of a plane; `None` if the map flattens space or a coefficient of the image is not
+    /// finite.
     #[must_use]
     pub fn transform_plane(self, plane: Plane<A>) -> Option<Plane<B>> {
         let image = self.inverse()?.raw.transpose() * plane.raw;
@@ -158,8 +158,8 @@ impl<A: Space, B: Space> Affine<A, B> {
         [m.x_axis.truncate(), m.y_axis.truncate(), m.z_axis.truncate()]
     }
 
-    /// The determinant of the linear part: the factor of volumes, negative if the map mirrors, 0 if
-    /// it flattens.
+    /// The determinant of the linear part: the factor by which volumes grow. It is negative if the
+    /// map mirrors and 0 if it flattens.
     #[must_use]
     pub fn determinant(self) -> f64 {
         let [x, y, z] = self.linear_columns();
@@ -178,14 +178,14 @@ impl<A: Space, B: Space> Affine<A, B> {
         Projective::from(self).then(next)
     }
 
-    /// The map that undoes this one; `None` if it flattens space or is not finite.
+    /// The inverse map; `None` if this one flattens space or is not finite.
     #[must_use]
     pub fn inverse(self) -> Option<Affine<B, A>> {
         if !self.is_finite() {
             return None;
         }
-        // Columns near length 1 keep the determinant from over- or underflowing; powers of two cost
-        // no digit.
+        // Columns of length near 1 keep the determinant from overflowing or underflowing; powers of
+        // two are exact.
         let columns = self.linear_columns();
         let exponents = columns.map(|column| match column.abs().max_element() {
             0.0 => 0,
@@ -203,7 +203,7 @@ impl<A: Space, B: Space> Affine<A, B> {
         finite.then(|| Affine::tagged(DMat4::from_mat3_translation(linear, origin)))
     }
 
-    /// True if no entry is infinite or NaN.
+    /// Returns whether all entries are finite.
     #[must_use]
     pub fn is_finite(self) -> bool {
         self.raw.is_finite()

@@ -1,9 +1,9 @@
-//! Matrices as plain arrays, by rows and by columns, always named.
+//! Matrices as plain arrays, by rows or by columns, as the names say.
 //!
-//! Our points are columns and stand on the right: `v' = M v`. Row-major arrays read as a book
-//! prints the matrix, column-major ones are what OpenGL, Vulkan and glTF store. A library with row
-//! vectors, `v' = v M`, wants the transposed matrix: its row-major array is our column-major one,
-//! number by number.
+//! Points are columns to the right of the matrix: `v' = M v`. Row-major arrays read as a book
+//! prints the matrix; OpenGL, Vulkan and glTF store column-major ones. A library with row vectors,
+//! `v' = v M`, needs the transposed matrix: its row-major array is the column-major one here,
+//! number for number.
 
 use crate::{Affine, Homography, Projective, Space};
 use glam::{DMat3, DMat4};
@@ -21,7 +21,7 @@ fn flatten3(lines: [[f64; 3]; 3]) -> [f64; 9] {
 }
 
 impl<A: Space, B: Space> Projective<A, B> {
-    /// The map with the given rows, as a book prints them. The caller vouches for the spaces.
+    /// The map with the given rows, as a book prints them. The caller chooses the spaces.
     #[must_use]
     pub fn from_rows(rows: [[f64; 4]; 4]) -> Self {
         Self::tagged(DMat4::from_cols_array_2d(&transpose_columns(rows)))
@@ -33,38 +33,37 @@ impl<A: Space, B: Space> Projective<A, B> {
         transpose_columns(self.raw.to_cols_array_2d())
     }
 
-    /// The map of sixteen numbers, row after row.
+    /// The map from sixteen numbers, row by row.
     #[must_use]
     pub fn from_row_major(entries: [f64; 16]) -> Self {
         Self::tagged(DMat4::from_cols_array(&entries).transpose())
     }
 
-    /// The sixteen numbers, row after row.
+    /// The sixteen numbers, row by row.
     #[must_use]
     pub fn to_row_major(self) -> [f64; 16] {
         flatten4(self.rows())
     }
 
-    /// The map of sixteen numbers, column after column.
+    /// The map from sixteen numbers, column by column.
     #[must_use]
     pub fn from_column_major(entries: [f64; 16]) -> Self {
         Self::tagged(DMat4::from_cols_array(&entries))
     }
 
-    /// The sixteen numbers, column after column; also the row-major array of the row-vector form.
+    /// The sixteen numbers, column by column; also the row-major array for row vectors.
     #[must_use]
     pub fn to_column_major(self) -> [f64; 16] {
         self.raw.to_cols_array()
     }
 
-    /// The map of sixteen numbers in single precision, column after column, as graphics cards have
-    /// them.
+    /// The map from sixteen single-precision numbers, column by column, as GPUs store them.
     #[must_use]
     pub fn from_column_major_f32(entries: [f32; 16]) -> Self {
         Self::from_column_major(entries.map(f64::from))
     }
 
-    /// The sixteen numbers in single precision, column after column.
+    /// The sixteen numbers in single precision, column by column.
     #[must_use]
     pub fn to_column_major_f32(self) -> [f32; 16] {
         self.raw.as_mat4().to_cols_array()
@@ -84,26 +83,26 @@ impl<A: Space, B: Space> Affine<A, B> {
         transpose_columns(self.raw.to_cols_array_2d())
     }
 
-    /// The map of sixteen numbers, row after row; `None` unless the last four are 0, 0, 0, 1.
+    /// The map from sixteen numbers, row by row; `None` unless the last four are 0, 0, 0, 1.
     #[must_use]
     pub fn from_row_major(entries: [f64; 16]) -> Option<Self> {
         Self::from_matrix(DMat4::from_cols_array(&entries).transpose())
     }
 
-    /// The sixteen numbers, row after row.
+    /// The sixteen numbers, row by row.
     #[must_use]
     pub fn to_row_major(self) -> [f64; 16] {
         flatten4(self.rows())
     }
 
-    /// The map of sixteen numbers, column after column as in glTF; `None` unless every fourth is 0,
-    /// 0, 0, 1.
+    /// The map from sixteen numbers, column by column as in glTF; `None` unless the bottom row is
+    /// 0, 0, 0, 1.
     #[must_use]
     pub fn from_column_major(entries: [f64; 16]) -> Option<Self> {
         Self::from_matrix(DMat4::from_cols_array(&entries))
     }
 
-    /// The sixteen numbers, column after column; also the row-major array of the row-vector form.
+    /// The sixteen numbers, column by column; also the row-major array for row vectors.
     #[must_use]
     pub fn to_column_major(self) -> [f64; 16] {
         self.raw.to_cols_array()
@@ -123,25 +122,25 @@ impl Homography {
         transpose_columns(self.raw.to_cols_array_2d())
     }
 
-    /// The map of nine numbers, row after row.
+    /// The map from nine numbers, row by row.
     #[must_use]
     pub fn from_row_major(entries: [f64; 9]) -> Self {
         Self::tagged(DMat3::from_cols_array(&entries).transpose())
     }
 
-    /// The nine numbers, row after row.
+    /// The nine numbers, row by row.
     #[must_use]
     pub fn to_row_major(self) -> [f64; 9] {
         flatten3(self.rows())
     }
 
-    /// The map of nine numbers, column after column.
+    /// The map from nine numbers, column by column.
     #[must_use]
     pub fn from_column_major(entries: [f64; 9]) -> Self {
         Self::tagged(DMat3::from_cols_array(&entries))
     }
 
-    /// The nine numbers, column after column.
+    /// The nine numbers, column by column.
     #[must_use]
     pub fn to_column_major(self) -> [f64; 9] {
         self.raw.to_cols_array()

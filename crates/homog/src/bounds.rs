@@ -1,11 +1,11 @@
-//! Bounds: the smallest box along the axes that holds some points.
+//! Bounds: the smallest axis-aligned box that contains some points.
 
 use crate::{Affine, Point, Space, Vector};
 
-/// A closed box along the axes of space `S`, never empty: `min ≤ max` in every coordinate, all of
-/// them finite.
+/// A closed axis-aligned box in space `S`, never empty: `min ≤ max` in every coordinate, and all
+/// coordinates are finite.
 ///
-/// One point has bounds of size zero; no points have none, which is why [`Bounds::from_points`]
+/// The bounds of one point have size zero. No points have no bounds, so [`Bounds::from_points`]
 /// returns an `Option`.
 ///
 /// ```
@@ -22,7 +22,7 @@ pub struct Bounds<S: Space> {
 }
 
 impl<S: Space> Bounds<S> {
-    /// The smallest box that holds all `points`; `None` if there are none or one of them is not
+    /// The smallest box that contains all `points`; `None` if there are none or one of them is not
     /// finite.
     #[must_use]
     pub fn from_points(points: impl IntoIterator<Item = Point<S>>) -> Option<Self> {
@@ -38,19 +38,19 @@ impl<S: Space> Bounds<S> {
         finite.then_some(Self { min: Point::tagged(min), max: Point::tagged(max) })
     }
 
-    /// The least x, y and z.
+    /// The minimum x, y and z.
     #[must_use]
     pub const fn min(self) -> Point<S> {
         self.min
     }
 
-    /// The greatest x, y and z.
+    /// The maximum x, y and z.
     #[must_use]
     pub const fn max(self) -> Point<S> {
         self.max
     }
 
-    /// The smallest box that holds both.
+    /// The smallest box that contains both.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
         Self {
@@ -59,22 +59,21 @@ impl<S: Space> Bounds<S> {
         }
     }
 
-    /// The eight corners: bit 0 of the index chooses the greatest x, bit 1 the greatest y, bit 2
-    /// the greatest z.
+    /// The eight corners. Bit 0 of the index selects the maximum x, bit 1 the maximum y, bit 2 the
+    /// maximum z.
     #[must_use]
     pub fn corners(self) -> [Point<S>; 8] {
         let ends = [self.min.raw, self.max.raw];
         core::array::from_fn(|i| Point::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z))
     }
 
-    /// The middle of the box.
+    /// The center of the box.
     #[must_use]
     pub fn center(self) -> Point<S> {
         Point::tagged(self.min.raw * 0.5 + self.max.raw * 0.5)
     }
 
-    /// From the least corner to the greatest: the three edge lengths. Infinite where the numbers do
-    /// not reach.
+    /// The three edge lengths, from the minimum corner to the maximum corner. Infinite on overflow.
     #[must_use]
     pub fn size(self) -> Vector<S> {
         self.max - self.min
@@ -86,14 +85,14 @@ impl<S: Space> Bounds<S> {
         self.size().length()
     }
 
-    /// True if `point` is inside or on the box.
+    /// Returns whether `point` is inside the box or on it.
     #[must_use]
     pub fn contains(self, point: Point<S>) -> bool {
         self.min.raw.cmple(point.raw).all() && self.max.raw.cmpge(point.raw).all()
     }
 
-    /// The bounds of the image of this box, in general larger than the bounds of what is in the
-    /// box; `None` if a corner leaves the finite numbers.
+    /// The bounds of the image of this box; `None` if a corner is no longer finite. They are
+    /// usually larger than the bounds of the image of the contents.
     #[must_use]
     pub fn transformed<T: Space>(self, map: Affine<S, T>) -> Option<Bounds<T>> {
         Bounds::from_points(self.corners().map(|corner| map.transform_point(corner)))

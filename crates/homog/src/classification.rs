@@ -7,32 +7,32 @@
 //!   [ p q r h ]                 points go to infinity
 //! ```
 //!
-//! Each kind contains the one above it. All is up to a factor: the bottom row (0, 0, 0, 5) is as
-//! good as (0, 0, 0, 1). A perspective is called "non-linear" in one source (misprint M27): on
-//! homogeneous points it is linear, on places it is projective and not affine.
+//! Each kind contains the one above it. A common factor does not matter: the bottom row (0, 0,
+//! 0, 5) is as good as (0, 0, 0, 1). One source calls a perspective "non-linear" (misprint M27): it
+//! is linear on homogeneous points, and projective but not affine on positions.
 
 use crate::{Affine, Homography, Projective, Space};
 use core::fmt;
 
-/// The three kinds of maps that a matrix on homogeneous points can be.
+/// The three kinds of maps that a 4×4 or 3×3 matrix can be.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum MapKind {
-    /// Keeps the origin, parallels and proportions.
+    /// Preserves the origin, parallel lines and ratios along lines.
     Linear,
-    /// Keeps parallels and proportions.
+    /// Preserves parallel lines and ratios along lines.
     Affine,
-    /// Keeps lines.
+    /// Preserves lines.
     Projective,
 }
 
-/// Why a map is of its kind.
+/// The reason for the kind of a map.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum KindReason {
-    /// Linear: no translation, and w stays as it is.
+    /// Linear: no translation, and w is unchanged.
     OriginStays,
-    /// Affine: w stays as it is, but the origin goes elsewhere.
+    /// Affine: w is unchanged, but the origin moves.
     OriginMoves {
-        /// Where the origin goes.
+        /// The image of the origin.
         to: [f64; 3],
     },
     /// Projective: w depends on the point.
@@ -40,7 +40,7 @@ pub enum KindReason {
         /// The bottom row (p, q, r, h): w = p x + q y + r z + h.
         bottom_row: [f64; 4],
     },
-    /// Projective in name only: w is 0 everywhere, so that no point has a place as its image.
+    /// Projective in name only: w is 0 everywhere, so no image is a finite point.
     WVanishes,
 }
 
@@ -62,9 +62,9 @@ pub enum KindReason {
 pub struct Classification {
     /// Linear, affine or projective.
     pub kind: MapKind,
-    /// Why.
+    /// The reason.
     pub reason: KindReason,
-    /// The rank of the matrix up to rounding: 4 if the map can be undone.
+    /// The rank of the matrix up to rounding: 4 if the map is invertible.
     pub rank: usize,
 }
 
@@ -86,15 +86,15 @@ impl Classification {
         Self { kind, reason, rank }
     }
 
-    /// True if the map can be undone.
+    /// Returns whether the map is invertible.
     #[must_use]
     pub const fn is_invertible(&self) -> bool {
         self.rank == 4
     }
 
-    /// How many of the x, y and z axes have a vanishing point that is a place: the number of
-    /// non-zeros among p, q and r. One, two or three make a one-, two- or three-point perspective;
-    /// 0 a parallel projection.
+    /// The number of x, y and z axes with a finite vanishing point, that is, of nonzero entries
+    /// among p, q and r. One, two or three make a one-, two- or three-point perspective; 0 is a
+    /// parallel projection.
     #[must_use]
     pub fn finite_vanishing_points(&self) -> usize {
         match self.reason {
@@ -133,7 +133,7 @@ impl fmt::Display for KindReason {
     }
 }
 
-/// The linear form p x + q y + r z + h as people write it.
+/// Writes the linear form p x + q y + r z + h as people do.
 fn write_linear_form(f: &mut fmt::Formatter<'_>, coefficients: [f64; 4]) -> fmt::Result {
     let mut first = true;
     for (c, name) in coefficients.into_iter().zip(["x", "y", "z", ""]) {
@@ -167,21 +167,21 @@ impl fmt::Display for Classification {
 }
 
 impl<A: Space, B: Space> Projective<A, B> {
-    /// Classifies this map, by the exact entries.
+    /// Classifies this map by its exact entries.
     #[must_use]
     pub fn classify(self) -> Classification {
         self.classify_within(0.0)
     }
 
-    /// Classifies this map, where entries of the bottom row of up to `relative` times h count
-    /// as 0, and likewise those of the translation against the linear part: for matrices that were
-    /// computed.
+    /// Classifies this map with a tolerance, for computed matrices. Entries of the bottom row up to
+    /// `relative` times h count as 0, and so do small entries of the translation compared with the
+    /// linear part.
     #[must_use]
     pub fn classify_within(self, relative: f64) -> Classification {
         Classification::new(self.rows(), self.rank(), relative)
     }
 
-    /// The affine map this is up to a factor; `None` if w depends on the point.
+    /// The affine map that this is up to a factor; `None` if w depends on the point.
     ///
     /// ```
     /// use homog::{Affine, Model, Projective, Vector, World};
@@ -207,7 +207,7 @@ impl<A: Space, B: Space> Affine<A, B> {
 }
 
 impl Homography {
-    /// The kind of this map of the plane, by the exact entries.
+    /// The kind of this map of the plane, by its exact entries.
     #[must_use]
     pub fn kind(self) -> MapKind {
         let [[_, _, x], [_, _, y], [p, q, h]] = self.rows();

@@ -1,4 +1,4 @@
-//! Clip ranges: what clip space looks like after the divide.
+//! Clip ranges: the extent of clip space after the divide.
 //!
 //! ```text
 //!  range        near   far    y     of
@@ -8,33 +8,33 @@
 //!  VULKAN         0      1    down  Vulkan
 //! ```
 //!
-//! Projection, clipping and viewport have to agree on it. Each takes it by value, so that it is
-//! named once and handed to all three; `glClipControl` and `VK_EXT_depth_clip_control` choose it in
-//! the interfaces of graphics cards.
+//! Projection, clipping and viewport must agree on it. Each takes it as a value, so you name it
+//! once and pass it to all three. In graphics interfaces, `glClipControl` and
+//! `VK_EXT_depth_clip_control` select it.
 
 use thiserror::Error;
 
 /// The direction of the y axis after the divide.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum NdcY {
-    /// The top edge of the window goes to y = +1.
+    /// The top edge of the window maps to y = +1.
     Up,
-    /// The top edge of the window goes to y = −1.
+    /// The top edge of the window maps to y = −1.
     Down,
 }
 
-/// Why depths cannot be those of the near and the far plane.
+/// The reason why depths for the near and far planes are rejected.
 #[derive(Clone, Copy, PartialEq, Debug, Error)]
 pub enum ClipRangeError {
     /// A depth is not a number from −1 to 1.
     #[error("`{name}` is {value}; allowed: between −1 and 1")]
     Depth {
-        /// Which depth: `near_depth` or `far_depth`.
+        /// The depth: `near_depth` or `far_depth`.
         name: &'static str,
         /// Its value.
         value: f64,
     },
-    /// Near and far plane are closer than 10⁻⁶.
+    /// The depths of the near and far planes are less than 10⁻⁶ apart.
     #[error("`far_depth` is {far}; allowed: at least 0.000001 away from `near_depth`")]
     TooClose {
         /// The depth of the far plane.
@@ -42,7 +42,7 @@ pub enum ClipRangeError {
     },
 }
 
-/// The depths of the near and the far plane after the divide, and the direction of y.
+/// The depths of the near and far planes after the divide, and the direction of y.
 ///
 /// # Guarantees
 /// Both depths lie in [−1, 1] and are at least 10⁻⁶ apart.
@@ -60,7 +60,8 @@ pub struct ClipRange {
 }
 
 impl ClipRange {
-    /// The textbook's canonical volume in its w > 0 form (PE-3): [−1, 1]³ with near at +1.
+    /// The canonical volume of the textbook (Shirley and Marschner, ch. 8) in its w > 0 form
+    /// (PE-3): [−1, 1]³ with near at +1.
     pub const CHAPTER: Self = Self::new(1.0, -1.0, NdcY::Up);
     /// OpenGL and WebGL: [−1, 1]³ with near at −1.
     pub const OPENGL: Self = Self::new(-1.0, 1.0, NdcY::Up);
@@ -73,7 +74,7 @@ impl ClipRange {
         Self { near_depth, far_depth, y }
     }
 
-    /// This range with near and far depth exchanged (reversed z).
+    /// This range with the near and far depths exchanged (reversed z).
     #[must_use]
     pub const fn reversed(self) -> Self {
         Self::new(self.far_depth, self.near_depth, self.y)
@@ -85,10 +86,10 @@ impl ClipRange {
         Self { y, ..self }
     }
 
-    /// This range with other depths at the near and the far plane.
+    /// This range with other depths for the near and far planes.
     ///
     /// # Errors
-    /// Unless both depths are in [−1, 1] and at least 10⁻⁶ apart.
+    /// Returns an error unless both depths are in [−1, 1] and at least 10⁻⁶ apart.
     pub fn with_depths(self, near_depth: f64, far_depth: f64) -> Result<Self, ClipRangeError> {
         for (name, value) in [("near_depth", near_depth), ("far_depth", far_depth)] {
             if !(-1.0..=1.0).contains(&value) {
@@ -113,13 +114,13 @@ impl ClipRange {
         self.far_depth
     }
 
-    /// Which way y runs after the divide.
+    /// The direction of y after the divide.
     #[must_use]
     pub const fn y(self) -> NdcY {
         self.y
     }
 
-    /// The y after the divide of the window's top edge: +1 or −1.
+    /// The y coordinate of the window's top edge after the divide: +1 or −1.
     #[must_use]
     pub const fn top(self) -> f64 {
         match self.y {

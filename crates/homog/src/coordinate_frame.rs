@@ -1,4 +1,4 @@
-//! Frames: an origin and three axes, by which points get coordinates (HO-1, C50).
+//! Frames: an origin and three axes that give points their coordinates (HO-1, C50).
 //!
 //! ```text
 //!        z b                    point  = origin + x·p₁ + y·p₂ + z·p₃      w = 1
@@ -6,9 +6,9 @@
 //!  origin●── a
 //! ```
 //!
-//! The 4×4 matrix whose columns are the axes (w = 0) and the origin (w = 1) turns coordinates in
-//! the frame into those of the space the frame stands in; its inverse does the opposite. Two of
-//! them in a row change from one frame to another.
+//! The 4×4 matrix whose columns are the axes (w = 0) and the origin (w = 1) converts coordinates in
+//! the frame to coordinates in the parent space. Its inverse does the opposite. Two in a row
+//! convert from one frame to another.
 
 use crate::{Affine, Point, Space, Vector};
 
@@ -28,23 +28,24 @@ pub struct CoordinateFrame<S: Space> {
     axes: [Vector<S>; 3],
 }
 
-/// Why an origin and three vectors are no frame.
+/// The reason why an origin and three vectors do not form a frame.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FrameError {
     /// A coordinate is infinite or NaN.
     #[error("a frame needs an origin and axes with finite coordinates")]
     NotFinite,
-    /// The axes lie in one plane, or one of them is zero: most points would have no coordinates.
+    /// The axes lie in one plane, or one of them is zero; most points would have no coordinates.
     #[error("the axes of a frame must not lie in one plane")]
     Dependent,
 }
 
 impl<S: Space> CoordinateFrame<S> {
-    /// The frame with the given origin and axes, of any lengths and angles.
+    /// The frame with the given origin and axes, of any length and at any angles.
     ///
     /// # Errors
-    /// Axes in one plane (up to rounding), or coordinates that are not finite.
+    /// Returns an error if the axes lie in one plane (up to rounding) or a coordinate is not
+    /// finite.
     pub fn new(origin: Point<S>, axes: [Vector<S>; 3]) -> Result<Self, FrameError> {
         if !(origin.is_finite() && axes.iter().all(|axis| axis.is_finite())) {
             return Err(FrameError::NotFinite);
@@ -67,28 +68,28 @@ impl<S: Space> CoordinateFrame<S> {
         self.axes
     }
 
-    /// From coordinates in the frame, called space `L`, to places in `S`.
+    /// Converts coordinates in the frame, called space `L`, to points in `S`.
     #[must_use]
     pub fn local_to_parent<L: Space>(self) -> Affine<L, S> {
         let [x, y, z] = self.axes;
         Affine::from_frame(x, y, z, self.origin)
     }
 
-    /// From places in `S` to coordinates in the frame, called space `L`.
+    /// Converts points in `S` to coordinates in the frame, called space `L`.
     #[must_use]
     pub fn parent_to_local<L: Space>(self) -> Affine<S, L> {
-        // A frame is only made if this inverse exists.
+        // A frame exists only if this inverse exists.
         self.local_to_parent::<L>().inverse().unwrap_or(Affine::IDENTITY)
     }
 
-    /// From coordinates in this frame to coordinates of the same place in `other`: the change of
-    /// frame.
+    /// Converts coordinates in this frame to coordinates of the same point in `other`: the change
+    /// of frame.
     #[must_use]
     pub fn change_to<L: Space, M: Space>(self, other: Self) -> Affine<L, M> {
         self.local_to_parent::<L>().then(other.parent_to_local::<M>())
     }
 
-    /// True if the third axis lies on the side of the right-hand rule from the first two.
+    /// Returns whether the axes are right-handed.
     #[must_use]
     pub fn is_right_handed(self) -> bool {
         self.local_to_parent::<S>().determinant() > 0.0

@@ -1,6 +1,6 @@
 //! Points, vectors, normals and homogeneous points as people write them: `(1, 0.5, -2)`.
 //!
-//! A precision is handed on to each coordinate: `{:.2}` writes `(1.00, 0.50, -2.00)`. A homogeneous
+//! A precision applies to each coordinate: `{:.2}` writes `(1.00, 0.50, -2.00)`. A homogeneous
 //! point has four coordinates. Negative zero is written as 0.
 
 use crate::{HPoint, Normal, Point, Space, Vector};
@@ -9,7 +9,7 @@ use core::fmt::{Display, Formatter, Result};
 fn write_tuple(f: &mut Formatter<'_>, coordinates: &[f64]) -> Result {
     for (i, c) in coordinates.iter().enumerate() {
         f.write_str(if i == 0 { "(" } else { ", " })?;
-        // Adding 0 turns −0 into 0 and leaves all other numbers alone.
+        // Adding 0 turns −0 into 0 and leaves all other numbers unchanged.
         Display::fmt(&(c + 0.0), f)?;
     }
     f.write_str(")")

@@ -1,9 +1,9 @@
 //! Gauss–Jordan elimination of a small square matrix: its inverse and its rank.
 //!
-//! Rows and columns are first scaled by powers of two, which is exact, so that each has a greatest
-//! entry near 1. A matrix whose units differ wildly (a near plane of 10⁻¹² beside a far plane of
-//! 10⁶) is then judged by its shape and not by its units: a pivot that is only rounding noise means
-//! singular, a small unit does not.
+//! Rows and columns are first scaled by powers of two, which is exact, until the largest entry of
+//! each is near 1. A matrix whose units differ wildly (a near plane of 10⁻¹² and a far plane of
+//! 10⁶) is then judged by its shape, not by its units: only a pivot at the level of rounding noise
+//! makes it singular.
 
 /// A pivot of a balanced matrix up to this size is rounding noise.
 const ROUNDING_NOISE: f64 = 4.0 * f64::EPSILON;
@@ -44,7 +44,7 @@ fn identity_rows<const N: usize>() -> [[f64; N]; N] {
     core::array::from_fn(|i| core::array::from_fn(|j| f64::from(u8::from(i == j))))
 }
 
-/// The matrix with rows and columns scaled, and the exponents of two they were multiplied by.
+/// The matrix with scaled rows and columns, and the exponents of two by which they were multiplied.
 fn equilibrate<const N: usize>(rows: [[f64; N]; N]) -> ([[f64; N]; N], [i32; N], [i32; N]) {
     let mut a = rows;
     let row_exponents = core::array::from_fn(|i| {
@@ -66,7 +66,7 @@ fn exponent_of(entries: impl Iterator<Item = f64>) -> i32 {
     if largest == 0.0 { 0 } else { libm::ilogb(largest) }
 }
 
-/// Row and column of the largest entry that is in no pivot's row or column yet.
+/// The row and column of the largest entry whose row and column have no pivot yet.
 fn find_pivot<const N: usize>(
     a: &[[f64; N]; N],
     step: usize,
@@ -84,7 +84,7 @@ fn find_pivot<const N: usize>(
     best
 }
 
-/// Divides the pivot's row by the pivot and takes it from all other rows, on both sides.
+/// Divides the pivot row by the pivot and subtracts it from all other rows, on both sides.
 fn clear_column<const N: usize>(
     left: &mut [[f64; N]; N],
     right: &mut [[f64; N]; N],
@@ -104,8 +104,8 @@ fn clear_column<const N: usize>(
     }
 }
 
-/// Puts the rows of the balanced inverse where they belong and takes the scaling back: the inverse
-/// of R A C is C⁻¹ A⁻¹ R⁻¹, hence A⁻¹ = C (R A C)⁻¹ R.
+/// Moves the rows of the balanced inverse to their positions and undoes the scaling: the inverse of
+/// R A C is C⁻¹ A⁻¹ R⁻¹, hence A⁻¹ = C (R A C)⁻¹ R.
 fn undo_equilibration<const N: usize>(
     right: [[f64; N]; N],
     column_of: [usize; N],

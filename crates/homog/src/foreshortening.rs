@@ -1,4 +1,4 @@
-//! How a perspective moves the points of a segment along their line: f(t), its inverse and
+//! How perspective shifts the points of a segment along their line: f(t), its inverse and its
 //! derivative (IN-1, IN-2).
 //!
 //! ```text
@@ -7,14 +7,15 @@
 //! ```
 //!
 //! The point r + t(R − r) has its image at fraction f(t) = w_R t / (w_r + t(w_R − w_r)) between the
-//! images of the ends. With both w on the same side of 0 the denominator is a blend of the two and
-//! never 0; f rises from 0 to 1, so that segments go to segments and the order on them is kept.
+//! images of the ends. If both w have the same sign, the denominator is a blend of the two and
+//! never 0. Then f rises from 0 to 1: segments map to segments, and points on them keep their
+//! order.
 //!
-//! Source: chapter §8.4 and its exercise 11; IN-1, IN-2.
+//! Source: the textbook (Shirley and Marschner, ch. 8), §8.4 and exercise 11; IN-1, IN-2.
 
 use crate::{HPoint, Space};
 
-/// The w of an end does not allow f(t).
+/// The w values of the ends do not allow f(t).
 #[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
 #[error(
     "a segment with w from {start} to {end} has no image in one piece: both must be finite, not 0 \
@@ -39,7 +40,7 @@ pub struct SegmentCrossesEyePlane {
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Foreshortening {
-    /// Both positive, the greater of them in [1, 2): only their ratio counts.
+    /// Both positive, the larger in [1, 2): only their ratio matters.
     start: f64,
     end: f64,
 }
@@ -48,7 +49,8 @@ impl Foreshortening {
     /// The relation for w = `start` at t = 0 and w = `end` at t = 1.
     ///
     /// # Errors
-    /// Unless both are finite, not 0 and of one sign: clip the segment first.
+    /// Returns an error unless both are finite, nonzero and of the same sign: clip the segment
+    /// first.
     pub fn new(start: f64, end: f64) -> Result<Self, SegmentCrossesEyePlane> {
         let one_side = (start > 0.0 && end > 0.0) || (start < 0.0 && end < 0.0);
         if !(one_side && start.is_finite() && end.is_finite()) {
@@ -62,7 +64,7 @@ impl Foreshortening {
     /// The relation for the segment between two homogeneous points.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// See [`new`](Self::new).
     pub fn from_endpoints<S: Space>(
         start: HPoint<S>,
         end: HPoint<S>,
@@ -70,25 +72,25 @@ impl Foreshortening {
         Self::new(start.w(), end.w())
     }
 
-    /// f(t): where the point at fraction `t` of the segment has its image, as a fraction of the
-    /// image.
+    /// f(t): the position in the image, as a fraction, of the point at fraction `t` of the segment.
     ///
-    /// Some for every t in [0, 1]; beyond the ends `None` from where the line leaves for infinity.
+    /// Always `Some` for t in [0, 1]. Beyond the ends, `None` from the point where the image
+    /// reaches infinity.
     #[must_use]
     pub fn image_parameter(self, t: f64) -> Option<f64> {
         perspective_fraction(t, self.end * t, interpolate(self.start, self.end, t))
     }
 
-    /// The inverse of f: which fraction of the segment is seen at fraction `s` of its image.
+    /// The inverse of f: the fraction of the segment that appears at fraction `s` of its image.
     ///
-    /// Some for every s in [0, 1]; beyond the ends `None` from the vanishing point on.
+    /// Always `Some` for s in [0, 1]. Beyond the ends, `None` from the vanishing point on.
     #[must_use]
     pub fn source_parameter(self, s: f64) -> Option<f64> {
         perspective_fraction(s, self.start * s, interpolate(self.end, self.start, s))
     }
 
-    /// f'(t) = w_r w_R / (w_r + t(w_R − w_r))²: how much a short piece at `t` is stretched against
-    /// the average.
+    /// f'(t) = w_r w_R / (w_r + t(w_R − w_r))²: the stretch of a short piece at `t` relative to the
+    /// average.
     #[must_use]
     pub fn derivative(self, t: f64) -> Option<f64> {
         let w = interpolate(self.start, self.end, t);
@@ -96,9 +98,8 @@ impl Foreshortening {
         finite_quotient(self.start / w * self.end, w)
     }
 
-    /// The value that goes from `a` to `b` along the segment, where the image has run to fraction
-    /// `s` (IN-2): [(1−s) a/w_r + s b/w_R] / [(1−s)/w_r + s/w_R]. Perspective-correct
-    /// interpolation.
+    /// The value that varies from `a` to `b` along the segment, at fraction `s` of its image
+    /// (IN-2): [(1−s) a/w_r + s b/w_R] / [(1−s)/w_r + s/w_R]. Perspective-correct interpolation.
     #[must_use]
     pub fn interpolate_attribute(self, s: f64, a: f64, b: f64) -> Option<f64> {
         let t = self.source_parameter(s)?;
@@ -106,13 +107,13 @@ impl Foreshortening {
     }
 }
 
-/// From `start` at 0 to `end` at 1. Both ends come out exactly, and between them nothing cancels.
+/// From `start` at 0 to `end` at 1. Both ends are exact, and nothing cancels between them.
 fn interpolate(start: f64, end: f64, t: f64) -> f64 {
     start * (1.0 - t) + end * t
 }
 
-/// The quotient; where `of` is a fraction of the segment, so is the quotient, whatever rounding
-/// says.
+/// The quotient. If `of` is a fraction of the segment, the quotient is clamped to one too, despite
+/// rounding.
 fn perspective_fraction(of: f64, numerator: f64, denominator: f64) -> Option<f64> {
     let fraction = finite_quotient(numerator, denominator)?;
     Some(if of <= 1.0 { fraction.min(1.0) } else { fraction })
@@ -124,10 +125,10 @@ fn finite_quotient(numerator: f64, denominator: f64) -> Option<f64> {
     (denominator > 0.0 && quotient.is_finite()).then_some(quotient)
 }
 
-/// The weights of a triangle's corners in space, from those of its image and w at the corners
+/// The weights of a triangle's corners in space, from the weights in its image and w at the corners
 /// (IN-2): λᵢ/wᵢ over their sum. They interpolate any attribute perspective-correctly.
 ///
-/// `None` if the sum is 0 or not finite, as with a w of 0.
+/// `None` if the sum is 0 or not finite, for example if a w is 0.
 #[must_use]
 pub fn perspective_weights(image_weights: [f64; 3], w: [f64; 3]) -> Option<[f64; 3]> {
     let parts: [f64; 3] = core::array::from_fn(|i| image_weights[i] / w[i]);

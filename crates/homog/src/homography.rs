@@ -7,9 +7,9 @@
 //!   (0,0)────(1,0)        (−3,0)──────(3,0)
 //! ```
 //!
-//! Lines go to lines, but parallel ones may come to meet, and one line, the one whose points get w
-//! = 0, goes to infinity: here 2y + 1 = 0. Any multiple of M is the same map. Source: chapter §8.2,
-//! HO-3.
+//! Lines map to lines, but parallel lines may meet in the image. One line, whose points get w = 0,
+//! maps to infinity: here 2y + 1 = 0. Any multiple of M is the same map. Source: the textbook
+//! (Shirley and Marschner, ch. 8), §8.2; HO-3.
 
 use crate::elimination::eliminate_full_pivoting;
 use crate::hpoint_kind::are_proportional;
@@ -24,7 +24,7 @@ use glam::{DMat3, DVec3};
 /// let photo = [[-3.0, 0.0], [3.0, 0.0], [1.0, 3.0], [-1.0, 3.0]];
 /// let map = Homography::from_unit_square(photo).expect("four corners of a quadrilateral");
 /// let middle = map.transform_point(HPoint2::from_xy(0.5, 0.5)).divide().expect("finite");
-/// // The middle of the square is seen above half the height.
+/// // The image of the center is above half the height.
 /// assert!((middle[1] - 2.25).abs() < 1e-14);
 /// let rectify = map.inverse().expect("a quadrilateral with four corners");
 /// # for (p, q) in photo.into_iter().zip(square) {
@@ -38,7 +38,7 @@ pub struct Homography {
 }
 
 impl Homography {
-    /// The map that leaves everything where it is.
+    /// The identity map.
     pub const IDENTITY: Self = Self { raw: DMat3::IDENTITY };
 
     pub(crate) const fn tagged(raw: DMat3) -> Self {
@@ -46,13 +46,13 @@ impl Homography {
     }
 
     /// The map that takes the corners (0,0), (1,0), (1,1), (0,1) of the unit square to the given
-    /// four, in this order.
+    /// four points, in this order.
     ///
-    /// `None` if three of them lie on one line, or a coordinate is not finite.
+    /// `None` if three of them are collinear or a coordinate is not finite.
     #[must_use]
     pub fn from_unit_square(corners: [[f64; 2]; 4]) -> Option<Self> {
-        // Three corners are the images of three base points, each up to a factor; the fourth fixes
-        // the factors.
+        // Three corners are the images of three base points, each up to a factor; the fourth
+        // determines the factors.
         let [p00, p10, p11, p01] = corners.map(|[x, y]| DVec3::new(x, y, 1.0));
         let base = Self::tagged(DMat3::from_cols(p00, p10, p01));
         let factors = base.inverse()?.raw * p11;
@@ -68,15 +68,15 @@ impl Homography {
         HPoint2::tagged(self.raw * point.raw)
     }
 
-    /// The image of a line; `None` if the map is singular, or the image has a coefficient that is
-    /// not finite.
+    /// The image of a line; `None` if the map is singular or a coefficient of the image is not
+    /// finite.
     #[must_use]
     pub fn transform_line(self, line: HLine2) -> Option<HLine2> {
         let image = self.inverse()?.raw.transpose() * line.raw;
         image.is_finite().then_some(HLine2::tagged(image))
     }
 
-    /// The line that goes to infinity: its points get w = 0. For an affine map it is the line at
+    /// The line that maps to infinity: its points get w = 0. For an affine map it is the line at
     /// infinity itself.
     #[must_use]
     pub fn horizon(self) -> HLine2 {
@@ -95,13 +95,14 @@ impl Homography {
         self.raw.determinant()
     }
 
-    /// The map that undoes this one; `None` if it is singular up to rounding, or not finite.
+    /// The inverse map; `None` if this one is singular up to rounding, or not finite.
     #[must_use]
     pub fn inverse(self) -> Option<Self> {
         eliminate_full_pivoting(self.rows()).inverse.map(Self::from_rows)
     }
 
-    /// True if both are the same map, that is if one matrix is a multiple of the other (HO-2).
+    /// Returns whether both are the same map, that is, whether one matrix is a multiple of the
+    /// other (HO-2).
     ///
     /// `None` if one of them is zero or not finite.
     #[must_use]

@@ -1,4 +1,4 @@
-//! Homogeneous points: four numbers for a place or for a direction, up to a common factor.
+//! Homogeneous points: four numbers for a position or a direction, up to a common factor.
 
 use crate::{Point, Space, Vector};
 use core::marker::PhantomData;
@@ -6,8 +6,8 @@ use glam::DVec4;
 
 /// A homogeneous point (x, y, z, w) of space `S` (HO-1).
 ///
-/// With w ≠ 0 it stands for the place (x/w, y/w, z/w); with w = 0 for the direction (x, y, z), a
-/// point at infinity. Any non-zero multiple stands for the same. (0, 0, 0, 0) stands for nothing.
+/// With w ≠ 0 it represents the position (x/w, y/w, z/w); with w = 0, the direction (x, y, z), a
+/// point at infinity. Any nonzero multiple represents the same point; (0, 0, 0, 0) represents none.
 ///
 /// ```
 /// use homog::{Clip, HPoint, Ndc, Point};
@@ -57,18 +57,18 @@ impl<S: Space> HPoint<S> {
         self.raw.w
     }
 
-    /// Perspective divide: the place this stands for, (x/w, y/w, z/w).
+    /// Perspective divide: the position that this represents, (x/w, y/w, z/w).
     ///
-    /// `None` where there is no finite place: w = 0, a coordinate that is not finite, or a quotient
+    /// `None` if there is no finite position: w = 0, a coordinate that is not finite, or a quotient
     /// too large to represent. A point behind the eye (w < 0) divides like any other, so clip
-    /// before.
+    /// first.
     #[must_use]
     pub fn divide(self) -> Option<Point<S::Divided>> {
         let place = self.raw.truncate() / self.raw.w;
         (self.raw.w.is_finite() && place.is_finite()).then_some(Point::tagged(place))
     }
 
-    /// The homogeneous point at fraction `t` of the straight way to `end` in four dimensions
+    /// The homogeneous point at fraction `t` of the straight line to `end` in four dimensions
     /// (CL-2).
     #[must_use]
     pub fn lerp(self, end: Self, t: f64) -> Self {
@@ -81,7 +81,7 @@ impl<S: Space> HPoint<S> {
         self.raw.as_vec4().to_array()
     }
 
-    /// True if no coordinate is infinite or NaN.
+    /// Returns whether all coordinates are finite.
     #[must_use]
     pub fn is_finite(self) -> bool {
         self.raw.is_finite()
@@ -89,7 +89,7 @@ impl<S: Space> HPoint<S> {
 }
 
 impl<S: Space> From<Point<S>> for HPoint<S> {
-    /// Lifts a place: w = 1 (HO-1).
+    /// Lifts a position: w = 1 (HO-1).
     fn from(point: Point<S>) -> Self {
         Self::tagged(point.raw.extend(1.0))
     }

@@ -1,4 +1,4 @@
-//! Homogeneous points of a line, two numbers each, up to a factor.
+//! Homogeneous points of a line: two numbers each, up to a factor.
 //!
 //! ```text
 //!     x
@@ -9,8 +9,8 @@
 //!     0─────1────── h
 //! ```
 //!
-//! Source: chapter §8.2, figure 8.10. (A translation of it has "2 vectors" for a 1-D point: it is
-//! one vector of two numbers.)
+//! Source: the textbook (Shirley and Marschner, ch. 8), §8.2, figure 8.10. (A translation of it has
+//! "2 vectors" for a 1-D point: it is one vector of two numbers.)
 
 use crate::HPoint2;
 use crate::hpoint_kind::are_proportional;
@@ -25,7 +25,7 @@ use crate::hpoint_kind::are_proportional;
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct HPoint1 {
-    /// The number times h.
+    /// The number, times h.
     pub x: f64,
     /// The homogeneous coordinate.
     pub h: f64,
@@ -38,8 +38,7 @@ impl HPoint1 {
         Self { x, h }
     }
 
-    /// The number this stands for; `None` for the point at infinity, and where a number is not
-    /// finite.
+    /// The number this represents; `None` for the point at infinity, or if a number is not finite.
     #[must_use]
     pub fn divide(self) -> Option<f64> {
         let number = self.x / self.h;
@@ -47,14 +46,14 @@ impl HPoint1 {
     }
 
     /// The perspective image of a point [y, z, h] of the plane on the line z = d, seen from the
-    /// origin: [d y, z], by the matrix [d 0 0; 0 1 0]. It stands for y_s = (d/z) y.
+    /// origin: [d y, z], by the matrix [d 0 0; 0 1 0]. It represents y_s = (d/z) y.
     #[must_use]
     pub fn project_point(d: f64, point: HPoint2) -> Self {
         let [y, z, _] = point.raw.to_array();
         Self::new(d * y, z)
     }
 
-    /// True if both stand for the same; `None` if one is [0, 0] or not finite (HO-2).
+    /// Returns whether both represent the same point; `None` if one is [0, 0] or not finite (HO-2).
     #[must_use]
     pub fn equivalent(self, other: Self, relative: f64) -> Option<bool> {
         are_proportional(&[self.x, self.h], &[other.x, other.h], relative)
@@ -78,7 +77,7 @@ mod tests {
         let image = HPoint1::project_point(d, HPoint2::from_xy(y, z));
         assert_eq!(image.divide(), Some(d / z * y));
         assert_ne!(image.divide(), Some(d / z), "printed y_s = d/z has all points at one height");
-        // Printed too: [d y, z] ~ [d y, 1]; right is [d y / z, 1].
+        // Misprinted as [d y, z] ~ [d y, 1]; correct is [d y / z, 1].
         assert_eq!(image.equivalent(HPoint1::new(d * y / z, 1.0), 0.0), Some(true));
         assert_eq!(image.equivalent(HPoint1::new(d * y, 1.0), 1e-12), Some(false));
     }

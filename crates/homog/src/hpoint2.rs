@@ -1,4 +1,4 @@
-//! Homogeneous points and lines of the plane, three numbers each, up to a factor.
+//! Homogeneous points and lines of the plane: three numbers each, up to a factor.
 //!
 //! ```text
 //!          h
@@ -9,15 +9,16 @@
 //!          0
 //! ```
 //!
-//! A homogeneous point is a ray through the origin of a space with one dimension more; the place it
-//! stands for is where the ray meets h = 1. Points and lines are duals: two points span a line, two
-//! lines meet in a point, by the same vector product, and parallel lines meet too, at infinity.
-//! Source: chapter §8.2, figure 8.11; HO-2.
+//! A homogeneous point is a line through the origin of a space with one more dimension; the
+//! position it represents is where that line meets h = 1. Points and lines are dual: the same cross
+//! product gives the line through two points and the point where two lines meet. Parallel lines
+//! meet too, at infinity. Source: the textbook (Shirley and Marschner, ch. 8), §8.2, figure 8.11;
+//! HO-2.
 
 use crate::hpoint_kind::are_proportional;
 use glam::DVec3;
 
-/// A homogeneous point [x, y, h] of the plane: the place (x/h, y/h), or a direction if h = 0.
+/// A homogeneous point [x, y, h] of the plane: the position (x/h, y/h), or a direction if h = 0.
 ///
 /// ```
 /// use homog::HPoint2;
@@ -38,7 +39,7 @@ impl HPoint2 {
         Self::tagged(DVec3::new(x, y, h))
     }
 
-    /// The place (x, y), lifted to h = 1.
+    /// The position (x, y), lifted to h = 1.
     #[must_use]
     pub const fn from_xy(x: f64, y: f64) -> Self {
         Self::new(x, y, 1.0)
@@ -54,20 +55,20 @@ impl HPoint2 {
         Self { raw }
     }
 
-    /// The place this stands for; `None` for directions, and where a number is not finite.
+    /// The position this represents; `None` for directions, or if a number is not finite.
     #[must_use]
     pub fn divide(self) -> Option<[f64; 2]> {
         let place = self.raw.truncate() / self.raw.z;
         (self.raw.z.is_finite() && place.is_finite()).then_some(place.to_array())
     }
 
-    /// The line through this point and another; `None` if they are the same, or stand for nothing.
+    /// The line through this point and another; `None` if they are the same or either is zero.
     #[must_use]
     pub fn join(self, other: Self) -> Option<HLine2> {
         cross_product(self.raw, other.raw).map(HLine2::tagged)
     }
 
-    /// True if both stand for the same; `None` if one stands for nothing (HO-2).
+    /// Returns whether both represent the same point; `None` if either is zero (HO-2).
     #[must_use]
     pub fn equivalent(self, other: Self, relative: f64) -> Option<bool> {
         are_proportional(&self.raw.to_array(), &other.raw.to_array(), relative)
@@ -75,13 +76,13 @@ impl HPoint2 {
 }
 
 impl From<[f64; 2]> for HPoint2 {
-    /// Lifts a place: h = 1.
+    /// Lifts a position: h = 1.
     fn from([x, y]: [f64; 2]) -> Self {
         Self::from_xy(x, y)
     }
 }
 
-/// The line a x + b y + c = 0, that is a x + b y + c h = 0 for homogeneous points, up to a factor.
+/// The line a x + b y + c = 0, or a x + b y + c h = 0 for homogeneous points, up to a factor.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct HLine2 {
     pub(crate) raw: DVec3,
@@ -101,19 +102,20 @@ impl HLine2 {
         Self { raw }
     }
 
-    /// a x + b y + c h: 0 on the line, of one sign on either side.
+    /// a x + b y + c h: 0 on the line, with opposite signs on its two sides.
     #[must_use]
     pub fn evaluate(self, point: HPoint2) -> f64 {
         self.raw.dot(point.raw)
     }
 
-    /// Where two lines meet, at infinity if they are parallel; `None` if they are the same.
+    /// The intersection of two lines, at infinity if they are parallel; `None` if they are the
+    /// same.
     #[must_use]
     pub fn meet(self, other: Self) -> Option<HPoint2> {
         cross_product(self.raw, other.raw).map(HPoint2::tagged)
     }
 
-    /// True if both are the same line; `None` if one of them is no line (HO-2).
+    /// Returns whether both are the same line; `None` if either is not a line (HO-2).
     #[must_use]
     pub fn equivalent(self, other: Self, relative: f64) -> Option<bool> {
         are_proportional(&self.raw.to_array(), &other.raw.to_array(), relative)

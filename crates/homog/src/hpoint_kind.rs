@@ -6,12 +6,12 @@ use core::fmt;
 /// The kind of a homogeneous point: finite, at infinity or invalid.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum HPointKind<S: Space> {
-    /// w ≠ 0: a point of space, given after the divide.
+    /// w ≠ 0: a point of space, after the divide.
     Finite(Point<S::Divided>),
     /// w = 0: a direction, a point at infinity. Its opposite is the same point at infinity.
     AtInfinity(Vector<S>),
-    /// No point: all four coordinates are 0, or one is not finite, or the point is too far to
-    /// represent.
+    /// Not a point: all four coordinates are 0, one is not finite, or the position is too far away
+    /// to represent.
     Invalid,
 }
 
@@ -58,8 +58,8 @@ impl<S: Space> HPoint<S> {
         self.kind_within(0.0)
     }
 
-    /// The kind of this point if w may be off by `relative` times the greatest coordinate: rounding
-    /// leaves 10⁻¹⁷ where a turned camera ought to give 0.
+    /// The kind of this point if w may be off by `relative` times the largest coordinate. Rounding
+    /// leaves 10⁻¹⁷ where a rotated camera should give 0.
     #[must_use]
     pub fn kind_within(self, relative: f64) -> HPointKind<S> {
         let largest = self.raw.abs().max_element();
@@ -72,12 +72,13 @@ impl<S: Space> HPoint<S> {
         self.divide().map_or(HPointKind::Invalid, HPointKind::Finite)
     }
 
-    /// True if both stand for the same place or direction, that is if one is a multiple of the
-    /// other (HO-2):
+    /// Returns whether both represent the same position or direction, that is, whether one is a
+    /// multiple of the other (HO-2): |aᵢ bⱼ − aⱼ bᵢ| ≤ `relative` · ‖a‖ ‖b‖ for all i, j. For
+    /// computed points, 10⁻¹² is a good value of `relative`.
     /// |aᵢ bⱼ − aⱼ bᵢ| ≤ `relative` · ‖a‖ ‖b‖ for all i, j. 10⁻¹² is a good `relative` for computed
     /// points.
     ///
-    /// `None` if one of them stands for nothing, being zero or not finite.
+    /// `None` if either represents nothing because it is zero or not finite.
     ///
     /// ```
     /// use homog::{HPoint, World};
@@ -92,7 +93,7 @@ impl<S: Space> HPoint<S> {
     }
 }
 
-/// True if one list is a multiple of the other; `None` if one is all zero or not finite.
+/// Returns whether one list is a multiple of the other; `None` if either is all zero or not finite.
 pub(crate) fn are_proportional(a: &[f64], b: &[f64], relative: f64) -> Option<bool> {
     let (a_unit, b_unit) = (power_of_two_scale(a)?, power_of_two_scale(b)?);
     let minor =
@@ -102,7 +103,7 @@ pub(crate) fn are_proportional(a: &[f64], b: &[f64], relative: f64) -> Option<bo
     Some(pairs.all(|(i, j)| minor(i, j).abs() <= relative * a_length * b_length))
 }
 
-/// The power of two that brings the largest number near 1; `None` if all are 0 or one is not
+/// The power of two that scales the largest number to near 1; `None` if all are 0 or one is not
 /// finite.
 fn power_of_two_scale(numbers: &[f64]) -> Option<f64> {
     let largest = numbers.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
@@ -115,15 +116,15 @@ fn scaled_length(numbers: &[f64], unit: f64) -> f64 {
 }
 
 impl<A: Space, B: Space> Projective<A, B> {
-    /// Where the images of all lines along `direction` meet (VN-1): the image of their point at
-    /// infinity, as a place, or as a direction if the images stay parallel.
+    /// The point where the images of all lines along `direction` meet (VN-1): the image of their
+    /// point at infinity. It is a position, or a direction if the images stay parallel.
     ///
-    /// `relative` is how far from 0 a w may be that counts as 0, as in [`HPoint::kind_within`]:
-    /// 10⁻¹² says yes to lines across the gaze of a turned camera.
+    /// A w up to `relative` from 0 counts as 0, as in [`HPoint::kind_within`]: 10⁻¹² accepts lines
+    /// perpendicular to the gaze of a rotated camera.
     ///
     /// ```
     /// use homog::{HPointKind, Ndc, Point, Projective, Clip, Vector, View};
-    /// // One-point perspective: the eye at distance 1 before the plane z = 0.
+    /// // One-point perspective: the eye at distance 1 in front of the plane z = 0.
     /// let [x, y, z] = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
     /// let rows = [x, y, z, [0.0, 0.0, -1.0, 1.0]];
     /// let map = Projective::<View, Clip>::from_rows(rows);
@@ -137,17 +138,17 @@ impl<A: Space, B: Space> Projective<A, B> {
         self.transform_direction(direction).kind_within(relative)
     }
 
-    /// The vanishing points of the x, y and z axes. The number of places among them makes the
-    /// picture a one-, two- or three-point perspective.
+    /// The vanishing points of the x, y and z axes. The number of finite ones makes the picture a
+    /// one-, two- or three-point perspective.
     #[must_use]
     pub fn principal_vanishing_points(self, relative: f64) -> [HPointKind<B>; 3] {
         [Vector::X, Vector::Y, Vector::Z].map(|axis| self.vanishing_point(axis, relative))
     }
 
-    /// True if both are the same map of points, that is if one matrix is a multiple of the other
-    /// (HO-2).
+    /// Returns whether both map points alike, that is, whether one matrix is a multiple of the
+    /// other (HO-2).
     ///
-    /// `None` if one of them is zero or not finite.
+    /// `None` if either is zero or not finite.
     #[must_use]
     pub fn equivalent(self, other: Self, relative: f64) -> Option<bool> {
         let entries = |map: Self| map.raw.to_cols_array();
@@ -162,7 +163,7 @@ mod tests {
 
     #[test]
     fn misprint_m2_the_factor_belongs_before_the_point() {
-        // Printed "x ~ α"; right is x ~ αx for α ≠ 0.
+        // Misprinted as "x ~ α"; correct is x ~ αx for α ≠ 0.
         let x = HPoint::<World>::new(1.0, -2.0, 3.0, 4.0);
         for alpha in [-7.0, 1e-3, 1e300, -1e-300, 5e-324] {
             let multiple = HPoint::tagged(x.raw * alpha);

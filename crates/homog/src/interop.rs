@@ -1,8 +1,8 @@
-//! Conversions from and to the types of other libraries, one feature each.
+//! Conversions from and to the types of other libraries, one feature per library.
 //!
 //! Arrays need no feature: `Point::from([x, y, z])`, `<[f64; 3]>::from(point)`, `point.to_f32()`,
-//! [`Projective::from_column_major`](crate::Projective::from_column_major). They fit every version
-//! of every library, for all of them convert from and to arrays.
+//! [`Projective::from_column_major`](crate::Projective::from_column_major). They work with every
+//! version of every library, because all convert from and to arrays.
 
 #[cfg(feature = "glam")]
 mod glam;

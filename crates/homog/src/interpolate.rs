@@ -1,13 +1,13 @@
-//! Interpolation of attributes: colors, texture coordinates, normals, anything that is carried along
-//! where a triangle is clipped or filled.
+//! Interpolation of vertex attributes (colors, texture coordinates, normals and so on) when a
+//! triangle is clipped or filled.
 
 use crate::{HPoint, Point, Space, Vector};
 use glam::{DVec3, DVec4};
 
 /// A value that can be blended with others of its type: a vertex attribute.
 ///
-/// Numbers, arrays and tuples of them are attributes, and so are points and vectors. A struct
-/// becomes one by blending its fields:
+/// Numbers, arrays and tuples of them are attributes, and so are points and vectors. For a struct,
+/// blend the fields:
 ///
 /// ```
 /// use homog::Interpolate;
@@ -32,12 +32,12 @@ use glam::{DVec3, DVec4};
 /// assert_eq!(red.lerp(blue, 0.5).uv, [0.5, 0.25]);
 /// ```
 pub trait Interpolate: Copy {
-    /// The sum of the values times their weights. The weights add up to 1, or to 0 for derivatives.
+    /// The weighted sum of the values. The weights add up to 1, or to 0 for derivatives.
     #[must_use]
     fn weighted_sum<const N: usize>(values: [Self; N], weights: [f64; N]) -> Self;
 
-    /// [`weighted_sum`](Self::weighted_sum) with weights in single precision, as rasterizers have
-    /// them: a shortcut for values that are in single precision themselves.
+    /// [`weighted_sum`](Self::weighted_sum) with single-precision weights, as rasterizers use them:
+    /// a shortcut for single-precision values.
     #[must_use]
     #[inline(always)]
     fn weighted_sum_f32<const N: usize>(values: [Self; N], weights: [f32; N]) -> Self {
@@ -95,7 +95,7 @@ impl<T: Interpolate, const M: usize> Interpolate for [T; M] {
     }
 }
 
-/// Nothing is carried along.
+/// No attributes.
 impl Interpolate for () {
     #[inline(always)]
     fn weighted_sum<const N: usize>(_: [Self; N], _: [f64; N]) -> Self {}

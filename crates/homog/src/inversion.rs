@@ -1,26 +1,25 @@
-//! Inverses with a report: how many digits inverting costs, and why there is no inverse if there is
-//! none.
+//! Inverses with a report: how many digits inversion costs, or why there is no inverse.
 
 use crate::elimination::eliminate_full_pivoting;
 use crate::{Projective, Space};
 
-/// An inverse, and what it is worth.
+/// An inverse and its accuracy.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct Inversion<A: Space, B: Space> {
     /// The inverse map.
     pub map: Projective<A, B>,
-    /// The condition number ‖M‖ ‖M⁻¹‖ in the norm of the greatest row sum: by how much relative
-    /// errors may grow, at least 1. A perspective with near and far far apart has a large one. It
-    /// stops at [`f64::MAX`].
+    /// The condition number ‖M‖ ‖M⁻¹‖ in the maximum row sum norm, at least 1: the factor by which
+    /// relative errors may grow. It is large for a perspective whose near and far planes are far
+    /// apart. Capped at [`f64::MAX`].
     pub condition: f64,
-    /// The greatest entry of |M M⁻¹ − I|: how well the inverse undoes the map as computed. It stops
-    /// at [`f64::MAX`], also where the product itself is beyond the range of f64.
+    /// The largest entry of |M M⁻¹ − I|: how well the computed inverse undoes the map. Capped at
+    /// [`f64::MAX`], also if the product itself is out of range.
     pub residual: f64,
 }
 
 impl<A: Space, B: Space> Inversion<A, B> {
-    /// The decimal digits that inverting may cost, of the 16 an f64 has: log₁₀ of the condition
+    /// The decimal digits that inversion may cost, of the 16 in an f64: log₁₀ of the condition
     /// number.
     #[must_use]
     pub fn digits_lost(&self) -> f64 {
@@ -28,11 +27,11 @@ impl<A: Space, B: Space> Inversion<A, B> {
     }
 }
 
-/// Why a map has no inverse.
+/// The reason why a map has no inverse.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum InversionError {
-    /// The map flattens space: it has no inverse, as every classical projection onto a plane.
+    /// The map flattens space, as every classical projection onto a plane does.
     #[error("the matrix is singular: its rank is {rank}, and only rank 4 can be undone")]
     Singular {
         /// The dimension of the image in homogeneous coordinates: 3 for a projection onto a plane.
@@ -47,11 +46,11 @@ pub enum InversionError {
 }
 
 impl<A: Space, B: Space> Projective<A, B> {
-    /// The map that undoes this one, with its condition.
+    /// The inverse map, with its condition number.
     ///
     /// # Errors
-    /// A matrix that is singular (up to rounding, whatever the units of its rows and columns) or
-    /// not finite, or an inverse that is not finite.
+    /// Returns an error if the matrix is singular (up to rounding, in any units of its rows and
+    /// columns) or not finite, or if the inverse is not finite.
     ///
     /// ```
     /// use homog::{Affine, Model, Projective, World};
@@ -77,8 +76,8 @@ impl<A: Space, B: Space> Projective<A, B> {
         Ok(Inversion { map, condition, residual })
     }
 
-    /// The rank of the matrix up to rounding: 4 for maps that can be undone, 3 for projections onto
-    /// a plane, 0 for zero and for matrices that are not finite.
+    /// The rank of the matrix up to rounding: 4 for invertible maps, 3 for projections onto a
+    /// plane, 0 for zero and for matrices that are not finite.
     #[must_use]
     pub fn rank(self) -> usize {
         eliminate_full_pivoting(self.rows()).rank

@@ -1,7 +1,7 @@
 //! Homogeneous coordinates with typed spaces.
 //!
-//! A picture of a three-dimensional thing is a chain of maps. Each link knows the space it starts
-//! from and the space it ends in, and the compiler refuses a chain that does not fit:
+//! A picture of a three-dimensional object is the result of a chain of maps. Each link knows its
+//! input and output spaces, and the compiler rejects a chain that does not fit:
 //!
 //! ```text
 //!  Model ─Affine─► World ─Affine─► View ─Projective─► Clip ─divide─► Ndc ─Affine─► Screen
@@ -9,22 +9,22 @@
 //!
 //! | type | is | under a translation |
 //! | --- | --- | --- |
-//! | [`Point`] | a place (x, y, z) | moves |
-//! | [`Vector`] | a difference of places | stays |
+//! | [`Point`] | a position (x, y, z) | moves |
+//! | [`Vector`] | a difference of positions | stays |
 //! | [`Normal`] | a direction perpendicular to a surface | stays |
-//! | [`HPoint`] | the place (x/w, y/w, z/w), or a direction if w = 0 | moves by w times as much |
+//! | [`HPoint`] | the position (x/w, y/w, z/w), or a direction if w = 0 | moves w times as far |
 //! | [`Plane`], [`Ray`], [`Bounds`] | a x + b y + c z + d = 0; a half-line; a box | move |
 //! | [`CoordinateFrame`] | an origin with three axes | moves |
-//! | [`Affine`] | a map that keeps parallels: points to points | |
-//! | [`Projective`] | a map that keeps lines: points to homogeneous points | |
-//! | [`HPoint1`], [`HPoint2`], [`HLine2`], [`Homography`] | those of the line and the plane | |
+//! | [`Affine`] | a map that preserves parallel lines: points to points | |
+//! | [`Projective`] | a map that preserves lines: points to homogeneous points | |
+//! | [`HPoint1`], [`HPoint2`], [`HLine2`], [`Homography`] | their 1-D and 2-D forms | |
 //!
 //! ```
 //! use homog::{Affine, Clip, Model, Point, Projective, Vector, View, World};
 //!
 //! let model_to_world = Affine::<Model, World>::rotation_y(90_f64.to_radians());
 //! let world_to_view = Affine::<World, View>::translation(Vector::new(0.0, 0.0, -4.0));
-//! // A lens: w becomes the distance ahead, and far things will come out small.
+//! // A lens: w becomes the distance ahead, which makes distant objects small.
 //! let view_to_clip = Projective::<View, Clip>::from_rows([
 //!     [2.0, 0.0, 0.0, 0.0],
 //!     [0.0, 2.0, 0.0, 0.0],
@@ -40,10 +40,10 @@
 //! assert!((seen.y() - 1.0 / 3.0).abs() < 1e-15);
 //! ```
 //!
-//! The perspective divide is [`HPoint::divide`], and it returns an `Option`: no place hides a
-//! division by zero. Four numbers that cannot be divided still mean something, and
-//! [`HPoint::kind`] says what; so the point in which railway tracks meet is the image of a
-//! direction, [`Projective::vanishing_point`].
+//! The perspective divide is [`HPoint::divide`]. It returns an `Option`, so no division by zero
+//! goes unnoticed. Coordinates that cannot be divided still have a meaning, which [`HPoint::kind`]
+//! reports: the point where railway tracks meet is the image of a direction,
+//! [`Projective::vanishing_point`].
 //!
 //! Mixing spaces does not compile:
 //!
@@ -51,32 +51,32 @@
 //! use homog::{Affine, Model, Point, View, World};
 //! let world_to_view = Affine::<World, View>::IDENTITY;
 //! let p = Point::<Model>::new(1.0, 2.0, 3.0);
-//! let wrong = world_to_view.transform_point(p); // a model point where a world point is due
+//! let wrong = world_to_view.transform_point(p); // a model point instead of a world point
 //! ```
 //!
 //! # Conventions
 //!
-//! - Points are columns and matrices stand on their left, `v' = M v`; chains are written with
-//!   `then`, in the order in which a point passes through them. [Arrays](Projective::from_rows) are
-//!   named by rows and columns.
-//! - Right-handed spaces, angles in radians, f64 throughout. Sines and cosines come from `libm`, so
-//!   that results have the same bits on every machine.
-//! - Nothing there is an `Option`; bad input is an error that names the number. Nothing panics, and
-//!   finite input gives no NaN.
+//! - Points are columns and matrices multiply them from the left, `v' = M v`. Chains are written
+//!   with `then`, in the order in which a point passes through them. [Array
+//!   constructors](Projective::from_rows) say whether they take rows or columns.
+//! - Spaces are right-handed, angles are in radians, and numbers are f64. Sines and cosines come
+//!   from `libm`, so results are bit-identical on every machine.
+//! - A missing result is `None`, and bad input is an error that names the number. Nothing panics,
+//!   and finite input never gives NaN.
 //! - Tags cost nothing: a `Point<World>` is three numbers.
 //!
 //! # Features
 //!
 //! | feature | conversions from and to |
 //! | --- | --- |
-//! | none | arrays of `f64`, and of `f32` where streams are, which bytemuck knows as they are |
+//! | none | arrays of `f64`, and of `f32` for vertex streams; bytemuck takes both as they are |
 //! | `glam` | the version of glam that this crate is built on |
 //! | `mint` | mint, and through it any version of glam, nalgebra, cgmath |
 //! | `nalgebra` | nalgebra's points, vectors, matrices, `Isometry3`, `Perspective3` |
-//! | `serde` | arrays of coordinates, and of the rows of matrices |
+//! | `serde` | arrays of coordinates, and of matrix rows |
 //!
 //! Source: P. Shirley, S. Marschner and others, *Fundamentals of Computer Graphics*, chapter 8,
-//! *Viewing*. Formula ids such as HO-2 name entries of the project's list of formulas.
+//! *Viewing*.  Formula ids such as HO-2 refer to the project's list of formulas.
 #![no_std]
 
 mod affine;
@@ -134,7 +134,7 @@ pub use remap::{RemapError, remap_interval};
 pub use space::{Clip, Model, Ndc, Screen, Space, View, World};
 pub use vector::Vector;
 
-/// The examples of the README.
+/// Runs the README examples.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,4 +1,4 @@
-//! Matrices as people write them: columns aligned, fractions where they are exact.
+//! Matrices as people write them: aligned columns, and fractions where they are exact.
 //!
 //! ```text
 //! [ 2    0   -1 ]        not   DMat3 { x_axis: DVec3(2.0, 0.0, 0.0), y_axis: DVec3(0.0, 3.0,
@@ -6,14 +6,14 @@
 //! [ 0  2/3  1/3 ]
 //! ```
 //!
-//! A number with at most three decimals is written as it is. Another is written as a fraction p/q
-//! with q < 1000 if that fraction, divided out, is this very f64; so 2/3 is, and π is not. What is
-//! left is cut to six digits. With a precision, `{:.4}`, all are written with that many decimals.
+//! A number with at most three decimals is written unchanged. Otherwise it becomes a fraction p/q
+//! with q < 1000 if the quotient is exactly this f64: 2/3 does, π does not. All others are rounded
+//! to six digits. A precision, as in `{:.4}`, writes every number with that many decimals.
 
 use crate::{Affine, Homography, Projective, Space};
 use core::fmt::{self, Write};
 
-/// A matrix to be displayed; made by the `display` of each kind of map.
+/// A matrix to display; made by the `display` method of each kind of map.
 #[derive(Clone, Copy, Debug)]
 pub struct MatrixDisplay<const N: usize> {
     rows: [[f64; N]; N],
@@ -28,7 +28,7 @@ impl<const N: usize> MatrixDisplay<N> {
 }
 
 impl<A: Space, B: Space> Projective<A, B> {
-    /// The matrix for people to read.
+    /// The matrix in readable form.
     #[must_use]
     pub fn display(self) -> MatrixDisplay<4> {
         MatrixDisplay::from_rows(self.rows())
@@ -36,7 +36,7 @@ impl<A: Space, B: Space> Projective<A, B> {
 }
 
 impl<A: Space, B: Space> Affine<A, B> {
-    /// The matrix for people to read.
+    /// The matrix in readable form.
     #[must_use]
     pub fn display(self) -> MatrixDisplay<4> {
         MatrixDisplay::from_rows(self.rows())
@@ -44,7 +44,7 @@ impl<A: Space, B: Space> Affine<A, B> {
 }
 
 impl Homography {
-    /// The matrix for people to read.
+    /// The matrix in readable form.
     ///
     /// ```
     /// use homog::Homography;
@@ -79,7 +79,7 @@ impl<const N: usize> fmt::Display for MatrixDisplay<N> {
     }
 }
 
-/// The text of one entry, without need of an allocator. A number that does not fit is cut off.
+/// The text of one entry, without an allocator. A number that does not fit is truncated.
 #[derive(Clone, Copy)]
 struct MatrixCell {
     bytes: [u8; 40],
@@ -89,7 +89,7 @@ struct MatrixCell {
 impl MatrixCell {
     fn format_entry(entry: f64, decimals: Option<usize>) -> Self {
         let mut cell = Self { bytes: [0; 40], length: 0 };
-        // Writing fails when the cell is full; then it shows what there was room for.
+        // Writing fails when the cell is full; the cell then shows the part that fits.
         let _ = match decimals {
             Some(decimals) => write!(cell, "{:.decimals$}", entry + 0.0),
             None => cell.write_number(entry + 0.0),
@@ -126,13 +126,13 @@ impl Write for MatrixCell {
     }
 }
 
-/// True if the shortest decimal that reads back as x has at most three decimals.
+/// Returns whether the shortest decimal that reads back as x has at most three decimals.
 fn has_three_decimals(x: f64) -> bool {
     let thousandths = libm::round(x * 1000.0);
     x.abs() < 1e9 && thousandths / 1000.0 == x
 }
 
-/// The fraction with the smallest denominator that is exactly this f64 when divided out.
+/// The fraction with the smallest denominator that equals this f64 exactly when divided.
 fn simple_fraction(x: f64) -> Option<(i64, i64)> {
     if x.abs() >= 1e6 {
         return None;

@@ -6,8 +6,8 @@ use glam::DVec3;
 
 /// A direction perpendicular to a surface of space `S`; its length has no meaning.
 ///
-/// It is a type of its own because maps treat it otherwise than a vector: it goes by the transposed
-/// inverse, so that it stays perpendicular when a surface is scaled unevenly or sheared.
+/// Normals are a separate type because maps transform them differently: the inverse transpose keeps
+/// them perpendicular when a surface is scaled unevenly or sheared.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Normal<S: Space> {
     pub(crate) raw: DVec3,
@@ -25,7 +25,7 @@ impl<S: Space> Normal<S> {
         Self { raw, space: PhantomData }
     }
 
-    /// The scalar product with a vector of the same space: 0 if the vector lies in the surface.
+    /// The dot product with a vector of the same space: 0 if the vector lies in the surface.
     #[must_use]
     pub fn dot(self, vector: Vector<S>) -> f64 {
         self.raw.dot(vector.raw)

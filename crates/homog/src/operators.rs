@@ -1,8 +1,8 @@
-//! Operators: maps times what they map, as a book writes it, and sums of vectors.
+//! Operators: products of maps and points as a book writes them, and sums of vectors.
 //!
-//! `map * point` is `map.transform_point(point)`, and `second * first` the map that does the first
-//! and then the second: the order of matrices. [`Affine::then`] is the same in the order of a point
-//! that passes through.
+//! `map * point` is `map.transform_point(point)`. `second * first` is the map that applies first,
+//! then second, in the order of matrices. [`Affine::then`] does the same in the order in which a
+//! point passes through the maps.
 
 use crate::{Affine, HPoint, Normal, Point, Projective, Space, Vector};
 use core::iter::Sum;

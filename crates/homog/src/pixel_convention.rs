@@ -1,4 +1,4 @@
-//! Pixel conventions: where pixels have their centers, and whether y runs up or down (VP-1 to
+//! Pixel conventions: the positions of pixel centers, and whether y points up or down (VP-1 to
 //! VP-4).
 //!
 //! ```text
@@ -19,21 +19,21 @@ use crate::{Affine, Point, RemapError, Screen, Vector};
 /// The direction of the y axis of an image.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum YAxis {
-    /// Row 0 is the lowest, as in the chapter and in OpenGL.
+    /// Row 0 is the bottom row, as in the textbook (Shirley and Marschner, ch. 8) and in OpenGL.
     Up,
-    /// Row 0 is the topmost, as in image files and most other interfaces.
+    /// Row 0 is the top row, as in image files and most other interfaces.
     Down,
 }
 
 /// The position of the center of pixel (i, j).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub enum PixelCenters {
-    /// At (i, j): the pixel covers [i − ½, i + ½). The chapter, OpenCV and most of computer vision,
-    /// Direct3D 9. The middle of 640 columns is at 319.5.
+    /// At (i, j): pixel i covers [i − ½, i + ½). Used by the textbook, OpenCV, most of computer
+    /// vision and Direct3D 9. The center of 640 columns is at 319.5.
     #[default]
     Integer,
-    /// At (i + ½, j + ½): the pixel covers [i, i + 1). Direct3D since 10, OpenGL, Vulkan, Metal,
-    /// WebGPU, COLMAP. The middle of 640 columns is at 320.
+    /// At (i + ½, j + ½): pixel i covers [i, i + 1). Used by Direct3D since 10, OpenGL, Vulkan,
+    /// Metal, WebGPU and COLMAP. The center of 640 columns is at 320.
     Half,
 }
 
@@ -47,7 +47,7 @@ impl PixelCenters {
         }
     }
 
-    /// The coordinate of the outer border of pixel 0.
+    /// The coordinate of the outer edge of pixel 0.
     #[must_use]
     pub const fn image_border(self) -> f64 {
         self.first_center() - 0.5
@@ -64,9 +64,9 @@ pub struct PixelConvention {
 }
 
 impl PixelConvention {
-    /// Centers at integers, y up (VP-1; Shirley and others, chapter 8.1.1).
+    /// Centers at integers, y up (VP-1; the textbook, §8.1.1).
     pub const CHAPTER: Self = Self { y: YAxis::Up, centers: PixelCenters::Integer };
-    /// Centers at integers, y down (VP-2): exercise 1 of the chapter, and Direct3D 9.
+    /// Centers at integers, y down (VP-2): exercise 1 of the textbook, and Direct3D 9.
     pub const CHAPTER_Y_DOWN: Self = Self { y: YAxis::Down, centers: PixelCenters::Integer };
     /// Half-integer centers, y down (VP-3): this project's pipeline, image files, Direct3D, Vulkan,
     /// Metal, WebGPU.
@@ -76,19 +76,19 @@ impl PixelConvention {
     /// All four conventions.
     pub const ALL: [Self; 4] = [Self::CHAPTER, Self::CHAPTER_Y_DOWN, Self::IMAGE, Self::OPENGL];
 
-    /// The map from positions in this convention to those in `other`, in an image of `height` rows
-    /// (VP-4).
+    /// The map from positions in this convention to positions in `other`, in an image of `height`
+    /// rows (VP-4).
     ///
     /// ```
     /// use homog::{PixelConvention, Point};
     /// let map = PixelConvention::CHAPTER.convert_to(PixelConvention::IMAGE, 480.0)?;
-    /// // The center of the lowest left pixel.
+    /// // The center of the lower left pixel.
     /// assert_eq!(map.transform_point(Point::ORIGIN), Point::new(0.5, 479.5, 0.0));
     /// # Ok::<(), homog::RemapError>(())
     /// ```
     ///
     /// # Errors
-    /// If the height is not finite or not greater than 0.
+    /// Returns an error if the height is not finite or not greater than 0.
     pub fn convert_to(
         self,
         other: Self,

@@ -1,6 +1,6 @@
 //! Rectangles of whole pixels: regions, tiles and bands of an image.
 
-/// A rectangle of whole pixels of an image, counted from the image's first column and row.
+/// A rectangle of whole pixels, relative to the first column and row of its image.
 ///
 /// ```
 /// use homog::PixelRect;
@@ -28,7 +28,7 @@ impl PixelRect {
         Self { x: 0, y: 0, width, height }
     }
 
-    /// The pixels that both rectangles cover; `None` if there are none.
+    /// The pixels in both rectangles; `None` if there are none.
     #[must_use]
     pub fn intersection(self, other: Self) -> Option<Self> {
         let (x, y) = (self.x.max(other.x), self.y.max(other.y));
@@ -37,10 +37,10 @@ impl PixelRect {
         (width > 0 && height > 0).then_some(Self { x, y, width, height })
     }
 
-    /// Band `index` of `count` horizontal bands, from the top, whose heights differ by one row at
-    /// most.
+    /// Band `index` of `count` horizontal bands, from the top; their heights differ by at most one
+    /// row.
     ///
-    /// A rectangle with fewer rows than bands has empty ones.
+    /// If the rectangle has fewer rows than bands, some bands are empty.
     #[must_use]
     pub fn nth_band(self, index: u32, count: u32) -> Self {
         let row = |n: u32| {
@@ -51,7 +51,7 @@ impl PixelRect {
         Self { y: self.y + from, height: to - from, ..self }
     }
 
-    /// Horizontal bands of at most `rows` rows, from the top, cut at multiples of `rows` in the
+    /// Horizontal bands of at most `rows` rows, from the top, split at multiples of `rows` in the
     /// image.
     pub fn bands(self, rows: u32) -> impl Iterator<Item = Self> {
         let rows = rows.max(1);
@@ -69,7 +69,7 @@ impl PixelRect {
         self.width as usize * self.height as usize
     }
 
-    /// The column right of the last one.
+    /// The column to the right of the last one.
     #[must_use]
     pub const fn right(self) -> u32 {
         self.x.saturating_add(self.width)

@@ -1,4 +1,4 @@
-//! Planes: the points at distance zero.
+//! Planes: the points at signed distance zero.
 
 use crate::{HPoint, Normal, Point, Space};
 use core::marker::PhantomData;
@@ -30,8 +30,7 @@ impl<S: Space> Plane<S> {
         self.raw.to_array()
     }
 
-    /// The plane through `point` perpendicular to `normal`, its positive side where the normal
-    /// points.
+    /// The plane through `point` perpendicular to `normal`, which points to the positive side.
     #[must_use]
     pub fn through(point: Point<S>, normal: Normal<S>) -> Self {
         let n: DVec3 = normal.raw;
@@ -44,8 +43,8 @@ impl<S: Space> Plane<S> {
         Normal::tagged(self.raw.truncate())
     }
 
-    /// a x + b y + c z + d w: positive on the side of the normal, 0 on the plane. It is the
-    /// distance for a place (w = 1) if the normal has length 1.
+    /// a x + b y + c z + d w: positive on the side of the normal and 0 on the plane. For w = 1 and
+    /// a normal of length 1, it is the distance.
     #[must_use]
     pub fn evaluate(self, point: impl Into<HPoint<S>>) -> f64 {
         self.raw.dot(point.into().raw)

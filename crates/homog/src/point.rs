@@ -1,14 +1,14 @@
-//! Points: places in a space.
+//! Points: positions in a space.
 
 use crate::{Space, Vector};
 use core::marker::PhantomData;
 use core::ops::{Add, Sub};
 use glam::DVec3;
 
-/// A place in space `S`.
+/// A position in space `S`.
 ///
-/// Points can be subtracted from each other and moved by vectors; they cannot be added or scaled,
-/// for the result would depend on where the origin happens to be.
+/// Points can be subtracted from each other and moved by vectors. They cannot be added or scaled,
+/// because the result would depend on the choice of origin.
 ///
 /// ```
 /// use homog::{Point, Vector, World};
@@ -54,8 +54,8 @@ impl<S: Space> Point<S> {
         self.raw.z
     }
 
-    /// The point at fraction `t` of the way to `end`: this point at 0, `end` at 1, beyond them
-    /// outside [0, 1].
+    /// The point at fraction `t` of the way to `end`: this point at 0, `end` at 1; `t` outside [0,
+    /// 1] extrapolates.
     #[must_use]
     pub fn lerp(self, end: Self, t: f64) -> Self {
         self + (end - self) * t
@@ -73,7 +73,7 @@ impl<S: Space> Point<S> {
         self.raw.as_vec3().to_array()
     }
 
-    /// True if no coordinate is infinite or NaN.
+    /// Returns whether all coordinates are finite.
     #[must_use]
     pub fn is_finite(self) -> bool {
         self.raw.is_finite()

@@ -7,10 +7,10 @@ use glam::DMat4;
 
 /// A projective map from space `A` to space `B`: any 4×4 matrix, column vectors (HO-3).
 ///
-/// It takes points to *homogeneous* points; the divide is a step of its own, [`HPoint::divide`],
-/// after clipping. Lines go to lines and planes to planes. A non-zero multiple of the matrix is the
-/// same map, but a negative one turns the sign of w, which matters to clipping: use the form with w
-/// > 0 in front of the eye (PE-3).
+/// It maps points to *homogeneous* points; the divide is a separate step, [`HPoint::divide`], after
+/// clipping. Lines map to lines and planes to planes. A nonzero multiple of the matrix is the same
+/// map, but a negative one flips the sign of w, which affects clipping: use the form with w > 0 in
+/// front of the eye (PE-3).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Projective<A: Space, B: Space> {
     pub(crate) raw: DMat4,
@@ -28,8 +28,8 @@ impl<A: Space, B: Space> Projective<A, B> {
         self.transform_hpoint(point.into())
     }
 
-    /// Writes the images of `points` to `images`, as many as both have: the same bits as
-    /// [`transform_point`](Self::transform_point), in one pass.
+    /// Writes the images of `points` to `images` in one pass, with the same bits as
+    /// [`transform_point`](Self::transform_point). Extra elements of the longer slice are ignored.
     pub fn transform_points_into(self, points: &[Point<A>], images: &mut [HPoint<B>]) {
         let DMat4 { x_axis, y_axis, z_axis, w_axis } = self.raw;
         for (point, image) in points.iter().zip(images) {
@@ -38,7 +38,7 @@ impl<A: Space, B: Space> Projective<A, B> {
         }
     }
 
-    /// The image of a direction, that is of its point at infinity: its vanishing point (VN-1).
+    /// The image of a direction, that is, of its point at infinity: its vanishing point (VN-1).
     #[must_use]
     pub fn transform_direction(self, vector: Vector<A>) -> HPoint<B> {
         self.transform_hpoint(vector.into())
@@ -50,8 +50,8 @@ impl<A: Space, B: Space> Projective<A, B> {
         HPoint::tagged(self.raw * point.raw)
     }
 
-    /// The image of a plane; `None` if the map is singular, or the image has a coefficient that is
-    /// not finite.
+    /// The image of a plane; `None` if the map is singular or a coefficient of the image is not
+    /// finite.
     #[must_use]
     pub fn transform_plane(self, plane: Plane<A>) -> Option<Plane<B>> {
         let image = self.inverse()?.raw.transpose() * plane.raw;
@@ -64,16 +64,16 @@ impl<A: Space, B: Space> Projective<A, B> {
         Projective::tagged(next.into().raw * self.raw)
     }
 
-    /// The map that undoes this one; `None` if it is singular up to rounding, or not finite.
+    /// The inverse map; `None` if this one is singular up to rounding, or not finite.
     ///
-    /// Singular is a matter of shape and not of units: a near plane of 10⁻⁹ does not make it so.
-    /// [`inverse_with_report`](Self::inverse_with_report) says more.
+    /// Shape decides, not units: a near plane of 10⁻⁹ does not make a map singular.
+    /// [`inverse_with_report`](Self::inverse_with_report) gives details.
     #[must_use]
     pub fn inverse(self) -> Option<Projective<B, A>> {
         eliminate_full_pivoting(self.rows()).inverse.map(Projective::from_rows)
     }
 
-    /// True if no entry is infinite or NaN.
+    /// Returns whether all entries are finite.
     #[must_use]
     pub fn is_finite(self) -> bool {
         self.raw.is_finite()

@@ -1,4 +1,4 @@
-//! Rays: half-lines that begin at a point, as picking and ray casting use them.
+//! Rays: half-lines that begin at a point, for picking and ray casting.
 
 use crate::{Bounds, Plane, Point, Space, Vector};
 
@@ -19,36 +19,36 @@ pub struct Ray<S: Space> {
     pub direction: Vector<S>,
 }
 
-/// Where a ray meets a triangle.
+/// The intersection of a ray with a triangle.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct TriangleHit {
     /// The parameter along the ray.
     pub t: f64,
-    /// The weights of the triangle's corners at the point. None is negative, and they add up to 1:
-    /// they interpolate any attribute.
+    /// The weights of the triangle's corners at the point: nonnegative, with sum 1. They
+    /// interpolate any attribute.
     pub weights: [f64; 3],
-    /// Whether the corners run counterclockwise as seen from where the ray begins.
+    /// Whether the corners are counterclockwise as seen from the origin of the ray.
     pub is_front: bool,
 }
 
 impl<S: Space> Ray<S> {
-    /// The point at parameter `t`, a distance if the direction has length 1.
+    /// The point at parameter `t`, which is a distance if the direction has length 1.
     #[must_use]
     pub fn at(self, t: f64) -> Point<S> {
         self.origin + self.direction * t
     }
 
-    /// The parameter at which the ray meets a plane; `None` if it runs beside it or away from it,
-    /// or a number is not finite.
+    /// The parameter at which the ray meets a plane; `None` if the ray is parallel to the plane or
+    /// points away from it, or a number is not finite.
     #[must_use]
     pub fn hit_plane(self, plane: Plane<S>) -> Option<f64> {
         let t = -plane.evaluate(self.origin) / plane.normal().dot(self.direction);
         (t >= 0.0 && t.is_finite()).then_some(t)
     }
 
-    /// Where the ray meets a triangle, from either side; `None` if it does not, or runs in the
-    /// triangle's plane (Möller and Trumbore, 1997).
+    /// The intersection with a triangle, from either side; `None` if the ray misses it or lies in
+    /// its plane (Möller and Trumbore, 1997).
     #[must_use]
     pub fn hit_triangle(self, [a, b, c]: [Point<S>; 3]) -> Option<TriangleHit> {
         let (ab, ac) = (b - a, c - a);
@@ -64,8 +64,8 @@ impl<S: Space> Ray<S> {
         (is_hit && t.is_finite()).then_some(TriangleHit { t, weights, is_front: determinant > 0.0 })
     }
 
-    /// The parameters at which the ray enters and leaves a box, 0 for the first if it begins
-    /// inside; `None` if it misses (Kay and Kajiya, 1986).
+    /// The parameters at which the ray enters and leaves a box; the first is 0 if the ray begins
+    /// inside. `None` if it misses (Kay and Kajiya, 1986).
     #[must_use]
     pub fn hit_bounds(self, bounds: Bounds<S>) -> Option<[f64; 2]> {
         let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
@@ -73,7 +73,7 @@ impl<S: Space> Ray<S> {
         let [min, max]: [[f64; 3]; 2] = [bounds.min().into(), bounds.max().into()];
         for axis in 0..3 {
             if direction[axis] == 0.0 {
-                // Between the two planes all along, or never.
+                // Between the two planes everywhere, or nowhere.
                 if !(min[axis]..=max[axis]).contains(&origin[axis]) {
                     return None;
                 }

@@ -6,22 +6,23 @@
 //!   c ────────── y ──── d            y = c + (x − a)(d − c)/(b − a)
 //! ```
 //!
-//! Nothing stops at the ends: x before a or beyond b goes to y outside [c, d]. If c > d the
-//! interval is turned round, so that x > b gives y < d. (One source has it as x < a or x > b gives
-//! y < c or y > d, the comparison signs lost in print: that is so only for c < d, misprint M27.)
+//! Nothing is clamped: x before a or beyond b maps to y outside [c, d]. If c > d the interval is
+//! reversed, and x > b gives y < d. (One source says that x < a or x > b gives y < c or y > d, with
+//! the comparison signs lost in print: true only for c < d, misprint M27.)
 //!
-//! Sources: LI-1; WI-2 and WI-3, which the chapter names as windowing transformations.
+//! Sources: LI-1; WI-2 and WI-3, the windowing transformations of the textbook (Shirley and
+//! Marschner, ch. 8).
 
 use crate::{Affine, Homography, Point, Space, Vector};
 
-/// Why an interval or a box cannot be remapped.
+/// The reason why an interval or a box cannot be remapped.
 #[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RemapError {
     /// A number is infinite or NaN.
     #[error("{name} is {value}, which is not finite")]
     NotFinite {
-        /// Which number.
+        /// The name of the number.
         name: &'static str,
         /// Its value.
         value: f64,
@@ -29,34 +30,34 @@ pub enum RemapError {
     /// A size is zero or negative.
     #[error("{name} = {value} is not allowed: it must be greater than 0")]
     NotPositive {
-        /// Which size.
+        /// The name of the size.
         name: &'static str,
         /// Its value.
         value: f64,
     },
-    /// The interval to map from has no length.
+    /// The source interval is empty.
     #[error("the {interval} to map from is empty: it begins and ends at {at}")]
     Empty {
-        /// "interval", or of a box "x interval", "y interval" or "z interval".
+        /// "interval", or for a box "x interval", "y interval" or "z interval".
         interval: &'static str,
-        /// Where it begins and ends.
+        /// The number at which it begins and ends.
         at: f64,
     },
-    /// The result is too large a number.
+    /// The result is too large.
     #[error("mapping [{}, {}] to [{}, {}] leaves the range of f64", from[0], from[1], to[0], to[1])]
     OutOfRange {
-        /// The interval to map from.
+        /// The source interval.
         from: [f64; 2],
-        /// The interval to map to.
+        /// The target interval.
         to: [f64; 2],
     },
 }
 
-/// The number that lies in `to` as `x` lies in `from` (LI-1). Extrapolates; either interval may run
-/// backwards.
+/// The number whose position in `to` matches the position of `x` in `from` (LI-1). Extrapolates;
+/// either interval may be reversed.
 ///
 /// # Errors
-/// A number that is not finite; `from` of no length; a result out of range.
+/// Returns an error if a number is not finite, `from` is empty or the result is out of range.
 ///
 /// ```
 /// use homog::remap_interval;
@@ -71,7 +72,7 @@ pub fn remap_interval(x: f64, from: [f64; 2], to: [f64; 2]) -> Result<f64, Remap
     if y.is_finite() { Ok(y) } else { Err(RemapError::OutOfRange { from, to }) }
 }
 
-/// Factor and offset: y = factor · x + offset.
+/// The factor and the offset: y = factor · x + offset.
 fn scale_and_offset(
     interval: &'static str,
     from: [f64; 2],
@@ -104,11 +105,11 @@ pub(crate) fn check_finite(name: &'static str, value: f64) -> Result<(), RemapEr
 }
 
 impl Homography {
-    /// The map that takes the rectangle with opposite corners `from` to that with opposite corners
-    /// `to` (WI-2).
+    /// The map that takes the rectangle with opposite corners `from` to the one with opposite
+    /// corners `to` (WI-2).
     ///
     /// # Errors
-    /// As [`remap_interval`], for either axis.
+    /// As for [`remap_interval`], on either axis.
     pub fn windowing(from: [[f64; 2]; 2], to: [[f64; 2]; 2]) -> Result<Self, RemapError> {
         let axis =
             |name, i: usize| scale_and_offset(name, [from[0][i], from[1][i]], [to[0][i], to[1][i]]);
@@ -118,11 +119,11 @@ impl Homography {
 }
 
 impl<A: Space, B: Space> Affine<A, B> {
-    /// The map that takes the box with opposite corners `from` to that with opposite corners `to`
-    /// (WI-3). A box to map to may be flat or mirrored.
+    /// The map that takes the box with opposite corners `from` to the one with opposite corners
+    /// `to` (WI-3). The target box may be flat or mirrored.
     ///
     /// # Errors
-    /// As [`remap_interval`], for any of the three axes.
+    /// As for [`remap_interval`], on any of the three axes.
     pub fn windowing(from: [Point<A>; 2], to: [Point<B>; 2]) -> Result<Self, RemapError> {
         let (from, to) = (from.map(<[f64; 3]>::from), to.map(<[f64; 3]>::from));
         let axis =

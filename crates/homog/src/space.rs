@@ -1,25 +1,25 @@
-//! The spaces a point passes through on its way to the screen, as types; and how to add one.
+//! The spaces a point passes through on its way to the screen, as types, and a macro to add more.
 //!
 //! ```text
 //! Model ──► World ──► View ──► Clip ──÷w──► Ndc ──► Screen
 //! ```
 //!
-//! A space is a tag without values. It costs nothing at run time and makes it a compile error to
-//! add a world vector to a view point or to hand clip coordinates to the viewport.
+//! A space is a tag without values. It costs nothing at run time. Adding a world vector to a view
+//! point, or passing clip coordinates to the viewport, is a compile error.
 
 use core::fmt::Debug;
 
 /// A coordinate space: one of the six tags of this crate, or one declared by
 /// [`space!`](crate::space).
 pub trait Space: Copy + Clone + PartialEq + Debug + Send + Sync + 'static {
-    /// The space a homogeneous point of this space is in once it has been divided by its w.
-    /// `Ndc` for `Clip`, the space itself everywhere else.
+    /// The space of a homogeneous point after the divide by w: `Ndc` for `Clip`, and the space
+    /// itself otherwise.
     type Divided: Space;
-    /// The name people read in tables and messages.
+    /// The name shown in tables and messages.
     const NAME: &'static str;
 }
 
-/// Declares a coordinate space: of a light, of a bone, of a second world.
+/// Declares a coordinate space, for example for a light, a bone or a second world.
 ///
 /// ```
 /// use homog::{Affine, Point, World};
@@ -32,8 +32,8 @@ pub trait Space: Copy + Clone + PartialEq + Debug + Send + Sync + 'static {
 /// assert_eq!(p, Point::new(1.0, 0.0, 0.0));
 /// ```
 ///
-/// A third argument is the space after the divide, for clip spaces: `space!(LampClip, "lamp clip",
-/// LampNdc)`.
+/// A third argument names the space after the divide, for clip spaces: `space!(LampClip, "lamp
+/// clip", LampNdc)`.
 #[macro_export]
 macro_rules! space {
     ($(#[$doc:meta])* $visibility:vis $tag:ident, $name:expr) => {
@@ -51,7 +51,7 @@ macro_rules! space {
 }
 
 space! {
-    /// The coordinates a model was made in.
+    /// The coordinates in which a model was made.
     pub Model, "Model"
 }
 space! {
@@ -63,8 +63,8 @@ space! {
     pub View, "View"
 }
 space! {
-    /// Homogeneous coordinates after the projection and before the divide. Visible points have
-    /// w > 0 and −w ≤ x, y, z ≤ w (or the range of the convention at hand).
+    /// Homogeneous coordinates after the projection and before the divide. Visible points have w >
+    /// 0 and −w ≤ x, y, z ≤ w (or the range of the convention in use).
     pub Clip, "Clip", Ndc
 }
 space! {

@@ -1,11 +1,11 @@
-//! Vectors: differences of points, with a length and a direction but no place.
+//! Vectors: differences of points, with a length and a direction but no position.
 
 use crate::Space;
 use core::marker::PhantomData;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use glam::DVec3;
 
-/// A difference of two points of space `S`. Translations leave it alone (HO-1, HO-4).
+/// A difference of two points of space `S`. Translations leave it unchanged (HO-1, HO-4).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Vector<S: Space> {
     pub(crate) raw: DVec3,
@@ -13,7 +13,7 @@ pub struct Vector<S: Space> {
 }
 
 impl<S: Space> Vector<S> {
-    /// No displacement at all.
+    /// The zero vector.
     pub const ZERO: Self = Self::tagged(DVec3::ZERO);
     /// One unit along x.
     pub const X: Self = Self::tagged(DVec3::X);
@@ -50,19 +50,19 @@ impl<S: Space> Vector<S> {
         self.raw.z
     }
 
-    /// The scalar product.
+    /// The dot product.
     #[must_use]
     pub fn dot(self, other: Self) -> f64 {
         self.raw.dot(other.raw)
     }
 
-    /// The vector product: perpendicular to both, by the right-hand rule.
+    /// The cross product: perpendicular to both, by the right-hand rule.
     #[must_use]
     pub fn cross(self, other: Self) -> Self {
         Self::tagged(self.raw.cross(other.raw))
     }
 
-    /// The Euclidean length, right also where the squares of the coordinates over- or underflow.
+    /// The Euclidean length, correct even if the squares of the coordinates overflow or underflow.
     #[must_use]
     pub fn length(self) -> f64 {
         let largest = self.raw.abs().max_element();
@@ -72,8 +72,7 @@ impl<S: Space> Vector<S> {
         largest * (self.raw / largest).length()
     }
 
-    /// The vector of length 1 in the same direction; `None` for the zero vector and for non-finite
-    /// ones.
+    /// The vector of length 1 in the same direction; `None` if this one is zero or not finite.
     #[must_use]
     pub fn normalized(self) -> Option<Self> {
         let largest = self.raw.abs().max_element();
@@ -96,7 +95,7 @@ impl<S: Space> Vector<S> {
         self.raw.as_vec3().to_array()
     }
 
-    /// True if no coordinate is infinite or NaN.
+    /// Returns whether all coordinates are finite.
     #[must_use]
     pub fn is_finite(self) -> bool {
         self.raw.is_finite()

@@ -1,12 +1,12 @@
-//! A house in every planar projection of the textbooks, drawn with letters.
+//! A house in every planar projection of the textbooks, drawn in text characters.
 //!
 //! ```text
 //! cargo run -p alberti-projection --example gallery
 //! ```
 //!
-//! Walks the classification tree, takes a typical projection of each leaf, and draws the edges of a
-//! small house. What to look for: in which pictures do parallel edges stay parallel, which edges
-//! keep their length, and how many vanishing points are there?
+//! Walks the classification tree and draws the edges of a small house in a typical projection of
+//! each leaf. Questions to ask: in which pictures do parallel edges stay parallel, which edges keep
+//! their length, and how many vanishing points are there?
 
 #![allow(clippy::print_stdout, reason = "an example speaks on its standard output")]
 
@@ -16,7 +16,7 @@ use projection::{
     principal_vanishing_points,
 };
 
-/// Corners of the house: x right, y up, z towards the viewer. The ridge runs along z.
+/// The corners of the house: x right, y up, z toward the viewer. The ridge runs along z.
 const CORNERS: [[f64; 3]; 10] = [
     [-1.0, -1.0, 1.0],
     [1.0, -1.0, 1.0],
@@ -66,7 +66,7 @@ fn draw(projection: Classical) -> Result<String, ProjectionError> {
     Ok(canvas.into_iter().map(|row| row.into_iter().collect::<String>() + "\n").collect())
 }
 
-/// Letters along the straight way between two places.
+/// Characters along the straight line between two points.
 fn line(canvas: &mut [Vec<char>], start: (f64, f64), end: (f64, f64), letter: char) {
     const STEPS: u32 = 200;
     for i in 0..=STEPS {

@@ -1,4 +1,4 @@
-//! The apex-moved frustum of the WebGL lesson: not glFrustum, though its parameters look alike.
+//! The apex-moved frustum of the WebGL lesson: similar parameters to glFrustum, but another map.
 //!
 //! ```text
 //!   Frustum                    ApexMovedFrustum
@@ -8,18 +8,18 @@
 //!               ┘ an angle                 ┘  window's center, beside the eye
 //! ```
 //!
-//! Both agree on the near plane only, or when the window is centered (LW-1, M12). For stereo pairs,
-//! tiles and lens shift use [`Frustum`].
+//! The two agree only on the near plane, or if the window is centered (LW-1, M12). For stereo
+//! pairs, tiles and lens shift use [`Frustum`].
 
 use crate::error::check_finite;
 use crate::{Convention, Frustum, ProjectionError, Window};
 use homog::{Affine, Clip, Point, Projective, View};
 
-/// The perspective of createFrustum (LW-1; C63): symmetric, from an apex moved to behind the
-/// window's center.
+/// The perspective of createFrustum (LW-1; C63): symmetric, with the apex moved opposite the center
+/// of the window.
 ///
 /// # Guarantees
-/// As for [`Frustum`].
+/// See [`Frustum`].
 ///
 /// ```
 /// use homog::{HPoint, Point};
@@ -37,14 +37,14 @@ pub struct ApexMovedFrustum {
     about_apex: Frustum,
 }
 
-/// The four steps of the lesson, in the order a point passes them; their product is the matrix
-/// (C66).
+/// The four steps of the lesson, in the order in which a point passes them. Their product is the
+/// matrix (C66).
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct ApexMovedSteps {
     /// Eq2: moves the apex to the origin.
     pub move_apex: Affine<View, View>,
-    /// Eq7 with the 0 it needs at the end of its last row (M14): maps the depth and sets w to the
+    /// Eq7, with the 0 missing at the end of its last row (M14): maps the depth and sets w to the
     /// distance.
     pub map_depth: Projective<View, View>,
     /// Eq3: projects x and y onto the near plane by multiplying them with near.
@@ -58,7 +58,7 @@ impl ApexMovedFrustum {
     /// near plane.
     ///
     /// # Errors
-    /// As for [`Frustum::new`]; the lesson's far plane is finite.
+    /// As for [`Frustum::new`]; also, the far plane of the lesson must be finite.
     pub fn new(
         left: f64,
         right: f64,
@@ -94,14 +94,14 @@ impl ApexMovedFrustum {
         self.about_apex.far()
     }
 
-    /// The place from which the picture is right.
+    /// The position from which the picture looks correct.
     #[must_use]
     pub fn apex(self) -> Point<View> {
         let (x, y) = self.window.center();
         Point::new(x, y, 0.0)
     }
 
-    /// The centered frustum as the apex sees it.
+    /// The centered frustum as seen from the apex.
     #[must_use]
     pub const fn about_apex(self) -> Frustum {
         self.about_apex

@@ -1,9 +1,9 @@
-//! Builders under the names by which graphics interfaces know them.
+//! Builders under the names that graphics interfaces use.
 //!
-//! All take distances, refuse an infinite `far` where the formula has a finite one, and return the
-//! matrix only; each is one line over [`Frustum`], [`Perspective`] or [`Orthographic`] with its
-//! [`Convention`]. `fovy` is in radians (M19), `aspect` is width / height. `lh`: looks along +z;
-//! `zo`: depth from zero to one; `rev`: near at 1; `inf`: no far plane.
+//! All take distances and return only the matrix. They reject an infinite `far` if the formula
+//! needs a finite one. Each is one line over [`Frustum`], [`Perspective`] or [`Orthographic`] with
+//! its [`Convention`]. `fovy` is in radians (M19), `aspect` is width / height. `lh`: looks
+//! along +z; `zo`: depth from zero to one; `rev`: near at 1; `inf`: no far plane.
 //!
 //! ```
 //! use projection::{Convention, Frustum, api};
@@ -53,7 +53,8 @@ macro_rules! by_window {
         $(#[$doc])*
         ///
         /// # Errors
-        /// If a number is not finite, the window is empty, or not 0 < near < far.
+        /// Returns an error if a number is not finite, the window is empty, or 0 < near < far does
+        /// not hold.
         pub fn $name(left: f64, right: f64, bottom: f64, top: f64, near: f64, far: f64) -> Matrix {
             frustum_matrix([left, right, bottom, top], near, far, $convention)
         }
@@ -63,10 +64,10 @@ macro_rules! by_window {
 macro_rules! by_box {
     ($(#[$doc:meta])* $name:ident, $convention:expr) => {
         $(#[$doc])*
-        /// near and far may be any two different distances.
+        /// `near` and `far` may be any two different distances.
         ///
         /// # Errors
-        /// If a number is not finite or two opposite sides coincide.
+        /// Returns an error if a number is not finite or two opposite sides coincide.
         pub fn $name(left: f64, right: f64, bottom: f64, top: f64, near: f64, far: f64) -> Matrix {
             Ok(Orthographic::new(left, right, bottom, top, near, far)?.view_to_clip($convention))
         }
@@ -78,8 +79,8 @@ macro_rules! by_angle {
         $(#[$doc])*
         ///
         /// # Errors
-        /// If a number is not finite, fovy not between 0 and π, aspect not above 0, or not 0 < near
-        /// < far.
+        /// Returns an error if a number is not finite, fovy is not between 0 and π, aspect is not
+        /// above 0, or 0 < near < far does not hold.
         pub fn $name(fovy: f64, aspect: f64, near: f64, far: f64) -> Matrix {
             perspective_matrix(fovy, aspect, near, far, $convention)
         }
@@ -88,7 +89,8 @@ macro_rules! by_angle {
         $(#[$doc])*
         ///
         /// # Errors
-        /// If a number is not finite, fovy not between 0 and π, or aspect or near not above 0.
+        /// Returns an error if a number is not finite, fovy is not between 0 and π, or aspect or
+        /// near is not above 0.
         pub fn $name(fovy: f64, aspect: f64, near: f64) -> Matrix {
             infinite_perspective_matrix(fovy, aspect, near, f64::INFINITY, $convention)
         }

@@ -1,4 +1,4 @@
-//! Axonometric projection: orthographic onto a plane that is parallel to no face (AX-1; C76).
+//! Axonometric projection: orthographic onto a plane parallel to no principal face (AX-1; C76).
 //!
 //! ```text
 //!      isometric 1:1:1        dimetric 42°/7°  1:1:½      trimetric
@@ -8,16 +8,16 @@
 //!        z ⟋   ⟍ x               z ⟋      x              z ⟋     x
 //! ```
 //!
-//! The object is turned by −α about y and by β about x until the plane's normal points at the
-//! viewer; then z is dropped. A unit along an axis with angle γ to the plane shrinks to cos γ; the
-//! squares of the three ratios sum to 2.
+//! The object is rotated by −α about y and then by β about x until the normal of the plane points
+//! at the viewer; then z is dropped. A unit along an axis at angle γ to the plane shrinks to cos γ.
+//! The squares of the three ratios sum to 2.
 
 use crate::ProjectionError;
 use crate::error::{check_finite, check_positive};
 use crate::matrix::check_representable;
 use homog::{Affine, Normal, Point, Vector, View};
 
-/// An axonometric projection; [`foreshortening`](Self::foreshortening) tells which kind.
+/// An axonometric projection; [`foreshortening`](Self::foreshortening) gives its kind.
 ///
 /// ```
 /// use projection::{Axonometric, AxonometricKind};
@@ -33,35 +33,35 @@ pub struct Axonometric {
     origin: Point<View>,
 }
 
-/// Axonometric projections by how many axes shrink alike.
+/// Kinds of axonometric projections, by the number of equally foreshortened axes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum AxonometricKind {
-    /// All three alike.
+    /// All three equal.
     Isometric,
-    /// Two alike.
+    /// Two equal.
     Dimetric,
-    /// None alike.
+    /// All different.
     Trimetric,
-    /// An axis stands on the plane: a principal view, turned perhaps.
+    /// An axis is perpendicular to the plane: a principal view, possibly rotated.
     Multiview,
 }
 
 impl Axonometric {
-    /// The projection that turns by −`alpha` about y, then by `beta` about x, in radians.
+    /// The projection that rotates by −`alpha` about y, then by `beta` about x, in radians.
     ///
     /// # Errors
-    /// If an angle is not finite.
+    /// Returns an error if an angle is not finite.
     pub fn by_angles(alpha: f64, beta: f64) -> Result<Self, ProjectionError> {
         check_finite("alpha", alpha)?;
         check_finite("beta", beta)?;
         Ok(Self { alpha, beta, origin: Point::ORIGIN })
     }
 
-    /// The projection onto the plane with the given normal, which points to the viewer; y stays
-    /// upright. For a normal along ±y, α is 0.
+    /// The projection onto the plane whose normal points to the viewer; y stays vertical. For a
+    /// normal along ±y, α is 0.
     ///
     /// # Errors
-    /// If the normal is zero or not finite.
+    /// Returns an error if the normal is zero or not finite.
     pub fn by_normal(normal: Normal<View>) -> Result<Self, ProjectionError> {
         for value in normal.raw().to_array() {
             check_finite("normal", value)?;
@@ -73,14 +73,15 @@ impl Axonometric {
         Self::by_angles(alpha, libm::atan2(unit.y, level))
     }
 
-    /// The projection that shortens the x, y and z axis as x : y : z, seen from the octant of
+    /// The projection that foreshortens the x, y and z axes as x : y : z, seen from the octant of
     /// positive axes.
     ///
-    /// The ratios may have any common factor. None may be so large that its square exceeds the sum
-    /// of the squares of the other two.
+    /// The ratios may have any common factor. The square of each must not exceed the sum of the
+    /// squares of the other two.
     ///
     /// # Errors
-    /// If a ratio is not finite and above 0, or no plane shortens the axes so.
+    /// Returns an error if a ratio is not finite and above 0, or if no plane foreshortens the axes
+    /// this way.
     pub fn by_foreshortening(x: f64, y: f64, z: f64) -> Result<Self, ProjectionError> {
         check_positive("x ratio", x)?;
         check_positive("y ratio", y)?;
@@ -88,7 +89,7 @@ impl Axonometric {
         let largest = x.max(y).max(z);
         let squares = [x, y, z].map(|ratio| (ratio / largest) * (ratio / largest));
         let sum = squares[0] + squares[1] + squares[2];
-        // The ratio's square, scaled to the sum 2, is 1 − n² for that coordinate of the unit
+        // The square of the ratio, scaled to the sum 2, is 1 − n² for that coordinate of the unit
         // normal.
         let normal = squares.map(|square| 1.0 - 2.0 * square / sum);
         if normal.iter().any(|&square| square < -4.0 * f64::EPSILON) {
@@ -99,15 +100,16 @@ impl Axonometric {
         Self::by_normal(Normal::new(nx, ny, nz))
     }
 
-    /// All axes alike: α = 45°, sin β = 1/√3.
+    /// All axes equal: α = 45°, sin β = 1/√3.
     #[must_use]
     pub fn isometric() -> Self {
         let beta = libm::atan(core::f64::consts::FRAC_1_SQRT_2);
         Self { alpha: core::f64::consts::FRAC_PI_4, beta, origin: Point::ORIGIN }
     }
 
-    /// The dimetric projection of engineering drawing (ISO 5456-3): x and y in full, z by half;
-    /// drawn, z leaves at 41.4° (called 42°) and x at 7.2° (called 7°) from the horizontal.
+    /// The dimetric projection of engineering drawing (ISO 5456-3): x and y in full, z halved. In
+    /// the drawing, the z axis is at 41.4° (called 42°) and the x axis at 7.2° (called 7°) to the
+    /// horizontal.
     #[must_use]
     pub fn dimetric_42_7() -> Self {
         // The normal is (1, 1, √7)/3.
@@ -118,7 +120,7 @@ impl Axonometric {
     /// This projection with `origin` mapped to the origin of the picture.
     ///
     /// # Errors
-    /// If the origin is not finite.
+    /// Returns an error if the origin is not finite.
     pub fn about(self, origin: Point<View>) -> Result<Self, ProjectionError> {
         for value in <[f64; 3]>::from(origin) {
             check_finite("origin", value)?;
@@ -128,25 +130,25 @@ impl Axonometric {
         Ok(moved)
     }
 
-    /// α, the turn about y, in radians.
+    /// α, the rotation about y, in radians.
     #[must_use]
     pub const fn alpha(self) -> f64 {
         self.alpha
     }
 
-    /// β, the turn about x, in radians.
+    /// β, the rotation about x, in radians.
     #[must_use]
     pub const fn beta(self) -> f64 {
         self.beta
     }
 
-    /// The place that goes to the origin of the picture.
+    /// The point that maps to the origin of the picture.
     #[must_use]
     pub const fn origin(self) -> Point<View> {
         self.origin
     }
 
-    /// The images of the three axes' units as columns; the third row is the depth.
+    /// The images of the unit vectors of the axes as columns; the third row is the depth.
     fn axes(self) -> [Vector<View>; 3] {
         let (sin_a, cos_a) = libm::sincos(self.alpha);
         let (sin_b, cos_b) = libm::sincos(self.beta);
@@ -157,7 +159,7 @@ impl Axonometric {
         ]
     }
 
-    /// The turned object, depth kept: Rx(β) Ry(−α) T(−origin). Its z axis points to the viewer.
+    /// The rotated object with its depth: Rx(β) Ry(−α) T(−origin). Its z axis points to the viewer.
     #[must_use]
     pub fn depth_preserving(self) -> Affine<View, View> {
         let [x, y, z] = self.axes();
@@ -165,7 +167,7 @@ impl Axonometric {
         to_origin.then(Affine::from_frame(x, y, z, Point::ORIGIN))
     }
 
-    /// Its inverse: the transposed rotation, then back from the origin.
+    /// Its inverse: the transposed rotation, then the translation back.
     #[must_use]
     pub fn depth_preserving_inverse(self) -> Affine<View, View> {
         let [x, y, z] = self.axes().map(Vector::raw);
@@ -174,20 +176,20 @@ impl Axonometric {
         Affine::from_frame(to_x, to_y, to_z, self.origin)
     }
 
-    /// The classical projection: the turned object with z dropped. Singular.
+    /// The classical projection: the rotated object with z dropped. Singular.
     #[must_use]
     pub fn onto_plane(self) -> Affine<View, View> {
         self.depth_preserving().then(Affine::scale(1.0, 1.0, 0.0))
     }
 
-    /// The lengths of the images of units along x, y and z: their squares sum to 2.
+    /// The lengths of the images of the unit vectors along x, y and z; their squares sum to 2.
     #[must_use]
     pub fn foreshortening(self) -> [f64; 3] {
         self.axes().map(|axis| libm::hypot(axis.x(), axis.y()))
     }
 
-    /// The directions in which the x, y and z axis are drawn, in radians counterclockwise from the
-    /// right; `None` for an axis that shows as a point.
+    /// The directions in which the x, y and z axes are drawn, in radians counterclockwise from the
+    /// right; `None` for an axis that appears as a point.
     #[must_use]
     pub fn drawn_angles(self) -> [Option<f64>; 3] {
         self.axes().map(|axis| {
@@ -196,7 +198,7 @@ impl Axonometric {
         })
     }
 
-    /// Which ratios agree, to twelve digits.
+    /// The kind, with ratios compared to twelve digits.
     #[must_use]
     pub fn kind(self) -> AxonometricKind {
         let [x, y, z] = self.foreshortening();

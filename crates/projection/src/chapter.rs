@@ -1,8 +1,9 @@
-//! The textbook's own matrices P, M_orth and M_per, in its signs and under its names.
+//! The matrices P, M_orth and M_per of the textbook (Shirley and Marschner, ch. 8), with its signs
+//! and names.
 //!
-//! Here `n` and `f` are *z-coordinates*, not distances: the camera looks along −z, so that 0 > n >
-//! f. Near goes to +1, far to −1. After P and M_per a visible point has w = z < 0; for clipping use
-//! [`m_per_positive`], the same map with the sign of w turned (PE-3), which is
+//! Here `n` and `f` are *z coordinates*, not distances: the camera looks along −z, hence 0 > n > f.
+//! Near maps to +1, far to −1. After P and M_per a visible point has w = z < 0. For clipping use
+//! [`m_per_positive`], the same map with the sign of w flipped (PE-3), which is
 //! [`Convention::CHAPTER`].
 //!
 //! ```
@@ -30,7 +31,7 @@ use homog::{Affine, Clip, Projective, View};
 /// ```
 ///
 /// # Errors
-/// If n or f is 0 or not finite, n = f, or they lie on different sides of the eye.
+/// Returns an error if n or f is 0 or not finite, n = f, or they are on different sides of the eye.
 pub fn p(n: f64, f: f64) -> Result<Projective<View, View>, ProjectionError> {
     check_same_side(n, f)?;
     let rows =
@@ -39,10 +40,10 @@ pub fn p(n: f64, f: f64) -> Result<Projective<View, View>, ProjectionError> {
     Ok(Projective::from_raw(check_representable(from_rows(rows), "depth range")?))
 }
 
-/// The true inverse of [`p`] (C25).
+/// The exact inverse of [`p`] (C25).
 ///
 /// # Errors
-/// As for [`p`].
+/// See [`p`].
 pub fn p_inverse(n: f64, f: f64) -> Result<Projective<View, View>, ProjectionError> {
     check_same_side(n, f)?;
     let nf = n * f;
@@ -55,11 +56,10 @@ pub fn p_inverse(n: f64, f: f64) -> Result<Projective<View, View>, ProjectionErr
     Ok(Projective::from_raw(check_representable(from_rows(rows), "depth range")?))
 }
 
-/// The inverse of [`p`] times nf, without fractions; as a projective map it is the same (exercise
-/// 6, M14).
+/// The inverse of [`p`] times nf, without fractions: the same projective map (exercise 6, M14).
 ///
 /// # Errors
-/// As for [`p`].
+/// See [`p`].
 pub fn p_inverse_scaled(n: f64, f: f64) -> Result<Projective<View, View>, ProjectionError> {
     check_same_side(n, f)?;
     let nf = n * f;
@@ -88,7 +88,7 @@ fn check_same_side(n: f64, f: f64) -> Result<(), ProjectionError> {
 /// M_orth: the box [l, r] × [b, t] × [f, n] to [−1, 1]³ (OR-1; C7, C8).
 ///
 /// # Errors
-/// If a number is not finite, two opposite sides coincide, or not n > f.
+/// Returns an error if a number is not finite, two opposite sides coincide, or n > f does not hold.
 pub fn m_orth(
     l: f64,
     r: f64,
@@ -104,7 +104,7 @@ pub fn m_orth(
 /// The inverse of [`m_orth`].
 ///
 /// # Errors
-/// As for [`m_orth`].
+/// See [`m_orth`].
 pub fn m_orth_inverse(
     l: f64,
     r: f64,
@@ -132,11 +132,11 @@ fn signed_box(
     Ok(volume)
 }
 
-/// M_per = M_orth P as the textbook writes it: w = z, negative in front of the eye (PE-2; C27,
-/// C29).
+/// M_per = M_orth P as in the textbook: w = z, negative in front of the eye (PE-2; C27, C29).
 ///
 /// # Errors
-/// If a number is not finite, the window on z = n is empty, or not 0 > n > f.
+/// Returns an error if a number is not finite, the window on z = n is empty, or 0 > n > f does not
+/// hold.
 pub fn m_per(
     l: f64,
     r: f64,
@@ -151,7 +151,7 @@ pub fn m_per(
 /// −M_per: the same map as [`m_per`] with w = −z, positive in front of the eye (PE-3).
 ///
 /// # Errors
-/// As for [`m_per`].
+/// See [`m_per`].
 pub fn m_per_positive(
     l: f64,
     r: f64,
@@ -166,7 +166,7 @@ pub fn m_per_positive(
 /// The inverse of [`m_per`].
 ///
 /// # Errors
-/// As for [`m_per`].
+/// See [`m_per`].
 pub fn m_per_inverse(
     l: f64,
     r: f64,
@@ -200,7 +200,8 @@ fn signed_frustum(
 /// (FOV-1, C33): t = |n| tan(θ/2), r = t nx/ny.
 ///
 /// # Errors
-/// If theta is not between 0 and π, nx or ny not above 0, n not below 0, or one of them not finite.
+/// Returns an error if theta is not between 0 and π, nx or ny is not above 0, n is not below 0, or
+/// a number is not finite.
 pub fn window_from_fov(theta: f64, nx: f64, ny: f64, n: f64) -> Result<Window, ProjectionError> {
     let aspect = check_positive("nx", nx)? / check_positive("ny", ny)?;
     let distance = -n;
@@ -214,7 +215,7 @@ pub fn window_from_fov(theta: f64, nx: f64, ny: f64, n: f64) -> Result<Window, P
 /// atan(t/|n|) (FOV-1).
 ///
 /// # Errors
-/// If t is not above 0, n not below 0, or one of them not finite.
+/// Returns an error if t is not above 0, n is not below 0, or either is not finite.
 pub fn fov_from_window(t: f64, n: f64) -> Result<f64, ProjectionError> {
     let distance = -n;
     Ok(2.0 * libm::atan2(check_positive("t", t)?, check_positive("−n", distance)?))

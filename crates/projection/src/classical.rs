@@ -1,8 +1,8 @@
-//! Any classical projection, ready to be rendered.
+//! Any classical projection, ready to render.
 //!
-//! The classical projections drop z: their matrices are singular and tell nothing about what hides
-//! what. With depth kept and a view volume around the object each becomes a matrix like any other,
-//! from view space to clip space (PR-1, C89).
+//! The classical projections drop z: their matrices are singular and cannot decide visibility. With
+//! depth kept and a view volume around the object, each becomes an ordinary matrix from view space
+//! to clip space (PR-1, C89).
 
 use crate::{
     Axonometric, Convention, NPoint, Oblique, Orthographic, Planometric, PrincipalView,
@@ -27,9 +27,9 @@ pub enum Classical {
     Multiview(PrincipalView),
     /// Orthographic onto an inclined plane.
     Axonometric(Axonometric),
-    /// Parallel at a slant onto z = const.
+    /// Parallel, oblique to the plane z = const.
     Oblique(Oblique),
-    /// Parallel at a slant onto the ground.
+    /// Parallel, oblique to the ground.
     Planometric(Planometric),
     /// Central.
     NPoint(NPoint),
@@ -50,7 +50,7 @@ impl Classical {
         }
     }
 
-    /// The depth-preserving variant: x and y as in the picture, larger z nearer to the viewer.
+    /// The depth-preserving variant: x and y as in the picture, and larger z nearer to the viewer.
     #[must_use]
     pub fn depth_preserving(self) -> Projective<View, View> {
         match self {
@@ -77,15 +77,15 @@ impl Classical {
         }
     }
 
-    /// The whole projection.
+    /// The complete projection.
     ///
-    /// `volume` is what is shown of the picture: its window lies on the picture, its near and far
-    /// are measured from the picture plane away from the viewer, for perspectives on the line x = y
-    /// = 0 before the divide.
+    /// `volume` is the visible part of the picture. Its window is in the picture plane, and near
+    /// and far are measured from that plane away from the viewer. For perspectives they are
+    /// measured on the line x = y = 0 before the divide.
     ///
     /// # Errors
-    /// If a perspective's near or far plane lies behind its eye, or the product of picture and
-    /// volume is beyond the range of f64.
+    /// Returns an error if the near or far plane of a perspective is behind its eye, or the product
+    /// of picture and volume is out of the range of f64.
     pub fn view_to_clip(
         self,
         volume: Orthographic,
@@ -99,7 +99,7 @@ impl Classical {
     /// The inverse of [`view_to_clip`](Self::view_to_clip), in closed form.
     ///
     /// # Errors
-    /// As for [`view_to_clip`](Self::view_to_clip).
+    /// See [`view_to_clip`](Self::view_to_clip).
     pub fn clip_to_view(
         self,
         volume: Orthographic,

@@ -1,5 +1,4 @@
-//! Perspective constructed as draughtsmen do: vanishing points are chosen on the picture, the eye
-//! follows.
+//! Perspective as drafters construct it: choose vanishing points on the picture and derive the eye.
 //!
 //! ```text
 //!   three points:  the principal point is the orthocenter of their triangle,
@@ -19,9 +18,9 @@ use crate::{Frustum, ProjectionError, Window};
 use glam::DVec2;
 use homog::{Affine, Point, Vector, View, World};
 
-/// The eye and the attitude of the world that give three axes the chosen vanishing points.
+/// The eye and the orientation of the world that give three axes the chosen vanishing points.
 ///
-/// The picture plane stands `distance` ahead of the eye; places on it are (x, y) in any unit and
+/// The picture plane is `distance` in front of the eye; positions on it are (x, y) in any unit and
 /// from any origin.
 ///
 /// ```
@@ -43,23 +42,24 @@ pub struct ConstructedPerspective {
 }
 
 impl ConstructedPerspective {
-    /// One-point perspective: lines along z meet at `z`, the eye stands `distance` before it.
+    /// One-point perspective: lines along z meet at `z`, and the eye is `distance` in front of it.
     ///
     /// # Errors
-    /// If a number is not finite, or the distance not above 0.
+    /// Returns an error if a number is not finite or the distance is not above 0.
     pub fn one_point(z: (f64, f64), distance: f64) -> Result<Self, ProjectionError> {
         let principal = check_picture_point("vanishing point of z", z)?;
         check_positive("distance", distance)?;
         Ok(Self { principal, distance, axes: [Vector::X, Vector::Y, Vector::Z] })
     }
 
-    /// Two-point perspective: lines along x meet at `x`, those along z at `z`, and y stays in the
-    /// picture plane.
+    /// Two-point perspective: lines along x meet at `x`, lines along z at `z`, and y is parallel to
+    /// the picture plane.
     ///
-    /// `fraction` says where between the two the principal point lies, 0 at `x` and 1 at `z`.
+    /// `fraction` is the position of the principal point between the two, 0 at `x` and 1 at `z`.
     ///
     /// # Errors
-    /// If a number is not finite, the points coincide, or the fraction is not between 0 and 1.
+    /// Returns an error if a number is not finite, the points coincide, or the fraction is not
+    /// between 0 and 1.
     pub fn two_point(x: (f64, f64), z: (f64, f64), fraction: f64) -> Result<Self, ProjectionError> {
         let (x, z) = (
             check_picture_point("vanishing point of x", x)?,
@@ -90,8 +90,7 @@ impl ConstructedPerspective {
     /// Three-point perspective: lines along x, y and z meet at the three given points.
     ///
     /// # Errors
-    /// If a number is not finite, or the points are not the corners of a triangle with acute angles
-    /// only.
+    /// Returns an error if a number is not finite or the points do not form an acute triangle.
     pub fn three_point(
         x: (f64, f64),
         y: (f64, f64),
@@ -116,7 +115,7 @@ impl ConstructedPerspective {
         Self::oriented(principal, distance, up, gaze_into_picture(z - principal, distance)?)
     }
 
-    /// Lets z point out of the picture and x be what makes the world right-handed.
+    /// Makes z point out of the picture and chooses the x that makes the world right-handed.
     fn oriented(
         principal: DVec2,
         distance: f64,
@@ -143,7 +142,7 @@ impl ConstructedPerspective {
         self.distance
     }
 
-    /// The attitude of the world before the eye, which stands in the world's origin.
+    /// The orientation of the world in front of the eye, which is at the world's origin.
     #[must_use]
     pub fn world_to_view(self) -> Affine<World, View> {
         let [x, y, z] = self.axes;
@@ -154,7 +153,7 @@ impl ConstructedPerspective {
     /// points.
     ///
     /// # Errors
-    /// If not 0 < near < far.
+    /// Returns an error unless 0 < near < far.
     pub fn frustum(self, window: Window, near: f64, far: f64) -> Result<Frustum, ProjectionError> {
         let slope = |edge: f64, principal: f64| (edge - principal) / self.distance;
         let slopes = Window::new(
@@ -179,7 +178,7 @@ fn is_usable_distance(distance: f64) -> bool {
     (1e-140..1e140).contains(&distance)
 }
 
-/// The unit direction from the eye to a place of the picture plane.
+/// The unit direction from the eye to a point of the picture plane.
 fn gaze_into_picture(
     from_principal: DVec2,
     distance: f64,
@@ -188,7 +187,7 @@ fn gaze_into_picture(
     direction.normalized().ok_or(ProjectionError::Unrepresentable { what: "vanishing point" })
 }
 
-/// Where the heights of the triangle meet; `None` for flat ones.
+/// The orthocenter of the triangle; `None` if it is flat.
 fn orthocenter(a: DVec2, b: DVec2, c: DVec2) -> Option<DVec2> {
     // (h − a)·(c − b) = 0 and (h − b)·(a − c) = 0
     let (u, v) = (c - b, a - c);

@@ -1,4 +1,4 @@
-//! Conventions: which way the camera looks and what clip space looks like.
+//! Conventions: the direction the camera looks in and the extent of clip space.
 //!
 //! ```text
 //!  convention      looks along   NDC y   near at   far at
@@ -10,14 +10,14 @@
 //! ```
 //!
 //! All have w > 0 in front of the eye. A projection is described once, without a convention, and
-//! written as a matrix of any of them; matrices made elsewhere are converted by
-//! [`Convention::convert`].
+//! can be written as a matrix in any of them. [`Convention::convert`] converts matrices from
+//! elsewhere.
 
 use crate::ProjectionError;
 use glam::DMat4;
 use homog::{Clip, ClipRange, NdcY, Projective, View};
 
-/// The side to which the camera looks along its own z axis.
+/// The direction of the camera along its own z axis.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Handedness {
     /// View space is right-handed: x right, y up, looking along −z.
@@ -26,7 +26,7 @@ pub enum Handedness {
     Left,
 }
 
-/// How view space and clip space are laid out (C30, C100).
+/// The layout of view space and clip space (C30, C100).
 ///
 /// # Guarantees
 /// Both depths lie in [−1, 1] and are at least 10⁻⁶ apart.
@@ -43,33 +43,33 @@ pub struct Convention {
 }
 
 impl Convention {
-    /// The textbook's canonical volume in its w > 0 form (PE-3): [−1, 1]³ with near at +1 and far
-    /// at −1.
+    /// The canonical volume of the textbook (Shirley and Marschner, ch. 8) in its w > 0 form
+    /// (PE-3): [−1, 1]³ with near at +1 and far at −1.
     pub const CHAPTER: Self = Self::new(Handedness::Right, ClipRange::CHAPTER);
     /// OpenGL and WebGL (GL-1): near at −1, far at +1.
     pub const OPENGL: Self = Self::new(Handedness::Right, ClipRange::OPENGL);
     /// Vulkan: y down, near at 0, far at 1.
     pub const VULKAN: Self = Self::new(Handedness::Right, ClipRange::VULKAN);
-    /// Direct3D as its helper library had it (D3D-1): left-handed, near at 0, far at 1.
+    /// Direct3D as in its helper library (D3D-1): left-handed, near at 0, far at 1.
     pub const DIRECT3D: Self = Self::new(Handedness::Left, ClipRange::ZERO_ONE);
     /// Metal with a right-handed view space: near at 0, far at 1.
     pub const METAL: Self = Self::new(Handedness::Right, ClipRange::ZERO_ONE);
     /// WebGPU with a right-handed view space (D3D-2): near at 0, far at 1.
     pub const WEBGPU: Self = Self::METAL;
 
-    /// The convention of a handedness and a clip range.
+    /// The convention with the given handedness and clip range.
     #[must_use]
     pub const fn new(handedness: Handedness, range: ClipRange) -> Self {
         Self { handedness, range }
     }
 
-    /// What clip space looks like: hand it to the viewport and to the clip volume.
+    /// The extent of clip space: pass it to the viewport and to the clip volume.
     #[must_use]
     pub const fn range(self) -> ClipRange {
         self.range
     }
 
-    /// This convention with near and far depth exchanged (reversed z).
+    /// This convention with the near and far depths exchanged (reversed z).
     #[must_use]
     pub const fn reversed(self) -> Self {
         Self { range: self.range.reversed(), ..self }
@@ -99,21 +99,21 @@ impl Convention {
         Self { range: self.range.with_y(ndc_y), ..self }
     }
 
-    /// This convention with other depths at the near and the far plane.
+    /// This convention with other depths for the near and far planes.
     ///
     /// # Errors
-    /// Unless both depths are in [−1, 1] and at least 10⁻⁶ apart.
+    /// Returns an error unless both depths are in [−1, 1] and at least 10⁻⁶ apart.
     pub fn with_depths(self, near_depth: f64, far_depth: f64) -> Result<Self, ProjectionError> {
         Ok(Self { range: self.range.with_depths(near_depth, far_depth)?, ..self })
     }
 
-    /// Which way view space looks.
+    /// The handedness of view space.
     #[must_use]
     pub const fn handedness(self) -> Handedness {
         self.handedness
     }
 
-    /// Which way y runs after the divide.
+    /// The direction of y after the divide.
     #[must_use]
     pub const fn ndc_y(self) -> NdcY {
         self.range.y()
@@ -131,7 +131,7 @@ impl Convention {
         self.range.far_depth()
     }
 
-    /// The z of a view-space point one unit ahead of the eye: −1 or +1.
+    /// The z of a view-space point at distance 1 in front of the eye: −1 or +1.
     #[must_use]
     pub const fn ahead(self) -> f64 {
         match self.handedness {
@@ -140,17 +140,17 @@ impl Convention {
         }
     }
 
-    /// The y after the divide of the window's top edge: +1 or −1.
+    /// The y coordinate of the window's top edge after the divide: +1 or −1.
     #[must_use]
     pub const fn top(self) -> f64 {
         self.range.top()
     }
 
-    /// Converts a projection matrix of this convention to convention `to`.
+    /// Converts a projection matrix from this convention to `to`.
     ///
-    /// Flips of y and z are exact; the depth is remapped linearly, which is exact between the
-    /// conventions of this module. View space is re-read with the handedness of `to`: the same
-    /// scene with its z axis turned.
+    /// Flips of y and z are exact. The depth is remapped linearly, which is exact between the
+    /// conventions of this module. View space gets the handedness of `to`: the same scene with its
+    /// z axis flipped.
     ///
     /// ```
     /// use projection::{Convention, Fov, Perspective};
@@ -174,8 +174,8 @@ impl Convention {
         Projective::from_raw(columns)
     }
 
-    /// The map from this convention's clip space to that of `to`: y and depth only, since the view
-    /// space stays.
+    /// The map from this convention's clip space to the clip space of `to`. It changes only y and
+    /// depth, because view space stays the same.
     #[must_use]
     pub fn clip_to_clip(self, to: Self) -> Projective<Clip, Clip> {
         let (factor, offset) = self.depth_remap(to);
@@ -186,7 +186,7 @@ impl Convention {
         Projective::from_raw(map)
     }
 
-    /// Factor and offset of the linear map between the depths of two conventions.
+    /// The factor and offset of the linear map between the depths of two conventions.
     fn depth_remap(self, to: Self) -> (f64, f64) {
         let length = self.far_depth() - self.near_depth();
         let factor = (to.far_depth() - to.near_depth()) / length;
@@ -196,7 +196,7 @@ impl Convention {
     }
 }
 
-/// What the viewport and the clip volume ask for.
+/// The part that the viewport and the clip volume need.
 impl From<Convention> for ClipRange {
     fn from(convention: Convention) -> Self {
         convention.range

@@ -1,4 +1,4 @@
-//! From any 4×4 matrix back to the projection that made it.
+//! Recovers the projection from a 4×4 matrix.
 //!
 //! ```text
 //!                         last row (p, q, r, s)
@@ -11,9 +11,9 @@
 //!      no inverse     → classical: the center is what the matrix sends to nothing
 //! ```
 //!
-//! A matrix and its multiples are the same map, so a common factor is taken out first and reported.
-//! A matrix does not tell its convention: the OpenGL matrix of (N, F) is the zero-to-one matrix of
-//! (2FN/(F+N), F). So the convention is asked for; [`readings`] tries the named ones.
+//! A matrix and its multiples are the same map, so a common factor is removed first and reported. A
+//! matrix does not identify its convention: the OpenGL matrix of (N, F) is the zero-to-one matrix
+//! of (2FN/(F+N), F). Therefore the caller must name one; [`readings`] tries the named ones.
 
 use crate::placement::{self, Placement};
 use crate::{
@@ -27,12 +27,12 @@ use thiserror::Error;
 /// The projection that a matrix was recognized as.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Decomposed {
-    /// A perspective from the origin; with a centered window [`crate::Perspective`] can be had from
-    /// it.
+    /// A perspective from the origin. If its window is centered, it converts to
+    /// [`crate::Perspective`].
     Frustum(Frustum),
-    /// The frustum of the WebGL lesson, its apex beside the origin (LW-1).
+    /// The frustum of the WebGL lesson, with its apex beside the origin (LW-1).
     ApexMoved(ApexMovedFrustum),
-    /// A perspective from elsewhere or turned: a camera and a lens in one matrix.
+    /// A perspective from another position or orientation: a camera and a lens in one matrix.
     PlacedFrustum {
         /// The camera's map.
         placement: Affine<View, View>,
@@ -41,38 +41,39 @@ pub enum Decomposed {
     },
     /// A perspective whose near plane is inclined (Lengyel).
     ObliqueNear {
-        /// The camera's map: the identity if there is none.
+        /// The camera's map; the identity if there is no camera.
         placement: Affine<View, View>,
-        /// The window one unit ahead of the eye.
+        /// The window at distance 1 in front of the eye.
         slopes: Window,
-        /// The near plane, after the camera; its normal has length 1 and points to what is visible.
+        /// The near plane, after the camera; its normal has length 1 and points to the visible
+        /// side.
         near_plane: Plane<View>,
     },
-    /// An upright box.
+    /// An axis-aligned box.
     Orthographic(Orthographic),
-    /// A classical projection with depth kept, and what is shown of it.
+    /// A classical projection with depth kept, and its visible volume.
     Classical {
         /// The projection.
         projection: Classical,
-        /// The window on the picture, near and far.
+        /// The window on the picture, and near and far.
         volume: Orthographic,
     },
-    /// An orthographic projection turned in a way that no axonometric projection is: a camera and a
-    /// box in one matrix.
+    /// An orthographic projection whose rotation is not axonometric: a camera and a box in one
+    /// matrix.
     PlacedOrthographic {
         /// The camera's map.
         placement: Affine<View, View>,
         /// The box.
         volume: Orthographic,
     },
-    /// The bare map of an n-point perspective, depth kept, without a view volume.
+    /// The bare map of an n-point perspective with depth kept, without a view volume.
     NPoint(NPoint),
     /// A classical projection that drops a dimension: singular.
     Flat {
-        /// The center of projection: what the matrix sends to nothing. w = 0 if the projectors are
+        /// The center of projection: the null vector of the matrix. w = 0 if the projectors are
         /// parallel.
         center: HPoint<View>,
-        /// Which one, if it drops z in one of the known ways.
+        /// The projection, if it drops z in one of the known ways.
         projection: Option<Classical>,
     },
 }
@@ -81,15 +82,16 @@ pub enum Decomposed {
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct Decomposition {
-    /// The projection, without the factor.
+    /// The projection, with the factor removed.
     pub kind: Decomposed,
-    /// The common factor that was taken out. Negative if w is negative in front of the eye, as in
-    /// the textbook's M_per: divide by it before clipping (PE-3).
+    /// The common factor that was removed. It is negative if w is negative in front of the eye, as
+    /// in M_per of the textbook (Shirley and Marschner, ch. 8): divide by it before clipping
+    /// (PE-3).
     pub factor: f64,
 }
 
 impl Decomposition {
-    /// Whether the parts that no builder has checked are finite.
+    /// Whether the parts not checked by a builder are finite.
     fn is_finite(&self) -> bool {
         let kind = match self.kind {
             Decomposed::PlacedFrustum { placement, .. }
@@ -104,7 +106,7 @@ impl Decomposition {
     }
 }
 
-/// Why a matrix is no projection of the given convention.
+/// The reason why a matrix is not a projection in the given convention.
 #[derive(Clone, Copy, PartialEq, Debug, Error)]
 #[non_exhaustive]
 pub enum DecomposeError {
@@ -122,8 +124,8 @@ pub enum DecomposeError {
         /// Its rank.
         rank: usize,
     },
-    /// The picture's x and y axis are not at right angles, or the depth depends on the place in no
-    /// known way.
+    /// The x and y axes of the picture are not perpendicular, or the depth depends on the position
+    /// in an unknown way.
     #[error("the axes of the picture are not at right angles: no projection here shears so")]
     Sheared,
     /// Near and far make no sense in this convention.
@@ -134,12 +136,12 @@ pub enum DecomposeError {
         /// The distance that the matrix maps to the far depth.
         far: f64,
     },
-    /// The parameters that come out are refused by their builder.
+    /// The builder rejects the recovered parameters.
     #[error(transparent)]
     Refused(#[from] ProjectionError),
 }
 
-/// The projection, read in the given convention, that has this matrix (column vectors).
+/// The projection with this matrix (column vectors) in the given convention.
 ///
 /// ```
 /// use projection::{Convention, Decomposed, Frustum, decompose};
@@ -153,7 +155,7 @@ pub enum DecomposeError {
 /// ```
 ///
 /// # Errors
-/// If an entry is not finite, or the matrix is no projection of this convention.
+/// Returns an error if an entry is not finite or the matrix is not a projection in this convention.
 pub fn decompose(
     view_to_clip: Projective<View, Clip>,
     convention: Convention,
@@ -187,7 +189,7 @@ fn decompose_recognized(
     decompose_central(matrix, convention)
 }
 
-/// Every named convention in which the matrix makes sense, with the projection it then is.
+/// Every named convention in which the matrix makes sense, with the resulting projection.
 pub fn readings(
     view_to_clip: Projective<View, Clip>,
 ) -> impl Iterator<Item = (Convention, Decomposition)> {
@@ -216,7 +218,7 @@ fn check_finite(matrix: DMat4) -> Result<(), DecomposeError> {
     Ok(())
 }
 
-/// The identity with (p, q, r, 1) below, up to a factor.
+/// The identity with (p, q, r, 1) as bottom row, up to a factor.
 fn bare_npoint(matrix: DMat4) -> Option<(NPoint, f64)> {
     let factor = matrix.w_axis.w;
     let unit = matrix * (1.0 / factor);
@@ -225,7 +227,7 @@ fn bare_npoint(matrix: DMat4) -> Option<(NPoint, f64)> {
     Some((NPoint::new(p, q, r).ok()?, factor)).filter(|_| bare)
 }
 
-/// Rank 3: what is sent to nothing is the center of projection.
+/// Rank 3: the null vector is the center of projection.
 fn decompose_onto_plane(matrix: DMat4, rank: usize) -> Result<Decomposition, DecomposeError> {
     let center = placement::null_vector(matrix)
         .filter(|_| rank == 3)
@@ -241,7 +243,7 @@ fn decompose_onto_plane(matrix: DMat4, rank: usize) -> Result<Decomposition, Dec
     })
 }
 
-/// The classical projection with these rows, z dropped.
+/// The classical projection with these rows and z dropped.
 fn recognize_onto_plane(x: DVec4, y: DVec4, w: DVec4) -> Option<Classical> {
     if x == DVec4::X && y == DVec4::Y && w != DVec4::W {
         return NPoint::new(w.x, w.y, w.z).ok().map(Into::into).filter(|_| w.w == 1.0);
@@ -257,7 +259,7 @@ fn recognize_onto_plane(x: DVec4, y: DVec4, w: DVec4) -> Option<Classical> {
     upright_axonometric([x, y, x.cross(y)]).map(Into::into)
 }
 
-/// The axonometric projection whose turn has these rows, if there is one.
+/// The axonometric projection whose rotation has these rows, if there is one.
 fn upright_axonometric([x, y, z]: [DVec3; 3]) -> Option<Axonometric> {
     let axonometric = Axonometric::by_normal(Normal::from_raw(z)).ok()?;
     let turn = axonometric.depth_preserving().raw();
@@ -326,7 +328,7 @@ fn decompose_rotated_box(
     Ok(Decomposed::PlacedOrthographic { placement, volume })
 }
 
-/// w changes from place to place.
+/// w varies.
 fn decompose_central(
     matrix: DMat4,
     convention: Convention,
@@ -346,7 +348,7 @@ fn decompose_central(
         Ok(Decomposition { kind: decompose_frustum(placement, convention)?, factor })
     };
     match with_factor(if unturned && last.z > 0.0 { -length } else { length }) {
-        // The sign of w is free: a turned camera with w < 0 in front of it looks the other way.
+        // The sign of w is free: a rotated camera with w < 0 in front of it looks the other way.
         Err(DecomposeError::DepthRange { near, .. }) if near < 0.0 && !unturned => {
             with_factor(-length)
         }
@@ -376,15 +378,15 @@ fn decompose_frustum(
         .unwrap_or(Decomposed::PlacedFrustum { placement: found.as_affine(), frustum }))
 }
 
-/// The near plane of a depth row: where z' = w·near depth, with w the distance ahead, −z.
+/// The near plane of a depth row: z' = w · near depth there, where w is the distance −z.
 fn inclined_near_plane(depth: DVec4, convention: Convention) -> Plane<View> {
     let plane = depth + DVec4::Z * convention.near_depth();
     let inwards = (convention.far_depth() - convention.near_depth()).signum();
     Plane::from_raw(plane * (inwards / plane.truncate().length()))
 }
 
-/// The projection from an unturned camera that has a name: its eye at the origin, or beside it
-/// with a centered window.
+/// The named projection of an unrotated camera: its eye is at the origin, or beside it with a
+/// centered window.
 fn recognize_frustum(found: Placement, frustum: Frustum) -> Option<Decomposed> {
     let (eye, w, near) = (found.eye, frustum.window(), frustum.near());
     let size = DVec4::new(w.width(), w.height(), near, 0.0);
@@ -401,7 +403,7 @@ fn recognize_frustum(found: Placement, frustum: Frustum) -> Option<Decomposed> {
     centered.then_some(Decomposed::ApexMoved(moved))
 }
 
-/// The distances at which factor + offset/D is the near and the far depth.
+/// The distances at which factor + offset/D equals the near and far depths.
 fn depth_planes(
     factor: f64,
     offset: f64,
@@ -409,7 +411,7 @@ fn depth_planes(
 ) -> Result<(f64, f64), DecomposeError> {
     let near = offset / (convention.near_depth() - factor);
     let gap = convention.far_depth() - factor;
-    // A far plane so far that rounding hides it might as well not be there.
+    // If rounding hides a very distant far plane, it counts as infinite.
     let endless = gap.abs() <= 16.0 * f64::EPSILON;
     let far = if endless { f64::INFINITY } else { offset / gap };
     let sensible = near > 0.0 && near < far;

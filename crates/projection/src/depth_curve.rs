@@ -1,4 +1,4 @@
-//! How distance becomes depth, and how finely depth can tell distances apart (ZP-1).
+//! The depth curve: depth as a function of distance, and its resolution (ZP-1).
 //!
 //! ```text
 //! depth 1 ┤            ________      perspective spends half of the depth range on the stretch
@@ -14,13 +14,12 @@ use crate::frustum::check_planes;
 use crate::matrix::DepthRow;
 use crate::{Convention, Frustum, Orthographic, Perspective, ProjectionError};
 
-/// How depth values are stored.
+/// The storage format of depth values.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum DepthFormat {
-    /// As whole numbers of the given number of bits, 1 to 64, spread evenly from the near to the
-    /// far depth.
+    /// As integers with the given number of bits, 1 to 64, spread evenly from near to far depth.
     FixedPoint(u32),
-    /// As 32-bit floating point numbers, in the convention's own range.
+    /// As 32-bit floating-point numbers, in the range of the convention.
     Float32,
 }
 
@@ -30,7 +29,7 @@ enum CurveShape {
     Parallel,
 }
 
-/// The map from distance ahead of the eye to depth after the divide, and back (C56, C67).
+/// The map from distance in front of the eye to depth after the divide, and back (C56, C67).
 ///
 /// ```
 /// use projection::{Convention, DepthCurve};
@@ -51,7 +50,7 @@ impl DepthCurve {
     /// The curve of a perspective; `far` may be infinite.
     ///
     /// # Errors
-    /// If not 0 < near < far.
+    /// Returns an error if not 0 < near < far.
     pub fn perspective(
         near: f64,
         far: f64,
@@ -61,10 +60,10 @@ impl DepthCurve {
         Ok(Self { near, far, convention, shape: CurveShape::Central })
     }
 
-    /// The straight line of a parallel projection.
+    /// The straight line for a parallel projection.
     ///
     /// # Errors
-    /// If a distance is not finite or both are equal.
+    /// Returns an error if a distance is not finite or both are equal.
     pub fn parallel(near: f64, far: f64, convention: Convention) -> Result<Self, ProjectionError> {
         let volume = Orthographic::new(-1.0, 1.0, -1.0, 1.0, near, far)?;
         Ok(volume.depth_curve(convention))
@@ -82,8 +81,8 @@ impl DepthCurve {
         (row.factor, row.offset)
     }
 
-    /// The depth of points at `distance`; `None` where there is none: at the eye's own plane, for
-    /// NaN, and for results too large to represent.
+    /// The depth of points at `distance`; `None` in the plane of the eye, for NaN, and for results
+    /// too large to represent.
     #[must_use]
     pub fn depth(self, distance: f64) -> Option<f64> {
         let (at_near, at_far) = (self.convention.near_depth(), self.convention.far_depth());
@@ -92,7 +91,7 @@ impl DepthCurve {
         depth.is_finite().then_some(depth)
     }
 
-    /// How much of the depth range lies between the near plane and `distance`: 0 at near, 1 at far.
+    /// The fraction of the depth range between the near plane and `distance`: 0 at near, 1 at far.
     fn depth_fraction(self, distance: f64) -> f64 {
         let (near, far) = (self.near, self.far);
         match self.shape {
@@ -102,13 +101,13 @@ impl DepthCurve {
         }
     }
 
-    /// The distance at which points have the given depth: linearises a depth buffer.
+    /// The distance at which points have the given depth: linearizes a depth buffer.
     ///
-    /// `None` where no finite distance has it, as the far depth of an infinite projection.
+    /// `None` if no finite distance has it, such as the far depth of an infinite projection.
     #[must_use]
     pub fn distance(self, depth: f64) -> Option<f64> {
         let (at_near, at_far) = (self.convention.near_depth(), self.convention.far_depth());
-        // Both parts are exact differences where it matters, near the planes.
+        // Both parts are exact differences near the planes, where it matters.
         let (from_near, to_far) =
             ((depth - at_near) / (at_far - at_near), (at_far - depth) / (at_far - at_near));
         let distance = match self.shape {
@@ -118,7 +117,8 @@ impl DepthCurve {
         distance.is_finite().then_some(distance)
     }
 
-    /// The change of depth per change of distance, d depth/dD; `None` at the eye's own plane.
+    /// The derivative of depth with respect to distance, d depth/dD; `None` in the plane of the
+    /// eye.
     #[must_use]
     pub fn slope(self, distance: f64) -> Option<f64> {
         let (a, b) = self.coefficients();
@@ -130,7 +130,7 @@ impl DepthCurve {
     }
 
     /// The distance at which half of the depth range is used up: 2FN/(F+N) for a perspective, 2N
-    /// without far plane.
+    /// without a far plane.
     #[must_use]
     pub fn half_range_distance(self) -> f64 {
         let (near, far) = (self.near, self.far);
@@ -140,12 +140,11 @@ impl DepthCurve {
         }
     }
 
-    /// The smallest step away from `distance`, towards the far plane, that gives another stored
-    /// depth.
+    /// The smallest step from `distance` toward the far plane that changes the stored depth.
     ///
     /// # Errors
-    /// If the distance is not finite or, for a perspective, not above 0; or the format has not 1 to
-    /// 64 bits.
+    /// Returns an error if the distance is not finite or, for a perspective, not above 0; or if the
+    /// format does not have 1 to 64 bits.
     pub fn resolution(self, distance: f64, format: DepthFormat) -> Result<f64, ProjectionError> {
         match self.shape {
             CurveShape::Central => check_positive("distance", distance)?,
@@ -159,7 +158,7 @@ impl DepthCurve {
         step.is_finite().then_some(step).ok_or(lost)
     }
 
-    /// One part of the range in 2^bits − 1, divided by the slope.
+    /// One step of the range, 1/(2^bits − 1), divided by the slope.
     fn fixed_step(self, distance: f64, bits: u32) -> Result<f64, ProjectionError> {
         if !(1..=64).contains(&bits) {
             let allowed = "1 to 64";
@@ -175,7 +174,7 @@ impl DepthCurve {
         Ok(range / parts / slope)
     }
 
-    /// The distance between the stored depth, rounded to f32, and its neighbour towards far.
+    /// The distance between the stored depth, rounded to f32, and the next value toward far.
     #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is the subject")]
     fn float_step(self, distance: f64) -> Option<f64> {
         let here = self.depth(distance)? as f32;
@@ -191,7 +190,7 @@ impl DepthCurve {
         }
     }
 
-    /// (distance, depth) for each of the distances: the lesson's table (LW-3, C68).
+    /// (distance, depth) for each distance: the table of the lesson (LW-3, C68).
     pub fn table(
         self,
         distances: impl IntoIterator<Item = f64>,
@@ -201,7 +200,7 @@ impl DepthCurve {
 }
 
 impl Perspective {
-    /// How this projection turns distance into depth.
+    /// The depth curve of this projection.
     #[must_use]
     pub fn depth_curve(self, convention: Convention) -> DepthCurve {
         DepthCurve { near: self.near(), far: self.far(), convention, shape: CurveShape::Central }
@@ -209,7 +208,7 @@ impl Perspective {
 }
 
 impl Frustum {
-    /// How this projection turns distance into depth.
+    /// The depth curve of this projection.
     #[must_use]
     pub fn depth_curve(self, convention: Convention) -> DepthCurve {
         DepthCurve { near: self.near(), far: self.far(), convention, shape: CurveShape::Central }
@@ -217,21 +216,21 @@ impl Frustum {
 }
 
 impl Orthographic {
-    /// How this projection turns distance into depth.
+    /// The depth curve of this projection.
     #[must_use]
     pub fn depth_curve(self, convention: Convention) -> DepthCurve {
         DepthCurve { near: self.near(), far: self.far(), convention, shape: CurveShape::Parallel }
     }
 }
 
-/// A and B of the third row (0, 0, A, B) over w = z, such that A + B/z is `at_1` for z = `z_1` and
-/// `at_2` for z = `z_2`: `first` is (`z_1`, `at_1`), and `second` (`z_2`, `at_2`).
+/// A and B of the third row (0, 0, A, B) over w = z, where A + B/z is `at_1` for z = `z_1` and
+/// `at_2` for z = `z_2`: `first` is (`z_1`, `at_1`), and `second` is (`z_2`, `at_2`).
 ///
-/// This is how the third row of P is found (exercise 3, C40): with z kept on n and f, A = n + f and
-/// B = −nf. With −1 at z = −N and +1 at z = −F it gives the OpenGL row (C56), its sign turned.
+/// This determines the third row of P (exercise 3, C40): with z kept on n and f, A = n + f and B =
+/// −nf. With −1 at z = −N and +1 at z = −F it gives the OpenGL row (C56) with its sign flipped.
 ///
 /// # Errors
-/// If a number is not finite, a z is 0, or both z are equal.
+/// Returns an error if a number is not finite, a z is 0, or both z are equal.
 pub fn third_row(first: (f64, f64), second: (f64, f64)) -> Result<(f64, f64), ProjectionError> {
     let ((z_1, at_1), (z_2, at_2)) = (first, second);
     for (parameter, value) in [("z_1", z_1), ("z_2", z_2)] {

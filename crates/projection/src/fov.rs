@@ -1,18 +1,18 @@
-//! Field of view: the many ways to say how wide a lens sees.
+//! Field of view, by angle or by focal length.
 
 use crate::ProjectionError;
 use crate::error::{check_finite, check_opening_angle, check_positive};
 
-/// How wide a perspective sees; angles in radians, between 0 and π (FOV-1, C33, C49).
+/// The field of view of a perspective; angles are in radians, between 0 and π (FOV-1, C33, C49).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Fov {
-    /// The angle between the middles of the bottom and the top edge.
+    /// The angle between the centers of the bottom and top edges.
     Vertical(f64),
-    /// The angle between the middles of the left and the right edge.
+    /// The angle between the centers of the left and right edges.
     Horizontal(f64),
     /// The angle between opposite corners.
     Diagonal(f64),
-    /// A lens of the given focal length before a film, in the same unit.
+    /// A lens of the given focal length in front of a film, in the same unit.
     FocalLength {
         /// The distance between lens and film.
         focal: f64,
@@ -21,7 +21,7 @@ pub enum Fov {
     },
 }
 
-/// The extent of film or sensor that the picture fills.
+/// The part of the film or sensor that the picture fills.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum SensorSize {
     /// The height of the film is known.
@@ -34,11 +34,11 @@ pub enum SensorSize {
 
 impl SensorSize {
     /// The diagonal of the 36 mm × 24 mm frame to which "35 mm equivalent" focal lengths refer, in
-    /// millimetres.
+    /// millimeters.
     pub const FULL_FRAME_MM: Self = Self::Diagonal(43.266615305567875);
 }
 
-/// Half the width and half the height of the window one unit ahead of the eye.
+/// Half the width and half the height of the window at distance 1 in front of the eye.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct HalfSlopes {
     /// The tangent of half the horizontal angle.
@@ -48,7 +48,7 @@ pub struct HalfSlopes {
 }
 
 impl Fov {
-    /// The vertical field of view in degrees, as people and files speak of it.
+    /// The vertical field of view in degrees, the usual unit in files and conversation.
     #[must_use]
     pub fn vertical_degrees(degrees: f64) -> Self {
         Self::Vertical(degrees.to_radians())
@@ -60,17 +60,17 @@ impl Fov {
         Self::Horizontal(degrees.to_radians())
     }
 
-    /// The "35 mm equivalent" focal length in millimetres, by the film's diagonal.
+    /// The "35 mm equivalent" focal length in millimeters, based on the film's diagonal.
     #[must_use]
     pub const fn equivalent_35mm(focal: f64) -> Self {
         Self::FocalLength { focal, film: SensorSize::FULL_FRAME_MM }
     }
 
-    /// Half the window one unit ahead of the eye, for an image of the given aspect (width /
-    /// height).
+    /// Half the window at distance 1 in front of the eye, for an image with the given aspect (width
+    /// / height).
     ///
     /// # Errors
-    /// If the aspect, a length or the angle is not finite or out of range.
+    /// Returns an error if the aspect, a length or the angle is not finite or out of range.
     pub fn half_slopes(self, aspect: f64) -> Result<HalfSlopes, ProjectionError> {
         check_positive("aspect", aspect)?;
         let half = |angle: f64| libm::tan(0.5 * angle);
@@ -121,11 +121,11 @@ fn half_slopes_by_diagonal(half: f64, aspect: f64) -> HalfSlopes {
     HalfSlopes { x: half * (aspect / diagonal), y: half / diagonal }
 }
 
-/// The angle under which the eye sees the stretch from `low` to `high` on a plane `distance` ahead,
-/// in radians: atan(high/distance) − atan(low/distance) (FOV-1).
+/// The angle subtended at the eye by the interval from `low` to `high` on a plane at `distance`, in
+/// radians: atan(high/distance) − atan(low/distance) (FOV-1).
 ///
 /// # Errors
-/// If a number is not finite, or the distance not above 0.
+/// Returns an error if a number is not finite or the distance is not above 0.
 pub fn opening_angle_of(low: f64, high: f64, distance: f64) -> Result<f64, ProjectionError> {
     check_finite("low", low)?;
     check_finite("high", high)?;

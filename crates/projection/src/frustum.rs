@@ -14,9 +14,8 @@ use homog::{Clip, Projective, View};
 /// ```
 ///
 /// # Guarantees
-/// 0 < near < far, far possibly infinite; the window is finite and not empty; matrix and inverse
-/// are finite in every
-/// [`Convention`].
+/// 0 < near < far, where far may be infinite; the window is finite and not empty; the matrix and
+/// its inverse are finite in every [`Convention`].
 ///
 /// ```
 /// use homog::Point;
@@ -37,10 +36,11 @@ pub struct Frustum {
 impl Frustum {
     /// The frustum from the eye through the window [left, right] × [bottom, top] on the near plane.
     ///
-    /// `near` and `far` are distances ahead of the eye; `far` may be infinite.
+    /// `near` and `far` are distances in front of the eye; `far` may be infinite.
     ///
     /// # Errors
-    /// If a number is not finite (`far` excepted), the window is empty, or not 0 < near < far.
+    /// Returns an error if a number other than `far` is not finite, the window is empty, or 0 <
+    /// near < far does not hold.
     pub fn new(
         left: f64,
         right: f64,
@@ -55,7 +55,7 @@ impl Frustum {
     /// The frustum through `window` on the near plane.
     ///
     /// # Errors
-    /// As for [`new`](Self::new).
+    /// See [`new`](Self::new).
     pub fn from_window(window: Window, near: f64, far: f64) -> Result<Self, ProjectionError> {
         check_planes(near, far)?;
         window.window_fit(near)?;
@@ -64,11 +64,11 @@ impl Frustum {
         Ok(frustum)
     }
 
-    /// The frustum whose window, one unit ahead of the eye, has the edges `slopes`: the tangents of
-    /// the four angles.
+    /// The frustum whose window at distance 1 in front of the eye has the edges `slopes`: the
+    /// tangents of the four angles.
     ///
     /// # Errors
-    /// As for [`new`](Self::new).
+    /// See [`new`](Self::new).
     pub fn from_slopes(slopes: Window, near: f64, far: f64) -> Result<Self, ProjectionError> {
         check_planes(near, far)?;
         let on_near = slopes.scaled(near);
@@ -76,7 +76,7 @@ impl Frustum {
         Self::from_window(window, near, far)
     }
 
-    /// A frustum whose parts have been checked.
+    /// A frustum with checked parts.
     pub(crate) const fn new_unchecked(window: Window, near: f64, far: f64) -> Self {
         Self { window, near, far }
     }
@@ -87,7 +87,7 @@ impl Frustum {
         self.window
     }
 
-    /// The window one unit ahead of the eye: left/near, right/near, bottom/near, top/near.
+    /// The window at distance 1 in front of the eye: left/near, right/near, bottom/near, top/near.
     #[must_use]
     pub fn slopes(self) -> Window {
         self.window.scaled(1.0 / self.near)
@@ -126,7 +126,7 @@ impl Frustum {
     }
 }
 
-/// 0 < near < far, and usable.
+/// Checks that 0 < near < far and that the planes are usable.
 pub(crate) fn check_planes(near: f64, far: f64) -> Result<(), ProjectionError> {
     check_positive("near", near)?;
     if far != f64::INFINITY {

@@ -1,4 +1,4 @@
-//! Pinhole cameras by intrinsic parameters, as camera calibration has them (C61, GL-1).
+//! Pinhole cameras by intrinsic parameters, as in camera calibration (C61, GL-1).
 //!
 //! ```text
 //!      [ fx  s  cx ]     column = fx X/Z + s Y/Z + cx      X right, Y down, Z ahead of the eye
@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Source: R. Hartley, A. Zisserman, *Multiple View Geometry in Computer Vision*, 2nd ed., 2004,
-//! §6.1; with the names of OpenCV's module `calib3d`.
+//! §6.1; names as in OpenCV's module `calib3d`.
 
 use crate::error::{check_finite, check_positive};
 use crate::frustum::check_planes;
@@ -16,10 +16,10 @@ use crate::{Convention, Frustum, ProjectionError, Window};
 use glam::{DMat4, DVec4};
 use homog::{Clip, PixelCenters, Point, Projective, View};
 
-/// The perspective of a pinhole camera by focal lengths and principal point in pixels.
+/// The perspective of a pinhole camera by its focal lengths and principal point in pixels.
 ///
 /// # Guarantees
-/// All numbers are finite, fx, fy, width and height above 0.
+/// All numbers are finite, and fx, fy, width and height are above 0.
 ///
 /// ```
 /// use homog::{PixelCenters, Point};
@@ -41,11 +41,11 @@ pub struct Intrinsics {
 }
 
 impl Intrinsics {
-    /// The lens with the focal lengths (fx, fy) and the principal point (cx, cy), in pixels, of
-    /// pictures of `size` (columns, rows); without skew, pixel centers at whole numbers.
+    /// The lens with focal lengths (fx, fy) and principal point (cx, cy), in pixels, for pictures
+    /// of `size` (columns, rows). There is no skew, and pixel centers are at integers.
     ///
     /// # Errors
-    /// If a number is not finite, or a focal length or a side not above 0.
+    /// Returns an error if a number is not finite, or a focal length or a side is not above 0.
     pub fn new(
         [fx, fy]: [f64; 2],
         [cx, cy]: [f64; 2],
@@ -59,11 +59,11 @@ impl Intrinsics {
         Self { focal_length, principal_point, skew: 0.0, size, pixel_centers }.checked()
     }
 
-    /// The lens of a matrix K, row by row.
+    /// The lens with the matrix K, given row by row.
     ///
     /// # Errors
-    /// As [`new`](Self::new); or `K[1][0]` or the last row is not as above. A matrix that is scaled
-    /// as a whole is divided by its last entry.
+    /// As for [`new`](Self::new); also if `K[1][0]` or the last row is not as above. A scaled
+    /// matrix is divided by its last entry.
     pub fn from_rows(rows: [[f64; 3]; 3], size: [u32; 2]) -> Result<Self, ProjectionError> {
         for value in rows.as_flattened() {
             check_finite("K", *value)?;
@@ -78,21 +78,22 @@ impl Intrinsics {
         Self::new([fx / scale, fy / scale], [cx / scale, cy / scale], size)?.with_skew(skew / scale)
     }
 
-    /// This lens with a skew: what a row downwards adds to the column.
+    /// This lens with a skew: the change of the column per row downward.
     ///
     /// # Errors
-    /// If it is not finite, or too large to compute with.
+    /// Returns an error if the skew is not finite or too large to compute with.
     pub fn with_skew(self, skew: f64) -> Result<Self, ProjectionError> {
         Self { skew: check_finite("skew", skew)?, ..self }.checked()
     }
 
-    /// This lens with its numbers read by another rule for pixel centers. The numbers stay.
+    /// This lens with its numbers reinterpreted under another pixel-center convention. The numbers
+    /// are unchanged.
     #[must_use]
     pub const fn with_pixel_centers(self, pixel_centers: PixelCenters) -> Self {
         Self { pixel_centers, ..self }
     }
 
-    /// This lens with its principal point told by another rule for pixel centers.
+    /// This lens with its principal point converted to another pixel-center convention.
     #[must_use]
     pub fn in_pixel_centers(self, pixel_centers: PixelCenters) -> Self {
         let by = pixel_centers.first_center() - self.pixel_centers.first_center();
@@ -100,10 +101,11 @@ impl Intrinsics {
         Self { principal_point, pixel_centers, ..self }
     }
 
-    /// The lens of a picture that shows the window of a frustum, with pixel centers at halves.
+    /// The lens of a picture that shows the window of a frustum, with pixel centers at
+    /// half-integers.
     ///
     /// # Errors
-    /// A window that is mirrored, or a size of 0.
+    /// Returns an error if the window is mirrored or a size is 0.
     pub fn from_frustum(frustum: Frustum, size: [u32; 2]) -> Result<Self, ProjectionError> {
         let slopes = frustum.slopes();
         let [width, height] = size.map(f64::from);
@@ -113,11 +115,12 @@ impl Intrinsics {
         Ok(lens.with_pixel_centers(PixelCenters::Half))
     }
 
-    /// The lens of a perspective's matrix, with pixel centers at halves: the inverse of
+    /// The lens of a perspective matrix, with pixel centers at half-integers: the inverse of
     /// [`view_to_clip`](Self::view_to_clip).
     ///
     /// # Errors
-    /// If the matrix is no perspective whose rows and columns run as those of a picture.
+    /// Returns an error if the matrix is not a perspective whose rows and columns run like those of
+    /// a picture.
     pub fn from_view_to_clip(
         view_to_clip: Projective<View, Clip>,
         convention: Convention,
@@ -145,25 +148,25 @@ impl Intrinsics {
         self.focal_length
     }
 
-    /// The principal point (cx, cy): the pixel coordinates of what is straight ahead.
+    /// The principal point (cx, cy): the pixel coordinates of the line of sight.
     #[must_use]
     pub const fn principal_point(self) -> [f64; 2] {
         self.principal_point
     }
 
-    /// The skew: what a row downwards adds to the column.
+    /// The skew: the change of the column per row downward.
     #[must_use]
     pub const fn skew(self) -> f64 {
         self.skew
     }
 
-    /// Columns and rows of the picture.
+    /// The columns and rows of the picture.
     #[must_use]
     pub const fn size(self) -> [u32; 2] {
         self.size
     }
 
-    /// Where the centers of pixels are.
+    /// The positions of pixel centers.
     #[must_use]
     pub const fn pixel_centers(self) -> PixelCenters {
         self.pixel_centers
@@ -176,7 +179,7 @@ impl Intrinsics {
         [[fx, self.skew, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]]
     }
 
-    /// The pixel coordinates of a point; `None` unless it is ahead of the eye.
+    /// The pixel coordinates of a point; `None` unless it is in front of the eye.
     ///
     /// View space is right-handed, y up, looking along −z: X = x, Y = −y, Z = −z.
     #[must_use]
@@ -188,8 +191,8 @@ impl Intrinsics {
         (ahead > 0.0 && pixel.into_iter().all(f64::is_finite)).then_some(pixel)
     }
 
-    /// The point of view space that is seen at pixel coordinates, `depth` ahead of the eye along
-    /// its axis; not finite if the numbers are not.
+    /// The point of view space seen at the given pixel coordinates, `depth` in front of the eye
+    /// along its axis; not finite if the numbers are not.
     #[must_use]
     pub fn unproject(self, [column, row]: [f64; 2], depth: f64) -> Point<View> {
         let ([fx, fy], [cx, cy]) = (self.focal_length, self.principal_point);
@@ -201,7 +204,7 @@ impl Intrinsics {
     /// The frustum with this window, if there is no skew.
     ///
     /// # Errors
-    /// A skew, or not 0 < near < far.
+    /// Returns an error if there is a skew or 0 < near < far does not hold.
     pub fn to_frustum(self, near: f64, far: f64) -> Result<Frustum, ProjectionError> {
         if self.skew != 0.0 {
             let (parameter, value) = ("skew", self.skew);
@@ -221,7 +224,7 @@ impl Intrinsics {
     /// ```
     ///
     /// # Errors
-    /// Unless 0 < near < far.
+    /// Returns an error unless 0 < near < far.
     pub fn view_to_clip(
         self,
         [near, far]: [f64; 2],
@@ -243,7 +246,7 @@ impl Intrinsics {
     /// The inverse of [`view_to_clip`](Self::view_to_clip) in closed form (IV-1).
     ///
     /// # Errors
-    /// Unless 0 < near < far.
+    /// Returns an error unless 0 < near < far.
     pub fn clip_to_view(
         self,
         [near, far]: [f64; 2],
@@ -262,24 +265,24 @@ impl Intrinsics {
         )))
     }
 
-    /// NDC per slope, to the right and upwards.
+    /// NDC per slope, to the right and upward.
     fn scale(self) -> [f64; 2] {
         let [width, height] = self.size.map(f64::from);
         [2.0 * self.focal_length[0] / width, 2.0 * self.focal_length[1] / height]
     }
 
-    /// The point straight ahead, in NDC with y up.
+    /// The line of sight, in NDC with y up.
     fn center(self) -> [f64; 2] {
         let ([width, height], [cx, cy]) = (self.size.map(f64::from), self.corner_principal_point());
         [2.0 * cx / width - 1.0, 1.0 - 2.0 * cy / height]
     }
 
-    /// The principal point, counted from the corner of the picture.
+    /// The principal point, measured from the corner of the picture.
     fn corner_principal_point(self) -> [f64; 2] {
         self.in_pixel_centers(PixelCenters::Half).principal_point
     }
 
-    /// Refuses what would overflow in the matrix or in its inverse.
+    /// Rejects values that would overflow in the matrix or in its inverse.
     fn checked(self) -> Result<Self, ProjectionError> {
         let ([x, y], [right, up]) = (self.scale(), self.center());
         let usable = is_invertible(x)

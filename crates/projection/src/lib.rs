@@ -11,10 +11,10 @@
 //!                 └─────┘╱                                  −1      +1
 //! ```
 //!
-//! A projection is described once, by numbers people understand, and checked once. Every builder
-//! returns a `Result` that names the parameter at fault, its value and what is allowed. What it
-//! returns can be written as a matrix of any [`Convention`], has its inverse in closed form, and
-//! never yields NaN or infinities.
+//! Describe a projection once, by familiar parameters, and it is checked once. Every builder
+//! returns a `Result` whose error names the parameter, its value and the allowed range. The result
+//! can be written as a matrix in any [`Convention`], has its inverse in closed form, and never
+//! contains NaN or infinities.
 //!
 //! ```
 //! use homog::Point;
@@ -23,7 +23,7 @@
 //! let lens = Perspective::new(Fov::vertical_degrees(90.0), 16.0 / 9.0, 0.5, 100.0)?;
 //! let view_to_clip = lens.view_to_clip(Convention::CHAPTER);
 //!
-//! // Twice as far away is half as large.
+//! // At twice the distance, the image is half as large.
 //! let image = |z: f64| view_to_clip.transform_point(Point::new(0.0, 1.0, z));
 //! let height = |z: f64| image(z).divide().map(Point::y);
 //! let (near, far) = (height(-2.0).expect("in front"), height(-4.0).expect("in front"));
@@ -40,11 +40,11 @@
 //! | to get | use |
 //! | --- | --- |
 //! | a camera's perspective, by angle or focal length | [`Perspective`], [`Fov`] |
-//! | an off-center one: stereo, walls, headsets | [`Frustum`], [`FourAngles`] |
+//! | an off-center perspective: stereo, walls, headsets | [`Frustum`], [`FourAngles`] |
 //! | a calibrated camera, by its matrix K | [`Intrinsics`] |
 //! | a box without foreshortening | [`Orthographic`] |
-//! | part of a picture | `view_offset` of the three above, by a [`ViewOffset`] |
-//! | lens shift, antialiasing | `shifted`, `jittered` of the three above, by a [`Jitter`] |
+//! | part of a picture | `view_offset` on the three above, with a [`ViewOffset`] |
+//! | lens shift, antialiasing | `shifted`, `jittered` on the three above, with a [`Jitter`] |
 //! | a mirror's or portal's near plane | [`oblique_near_plane`] |
 //! | front, top and side | [`PrincipalView`] |
 //! | isometric, dimetric, trimetric | [`Axonometric`] |
@@ -52,18 +52,18 @@
 //! | one-, two-, three-point perspective | [`NPoint`], [`ConstructedPerspective`] |
 //! | any of those five as a renderable matrix | [`Classical`] |
 //! | any center and any plane | [`Projector`] |
-//! | the textbook's P, M_orth, M_per | [`chapter`] |
+//! | P, M_orth, M_per of the textbook (Shirley and Marschner, ch. 8) | [`chapter`] |
 //! | glFrustum, gluPerspective, D3DX… by name | [`api`] |
 //! | the lesson's createFrustum | [`ApexMovedFrustum`] |
 //! | where parallel lines meet | [`vanishing_point`], [`principal_vanishing_points`] |
-//! | what depth can tell apart | [`DepthCurve`] |
-//! | corners, planes, eye of what is seen | [`ViewVolume`] |
+//! | the resolution of a depth buffer | [`DepthCurve`] |
+//! | corners, planes and eye of the view volume | [`ViewVolume`] |
 //! | the parameters of a matrix in a known convention | [`decompose()`], [`readings`] |
 //! | the family tree | [`ProjectionClass`] |
 //!
 //! View space is right-handed unless the convention says otherwise: x right, y up, looking along
-//! −z. Column vectors, angles in radians, f64. Example: `gallery`. Matrices of unknown conventions
-//! are read by the crate `recognition`.
+//! −z. Column vectors, angles in radians, f64. Example: `gallery`. For matrices in unknown
+//! conventions, use the crate `recognition`.
 #![no_std]
 
 extern crate alloc;
@@ -108,7 +108,7 @@ pub use depth_curve::{DepthCurve, DepthFormat, third_row};
 pub use error::ProjectionError;
 pub use fov::{Fov, HalfSlopes, SensorSize, opening_angle_of};
 pub use frustum::Frustum;
-/// The types of points, maps and spaces, so that a program needs no second dependency.
+/// The types of points, maps and spaces, re-exported to save a second dependency.
 pub use homog;
 pub use intrinsics::Intrinsics;
 pub use multiview::{PrincipalPlane, PrincipalView, SheetAngle};

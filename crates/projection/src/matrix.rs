@@ -1,8 +1,7 @@
-//! The two matrix forms behind every builder, central and parallel, and their closed-form inverses
+//! The two matrix forms behind every builder, central and parallel, with their closed-form inverses
 //! (IV-1).
 //!
-//! With D the distance ahead of the eye, a window [l, r] × [b, t] and (c, e) the depth
-//! coefficients:
+//! With D the distance in front of the eye, a window [l, r] × [b, t] and depth coefficients (c, e):
 //!
 //! ```text
 //!            central (window on D = near)             parallel
@@ -16,7 +15,7 @@ use crate::{Convention, ProjectionError};
 use glam::{DMat4, DVec4};
 use homog::{Clip, Projective, View};
 
-/// The window's map of x and y: x' = `scale_x` x − `center_x` (times D if central).
+/// The map of x and y for the window: x' = `scale_x` x − `center_x` (times D if central).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct WindowFit {
     pub(crate) scale_x: f64,
@@ -26,7 +25,7 @@ pub(crate) struct WindowFit {
 }
 
 impl WindowFit {
-    /// Refuses what would overflow in the matrix or in its inverse.
+    /// Rejects values that would overflow in the matrix or in its inverse.
     pub(crate) fn check_fit(self) -> Result<Self, ProjectionError> {
         let usable = is_invertible(self.scale_x)
             && is_invertible(self.scale_y)
@@ -70,14 +69,14 @@ impl DepthRow {
         }
     }
 
-    /// Refuses planes whose central depth row or its inverse would overflow.
+    /// Rejects planes whose central depth row or its inverse would overflow.
     pub(crate) fn check_central(near: f64, far: f64) -> Result<(), ProjectionError> {
         let row = Self::central(near, far, Convention::OPENGL);
         let usable = is_invertible(row.offset) && is_bounded(row.factor / row.offset);
         usable.then_some(()).ok_or(ProjectionError::Unrepresentable { what: "depth range" })
     }
 
-    /// Refuses planes whose parallel depth row or its inverse would overflow.
+    /// Rejects planes whose parallel depth row or its inverse would overflow.
     pub(crate) fn check_parallel(near: f64, far: f64) -> Result<(), ProjectionError> {
         let row = Self::parallel(near, far, Convention::OPENGL);
         let usable = is_invertible(row.factor) && is_bounded(row.offset);
@@ -85,17 +84,17 @@ impl DepthRow {
     }
 }
 
-/// Small enough to be multiplied by what a convention adds.
+/// Small enough to be multiplied by the factors of a convention.
 pub(crate) fn is_bounded(value: f64) -> bool {
     value.abs() < 1e280
 }
 
-/// Bounded, and so is its reciprocal.
+/// Bounded, with a bounded reciprocal.
 pub(crate) fn is_invertible(value: f64) -> bool {
     is_bounded(value) && value.abs() > 1e-280
 }
 
-/// The central form: w is the distance ahead.
+/// The central form: w is the distance in front of the eye.
 pub(crate) fn central_matrix(
     fit: WindowFit,
     depth: DepthRow,
@@ -170,7 +169,7 @@ pub(crate) fn from_rows(rows: [[f64; 4]; 4]) -> DMat4 {
     DMat4::from_cols_array_2d(&rows).transpose()
 }
 
-/// Refuses a matrix with an entry too large to go on computing with.
+/// Rejects a matrix with an entry too large for further computation.
 pub(crate) fn check_representable(
     matrix: DMat4,
     what: &'static str,

@@ -28,8 +28,8 @@ impl PrincipalPlane {
     /// All three, in the order of the axis they drop.
     pub const ALL: [Self; 3] = [Self::Yoz, Self::Zox, Self::Xoy];
 
-    /// The classical projection: sets the coordinate across the plane to 0. Singular; applying it
-    /// again changes nothing.
+    /// The classical projection: sets the coordinate perpendicular to the plane to 0. Singular;
+    /// applying it again changes nothing.
     #[must_use]
     pub fn onto_plane<S: Space>(self) -> Affine<S, S> {
         match self {
@@ -40,7 +40,7 @@ impl PrincipalPlane {
     }
 }
 
-/// The six principal views of an object whose front looks along +z and whose top along +y.
+/// The six principal views of an object whose front faces +z and whose top faces +y.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum PrincipalView {
     /// From +z: x right, y up.
@@ -51,18 +51,18 @@ pub enum PrincipalView {
     Right,
     /// From −x.
     Left,
-    /// From +y, the front below.
+    /// From +y, with the front at the bottom.
     Top,
-    /// From −y, the front above.
+    /// From −y, with the front at the top.
     Bottom,
 }
 
 impl PrincipalView {
-    /// All six.
+    /// All six views.
     pub const ALL: [Self; 6] =
         [Self::Front, Self::Back, Self::Right, Self::Left, Self::Top, Self::Bottom];
 
-    /// The plane it projects onto.
+    /// The plane of projection.
     #[must_use]
     pub const fn plane(self) -> PrincipalPlane {
         match self {
@@ -72,8 +72,8 @@ impl PrincipalView {
         }
     }
 
-    /// The turn that brings the view's own x right, y up and the viewer to +z: exact, entries 0 and
-    /// ±1.
+    /// The rotation that maps the view's own axes to x right, y up and z toward the viewer: exact,
+    /// with entries 0 and ±1.
     #[must_use]
     pub fn depth_preserving(self) -> Affine<View, View> {
         let (x, y, z) = match self {
@@ -89,10 +89,11 @@ impl PrincipalView {
         Affine::from_raw(rows).unwrap_or(Affine::IDENTITY)
     }
 
-    /// The column and row of the view on a sheet, from the front view at (0, 0), x right and y up.
+    /// The column and row of the view on a sheet, relative to the front view at (0, 0), x right and
+    /// y up.
     ///
-    /// In third angle a view lies on the side it is seen from, in first angle on the opposite one.
-    /// The back view continues the right or left side.
+    /// In third angle a view is on the side from which it is seen, in first angle on the opposite
+    /// side. The back view follows the right or left side.
     #[must_use]
     pub const fn sheet_position(self, angle: SheetAngle) -> (i32, i32) {
         let (x, y) = match self {
@@ -110,13 +111,13 @@ impl PrincipalView {
     }
 }
 
-/// Where views lie on a sheet (ISO 5456-2).
+/// The layout of views on a sheet (ISO 5456-2).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum SheetAngle {
-    /// The object stands between viewer and sheet: the view from the left lies on the right. Usual
-    /// in Europe and China.
+    /// The object is between viewer and sheet: the view from the left is on the right. Common in
+    /// Europe and China.
     First,
-    /// The sheet stands between viewer and object: the view from the left lies on the left. Usual
-    /// in America.
+    /// The sheet is between viewer and object: the view from the left is on the left. Common in
+    /// America.
     Third,
 }

@@ -1,25 +1,25 @@
-//! View-volume normalisation, factor by factor: shear upright, scale to the canonical volume, map
-//! the depth.
+//! View-volume normalization, factor by factor: shear, scale to the canonical volume, map the
+//! depth.
 //!
 //! ```text
 //!  skewed frustum ──shear──► upright ──scale──► sides x, y = ±D ──depth──► [−1, 1]³, divided
 //!  skewed prism   ──shear──► upright ──fit─────────────────────────────► [−1, 1]³
 //! ```
 //!
-//! After it one clipper serves all projections (VV-1, VV-2; C86..C89).
+//! Afterward, one clipper serves all projections (VV-1, VV-2; C86..C89).
 
 use crate::matrix::from_rows;
 use crate::{Convention, Frustum, Oblique, Orthographic};
 use glam::DMat4;
 use homog::{Affine, Clip, Projective, View};
 
-/// The factors of a parallel projection, in the order a point passes them (VV-1, C86).
+/// The factors of a parallel projection, in the order in which a point passes them (VV-1, C86).
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct ParallelFactors {
     /// Makes the projectors perpendicular to the plane.
     pub shear: Affine<View, View>,
-    /// Moves and scales the upright box to the canonical volume.
+    /// Moves and scales the sheared box to the canonical volume.
     pub fit: Projective<View, Clip>,
 }
 
@@ -32,9 +32,9 @@ impl ParallelFactors {
 }
 
 impl Oblique {
-    /// The factors for the oblique prism whose window lies in the plane of projection (VV-1, C86).
+    /// The factors for the oblique prism whose window is in the plane of projection (VV-1, C86).
     ///
-    /// `volume` gives the window on the plane, and near and far as distances ahead of z = 0.
+    /// `volume` gives the window on the plane, and near and far as distances from z = 0.
     #[must_use]
     pub fn factors(self, volume: Orthographic, convention: Convention) -> ParallelFactors {
         let upright = convention.right_handed();
@@ -50,7 +50,7 @@ impl Oblique {
         ParallelFactors { shear, fit: volume.view_to_clip(convention) }
     }
 
-    /// The whole projection of the oblique prism, shear and fit in one matrix.
+    /// The complete projection of the oblique prism, with shear and fit in one matrix.
     #[must_use]
     pub fn view_to_clip(
         self,
@@ -61,13 +61,13 @@ impl Oblique {
     }
 }
 
-/// The factors of a frustum, in the order a point passes them (VV-2, C87, C88).
+/// The factors of a frustum, in the order in which a point passes them (VV-2, C87, C88).
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct FrustumFactors {
     /// Puts the center line of the volume on the line of sight.
     pub shear: Affine<View, View>,
-    /// Makes the sides x = ±D and y = ±D.
+    /// Moves the sides to x = ±D and y = ±D.
     pub scale: Affine<View, View>,
     /// Maps the depth and sets w to the distance: frustum to prism.
     pub depth: Projective<View, Clip>,
@@ -111,7 +111,7 @@ impl Frustum {
 
     /// Shear and scale to the canonical frustum of the slides: sides x, y = ±D, far at distance 1.
     ///
-    /// `None` if there is no far plane, or the window is too narrow for the scale to be a number.
+    /// `None` if there is no far plane or the window is too narrow for a finite scale.
     #[must_use]
     pub fn view_to_canonical_frustum(self, convention: Convention) -> Option<Affine<View, View>> {
         let shrink = 1.0 / self.far();

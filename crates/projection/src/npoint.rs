@@ -8,12 +8,12 @@
 //! [ p q r 1 ]     what is drawn is z = 0 after the divide
 //! ```
 //!
-//! Points of the plane px + qy + rz = 0 stay where they are. The eye stands at (0, 0, −1/r), or for
-//! r = 0 infinitely far away along z.
+//! Points of the plane px + qy + rz = 0 do not move. The eye is at (0, 0, −1/r) or, for r = 0,
+//! infinitely far away along z.
 //!
-//! One-point perspective from an eye (0, 0, d) is p = q = 0, r = −1/d. The factor d/(d − z) by
-//! which a point's image grows is below 1 behind the plane (z < 0), above 1 between plane and eye,
-//! and negative behind the eye (M20).
+//! One-point perspective from an eye (0, 0, d) has p = q = 0 and r = −1/d. The magnification d/(d −
+//! z) of a point is below 1 behind the plane (z < 0), above 1 between plane and eye, and negative
+//! behind the eye (M20).
 
 use crate::ProjectionError;
 use crate::error::check_finite;
@@ -44,7 +44,7 @@ impl NPoint {
     /// The perspective with bottom row (p, q, r, 1).
     ///
     /// # Errors
-    /// If a number is not finite, or all are 0.
+    /// Returns an error if a number is not finite, or all are 0.
     pub fn new(p: f64, q: f64, r: f64) -> Result<Self, ProjectionError> {
         for (parameter, value) in [("p", p), ("q", q), ("r", r)] {
             check_finite(parameter, value)?;
@@ -61,7 +61,7 @@ impl NPoint {
     /// The one-point perspective onto z = 0 from the eye (0, 0, d) (ONE-1).
     ///
     /// # Errors
-    /// If d is 0 or not finite.
+    /// Returns an error if d is 0 or not finite.
     pub fn from_eye(d: f64) -> Result<Self, ProjectionError> {
         if check_finite("d", d)? == 0.0 {
             return Err(ProjectionError::CenterOnPlane);
@@ -69,11 +69,11 @@ impl NPoint {
         Self::new(0.0, 0.0, -1.0 / d)
     }
 
-    /// The perspective whose axes vanish at (x, 0, 0), (0, y, 0) and (0, 0, z); `None` keeps an
-    /// axis' lines parallel.
+    /// The perspective whose axes vanish at (x, 0, 0), (0, y, 0) and (0, 0, z); `None` keeps the
+    /// lines of an axis parallel.
     ///
     /// # Errors
-    /// If a coordinate is 0 or not finite, or all are `None`.
+    /// Returns an error if a coordinate is 0 or not finite, or all are `None`.
     pub fn by_vanishing_points(
         x: Option<f64>,
         y: Option<f64>,
@@ -98,14 +98,14 @@ impl NPoint {
         [self.p, self.q, self.r]
     }
 
-    /// How many of p, q, r are not 0: the number of principal vanishing points.
+    /// The number of nonzero values among p, q and r: the number of principal vanishing points.
     #[must_use]
     pub fn count(self) -> usize {
         self.bottom_row().iter().filter(|&&entry| entry != 0.0).count()
     }
 
-    /// True if this is a real central projection onto z = 0: p = q = 0, so that points of that
-    /// plane stay.
+    /// Returns whether this is a true central projection onto z = 0: p = q = 0, so points of that
+    /// plane do not move.
     #[must_use]
     pub fn preserves_picture_plane(self) -> bool {
         self.p == 0.0 && self.q == 0.0
@@ -129,13 +129,13 @@ impl NPoint {
         ]))
     }
 
-    /// The map that keeps z before the divide; it has an inverse.
+    /// The map that keeps z before the divide; it is invertible.
     #[must_use]
     pub fn depth_preserving(self) -> Projective<View, View> {
         self.matrix(1.0, 1.0)
     }
 
-    /// Its inverse: the bottom row with p, q, r turned.
+    /// Its inverse: the bottom row with p, q and r negated.
     #[must_use]
     pub fn depth_preserving_inverse(self) -> Projective<View, View> {
         self.matrix(1.0, -1.0)
@@ -147,7 +147,8 @@ impl NPoint {
         self.matrix(0.0, 1.0)
     }
 
-    /// Where the divide puts a point of the line x = y = 0; `None` in the eye's plane and behind.
+    /// The image of a point of the line x = y = 0 after the divide; `None` in the plane of the eye
+    /// and behind it.
     pub(crate) fn depth_on_axis(self, z: f64) -> Option<f64> {
         let h = self.r * z + 1.0;
         (h > 0.0 && is_bounded(z / h)).then_some(z / h)

@@ -1,4 +1,5 @@
-//! Oblique projection: parallel projectors that meet the plane at a slant (OB-1, OB-2; C77..C79).
+//! Oblique projection: parallel projectors that are not perpendicular to the plane (OB-1, OB-2;
+//! C77..C79).
 //!
 //! ```text
 //!        y │   ● image of (0,0,1)        α  angle between projector and plane
@@ -24,7 +25,7 @@ use homog::{Affine, Vector, View};
 /// use homog::Point;
 /// use projection::Oblique;
 /// let cabinet = Oblique::cabinet(0.0)?;
-/// // Half of the depth, drawn to the right.
+/// // Half the depth, drawn to the right.
 /// let image = cabinet.onto_plane().transform_point(Point::new(1.0, 2.0, 3.0));
 /// assert_eq!(image, Point::new(2.5, 2.0, 0.0));
 /// # Ok::<(), projection::ProjectionError>(())
@@ -36,28 +37,28 @@ pub struct Oblique {
     plane_z: f64,
 }
 
-/// Oblique projections by the drawn length of a unit of depth.
+/// Kinds of oblique projections, by the drawn length of a unit of depth.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ObliqueKind {
     /// L1 = 0: the projectors are perpendicular to the plane.
     Orthographic,
-    /// L1 = 1: depth in full.
+    /// L1 = 1: full depth.
     Cavalier,
-    /// L1 = ½: depth by half.
+    /// L1 = ½: half depth.
     Cabinet,
     /// Any other length.
     General,
 }
 
 impl Oblique {
-    /// Onto z = 0, with a unit of z drawn `length` long in direction `phi`, in radians
+    /// Onto z = 0, with a unit of z drawn with length `length` in direction `phi`, in radians
     /// counterclockwise from the right (OB-1).
     ///
-    /// z runs towards the viewer; draughtsmen, who speak of what recedes, call the opposite
-    /// direction the angle: depth that leaves to the upper right at 45° is φ = 225°.
+    /// z points toward the viewer. Drafters measure the receding axis instead: depth that recedes
+    /// to the upper right at 45° is φ = 225°.
     ///
     /// # Errors
-    /// If a number is not finite, or the length below 0.
+    /// Returns an error if a number is not finite or the length is below 0.
     pub fn new(length: f64, phi: f64) -> Result<Self, ProjectionError> {
         if check_finite("length", length)? < 0.0 {
             let allowed = "0 or greater";
@@ -75,7 +76,7 @@ impl Oblique {
     /// `phi`: L1 = cot α.
     ///
     /// # Errors
-    /// If an angle is not finite, or α not in (0, π/2].
+    /// Returns an error if an angle is not finite or α is not in (0, π/2].
     pub fn by_angle(alpha: f64, phi: f64) -> Result<Self, ProjectionError> {
         if check_finite("alpha", alpha)? <= 0.0 || alpha > core::f64::consts::FRAC_PI_2 {
             let allowed = "above 0 and up to π/2 radians";
@@ -88,7 +89,8 @@ impl Oblique {
     /// Onto the plane z = `plane_z` with projectors along `direction` (OB-2).
     ///
     /// # Errors
-    /// If a number is not finite, the direction is zero or parallel to the plane.
+    /// Returns an error if a number is not finite, or the direction is zero or parallel to the
+    /// plane.
     pub fn by_direction(direction: Vector<View>, plane_z: f64) -> Result<Self, ProjectionError> {
         for value in <[f64; 3]>::from(direction) {
             check_finite("direction", value)?;
@@ -103,18 +105,18 @@ impl Oblique {
         Self::new_checked(x, y, check_finite("plane z", plane_z)?)
     }
 
-    /// Depth in full, in direction `phi` (usually 45° or 30°).
+    /// Full depth, in direction `phi` (usually 45° or 30°).
     ///
     /// # Errors
-    /// If the angle is not finite.
+    /// Returns an error if the angle is not finite.
     pub fn cavalier(phi: f64) -> Result<Self, ProjectionError> {
         Self::new(1.0, phi)
     }
 
-    /// Depth by half, in direction `phi` (usually 45° or 30°).
+    /// Half depth, in direction `phi` (usually 45° or 30°).
     ///
     /// # Errors
-    /// If the angle is not finite.
+    /// Returns an error if the angle is not finite.
     pub fn cabinet(phi: f64) -> Result<Self, ProjectionError> {
         Self::new(0.5, phi)
     }
@@ -152,13 +154,13 @@ impl Oblique {
         Vector::new(self.slant_x, self.slant_y, -1.0)
     }
 
-    /// The plane of projection is z = this.
+    /// The z of the plane of projection.
     #[must_use]
     pub const fn plane_z(self) -> f64 {
         self.plane_z
     }
 
-    /// The kind by length, to twelve digits.
+    /// The kind, with the length compared to twelve digits.
     #[must_use]
     pub fn kind(self) -> ObliqueKind {
         let is = |length: f64| (self.length() - length).abs() < 1e-12;
@@ -171,7 +173,7 @@ impl Oblique {
     }
 
     /// The shear that makes the projectors parallel to z and keeps z: x' = x + (z − z_p) L1 cos φ,
-    /// y' alike.
+    /// and y' likewise.
     #[must_use]
     pub fn depth_preserving(self) -> Affine<View, View> {
         self.shear(self.slant_x, self.slant_y)
@@ -193,7 +195,7 @@ impl Oblique {
         Affine::from_raw(rows).unwrap_or(Affine::IDENTITY)
     }
 
-    /// The classical projection: every point to the plane z = z_p. Singular.
+    /// The classical projection: every point maps to the plane z = z_p. Singular.
     #[must_use]
     pub fn onto_plane(self) -> Affine<View, View> {
         let drop = Affine::<View, View>::scale(1.0, 1.0, 0.0);
@@ -202,10 +204,10 @@ impl Oblique {
     }
 }
 
-/// The plan oblique or planometric projection: the ground plan keeps its shape, heights are drawn
-/// straight up.
+/// The plan oblique or planometric projection: the ground plan keeps its shape, and heights are
+/// drawn vertically.
 ///
-/// With a full height scale it is the military projection.
+/// With full heights it is the military projection.
 ///
 /// ```
 /// use homog::Point;
@@ -223,10 +225,10 @@ pub struct Planometric {
 }
 
 impl Planometric {
-    /// The plan turned by `turn` radians counterclockwise, heights drawn `height` times as long.
+    /// The plan rotated by `turn` radians counterclockwise, with heights scaled by `height`.
     ///
     /// # Errors
-    /// If a number is not finite, or the height below 0.
+    /// Returns an error if a number is not finite or the height is below 0.
     pub fn new(turn: f64, height: f64) -> Result<Self, ProjectionError> {
         check_finite("turn", turn)?;
         if check_finite("height", height)? < 0.0 {
@@ -240,27 +242,27 @@ impl Planometric {
         Ok(Self { turn, rise: Oblique::new_checked(0.0, height, 0.0)? })
     }
 
-    /// The military projection: heights in full, the plan usually turned by 45° or 30°.
+    /// The military projection: full heights, with the plan usually rotated by 45° or 30°.
     ///
     /// # Errors
-    /// If the angle is not finite.
+    /// Returns an error if the angle is not finite.
     pub fn military(turn: f64) -> Result<Self, ProjectionError> {
         Self::new(turn, 1.0)
     }
 
-    /// The angle by which the plan is turned, in radians counterclockwise.
+    /// The angle by which the plan is rotated, in radians counterclockwise.
     #[must_use]
     pub const fn turn(self) -> f64 {
         self.turn
     }
 
-    /// How many times its length a height is drawn.
+    /// The scale factor of heights.
     #[must_use]
     pub const fn height(self) -> f64 {
         self.rise.slant_y
     }
 
-    /// Turned, seen from above, and sheared so that heights rise: z is the height.
+    /// Rotated, seen from above, and sheared to draw heights vertically: z is the height.
     #[must_use]
     pub fn depth_preserving(self) -> Affine<View, View> {
         let from_above = crate::PrincipalView::Top.depth_preserving();
@@ -272,7 +274,7 @@ impl Planometric {
     /// Its inverse.
     #[must_use]
     pub fn depth_preserving_inverse(self) -> Affine<View, View> {
-        // The view from below turns the other way about x.
+        // The view from below rotates the other way about x.
         let from_front = crate::PrincipalView::Bottom.depth_preserving();
         self.rise.depth_preserving_inverse().then(from_front).then(Affine::rotation_y(-self.turn))
     }

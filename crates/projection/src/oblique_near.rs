@@ -1,7 +1,8 @@
-//! A near plane of any inclination: mirrors and portals clip at their own surface (Lengyel 2005).
+//! A near plane of any inclination, for mirrors and portals that clip at their own surface (Lengyel
+//! 2005).
 //!
-//! Only the depth row is changed, so that the picture stays the same; what lies between the eye and
-//! the plane is cut away by ordinary near clipping. The far plane tilts with it, as far out as the
+//! Only the depth row changes, so the picture stays the same. Ordinary near clipping removes
+//! everything between the eye and the plane. The far plane tilts with it, as far out as the
 //! opposite corner of the volume allows.
 
 use crate::{Convention, ProjectionError, ViewVolume};
@@ -10,16 +11,16 @@ use homog::{Clip, HPoint, Plane, Projective, View};
 
 /// Oblique near-plane clipping: replaces the near plane of any projection matrix by `plane`.
 ///
-/// The plane's normal points to what stays visible; the eye must be on the other side. Depth is the
-/// convention's near depth on the plane and its far depth in the corner of the old volume that lies
-/// farthest behind it.
+/// The normal of the plane points to the visible side; the eye must be on the other side. The plane
+/// gets the near depth of the convention. The corner of the old volume farthest behind the plane
+/// gets the far depth.
 ///
 /// Source: Lengyel, "Oblique View Frustum Depth Projection and Clipping", Journal of Game
 /// Development 1(2), 2005.
 ///
 /// # Errors
-/// If a number is not finite, the projection singular, the normal zero, the eye not behind the
-/// plane, or nothing of the volume in front of it.
+/// Returns an error if a number is not finite, the projection is singular, the normal is zero, the
+/// eye is not behind the plane, or no part of the volume is in front of it.
 ///
 /// ```
 /// use homog::{Normal, Plane, Point};
@@ -45,7 +46,7 @@ pub fn oblique_near_plane(
     if side.is_nan() || side >= 0.0 {
         return Err(out_of_range("plane at the eye", side, "below 0: the eye behind it"));
     }
-    // The corner that lies farthest behind the plane shall keep the far depth.
+    // The corner farthest behind the plane keeps the far depth.
     let seen = clip_to_view.raw().transpose() * plane.raw();
     let corner = DVec4::new(seen.x.signum(), seen.y.signum(), convention.far_depth(), 1.0);
     let farthest = plane.evaluate(clip_to_view.transform_hpoint(HPoint::from_raw(corner)));
@@ -64,7 +65,7 @@ fn out_of_range(parameter: &'static str, value: f64, allowed: &'static str) -> P
     ProjectionError::OutOfRange { parameter, value, allowed }
 }
 
-/// The plane with a normal of length 1.
+/// The plane, with its normal scaled to length 1.
 fn normalized_plane(plane: Plane<View>) -> Result<Plane<View>, ProjectionError> {
     for value in plane.raw().to_array() {
         crate::error::check_finite("plane", value)?;

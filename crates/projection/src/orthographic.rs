@@ -1,4 +1,4 @@
-//! Orthographic projection: a box of view space becomes the picture.
+//! Orthographic projection: a box in view space becomes the picture.
 
 use crate::error::check_finite;
 use crate::matrix::{self, DepthRow, WindowFit};
@@ -7,11 +7,11 @@ use homog::{Clip, Projective, View};
 
 /// The orthographic projection of a box (OR-1, GL-3; C7, C34, C90).
 ///
-/// `near` and `far` are distances ahead of the eye; they may be any two different numbers, negative
-/// ones lie behind.
+/// `near` and `far` are distances in front of the eye. They may be any two different numbers;
+/// negative ones are behind the eye.
 ///
 /// # Guarantees
-/// The box is finite and not empty; matrix and inverse are finite in every [`Convention`].
+/// The box is finite and not empty; the matrix and its inverse are finite in every [`Convention`].
 ///
 /// ```
 /// use homog::Point;
@@ -32,7 +32,7 @@ impl Orthographic {
     /// The projection of the box [left, right] × [bottom, top] × [near, far].
     ///
     /// # Errors
-    /// If a number is not finite, or two opposite sides coincide.
+    /// Returns an error if a number is not finite or two opposite sides coincide.
     pub fn new(
         left: f64,
         right: f64,
@@ -47,7 +47,7 @@ impl Orthographic {
     /// The projection of the box behind `window`, from `near` to `far`.
     ///
     /// # Errors
-    /// As for [`new`](Self::new).
+    /// See [`new`](Self::new).
     pub fn from_window(window: Window, near: f64, far: f64) -> Result<Self, ProjectionError> {
         check_finite("near", near)?;
         check_finite("far", far)?;

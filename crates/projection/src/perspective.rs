@@ -1,4 +1,4 @@
-//! Perspective by field of view: the window centered on the line of sight.
+//! Perspective by field of view: the window is centered on the line of sight.
 
 use crate::frustum::check_planes;
 use crate::matrix::{self, DepthRow, WindowFit};
@@ -8,8 +8,8 @@ use homog::{Clip, Projective, View};
 /// The symmetric perspective (GL-2, FOV-1; C61, C92).
 ///
 /// # Guarantees
-/// 0 < near < far, far possibly infinite; both opening angles lie between 0 and π; matrix and
-/// inverse are finite in every [`Convention`].
+/// 0 < near < far, where far may be infinite; both opening angles are between 0 and π; the matrix
+/// and its inverse are finite in every [`Convention`].
 ///
 /// ```
 /// use homog::Point;
@@ -28,11 +28,11 @@ pub struct Perspective {
 
 impl Perspective {
     /// The perspective with the given field of view, aspect (width / height of the picture) and
-    /// distances of the near and the far plane; `far` may be infinite.
+    /// distances of the near and far planes; `far` may be infinite.
     ///
     /// # Errors
-    /// If a number is not finite (`far` excepted), the angle is not between 0 and π, the aspect not
-    /// above 0, or not 0 < near < far.
+    /// Returns an error if a number other than `far` is not finite, the angle is not between 0 and
+    /// π, the aspect is not above 0, or 0 < near < far does not hold.
     pub fn new(fov: Fov, aspect: f64, near: f64, far: f64) -> Result<Self, ProjectionError> {
         let lens = Self { half: fov.half_slopes(aspect)?, near, far };
         check_planes(near, far)?;
@@ -43,13 +43,13 @@ impl Perspective {
         Ok(lens)
     }
 
-    /// Half the window one unit ahead of the eye: the tangents of half the opening angles.
+    /// Half the window at distance 1 in front of the eye: the tangents of half the opening angles.
     #[must_use]
     pub const fn half_slopes(self) -> HalfSlopes {
         self.half
     }
 
-    /// The window one unit ahead of the eye: left/near, right/near, bottom/near, top/near.
+    /// The window at distance 1 in front of the eye: left/near, right/near, bottom/near, top/near.
     #[must_use]
     pub fn slopes(self) -> Window {
         Window::symmetric(self.half.x, self.half.y)
@@ -129,10 +129,11 @@ impl From<Perspective> for Frustum {
 impl TryFrom<Frustum> for Perspective {
     type Error = ProjectionError;
 
-    /// The inverse, for windows centered on the line of sight and not mirrored (C69, M31).
+    /// The inverse conversion, for windows that are centered on the line of sight and not mirrored
+    /// (C69, M31).
     ///
     /// # Errors
-    /// [`ProjectionError::OffCenter`] for all others.
+    /// Returns [`ProjectionError::OffCenter`] for all others.
     fn try_from(frustum: Frustum) -> Result<Self, ProjectionError> {
         let slopes = frustum.slopes();
         let centered = slopes.left() == -slopes.right() && slopes.bottom() == -slopes.top();

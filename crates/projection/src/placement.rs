@@ -1,27 +1,26 @@
-//! Taking a central matrix apart into eye, attitude and lens; the linear algebra behind
-//! `decompose`.
+//! Decomposes a central matrix into eye, orientation and lens: the linear algebra of `decompose`.
 //!
-//! With rows x, y, w of a matrix whose w row has a linear part of length 1, the line of sight is
-//! that linear part; what remains of x beside it points to the right, and what remains of y
-//! upwards. The eye is where all three rows vanish.
+//! Take the rows x, y, w of a matrix whose w row has a linear part of length 1. That linear part is
+//! the line of sight. The part of x perpendicular to it points right, and the part of y points up.
+//! The eye is where all three rows vanish.
 
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use homog::{Affine, Vector, View};
 
-/// Entries below this part of their neighbours count as rounding.
+/// Entries below this fraction of their neighbors count as rounding.
 const RELATIVE_ROUNDING: f64 = 1e-12;
 
-/// True if `small` is rounding beside `large`.
+/// Returns whether `small` is only rounding compared with `large`.
 pub(crate) fn is_negligible(small: DVec3, large: DVec4) -> bool {
     small.abs().max_element() <= RELATIVE_ROUNDING * large.abs().max_element()
 }
 
-/// True if the vector has no part along the unit vector.
+/// Returns whether the vector has no component along the unit vector.
 pub(crate) fn is_perpendicular(vector: DVec3, unit: DVec3) -> bool {
     vector.dot(unit).abs() <= 1e-9 * vector.length()
 }
 
-/// True if x and y depend on their own coordinate and z only, and z on itself.
+/// Returns whether x and y depend only on their own coordinate and z, and z only on itself.
 pub(crate) fn maps_axes_separately(x: DVec4, y: DVec4, z: DVec4) -> bool {
     let none = |entry: f64, row: DVec4| {
         entry.abs() <= RELATIVE_ROUNDING * row.truncate().abs().max_element()
@@ -31,7 +30,7 @@ pub(crate) fn maps_axes_separately(x: DVec4, y: DVec4, z: DVec4) -> bool {
 
 /// The rank of a matrix that has lost at least one dimension; `None` if it has an inverse.
 ///
-/// Rows and columns are scaled first, so that large and small ones count alike.
+/// Rows and columns are scaled first, so large and small ones count equally.
 pub(crate) fn lost_rank(matrix: DMat4) -> Option<usize> {
     let by_rows = scale_rows(matrix_rows(matrix));
     let by_columns = scale_rows(transpose_rows(by_rows));
@@ -49,12 +48,12 @@ fn transpose_rows(rows: [DVec4; 4]) -> [DVec4; 4] {
     [0, 1, 2, 3].map(|i| DVec4::from_array(rows.map(|row| row[i])))
 }
 
-/// Each divided by its largest entry.
+/// Each row divided by its largest entry.
 fn scale_rows(rows: [DVec4; 4]) -> [DVec4; 4] {
     rows.map(|row| if max_coordinate(row) == 0.0 { row } else { row / max_coordinate(row) })
 }
 
-/// Gauss elimination with full pivoting; the number of pivots that are not rounding.
+/// Gaussian elimination with full pivoting; returns the number of pivots above rounding.
 fn eliminate_rows(rows: &mut [DVec4; 4]) -> usize {
     let mut used = [false; 4];
     for done in 0..4 {
@@ -75,7 +74,7 @@ fn eliminate_rows(rows: &mut [DVec4; 4]) -> usize {
 
 /// The null vector of a matrix of rank 3, with its largest coordinate or its w scaled to 1.
 pub(crate) fn null_vector(matrix: DMat4) -> Option<DVec4> {
-    // The columns of the adjugate are multiples of it; the largest one is the most exact.
+    // The columns of the adjugate are multiples of it; the largest one is the most accurate.
     let columns = [0, 1, 2, 3].map(|column| cofactors(matrix, column));
     let best =
         columns.into_iter().max_by(|a, b| max_coordinate(*a).total_cmp(&max_coordinate(*b)))?;
@@ -100,22 +99,22 @@ fn cofactors(matrix: DMat4, row: usize) -> DVec4 {
     DVec4::new(minor(0), minor(1), minor(2), minor(3))
 }
 
-/// Eye, attitude and lens of a central matrix.
+/// The eye, orientation and lens of a central matrix.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Placement {
-    /// Right, up and back of the camera, in the coordinates the matrix takes.
+    /// Right, up and back of the camera, in the input coordinates of the matrix.
     axes: [DVec3; 3],
     pub(crate) eye: DVec3,
-    /// x' = scale.x x − center.x D in the camera's own coordinates; y' alike.
+    /// x' = scale.x x − center.x D in camera coordinates; y' likewise.
     pub(crate) scale: DVec2,
     pub(crate) center: DVec2,
-    /// The depth row in the camera's own coordinates.
+    /// The depth row in camera coordinates.
     pub(crate) depth: DVec4,
 }
 
 impl Placement {
-    /// Of a matrix whose last row has a linear part of length 1; `None` if x and y are not at right
-    /// angles.
+    /// Decomposes a matrix whose last row has a linear part of length 1; `None` if x and y are not
+    /// perpendicular.
     pub(crate) fn from_matrix(matrix: DMat4) -> Option<Self> {
         let [x, y, z, w] = matrix_rows(matrix);
         let sight = w.truncate();
@@ -146,7 +145,7 @@ impl Placement {
         eye.is_finite().then_some(Self { depth, ..frame })
     }
 
-    /// True if the camera is not turned.
+    /// Returns whether the camera is not rotated.
     pub(crate) fn is_upright(&self) -> bool {
         let [right, up, back] = self.axes;
         right.distance(DVec3::X) < 1e-12
@@ -154,7 +153,7 @@ impl Placement {
             && back.distance(DVec3::Z) < 1e-12
     }
 
-    /// The camera's map: the eye to the origin, its axes to x, y and z.
+    /// The camera's map: the eye to the origin, and its axes to x, y and z.
     pub(crate) fn as_affine(&self) -> Affine<View, View> {
         let rows = self.axes.map(|axis| axis.extend(-axis.dot(self.eye)));
         let matrix = DMat4::from_cols(rows[0], rows[1], rows[2], DVec4::W).transpose();
@@ -162,8 +161,8 @@ impl Placement {
     }
 }
 
-/// True if the camera would better have its x axis against the picture's: where the picture is
-/// mirrored anyway, and where the matrix of an unturned camera is mirrored in x.
+/// Returns whether the camera's x axis should oppose the picture's: if the picture is mirrored
+/// anyway, and if the matrix of an unrotated camera is mirrored in x.
 fn is_rolled(x: DVec4, y: DVec4, sight: DVec3, along_up: f64) -> bool {
     let unturned = is_negligible(sight.with_z(0.0), DVec4::ONE)
         && is_negligible(DVec3::X * x.y, x.truncate().extend(0.0))

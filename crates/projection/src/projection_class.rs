@@ -28,7 +28,7 @@ use crate::{
 /// A node of the tree.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum ProjectionClass {
-    /// The root: straight projectors and a plane.
+    /// The root: straight projectors onto a plane.
     Planar,
     /// The center of projection is at infinity.
     Parallel,
@@ -38,23 +38,23 @@ pub enum ProjectionClass {
     Multiview,
     /// The plane is parallel to no principal face.
     Axonometric,
-    /// All three axes shrink alike.
+    /// All three axes are foreshortened equally.
     Isometric,
-    /// Two axes shrink alike.
+    /// Two axes are foreshortened equally.
     Dimetric,
-    /// No two axes shrink alike.
+    /// All three axes are foreshortened differently.
     Trimetric,
-    /// Parallel projectors at a slant to the plane.
+    /// Parallel projectors oblique to the plane.
     Oblique,
-    /// Depth drawn in full.
+    /// Depth drawn at full length.
     Cavalier,
-    /// Depth drawn by half.
+    /// Depth drawn at half length.
     Cabinet,
-    /// The ground plan in true shape, heights drawn in full.
+    /// The ground plan in true shape, with heights drawn at full length.
     Military,
-    /// Depth drawn with any other length.
+    /// Depth drawn at any other length.
     GeneralOblique,
-    /// The center of projection is at a finite place.
+    /// The center of projection is a finite point.
     Perspective,
     /// One axis meets the plane.
     OnePoint,
@@ -110,7 +110,7 @@ impl ProjectionClass {
         }
     }
 
-    /// The class this one belongs to; `None` for the root.
+    /// The parent class; `None` for the root.
     #[must_use]
     pub const fn parent(self) -> Option<Self> {
         match self {
@@ -131,18 +131,18 @@ impl ProjectionClass {
         Self::ALL.into_iter().filter(move |class| class.parent() == Some(self))
     }
 
-    /// This class, its parent, and so on to the root.
+    /// This class, its parent, and so on up to the root.
     pub fn ancestors(self) -> impl Iterator<Item = Self> {
         core::iter::successors(Some(self), |class| class.parent())
     }
 
-    /// True if no class lies below this one.
+    /// Returns whether this class is a leaf.
     #[must_use]
     pub fn is_leaf(self) -> bool {
         self.children().next().is_none()
     }
 
-    /// The builder that makes projections of this class, for the leaves.
+    /// The builder for projections of this class, for leaves.
     #[must_use]
     pub const fn builder(self) -> Option<&'static str> {
         Some(match self {
@@ -170,7 +170,7 @@ impl ProjectionClass {
         })
     }
 
-    /// A typical projection of this class, for the leaves: what a gallery shows.
+    /// A typical projection of this class, for leaves, as shown in a gallery.
     #[must_use]
     pub fn example(self) -> Option<Classical> {
         let typical: Result<Classical, ProjectionError> = match self {
@@ -197,11 +197,11 @@ impl ProjectionClass {
 }
 
 const DEGREES_45: f64 = core::f64::consts::FRAC_PI_4;
-/// z runs to the viewer: drawn to the lower left it lets top and right side be seen.
+/// z points to the viewer: drawn to the lower left, it makes the top and right sides visible.
 const FROM_LOWER_LEFT: f64 = 5.0 * DEGREES_45;
 
 impl Classical {
-    /// The leaf of the tree this projection belongs to.
+    /// The leaf of the tree to which this projection belongs.
     #[must_use]
     pub fn class(self) -> ProjectionClass {
         match self {

@@ -1,4 +1,4 @@
-//! Projection from first principles: a center, a plane, and straight projectors between them (C72).
+//! Projection from first principles: a center, a plane and straight projectors between them (C72).
 //!
 //! ```text
 //!        ● center (a point, or a direction if the projectors are parallel)
@@ -9,9 +9,9 @@
 //!        ●    ●  object
 //! ```
 //!
-//! With the center c as a homogeneous point and the plane π as four numbers, every point x goes to
-//! the one point of its projector that lies in the plane, (π·c) x − (π·x) c. A center with w = 0 is
-//! the limit of an eye that goes to infinity: parallel projection is not a case of its own (PR-1).
+//! With the center c as a homogeneous point and the plane π as four numbers, every point x maps to
+//! the intersection of its projector with the plane, (π·c) x − (π·x) c. A center with w = 0 is the
+//! limit of an eye that moves to infinity, so parallel projection is not a special case (PR-1).
 
 use crate::ProjectionError;
 use crate::error::check_finite;
@@ -22,7 +22,7 @@ use homog::{HPoint, Plane, Point, Projective, Space, Vector};
 /// A center and a plane of projection in space `S`.
 ///
 /// # Guarantees
-/// The center is finite and not in the plane, the plane has a unit normal.
+/// The center is finite and not in the plane, and the plane has a unit normal.
 ///
 /// ```
 /// use homog::{Normal, Plane, Point, View};
@@ -46,7 +46,8 @@ impl<S: Space> Projector<S> {
     /// Central projection from `eye` onto `plane`.
     ///
     /// # Errors
-    /// If a number is not finite, the plane has no normal, or the eye lies in it.
+    /// Returns an error if a number is not finite, the plane has no normal, or the eye is in the
+    /// plane.
     pub fn from_eye(eye: Point<S>, plane: Plane<S>) -> Result<Self, ProjectionError> {
         for value in <[f64; 3]>::from(eye) {
             check_finite("eye", value)?;
@@ -57,8 +58,8 @@ impl<S: Space> Projector<S> {
     /// Parallel projection along `direction` onto `plane`.
     ///
     /// # Errors
-    /// If a number is not finite, the direction or the plane's normal is zero, or both are
-    /// parallel.
+    /// Returns an error if a number is not finite, the direction or the plane's normal is zero, or
+    /// the direction is parallel to the plane.
     pub fn along(direction: Vector<S>, plane: Plane<S>) -> Result<Self, ProjectionError> {
         for value in <[f64; 3]>::from(direction) {
             check_finite("direction", value)?;
@@ -99,22 +100,22 @@ impl<S: Space> Projector<S> {
         self.center
     }
 
-    /// The plane of projection, its normal of length 1.
+    /// The plane of projection, with a normal of length 1.
     #[must_use]
     pub const fn plane(self) -> Plane<S> {
         self.plane
     }
 
-    /// The classical projection: every point to the plane. Singular, and points of the plane stay
-    /// (with w = 1).
+    /// The classical projection: every point maps to the plane. Singular; points of the plane do
+    /// not move (with w = 1).
     #[must_use]
     pub fn onto_plane(self) -> Projective<S, S> {
         let toward = self.center.raw() / self.reach;
         Projective::from_raw(DMat4::IDENTITY - outer_product(toward, self.plane.raw()))
     }
 
-    /// The depth-preserving variant: the image keeps its distance from the plane before the divide,
-    /// so that the map has an inverse and hidden surfaces can be removed (PR-1, C102).
+    /// The depth-preserving variant: the image keeps its distance from the plane before the divide.
+    /// The map is therefore invertible, and hidden surfaces can be removed (PR-1, C102).
     #[must_use]
     pub fn depth_preserving(self) -> Projective<S, S> {
         let normal = self.plane.normal().raw().extend(0.0);

@@ -1,23 +1,23 @@
-//! Vanishing points: where the images of parallel lines meet (VN-1; C80, C81).
+//! Vanishing points: the points where images of parallel lines meet (VN-1; C80, C81).
 //!
 //! Parallel lines share one point at infinity, (d, 0). Its image is their vanishing point; if that
-//! again lies at infinity, the images stay parallel. How many of the three axes vanish at a finite
-//! place says whether a picture is in one-, two- or three-point perspective.
+//! is at infinity too, the images stay parallel. The number of axes with a finite vanishing point
+//! makes the picture a one-, two- or three-point perspective.
 
 use crate::ProjectionError;
 use crate::error::check_finite;
 use glam::DVec4;
 use homog::{Point, Projective, Space, Vector};
 
-/// Where the images of all lines of one direction run to.
+/// The point that the images of all lines in one direction approach.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum VanishingPoint<S: Space> {
     /// They meet here.
     At {
         /// The common point, after the divide.
         point: Point<S>,
-        /// True if the lines reach it going along the given direction, false if going against it (w
-        /// < 0).
+        /// True if following the lines along the given direction leads to it, false if following
+        /// them against it does (w < 0).
         ahead: bool,
     },
     /// They stay parallel.
@@ -25,7 +25,7 @@ pub enum VanishingPoint<S: Space> {
         /// The direction of the images; its length has no meaning.
         direction: Vector<S>,
     },
-    /// The lines run along the projectors, so that each of them shows as a single point.
+    /// The lines run along the projectors, so each appears as a single point.
     AlongProjectors,
 }
 
@@ -55,7 +55,8 @@ impl<S: Space> VanishingPoint<S> {
 /// ```
 ///
 /// # Errors
-/// If the direction is zero or not finite, or the map not finite, or the point too far away.
+/// Returns an error if the direction is zero or not finite, the map is not finite, or the point is
+/// too far away.
 pub fn vanishing_point<A: Space, B: Space>(
     map: Projective<A, B>,
     direction: Vector<A>,
@@ -72,7 +73,7 @@ pub fn vanishing_point<A: Space, B: Space>(
     classify_point(image, direction_rounding(map, unit))
 }
 
-/// The largest part of each image coordinate that can be rounding only.
+/// The largest part of each image coordinate that can be pure rounding.
 fn direction_rounding<A: Space, B: Space>(map: Projective<A, B>, direction: Vector<A>) -> DVec4 {
     let m = map.raw();
     let d = direction.raw().abs();
@@ -96,7 +97,7 @@ fn classify_point<S: Space>(
     Ok(VanishingPoint::AlongProjectors)
 }
 
-/// How many of the three axes have a vanishing point at a finite place.
+/// The number of axes with a finite vanishing point.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum PointPerspective {
     /// None: a parallel projection, or a central one with all axes parallel to the plane.
@@ -112,18 +113,18 @@ pub enum PointPerspective {
 /// The vanishing points of the three axes (C81, C83).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct PrincipalVanishingPoints<S: Space> {
-    /// Those of the x, y and z axis.
+    /// The vanishing points of the x, y and z axes.
     pub axes: [VanishingPoint<S>; 3],
 }
 
 impl<S: Space> PrincipalVanishingPoints<S> {
-    /// The number of axes that vanish at a finite place.
+    /// The number of axes with a finite vanishing point.
     #[must_use]
     pub fn count(&self) -> usize {
         self.axes.iter().filter(|axis| axis.point().is_some()).count()
     }
 
-    /// The kind of perspective that number makes.
+    /// The kind of perspective with that number.
     #[must_use]
     pub fn class(&self) -> PointPerspective {
         match self.count() {
@@ -137,11 +138,11 @@ impl<S: Space> PrincipalVanishingPoints<S> {
 
 /// The vanishing points of the three axes of space `A` under `map`.
 ///
-/// For a map without rotation (the bottom row p, q, r, s) this counts the non-zero among p, q and
+/// For a map without rotation (bottom row p, q, r, s) this counts the nonzero values among p, q and
 /// r.
 ///
 /// # Errors
-/// If the map is not finite.
+/// Returns an error if the map is not finite.
 pub fn principal_vanishing_points<A: Space, B: Space>(
     map: Projective<A, B>,
 ) -> Result<PrincipalVanishingPoints<B::Divided>, ProjectionError> {

@@ -1,4 +1,4 @@
-//! The view volume as geometry: corners, edges and planes of what a projection shows.
+//! The view volume as geometry: the corners, edges and planes of the visible region.
 //!
 //! ```text
 //!        7────────6     corners 0..3 on the near plane, 4..7 on the far plane,
@@ -34,7 +34,7 @@ pub struct ViewVolume {
 const ROUNDING: f64 = 1e-13;
 
 impl ViewVolume {
-    /// The pairs of corners that an edge joins: four near, four far, four along the line of sight.
+    /// The pairs of corners joined by an edge: four near, four far, four along the line of sight.
     pub const EDGES: [[usize; 2]; 12] = [
         [0, 1],
         [1, 2],
@@ -50,7 +50,7 @@ impl ViewVolume {
         [3, 7],
     ];
 
-    /// The volume that `view_to_clip` maps to the canonical one of `convention`.
+    /// The volume that `view_to_clip` maps to the canonical volume of `convention`.
     #[must_use]
     pub const fn new(view_to_clip: Projective<View, Clip>, convention: Convention) -> Self {
         Self { view_to_clip, convention }
@@ -59,7 +59,7 @@ impl ViewVolume {
     /// The six half-spaces whose intersection is the volume: left, right, bottom, top, near, far
     /// (CL-1).
     ///
-    /// A plane's value is not negative inside. Its normal does not have length 1.
+    /// The value of a plane is nonnegative inside. Its normal does not have length 1.
     #[must_use]
     pub fn planes(self) -> [Plane<View>; 6] {
         let rows = self.view_to_clip.raw().transpose();
@@ -71,8 +71,8 @@ impl ViewVolume {
             .map(Plane::from_raw)
     }
 
-    /// The eight corners, those at infinity with w = 0; `None` if the projection is singular, or a
-    /// corner has a coordinate that is not finite.
+    /// The eight corners, with w = 0 for those at infinity; `None` if the projection is singular or
+    /// a coordinate is not finite.
     #[must_use]
     pub fn corners(self) -> Option<[HPoint<View>; 8]> {
         let clip_to_view = self.view_to_clip.inverse()?;
@@ -87,17 +87,17 @@ impl ViewVolume {
         corners.iter().all(|corner| corner.is_finite()).then_some(corners)
     }
 
-    /// True if the point is shown; the borders belong to the volume (CL-1).
+    /// Returns whether the point is visible; the boundary belongs to the volume (CL-1).
     #[must_use]
     pub fn contains(self, point: Point<View>) -> bool {
         let inside = |plane: Plane<View>| plane.evaluate(point) >= 0.0;
         self.planes().into_iter().all(inside) && self.view_to_clip.transform_point(point).w() > 0.0
     }
 
-    /// The place from which the volume is seen: a point, or with w = 0 the direction towards an eye
-    /// at infinity.
+    /// The position from which the volume is seen: a point, or with w = 0 the direction toward an
+    /// eye at infinity.
     ///
-    /// `None` if the projection is singular, or a coordinate is not finite.
+    /// `None` if the projection is singular or a coordinate is not finite.
     #[must_use]
     pub fn eye(self) -> Option<HPoint<View>> {
         let clip_to_view = self.view_to_clip.inverse()?;
@@ -105,7 +105,7 @@ impl ViewVolume {
         let eye =
             clip_to_view.transform_hpoint(HPoint::from_raw(DVec4::new(0.0, 0.0, towards, 0.0)));
         let direction = eye.raw().truncate();
-        // The inverse of a parallel projection may have a w that is nothing but rounding.
+        // The inverse of a parallel projection may have a w that is pure rounding.
         let is_infinite = eye.w().abs() <= ROUNDING * direction.abs().max_element();
         let eye = if is_infinite { HPoint::from_raw(direction.extend(0.0)) } else { eye };
         eye.is_finite().then_some(eye)
@@ -113,7 +113,8 @@ impl ViewVolume {
 }
 
 impl Convention {
-    /// True if a point after the divide lies in the canonical view volume, borders included (C4).
+    /// Returns whether a point after the divide is in the canonical view volume, including the
+    /// boundary (C4).
     #[must_use]
     pub fn contains(self, point: Point<Ndc>) -> bool {
         let (near, far) = (self.near_depth(), self.far_depth());

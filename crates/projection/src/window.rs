@@ -4,12 +4,12 @@ use crate::ProjectionError;
 use crate::error::check_finite;
 use crate::matrix::WindowFit;
 
-/// A rectangle [left, right] × [bottom, top], in units of view space or, for slopes, without unit
+/// A rectangle [left, right] × [bottom, top], in units of view space or, for slopes, without units
 /// (C85).
 ///
 /// # Guarantees
-/// All edges are finite, opposite ones differ, and width and height are finite.
-/// Mirrored windows, left > right or bottom > top, are allowed: they give a mirrored picture.
+/// All edges are finite, opposite edges differ, and the width and height are finite. Mirrored
+/// windows, with left > right or bottom > top, are allowed: they give a mirrored picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Window {
     left: f64,
@@ -22,7 +22,8 @@ impl Window {
     /// The window with the given edges.
     ///
     /// # Errors
-    /// If an edge is not finite, opposite edges coincide, or they are too far apart.
+    /// Returns an error if an edge is not finite, opposite edges coincide, or they are too far
+    /// apart.
     pub fn new(left: f64, right: f64, bottom: f64, top: f64) -> Result<Self, ProjectionError> {
         check_finite("left", left)?;
         check_finite("right", right)?;
@@ -37,45 +38,45 @@ impl Window {
         Self { left, right, bottom, top }.check_edges()
     }
 
-    /// Refuses edges too far apart, or so near to each other that rounding made them one.
+    /// Rejects edges that are too far apart, or so close that rounding made them equal.
     pub(crate) fn check_edges(self) -> Result<Self, ProjectionError> {
         let usable = [self.width(), self.height()].iter().all(|d| d.is_finite() && *d != 0.0);
         usable.then_some(self).ok_or(ProjectionError::Unrepresentable { what: "window" })
     }
 
-    /// The window of the given size around the line of sight.
+    /// The window with the given size, centered on the line of sight.
     ///
     /// # Errors
-    /// If a size is not finite or 0.
+    /// Returns an error if a size is 0 or not finite.
     pub fn centered(width: f64, height: f64) -> Result<Self, ProjectionError> {
         let (x, y) = (0.5 * width, 0.5 * height);
         Self::new(-x, x, -y, y)
     }
 
-    /// Edges whose opposites are known to differ.
+    /// A window whose opposite edges are known to differ.
     pub(crate) const fn symmetric(half_width: f64, half_height: f64) -> Self {
         Self { left: -half_width, right: half_width, bottom: -half_height, top: half_height }
     }
 
-    /// Where the picture begins on the left.
+    /// The left edge of the picture.
     #[must_use]
     pub const fn left(self) -> f64 {
         self.left
     }
 
-    /// Where the picture ends on the right.
+    /// The right edge of the picture.
     #[must_use]
     pub const fn right(self) -> f64 {
         self.right
     }
 
-    /// Where the picture begins below.
+    /// The bottom edge of the picture.
     #[must_use]
     pub const fn bottom(self) -> f64 {
         self.bottom
     }
 
-    /// Where the picture ends above.
+    /// The top edge of the picture.
     #[must_use]
     pub const fn top(self) -> f64 {
         self.top
@@ -93,13 +94,13 @@ impl Window {
         self.top - self.bottom
     }
 
-    /// |width / height|: the aspect an image needs to show the window undistorted (PL-3).
+    /// |width / height|: the aspect at which an image shows the window undistorted (PL-3).
     #[must_use]
     pub fn aspect(self) -> f64 {
         (self.width() / self.height()).abs()
     }
 
-    /// The middle of the window, (x, y).
+    /// The center of the window, (x, y).
     #[must_use]
     pub fn center(self) -> (f64, f64) {
         (0.5 * self.left + 0.5 * self.right, 0.5 * self.bottom + 0.5 * self.top)
@@ -117,7 +118,7 @@ impl Window {
         }
     }
 
-    /// The window's map of x and y, for a view plane at `distance` (1 for parallel projections).
+    /// The map of x and y for a view plane at `distance` (1 for parallel projections).
     pub(crate) fn window_fit(self, distance: f64) -> Result<WindowFit, ProjectionError> {
         self.window_fit_unchecked(distance).check_fit()
     }

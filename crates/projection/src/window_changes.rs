@@ -1,7 +1,7 @@
-//! Changes of the window: lens shift, sub-images, jitter, and the four angles of a headset's eye.
+//! Changes of the window: lens shift, sub-images, jitter, and the four angles of a headset eye.
 //!
-//! All of them change the window and nothing else, so that they work alike for perspective and
-//! parallel projections and keep lines, depth and vanishing points where they are.
+//! They change only the window, so they work alike for perspective and parallel projections and
+//! leave lines, depth and vanishing points unchanged.
 //!
 //! ```
 //! use projection::{Convention, Fov, Perspective, ViewOffset};
@@ -18,41 +18,41 @@ use crate::error::{check_finite, check_positive};
 use crate::{Frustum, Orthographic, Perspective, ProjectionError, Window};
 use core::f64::consts::FRAC_PI_2;
 
-/// A sub-image of a larger picture, as three.js' view offset: a rectangle in pixels from the top
-/// left corner, y down. It may reach beyond the picture.
+/// A sub-image of a larger picture, like the view offset of three.js: a rectangle in pixels from
+/// the top left corner, y down. It may extend beyond the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ViewOffset {
-    /// Width and height of the whole picture.
+    /// The width and height of the whole picture.
     pub full: (f64, f64),
     /// The tile's top left corner.
     pub corner: (f64, f64),
-    /// Width and height of the tile.
+    /// The width and height of the tile.
     pub size: (f64, f64),
 }
 
-/// A sample position beside the pixel center, in pixels, x right and y down, for accumulated
+/// A sample position relative to the pixel center, in pixels, x right and y down, for accumulated
 /// antialiasing.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Jitter {
-    /// Width and height of the picture in pixels.
+    /// The width and height of the picture in pixels.
     pub image: (f64, f64),
-    /// The sample's distance from the pixel center, usually within ±½.
+    /// The offset of the sample from the pixel center, usually within ±½.
     pub offset: (f64, f64),
 }
 
-/// The angles from the line of sight to the four edges, in radians, right and up positive (as
-/// OpenXR has them).
+/// The angles from the line of sight to the four edges, in radians, right and up positive (as in
+/// OpenXR).
 ///
 /// A centered lens of 90° has left = down = −π/4 and right = up = π/4.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct FourAngles {
-    /// To the left edge, negative if it lies left of the line of sight.
+    /// The angle to the left edge, negative if the edge is left of the line of sight.
     pub left: f64,
-    /// To the right edge.
+    /// The angle to the right edge.
     pub right: f64,
-    /// To the lower edge, negative if it lies below the line of sight.
+    /// The angle to the bottom edge, negative if the edge is below the line of sight.
     pub down: f64,
-    /// To the upper edge.
+    /// The angle to the top edge.
     pub up: f64,
 }
 
@@ -60,8 +60,8 @@ impl FourAngles {
     /// The frustum between the four edges.
     ///
     /// # Errors
-    /// If an angle is not between −π/2 and π/2, opposite ones are equal, or the planes are not 0 <
-    /// near < far.
+    /// Returns an error if an angle is not between −π/2 and π/2, opposite angles are equal, or 0 <
+    /// near < far does not hold.
     pub fn frustum(self, near: f64, far: f64) -> Result<Frustum, ProjectionError> {
         let left = angle_slope("left angle", self.left)?;
         let right = angle_slope("right angle", self.right)?;
@@ -80,10 +80,10 @@ fn angle_slope(parameter: &'static str, angle: f64) -> Result<f64, ProjectionErr
 }
 
 impl Window {
-    /// The part of the window that `offset` shows. Neighbouring tiles share their edge exactly.
+    /// The part of the window that `offset` shows. Neighboring tiles share their edges exactly.
     ///
     /// # Errors
-    /// If a size is not above 0 or a number not finite.
+    /// Returns an error if a size is not above 0 or a number is not finite.
     pub fn view_offset(self, offset: ViewOffset) -> Result<Self, ProjectionError> {
         let width = check_positive("full width", offset.full.0)?;
         let height = check_positive("full height", offset.full.1)?;
@@ -99,21 +99,21 @@ impl Window {
         Self::new(left, right, down((y + h) / height), down(y / height))
     }
 
-    /// The window moved by `x` times its width to the right and `y` times its height up: a lens
+    /// The window shifted by `x` times its width to the right and `y` times its height up: a lens
     /// shift.
     ///
     /// # Errors
-    /// If a number is not finite.
+    /// Returns an error if a number is not finite.
     pub fn shifted(self, x: f64, y: f64) -> Result<Self, ProjectionError> {
         let dx = check_finite("shift x", x)? * self.width();
         let dy = check_finite("shift y", y)? * self.height();
         Self::new(self.left() + dx, self.right() + dx, self.bottom() + dy, self.top() + dy)
     }
 
-    /// The window moved so that pixel centers see what lay at the jitter's offset beside them.
+    /// The window shifted to make pixel centers sample the given offset.
     ///
     /// # Errors
-    /// If a size is not above 0 or a number not finite.
+    /// Returns an error if a size is not above 0 or a number is not finite.
     pub fn jittered(self, jitter: Jitter) -> Result<Self, ProjectionError> {
         let width = check_positive("image width", jitter.image.0)?;
         let height = check_positive("image height", jitter.image.1)?;
@@ -124,27 +124,27 @@ impl Window {
 macro_rules! window_methods {
     ($projection:ty, $result:ty, $with:expr) => {
         impl $projection {
-            /// The projection whose picture is the given tile of this one's.
+            /// The projection that shows only the given tile of this one's picture.
             ///
             /// # Errors
-            /// If a size is not above 0 or a number not finite.
+            /// Returns an error if a size is not above 0 or a number is not finite.
             pub fn view_offset(self, offset: ViewOffset) -> Result<$result, ProjectionError> {
                 $with(self, &|window: Window| window.view_offset(offset))
             }
 
-            /// The projection through the window moved by `x` times its width and `y` times its
+            /// The projection through the window shifted by `x` times its width and `y` times its
             /// height.
             ///
             /// # Errors
-            /// If a number is not finite.
+            /// Returns an error if a number is not finite.
             pub fn shifted(self, x: f64, y: f64) -> Result<$result, ProjectionError> {
                 $with(self, &|window: Window| window.shifted(x, y))
             }
 
-            /// The projection whose pixel centers see what lay at the jitter's offset beside them.
+            /// The projection whose pixel centers sample the given offset.
             ///
             /// # Errors
-            /// If a size is not above 0 or a number not finite.
+            /// Returns an error if a size is not above 0 or a number is not finite.
             pub fn jittered(self, jitter: Jitter) -> Result<$result, ProjectionError> {
                 $with(self, &|window: Window| window.jittered(jitter))
             }

@@ -1,6 +1,6 @@
-//! A visibility buffer as pictures: a depth map and a map of ids, `depth.png` and `ids.png`.
+//! A visibility buffer as pictures: a depth map, `depth.png`, and a map of ids, `ids.png`.
 //!
-//! Three hundred triangles at random places, one behind the other.
+//! Three hundred triangles at random positions and depths.
 
 use homog::Point;
 use raster::{Frame, Opacity, Samples, ScreenVertex};
@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let seen = frame.visibility_buffer();
     write("depth.png", seen.depth.iter().map(|depth| [(depth * 255.0) as u8; 3]))?;
-    // Neighboring ids get colors far apart.
+    // Neighboring ids get very different colors.
     let color = |id: u32| [id.wrapping_mul(97) as u8, id.wrapping_mul(57) as u8, !(id as u8)];
     write("ids.png", seen.ids.iter().map(|id| id.map_or([0; 3], color)))?;
     Ok(())
@@ -39,7 +39,7 @@ fn write(
     Ok(())
 }
 
-/// Numbers between 0 and 1 that look random and are the same every time.
+/// Numbers between 0 and 1 that look random but are the same in every run.
 struct Numbers(u64);
 
 impl Numbers {

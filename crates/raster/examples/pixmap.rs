@@ -1,8 +1,9 @@
-//! Triangles straight into a `tiny_skia::Pixmap`, and tiny-skia's strokes over them: `pixmap.png`.
+//! Triangles drawn directly into a `tiny_skia::Pixmap`, with tiny-skia's strokes on top:
+//! `pixmap.png`.
 //!
-//! `Frame::draw` takes any slice of pixels, and what becomes of a color is a closure: here one of
-//! the pixels that tiny-skia works with, whose codes are multiplied by alpha. Where nothing is
-//! drawn the pixmap stays transparent.
+//! `Frame::draw` takes any slice of pixels and a closure that encodes colors: here to tiny-skia's
+//! pixels, whose codes are premultiplied by alpha. Where nothing is drawn, the pixmap stays
+//! transparent.
 
 use homog::Point;
 use raster::{CullMode, Frame, Opacity, Samples, ScreenVertex, surface_fn};
@@ -23,13 +24,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let mut frame = Frame::new(256, 256, Samples::Sixteen)?;
     frame.add_mesh(&vertices, &triangles, 0, Opacity::Opaque, CullMode::Nothing);
-    // The facets of a star, each lighter than the one before.
+    // The facets of a star, each lighter than the previous one.
     let facets = surface_fn(|fragment| {
         let light = 0.2 + 0.07 * fragment.id as f32;
         [light, 0.8 * light, 0.3 * light, 1.0]
     });
     frame.draw(&facets, [0.0; 4], 2, pixmap.pixels_mut(), |[r, g, b, alpha]: [f32; 4]| {
-        // Light becomes codes by a square root, near enough to sRGB; then codes are multiplied by
+        // A square root encodes the light, close enough to sRGB; then the codes are multiplied by
         // alpha.
         let code = |light: f32| ((light * alpha).sqrt() * 255.0 + 0.5) as u8;
         let alpha = (alpha * 255.0 + 0.5) as u8;

@@ -1,7 +1,7 @@
 //! A spinning triangle, twelve frames on one strip: `triangle.png`.
 //!
-//! Everything a frame needs: vertices on the screen, indices, and a surface that says what color
-//! they have.
+//! Everything a frame needs: vertices on the screen, indices, and a surface that returns their
+//! color.
 
 use homog::Point;
 use raster::{CullMode, Frame, Opacity, Samples, ScreenVertex, surface_fn};

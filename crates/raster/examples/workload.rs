@@ -1,10 +1,9 @@
-//! A fixed piece of work for the rasteriser alone, to count its instructions: `cargo xtask bench
-//! --instructions`.
+//! A fixed workload for the rasterizer only, for counting its instructions: `cargo xtask
+//! bench --instructions`.
 //!
-//! Twenty thousand triangles of a few pixels, as models have them, and forty that cross the
-//! picture, one behind the other, drawn with the instructions that every processor has. The
-//! argument is the number of samples for each pixel. The printed number depends on every pixel, so
-//! that no work can be optimized away.
+//! Twenty thousand triangles of a few pixels, as in typical models, and forty that cross the
+//! picture one behind another, drawn with baseline instructions. The argument is the number of
+//! samples per pixel. The printed number depends on every pixel, so no work can be optimized away.
 
 #![allow(clippy::print_stdout, reason = "a program speaks on its standard output")]
 
@@ -16,7 +15,7 @@ const IMAGE_SIZE: (u32, u32) = (640, 360);
 const SMALL_TRIANGLES: u32 = 20_000;
 const LARGE_TRIANGLES: u32 = 40;
 
-/// Numbers without rhyme that are the same everywhere (Knuth's constants).
+/// Pseudorandom numbers that are the same everywhere (Knuth's constants).
 struct Random(u64);
 
 impl Random {
@@ -28,7 +27,7 @@ impl Random {
     }
 }
 
-/// A colour of the triangle's name, blended over its corners.
+/// A color derived from the triangle's id, blended over its corners.
 struct IdSurface;
 
 impl Surface for IdSurface {
@@ -84,7 +83,7 @@ fn draw_workload(samples: Samples) -> Result<u32, raster::RasterError> {
     Ok(pixels.as_flattened().iter().fold(2_166_136_261, mix))
 }
 
-/// A triangle of up to six pixels each way, with everything from the nearest to the farthest.
+/// A triangle up to six pixels wide and high, at any depth.
 fn small_triangle(dice: &mut Random) -> [Option<ScreenVertex>; 3] {
     let (x, y) =
         (dice.next_unit() * f64::from(IMAGE_SIZE.0), dice.next_unit() * f64::from(IMAGE_SIZE.1));

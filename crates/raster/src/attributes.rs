@@ -4,22 +4,23 @@ use crate::Fragment;
 use homog::Interpolate;
 
 impl Fragment<'_> {
-    /// The value of an attribute here, from its values at the three vertices of the primitive
-    /// (IN-2).
+    /// The value of an attribute at this fragment, from its values at the three vertices of the
+    /// primitive (IN-2).
     #[must_use]
     #[inline(always)]
     pub fn interpolate<A: Interpolate>(&self, values: [A; 3]) -> A {
         A::weighted_sum_f32(values, self.weights)
     }
 
-    /// The derivative of an attribute by the column of the pixel: its change per pixel to the right.
+    /// The derivative of an attribute with respect to the column: its change per pixel to the
+    /// right.
     #[must_use]
     #[inline]
     pub fn interpolate_dx<A: Interpolate>(&self, values: [A; 3]) -> A {
         A::weighted_sum_f32(values, self.weights_dx())
     }
 
-    /// The derivative of an attribute by the row of the pixel, downwards.
+    /// The derivative of an attribute with respect to the row: its change per pixel down.
     #[must_use]
     #[inline]
     pub fn interpolate_dy<A: Interpolate>(&self, values: [A; 3]) -> A {
@@ -27,8 +28,7 @@ impl Fragment<'_> {
     }
 }
 
-/// An attribute of the vertices of a mesh: texture coordinates, colors, or a struct of all there
-/// is.
+/// A vertex attribute of a mesh: texture coordinates, colors, or a struct of several attributes.
 ///
 /// ```
 /// use homog::Point;
@@ -55,7 +55,7 @@ impl Fragment<'_> {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct VertexAttribute<'a, A> {
-    /// The id that the first triangle was added with.
+    /// The id with which the first triangle was added.
     pub first_id: u32,
     /// The triangles of the mesh.
     pub triangles: &'a [[u32; 3]],
@@ -79,18 +79,18 @@ impl<'a, A: Interpolate> VertexAttribute<'a, A> {
     /// The value in a fragment of the mesh.
     ///
     /// # Panics
-    /// If the fragment belongs to no triangle of the mesh, or a vertex has no value.
+    /// Panics if the fragment does not belong to a triangle of the mesh, or a vertex has no value.
     #[must_use]
     #[inline(always)]
     pub fn at(&self, fragment: &Fragment<'_>) -> A {
         fragment.interpolate(self.corners(fragment.id))
     }
 
-    /// The change of the value per pixel to the right and downwards: what textures choose their mip
-    /// level by.
+    /// The change of the value per pixel to the right and down; textures use it to choose the mip
+    /// level.
     ///
     /// # Panics
-    /// As [`at`](Self::at).
+    /// See [`at`](Self::at).
     #[must_use]
     #[inline]
     pub fn derivatives(&self, fragment: &Fragment<'_>) -> [A; 2] {

@@ -1,7 +1,7 @@
-//! The buffer pool of a frame: memory that drawing needs, kept from one drawing to the next.
+//! The buffer pool of a frame: memory for drawing, kept from one drawing to the next.
 //!
-//! Bins and tiles of a picture take some megabytes. With the pool a frame that is drawn again and
-//! again, as in an animation, allocates nothing after the first time (a test holds that).
+//! The bins and tiles of a picture take a few megabytes. With the pool, a frame that is drawn
+//! repeatedly, as in an animation, allocates nothing after the first time (a test checks this).
 
 use crate::tile_bins::TileBins;
 use crate::tile_resolve::RowScratch;
@@ -25,9 +25,10 @@ pub(crate) struct ThreadBuffers {
     pub(crate) scratch: RowScratch,
 }
 
-/// Buffers that wait for the next drawing.
+/// Buffers kept for the next drawing.
 ///
-/// A frame that is drawn twice at the same time, and a clone of a frame, begin with empty buffers.
+/// If a frame is drawn twice at the same time, or cloned, the new drawing starts with empty
+/// buffers.
 #[derive(Debug, Default)]
 pub(crate) struct BufferPool(Mutex<DrawBuffers>);
 

@@ -1,27 +1,27 @@
-//! Clipped meshes: from positions to the frame, with clipping before the divide in between.
+//! Clipped meshes: from positions to the frame, with clipping before the divide.
 //!
 //! ```text
 //!   positions ─source_to_clip─► outcodes ─► all inside ──────────────► ÷ w, snap ─► frame
 //!                                        └► some outside ─► clip_triangle ─┘
 //! ```
 //!
-//! [`Frame::add_mesh`] takes vertices on the screen, and a triangle with a vertex behind the eye
-//! has none there: it is left out, and with it a floor under the viewer's feet. Clipping cuts such
+//! [`Frame::add_mesh`] takes vertices on the screen, where a vertex behind the eye has no position.
+//! Its triangles are omitted, and with them a floor under the viewer's feet. Clipping cuts such
 //! triangles at the near plane while they are still in homogeneous coordinates (CL-3). At the sides
-//! of the picture a guard band far outside takes the place of the planes (CL-4).
+//! of the picture, a guard band far outside replaces the planes (CL-4).
 
 use crate::{CullMode, Frame, GUARD_BAND, Opacity, ScreenVertex, VertexProjection, signed_area};
 use clip::{ClippedSegment, Outcode, Volume, clip_segment, clip_triangle};
 use homog::{Affine, Clip, ClipRange, HPoint, Ndc, Projective, Screen, Space};
 use viewport::Viewport;
 
-/// The way from clip space to the pixels of a frame: what is clipped, and where the rest lands.
+/// The map from clip space to the pixels of a frame, with the clipping volume.
 #[derive(Clone, Copy, Debug)]
 pub struct ScreenProjection {
     ndc_to_screen: Affine<Ndc, Screen>,
-    /// Near and far plane, and the sides moved out to the guard band.
+    /// The near and far planes, and the sides moved out to the guard band.
     volume: Volume,
-    /// The sign by which the winding on the screen differs from that in clip space.
+    /// The sign that relates the winding on the screen to the winding in clip space.
     winding: f64,
 }
 
@@ -37,12 +37,12 @@ pub struct SourceMesh<'a> {
     pub first_id: u32,
     /// How the triangles take part in visibility.
     pub opacity: Opacity,
-    /// The winding of the triangles that are left out.
+    /// The winding of the triangles to cull.
     pub cull: CullMode,
 }
 
 impl<'a> SourceMesh<'a> {
-    /// A mesh of opaque triangles whose ids count up from 0, and of which none is culled.
+    /// A mesh of opaque triangles with ids that count up from 0, without culling.
     #[must_use]
     pub const fn new(positions: &'a [[f32; 3]], triangles: &'a [[u32; 3]]) -> Self {
         let (opacity, cull) = (Opacity::Opaque, CullMode::Nothing);
@@ -61,7 +61,7 @@ impl<'a> SourceMesh<'a> {
         Self { opacity, ..self }
     }
 
-    /// This mesh without triangles of one winding.
+    /// This mesh with triangles of one winding culled.
     #[must_use]
     pub const fn with_culling(self, cull: CullMode) -> Self {
         Self { cull, ..self }
@@ -69,8 +69,8 @@ impl<'a> SourceMesh<'a> {
 }
 
 impl ScreenProjection {
-    /// The way through a viewport, such as [`Viewport::image_for`] of the frame's size and the
-    /// projection's convention.
+    /// The projection through a viewport, such as [`Viewport::image_for`] with the size of the
+    /// frame and the convention of the projection.
     #[must_use]
     pub fn new(viewport: &Viewport) -> Self {
         // The grid ends GUARD_BAND pixels beyond the picture; one pixel less is a margin for
@@ -93,11 +93,11 @@ impl ScreenProjection {
         }
     }
 
-    /// The way to an image of `width` × `height` pixels for a projection of this range: a
-    /// [`ClipRange`] or a `projection::Convention`.
+    /// The projection to an image of `width` × `height` pixels, for a projection matrix of this
+    /// range: a [`ClipRange`] or a `projection::Convention`.
     ///
     /// # Errors
-    /// If the image has no pixels.
+    /// Returns an error if the image has no pixels.
     pub fn for_image(
         width: u32,
         height: u32,
@@ -106,13 +106,14 @@ impl ScreenProjection {
         Ok(Self::new(&Viewport::image_for(width, height, range)?))
     }
 
-    /// What geometry is clipped against.
+    /// The clipping volume.
     #[must_use]
     pub const fn volume(&self) -> &Volume {
         &self.volume
     }
 
-    /// This way with another clipping volume: one with further planes, or without near or far.
+    /// This projection with another clipping volume: with additional planes, or without near or
+    /// far.
     #[must_use]
     pub const fn with_volume(self, volume: Volume) -> Self {
         Self { volume, ..self }
@@ -125,14 +126,14 @@ impl ScreenProjection {
     }
 
     /// Perspective divide, viewport transform and snapping; `None` if the point cannot be drawn
-    /// unclipped.
+    /// without clipping.
     #[must_use]
     #[inline]
     pub fn snap(&self, point: HPoint<Clip>) -> Option<ScreenVertex> {
         ScreenVertex::snap(self.ndc_to_screen.transform_point(point.divide()?), point.w())
     }
 
-    /// The vertices of a primitive on the screen; `None` if one of them cannot be drawn.
+    /// The vertices of a primitive on the screen; `None` if any of them cannot be drawn.
     #[must_use]
     #[inline]
     pub fn snap_all<const N: usize>(&self, points: [HPoint<Clip>; N]) -> Option<[ScreenVertex; N]> {
@@ -143,11 +144,11 @@ impl ScreenProjection {
         Some(vertices)
     }
 
-    /// Whether a triangle that may reach behind the eye has a winding that is kept.
+    /// Whether the winding of a triangle that may reach behind the eye survives culling.
     ///
     /// The sign of the determinant of the (x, y, w) of its vertices is its winding before the
     /// divide (Olano and Greer, *Triangle Scan Conversion using 2D Homogeneous Coordinates*, 1997).
-    /// It is right also with vertices behind the eye, where the divide would reverse it.
+    /// It is correct even with vertices behind the eye, where the divide would reverse the winding.
     fn retains(&self, cull: CullMode, [p, q, r]: [HPoint<Clip>; 3]) -> bool {
         let [[px, py, _, pw], [qx, qy, _, qw], [rx, ry, _, rw]] = [p, q, r].map(<[f64; 4]>::from);
         let determinant =
@@ -156,14 +157,15 @@ impl ScreenProjection {
     }
 }
 
-/// The sign as a number, 0 for 0 and NaN.
+/// The sign as a number; 0 for 0 and NaN.
 fn sign(x: f64) -> i64 {
     i64::from(x > 0.0) - i64::from(x < 0.0)
 }
 
 impl Frame {
-    /// Adds a mesh of any space: transforms, clips before the divide, culls and snaps it. What
-    /// crosses the near plane is cut there, and its fragments carry weights of the whole triangles.
+    /// Adds a mesh in any space: transforms, clips before the divide, culls and snaps it. Triangles
+    /// that cross the near plane are cut there, and their fragments carry weights of the whole
+    /// triangles.
     ///
     /// ```
     /// use projection::{Convention, Fov, Perspective};
@@ -180,7 +182,7 @@ impl Frame {
     /// frame.add_clipped_mesh(&screen, lens.view_to_clip(convention), floor);
     ///
     /// let ids = frame.visibility_buffer().ids;
-    /// // All of the lower half: 18 rows of 48 pixels.
+    /// // The whole lower half: 18 rows of 48 pixels.
     /// assert_eq!(ids.iter().filter(|id| id.is_some()).count(), 864);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -209,7 +211,7 @@ impl Frame {
             simd_level,
             &mut vertices,
         );
-        // Beyond the near plane a vertex may be on the screen all the same.
+        // A vertex in front of the near plane may still be on the screen.
         for (vertex, code) in vertices.iter_mut().zip(&outcodes) {
             *vertex = vertex.filter(|_| code.is_inside());
         }
@@ -228,7 +230,7 @@ impl Frame {
         }
     }
 
-    /// Clips one triangle of clip space and adds what is left of it.
+    /// Clips a triangle in clip space and adds the visible part.
     pub fn clip_triangle(
         &mut self,
         screen: &ScreenProjection,
@@ -249,7 +251,7 @@ impl Frame {
         }
     }
 
-    /// Clips a line of clip space, `width` pixels wide, and adds what is left of it.
+    /// Clips a line in clip space, `width` pixels wide, and adds the visible part.
     pub fn clip_line(
         &mut self,
         screen: &ScreenProjection,
@@ -267,7 +269,7 @@ impl Frame {
 }
 
 impl ScreenProjection {
-    /// Whether the box around positions is inside the volume, so that nothing needs clipping.
+    /// Whether the bounding box of the positions is inside the volume, so no clipping is needed.
     fn holds_box_of<S: Space>(
         &self,
         source_to_clip: Projective<S, Clip>,
@@ -308,8 +310,8 @@ mod tests {
         let corners =
             [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)].map(|(x, y)| HPoint::new(x, y, 0.0, 1.0));
         let [p, q, r] = corners;
-        // A vertex moved through the eye's plane, along the line from another: the surface still
-        // shows the same face.
+        // A vertex moved through the plane of the eye, along the line from another vertex: the
+        // surface still shows the same face.
         let [[qx, qy, ..], [rx, ry, ..]] = [q, r].map(<[f64; 4]>::from);
         let behind = HPoint::new(4.0 * qx - 3.0 * rx, 4.0 * qy - 3.0 * ry, 0.0, 1.0);
         for triangle in [[p, q, r], [p, behind, r]] {

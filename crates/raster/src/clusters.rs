@@ -1,4 +1,4 @@
-//! Cluster culling: runs of a mesh's triangles that are drawn or left out together.
+//! Cluster culling: runs of triangles in a mesh that are drawn or culled together.
 //!
 //! ```text
 //!    ╲ │ ╱   normals of the cluster's triangles within a cone
@@ -8,19 +8,19 @@
 //! ```
 //!
 //! Much of a large mesh is outside the picture or faces away. A cluster is a run of consecutive
-//! triangles with their bounding box and a cone around their normals, so that one test decides for
-//! all of them (Shirman and Abi-Ezzi, *The Cone of Normals Technique*, 1993). Triangles keep their
+//! triangles with their bounding box and a cone around their normals, so one test decides for all
+//! of them (Shirman and Abi-Ezzi, *The Cone of Normals Technique*, 1993). Triangles keep their
 //! order and their ids, so culling never changes a bit of the picture.
 
 use core::ops::Range;
 use glam::DVec3;
 use homog::{HPoint, Space};
 
-/// The most triangles in a cluster: few enough for tight bounds, enough that a test costs little
-/// per triangle.
+/// The maximum number of triangles in a cluster: few enough for tight bounds, and enough to make
+/// the test cheap per triangle.
 const CLUSTER_TRIANGLES: usize = 64;
-/// The margin of the cone test, relative to the vector to the viewer: single precision, and the
-/// snapping of vertices to the grid, may turn a face that is seen edge-on.
+/// The margin of the cone test, relative to the vector to the viewer: single precision and vertex
+/// snapping may flip a face that is seen edge-on.
 const CONE_MARGIN: f64 = 1e-3;
 
 /// The clusters of a mesh, in the order of its triangles, in the space of its positions.
@@ -37,16 +37,15 @@ pub struct Cluster {
     triangles: [u32; 2],
     vertices: [u32; 2],
     bounds: [[f32; 3]; 2],
-    /// The axis of the cone around the normals, times the cosine of its half angle; zero if the
-    /// normals are in no half-space.
+    /// The axis of the cone around the normals, times the cosine of its half angle; zero if no
+    /// half-space contains the normals.
     cone_axis: [f32; 3],
 }
 
 impl Clusters {
-    /// Builds the clusters of a mesh. Triangles with a vertex index that is out of range are
-    /// ignored.
+    /// Builds the clusters of a mesh. Triangles with an out-of-range vertex index are ignored.
     ///
-    /// Without `cones` no cluster is ever [back-facing](Cluster::is_back_facing), and building
+    /// Without `cones`, no cluster is ever [back-facing](Cluster::is_back_facing), and building
     /// takes half the time.
     #[must_use]
     pub fn build(positions: &[[f32; 3]], triangles: &[[u32; 3]], cones: bool) -> Self {
@@ -64,14 +63,14 @@ impl Clusters {
         &self.list
     }
 
-    /// The bounding box of the mesh, as least and greatest coordinates; [∞, −∞] if it is empty.
+    /// The bounding box of the mesh, as minimum and maximum coordinates; [∞, −∞] if it is empty.
     #[must_use]
     pub fn bounds(&self) -> [[f32; 3]; 2] {
         self.list.iter().fold(EMPTY_BOUNDS, |bounds, cluster| union_bounds(bounds, &cluster.bounds))
     }
 }
 
-/// The bounding box of no points.
+/// The bounding box of an empty set of points.
 const EMPTY_BOUNDS: [[f32; 3]; 2] = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
 
 impl Cluster {
@@ -116,28 +115,28 @@ impl Cluster {
         self.triangles[0] as usize..self.triangles[1] as usize
     }
 
-    /// The range of indices of all vertices that the triangles use.
+    /// The range of vertex indices that the triangles use.
     #[must_use]
     pub fn vertices(&self) -> Range<usize> {
         self.vertices[0] as usize..self.vertices[1] as usize
     }
 
-    /// The bounding box: the least and the greatest coordinates of the vertices.
+    /// The bounding box: the minimum and maximum coordinates of the vertices.
     #[must_use]
     pub const fn bounds(&self) -> [[f32; 3]; 2] {
         self.bounds
     }
 
-    /// Back-face culling of the cluster: whether certainly all of its triangles face away from the
+    /// Back-face culling of the cluster: whether all of its triangles certainly face away from the
     /// viewer.
     ///
-    /// The viewer is an eye, or a direction towards it as a point at infinity. Fronts are
-    /// counter-clockwise.
+    /// The viewer is an eye, or a direction toward it as a point at infinity. Front faces are
+    /// counterclockwise.
     ///
-    /// With the viewer `e` and a vertex `p`, a triangle of normal `n` faces away if n · (e − e_w p)
-    /// < 0. The box bounds all `p`, the cone all `n`: the greatest product is that of the vector
-    /// from the box's center with the nearest normal of the cone, and at most the box's radius
-    /// more.
+    /// With the viewer `e` and a vertex `p`, a triangle with normal `n` faces away if n · (e − e_w
+    /// p) < 0. The box bounds all `p`, the cone all `n`. The maximum product belongs to the vector
+    /// from the center of the box and the nearest normal of the cone, plus at most the radius of
+    /// the box.
     #[must_use]
     pub fn is_back_facing<S: Space>(&self, viewer: HPoint<S>) -> bool {
         let axis = DVec3::from_array(self.cone_axis.map(f64::from));
@@ -148,21 +147,21 @@ impl Cluster {
         let axis = axis / cosine;
         let [least, greatest] = self.bounds.map(|corner| DVec3::from_array(corner.map(f64::from)));
         let (eye, w) = (viewer.raw().truncate(), viewer.w());
-        // From the box's center; in parallel projection w is 0 and the direction is the viewer's
-        // own.
+        // From the center of the box; in parallel projection w is 0 and the direction is already
+        // that to the viewer.
         let to_viewer = eye - (least + greatest) * (0.5 * w);
         let radius = (greatest - least).length() * (0.5 * w.abs());
         let along = to_viewer.dot(axis);
         let across = (to_viewer.length_squared() - along * along).max(0.0).sqrt();
         let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-        // The cosine of the difference of two angles: from the axis to the viewer, which is above a
-        // right angle, and from the axis to the cone's border, which is below.
+        // The cosine of the difference of two angles: from the axis to the viewer, which exceeds a
+        // right angle, and from the axis to the border of the cone, which does not.
         let greatest = along * cosine + across * sine + radius;
         along < 0.0 && greatest < -CONE_MARGIN * to_viewer.length()
     }
 }
 
-/// The bounding box of two boxes.
+/// The union of two bounding boxes.
 #[inline(always)]
 fn union_bounds([low, high]: [[f32; 3]; 2], other: &[[f32; 3]; 2]) -> [[f32; 3]; 2] {
     [min_coordinates(low, other[0]), max_coordinates(high, other[1])]
@@ -170,7 +169,7 @@ fn union_bounds([low, high]: [[f32; 3]; 2], other: &[[f32; 3]; 2]) -> [[f32; 3];
 
 #[inline(always)]
 fn min_coordinates(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    // Written out, these are single instructions; `f32::min` takes several, to handle NaN.
+    // Written this way, these are single instructions; `f32::min` takes several, to handle NaN.
     [0, 1, 2].map(|k| if a[k] < b[k] { a[k] } else { b[k] })
 }
 
@@ -201,21 +200,21 @@ impl TriangleNormals {
             return;
         };
         let (a, b) = (subtract(q, p), subtract(r, p));
-        // The cross product of two edges, twice the area long.
+        // The cross product of two edges, with a length of twice the area.
         let normal =
             [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
         let squared = dot(normal, normal);
-        // In thinner triangles the rounding of the cross product would turn the normal.
+        // In thinner triangles, the rounding of the cross product would rotate the normal.
         self.are_known &= squared > dot(a, a) * dot(b, b) * 1e-6 && squared.is_normal();
         let inv_length = 1.0 / squared.sqrt();
         self.list[self.count] = normal.map(|coordinate| coordinate * inv_length);
         self.count += 1;
     }
 
-    /// The axis of the cone around the normals, times the cosine of its half angle; zero if the
-    /// cone is no narrower than a half-space, or a normal is unknown.
+    /// The axis of the cone around the normals, times the cosine of its half angle. Zero if the
+    /// cone is at least as wide as a half-space, or if a normal is unknown.
     ///
-    /// The axis is the mean of the normals. A minimal cone would cull a little more and cost much
+    /// The axis is the mean of the normals. A minimal cone would cull slightly more but cost much
     /// more.
     fn normal_cone(&self) -> [f32; 3] {
         let list = if self.are_known { &self.list[..self.count] } else { &[] };
@@ -241,7 +240,7 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// The part of a mesh that is to be drawn: runs of its triangles, and the vertices that they need.
+/// The part of a mesh to draw: runs of its triangles, and the vertices that they need.
 #[derive(Clone, Debug, Default)]
 pub struct MeshSelection {
     /// Runs of triangles in order, none adjacent to the next.
@@ -250,11 +249,12 @@ pub struct MeshSelection {
     vertex_blocks: Vec<bool>,
 }
 
-/// Vertices are needed, or not, in blocks of so many: eight vectors of eight lanes.
+/// The number of vertices in a block, which are needed together or not: eight vectors of eight
+/// lanes.
 const VERTEX_BLOCK: usize = 64;
 
 impl MeshSelection {
-    /// Selects nothing of a mesh with `vertices` vertices.
+    /// Clears the selection, for a mesh with `vertices` vertices.
     pub fn clear(&mut self, vertices: usize) {
         self.triangle_runs.clear();
         self.vertex_blocks.clear();
@@ -295,7 +295,8 @@ impl MeshSelection {
         &self.triangle_runs
     }
 
-    /// The needed vertices among some: runs of indices counted from `among.start`, in order.
+    /// The needed vertices in the range `among`: runs of indices counted from `among.start`, in
+    /// order.
     ///
     /// `among` must begin at a multiple of the block size, 64.
     pub fn vertices_within(&self, among: Range<usize>) -> impl Iterator<Item = Range<usize>> {
@@ -318,7 +319,8 @@ mod tests {
     use homog::Model;
     use proptest::prelude::*;
 
-    /// A ball of rings and spokes, its fronts outside; at the poles triangles are degenerate.
+    /// A ball of rings and spokes, with its front faces outside; triangles at the poles are
+    /// degenerate.
     fn ball(rings: u32, spokes: u32) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
         let place = |ring: u32, spoke: u32| {
             let angle =
@@ -360,7 +362,7 @@ mod tests {
                 }
             }
             let backs = triangles.iter().filter(|&&t| faces(&positions, t, viewer) < 0.0).count();
-            // From infinity half of the ball is turned away, and most of it in whole clusters.
+            // From infinity half of the ball faces away, most of it in whole clusters.
             prop_assert!(viewer.w() > 0.0 || 10 * away >= 6 * backs, "{away} of {backs}");
         }
     }
@@ -409,7 +411,7 @@ mod tests {
             let needed = clusters.as_slice()[at].vertices();
             assert!(all.iter().any(|run| run.start <= needed.start && needed.end <= run.end));
         }
-        // In two parts they are the same.
+        // Projected in two parts, they are the same.
         let parts = [0..512, 512..positions.len()].map(|part| {
             let runs: Vec<_> = selection.vertices_within(part.clone()).collect();
             runs.iter().flat_map(|run| run.start + part.start..run.end + part.start).collect()

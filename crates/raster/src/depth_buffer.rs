@@ -1,4 +1,4 @@
-//! Depth buffers: the depths of a frame by themselves, to be read, and to be drawn over.
+//! Depth buffers: the depths of a frame without colors, for reading or for a second pass.
 //!
 //! ```text
 //!   Frame ─ depth_buffer ─► DepthBuffer ─ with_depth_buffer ─► another Frame
@@ -32,15 +32,15 @@ use homog::PixelRect;
 pub struct DepthBuffer {
     region: PixelRect,
     samples: Samples,
-    /// Sample after sample, each with the rows of its pixels.
+    /// Sample by sample, each with the rows of its pixels.
     depths: Vec<f32>,
 }
 
 impl DepthBuffer {
-    /// A buffer of depths of one sample for each pixel, rows from the top; −∞, or +∞ for
-    /// [`DepthCompare::Less`], where there is nothing.
+    /// A buffer with one depth sample per pixel, rows from the top. Empty pixels have −∞, or +∞ for
+    /// [`DepthCompare::Less`].
     ///
-    /// # Errors
+    /// Returns [`RasterError::DepthCount`] unless there are `width` × `height` depths.
     /// [`RasterError::DepthCount`] unless there are `width` × `height` depths.
     pub fn from_depths(width: u32, height: u32, depths: Vec<f32>) -> Result<Self, RasterError> {
         let region = PixelRect::from_size(width, height);
@@ -50,26 +50,26 @@ impl DepthBuffer {
         }
     }
 
-    /// Width in pixels.
+    /// The width in pixels.
     #[must_use]
     pub const fn width(&self) -> u32 {
         self.region.width
     }
 
-    /// Height in pixels.
+    /// The height in pixels.
     #[must_use]
     pub const fn height(&self) -> u32 {
         self.region.height
     }
 
-    /// The depths at the first sample of each pixel, rows from the top. With one sample it is the
-    /// center.
+    /// The depths at the first sample of each pixel, rows from the top. With one sample per pixel,
+    /// it is at the center.
     #[must_use]
     pub fn depths(&self) -> &[f32] {
         &self.depths[..self.region.area()]
     }
 
-    /// The depth at the first sample of a pixel; that of nothing outside of the buffer.
+    /// The depth at the first sample of a pixel; outside the buffer, the depth of an empty pixel.
     #[must_use]
     pub fn depth(&self, x: u32, y: u32) -> f32 {
         let is_inside = x < self.region.width && y < self.region.height;
@@ -82,12 +82,12 @@ impl DepthBuffer {
         self.depths.len()
     }
 
-    /// Whether a frame's pixels and samples are those of this buffer.
+    /// Whether the pixels and samples of a frame match this buffer.
     pub(crate) fn fits(&self, region: PixelRect, samples: Samples) -> bool {
         (self.region, self.samples) == (region, samples)
     }
 
-    /// Begins a tile's sample plane with the depths that are here.
+    /// Initializes the sample plane of a tile with these depths.
     pub(crate) fn copy_into_plane(
         &self,
         compare: DepthCompare,
@@ -109,16 +109,16 @@ impl DepthBuffer {
 }
 
 impl Frame {
-    /// The depth at every sample: depth without color. −∞, or +∞ for [`DepthCompare::Less`], where
-    /// there is nothing, unless the frame began with other depths.
+    /// The depth at every sample: depth without color. Empty samples have −∞, or +∞ for
+    /// [`DepthCompare::Less`], unless the frame began with other depths.
     ///
-    /// Masked primitives count where `surface` passes the alpha test, translucent ones not at all.
-    /// Uses up to `threads` threads, with the same result for any number.
+    /// Masked primitives count where `surface` passes the alpha test; translucent ones do not
+    /// count. Uses up to `threads` threads; the result is the same for any number.
     #[must_use]
     pub fn depth_buffer<S: Surface>(&self, surface: &S, threads: usize) -> DepthBuffer {
         let (area, count) = (self.region.area(), self.samples.count());
         let empty = self.compare.to_internal(f32::NEG_INFINITY);
-        // Pixel after pixel in bands, and then sample after sample.
+        // Pixel by pixel in bands first, then rearranged sample by sample.
         let mut depths = match &self.initial_depth {
             Some(initial) => interleave(&initial.depths, count),
             None => vec![empty; area * count],
@@ -151,10 +151,10 @@ impl Frame {
         }
     }
 
-    /// Draws the frame over the picture that `target` holds: linear colors, premultiplied by alpha,
-    /// rows from the top. Pixels without a fragment that passes keep their color.
+    /// Draws the frame over the picture in `target`: linear colors, premultiplied by alpha, rows
+    /// from the top. Pixels without a passing fragment keep their color.
     ///
-    /// With the [depth buffer](Self::with_depth_buffer) of that picture this is a second pass over
+    /// With the [depth buffer](Self::with_depth_buffer) of that picture, this is a second pass over
     /// it. Translucent primitives are blended by their alpha.
     pub fn draw_over<S: Surface>(&self, surface: &S, threads: usize, target: &mut [[f32; 4]]) {
         let mut layer = vec![[0.0; 4]; target.len()];
@@ -168,7 +168,7 @@ impl Frame {
     }
 }
 
-/// The samples of each pixel side by side.
+/// Stores the samples of each pixel side by side.
 fn interleave(depths: &[f32], count: usize) -> Vec<f32> {
     let area = depths.len() / count.max(1);
     (0..area)

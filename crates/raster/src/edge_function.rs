@@ -15,8 +15,8 @@ use crate::ScreenVertex;
 
 /// The edge function E(x, y) = a x + b y + c in grid steps, exact in 64 bits.
 ///
-/// The top-left rule is folded into c: for an edge that does not own its samples c is one less, so
-/// that E ≥ 0 if and only if the sample is inside.
+/// The top-left rule is part of c: if an edge does not own its samples, c is reduced by one, so E ≥
+/// 0 if and only if the sample is inside.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EdgeFunction {
     pub(crate) a: i64,
@@ -25,8 +25,8 @@ pub(crate) struct EdgeFunction {
 }
 
 impl EdgeFunction {
-    /// The edge from `start` to `end` of a triangle of positive area (clockwise on a screen with y
-    /// down).
+    /// The edge from `start` to `end` of a triangle with positive area (clockwise on a screen with
+    /// y down).
     pub(crate) fn new(start: ScreenVertex, end: ScreenVertex) -> Self {
         let (x, y) = (i64::from(start.x), i64::from(start.y));
         let a = y - i64::from(end.y);
@@ -34,8 +34,8 @@ impl EdgeFunction {
         // Top-left rule. (a, b) is the inner normal: it points right on a left edge, and down
         // (larger y) on a top edge.
         let is_top_left = a > 0 || (a == 0 && b > 0);
-        // E is 0 on the edge; the bias of one step makes E = 0 negative where the edge does not own
-        // it.
+        // E is 0 on the edge; the bias of one step makes it negative where the edge does not own
+        // its samples.
         Self { a, b, c: -(a * x + b * y) - i64::from(!is_top_left) }
     }
 
@@ -45,11 +45,11 @@ impl EdgeFunction {
     }
 }
 
-/// Twice the signed area of a triangle in square grid steps: positive if its vertices run clockwise
-/// on the screen (y down); 0 if it is degenerate.
+/// Twice the signed area of a triangle in square grid steps: positive if its vertices are clockwise
+/// on the screen (y down), 0 if it is degenerate.
 ///
-/// A surface whose front is counter-clockwise (glTF, OpenGL) has a **negative** area here when it
-/// faces the viewer. The result is exact: coordinates have 23 bits within the guard band.
+/// A surface whose front faces are counterclockwise (glTF, OpenGL) has a **negative** area here
+/// when it faces the viewer. The result is exact: coordinates have 23 bits within the guard band.
 #[must_use]
 pub fn signed_area([p, q, r]: [ScreenVertex; 3]) -> i64 {
     let (qx, qy) = (i64::from(q.x) - i64::from(p.x), i64::from(q.y) - i64::from(p.y));
@@ -67,7 +67,7 @@ mod tests {
 
     #[test]
     fn counter_clockwise_with_y_up_is_negative_area_on_the_screen() {
-        // y up: (0,0) (1,0) (0,1) is counter-clockwise; with y down its corners are (0,1) (1,1)
+        // y up: (0,0) (1,0) (0,1) is counterclockwise; with y down its corners are (0,1) (1,1)
         // (0,0).
         assert!(signed_area([vertex(0, 256), vertex(256, 256), vertex(0, 0)]) < 0);
     }

@@ -1,5 +1,5 @@
-//! Multisample resolve of edge pixels: several opaque triangles share the samples of a pixel, whose
-//! color is the mean of theirs.
+//! Multisample resolve of edge pixels: several opaque triangles share the samples of a pixel, and
+//! its color is the mean of theirs.
 //!
 //! ```text
 //!   A A A A B B B B     the triangle of each pixel's first sample: shaded as eight neighbors are
@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Each triangle is shaded once per pixel, weighted by its number of samples. Colors are summed
-//! channel by channel, so that the means of eight pixels are computed and encoded at once.
+//! channel by channel, so the means of eight pixels are computed and encoded at once.
 
 use crate::Samples;
 use crate::fragment_lanes::{F32x8, LANES};
@@ -18,7 +18,7 @@ use std::ops::Range;
 /// The edge pixels in one row of a tile.
 #[derive(Debug)]
 pub(crate) struct EdgePixels {
-    /// For each pixel red, green, blue and alpha, summed over its samples.
+    /// For each pixel, red, green, blue and alpha, summed over its samples.
     color_sums: [[f32; TILE as usize]; 4],
     /// The blocks of eight pixels with edge pixels, one bit each.
     blocks: u32,
@@ -40,13 +40,13 @@ impl EdgePixels {
         self.contributions.clear();
     }
 
-    /// The contributions that are still to be shaded and added, from left to right.
+    /// The contributions that remain to be shaded and added, from left to right.
     pub(crate) fn contributions(&self) -> &[Contribution] {
         &self.contributions
     }
 
     /// Adds a block of eight pixels: the colors of their first samples' triangles, weighted by the
-    /// number of samples that see the same triangle, or one that `continues` its surface. Other
+    /// number of samples that show the same triangle or one that `continues` its surface. Other
     /// triangles become contributions.
     ///
     /// `planes` are the triangles of all samples; those of pixels outside `lanes` are ignored.
@@ -91,7 +91,7 @@ impl EdgePixels {
         }
     }
 
-    /// Adds the colors of some of the contributions, of eight at most.
+    /// Adds the colors of at most eight contributions.
     #[inline(always)]
     pub(crate) fn add_contributions(&mut self, range: Range<usize>, colors: &[F32x8; 4]) {
         for (lane, contribution) in self.contributions[range].iter().enumerate() {
@@ -102,7 +102,7 @@ impl EdgePixels {
         }
     }
 
-    /// The mean colors over the samples, block by block: the index of the block, and eight colors.
+    /// The mean colors over the samples, block by block: the index of the block and eight colors.
     #[inline(always)]
     pub(crate) fn mean_colors(
         &self,
@@ -124,7 +124,7 @@ impl EdgePixels {
     }
 }
 
-/// For each of eight pixels, the samples that see the triangle of the first one, one bit each.
+/// For each of eight pixels, the samples that show the first sample's triangle, one bit each.
 #[inline(always)]
 fn first_sample_masks(planes: &[[u32; LANES]]) -> [u32; LANES] {
     let mut masks = [1; LANES];

@@ -1,12 +1,12 @@
-//! Errors of the rasterizer.
+//! Rasterizer errors.
 
 use crate::MAX_SIDE;
 
-/// A frame that cannot be drawn.
+/// The reason why a frame cannot be drawn.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RasterError {
-    /// The picture has no pixels, or it reaches beyond [`MAX_SIDE`].
+    /// The picture has no pixels or extends beyond [`MAX_SIDE`].
     #[error(
         "a picture of {width} x {height} pixels from pixel ({x}, {y}) on cannot be drawn; each side must be at least 1 \
          and end within {MAX_SIDE}"
@@ -21,12 +21,12 @@ pub enum RasterError {
         /// The requested height in pixels.
         height: u32,
     },
-    /// A depth buffer has another number of samples than the frame.
+    /// A depth buffer and a frame have different numbers of samples.
     #[error("a depth buffer of {found} samples does not fit a frame of {expected}")]
     DepthCount {
         /// The samples of the frame.
         expected: usize,
-        /// Those of the buffer.
+        /// The samples of the buffer.
         found: usize,
     },
 }

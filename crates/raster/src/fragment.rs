@@ -1,4 +1,4 @@
-//! Fragments: a primitive at one pixel, with the perspective-correct weights by which it is shaded.
+//! Fragments: a primitive at one pixel, with perspective-correct weights for shading.
 //!
 //! ```text
 //!   areaₖ = area of the triangle that the pixel's center makes with the edge opposite vertex k
@@ -12,24 +12,25 @@ use crate::screen_vertex::SUBPIXELS;
 
 /// A primitive at one pixel, ready for shading.
 ///
-/// A vertex attribute has at the center of the pixel the sum of the vertices' values times
-/// [`weights`](Self::weights), which are perspective-correct (IN-2). Its derivatives across the
-/// picture, by which textures choose their mip level, are the same sum with
-/// [`weights_dx`](Self::weights_dx) and [`weights_dy`](Self::weights_dy).
+/// At the center of the pixel, a vertex attribute is the sum of the vertex values times
+/// [`weights`](Self::weights), which are perspective-correct (IN-2). Its screen derivatives, by
+/// which textures choose their mip level, are the same sum with [`weights_dx`](Self::weights_dx)
+/// and [`weights_dy`](Self::weights_dy).
 #[derive(Clone, Copy, Debug)]
 pub struct Fragment<'a> {
-    /// The id that the primitive was submitted with.
+    /// The id with which the primitive was submitted.
     pub id: u32,
     /// The column of the pixel.
     pub x: u32,
     /// The row of the pixel, from the top.
     pub y: u32,
-    /// The weights of the primitive's vertices at the center of the pixel, or, where that is
-    /// outside, at a point nearby inside. None is negative, and they add up to 1.
+    /// The weights of the primitive's vertices at the center of the pixel, or at a nearby point
+    /// inside if the center is outside. They are nonnegative and add up to 1.
     pub weights: [f32; 3],
-    /// The weights of the screen triangle's vertices: those of the primitive unless it was clipped.
+    /// The weights of the screen triangle's vertices, equal to those of the primitive unless it was
+    /// clipped.
     pub(crate) barycentrics: [f32; 3],
-    /// One over the sum by which the barycentrics were normalized.
+    /// The reciprocal of the sum by which the barycentrics were normalized.
     pub(crate) inv_sum: f32,
     pub(crate) triangle: &'a ScreenTriangle,
     pub(crate) source_weights: &'a [SourceWeights],
@@ -56,14 +57,14 @@ impl<'a> Fragment<'a> {
         Self { id: triangle.id, x, y, weights, barycentrics, inv_sum, triangle, source_weights }
     }
 
-    /// The derivative of the weights by the column of the pixel: their change per pixel to the
+    /// The derivative of the weights with respect to the column: their change per pixel to the
     /// right. The components add up to 0.
     #[must_use]
     pub fn weights_dx(&self) -> [f32; 3] {
         self.weight_derivatives(weight_steps_x(self.triangle))
     }
 
-    /// The derivative of the weights by the row of the pixel, downwards.
+    /// The derivative of the weights with respect to the row: their change per pixel down.
     #[must_use]
     pub fn weights_dy(&self) -> [f32; 3] {
         self.weight_derivatives(weight_steps_y(self.triangle))
@@ -100,8 +101,8 @@ pub(crate) fn pixel_center(pixel: u32) -> i32 {
     pixel as i32 * SUBPIXELS + SUBPIXELS / 2
 }
 
-/// Twice the areas of the three triangles that a point makes with the edges, exact before rounding
-/// to `f32`.
+/// Twice the areas of the three triangles formed by a point and the edges, exact before rounding to
+/// `f32`.
 #[inline]
 fn barycentric_areas(vertices: [ScreenVertex; 3], x: i32, y: i32) -> [f32; 3] {
     let [p, q, r] = vertices.map(|v| (i64::from(v.x - x), i64::from(v.y - y)));
@@ -109,7 +110,7 @@ fn barycentric_areas(vertices: [ScreenVertex; 3], x: i32, y: i32) -> [f32; 3] {
     [area(q, r), area(r, p), area(p, q)]
 }
 
-/// Weights of the source primitive's vertices from those of a screen triangle's.
+/// Converts weights of a screen triangle's vertices to weights of the source primitive's vertices.
 #[inline]
 pub(crate) fn to_source_weights(
     triangle: &ScreenTriangle,

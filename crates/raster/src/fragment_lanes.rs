@@ -1,10 +1,10 @@
-//! Eight fragments at once, one per vector lane: the results of [`Fragment`], bit for bit, several
-//! times as fast.
+//! Eight fragments at once, one per vector lane: the same results as [`Fragment`], bit for bit,
+//! several times as fast.
 //!
-//! Everything here is a plain loop over eight lanes, inlined into a function that is compiled for
-//! the processor's vector instructions ([`SimdLevel::run_kernel`](crate::SimdLevel::run_kernel)).
-//! Loops are written out: closures over arrays (`map`, `from_fn`) are not always inlined, and one
-//! call in the middle undoes the vectorization.
+//! Everything here is a plain loop over eight lanes, inlined into a function compiled for the
+//! processor's vector instructions ([`SimdLevel::run_kernel`](crate::SimdLevel::run_kernel)). Loops
+//! are written out, because closures over arrays (`map`, `from_fn`) are not always inlined, and one
+//! call in the middle prevents vectorization.
 //!
 //! ```text
 //!   areaₖ   = Δx_a Δy_b − Δy_a Δx_b          f64, exact: whole grid steps, 24 bits each
@@ -16,25 +16,25 @@ use crate::fragment::{pixel_center, weight_steps_x, weight_steps_y};
 use crate::primitive::{ScreenTriangle, SourceWeights, WeightSource};
 use crate::screen_vertex::SUBPIXELS;
 
-/// The number of fragments that are shaded at once.
+/// The number of fragments shaded at once.
 pub const LANES: usize = 8;
 
 /// One `f32` for each of eight fragments.
 pub type F32x8 = [f32; LANES];
 
-/// Eight fragments of one row of pixels, to be shaded at once.
+/// Eight fragments in one row of pixels, to be shaded at once.
 ///
-/// There are always eight: where fewer are to be shaded, the other lanes repeat one of them, and
-/// their colors are ignored. They need be neither neighbors nor of one primitive.
+/// There are always eight: if there are fewer to shade, the other lanes repeat one of them, and
+/// their colors are ignored. They need not be neighbors or belong to one primitive.
 #[derive(Clone, Copy, Debug)]
 pub struct Fragments<'a> {
     /// The columns of the pixels.
     pub x: [u32; LANES],
     /// The row of the pixels, from the top.
     pub y: u32,
-    /// Whether all are fragments of one triangle, in adjacent pixels.
+    /// Whether all are fragments of one triangle in adjacent pixels.
     ///
-    /// Set for runs of pixels that one triangle covers. It saves the gather of vertices and lets
+    /// Set for runs of pixels covered by one triangle. It avoids gathering vertices and lets
     /// shading fetch attributes once.
     is_single: bool,
     /// The screen triangle of each fragment.
@@ -46,8 +46,7 @@ pub struct Fragments<'a> {
 impl<'a> Fragments<'a> {
     /// The fragments of one triangle in eight pixels from (x, y) to the right.
     ///
-    /// Pixels beyond the triangle's border are allowed: their weights are clamped, their colors
-    /// ignored.
+    /// Pixels outside the triangle are allowed: their weights are clamped and their colors ignored.
     #[inline(always)]
     pub(crate) fn from_one_triangle(
         triangle: &'a ScreenTriangle,
@@ -62,7 +61,7 @@ impl<'a> Fragments<'a> {
         Self { x, y, is_single: true, triangles: [triangle; LANES], source_weights }
     }
 
-    /// The fragments of any eight triangles, each in a pixel of its own.
+    /// The fragments of any eight triangles, each in its own pixel.
     #[inline(always)]
     pub(crate) fn from_triangles(
         triangles: [&'a ScreenTriangle; LANES],
@@ -73,15 +72,15 @@ impl<'a> Fragments<'a> {
         Self { x, y, is_single: false, triangles, source_weights }
     }
 
-    /// The id that the primitive of one of the fragments was submitted with; `lane` is 0 to 7.
+    /// The id with which the primitive of a fragment was submitted; `lane` is 0 to 7.
     #[inline(always)]
     #[must_use]
     pub const fn id(&self, lane: usize) -> u32 {
         self.triangles[lane].id
     }
 
-    /// Whether all are known to be fragments of one primitive, so that vertex attributes need be
-    /// fetched only once.
+    /// Whether all are known to be fragments of one primitive, so vertex attributes can be fetched
+    /// once.
     #[inline(always)]
     #[must_use]
     pub const fn is_single_primitive(&self) -> bool {
@@ -90,7 +89,7 @@ impl<'a> Fragments<'a> {
 
     /// The weights of the vertices in the eight fragments.
     ///
-    /// They are perspective-correct: none is negative, and the three of a lane add up to 1.
+    /// They are perspective-correct and nonnegative, and the three of a lane add up to 1.
     #[inline(always)]
     #[must_use]
     pub fn weights(&self) -> WeightLanes<'a> {
@@ -105,9 +104,9 @@ impl<'a> Fragments<'a> {
         WeightLanes { values, barycentrics, inv_sum, is_single, triangles, source_weights }
     }
 
-    /// One of the fragments, `lane` from 0 to 7, given the weights of all.
+    /// One of the fragments, with `lane` from 0 to 7, given the weights of all.
     ///
-    /// The result has the bits of a fragment that was computed by itself.
+    /// The result is bit-identical to a fragment computed individually.
     #[inline(always)]
     #[must_use]
     pub fn fragment(&self, lane: usize, weights: &WeightLanes<'a>) -> Fragment<'a> {
@@ -125,31 +124,31 @@ impl<'a> Fragments<'a> {
     }
 }
 
-/// The weights of the vertices in eight fragments, and their derivatives across the picture.
+/// The weights of the vertices in eight fragments, with their screen derivatives.
 ///
-/// Derivatives are computed by methods, only where a surface calls them.
+/// Derivatives are computed by methods, only if a surface calls them.
 #[derive(Clone, Copy, Debug)]
 pub struct WeightLanes<'a> {
-    /// For each vertex its weights at the fragments: see [`Fragment::weights`].
+    /// For each vertex, its weights at the fragments: see [`Fragment::weights`].
     pub values: [F32x8; 3],
     is_single: bool,
     /// The weights of the screen triangles' vertices.
     barycentrics: [F32x8; 3],
-    /// One over the sums by which the barycentrics were normalized.
+    /// The reciprocals of the sums by which the barycentrics were normalized.
     inv_sum: F32x8,
     triangles: [&'a ScreenTriangle; LANES],
     source_weights: &'a [SourceWeights],
 }
 
 impl WeightLanes<'_> {
-    /// The derivatives of the weights by the column of the pixel: see [`Fragment::weights_dx`].
+    /// The derivatives of the weights with respect to the column: see [`Fragment::weights_dx`].
     #[inline(always)]
     #[must_use]
     pub fn dx(&self) -> [F32x8; 3] {
         self.derivatives(weight_steps_x)
     }
 
-    /// The derivatives of the weights by the row of the pixel, downwards.
+    /// The derivatives of the weights with respect to the row, downward.
     #[inline(always)]
     #[must_use]
     pub fn dy(&self) -> [F32x8; 3] {
@@ -191,9 +190,10 @@ impl WeightLanes<'_> {
     }
 }
 
-/// Weights of the source primitives' vertices from those of the screen triangles'.
+/// Converts weights of the screen triangles' vertices to weights of the source primitives'
+/// vertices.
 ///
-/// Assembly may have swapped two vertices or clipped the primitive; shading sees neither.
+/// Assembly may have swapped two vertices or clipped the primitive; shading does not notice.
 #[inline(always)]
 fn to_source_weights(
     is_single: bool,
@@ -208,7 +208,7 @@ fn to_source_weights(
             WeightSource::Clipped(_) => {}
         }
     }
-    // Most triangles of a mesh are flipped, for the rasterizer wants them clockwise.
+    // Most triangles of a mesh are flipped, because the rasterizer needs them clockwise.
     let mut weights = [p, r, q];
     // One pass decides for all lanes: a select for swapped vertices, a flag for clipped ones.
     let mut is_clipped = false;
@@ -228,7 +228,7 @@ fn to_source_weights(
 
 /// Replaces the weights in those lanes whose triangles are part of a clipped primitive.
 ///
-/// Out of line: few pixels show one, and the gather would burden all others.
+/// Out of line: few pixels need it, and the gather would slow down all others.
 #[cold]
 fn clipped_source_weights(
     triangles: [&ScreenTriangle; LANES],
@@ -249,13 +249,14 @@ fn clipped_source_weights(
 
 /// The vertices of the triangles in eight pixels: their offsets from the pixel centers, and 1/w.
 ///
-/// Offsets are whole grid steps in `f64`, where their products and differences are exact.
+/// Offsets are integer grid steps in `f64`, where their products and differences are exact.
 ///
-/// Relative to the pixel they are small where it matters: next to a vertex no digits cancel.
+/// Offsets are relative to the pixel and therefore small where it matters: next to a vertex no
+/// digits cancel.
 struct VertexLanes {
-    /// Grid steps from the pixel's center to each vertex, to the right.
+    /// Grid steps from the center of the pixel to each vertex, to the right.
     dx: [[f64; LANES]; 3],
-    /// Grid steps from the pixel's center to each vertex, downwards.
+    /// Grid steps from the center of the pixel to each vertex, downward.
     dy: [[f64; LANES]; 3],
     /// 1/w of each vertex.
     inv_w: [F32x8; 3],
@@ -265,7 +266,7 @@ impl VertexLanes {
     const ZERO: Self =
         Self { dx: [[0.0; LANES]; 3], dy: [[0.0; LANES]; 3], inv_w: [[0.0; LANES]; 3] };
 
-    /// One triangle in eight adjacent pixels: nothing has to be gathered.
+    /// One triangle in eight adjacent pixels: no gathering is needed.
     #[inline(always)]
     fn from_one_triangle(triangle: &ScreenTriangle, x: u32, y: u32) -> Self {
         let mut lanes = Self::ZERO;
@@ -282,7 +283,7 @@ impl VertexLanes {
         lanes
     }
 
-    /// Gathers the vertices of eight triangles, each in a pixel of its own.
+    /// Gathers the vertices of eight triangles, each in its own pixel.
     #[inline(always)]
     fn from_triangles(triangles: [&ScreenTriangle; LANES], x: &[u32; LANES], y: u32) -> Self {
         let mut lanes = Self::ZERO;
@@ -298,8 +299,8 @@ impl VertexLanes {
         lanes
     }
 
-    /// Perspective-correct weights of the vertices, and one over the sums by which they were
-    /// normalized (IN-2).
+    /// Perspective-correct weights of the vertices, and the reciprocals of the sums by which they
+    /// were normalized (IN-2).
     #[inline(always)]
     fn barycentric_weights(&self) -> ([F32x8; 3], F32x8) {
         let Self { dx, dy, inv_w } = self;
@@ -312,7 +313,7 @@ impl VertexLanes {
                 *weight *= area.max(0.0);
             }
         }
-        // Normalize: one division for each lane, then products.
+        // Normalize: one division per lane, then products.
         let mut inv_sum = [0.0_f32; LANES];
         for (lane, inv_sum) in inv_sum.iter_mut().enumerate() {
             *inv_sum = 1.0 / (weights[0][lane] + weights[1][lane] + weights[2][lane]);

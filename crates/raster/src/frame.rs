@@ -4,8 +4,8 @@
 //!   ScreenVertex ×3 ─► cull by winding ─► drop without a sample ─► orient clockwise ─► buffer
 //! ```
 //!
-//! Triangles are stored in submission order, which breaks ties in depth: of two triangles at the
-//! same depth the one that was added first wins.
+//! Triangles are stored in submission order, which breaks depth ties: of two triangles at the same
+//! depth, the one added first wins.
 
 use crate::buffer_pool::BufferPool;
 use crate::edge_function::signed_area;
@@ -27,36 +27,36 @@ use std::sync::Arc;
 /// The longest side of a picture in pixels.
 pub const MAX_SIDE: u32 = 16384;
 
-/// Meshes of fewer triangles are assembled by one thread: starting another takes as long.
+/// Meshes with fewer triangles are assembled by one thread: starting another takes as long.
 const PARALLEL_TRIANGLES: usize = 8 * CHUNK_TRIANGLES;
 
-/// The primitives of one picture, and how they are to be drawn.
+/// The primitives of one picture and the settings for drawing them.
 ///
-/// Fill it with [`add_triangle`](Self::add_triangle), [`add_mesh`](Self::add_mesh),
-/// [`add_line`](Self::add_line) and [`add_point`](Self::add_point), then [`draw`](Self::draw) it.
-/// At equal depth the primitive added first wins, whatever the number of threads.
+/// Add primitives with [`add_triangle`](Self::add_triangle), [`add_mesh`](Self::add_mesh),
+/// [`add_line`](Self::add_line) and [`add_point`](Self::add_point), then [`draw`](Self::draw). At
+/// equal depth the primitive added first wins, for any number of threads.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// The pixels that the frame shows, in the coordinates of the whole picture.
     pub(crate) region: PixelRect,
     /// The sample pattern of each pixel.
     pub(crate) samples: Samples,
-    /// The vector instructions that tiles are rasterized and shaded with.
+    /// The vector instructions for rasterizing and shading tiles.
     pub(crate) simd_level: SimdLevel,
     /// The screen triangles in submission order.
     pub(crate) triangles: TriangleBuffer,
     /// The source weights of triangles that are part of another primitive: see
     /// [`WeightSource::Clipped`].
     pub(crate) source_weights: Vec<SourceWeights>,
-    /// The most threads that assemble a mesh.
+    /// The maximum number of threads for assembling a mesh.
     threads: usize,
     /// The depth function.
     pub(crate) compare: DepthCompare,
-    /// The depths that drawing begins with; nothing anywhere if there are none.
+    /// The initial depths; empty if there are none.
     pub(crate) initial_depth: Option<Arc<DepthBuffer>>,
-    /// Who is told of bands that are drawn, and may end drawing.
+    /// The observer that is notified of finished bands and can cancel drawing.
     pub(crate) monitor: Option<Arc<dyn Monitor>>,
-    /// Buffers of the last drawing, for the next.
+    /// Buffers from the last drawing, for reuse.
     pub(crate) buffers: BufferPool,
 }
 
@@ -71,7 +71,7 @@ pub struct MeshTriangles<'a> {
     pub first_id: u32,
     /// How the triangles take part in visibility.
     pub opacity: Opacity,
-    /// The winding of the triangles that are left out.
+    /// The winding of the triangles to cull.
     pub cull: CullMode,
 }
 
@@ -79,19 +79,19 @@ impl Frame {
     /// An empty frame of `width` × `height` pixels.
     ///
     /// # Errors
-    /// [`RasterError::Size`] unless both sides are between 1 and [`MAX_SIDE`].
+    /// Returns [`RasterError::Size`] unless both sides are between 1 and [`MAX_SIDE`].
     pub fn new(width: u32, height: u32, samples: Samples) -> Result<Self, RasterError> {
         Self::for_region(PixelRect::from_size(width, height), samples)
     }
 
     /// An empty frame that shows a region of a larger picture.
     ///
-    /// Vertices and fragments have coordinates of the whole picture, and regions that are drawn one
-    /// by one have the pixels of the whole, bit for bit. So pictures too large for memory can be
-    /// drawn, or only the region that has changed.
+    /// Vertices and fragments have coordinates in the whole picture, and regions drawn one by one
+    /// match the whole bit for bit. Use regions to draw pictures too large for memory, or to redraw
+    /// only the part that has changed.
     ///
     /// # Errors
-    /// [`RasterError::Size`] unless both sides are at least 1 and the region ends within
+    /// Returns [`RasterError::Size`] unless both sides are at least 1 and the region ends within
     /// [`MAX_SIDE`].
     pub fn for_region(region: PixelRect, samples: Samples) -> Result<Self, RasterError> {
         Ok(Self {
@@ -108,40 +108,43 @@ impl Frame {
         })
     }
 
-    /// This frame, drawn with the given vector instructions: for measurements, and for tests that
-    /// they do not change a bit.
+    /// This frame, drawn with the given vector instructions: for benchmarks, and for tests that the
+    /// level does not change a bit.
     #[must_use]
     pub fn with_simd_level(self, simd_level: SimdLevel) -> Self {
         Self { simd_level, ..self }
     }
 
-    /// This frame, with large [meshes](Self::add_mesh) assembled by up to `threads` threads; the
-    /// default is 1. The result does not depend on it.
+    /// This frame, with large [meshes](Self::add_mesh) assembled by up to `threads` threads
+    /// (default: 1). The result does not depend on the number.
     #[must_use]
     pub fn with_threads(self, threads: usize) -> Self {
         Self { threads, ..self }
     }
 
-    /// This frame, with `monitor` told of each row of tiles that is drawn, and asked before the
-    /// next is begun. The target of a drawing that ends early holds an unfinished picture.
+    /// This frame with a monitor. `monitor` is notified of each finished row of tiles and asked
+    /// before the next one starts. If drawing ends early, the target contains an unfinished
+    /// picture.
     #[must_use]
     pub fn with_monitor(self, monitor: Arc<dyn Monitor>) -> Self {
         Self { monitor: Some(monitor), ..self }
     }
 
-    /// This frame, without its primitives, and with another depth function.
+    /// This frame without its primitives and with another depth function.
     #[must_use]
     pub fn with_depth_compare(mut self, compare: DepthCompare) -> Self {
         self.clear();
         Self { compare, ..self }
     }
 
-    /// This frame, drawn over depths that are there already: a second pass.
+    /// This frame, drawn over existing depths: a second pass.
     ///
-    /// Fragments that do not pass against them are absent, in pictures and in buffers of ids alike.
+    /// Fragments that do not pass the test against them are absent, both in pictures and in id
+    /// buffers.
     ///
     /// # Errors
-    /// [`RasterError::DepthCount`] if the buffer has other pixels or samples than the frame.
+    /// Returns [`RasterError::DepthCount`] if the pixels or samples of the buffer do not match the
+    /// frame.
     pub fn with_depth_buffer(self, depths: Arc<DepthBuffer>) -> Result<Self, RasterError> {
         if !depths.fits(self.region, self.samples) {
             let expected = self.region.area() * self.samples.count();
@@ -150,22 +153,22 @@ impl Frame {
         Ok(Self { initial_depth: Some(depths), ..self })
     }
 
-    /// Whether drawing shall end.
+    /// Whether drawing should end.
     pub(crate) fn is_canceled(&self) -> bool {
         self.monitor.as_ref().is_some_and(Monitor::is_canceled)
     }
 
-    /// The vector instructions that the frame is drawn with.
+    /// The vector instructions used for drawing the frame.
     #[must_use]
     pub const fn simd_level(&self) -> SimdLevel {
         self.simd_level
     }
 
-    /// Removes all primitives for a picture of another size or other samples, and keeps the memory.
-    /// The depths that the frame began with, and its monitor, are forgotten.
+    /// Removes all primitives, changes the size and samples, and keeps the memory. The initial
+    /// depths and the monitor are removed too.
     ///
     /// # Errors
-    /// As [`new`](Self::new); the frame is then unchanged.
+    /// As for [`new`](Self::new); the frame is then unchanged.
     pub fn reset(&mut self, width: u32, height: u32, samples: Samples) -> Result<(), RasterError> {
         self.region = check_region(PixelRect::from_size(width, height))?;
         self.samples = samples;
@@ -174,19 +177,19 @@ impl Frame {
         Ok(())
     }
 
-    /// Removes all primitives, and keeps the memory for the next picture.
+    /// Removes all primitives and keeps the memory for the next picture.
     pub fn clear(&mut self) {
         self.triangles.clear();
         self.source_weights.clear();
     }
 
-    /// Width in pixels.
+    /// The width in pixels.
     #[must_use]
     pub const fn width(&self) -> u32 {
         self.region.width
     }
 
-    /// Height in pixels.
+    /// The height in pixels.
     #[must_use]
     pub const fn height(&self) -> u32 {
         self.region.height
@@ -194,10 +197,9 @@ impl Frame {
 
     /// Adds a whole triangle of either winding.
     ///
-    /// Nothing is culled. To drop back faces, look at [`signed_area`] before, or add a mesh.
+    /// Nothing is culled. To cull back faces, check [`signed_area`] first or add a mesh.
     ///
-    /// Degenerate triangles and those between samples are dropped without a trace: they cover
-    /// nothing.
+    /// Degenerate triangles and those between samples are dropped: they cover no sample.
     pub fn add_triangle(&mut self, vertices: [ScreenVertex; 3], id: u32, opacity: Opacity) {
         self.push_unclipped(vertices, id, opacity);
     }
@@ -205,7 +207,7 @@ impl Frame {
     /// Adds the triangles of a mesh, with ids that count up from `first_id`.
     ///
     /// Triangles are dropped if a vertex is `None` or not in the mesh, if they are degenerate, if
-    /// their winding is culled, or if their bounds hold no sample of the frame.
+    /// their winding is culled, or if their bounds contain no sample of the frame.
     pub fn add_mesh(
         &mut self,
         vertices: &[Option<ScreenVertex>],
@@ -219,26 +221,25 @@ impl Frame {
         self.add_mesh_runs(mesh, std::slice::from_ref(&all));
     }
 
-    /// Adds some of the triangles of a mesh: `runs` of them, in order. They keep their ids in the
-    /// mesh.
+    /// Adds some triangles of a mesh: the given `runs`, in order. They keep their ids in the mesh.
     ///
-    /// Runs must be sorted and must not overlap; the part of a run beyond the mesh is ignored.
+    /// Runs must be sorted and must not overlap; any part of a run beyond the mesh is ignored.
     ///
-    /// With several threads the triangles are assembled in chunks of 4096; the order of the buffer,
-    /// and with it the winner among equal depths, does not depend on how the chunks are divided up.
+    /// With several threads the triangles are assembled in chunks of 4096. The order of the buffer,
+    /// and with it the winner at equal depth, does not depend on how the chunks are distributed.
     pub fn add_mesh_runs(&mut self, mesh: MeshTriangles<'_>, runs: &[Range<usize>]) {
-        // One rectangle test for all triangles of the mesh: it depends on the frame alone.
+        // One rectangle test for all triangles of the mesh: it depends only on the frame.
         let (bounds, compare) = (self.sample_bounds(), self.compare);
         let count: usize = runs.iter().map(ExactSizeIterator::len).sum();
         if self.threads > 1 && count >= PARALLEL_TRIANGLES {
-            // Chunk n takes what the runs have of the n-th 4096 triangles of the mesh, so that
-            // the order of the chunks is the order of the triangles for any number of threads.
+            // Chunk n gets the part of the runs in the n-th 4096 triangles of the mesh, so the
+            // order of chunks is the order of triangles for any number of threads.
             let first = self.triangles.chunks_in_use();
             let chunk_count = mesh.triangles.len().div_ceil(CHUNK_TRIANGLES);
             let chunks = self.triangles.append_chunks(chunk_count).iter_mut();
             for_each_parallel(self.threads, chunks.enumerate(), |(index, chunk)| {
                 let slice = index * CHUNK_TRIANGLES..(index + 1) * CHUNK_TRIANGLES;
-                // The runs that reach into this chunk, by binary search.
+                // The runs that extend into this chunk, by binary search.
                 let before = runs.partition_point(|run| run.end <= slice.start);
                 for run in runs[before..].iter().take_while(|run| run.start < slice.end) {
                     let run = run.start.max(slice.start)..run.end.min(slice.end);
@@ -260,10 +261,10 @@ impl Frame {
         }
     }
 
-    /// Adds a part of a clipped triangle.
+    /// Adds part of a clipped triangle.
     ///
     /// `weights` are the weights of the source triangle's vertices at each of the given vertices;
-    /// by them its fragments get weights of the source triangle.
+    /// from them, fragments get weights of the source triangle.
     pub fn add_clipped_triangle(
         &mut self,
         vertices: [ScreenVertex; 3],
@@ -274,7 +275,8 @@ impl Frame {
         self.push_clipped(vertices, weights, id, opacity);
     }
 
-    /// Adds a line `width` pixels wide, as a rectangle with square ends flush with the line's.
+    /// Adds a line `width` pixels wide, as a rectangle whose square ends are flush with the ends of
+    /// the line.
     ///
     /// Its fragments have the weights of the two ends, and 0 for the third vertex.
     pub fn add_line(&mut self, ends: [ScreenVertex; 2], width: f64, id: u32, opacity: Opacity) {
@@ -283,8 +285,8 @@ impl Frame {
         }
     }
 
-    /// Adds a part of a clipped line: as [`add_line`](Self::add_line), with the parameters of the
-    /// part's ends along the source line, 0 at its first and 1 at its second end.
+    /// Adds part of a clipped line, like [`add_line`](Self::add_line), with the parameters of its
+    /// ends along the source line: 0 at the first end and 1 at the second.
     pub fn add_clipped_line(
         &mut self,
         ends: [ScreenVertex; 2],
@@ -309,7 +311,7 @@ impl Frame {
 
     /// Assembles one whole triangle and appends it, unless it is degenerate or covers no sample.
     fn push_unclipped(&mut self, vertices: [ScreenVertex; 3], id: u32, opacity: Opacity) {
-        // Off the region, or between samples.
+        // Outside the region, or between samples.
         let Some(tiles) = self.sample_bounds().touched_tiles(vertices) else { return };
         let area = signed_area(vertices);
         let vertices = oriented_depths(self.compare.negates(), vertices);
@@ -318,10 +320,11 @@ impl Frame {
         }
     }
 
-    /// Assembles one triangle that is part of a primitive, with its weights in a table beside it.
+    /// Assembles a triangle that is part of a primitive, and stores its weights in a separate
+    /// table.
     ///
-    /// Vertices and weights are swapped together where the winding asks for it, so the source needs
-    /// no flag for that.
+    /// Vertices and weights are swapped together if the winding requires it, so the source needs no
+    /// flag for that.
     fn push_clipped(
         &mut self,
         vertices: [ScreenVertex; 3],
@@ -336,7 +339,7 @@ impl Frame {
             1.. => (vertices, [at_p, at_q, at_r]),
             _ => ([p, r, q], [at_p, at_r, at_q]),
         };
-        // An index instead of nine weights: most triangles have none, and all stay small.
+        // An index instead of nine weights: most triangles have none, and all remain small.
         let source = WeightSource::Clipped(self.source_weights.len() as u32);
         self.source_weights.push(weights);
         let vertices = normalize_inv_w(oriented_depths(self.compare.negates(), vertices));
@@ -364,7 +367,7 @@ fn check_region(region: PixelRect) -> Result<PixelRect, RasterError> {
 }
 
 impl MeshTriangles<'_> {
-    /// Appends a run of triangles, with their depths negated if the depth function says so.
+    /// Appends a run of triangles, with negated depths if the depth function requires it.
     fn assemble_run(
         &self,
         bounds: SampleBounds,
@@ -379,11 +382,11 @@ impl MeshTriangles<'_> {
         }
     }
 
-    /// Primitive assembly: appends those triangles of a run that are not culled and may cover a
+    /// Primitive assembly: appends the triangles of a run that are not culled and may cover a
     /// sample.
     ///
-    /// In order: missing vertices, winding, bounds, degeneracy. Most triangles of a fine mesh end
-    /// at the bounds.
+    /// The order of tests: missing vertices, winding, bounds, degeneracy. Most triangles of a fine
+    /// mesh fail the bounds test.
     fn assemble_triangles<const NEGATES: bool>(
         &self,
         bounds: SampleBounds,
@@ -402,7 +405,7 @@ impl MeshTriangles<'_> {
             if !self.cull.retains(area) {
                 continue;
             }
-            // Of a mesh finer than the pixels most triangles end here, before any set-up.
+            // In a mesh finer than the pixels, most triangles end here, before any setup.
             let Some(tiles) = bounds.touched_tiles([p, q, r]) else { continue };
             let vertices = oriented_depths(NEGATES, [p, q, r]);
             if let Some(triangle) = assemble_triangle(vertices, area, id, self.opacity) {
@@ -412,7 +415,7 @@ impl MeshTriangles<'_> {
     }
 }
 
-/// The vertices with depths of which the greater one wins.
+/// The vertices with depths for which greater wins.
 #[inline(always)]
 fn oriented_depths(negates: bool, mut vertices: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
     if negates {
@@ -425,7 +428,7 @@ fn oriented_depths(negates: bool, mut vertices: [ScreenVertex; 3]) -> [ScreenVer
 
 /// A whole triangle with its vertices clockwise on the screen; `None` if it is degenerate.
 ///
-/// `area` is the [`signed_area`] of the vertices, which culling has computed already.
+/// `area` is the [`signed_area`] of the vertices, already computed for culling.
 #[inline(always)]
 fn assemble_triangle(
     [p, q, r]: [ScreenVertex; 3],
@@ -433,8 +436,8 @@ fn assemble_triangle(
     id: u32,
     opacity: Opacity,
 ) -> Option<ScreenTriangle> {
-    // Edge functions are positive inside for one winding only. Swapping two vertices reverses it;
-    // the source says so, and fragments get their weights in the order of the original vertices.
+    // Edge functions are positive inside for only one winding. Swapping two vertices reverses it;
+    // the source records this, and fragments get their weights in the original vertex order.
     let (vertices, source) = match area {
         0 => return None,
         1.. => ([p, q, r], WeightSource::Unclipped),
@@ -443,9 +446,9 @@ fn assemble_triangle(
     Some(ScreenTriangle { vertices: normalize_inv_w(vertices), id, source, opacity })
 }
 
-/// The test whether a triangle's bounds hold a sample of the frame, and which tiles they touch.
+/// The test whether a triangle's bounds contain a sample of the frame, and which tiles they touch.
 ///
-/// Conservative: a bounding rectangle may hold a sample that the triangle does not cover.
+/// Conservative: a bounding rectangle may contain a sample that the triangle does not cover.
 #[derive(Clone, Copy)]
 struct SampleBounds {
     /// The tiles of the frame's region.
@@ -455,15 +458,16 @@ struct SampleBounds {
 }
 
 impl SampleBounds {
-    /// The tiles of the frame that a triangle's bounds touch; `None` if they touch none or hold no
-    /// sample.
+    /// The tiles of the frame that a triangle's bounds touch; `None` if they touch none or contain
+    /// no sample.
     #[inline(always)]
     fn touched_tiles(&self, [p, q, r]: [ScreenVertex; 3]) -> Option<TileRange> {
         // The bounding box in grid steps.
         let x = [p.x.min(q.x).min(r.x), p.x.max(q.x).max(r.x)];
         let y = [p.y.min(q.y).min(r.y), p.y.max(q.y).max(r.y)];
         let (width, height) = (x[1].wrapping_sub(x[0]), y[1].wrapping_sub(y[0]));
-        // Boxes as wide and high as a pixel hold all of its samples, or those of its neighbors.
+        // Boxes at least as wide and high as a pixel contain all of its samples, or those of its
+        // neighbors.
         let is_large = (width >= SUBPIXELS - 1) & (height >= SUBPIXELS - 1);
         if is_large || self.holds_sample([x[0], y[0]], [width, height]) {
             self.grid.tiles_in_bounds(x, y)
@@ -472,10 +476,11 @@ impl SampleBounds {
         }
     }
 
-    /// Whether a box holds a sample, given its least corner and its size in grid steps.
+    /// Whether a box contains a sample, given its minimum corner and its size in grid steps.
     ///
-    /// Bounds are closed: a sample on a border counts, as the top-left rule may give it to the
-    /// triangle. Samples repeat with every pixel, so the distance to the next one is a remainder.
+    /// Bounds are closed: a sample on the border counts, because the top-left rule may assign it to
+    /// the triangle. Samples repeat with every pixel, so the distance to the next one is a
+    /// remainder.
     #[inline(always)]
     fn holds_sample(&self, [left, top]: [i32; 2], [width, height]: [i32; 2]) -> bool {
         let mut holds = false;

@@ -1,5 +1,5 @@
-//! The front fragment of each pixel, translucent layers and alpha-tested holes included: picking,
-//! and counting overdraw.
+//! The front fragment of each pixel, including translucent layers and alpha-tested holes, for
+//! picking and for counting overdraw.
 
 use crate::sample_plane::pixel_index;
 use crate::tile_grid::TILE;
@@ -18,13 +18,13 @@ struct PixelLayers<'a> {
 }
 
 impl Frame {
-    /// Calls `map` with the front fragment of each pixel that has one, and writes the result to
-    /// `target`: rows from the top, `width` × `height` of them. Uses up to `threads` threads.
+    /// Calls `map` with the front fragment of each pixel that has one and writes the result to
+    /// `target`: rows from the top, `width` × `height` values. Uses up to `threads` threads.
     ///
-    /// The front fragment is the nearest that covers the first sample of the pixel, with one sample
-    /// its center. Translucent primitives count, and masked ones where they pass the alpha test. Of
-    /// translucent ones at the same depth it is the last submitted, which is drawn over the others;
-    /// of opaque ones the first.
+    /// The front fragment is the nearest one that covers the first sample of the pixel, or its
+    /// center with one sample. Translucent primitives count, and masked ones where they pass the
+    /// alpha test. At equal depth, the last translucent primitive submitted counts, because it is
+    /// drawn over the others; among opaque ones, the first.
     pub fn map_front_fragments<S: Surface, P: Copy + Send>(
         &self,
         surface: &S,
@@ -48,7 +48,7 @@ impl Frame {
     /// alpha test.
     ///
     /// In a frame whose primitives are all translucent this is the overdraw: every fragment counts,
-    /// also hidden ones.
+    /// even hidden ones.
     pub fn count_overdraw<S: Surface>(&self, surface: &S, threads: usize, target: &mut [u32]) {
         self.for_each_pixel(surface, threads, target, |pixel, target| {
             let [x, y] = pixel.image_position;
@@ -61,7 +61,7 @@ impl Frame {
         });
     }
 
-    /// Fills tile after tile and calls `each` with every pixel of tiles that have triangles.
+    /// Fills the tiles and calls `each` with every pixel of tiles that have triangles.
     fn for_each_pixel<S: Surface, P: Send>(
         &self,
         surface: &S,

@@ -6,8 +6,8 @@
 //!   sample 1: A ← C       sample 3: B ← C ← D        then the mean of the samples
 //! ```
 //!
-//! The order is exact per pixel, by depth, for any order of submission (order-independent
-//! transparency with per-pixel lists).
+//! The order is exact per pixel, by depth, for any submission order (order-independent transparency
+//! with per-pixel lists).
 
 use crate::fragment_lanes::LANES;
 use crate::sample_plane::NO_TRIANGLE;
@@ -19,13 +19,13 @@ use crate::{Encode, Surface, TranslucentColors};
 /// The contributions to the pixels with layers in one row of a tile, and their colors.
 #[derive(Debug, Default)]
 pub(crate) struct LayeredPixels {
-    /// From left to right; those of a pixel back to front, opaque ones first.
+    /// From left to right; within a pixel back to front, opaque ones first.
     pub(crate) contributions: Vec<Contribution>,
     /// The indices of contributions in the order in which they are shaded.
     shading_order: Vec<u32>,
     /// The color of each contribution.
     colors: Vec<[f32; 4]>,
-    /// The factor of what is behind each contribution; meaningless for opaque ones.
+    /// The factor applied to everything behind each contribution; meaningless for opaque ones.
     transmittances: Vec<[f32; 3]>,
 }
 
@@ -33,10 +33,11 @@ impl<S: Surface> TileResolve<'_, S> {
     /// Lists the contributions to each pixel of a run with layers: each opaque triangle once, then
     /// the layers back to front.
     ///
-    /// A pixel that shows the background gets a contribution of no triangle, so that it is written.
+    /// A pixel that shows the background gets a contribution without a triangle, so it is written
+    /// too.
     ///
     /// Every sample of a pixel is in exactly one opaque contribution: its triangle or the
-    /// background. The number of these is at most the number of samples.
+    /// background. There are at most as many of these as samples.
     #[inline(always)]
     pub(crate) fn gather_contributions(
         &self,
@@ -74,12 +75,13 @@ impl<S: Surface> TileResolve<'_, S> {
         (u32::MAX >> (32 - self.frame.samples.count())) as u16
     }
 
-    /// Shades the gathered contributions of a row eight at a time, blends and writes their pixels.
+    /// Shades the gathered contributions of a row eight at a time, then blends and writes their
+    /// pixels.
     ///
-    /// Shading by eights runs across the borders of pixels, so that no lanes are idle but in the
-    /// last eight of the row. Contributions are shaded in the order of their triangles: in the
-    /// order of pixels eight of them would alternate between a layer and what is behind it, and
-    /// surfaces shade eight of one draw call in half the time of eight of two.
+    /// Groups of eight extend across pixel borders, so lanes are idle only in the last group of the
+    /// row. Contributions are shaded in the order of their triangles. In the order of pixels, a
+    /// group would alternate between a layer and the surface behind it, and surfaces shade eight
+    /// fragments of one draw call in half the time of eight from two.
     #[inline(always)]
     pub(crate) fn write_layered_pixels<P: Copy>(
         &self,
@@ -135,7 +137,7 @@ impl<S: Surface> TileResolve<'_, S> {
 
     /// The color of a pixel: the mean of its samples.
     ///
-    /// Without a layer it is the plain multisample resolve, weighted by the numbers of samples.
+    /// Without layers it is the plain multisample resolve, weighted by the numbers of samples.
     #[inline(always)]
     fn blend_pixel(
         &self,
@@ -156,13 +158,13 @@ impl<S: Surface> TileResolve<'_, S> {
         self.mean_color(sum)
     }
 
-    /// The color of a pixel with layers: back-to-front blending of every sample by itself.
+    /// The color of a pixel with layers: back-to-front blending of each sample.
     ///
-    /// Blending the means instead would be cheaper, but lets the background shine through where an
-    /// opaque edge and a layer's edge meet.
+    /// Blending the means instead would be cheaper, but the background would show through where an
+    /// opaque edge and the edge of a layer meet.
     ///
-    /// Opaque contributions come first and set their samples; each layer then applies
-    /// `color + transmittance · behind`, with color premultiplied, channel by channel.
+    /// Opaque contributions come first and set their samples. Each layer then applies `color +
+    /// transmittance · behind`, with premultiplied color, channel by channel.
     fn blend_layers(
         &self,
         contributions: &[Contribution],
@@ -172,7 +174,7 @@ impl<S: Surface> TileResolve<'_, S> {
         let mut samples = [[0.0; 4]; 16];
         let layers = contributions.iter().zip(colors).zip(transmittances);
         for ((contribution, color), [r, g, b]) in layers {
-            // Opaque contributions replace what is there: their transmittance is 0.
+            // Opaque contributions replace everything behind them: their transmittance is 0.
             let mut behind = [0.0; 4];
             if contribution.translucent {
                 behind = [*r, *g, *b, 1.0 - color[3]];

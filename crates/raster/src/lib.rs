@@ -21,18 +21,19 @@
 //! | multisample resolve, blending | `edge_pixels.rs`, `layer_blending.rs` |
 //! | SIMD dispatch, threads | `simd_level.rs`, `parallel.rs`, `tile_loop.rs` |
 //!
-//! Vertices are snapped to 1/256 pixel once; from there on coverage is a matter of integers, and a
-//! sample on an edge that two triangles share belongs to exactly one of them (the top-left rule,
-//! RA-1). First every sample learns which triangle is nearest, then each visible triangle is shaded
-//! once per pixel, so hidden surfaces cost no shading. The crate knows nothing of materials: a
-//! [`Surface`] gets perspective-correct weights of the vertices (IN-2) and returns colors.
+//! Vertices are snapped to 1/256 pixel once; from there on, coverage uses only integers. A sample
+//! on an edge shared by two triangles belongs to exactly one of them (the top-left rule, RA-1).
+//! Visibility comes first: every sample stores its nearest triangle. Then each visible triangle is
+//! shaded once per pixel, so hidden surfaces cost no shading. The crate knows nothing about
+//! materials: a [`Surface`] receives perspective-correct weights of the vertices (IN-2) and returns
+//! colors.
 //!
 //! # Conventions
 //!
-//! Pixel (i, j) covers [i, i+1) × [j, j+1), its center is at +½, y runs down. Depth is 1 at the
-//! near plane and 0 at the far plane, and the larger wins. At equal depth the primitive that was
-//! submitted first wins. The picture has the same bits for any number of threads, any SIMD level
-//! and any division into regions.
+//! Pixel (i, j) covers [i, i+1) × [j, j+1), with its center at +½ and y down. Depth is 1 at the
+//! near plane and 0 at the far plane; the larger depth wins. At equal depth the primitive submitted
+//! first wins. The picture is bit-identical for any number of threads, any SIMD level and any
+//! division into regions.
 //!
 //! # Example
 //!
@@ -49,7 +50,7 @@
 //! let rows: Vec<String> = buffer.ids.chunks(16)
 //!     .map(|row| row.iter().map(|id| if *id == Some(7) { '#' } else { '.' }).collect())
 //!     .collect();
-//! // Samples on the left border are in, those on the right border and on the bottom are out.
+//! // Samples on the left border are in; those on the right and bottom borders are out.
 //! assert_eq!(rows, [
 //!     ".......#........",
 //!     "......###.......",
@@ -111,7 +112,7 @@ pub use error::RasterError;
 pub use fragment::Fragment;
 pub use fragment_lanes::{F32x8, Fragments, LANES, WeightLanes};
 pub use frame::{Frame, MAX_SIDE, MeshTriangles};
-/// The types of points, maps and spaces, so that a program needs no second dependency.
+/// The types of points, maps and spaces, re-exported to save a second dependency.
 pub use homog;
 pub use monitor::{Monitor, Workers};
 pub use parallel::for_each_parallel;
@@ -124,7 +125,7 @@ pub use surface_depth::SurfaceDepth;
 pub use vertex_projection::VertexProjection;
 pub use visibility_buffer::VisibilityBuffer;
 
-/// The examples of the README, compiled and run as a test.
+/// Runs the README examples as a test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

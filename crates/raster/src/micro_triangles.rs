@@ -1,4 +1,4 @@
-//! Micro-triangles: the coverage of triangles of a few pixels, eight in lock-step.
+//! Micro-triangles: the coverage of triangles of a few pixels, computed eight at a time.
 //!
 //! ```text
 //!   y0 ┌─┬─┬─┬─┐   A triangle within 4 × 4 pixels: at each of the 16 places, for each sample,
@@ -8,19 +8,19 @@
 //!      x0
 //! ```
 //!
-//! In a fine mesh a triangle covers few of the samples in its bounds: of the rows of eight pixels
-//! that it touches, two of three hold no sample of it. Here the eight lanes are triangles instead
-//! of pixels. For a mesh of 600 000 triangles with four samples a pixel, of which each triangle
-//! covers five, that saves 27 % of the instructions of visibility and 6 % of the time of drawing.
+//! In a fine mesh a triangle covers few of the samples in its bounds: two thirds of the eight-pixel
+//! rows that it touches contain no sample of it. Here the eight lanes are triangles instead of
+//! pixels. For a mesh of 600,000 triangles with four samples per pixel, of which each triangle
+//! covers five, this saves 27% of the visibility instructions and 6% of the drawing time.
 //!
-//! Measured and left out, for they cost more than they save:
-//! - hierarchical z for micro-triangles, and all of this with one sample a pixel;
-//! - for larger triangles a branch that skips rows without a sample: 14 % fewer instructions, but
-//!   9 % to 39 % more time, for it cannot be predicted;
-//! - bounds of each triangle in each sample plane by itself: 16 % more instructions, since the
-//!   loops over blocks are then begun in each plane;
+//! Measured and rejected, because they cost more than they save:
+//! - hierarchical z for micro-triangles, and all of this with one sample per pixel;
+//! - for larger triangles, a branch that skips rows without a sample: 14% fewer instructions, but
+//!   9% to 39% more time, because it cannot be predicted;
+//! - separate bounds of each triangle in each sample plane: 16% more instructions, because the
+//!   loops over blocks then start in each plane;
 //! - four samples of two pixels in a vector instead of eight pixels: drawing four samples takes
-//!   0.96 of the time, but one sample 1.13, and 16 KiB more code.
+//!   0.96 of the time, but one sample takes 1.13, with 16 KiB more code.
 
 use crate::sample_plane::{BLOCK_SIDE, BLOCKS_PER_ROW, SamplePlane, TILE_PIXELS};
 use crate::tile_grid::TILE;
@@ -30,23 +30,23 @@ use fearless_simd::{Simd, f32x8, i32x8};
 
 /// The longest side of a micro-triangle's bounds in pixels.
 const SIDE: usize = 4;
-/// Sample planes whose places are the bits of one word.
+/// The number of sample planes whose positions fit the bits of one word.
 const PLANES_PER_WORD: usize = 4;
-/// So many micro-triangles in a batch are worth the set-up of all eight.
+/// The number of micro-triangles in a batch from which setting up all eight lanes pays.
 const MIN_COUNT: u32 = 2;
 
 /// The micro-triangles of a batch: their coverage, and the terms of their depths.
 #[derive(Debug, Default)]
 pub(crate) struct MicroTriangles {
-    /// Which triangles of the batch these are, one bit each.
+    /// The triangles of the batch that are micro-triangles, one bit each.
     lanes: u32,
-    /// For each sample plane and triangle the covered places, bit 4 · row + column.
+    /// For each sample plane and triangle, the covered positions: bit 4 · row + column.
     covered: Vec<[i32; BATCH_SIZE]>,
-    /// For each sample plane, row and triangle z + dy · y.
+    /// For each sample plane, row and triangle, z + dy · y.
     row_depths: Vec<[f32; BATCH_SIZE]>,
-    /// For each column and triangle dx · x.
+    /// For each column and triangle, dx · x.
     column_depths: [[f32; BATCH_SIZE]; SIDE],
-    /// For each row and column, and each triangle, its part of the index of a sample in its plane.
+    /// For each row, column and triangle, its part of the index of a sample in its plane.
     row_indices: [[i32; BATCH_SIZE]; SIDE],
     column_indices: [[i32; BATCH_SIZE]; SIDE],
 }
@@ -58,7 +58,7 @@ impl MicroTriangles {
         self.lanes >> lane & 1 != 0
     }
 
-    /// Prepares the micro-triangles of a batch, whose start values are `starts` in each plane.
+    /// Prepares the micro-triangles of a batch, with start values `starts` in each plane.
     #[inline(always)]
     pub(crate) fn prepare<S: Simd>(
         &mut self,
@@ -79,7 +79,7 @@ impl MicroTriangles {
         let [dx, dy] = batch.depth_step.map(|step| f32x8::from_slice(simd, &step));
         for place in 0..SIDE {
             let (x, y) = (x0 + place as i32, y0 + place as i32);
-            // As `pixel_index`: blocks of 64 samples, rows of 8.
+            // Like `pixel_index`: blocks of 64 samples, rows of 8.
             let (side, blocks) = (BLOCK_SIDE as i32, BLOCKS_PER_ROW as i32);
             let column = (x >> 3) * (side * side) + (x & (side - 1));
             let row = (y >> 3) * (side * side * blocks) + (y & (side - 1)) * side;
@@ -103,7 +103,7 @@ impl MicroTriangles {
             for y in 0..heights {
                 let mut edges = row;
                 for x in 0..SIDE {
-                    // The sign bits of the edge functions together: all are clear inside.
+                    // The combined sign bits of the edge functions: all are clear inside.
                     let signs = (edges[0] | edges[1] | edges[2]) >> 31;
                     inside |= !signs & (1 << (SIDE * y + x));
                     for k in 0..3 {
@@ -118,7 +118,7 @@ impl MicroTriangles {
         }
     }
 
-    /// Depth test and depth write of the samples that one of the triangles covers.
+    /// Depth test and depth write of the samples covered by one of the triangles.
     #[inline(always)]
     pub(crate) fn rasterize(
         &self,
@@ -149,10 +149,10 @@ impl MicroTriangles {
     }
 }
 
-/// The triangles of a batch whose bounds hold 4 × 4 pixels at most, one bit each, and the greatest
+/// The triangles of a batch whose bounds are at most 4 × 4 pixels, one bit each, and the maximum
 /// height of their bounds.
 ///
-/// All 16 places are within the tile: those beyond the picture's border are never shown.
+/// All 16 positions are in the tile; those beyond the border of the picture are never shown.
 #[inline(always)]
 fn micro_lanes(batch: &TriangleBatch) -> (u32, usize) {
     let [x0, y0, x1, y1] = &batch.bounds;

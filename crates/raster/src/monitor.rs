@@ -1,19 +1,19 @@
-//! Monitors: progress of long work, and its end before the time.
+//! Monitors: progress and cancellation of long work.
 
 use std::fmt::Debug;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// An observer of long work: it is told how far the work is, and may ask for its end.
+/// An observer of long work: it receives progress reports and may request cancellation.
 ///
-/// Both methods are called from any thread that works, often, so that they should be quick. An
-/// [`AtomicBool`] is a monitor that asks for the end once it is true.
+/// Both methods are called often, from any worker thread, and should return quickly. An
+/// [`AtomicBool`] is a monitor that requests cancellation once it is true.
 ///
 /// ```
 /// use raster::Monitor;
 /// use std::sync::atomic::{AtomicU64, Ordering};
 ///
-/// /// Shows the percentage, and never ends anything.
+/// /// Prints the percentage and never cancels.
 /// #[derive(Debug, Default)]
 /// struct Percentage(AtomicU64);
 ///
@@ -24,20 +24,20 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// }
 /// ```
 pub trait Monitor: Debug + Send + Sync {
-    /// Whether the work shall end early. Its result is then incomplete.
+    /// Whether the work should end early. Its result is then incomplete.
     fn is_canceled(&self) -> bool {
         false
     }
 
-    /// Takes note that `done` of `total` equal parts of the work are done; `total` is not 0. Calls
-    /// of several threads may arrive out of order.
+    /// Records that `done` of `total` equal parts of the work are done; `total` is not 0. Calls
+    /// from several threads may arrive out of order.
     fn report_progress(&self, done: u64, total: u64) {
         let _ = (done, total);
     }
 }
 
 impl Monitor for AtomicBool {
-    /// The load is relaxed: nothing else is ordered by the flag, and a late look costs little.
+    /// The load is relaxed: the flag orders nothing else, and noticing it late costs little.
     fn is_canceled(&self) -> bool {
         self.load(Ordering::Relaxed)
     }
@@ -53,24 +53,24 @@ impl<M: Monitor + ?Sized> Monitor for Arc<M> {
     }
 }
 
-/// The threads of a piece of work and its monitor, if there is one: a number of threads is enough
-/// where this is asked for.
+/// The number of threads for a piece of work, and an optional monitor. Where this type is accepted,
+/// a plain number of threads works too.
 #[derive(Clone, Copy, Debug)]
 pub struct Workers<'a> {
-    /// The most threads to use, at least 1. Results do not depend on their number.
+    /// The maximum number of threads, at least 1. Results do not depend on it.
     pub threads: usize,
-    /// Who is told, and may end the work.
+    /// The monitor, which is notified and may cancel the work.
     pub monitor: Option<&'a dyn Monitor>,
 }
 
 impl<'a> Workers<'a> {
-    /// So many threads, observed by a monitor.
+    /// The given number of threads, observed by a monitor.
     #[must_use]
     pub const fn monitored(threads: usize, monitor: &'a dyn Monitor) -> Self {
         Self { threads, monitor: Some(monitor) }
     }
 
-    /// Whether the work shall end early.
+    /// Whether the work should end early.
     #[must_use]
     pub fn is_canceled(&self) -> bool {
         self.monitor.is_some_and(Monitor::is_canceled)

@@ -1,16 +1,16 @@
 //! Data-parallel loops over scoped threads.
 //!
-//! Threads are started for each loop and end with it. Starting one takes some 30 µs; loops that are
-//! given more than one thread run for milliseconds. In return there is no pool that outlives the
-//! frame, and no dependency.
+//! Threads are started for each loop and end with it. Starting one takes about 30 µs; loops with
+//! more than one thread run for milliseconds. In return, no thread pool outlives the frame, and no
+//! dependency is needed.
 
 use std::sync::{Mutex, PoisonError};
 
-/// Calls `work` with each item, on up to `threads` threads (one at least).
+/// Calls `work` with each item, on up to `threads` threads (at least one).
 ///
-/// Each thread takes the next item when it has finished one, so that items of uneven cost are
-/// balanced. The order in which items finish is not defined: `work` should write to places of its
-/// own only.
+/// Each thread takes the next item when it finishes one, which balances items of uneven cost. The
+/// order in which items finish is not defined: each call of `work` should write only to its own
+/// memory.
 pub fn for_each_parallel<T, I>(threads: usize, items: I, work: impl Fn(T) + Sync)
 where
     T: Send,
@@ -22,8 +22,8 @@ where
 
 /// Calls `work` with each item and the state of the thread that takes it.
 ///
-/// There is one thread for each of the `workers`, but no more than there are items. The calling
-/// thread is the first of them: with a single worker no thread is started.
+/// There is one thread per worker, but at most one per item. The calling thread is the first of
+/// them; a single worker starts no thread.
 pub(crate) fn for_each_with_workers<W, T, I>(
     workers: &mut [W],
     items: I,
@@ -42,7 +42,7 @@ pub(crate) fn for_each_with_workers<W, T, I>(
             work(worker, item);
         }
     };
-    // WebAssembly has no threads: their code would be dead weight.
+    // WebAssembly has no threads: code for them would be dead weight.
     if others.is_empty() || cfg!(target_family = "wasm") {
         return run(first);
     }

@@ -17,15 +17,15 @@ pub enum Opacity {
     Translucent,
 }
 
-/// The triangles of a mesh to leave out, by their winding on the screen (y down).
+/// The triangles of a mesh to cull, by their winding on the screen (y down).
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum CullMode {
     /// No triangles.
     #[default]
     Nothing,
-    /// Clockwise triangles: back faces, where front faces are counter-clockwise (glTF, OpenGL).
+    /// Clockwise triangles: back faces, if front faces are counterclockwise (glTF, OpenGL).
     Clockwise,
-    /// Counter-clockwise triangles: front faces as glTF and OpenGL wind them.
+    /// Counterclockwise triangles: front faces as glTF and OpenGL wind them.
     CounterClockwise,
 }
 
@@ -44,18 +44,18 @@ impl CullMode {
 
 /// The weights of a source primitive's vertices at each vertex of a triangle that is part of it.
 ///
-/// A clipped triangle arrives as several triangles, a line and a point as two. Surfaces are shaded
-/// by weights in the primitive that was submitted, and these weights lead back to it.
+/// A clipped triangle arrives as several triangles, a line or a point as two. Surfaces are shaded
+/// with weights in the submitted primitive, and these weights convert to them.
 pub type SourceWeights = [[f32; 3]; 3];
 
-/// A triangle of the screen with its vertices clockwise (y down), and the primitive it is part of.
+/// A screen triangle with its vertices clockwise (y down), and the primitive to which it belongs.
 ///
-/// Aligned to a cache line, which it fills: bins refer to triangles all over the buffer.
+/// Aligned to a cache line, which it fills, because bins refer to triangles all over the buffer.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub(crate) struct ScreenTriangle {
     pub(crate) vertices: [ScreenVertex; 3],
-    /// The id that the primitive was submitted with.
+    /// The id with which the primitive was submitted.
     pub(crate) id: u32,
     pub(crate) source: WeightSource,
     pub(crate) opacity: Opacity,
@@ -72,23 +72,25 @@ impl ScreenTriangle {
     }
 }
 
-/// How weights of a screen triangle's vertices become weights of its source primitive's vertices.
+/// How weights of a screen triangle's vertices convert to weights of its source primitive's
+/// vertices.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum WeightSource {
     /// The triangle is the primitive.
     Unclipped,
-    /// The triangle is the primitive with its second and third vertex swapped, to be clockwise.
+    /// The triangle is the primitive with its second and third vertices swapped to be clockwise.
     Flipped,
     /// The triangle is part of the primitive: an index into the frame's source weights.
     Clipped(u32),
 }
 
-/// The range of 1/w in which no product of the weights and their derivatives over- or underflows.
+/// The range of 1/w in which no product of the weights and their derivatives overflows or
+/// underflows.
 const SAFE_INV_W: core::ops::RangeInclusive<f32> = 1.0 / MAX_SAFE_INV_W..=MAX_SAFE_INV_W;
 /// 2⁴⁰.
 const MAX_SAFE_INV_W: f32 = 1_099_511_627_776.0;
 
-/// The vertices, with 1/w scaled to 1 if it is extreme: weights depend on the ratios of 1/w only.
+/// The vertices, with extreme 1/w scaled to 1: weights depend only on the ratios of 1/w.
 #[inline(always)]
 pub(crate) fn normalize_inv_w(vertices: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
     let is_safe = |vertex: &ScreenVertex| SAFE_INV_W.contains(&vertex.inv_w());
@@ -98,10 +100,10 @@ pub(crate) fn normalize_inv_w(vertices: [ScreenVertex; 3]) -> [ScreenVertex; 3] 
     scale_inv_w_to_one(vertices)
 }
 
-/// The vertices with 1/w scaled so that the largest is 1.
+/// The vertices with 1/w scaled to make the largest 1.
 ///
-/// None becomes less than 2⁻⁸⁰, so that a weight between two small ones still has a divisor. Out of
-/// line, for no ordinary scene comes here.
+/// None becomes less than 2⁻⁸⁰, so a weight between two small ones still has a divisor. Out of
+/// line, because ordinary scenes never need it.
 #[cold]
 fn scale_inv_w_to_one(vertices: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
     let [p, q, r] = vertices.map(|vertex| f64::from(vertex.inv_w()));
@@ -151,7 +153,7 @@ pub(crate) fn triangulate_point(
 
 /// A vertex moved by grid steps, rounded to the nearest step (halves up).
 fn offset_vertex(vertex: ScreenVertex, dx: f64, dy: f64) -> ScreenVertex {
-    // However wide the line, its vertices stay within the guard band.
+    // Even for very wide lines, the vertices stay within the guard band.
     let shift = |from: i32, by: f64| {
         let moved = from.saturating_add((by + 0.5).floor() as i32);
         moved.clamp(*GRID_RANGE.start(), *GRID_RANGE.end())

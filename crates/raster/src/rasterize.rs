@@ -11,18 +11,18 @@
 //!
 //! A sample is covered if none of the three edge functions is negative, and visible if it is also
 //! strictly nearer than the depth buffer. Because the comparison is strict and triangles come in
-//! submission order, the triangle that was submitted first wins depth ties.
+//! submission order, the triangle submitted first wins depth ties.
 //!
 //! Eight blocks of a row are classified at once by the edge functions at their corners. For
-//! triangles of a few blocks that does not pay, and they are drawn block by block.
+//! triangles of a few blocks this does not pay, and they are drawn block by block.
 //!
 //! ```text
 //!   E(x, y) = A x + B y + C                 edge function, ≥ 0 inside (Pineda 1988), 32 bits
 //!   z(x, y) = z₀ + dz/dx · x + dz/dy · y    depth plane, larger is nearer
 //! ```
 //!
-//! Both are linear, so their extremes over a block lie at its corners. That makes the tests of a
-//! whole block exact for edges, and safe for depth.
+//! Both are linear, so their extremes over a block are at its corners. This makes block tests exact
+//! for edges and conservative for depth.
 
 mod triangle_lanes;
 
@@ -34,7 +34,7 @@ use fearless_simd::{Simd, f32x8, i32x8, mask32x8, u32x8};
 pub(crate) use triangle_lanes::TriangleLanes;
 use triangle_lanes::{Block, BlockColumns, BlockDepths, blocks_in_bounds};
 
-/// Triangles that touch no more blocks than this are drawn block by block, without classification.
+/// Triangles that touch at most this many blocks are drawn block by block, without classification.
 ///
 /// Classification costs the same for one block of a row as for eight.
 const FEW_BLOCKS: i32 = 4;
@@ -43,8 +43,8 @@ const FEW_BLOCKS: i32 = 4;
 ///
 /// `start` gives the start values of the triangle's functions in a plane.
 ///
-/// Every plane holds one sample of each pixel. Small triangles go block by block through all
-/// planes, large ones plane by plane through the rows of blocks.
+/// Every plane holds one sample of each pixel. Small triangles are drawn block by block in all
+/// planes, large ones plane by plane along the rows of blocks.
 #[inline(always)]
 pub(crate) fn rasterize_triangle<S: Simd>(
     simd: S,
@@ -66,11 +66,11 @@ pub(crate) fn rasterize_triangle<S: Simd>(
         return;
     }
     for block in blocks_in_bounds(&lanes.functions) {
-        // Depth along the columns does not depend on the sample: once for all planes.
+        // Depth along the columns does not depend on the sample: compute it once for all planes.
         let columns = lanes.block_columns(simd, block);
         for (sample, plane) in planes.iter_mut().enumerate() {
             let start = start(sample);
-            // Hierarchical z, then the block's corners against the edges.
+            // Hierarchical z, then the corners of the block against the edges.
             if max_depth > plane.block_farthest[block.index] && !lanes.rejects_block(&start, block)
             {
                 plane.rasterize_partial_block(simd, lanes, &start, columns, triangle);
@@ -84,9 +84,9 @@ pub(crate) fn rasterize_triangle<S: Simd>(
 impl SamplePlane {
     /// Rasterizes the part of a large triangle that lies in one row of blocks.
     ///
-    /// All eight blocks are classified and bounded by vector instructions; then only touched ones
-    /// are visited, in the order of the bits of a mask. Bounds of the blocks are raised before
-    /// their samples are written, by depths that hold for the samples to come.
+    /// All eight blocks are classified and bounded by vector instructions; then only touched blocks
+    /// are visited, in the bit order of a mask. The bounds of the blocks are raised before their
+    /// samples are written, by depths that hold for the samples to come.
     #[inline(always)]
     fn rasterize_block_row<S: Simd>(
         &mut self,
@@ -104,13 +104,13 @@ impl SamplePlane {
         let coverage = lanes.classify_blocks(simd, start, row);
         let BlockDepths { min_depth, max_depth, is_unclamped } =
             lanes.block_depth_bounds(simd, start, row);
-        // Hierarchical z: touched blocks are not hidden as a whole. Of the blocks that the triangle
-        // fills, those that it is in front of everywhere need no depth test.
+        // Hierarchical z: touched blocks that are not completely hidden. Blocks that the triangle
+        // fills, and is completely in front of, need no depth test.
         let touched = coverage.is_touched & max_depth.simd_gt(farthest);
         let full = touched & coverage.is_full & is_unclamped;
         let in_front = min_depth.simd_gt(nearest);
-        // Update the bounds: a full block is at least as near as the triangle's farthest point in
-        // it.
+        // Update the bounds: a full block is at least as near as the farthest point of the triangle
+        // in it.
         let nearer = |new: f32x8<S>, old: f32x8<S>| new.simd_gt(old).select(new, old);
         let raised = full.select(nearer(min_depth, farthest), farthest);
         raised.store_slice(&mut self.block_farthest[first..end]);
@@ -130,8 +130,8 @@ impl SamplePlane {
             } else {
                 let columns = lanes.block_columns(simd, block);
                 self.rasterize_partial_block(simd, lanes, start, columns, triangle);
-                // A partly covered block can only have come nearer as a whole if the triangle may
-                // reach all of it; otherwise its 64 samples need not be reduced.
+                // A partly covered block can come nearer as a whole only if the triangle may reach
+                // all of it; otherwise its 64 samples need not be reduced.
                 if lanes.bounds_contain(block) {
                     self.block_farthest[block.index] = self.farthest_in_block(simd, block);
                     self.count_nearer_blocks(1);
@@ -141,11 +141,11 @@ impl SamplePlane {
         self.count_nearer_blocks(full.count_ones());
     }
 
-    /// Overwrites a block that the triangle fills, and is in front of everywhere.
+    /// Overwrites a block that the triangle fills and is completely in front of.
     ///
     /// No coverage, no depth test and no clamping: a depth and an index are stored for each sample.
-    /// This is the fastest path: a large triangle that is the first in a block, or in front of all
-    /// before it.
+    /// This is the fastest path, for a large triangle that is the first in a block or in front of
+    /// all earlier ones.
     #[inline(always)]
     fn overwrite_block<S: Simd>(
         &mut self,
@@ -165,7 +165,7 @@ impl SamplePlane {
         self.triangle[first..first + BLOCK_SIDE * BLOCK_SIDE].fill(triangle);
     }
 
-    /// Rasterizes a block that the triangle fills: depth test only.
+    /// Rasterizes a block that the triangle fills: only the depth test is needed.
     ///
     /// The depth plane stays within the vertices' depths over the block, so it needs no clamping.
     #[inline(always)]
@@ -184,10 +184,10 @@ impl SamplePlane {
         }
     }
 
-    /// Rasterizes a block that an edge may run through: coverage and depth test of each sample.
+    /// Rasterizes a block that an edge may cross: coverage and depth test of each sample.
     ///
-    /// Depth is clamped to the vertices' depths: on a steep sliver rounding alone may carry a
-    /// sample out of their range.
+    /// Depth is clamped to the depths of the vertices, because on a steep sliver rounding may carry
+    /// a sample out of their range.
     #[inline(always)]
     fn rasterize_partial_block<S: Simd>(
         &mut self,
@@ -200,7 +200,7 @@ impl SamplePlane {
         let rows = lanes.rows_in_block(block);
         let mut edges = lanes.row_edge_values(simd, start, block, rows.start);
         for row in rows {
-            // Coverage: the sign bits of the three edge functions together. All are clear inside.
+            // Coverage: the combined sign bits of the three edge functions. All are clear inside.
             let covered = (edges[0] | edges[1] | edges[2]).simd_ge(i32x8::splat(simd, 0));
             let depth = lanes.clamp_depth(depths + lanes.row_depth(simd, start, block, row));
             self.depth_test_row(simd, block.row_index(row), depth, Some(covered), triangle);
@@ -211,10 +211,9 @@ impl SamplePlane {
         }
     }
 
-    /// Depth test and depth write for eight samples of a row, from array index `first` on.
+    /// Depth test and depth write for eight samples of a row, starting at array index `first`.
     ///
-    /// The test is strict: at equal depth the triangle that is there stays, which was submitted
-    /// earlier.
+    /// The test is strict: at equal depth the stored triangle, which was submitted earlier, stays.
     #[inline(always)]
     fn depth_test_row<S: Simd>(
         &mut self,
@@ -229,7 +228,7 @@ impl SamplePlane {
         // Depth test. A depth tie fails the comparison: the triangle drawn first stays.
         let nearer = depth.simd_gt(old);
         let visible = covered.map_or(nearer, |covered| covered & nearer);
-        // Both stores are unconditional: lanes that fail the test write back what was there.
+        // Both stores are unconditional: lanes that fail the test write back the stored value.
         visible.select(depth, old).store_slice(depths);
         let triangles: &mut [u32] = &mut self.triangle[first..first + BLOCK_SIDE];
         let old = u32x8::from_slice(simd, triangles);
@@ -238,8 +237,8 @@ impl SamplePlane {
 
     /// Calls `each(array index, x, y, depth)` for every covered sample that passes the depth test.
     ///
-    /// Nothing is written: for masked triangles, whose alpha test comes in between, and translucent
-    /// ones. `compare` is the depth test.
+    /// Nothing is written here: it is for masked triangles, whose alpha test comes in between, and
+    /// for translucent ones. `compare` is the depth test.
     ///
     /// `each` may write to the plane: the depth test of a row is done before its samples are
     /// visited, and no sample is visited twice.
@@ -254,7 +253,7 @@ impl SamplePlane {
     ) {
         let functions = &lanes.functions;
         for block in blocks_in_bounds(functions) {
-            // Beyond the visible region the bound is +∞: nothing is to be done there.
+            // Beyond the visible region the bound is +∞, so nothing is drawn there.
             let farthest = self.block_farthest[block.index];
             let is_hidden = if compare == DepthCompare::Always {
                 farthest == f32::INFINITY
@@ -278,7 +277,7 @@ impl SamplePlane {
                     let lane = visible.trailing_zeros() as usize;
                     visible &= visible - 1;
                     let (x, y) = (block.x as usize + lane, block.y as usize + row);
-                    // The vector may reach beyond the visible region's right border.
+                    // The vector may extend beyond the right border of the visible region.
                     if (x as i32) < functions.x1 {
                         each(self, first + lane, x, y, depth[lane]);
                     }
@@ -289,7 +288,7 @@ impl SamplePlane {
 
     /// The depth of the farthest sample of a block.
     ///
-    /// 64 depths: eight vectors are reduced to one, then eight lanes to a number.
+    /// 64 depths: eight vectors are reduced to one, then eight lanes to one number.
     #[inline(always)]
     fn farthest_in_block<S: Simd>(&self, simd: S, block: Block) -> f32 {
         let first = block.index * BLOCK_SIDE * BLOCK_SIDE;
@@ -304,7 +303,7 @@ impl SamplePlane {
 
     /// Depth test and depth write for one sample, without a branch.
     ///
-    /// The block's nearest bound is raised with it; its farthest bound stays, which is safe.
+    /// The nearest bound of the block is raised with it; its farthest bound stays, which is safe.
     #[inline(always)]
     pub(crate) fn depth_test_sample(&mut self, index: usize, depth: f32, triangle: u32) {
         let (old, old_triangle) = (self.depth[index], self.triangle[index]);
@@ -315,9 +314,9 @@ impl SamplePlane {
         *nearest = nearer_depth(*nearest, depth);
     }
 
-    /// Writes depth and triangle of one sample, without a test.
+    /// Writes the depth and triangle of one sample without a test.
     ///
-    /// The block's nearest bound is raised with it; its farthest bound stays, which is safe.
+    /// The nearest bound of the block is raised with it; its farthest bound stays, which is safe.
     pub(crate) fn write_sample(&mut self, index: usize, depth: f32, triangle: u32) {
         self.depth[index] = depth;
         self.triangle[index] = triangle;

@@ -8,27 +8,27 @@
 //!   ├──┼──┼──┼ …                         │ …               │  row 7
 //! ```
 //!
-//! Pixels are stored block by block, so that a row of a block is one vector and a block fills four
-//! cache lines of depths.
+//! Pixels are stored block by block: a row of a block is one vector, and the depths of a block fill
+//! four cache lines.
 //!
-//! Hierarchical z (Greene, Kass and Miller 1993): each block has two bounds, a depth that none of
-//! its samples is farther than and one that none is nearer than. A triangle farther than the first
-//! is hidden in the whole block; one nearer than the second hides it, and is written without a
-//! depth test. The tile as a whole has the first bound, too. Bounds may lag behind the samples, but
-//! they always hold.
+//! Hierarchical z (Greene, Kass and Miller 1993): each block has two bounds,  a depth that none of
+//! its samples is farther than, and one that none is nearer than. A triangle farther than the first
+//! is hidden in the whole block; one nearer than the second hides the block and is written without
+//! a depth test. The tile as a whole has the first bound too. Bounds may lag behind the samples,
+//! but they always hold.
 
 use crate::tile_grid::{TILE, TileRect};
 
-/// Pixels of a tile.
+/// The pixels of a tile.
 pub(crate) const TILE_PIXELS: usize = (TILE * TILE) as usize;
 /// The side of a block in pixels: the lanes of one vector.
 pub(crate) const BLOCK_SIDE: usize = 8;
-/// Blocks in a row of blocks of a tile.
+/// The number of blocks in a row of blocks of a tile.
 pub(crate) const BLOCKS_PER_ROW: usize = TILE as usize / BLOCK_SIDE;
-/// The triangle index of the background. It is larger than every other.
+/// The triangle index of the background, larger than any other.
 pub(crate) const NO_TRIANGLE: u32 = u32::MAX;
 
-/// The tile's bound is computed anew after so many blocks have come nearer.
+/// The bound of the tile is recomputed after this many blocks have come nearer.
 const STALE_BLOCKS: u32 = 16;
 
 /// The array index of a pixel of the tile.
@@ -39,7 +39,7 @@ pub(crate) const fn pixel_index(x: usize, y: usize) -> usize {
 
 /// Depth and triangle index of one sample of every pixel of a tile.
 ///
-/// The background is at depth −∞, so that everything is nearer.
+/// The background is at depth −∞, so everything else is nearer.
 #[derive(Debug)]
 pub(crate) struct SamplePlane {
     /// The depth buffer.
@@ -70,8 +70,8 @@ impl SamplePlane {
 
     /// Clears the plane to the background.
     ///
-    /// Blocks outside the visible part of the tile get +∞ as their farthest depth: everything is
-    /// hidden in them, so no work is done there, and they do not hold back the tile's bound.
+    /// Blocks outside the visible part of the tile get +∞ as their farthest depth: everything in
+    /// them is hidden, so no work is done there, and they do not hold back the bound of the tile.
     pub(crate) fn clear(&mut self, visible: TileRect) {
         self.depth.fill(f32::NEG_INFINITY);
         self.triangle.fill(NO_TRIANGLE);
@@ -85,8 +85,8 @@ impl SamplePlane {
         (self.tile_farthest, self.stale_blocks) = (f32::NEG_INFINITY, 0);
     }
 
-    /// Finds the bounds of the blocks in the visible part of the tile from its depths. Pixels of a
-    /// block beyond it are at −∞, and hold back its farthest bound, which is safe.
+    /// Computes the bounds of the blocks in the visible part of the tile from its depths. The
+    /// pixels of a block beyond it are at −∞ and hold back its farthest bound, which is safe.
     pub(crate) fn find_block_bounds(&mut self, visible: TileRect) {
         let columns = visible.left as usize / 8..visible.right.div_ceil(8) as usize;
         for row in visible.top as usize / 8..visible.bottom.div_ceil(8) as usize {
@@ -102,22 +102,22 @@ impl SamplePlane {
         self.tile_farthest = self.block_farthest.iter().copied().fold(f32::INFINITY, f32::min);
     }
 
-    /// A depth that no sample of the tile is farther than: whatever is farther is hidden.
+    /// A depth that no sample of the tile is farther than; anything farther is hidden.
     pub(crate) fn tile_farthest(&self) -> f32 {
         self.tile_farthest
     }
 
-    /// Counts blocks that have come nearer, and updates the tile's bound after [`STALE_BLOCKS`] of
-    /// them.
+    /// Counts blocks that have come nearer, and updates the bound of the tile after
+    /// [`STALE_BLOCKS`] of them.
     ///
-    /// Sixty-four bounds are reduced to one, which would cost more than it saves after every block.
+    /// Reducing sixty-four bounds to one after every block would cost more than it saves.
     #[inline(always)]
     pub(crate) fn count_nearer_blocks(&mut self, blocks: u32) {
         self.stale_blocks += blocks;
         if self.stale_blocks >= STALE_BLOCKS {
             self.stale_blocks = 0;
             let mut least = [f32::INFINITY; BLOCK_SIDE];
-            // The least of 64 bounds, eight lanes at a time.
+            // The minimum of 64 bounds, eight lanes at a time.
             for row in self.block_farthest.as_chunks::<BLOCK_SIDE>().0 {
                 for (least, &farthest) in least.iter_mut().zip(row) {
                     *least = if farthest < *least { farthest } else { *least };

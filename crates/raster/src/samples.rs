@@ -1,11 +1,11 @@
-//! Multisampling: where in a pixel coverage and depth are sampled.
+//! Multisampling: the positions in a pixel at which coverage and depth are sampled.
 
 use crate::screen_vertex::SUBPIXELS;
 
 /// The number of coverage samples per pixel (multisample antialiasing).
 ///
 /// Coverage and depth are determined at every sample; each visible surface is still shaded once per
-/// pixel. The patterns are the standard ones of Direct3D 11.
+/// pixel. The patterns are the standard ones from Direct3D 11.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Samples {
     /// One sample at the center of the pixel: no antialiasing.
@@ -20,7 +20,7 @@ pub enum Samples {
 }
 
 // Offsets from the center of the pixel in 1/16 pixel. No two samples of a pattern share a row or a
-// column, so that edges near the axes get as many steps as there are samples.
+// column, so nearly horizontal and vertical edges get as many steps as there are samples.
 const ONE: [(i32, i32); 1] = [(0, 0)];
 const FOUR: [(i32, i32); 4] = [(-2, -6), (6, -2), (-6, 2), (2, 6)];
 const EIGHT: [(i32, i32); 8] =
@@ -73,8 +73,8 @@ impl Samples {
         }
     }
 
-    /// The least and the greatest offset of a sample from its pixel's left or upper border, in grid
-    /// steps.
+    /// The minimum and maximum offsets of a sample from the left or upper border of its pixel, in
+    /// grid steps.
     pub(crate) fn offset_range(self) -> (i32, i32) {
         let all = self.sixteenths().iter().flat_map(|&(x, y)| [x, y]);
         let (least, greatest) =
@@ -108,8 +108,8 @@ impl Samples {
     }
 }
 
-/// The offset in grid steps from the upper left corner of a pixel, of one in 1/16 pixel from its
-/// center: exact, for 1/16 pixel is 16 grid steps.
+/// Converts an offset in 1/16 pixel from the center to grid steps from the upper left corner of the
+/// pixel. This is exact, because 1/16 pixel is 16 grid steps.
 #[inline(always)]
 const fn grid_offset(from_center: (i32, i32)) -> (i32, i32) {
     let (x, y) = from_center;

@@ -1,48 +1,49 @@
-//! Screen vertices: snapped to the fixed-point grid on which coverage is exact.
+//! Screen vertices, snapped to the fixed-point grid on which coverage is exact.
 //!
-//! Coverage is decided by integers. A vertex is rounded to the nearest multiple of 1/256 pixel once
-//! (8 sub-pixel bits, as Direct3D requires and GPUs have), and from there on every edge function is
-//! exact. Vertices that triangles share are snapped alike, so no gap can open between them. The
+//! Coverage uses only integers. A vertex is rounded once to the nearest multiple of 1/256 pixel (8
+//! subpixel bits, as Direct3D requires and GPUs use), and from there on every edge function is
+//! exact. Vertices shared by triangles are snapped alike, so no gap can open between them. The
 //! price is an error of at most 1/512 pixel in the position of a vertex.
 
 use core::num::NonZeroU32;
 use homog::{Point, Screen};
 
-/// The sub-pixel bits of a coordinate: the grid is 1/256 pixel.
+/// The subpixel bits of a coordinate: the grid is 1/256 pixel.
 pub const SUBPIXEL_BITS: u32 = 8;
 /// Grid steps per pixel.
 pub const SUBPIXELS: i32 = 1 << SUBPIXEL_BITS;
-/// The least and the greatest coordinate of a vertex in pixels. Geometry beyond it must be clipped.
+/// The minimum and maximum coordinates of a vertex in pixels. Geometry beyond them must be clipped.
 ///
 /// It leaves a guard band of 8192 pixels around a picture of [`MAX_SIDE`](crate::MAX_SIDE) (CL-4),
-/// so that few triangles need clipping at the sides of the picture. No triangle is then wider or
-/// higher than 32768 pixels, and its edge functions change by less than 2³⁰ across a tile.
+/// so few triangles need clipping at the sides of the picture. No triangle is then wider or higher
+/// than 32768 pixels, and its edge functions change by less than 2³⁰ across a tile.
 pub const GUARD_BAND: core::ops::RangeInclusive<f64> = -8192.0..=24576.0;
 
 /// [`GUARD_BAND`] in grid steps.
 pub(crate) const GRID_RANGE: core::ops::RangeInclusive<i32> = -8192 * SUBPIXELS..=24576 * SUBPIXELS;
 
-/// The greatest magnitude of a depth: no step in the evaluation of a depth plane overflows.
+/// The maximum magnitude of a depth: no step in the evaluation of a depth plane overflows.
 pub const MAX_DEPTH: f32 = 1_048_576.0;
 
 /// A vertex after perspective divide, viewport transform and snapping. It can always be drawn.
 ///
-/// x runs right and y down, in 1/256 pixel. Depth is 1 at the near plane and 0 at the far plane
-/// (reversed z); larger is nearer.
+/// x is to the right and y down, in 1/256 pixel. Depth is 1 at the near plane and 0 at the far
+/// plane (reversed z); larger is nearer.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ScreenVertex {
     pub(crate) x: i32,
     pub(crate) y: i32,
     pub(crate) depth: f32,
-    /// The bits of 1/w. It is positive, so they are not all 0, and an `Option` takes no more space.
+    /// The bits of 1/w. It is positive, so they are not all 0, and an `Option` takes no extra
+    /// space.
     inv_w: NonZeroU32,
 }
 
 impl ScreenVertex {
     /// A vertex on the grid.
     ///
-    /// `None` if it cannot be drawn: it lies outside [`GUARD_BAND`], its depth is beyond ±2²⁰ or
-    /// NaN, or 1/w is not positive and finite.
+    /// `None` if it cannot be drawn: it is outside [`GUARD_BAND`], its depth is beyond ±2²⁰ or NaN,
+    /// or 1/w is not positive and finite.
     #[inline]
     #[must_use]
     pub fn new(x: i32, y: i32, depth: f32, inv_w: f32) -> Option<Self> {
@@ -52,7 +53,7 @@ impl ScreenVertex {
 
     /// A vertex, if it is `on_grid` and otherwise drawable.
     ///
-    /// Without branches, so that a loop over eight vertices becomes vector instructions.
+    /// Branchless, so a loop over eight vertices compiles to vector instructions.
     #[inline(always)]
     pub(crate) fn new_if_drawable(
         on_grid: bool,
@@ -67,12 +68,12 @@ impl ScreenVertex {
         NonZeroU32::new(bits).map(|inv_w| Self { x, y, depth, inv_w })
     }
 
-    /// Snaps a screen point (pixels, y down; z is the depth), given the clip-space w it was divided
-    /// by.
+    /// Snaps a screen point (pixels, y down; z is the depth), given the clip-space w by which it
+    /// was divided.
     ///
-    /// `None` if the point cannot be drawn: a coordinate is not finite or lies outside
-    /// [`GUARD_BAND`], the depth is beyond ±2²⁰, or w is not positive. Geometry that was clipped to
-    /// the view volume with a guard band can always be drawn.
+    /// `None` if the point cannot be drawn: a coordinate is not finite or outside [`GUARD_BAND`],
+    /// the depth is beyond ±2²⁰, or w is not positive. Geometry clipped to the view volume with a
+    /// guard band can always be drawn.
     #[must_use]
     pub fn snap(point: Point<Screen>, w: f64) -> Option<Self> {
         let (x, y) = (snap_coordinate(point.x())?, snap_coordinate(point.y())?);
@@ -108,8 +109,7 @@ impl ScreenVertex {
 
 /// Fixed-point snapping: the nearest grid step, halves up; `None` outside the guard band.
 ///
-/// Halves go up on both sides of 0, so that moving a picture by whole pixels moves its grid with
-/// it.
+/// Halves go up on both sides of 0, so moving a picture by whole pixels moves its grid with it.
 fn snap_coordinate(pixels: f64) -> Option<i32> {
     let step = || (pixels * f64::from(SUBPIXELS) + 0.5).floor() as i32;
     GUARD_BAND.contains(&pixels).then(step)

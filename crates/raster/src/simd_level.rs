@@ -1,29 +1,29 @@
-//! SIMD dispatch: the set of vector instructions that a frame is drawn with, chosen at run time.
+//! SIMD dispatch: selects the vector instructions for drawing a frame at run time.
 //!
-//! There are two levels: the baseline that the program was built for (SSE2 on x86-64, NEON on ARM)
-//! and AVX2. Each hot loop is compiled once for either. The picture does not depend on the level:
-//! every operation used is exact or correctly rounded (no fused multiply-add, no approximate
+//! There are two levels: the baseline for which the program was built (SSE2 on x86-64, NEON on ARM)
+//! and AVX2. Each hot loop is compiled once per level. The picture does not depend on the level:
+//! every operation is exact or correctly rounded (no fused multiply-add, no approximate
 //! reciprocal), so each lane has the bits of the scalar computation.
 //!
-//! Shading is compiled for AVX2 alone on x86 ([`SimdLevel::run_wide_kernel`]); without it fragments
-//! are shaded one by one.
+//! On x86, shading is compiled only for AVX2 ([`SimdLevel::run_wide_kernel`]); without it,
+//! fragments are shaded one by one.
 //!
-//! More levels were tried and given up. SSE4.2 saves little over SSE2 here and adds a third to the
-//! code that is compiled; AVX-512 pays only for filling large triangles, while shading, which runs
-//! eight lanes wide, takes a tenth to a third longer with it (`cargo xtask bench raster`).
+//! More levels were tried and rejected. SSE4.2 saves little over SSE2 here and adds a third to the
+//! compiled code. AVX-512 pays only for filling large triangles; shading, which is eight lanes
+//! wide, takes a tenth to a third longer with it (`cargo xtask bench raster`).
 
 use fearless_simd::Level;
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 use fearless_simd::Simd;
 
-/// A set of vector instructions that this processor has.
+/// A set of vector instructions that this processor supports.
 #[derive(Clone, Copy, Debug)]
 pub struct SimdLevel {
     level: Level,
 }
 
 impl SimdLevel {
-    /// The fastest level of this processor: the default of frames.
+    /// The fastest level of this processor, the default for frames.
     #[must_use]
     pub fn best() -> Self {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -33,13 +33,13 @@ impl SimdLevel {
         Self::baseline()
     }
 
-    /// The level that every processor has for which the program was built.
+    /// The baseline level of every processor for which the program was built.
     #[must_use]
     pub const fn baseline() -> Self {
         Self { level: Level::baseline() }
     }
 
-    /// All levels that this processor has: the baseline, and AVX2 where there is more than that.
+    /// All levels that this processor supports: the baseline, and AVX2 if it is more than that.
     #[must_use]
     pub fn available() -> Vec<Self> {
         let baseline = Self::baseline();
@@ -50,10 +50,10 @@ impl SimdLevel {
         vec![baseline]
     }
 
-    /// Runs a kernel, compiled for these instructions.
+    /// Runs a kernel compiled for these instructions.
     ///
     /// Every kernel is compiled twice: for AVX2 and for the baseline. It is a function call, not
-    /// inlined, so that large kernels such as shading are compiled once and not in every loop that
+    /// inlined, so large kernels such as shading are compiled once rather than in every loop that
     /// runs them.
     #[inline(never)]
     pub fn run_kernel<K: Kernel>(self, kernel: K) -> K::Output {
@@ -68,10 +68,10 @@ impl SimdLevel {
     }
 
     /// Runs a kernel if the processor has better instructions than the oldest of its kind: AVX2 on
-    /// x86, and anything elsewhere. `None` otherwise: there is no copy of the kernel for SSE2.
+    /// x86, anything elsewhere. Otherwise returns `None`: there is no copy of the kernel for SSE2.
     ///
-    /// For kernels so large that a second copy costs more than the few processors without AVX2 are
-    /// worth; their callers go on fragment by fragment, with the same bits.
+    /// This is for kernels so large that a second copy is not worth it for the few processors
+    /// without AVX2. Callers then continue fragment by fragment, with the same bits.
     #[inline(always)]
     pub fn run_wide_kernel<K: Kernel>(self, kernel: K) -> Option<K::Output> {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -85,14 +85,14 @@ impl SimdLevel {
         Some(self.run_kernel(kernel))
     }
 
-    /// Runs a part of a wide kernel as a function by itself, with the instructions of the kernel.
+    /// Runs part of a wide kernel as a separate function, with the instructions of the kernel.
     ///
-    /// A kernel is one function with all that it calls inlined, and LLVM's time for a function grows
-    /// faster than the function: cut in a dozen parts, shading compiles in half the time. Call it
-    /// only below [`run_wide_kernel`](Self::run_wide_kernel).
+    /// A kernel is one function with all its calls inlined, and LLVM's time for a function grows
+    /// faster than the function: divided into a dozen parts, shading compiles in half the time.
+    /// Call it only inside [`run_wide_kernel`](Self::run_wide_kernel).
     ///
     /// # Panics
-    /// On x86 processors without AVX2, which run no wide kernels.
+    /// Panics on x86 processors without AVX2, which run no wide kernels.
     #[inline(always)]
     pub fn run_part<R>(part: impl FnOnce() -> R) -> R {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -109,27 +109,27 @@ impl SimdLevel {
     }
 }
 
-/// Runs a part of a kernel, not inlined.
+/// Runs part of a kernel, not inlined.
 #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
 #[inline(never)]
 fn run_apart<R>(part: impl FnOnce() -> R) -> R {
     part()
 }
 
-/// A computation that is compiled once for each SIMD level: see [`SimdLevel::run_kernel`].
+/// A computation compiled once for each SIMD level: see [`SimdLevel::run_kernel`].
 pub trait Kernel {
     /// The result of the computation.
     type Output;
 
     /// Runs the computation.
     ///
-    /// Mark it, and every function that it calls, `#[inline(always)]`, and write it as plain loops
-    /// over lanes: only code that is inlined into the dispatched function gets its instructions.
+    /// Mark it and every function that it calls `#[inline(always)]`, and write it as plain loops
+    /// over lanes: only code inlined into the dispatched function gets its instructions.
     fn run(self) -> Self::Output;
 }
 
-/// Runs an expression with the SIMD token of a level, as `fearless_simd::dispatch`, but compiled
-/// for the two levels of [`SimdLevel`] only.
+/// Runs an expression with the SIMD token of a level, like `fearless_simd::dispatch`, but compiled
+/// only for the two levels of [`SimdLevel`].
 #[cfg(all(any(target_arch = "x86", target_arch = "x86_64"), target_feature = "sse2"))]
 macro_rules! dispatch {
     ($level:expr, $simd:pat => $op:expr) => {{

@@ -1,4 +1,4 @@
-//! Drawing a frame: visibility tile by tile, then each visible surface shaded once per pixel.
+//! Drawing a frame: visibility tile by tile, then shading of each visible surface once per pixel.
 
 use crate::fragment_lanes::{F32x8, LANES};
 use crate::simd_level::dispatch;
@@ -9,7 +9,7 @@ use crate::{Fragment, Fragments, Frame};
 /// The appearance of the primitives of a frame: alpha test and shading.
 pub trait Surface: Sync {
     /// The alpha test: whether a masked primitive is present in this fragment. The default is
-    /// `true`: only frames with masked primitives ask.
+    /// `true`; it is called only in frames with masked primitives.
     #[inline(always)]
     fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
         let _ = fragment;
@@ -18,8 +18,8 @@ pub trait Surface: Sync {
 
     /// The alpha test for eight adjacent fragments of one masked primitive.
     ///
-    /// Some may lie outside the primitive; their results are ignored. Drawing calls this method.
-    /// The default calls [`passes_alpha_test`](Self::passes_alpha_test) for each.
+    /// Some may be outside the primitive; their results are ignored. Drawing calls this method. The
+    /// default calls [`passes_alpha_test`](Self::passes_alpha_test) for each.
     #[inline(always)]
     fn alpha_test_eight(&self, fragments: &Fragments<'_>) -> [bool; LANES] {
         let weights = fragments.weights();
@@ -28,36 +28,36 @@ pub trait Surface: Sync {
 
     /// The color of a fragment: linear red, green and blue, premultiplied by alpha, and alpha.
     ///
-    /// Opaque and masked primitives replace what is behind them, alpha included: it is 1 unless
-    /// the color holds a background that is transparent itself, as that of refracting glass does.
+    /// Opaque and masked primitives replace everything behind them, including alpha. Alpha is 1
+    /// unless the color includes a background that is itself transparent, as for refracting glass.
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4];
 
     /// The colors of eight fragments: all reds, all greens, all blues, all alphas.
     ///
     /// Drawing calls this method; the default calls [`shade`](Self::shade) for each. Written as
     /// plain loops over the lanes and marked `#[inline(always)]`, it is compiled for the vector
-    /// instructions of the processor and several times as fast.
+    /// instructions of the processor and is several times as fast.
     #[inline(always)]
     fn shade_eight(&self, fragments: &Fragments<'_>) -> [F32x8; 4] {
         shade_each(fragments, |fragment| self.shade(fragment))
     }
 
-    /// Whether two opaque primitives are neighbors in one smooth surface, so that within a pixel
-    /// that shows both the color of one stands for the other.
+    /// Whether two opaque primitives are neighbors in one smooth surface, so the color of one can
+    /// represent both in a pixel that shows both.
     ///
-    /// Asked of primitives that show the same side in one pixel; the ids are those that they were
-    /// submitted with. The default is `false`: each primitive is shaded by itself.
+    /// Called for primitives that show the same side in one pixel, with the ids with which they
+    /// were submitted. The default is `false`: each primitive is shaded separately.
     #[inline(always)]
     fn is_continuous(&self, first_id: u32, second_id: u32) -> bool {
         let _ = (first_id, second_id);
         false
     }
 
-    /// The colors of eight fragments that may be translucent, and what they let through.
+    /// The colors of eight fragments that may be translucent, and their transmittances.
     ///
-    /// The default is the "over" operator: [`shade_eight`](Self::shade_eight), and a transmittance
-    /// of 1 − alpha. Glass that absorbs by color overrides it. Transmittances of opaque fragments
-    /// are ignored.
+    /// The default is the "over" operator: [`shade_eight`](Self::shade_eight) with a transmittance
+    /// of 1 − alpha. Override it for glass that absorbs by color. Transmittances of opaque
+    /// fragments are ignored.
     #[inline(always)]
     fn shade_translucent_eight(&self, fragments: &Fragments<'_>) -> TranslucentColors {
         let color = self.shade_eight(fragments);
@@ -66,7 +66,7 @@ pub trait Surface: Sync {
     }
 }
 
-/// The colors of eight fragments, each by itself: all reds, all greens, all blues, all alphas.
+/// The colors of eight fragments, computed one by one: all reds, all greens, all blues, all alphas.
 #[inline(always)]
 pub fn shade_each(
     fragments: &Fragments<'_>,
@@ -88,12 +88,12 @@ pub fn shade_each(
 pub struct TranslucentColors {
     /// All reds, all greens, all blues, all alphas; linear and premultiplied.
     pub color: [F32x8; 4],
-    /// The factors of what is behind, for red, green and blue; 0 to 1.
+    /// The factors for everything behind, for red, green and blue; 0 to 1.
     pub transmittance: [F32x8; 3],
 }
 
-/// A surface of which each fragment has the color that a function returns: linear red, green and
-/// blue, premultiplied by alpha, and alpha.
+/// A surface whose fragments have the color that a function returns: linear red, green and blue,
+/// premultiplied by alpha, and alpha.
 ///
 /// ```
 /// # use raster::{Frame, Samples, surface_fn};
@@ -110,7 +110,7 @@ where
     SurfaceFn(shade)
 }
 
-/// A surface by a function: see [`surface_fn`].
+/// A surface defined by a function: see [`surface_fn`].
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceFn<F>(F);
 
@@ -121,8 +121,8 @@ impl<F: Fn(&Fragment<'_>) -> [f32; 4] + Sync> Surface for SurfaceFn<F> {
     }
 }
 
-/// A reference to a surface is one, so that `&dyn Surface` can be drawn: one copy of the machine
-/// code of drawing for surfaces of several types.
+/// A reference to a surface is a surface. With `&dyn Surface`, surfaces of several types share one
+/// copy of the drawing code.
 impl<S: Surface + ?Sized> Surface for &S {
     fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
         (**self).passes_alpha_test(fragment)
@@ -149,17 +149,17 @@ impl<S: Surface + ?Sized> Surface for &S {
     }
 }
 
-/// A pixel encoder: from a linear color, premultiplied by alpha, to a pixel of the target.
+/// A pixel encoder: converts a linear color, premultiplied by alpha, to a pixel of the target.
 ///
-/// Any function from a color to a pixel is one.
+/// Any function from a color to a pixel is an encoder.
 pub trait Encode<P>: Sync {
     /// The pixel of a color.
     fn encode_pixel(&self, color: [f32; 4]) -> P;
 
     /// The pixels of eight colors, given as all reds, all greens, all blues and all alphas.
     ///
-    /// The default calls [`encode_pixel`](Self::encode_pixel) for each; written as loops over lanes
-    /// it is faster.
+    /// The default calls [`encode_pixel`](Self::encode_pixel) for each; loops over lanes are
+    /// faster.
     #[inline(always)]
     fn encode_eight(&self, colors: &[F32x8; 4]) -> [P; LANES] {
         let [r, g, b, alpha] = colors;
@@ -179,8 +179,8 @@ impl Frame {
     /// that `encode` returns, rows from the top, `width` × `height` of them.
     ///
     /// The samples of a pixel are averaged in linear light (multisample resolve). Uses up to
-    /// `threads` threads, with the same result for any number. A `target` of another length gets
-    /// the rows that fit.
+    /// `threads` threads; the result is the same for any number. A `target` with another length
+    /// gets the rows that fit.
     #[expect(clippy::needless_pass_by_value, reason = "a function is handed over as it is")]
     pub fn draw<S: Surface, P: Copy + Send>(
         &self,
@@ -190,8 +190,8 @@ impl Frame {
         target: &mut [P],
         encode: impl Encode<P>,
     ) {
-        // Clearing whole bands is faster than clearing tiles, and leaves the rows in a cache for
-        // the tiles to write.
+        // Clearing whole bands is faster than clearing tiles, and leaves the rows in the cache for
+        // the tiles.
         let begin = |band: &mut [P]| band.fill(encode.encode_pixel(background));
         self.for_each_tile(surface, threads, target, begin, |filled| {
             let FilledTile { tile, rect, band, scratch } = filled;

@@ -1,7 +1,7 @@
 //! Surface depths: the depth plane of the nearest surface at each pixel, for shadow maps and
 //! ambient occlusion.
 //!
-//! The slopes let a reader compare depths beside the pixel's center without a constant bias
+//! The slopes allow comparing depths away from the pixel center without a constant bias
 //! (receiver-plane depth).
 
 use crate::sample_plane::pixel_index;
@@ -16,10 +16,10 @@ pub struct SurfaceDepth {
     pub depth: f32,
     /// The change of depth per pixel to the right, on the surface's plane.
     ///
-    /// It is clamped to the range of the vertices' depths: beside a triangle smaller than a pixel
-    /// its plane is meaningless.
+    /// It is clamped to the range of the vertex depths, because beside a triangle smaller than a
+    /// pixel its plane is meaningless.
     pub dx: f32,
-    /// The change of depth per pixel down, clamped alike.
+    /// The change of depth per pixel down, clamped likewise.
     pub dy: f32,
 }
 
@@ -29,17 +29,17 @@ impl SurfaceDepth {
 }
 
 impl Frame {
-    /// Finds the nearest opaque surface at the first sample of each pixel, with its depth there,
-    /// and writes it to `target`: rows from the top, `width` × `height` of them.
+    /// Finds the nearest opaque surface at the first sample of each pixel and writes its depth to
+    /// `target`: rows from the top, `width` × `height` of them.
     ///
-    /// Where there is no surface the target keeps its value, such as [`SurfaceDepth::EMPTY`].
+    /// Where there is no surface, the target keeps its value, such as [`SurfaceDepth::EMPTY`].
     ///
-    /// The sample is at [`Samples::first_offset`](crate::Samples::first_offset) in each pixel, with
-    /// one sample its center. Depths are not carried to another place: beyond the edge of a steep
-    /// surface they would be far from it.
+    /// The sample is at [`Samples::first_offset`](crate::Samples::first_offset) in each pixel; with
+    /// one sample, it is the center. Depths are not extrapolated to another position: beyond the
+    /// edge of a steep surface the error would be large.
     ///
-    /// Masked primitives count where they pass the alpha test, translucent ones not at all. Uses up
-    /// to `threads` threads, with the same result for any number.
+    /// Masked primitives count where they pass the alpha test; translucent ones do not count. Uses
+    /// up to `threads` threads; the result is the same for any number.
     pub fn surface_depths<S: Surface>(
         &self,
         surface: &S,
@@ -54,7 +54,7 @@ impl Frame {
         let FilledTile { tile, rect, band, .. } = filled;
         let left = (rect.x + rect.left - self.region.x) as usize;
         let rows = band.chunks_mut(self.region.width.max(1) as usize);
-        // Neighbors mostly show the same triangle: its slopes are computed once.
+        // Neighbors usually show the same triangle, so its slopes are computed once.
         let (mut last, mut slopes) = (u32::MAX, None);
         for (y, row) in (rect.top..rect.bottom).zip(rows) {
             for (x, target) in (rect.left..rect.right).zip(row.iter_mut().skip(left)) {

@@ -6,20 +6,20 @@
 //!             ──► group 2: …              ──► bins of all tiles ┘
 //! ```
 //!
-//! Triangles are binned in groups, each of which has bins of its own and can be sorted by a thread
-//! of its own without locks. The bin of a tile is its bin in each group, one group after the other:
-//! that is the order of submission, which decides between equal depths, for any number of threads.
+//! Triangles are binned in groups. Each group has its own bins and can be sorted by its own thread
+//! without locks. The bin of a tile is the concatenation of its bins in all groups. This is
+//! submission order, which decides at equal depth, for any number of threads.
 //!
 //! Binning takes two passes over the triangles of a group: time linear in triangles plus tiles plus
-//! entries, and no comparison between triangles.
+//! entries, without comparing triangles.
 
 use crate::parallel::for_each_parallel;
 use crate::tile_grid::TileGrid;
 use crate::triangle_buffer::{CHUNK_TRIANGLES, TriangleBuffer, TriangleChunk};
 use homog::PixelRect;
 
-/// The least number of chunks in a group. Smaller groups would spend more on clearing bins than on
-/// filling them.
+/// The minimum number of chunks in a group. Smaller groups would spend more on clearing bins than
+/// on filling them.
 const MIN_CHUNKS: usize = 4;
 
 /// For each tile that a region touches, row by row, the triangles whose bounds touch it.
@@ -33,7 +33,7 @@ pub(crate) struct TileBins {
     used: usize,
 }
 
-/// The bins of a run of chunks, in compressed rows: all bins in one array, and where each begins.
+/// The bins of a run of chunks, in compressed rows: all bins in one array, with the start of each.
 #[derive(Debug, Default)]
 struct BinGroup {
     /// The index in `triangles` at which the bin of each tile begins; one more at the end.
@@ -45,12 +45,12 @@ struct BinGroup {
 }
 
 impl TileBins {
-    /// Bins all triangles of a frame, reusing the memory of the last time.
+    /// Bins all triangles of a frame, reusing the memory from last time.
     ///
-    /// A group has at least as many triangles as four times the number of tiles, so that counting
-    /// and clearing bins stays cheap beside sorting. Bounding rectangles decide, so a thin diagonal
-    /// triangle is also in bins that it only passes by; the rasterizer rejects it there block by
-    /// block.
+    /// A group has at least four times as many triangles as there are tiles, which keeps counting
+    /// and clearing bins cheap compared with sorting. Bounding rectangles decide, so a thin
+    /// diagonal triangle is also in bins that it only passes; there the rasterizer rejects it block
+    /// by block.
     pub(crate) fn bin_triangles(
         &mut self,
         triangles: &TriangleBuffer,
@@ -58,7 +58,7 @@ impl TileBins {
         threads: usize,
     ) {
         self.grid = TileGrid::new(region);
-        // The size of a group depends on the frame alone, not on the number of threads.
+        // The size of a group depends only on the frame, not on the number of threads.
         let chunks: usize = triangles.chunks().len();
         let per_group = (4 * self.grid.count()).div_ceil(CHUNK_TRIANGLES).max(MIN_CHUNKS);
         self.used = chunks.div_ceil(per_group);
@@ -73,7 +73,7 @@ impl TileBins {
         });
     }
 
-    /// Appends the triangle indices of one tile, given by its column and row in the picture.
+    /// Appends the triangle indices of one tile, given its column and row in the picture.
     ///
     /// The tile must be one of the grid.
     pub(crate) fn append_tile_bin(&self, column: u32, row: u32, bin: &mut Vec<u32>) {
@@ -103,14 +103,14 @@ impl BinGroup {
                 bin_starts[tile + 1] += 1;
             }
         }
-        // The prefix sum of the counts is where each bin begins.
+        // The prefix sum of the counts is the start of each bin.
         let mut sum = 0;
         for start in bin_starts.iter_mut() {
             sum += *start;
             *start = sum;
         }
         write_positions.clone_from(bin_starts);
-        // Scatter. Every entry is overwritten, so those of the last frame need not be cleared.
+        // Scatter. Every entry is overwritten, so entries from the last frame need not be cleared.
         triangles.resize(sum as usize, 0);
         for (first, chunk) in chunks() {
             for (index, &tiles) in (first..).zip(chunk.tiles()) {

@@ -1,8 +1,8 @@
 //! The grid of 64 × 64 pixel tiles, and the region of it that a frame shows.
 //!
-//! Tiles are counted from the upper left corner of the whole picture, even where a frame shows only
-//! a region of it. A tile then sees the same triangles with the same coordinates whichever region
-//! is drawn, and regions fit together bit for bit.
+//! Tiles are counted from the upper left corner of the whole picture, even if a frame shows only a
+//! region of it. A tile then has the same triangles with the same coordinates whichever region is
+//! drawn, and regions fit together bit for bit.
 
 use crate::MAX_SIDE;
 use crate::screen_vertex::SUBPIXEL_BITS;
@@ -10,22 +10,22 @@ use homog::PixelRect;
 
 /// The side of a tile in pixels.
 ///
-/// The depths and triangle indices of one sample plane take 32 KiB then, and stay in the nearest
+/// The depths and triangle indices of one sample plane then take 32 KiB and stay in the nearest
 /// caches while the tile is filled. A row of tiles has eight blocks of 8 pixels, one vector of
 /// eight lanes.
 pub(crate) const TILE: u32 = 64;
 
-/// The columns of tiles that a region touches: the first, and the one behind the last.
+/// The columns of tiles that a region touches: the first, and one past the last.
 pub(crate) fn tile_columns(region: PixelRect) -> (u32, u32) {
     (region.x / TILE, (region.x + region.width).div_ceil(TILE))
 }
 
-/// The rows of tiles that a region touches: the first, and the one behind the last.
+/// The rows of tiles that a region touches: the first, and one past the last.
 pub(crate) fn tile_rows(region: PixelRect) -> (u32, u32) {
     (region.y / TILE, (region.y + region.height).div_ceil(TILE))
 }
 
-/// The tile in the given column and row, and those of its pixels that the region shows.
+/// The tile in the given column and row, with the pixels that the region shows.
 pub(crate) fn tile_rect(region: PixelRect, column: u32, row: u32) -> TileRect {
     let (x, y) = (column * TILE, row * TILE);
     let clamp_to_tile = |from: u32, size: u32, corner: u32| {
@@ -37,15 +37,15 @@ pub(crate) fn tile_rect(region: PixelRect, column: u32, row: u32) -> TileRect {
     TileRect { x, y, left, top, right, bottom }
 }
 
-/// The number of rows of pixels that a region shows of a row of tiles.
+/// The number of pixel rows that a region shows in a row of tiles.
 pub(crate) fn visible_rows(region: PixelRect, row: u32) -> usize {
     let TileRect { top, bottom, .. } = tile_rect(region, tile_columns(region).0, row);
     (bottom - top) as usize
 }
 
-/// A tile: the pixel of its upper left corner, and which of its pixels the region shows.
+/// A tile: the pixel at its upper left corner, and the pixels that the region shows.
 ///
-/// `left` to `bottom` count from that corner: [left, right) × [top, bottom), within [0, 64).
+/// `left` to `bottom` are relative to that corner: [left, right) × [top, bottom), within [0, 64).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct TileRect {
     pub(crate) x: u32,
@@ -57,7 +57,7 @@ pub(crate) struct TileRect {
 }
 
 impl TileRect {
-    /// Whether the region shows a pixel of the tile, counted from the tile's corner.
+    /// Whether the region shows a pixel of the tile, relative to the tile's corner.
     pub(crate) fn is_visible(&self, x: usize, y: usize) -> bool {
         let within = |at: usize, from: u32, to: u32| (from as usize..to as usize).contains(&at);
         within(x, self.left, self.right) && within(y, self.top, self.bottom)
@@ -67,16 +67,15 @@ impl TileRect {
 /// The rectangle of tiles that a region touches.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TileGrid {
-    /// The first column, and the one behind the last.
+    /// The first column, and one past the last.
     columns: (u32, u32),
-    /// The first row, and the one behind the last.
+    /// The first row, and one past the last.
     rows: (u32, u32),
 }
 
-/// The tiles that a triangle's bounds touch: the first and the last of their columns and of their
-/// rows.
+/// The tiles that a triangle's bounds touch: the first and last of their columns and rows.
 ///
-/// Four bytes for each triangle, stored beside it: binning reads nothing else.
+/// Four bytes per triangle, stored separately: binning reads nothing else.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TileRange {
     columns: [u8; 2],
@@ -103,7 +102,7 @@ impl TileGrid {
 
     /// The tiles of the grid that a bounding rectangle touches; `None` if there are none.
     ///
-    /// The least and the greatest coordinates are in grid steps of 1/256 pixel.
+    /// The minimum and maximum coordinates are in grid steps of 1/256 pixel.
     #[inline(always)]
     pub(crate) fn tiles_in_bounds(self, x: [i32; 2], y: [i32; 2]) -> Option<TileRange> {
         const TILE_BITS: u32 = SUBPIXEL_BITS + TILE.ilog2();

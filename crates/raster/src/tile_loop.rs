@@ -1,9 +1,8 @@
-//! The tile loop: every tile of a frame is filled with its triangles and handed on, in parallel.
+//! The tile loop: every tile of a frame is filled with its triangles and passed on, in parallel.
 //!
 //! Work is divided by rows of tiles. A row of tiles is a band of whole rows of the target, so bands
-//! are disjoint slices that threads may write without locks. Tiles know nothing of each other, and
-//! what a tile shows depends on its own bin alone: the result is the same for any number of
-//! threads.
+//! are disjoint slices that threads can write without locks. Tiles are independent: a tile depends
+//! only on its own bin, so the result is the same for any number of threads.
 
 use crate::buffer_pool::{DrawBuffers, ThreadBuffers};
 use crate::parallel::for_each_with_workers;
@@ -19,17 +18,17 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub(crate) struct FilledTile<'a, P> {
     pub(crate) tile: &'a TileVisibility,
     pub(crate) rect: TileRect,
-    /// The pixels of the tile's band: those rows of the frame that its row of tiles shows.
+    /// The pixels of the tile's band: the rows of the frame in its row of tiles.
     pub(crate) band: &'a mut [P],
     pub(crate) scratch: &'a mut RowScratch,
 }
 
 impl Frame {
-    /// Calls `begin` with the pixels of each band, then `each` with every tile of it that has
+    /// Calls `begin` with the pixels of each band, then `each` with every tile in it that has
     /// triangles.
     ///
-    /// Uses up to `threads` threads. A `target` that is too short has fewer bands, or shorter ones.
-    /// The monitor is asked and told once a band, about every 64 rows of pixels.
+    /// Uses up to `threads` threads. If `target` is too short, there are fewer or shorter bands.
+    /// The monitor is asked and notified once per band, about every 64 rows of pixels.
     pub(crate) fn for_each_tile<S: Surface, P: Send>(
         &self,
         surface: &S,
@@ -41,7 +40,7 @@ impl Frame {
         let DrawBuffers { mut bins, mut workers } = self.buffers.take_buffers();
         bins.bin_triangles(&self.triangles, self.region, threads);
         workers.resize_with(threads.max(1), ThreadBuffers::default);
-        // One band is one item of work: threads take the next when they are done.
+        // One band is one work item: threads take the next one when they finish.
         let bands = Bands { region: self.region, rows: tile_rows(self.region), target };
         let (done, total) = (AtomicU64::new(0), bands.len() as u64);
         for_each_with_workers(&mut workers, bands, |worker, mut band| {
@@ -71,7 +70,7 @@ impl Frame {
             let rect = tile_rect(self.region, column, band.row);
             bin.clear();
             bins.append_tile_bin(column, band.row, bin);
-            // Nothing to draw: the background is there already.
+            // Nothing to draw: the background is already there.
             if !bin.is_empty() {
                 tile.rasterize_bin(self, rect, bin, surface);
                 each(FilledTile { tile, rect, band: band.pixels, scratch });
@@ -80,19 +79,19 @@ impl Frame {
     }
 }
 
-/// One row of tiles, and the pixels that it shows.
+/// One row of tiles with its visible pixels.
 struct Band<'a, P> {
     /// The row of tiles, counted from the top of the whole picture.
     row: u32,
     pixels: &'a mut [P],
 }
 
-/// Iterator over the bands of a region that are left.
+/// Iterator over the remaining bands of a region.
 struct Bands<'a, P> {
     region: PixelRect,
-    /// The next row of tiles, and the one behind the last.
+    /// The next row of tiles, and one past the last.
     rows: (u32, u32),
-    /// The pixels of the bands that are left.
+    /// The pixels of the remaining bands.
     target: &'a mut [P],
 }
 

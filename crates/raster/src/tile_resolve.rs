@@ -9,12 +9,12 @@
 //!
 //! Most pixels are of the first kind, which needs no gathering and no sums.
 //!
-//! Resolving is the mean of the samples of a pixel in linear light, before the target's encoding: a
-//! mean of encoded values would darken edges. Each triangle is shaded at most once per pixel, and
-//! the color is weighted by the number of its samples (multisampling, not supersampling). Triangles
-//! that are neighbors in one smooth surface share one color per pixel (fragment merging: Fatahalian
-//! and others, *Reducing shading on GPUs using quad-fragment merging*, 2010): of a mesh as fine as
-//! the pixels most are.
+//! Resolving takes the mean of the samples of a pixel in linear light, before the target's
+//! encoding: a mean of encoded values would darken edges. Each triangle is shaded at most once per
+//! pixel, and the color is weighted by the number of its samples (multisampling, not
+//! supersampling). Triangles that are neighbors in one smooth surface share one color per pixel
+//! (fragment merging: Fatahalian and others, *Reducing shading on GPUs using quad-fragment
+//! merging*, 2010). In a mesh as fine as the pixels, most are.
 
 use crate::edge_pixels::EdgePixels;
 use crate::fragment_lanes::{F32x8, LANES};
@@ -26,9 +26,9 @@ use crate::tile_visibility::{TileVisibility, TranslucentLayer};
 use crate::{Encode, Fragments, Frame, Surface};
 use homog::PixelRect;
 
-/// A filled tile, and everything that is needed to shade it.
+/// A filled tile with everything needed to shade it.
 ///
-/// Nothing here changes the tile: rows are written one after the other, from the top.
+/// Nothing here changes the tile: rows are written in order, from the top.
 pub(crate) struct TileResolve<'a, S> {
     pub(crate) frame: &'a Frame,
     pub(crate) surface: &'a S,
@@ -37,9 +37,10 @@ pub(crate) struct TileResolve<'a, S> {
     pub(crate) rect: TileRect,
 }
 
-/// The contribution of a triangle to a pixel: the samples it is visible at.
+/// The contribution of a triangle to a pixel: the samples at which it is visible.
 ///
-/// The masks of a pixel's opaque contributions are disjoint and together hold all of its samples.
+/// The masks of a pixel's opaque contributions are disjoint and together contain all of its
+/// samples.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contribution {
     /// The column of the pixel within the tile.
@@ -48,11 +49,11 @@ pub(crate) struct Contribution {
     pub(crate) triangle: u32,
     /// The samples, one bit each.
     pub(crate) mask: u16,
-    /// Whether the triangle lets through what is behind it.
+    /// Whether the triangle is translucent.
     pub(crate) translucent: bool,
 }
 
-/// The pixels of a row that cannot be written at once. Kept between rows for its memory.
+/// The pixels of a row that cannot be written immediately. Kept between rows to reuse the memory.
 #[derive(Debug, Default)]
 pub(crate) struct RowScratch {
     /// Pixels that several opaque triangles share.
@@ -61,7 +62,7 @@ pub(crate) struct RowScratch {
     layered: LayeredPixels,
 }
 
-/// Adjacent pixels of a row, all in one block, and the layers over them.
+/// Adjacent pixels of a row, all in one block, with the layers over them.
 pub(crate) struct PixelRun<'a> {
     /// The row within the tile.
     pub(crate) y: u32,
@@ -78,7 +79,7 @@ impl PixelRun<'_> {
     }
 }
 
-/// A row of a tile's pixels in the target, and the pixel of the background.
+/// A row of a tile's pixels in the target, and the encoded background.
 struct TargetRow<'a, P> {
     /// The row within the tile.
     y: u32,
@@ -89,11 +90,11 @@ struct TargetRow<'a, P> {
 }
 
 impl<S: Surface> TileResolve<'_, S> {
-    /// Writes the tile into its band: the rows of the frame that its row of tiles shows, filled
-    /// with the background.
+    /// Writes the tile into its band: the rows of the frame in its row of tiles, filled with the
+    /// background.
     ///
-    /// Layers are sorted by pixel, row after row, so that each row takes its own from the front of
-    /// the list.
+    /// Layers are sorted by pixel, row by row, so each row takes its layers from the front of the
+    /// list.
     #[inline(always)]
     pub(crate) fn write_tile<P: Copy>(
         &self,
@@ -117,10 +118,10 @@ impl<S: Surface> TileResolve<'_, S> {
         }
     }
 
-    /// Writes those pixels of a row that show one triangle each, and gathers the others.
+    /// Writes the pixels of a row that show one triangle each, and gathers the others.
     ///
-    /// A block of eight pixels is of one kind as a whole: one pixel with a layer, or with an edge,
-    /// sends all eight the slower way, which is right for any pixel.
+    /// A block of eight pixels is handled as a whole: one pixel with a layer or an edge sends all
+    /// eight the slower way, which is correct for any pixel.
     #[inline(always)]
     fn write_row<P: Copy>(
         &self,
@@ -143,12 +144,13 @@ impl<S: Surface> TileResolve<'_, S> {
             let over;
             (over, layers) = split_before(layers, (y * TILE + lanes.end) as usize);
             let run = PixelRun { y, lanes, layers: over };
-            // Translucent layers: gathered, and blended sample by sample after the row.
+            // Translucent layers: gathered now, and blended sample by sample after the row.
             if !run.layers.is_empty() {
                 self.gather_contributions(&run, &mut layered.contributions);
                 continue;
             }
-            // One triangle per pixel: shaded and written at once. Otherwise an edge runs through.
+            // One triangle per pixel: shaded and written immediately. Otherwise an edge crosses the
+            // run.
             match self.single_triangles(&run) {
                 Some(triangles) => self.write_uniform(&run, triangles, targets, empty, encode),
                 None => self.begin_edge_pixels(&run, edges),
@@ -158,8 +160,8 @@ impl<S: Surface> TileResolve<'_, S> {
 
     /// The triangles of a run's pixels, if each pixel has the same one at all samples.
     ///
-    /// The test is an exclusive or of whole vectors, accumulated over the samples: no branch in the
-    /// loop.
+    /// The test combines whole vectors with exclusive or, accumulated over the samples: no branch
+    /// in the loop.
     #[inline(always)]
     fn single_triangles(&self, run: &PixelRun<'_>) -> Option<[u32; LANES]> {
         let at = pixel_index(run.block_start() as usize, run.y as usize);
@@ -177,7 +179,7 @@ impl<S: Surface> TileResolve<'_, S> {
 
     /// The triangles of a run's pixels, sample by sample.
     ///
-    /// `planes` is the memory that the result lies in: 16 planes are the most that a frame has.
+    /// `planes` is the memory for the result: a frame has at most 16 planes.
     #[inline(always)]
     pub(crate) fn sample_triangles<'p>(
         &self,
@@ -194,7 +196,7 @@ impl<S: Surface> TileResolve<'_, S> {
 
     /// Shades and writes adjacent pixels with one triangle each.
     ///
-    /// Pixels of the background are left as they are: the band was filled with it before.
+    /// Background pixels are left unchanged: the band was filled with the background before.
     #[inline(always)]
     fn write_uniform<P: Copy>(
         &self,
@@ -205,18 +207,18 @@ impl<S: Surface> TileResolve<'_, S> {
         encode: &impl Encode<P>,
     ) {
         let differs = any_differ(triangles);
-        // Nothing but background.
+        // Only background.
         if !differs && triangles[0] == NO_TRIANGLE {
             return;
         }
         let mut pixels = encode.encode_eight(&self.shade_neighbors(run, triangles, differs));
-        // Background lanes were shaded with a neighbor's fragment; put the background back.
+        // Background lanes were shaded with a neighbor's fragment; restore the background.
         if differs {
             for (pixel, triangle) in pixels.iter_mut().zip(triangles) {
                 *pixel = if triangle == NO_TRIANGLE { empty } else { *pixel };
             }
         }
-        // A whole block is one store; at the borders of the region less is visible.
+        // A whole block is one store; at the borders of the region fewer pixels are visible.
         if let Ok(targets) = <&mut [P; LANES]>::try_from(&mut *targets) {
             *targets = pixels;
         } else {
@@ -225,11 +227,11 @@ impl<S: Surface> TileResolve<'_, S> {
         }
     }
 
-    /// The colors of a run with one triangle per pixel; `differs` if not all are the same.
-    /// Background pixels get any color.
+    /// The colors of a run with one triangle per pixel; `differs` if not all triangles are the
+    /// same. Background pixels get any color.
     ///
     /// One triangle in eight adjacent pixels is the common case: vertex attributes are fetched
-    /// once, and nothing is gathered.
+    /// once, and no gathering is needed.
     #[inline(always)]
     fn shade_neighbors(
         &self,
@@ -250,9 +252,9 @@ impl<S: Surface> TileResolve<'_, S> {
     /// pixels get any color.
     #[inline(always)]
     fn shade_several(&self, triangles: [u32; LANES], x: u32, y: u32) -> [F32x8; 4] {
-        // The background has the largest index, so the least is a triangle. Background lanes repeat
-        // the fragment that shows it: no surface is shaded where it is not.
-        // Padding for background lanes.
+        // The background has the largest index, so the minimum is a triangle. Background lanes
+        // repeat the fragment that shows it: no surface is shaded where it is not visible. Padding
+        // for background lanes.
         let (mut any, mut any_lane) = (NO_TRIANGLE, 0);
         for (lane, &triangle) in triangles.iter().enumerate() {
             if triangle < any {
@@ -281,7 +283,7 @@ impl<S: Surface> TileResolve<'_, S> {
     /// samples.
     ///
     /// Most pixels of a run with edges still show the first sample's triangle at most samples, so
-    /// that this one vector of eight covers the greater part of the work.
+    /// this one vector of eight does most of the work.
     #[inline(always)]
     fn begin_edge_pixels(&self, run: &PixelRun<'_>, edges: &mut EdgePixels) {
         let mut planes = [[NO_TRIANGLE; LANES]; 16];
@@ -292,7 +294,7 @@ impl<S: Surface> TileResolve<'_, S> {
         if differs || first[0] != NO_TRIANGLE {
             colors = self.shade_neighbors(run, first, differs);
         }
-        // The background's color, where the first sample sees it.
+        // The background color, where the first sample shows it.
         for (color, background) in colors.iter_mut().zip(self.background) {
             for lane in 0..LANES {
                 color[lane] = if first[lane] == NO_TRIANGLE { background } else { color[lane] };
@@ -305,10 +307,10 @@ impl<S: Surface> TileResolve<'_, S> {
         edges.add_first_samples(block, lanes, planes, &colors, continues);
     }
 
-    /// Whether two triangles of one pixel, or the background, are parts of one smooth surface, of
-    /// which one color is enough.
+    /// Whether two triangles of one pixel, or the background, are parts of one smooth surface that
+    /// needs only one color.
     ///
-    /// Both must face the viewer with the same side; parts of clipped triangles stand alone.
+    /// Both must show the same side to the viewer; parts of clipped triangles are never merged.
     #[inline(always)]
     fn is_one_surface(&self, first: u32, other: u32) -> bool {
         if first == NO_TRIANGLE || other == NO_TRIANGLE {
@@ -331,7 +333,8 @@ impl<S: Surface> TileResolve<'_, S> {
         encode: &impl Encode<P>,
         edges: &mut EdgePixels,
     ) {
-        // Shade the other samples' triangles, eight contributions at a time, along the whole row.
+        // Shade the triangles of the other samples, eight contributions at a time, along the whole
+        // row.
         for from in (0..edges.contributions().len()).step_by(LANES) {
             let end = edges.contributions().len().min(from + LANES);
             let eight = &edges.contributions()[from..end];
@@ -352,11 +355,11 @@ impl<S: Surface> TileResolve<'_, S> {
         }
     }
 
-    /// The fragments of up to eight contributions to a row; `None` if all are of the background.
+    /// The fragments of up to eight contributions to a row; `None` if all are background.
     ///
-    /// Lanes of the background repeat another.
+    /// Background lanes repeat another fragment.
     ///
-    /// The contributions are of one row, so that a fragment needs only its column.
+    /// The contributions are in one row, so a fragment needs only its column.
     #[inline(always)]
     pub(crate) fn gather_fragments(
         &self,
@@ -375,8 +378,7 @@ impl<S: Surface> TileResolve<'_, S> {
         Some(Fragments::from_triangles(visible, source_weights, columns, self.rect.y + y))
     }
 
-    /// Sets the contributions that are not shaded: the color of the background where there is no
-    /// triangle.
+    /// Sets the contributions that are not shaded: the background color where there is no triangle.
     #[inline(always)]
     pub(crate) fn fix_background_colors(
         &self,
@@ -395,7 +397,7 @@ impl<S: Surface> TileResolve<'_, S> {
 
 /// Whether the triangles of eight pixels are not all the same.
 ///
-/// Exclusive or instead of comparisons: eight lanes are one vector, and there is one branch.
+/// Exclusive or instead of comparisons: eight lanes are one vector, and there is only one branch.
 #[inline(always)]
 fn any_differ(triangles: [u32; LANES]) -> bool {
     let mut differs = 0;
@@ -405,9 +407,9 @@ fn any_differ(triangles: [u32; LANES]) -> bool {
     differs != 0
 }
 
-/// Splits layers, which are sorted by pixel, into those of pixels before `end` and the rest.
+/// Splits layers, which are sorted by pixel, into layers of pixels before `end` and the rest.
 ///
-/// Linear in the layers taken: over a tile every layer is passed once.
+/// Linear in the layers taken: over a tile, every layer is visited once.
 #[inline]
 pub(crate) fn split_before(
     layers: &[TranslucentLayer],

@@ -5,8 +5,8 @@
 //!                                                        └► translucent ─► layers, back to front
 //! ```
 //!
-//! The result is a visibility buffer: for each sample the index of the nearest opaque triangle, and
-//! no color. Surfaces are shaded afterwards, once per pixel, so hidden ones cost no shading.
+//! The result is a visibility buffer: for each sample, the index of the nearest opaque triangle,
+//! and no color. Surfaces are shaded later, once per pixel, so hidden ones cost no shading.
 
 use crate::fragment_lanes::LANES;
 use crate::micro_triangles::MicroTriangles;
@@ -35,9 +35,9 @@ pub(crate) struct TranslucentLayer {
 #[derive(Debug, Default)]
 pub(crate) struct TileVisibility {
     planes: Vec<SamplePlane>,
-    /// By pixel, the layers of a pixel back to front.
+    /// Sorted by pixel, and within a pixel back to front.
     pub(crate) layers: Vec<TranslucentLayer>,
-    /// A depth that no sample of any plane is farther than: whatever is farther is hidden.
+    /// A depth that no sample of any plane is farther than; anything farther is hidden.
     farthest_depth: f32,
     /// The start values of the current batch, for each plane.
     batch_starts: Vec<BatchStarts>,
@@ -46,13 +46,13 @@ pub(crate) struct TileVisibility {
 }
 
 impl TileVisibility {
-    /// The triangle that is visible at a sample of the pixel with a given
+    /// The triangle visible at a sample of the pixel with a given
     /// [index](crate::sample_plane::pixel_index); [`NO_TRIANGLE`] for the background.
     pub(crate) fn triangle(&self, sample: usize, pixel: usize) -> u32 {
         self.planes[sample].triangle[pixel]
     }
 
-    /// The triangles that are visible at one sample of eight pixels, a row of a block.
+    /// The triangles visible at one sample of eight pixels, a row of a block.
     #[inline(always)]
     pub(crate) fn row_triangles(&self, sample: usize, first: usize) -> [u32; BLOCK_SIDE] {
         let mut row = [NO_TRIANGLE; BLOCK_SIDE];
@@ -95,8 +95,8 @@ impl TileVisibility {
     /// Rasterizes the opaque and masked triangles of a bin in batches of eight, then the
     /// translucent ones.
     ///
-    /// Translucent triangles come last, so that samples behind opaque surfaces are known and left
-    /// out.
+    /// Translucent triangles come last, when samples behind opaque surfaces are known and can be
+    /// skipped.
     #[inline(always)]
     fn rasterize_batches<S: Simd>(
         &mut self,
@@ -112,7 +112,7 @@ impl TileVisibility {
         loop {
             let some = self.next_unoccluded(frame, &mut rest, &mut indices, &mut has_translucent);
             let [first, ..] = some else { break };
-            // Lanes without a triangle of their own repeat the first.
+            // Lanes without their own triangle repeat the first.
             let mut triangles = [frame.triangles.triangle(*first); triangle_batch::BATCH_SIZE];
             for (triangle, &index) in triangles.iter_mut().zip(some) {
                 *triangle = frame.triangles.triangle(index);
@@ -134,7 +134,7 @@ impl TileVisibility {
                 }
             }
         }
-        // Second pass over the bin, only where there is something translucent.
+        // Second pass over the bin, only if it has translucent triangles.
         if has_translucent {
             for &index in bin {
                 if frame.triangles.triangle(index).opacity == Opacity::Translucent {
@@ -144,8 +144,8 @@ impl TileVisibility {
         }
     }
 
-    /// Rasterizes the triangles of a bin one by one, the translucent ones last: for depth functions
-    /// that hide nothing as a whole.
+    /// Rasterizes the triangles of a bin one by one, with the translucent ones last: for depth
+    /// functions without hierarchical z.
     #[inline(always)]
     fn rasterize_in_order<S: Simd>(
         &mut self,
@@ -194,7 +194,7 @@ impl TileVisibility {
     /// The next few triangles of a list that may be visible.
     ///
     /// Occlusion culling by the tile's depth bound: triangles behind everything in the tile are
-    /// skipped before any setup. Translucent ones are skipped, too, and reported.
+    /// skipped before any setup. Translucent ones are skipped too, and reported.
     #[inline(always)]
     fn next_unoccluded<'a>(
         &self,
@@ -237,7 +237,7 @@ impl TileVisibility {
             return self.micro_triangles.rasterize(&mut self.planes, lane, range, index);
         }
         let functions = batch.lane_functions(lane);
-        // The tile's depth bound stays: only triangles too large for a batch compute it anew.
+        // The tile's depth bound stays: only triangles too large for a batch recompute it.
         let lanes = TriangleLanes::new(simd, &functions);
         let start = |plane: usize| self.batch_starts[plane].lane_start(lane);
         rasterize_triangle(simd, &mut self.planes, &lanes, start, index);
@@ -278,16 +278,16 @@ impl TileVisibility {
         let range = frame.samples.offset_range();
         let Some(setup) = TriangleSetup::new(triangle, rect, range) else { return };
         let lanes = TriangleLanes::new(simd, &setup.functions);
-        // Alpha is a matter of the pixel, not of its samples: it is tested once, for eight pixels
-        // of a block's row together. One bit per pixel and row says whether it was, and whether it
-        // passed.
+        // Alpha belongs to the pixel, not to its samples: it is tested once, for eight pixels of a
+        // block's row together. One bit per pixel and row records whether it was tested, and
+        // another whether it passed.
         let (mut tested, mut passed) = ([0_u64; TILE as usize], [0_u64; TILE as usize]);
         for (plane, offset) in self.planes.iter_mut().zip(frame.samples.sample_offsets()) {
             let start = setup.sample_start(offset);
             let compare = if STRICT { DepthCompare::Greater } else { frame.compare };
             plane.visit_visible_samples(simd, &lanes, &start, compare, |plane, at, x, y, depth| {
                 let pixel = 1 << x;
-                // The first sample of the pixel that survives the depth test runs the alpha test.
+                // The first sample of the pixel to survive the depth test runs the alpha test.
                 if tested[y] & pixel == 0 {
                     let first = x / LANES * LANES;
                     tested[y] |= 0xff << first;
@@ -337,9 +337,9 @@ impl TileVisibility {
         merge_layer_samples(layers, first);
     }
 
-    /// Sorts layers by pixel, and those of a pixel back to front.
+    /// Sorts layers by pixel, and within a pixel back to front.
     ///
-    /// Depth ties of translucent layers: the one submitted later is drawn over the other. (Of
+    /// Depth ties of translucent layers: the one submitted later is drawn over the other. (Among
     /// opaque triangles the one submitted first stays: `rasterize.rs`.)
     fn sort_layers(&mut self) {
         // Pixel, depth, triangle: a total order, so an unstable sort gives one result.
@@ -353,7 +353,7 @@ impl TileVisibility {
 /// Merges the layers of one triangle, from `first` on, that are samples of the same pixel. The
 /// layer has the depth of its first sample.
 fn merge_layer_samples(layers: &mut Vec<TranslucentLayer>, first: usize) {
-    // Samples of one pixel side by side, the first sample in front.
+    // Samples of one pixel side by side, with the first sample in front.
     layers[first..].sort_unstable_by_key(|layer| (layer.pixel, layer.mask));
     let mut merged = first;
     for next in first..layers.len() {

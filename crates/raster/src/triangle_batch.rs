@@ -2,27 +2,26 @@
 //!
 //! In fine meshes most of the work on a triangle is its setup. Triangles near the tile fit 32-bit
 //! arithmetic throughout, and eight of them are prepared by the same vector instructions. The
-//! results are those of [`TriangleSetup`](crate::triangle_setup::TriangleSetup), bit for bit: edge
-//! functions are exact in both, and depth goes through the same operations in the same order.
-//! Everything is a plain loop over eight lanes, which becomes vector instructions in the dispatched
-//! function that it is inlined into.
+//! results match [`TriangleSetup`](crate::triangle_setup::TriangleSetup), bit for bit: edge
+//! functions are exact in both, and depth uses the same operations in the same order. Everything is
+//! a plain loop over eight lanes, which compiles to vector instructions in the dispatched function
+//! that inlines it.
 //!
 //! # Why eight at a time
 //!
 //! A triangle of a few pixels takes less time to fill than to set up: six differences for the edge
-//! functions, one division and eight products for the depth plane. One vector instruction does a
-//! step of that for several triangles. Those that leave the 32-bit range are set up alone, in 64
-//! bits.
+//! functions, one division and eight products for the depth plane. One vector instruction does one
+//! such step for several triangles. Those that exceed the 32-bit range are set up individually, in
+//! 64 bits.
 
 use crate::primitive::ScreenTriangle;
 use crate::screen_vertex::{SUBPIXEL_BITS, SUBPIXELS};
 use crate::tile_grid::TileRect;
 use crate::triangle_setup::{SampleStart, TriangleFunctions};
 
-/// Triangles in a batch: the lanes of one vector.
+/// The number of triangles in a batch: the lanes of one vector.
 pub(crate) const BATCH_SIZE: usize = 8;
-/// The least and the greatest coordinate, in grid steps from the tile's corner, of a small
-/// triangle.
+/// The minimum and maximum coordinates of a small triangle, in grid steps from the tile's corner.
 ///
 /// An edge is then shorter than 2¹⁵ steps, and products of edges and coordinates fit 32 bits.
 ///
@@ -38,15 +37,15 @@ type Doubles = [f64; BATCH_SIZE];
 
 /// Eight triangles in the coordinates of one tile, as a structure of arrays.
 ///
-/// All values are those of the tile, not of the picture: the tile's corner is subtracted before
-/// anything is multiplied, which is what keeps products within 32 bits.
+/// All values are relative to the tile, not to the picture: subtracting the tile's corner before
+/// any multiplication keeps products within 32 bits.
 pub(crate) struct TriangleBatch {
     /// The vertices, in grid steps from the tile's corner.
     x: [Ints; 3],
     y: [Ints; 3],
     /// The depth of each triangle's first vertex.
     first_depth: Floats,
-    /// Whether 32 bits are enough: the values of other triangles are meaningless.
+    /// Whether 32 bits are enough; the values of other triangles are meaningless.
     is_small: [bool; BATCH_SIZE],
     /// The coefficients of the edge functions: see [`TriangleFunctions`].
     pub(crate) a: [Ints; 3],
@@ -71,7 +70,7 @@ pub(crate) struct BatchStarts {
 }
 
 impl BatchStarts {
-    /// All zeros: values to be overwritten.
+    /// All zeros: values to overwrite.
     pub(crate) const ZERO: Self = Self { edges: [[0; BATCH_SIZE]; 3], depth: [0.0; BATCH_SIZE] };
 
     /// The start values of one of the triangles.
@@ -85,11 +84,10 @@ impl BatchStarts {
 impl TriangleBatch {
     /// Prepares eight triangles.
     ///
-    /// `offset_range` is the least and the greatest offset of a sample from its pixel's borders.
+    /// `offset_range` is the minimum and maximum offset of a sample from the borders of its pixel.
     ///
-    /// Lanes without a triangle to prepare may repeat another one. The work is the same for all
-    /// lanes, whether their triangle turns out to be small or not: a branch per lane would undo the
-    /// vectors.
+    /// Lanes without a triangle may repeat another one. The work is the same for all lanes, whether
+    /// their triangle is small or not: a branch per lane would prevent vectorization.
     #[inline(always)]
     pub(crate) fn new(
         triangles: [&ScreenTriangle; BATCH_SIZE],
@@ -121,11 +119,11 @@ impl TriangleBatch {
         // (a, b) is the inner normal of each edge.
         let (a, b) = (edge_differences(&y, false), edge_differences(&x, true));
         // The depth plane: gradients per grid step in f64, steps per pixel rounded to f32 once. The
-        // factor 256 is a power of two, so scaling adds no rounding of its own.
+        // factor 256 is a power of two, so scaling adds no rounding error.
         let depth_gradient = depth_gradients(&x, &y, &z);
         let depth_step =
             depth_gradient.map(|steps| steps.map(|step| (step * f64::from(SUBPIXELS)) as f32));
-        // The range that samples are clamped to, and that hierarchical z tests against.
+        // The range to which samples are clamped, and against which hierarchical z tests.
         let (min_depth, max_depth) = depth_extents(&z);
         Self {
             x,
@@ -148,9 +146,9 @@ impl TriangleBatch {
         self.is_small[lane]
     }
 
-    /// Whether the triangle's bounds hold none of the tile's samples.
+    /// Whether the triangle's bounds contain none of the tile's samples.
     ///
-    /// Small triangles often fall between samples; they end here, before any block is looked at.
+    /// Small triangles often fall between samples; they end here, before any block is visited.
     #[inline(always)]
     pub(crate) const fn is_outside(&self, lane: usize) -> bool {
         let [x0, y0, x1, y1] = &self.bounds;
@@ -159,7 +157,7 @@ impl TriangleBatch {
 
     /// The functions of one of the triangles.
     ///
-    /// A transposition of one lane: eight triangles are prepared together, but filled one by one.
+    /// A transposition of one lane: eight triangles are prepared together but filled one by one.
     #[inline(always)]
     pub(crate) fn lane_functions(&self, lane: usize) -> TriangleFunctions {
         let Self { a, b, bounds: [x0, y0, x1, y1], depth_step: [dx, dy], .. } = self;
@@ -180,14 +178,14 @@ impl TriangleBatch {
     /// The start values for the samples at `offset` (grid steps) from the upper left corners of
     /// their pixels.
     ///
-    /// Called once for each sample plane: the gradients stay, only the first sample moves.
+    /// Called once per sample plane: the gradients stay, and only the first sample moves.
     #[inline(always)]
     pub(crate) fn sample_starts(&self, offset: (i64, i64)) -> BatchStarts {
         let Self { x, y, a, b, bounds: [x0, y0, _, _], depth_gradient: [dx, dy], .. } = self;
         let (right, down) = (offset.0 as i32, offset.1 as i32);
         let mut starts = BatchStarts::ZERO;
-        // Edge functions with the top-left rule, as `EdgeFunction::evaluate`. Lanes of large
-        // triangles wrap around; nobody reads them.
+        // Edge functions with the top-left rule, as in `EdgeFunction::evaluate`. Lanes of large
+        // triangles wrap around; they are never read.
         for (k, edges) in starts.edges.iter_mut().enumerate() {
             for (lane, edge) in edges.iter_mut().enumerate() {
                 let (a, b) = (a[k][lane], b[k][lane]);
@@ -213,7 +211,7 @@ impl TriangleBatch {
     }
 }
 
-/// The least and the greatest coordinate of each triangle.
+/// The minimum and maximum coordinates of each triangle.
 ///
 /// The bounding box along one axis, in grid steps from the tile's corner.
 #[inline(always)]
@@ -229,9 +227,8 @@ fn coordinate_extents([p, q, r]: &[Ints; 3]) -> (Ints, Ints) {
 /// The pixels of the tile that may have a sample within the bounds: the x0, y0, x1 and y1 that
 /// [`TriangleSetup::new`](crate::triangle_setup::TriangleSetup::new) computes.
 ///
-/// `extent` holds the least x and y, then the greatest x and y, in grid steps from the tile's
-/// corner. Pixels before the tile are cut off at 0, pixels behind the visible part at its right and
-/// bottom.
+/// `extent` holds the minimum x and y, then the maximum x and y, in grid steps from the tile's
+/// corner. Pixels are clamped to 0 and to the right and bottom of the visible part.
 #[inline(always)]
 fn pixel_bounds(extent: [Ints; 4], tile: TileRect, offset_range: (i32, i32)) -> [Ints; 4] {
     let (least, greatest) = offset_range;
@@ -269,9 +266,9 @@ fn edge_differences(c: &[Ints; 3], forward: bool) -> [Ints; 3] {
     differences
 }
 
-/// The change of depth per grid step to the right and down, by the steps of `DepthPlane::new`.
+/// The change of depth per grid step to the right and down, computed as in `DepthPlane::new`.
 ///
-/// Lanes of degenerate triangles would divide by 0; primitive assembly has dropped those.
+/// Lanes with degenerate triangles would divide by 0; primitive assembly has dropped those.
 #[inline(always)]
 fn depth_gradients(x: &[Ints; 3], y: &[Ints; 3], z: &[Floats; 3]) -> [Doubles; 2] {
     let mut gradients = [[0.0; BATCH_SIZE]; 2];
@@ -289,12 +286,13 @@ fn depth_gradients(x: &[Ints; 3], y: &[Ints; 3], z: &[Floats; 3]) -> [Doubles; 2
     gradients
 }
 
-/// The depth of the farthest and of the nearest vertex of each triangle.
+/// The depths of the farthest and nearest vertices of each triangle.
 #[inline(always)]
 fn depth_extents([p, q, r]: &[Floats; 3]) -> (Floats, Floats) {
     let (mut least, mut greatest) = ([0.0; BATCH_SIZE], [0.0; BATCH_SIZE]);
     for lane in 0..BATCH_SIZE {
-        // Comparisons instead of `f32::min`: no depth is NaN, and each is one instruction.
+        // Comparisons instead of `f32::min`: no depth is NaN, and each comparison is one
+        // instruction.
         let (low, high) = if p[lane] < q[lane] { (p[lane], q[lane]) } else { (q[lane], p[lane]) };
         least[lane] = if r[lane] < low { r[lane] } else { low };
         greatest[lane] = if r[lane] > high { r[lane] } else { high };

@@ -1,25 +1,25 @@
 //! The triangle buffer: all triangles of a frame in submission order, in chunks of limited size.
 //!
-//! Threads fill chunks of their own, which stand in the order of the triangles that they were
-//! filled from: the order is the same for any number of threads. Chunks never move while the buffer
-//! grows, and keep their memory for the next picture.
+//! Each thread fills its own chunks, which are kept in the order of their source triangles: the
+//! order is the same for any number of threads. Chunks never move while the buffer grows, and keep
+//! their memory for the next picture.
 
 use crate::primitive::ScreenTriangle;
 use crate::tile_grid::TileRange;
 
-/// The most triangles of a chunk: 256 KiB of them.
+/// The maximum number of triangles in a chunk: 256 KiB.
 pub(crate) const CHUNK_TRIANGLES: usize = 1 << CHUNK_BITS;
 const CHUNK_BITS: u32 = 12;
-/// A chunk with less space than this takes no more triangles of a mesh: the tail of a chunk is not
-/// worth another pass through the loop that fills it.
+/// A chunk with less space than this takes no more triangles of a mesh: its tail is not worth
+/// another pass through the loop that fills it.
 const MIN_FREE: usize = 512;
 
-/// Some consecutive triangles, and beside each the tiles that it touches: binning reads nothing
-/// else.
+/// Consecutive triangles, each with the tiles that it touches in a separate list: binning reads
+/// nothing else.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TriangleChunk {
     triangles: Vec<ScreenTriangle>,
-    /// As many as `triangles`.
+    /// As many entries as `triangles`.
     tiles: Vec<TileRange>,
 }
 
@@ -48,8 +48,8 @@ impl TriangleChunk {
 
 /// All triangles of a frame.
 ///
-/// The index of a triangle is the index of its chunk in the upper bits and its index in the chunk
-/// in the lower 12. Indices rise in submission order but have gaps where chunks are not full.
+/// The index of a triangle has the index of its chunk in the upper bits and its index in the chunk
+/// in the lower 12 bits. Indices increase in submission order, with gaps where chunks are not full.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TriangleBuffer {
     chunks: Vec<TriangleChunk>,
@@ -89,8 +89,8 @@ impl TriangleBuffer {
         self.open_chunk(1).push(triangle, tiles);
     }
 
-    /// The last chunk, or a new one if that is nearly full, and the number of triangles it has
-    /// space for.
+    /// The last chunk, or a new one if it is nearly full, and the number of triangles that still
+    /// fit.
     pub(crate) fn open_with_space(&mut self) -> (&mut TriangleChunk, usize) {
         let chunk = self.open_chunk(MIN_FREE);
         let space = CHUNK_TRIANGLES - chunk.triangles.len();
@@ -105,12 +105,12 @@ impl TriangleBuffer {
         &mut self.chunks[first..self.chunks_in_use]
     }
 
-    /// Moves the empty ones of the chunks from `first` on behind the others and out of use.
+    /// Moves the empty chunks from `first` on behind the others, out of use.
     pub(crate) fn remove_empty_chunks(&mut self, first: usize) {
         let mut filled = first;
         for index in first..self.chunks_in_use {
             if !self.chunks[index].triangles.is_empty() {
-                // The order of the filled chunks stays: it is that of submission.
+                // The order of the filled chunks does not change: it is submission order.
                 self.chunks.swap(filled, index);
                 filled += 1;
             }
@@ -123,7 +123,7 @@ impl TriangleBuffer {
         self.chunks_in_use
     }
 
-    /// The last chunk, or a new one if that has no space for `count` more triangles.
+    /// The last chunk, or a new one if it has no space for `count` more triangles.
     #[inline]
     fn open_chunk(&mut self, count: usize) -> &mut TriangleChunk {
         let is_full = |chunk: &TriangleChunk| chunk.triangles.len() + count > CHUNK_TRIANGLES;

@@ -1,11 +1,12 @@
-//! Triangle setup: edge functions and depth plane of a triangle, prepared for one tile in 32 bits.
+//! Triangle setup: the edge functions and depth plane of a triangle, prepared for one tile in 32
+//! bits.
 //!
-//! Edge functions are exact in 64 bits ([`EdgeFunction`]), but vectors of 32-bit integers are twice
-//! as wide. Within a tile the samples of one plane lie whole pixels apart, so all of them have the
-//! same value of E modulo 256, and E ≥ 0 holds if and only if ⌊E/256⌋ ≥ 0: the quotient changes by
-//! whole numbers from pixel to pixel and fits 32 bits. Where it is too large it is clamped to ±2³⁰:
-//! the change across a tile is smaller than that, so the sign, which is all that counts, stays
-//! right.
+//! Edge functions are exact in 64 bits ([`EdgeFunction`]), but vectors of 32-bit integers have
+//! twice as many lanes. Within a tile the samples of one plane are whole pixels apart, so all of
+//! them have the same value of E modulo 256, and E ≥ 0 holds if and only if ⌊E/256⌋ ≥ 0. The
+//! quotient changes by integers from pixel to pixel and fits 32 bits. If it is too large it is
+//! clamped to ±2³⁰: the change across a tile is smaller than that, so the sign, which is all that
+//! matters, stays correct.
 //!
 //! ```text
 //!   E(x, y) = A x + B y + C    A, B, C integers, x and y in 1/256 pixel, all exact
@@ -18,11 +19,11 @@ use crate::primitive::ScreenTriangle;
 use crate::screen_vertex::{SUBPIXEL_BITS, SUBPIXELS};
 use crate::tile_grid::TileRect;
 
-/// A triangle in the coordinates of one tile, for all samples alike. Pixels count from the tile's
-/// corner.
+/// A triangle in the coordinates of one tile, shared by all samples. Pixels are relative to the
+/// tile's corner.
 ///
-/// A per pixel and B per pixel are the numbers A and B themselves: a pixel is 256 grid steps, and E
-/// is divided by 256.
+/// The changes per pixel are the numbers A and B themselves: a pixel is 256 grid steps, and E is
+/// divided by 256.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct TriangleFunctions {
     /// The change of E/256 per pixel to the right, for each edge.
@@ -30,8 +31,8 @@ pub(crate) struct TriangleFunctions {
     /// The change of E/256 per pixel down, for each edge.
     pub(crate) b: [i32; 3],
     /// The pixels that may have a sample within the triangle's bounds: [x0, x1) × [y0, y1), not
-    /// empty. Depth counts from the pixel (x0, y0), which therefore must not depend on the visible
-    /// region.
+    /// empty. Depth is relative to the pixel (x0, y0), which therefore must not depend on the
+    /// visible region.
     pub(crate) x0: i32,
     /// The first row of the bounds.
     pub(crate) y0: i32,
@@ -51,7 +52,7 @@ pub(crate) struct TriangleFunctions {
 
 /// A triangle prepared for one tile.
 ///
-/// It holds the exact functions, from which each sample plane gets its start values.
+/// It holds the exact functions, from which the start values for each sample plane are computed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TriangleSetup {
     /// The functions in 32 bits and `f32`, in the coordinates of the tile.
@@ -64,8 +65,8 @@ pub(crate) struct TriangleSetup {
     depth: DepthPlane,
 }
 
-/// The values of a triangle's functions at the first sample of one plane: what differs from plane
-/// to plane.
+/// The values of a triangle's functions at the first sample of one plane: the part that differs
+/// from plane to plane.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct SampleStart {
     /// ⌊E/256⌋ at the sample of pixel (0, 0), for each edge.
@@ -76,10 +77,10 @@ pub(crate) struct SampleStart {
 
 /// The plane equation of depth, a linear function on the screen (RA-2).
 ///
-/// Depth is z/w already, which is linear in screen space, so it needs no perspective correction.
+/// Depth is already z/w, which is linear in screen space, so it needs no perspective correction.
 ///
-/// Samples evaluate it as (z + dy·y) + dx·x with x and y counted from the corner of the bounds
-/// within the tile, and clamp it to the depths of the vertices: the plane of a sliver is steep, and
+/// Samples evaluate it as (z + dy·y) + dx·x, with x and y relative to the corner of the bounds
+/// within the tile, and clamp it to the depths of the vertices: the plane of a sliver is steep and
 /// meaningless beside the sliver.
 #[derive(Clone, Copy, Debug)]
 struct DepthPlane {
@@ -94,10 +95,10 @@ struct DepthPlane {
 }
 
 impl TriangleSetup {
-    /// Prepares a triangle; `None` if its bounds hold none of the tile's samples.
+    /// Prepares a triangle; `None` if its bounds contain none of the tile's samples.
     ///
-    /// `offset_range` is the least and the greatest offset of a sample from its pixel's borders, in
-    /// grid steps.
+    /// `offset_range` is the minimum and maximum offset of a sample from the borders of its pixel,
+    /// in grid steps.
     pub(crate) fn new(
         triangle: &ScreenTriangle,
         tile: TileRect,
@@ -109,7 +110,7 @@ impl TriangleSetup {
         let origin = (tile.x as i32 * SUBPIXELS, tile.y as i32 * SUBPIXELS);
         let (least, greatest) = offset_range;
         // The first pixel whose last sample is not before a bound, and the first whose first sample
-        // is behind one.
+        // is past one.
         let first = |bound: i32, from: i32| (bound - from - greatest + 255) >> SUBPIXEL_BITS;
         let beyond = |bound: i32, from: i32| ((bound - from - least) >> SUBPIXEL_BITS) + 1;
         let (x0, y0) = (first(left, origin.0).max(0), first(top, origin.1).max(0));
@@ -120,7 +121,7 @@ impl TriangleSetup {
         }
         // Edge functions, with the top-left bias in C.
         let edges = [EdgeFunction::new(p, q), EdgeFunction::new(q, r), EdgeFunction::new(r, p)];
-        // The depth plane; its gradients are per grid step, and those of the samples per pixel.
+        // The depth plane; its gradients are per grid step, and those of the samples are per pixel.
         let depth = DepthPlane::new(triangle);
         let functions = TriangleFunctions {
             a: edges.map(|edge| edge.a as i32),
@@ -141,15 +142,15 @@ impl TriangleSetup {
     /// The start values for the samples at `offset` (grid steps) from the upper left corners of
     /// their pixels.
     ///
-    /// Exact for edges near the tile; for others only the sign is right, and that is all that is
-    /// read.
+    /// Exact for edges near the tile; for others only the sign is correct, and only the sign is
+    /// used.
     pub(crate) fn sample_start(&self, offset: (i64, i64)) -> SampleStart {
         let limit = 1_i64 << 30;
         let (x, y) = (self.origin.0 + offset.0, self.origin.1 + offset.1);
-        // The shift rounds down, also below 0: ⌊E/256⌋.
+        // The shift rounds down, even below 0: ⌊E/256⌋.
         let quotient =
             |edge: EdgeFunction| (edge.evaluate(x, y) >> SUBPIXEL_BITS).clamp(-limit, limit) as i32;
-        // Depth counts from the corner of the bounds, not of the tile: offsets of samples within
+        // Depth is relative to the corner of the bounds, not of the tile: offsets of samples within
         // the triangle are then small, and so is the rounding of their products.
         let pixels = |count: i32| i64::from(count) * i64::from(SUBPIXELS);
         let corner = (x + pixels(self.functions.x0), y + pixels(self.functions.y0));

@@ -1,16 +1,16 @@
-//! The vertex stage in bulk: clip space, perspective divide, viewport transform and snapping, eight
+//! The bulk vertex stage: clip space, perspective divide, viewport transform and snapping, eight
 //! vertices at a time.
 //!
 //! ```text
 //!   position ─to_clip─► (x, y, z, w) ─÷ w─► NDC ─ndc_to_screen─► pixels ─round─► ScreenVertex
 //! ```
 //!
-//! Every operation has the order of the single point's ([`ScreenVertex::snap`]), so that a vertex
-//! has the same bits in a mesh that is drawn whole and in a triangle beside it that was clipped: no
-//! cracks between them. The loops over eight lanes become vector instructions.
+//! Every operation has the same order as for a single point ([`ScreenVertex::snap`]). A vertex
+//! therefore has the same bits in a mesh drawn whole and in a clipped triangle beside it: no cracks
+//! appear between them. The loops over eight lanes compile to vector instructions.
 //!
 //! Vertices on both sides of the eye are allowed: those with w ≤ 0, and those beyond the guard
-//! band, become `None`, and the triangles that use them go to the clipper.
+//! band, become `None`, and triangles that use them must be clipped.
 
 use crate::parallel::for_each_parallel;
 use crate::screen_vertex::{GUARD_BAND, SUBPIXELS};
@@ -20,22 +20,21 @@ use core::ops::Range;
 use glam::{DMat4, DVec4};
 use homog::{Affine, Clip, HPoint, Ndc, Projective, Screen, Space};
 
-/// Vertices that are projected at once.
+/// The number of vertices projected at once.
 const SNAP_LANES: usize = 8;
 /// One `f64` for each of eight vertices.
 ///
-/// Positions are transformed in `f64`, so that a vertex far from the origin keeps its sub-pixel
-/// bits.
+/// Positions are transformed in `f64`, so a vertex far from the origin keeps its subpixel bits.
 type F64x8 = [f64; SNAP_LANES];
 
-/// The positions that a thread takes at a time.
+/// The number of positions in a work item.
 ///
-/// A multiple of the block size of selections, so that runs begin at whole blocks.
+/// A multiple of the block size of selections, so runs begin at whole blocks.
 const CHUNK_POSITIONS: usize = 8192;
 
-/// The projection of a mesh's positions in space `A` to the screen, and how to compute it.
+/// The projection of a mesh's positions in space `A` to the screen, with settings for computing it.
 ///
-/// Plain data: it may be made anew for each mesh, at the price of a copy.
+/// Plain data: it can be rebuilt for each mesh at the cost of a copy.
 #[derive(Clone, Copy, Debug)]
 pub struct VertexProjection<A: Space> {
     /// The model-view-projection matrix.
@@ -44,18 +43,17 @@ pub struct VertexProjection<A: Space> {
     pub ndc_to_screen: Affine<Ndc, Screen>,
     /// The vector instructions to use. The result does not depend on them.
     pub simd_level: SimdLevel,
-    /// The most threads to use. The result does not depend on it.
+    /// The maximum number of threads. The result does not depend on it.
     pub threads: usize,
 }
 
 impl<A: Space> VertexProjection<A> {
-    /// Projects positions to the screen and snaps them, each as [`ScreenVertex::snap`] does, bit
-    /// for bit.
+    /// Projects positions to the screen and snaps them, bit for bit like [`ScreenVertex::snap`].
     ///
-    /// `vertices` gets the length of `positions`; if it has been as long before, nothing is
+    /// `vertices` gets the length of `positions`; if it has been that long before, nothing is
     /// allocated.
     ///
-    /// Positions that are not finite, and those that cannot be drawn without clipping, give `None`.
+    /// Positions that are not finite or cannot be drawn without clipping give `None`.
     pub fn project_positions(
         &self,
         positions: &[[f32; 3]],
@@ -64,9 +62,9 @@ impl<A: Space> VertexProjection<A> {
         self.project_chunks(positions, vertices, |chunk| core::iter::once(0..chunk.len()));
     }
 
-    /// Projects only those positions that a selection needs.
+    /// Projects only the positions that a selection needs.
     ///
-    /// The other entries of `vertices` are meaningless: they keep what they were.
+    /// The other entries of `vertices` are meaningless: they keep their old values.
     ///
     /// Vertices of culled clusters are skipped in blocks of 64.
     pub fn project_selected_positions(
@@ -78,10 +76,10 @@ impl<A: Space> VertexProjection<A> {
         self.project_chunks(positions, vertices, |chunk| selection.vertices_within(chunk));
     }
 
-    /// Projects those runs of each chunk of positions that `runs` gives, counted from the chunk's
-    /// first.
+    /// Projects the runs of each chunk of positions that `runs` returns, relative to the start of
+    /// the chunk.
     ///
-    /// A chunk is a disjoint slice of positions and of vertices: threads write without locks.
+    /// A chunk is a disjoint slice of positions and vertices, so threads write without locks.
     fn project_chunks<I: Iterator<Item = Range<usize>>>(
         &self,
         positions: &[[f32; 3]],
@@ -89,7 +87,7 @@ impl<A: Space> VertexProjection<A> {
         runs: impl Fn(Range<usize>) -> I + Sync,
     ) {
         vertices.resize(positions.len(), None);
-        // Rows of the matrices, so that a coordinate is a row times the vector.
+        // Rows of the matrices, to compute a coordinate as a row times the vector.
         let (to_clip, rows) =
             (self.to_clip.raw().transpose(), self.ndc_to_screen.raw().transpose());
         let chunks = positions.chunks(CHUNK_POSITIONS).zip(vertices.chunks_mut(CHUNK_POSITIONS));
@@ -104,10 +102,10 @@ impl<A: Space> VertexProjection<A> {
 }
 
 impl ScreenVertex {
-    /// Perspective divide, viewport transform and snapping of many points: `vertices` gets for each
-    /// what [`snap`](Self::snap) gives, bit for bit. As many as the shorter slice has.
+    /// Perspective divide, viewport transform and snapping of many points: each entry of `vertices`
+    /// matches [`snap`](Self::snap), bit for bit. Extra elements of the longer slice are ignored.
     ///
-    /// For points that are in clip space already, as the vertices of clipped polygons are.
+    /// For points that are already in clip space, such as the vertices of clipped polygons.
     pub fn divide_and_snap_points(
         points: &[HPoint<Clip>],
         ndc_to_screen: Affine<Ndc, Screen>,
@@ -136,7 +134,7 @@ impl ScreenVertex {
 
 /// Projects positions and snaps them with vector instructions; matrices are given by rows.
 ///
-/// It is not generic, so that it is compiled here, whoever calls it.
+/// It is not generic, so it is compiled in this crate.
 fn project_run(
     simd_level: SimdLevel,
     positions: &[[f32; 3]],
@@ -148,7 +146,7 @@ fn project_run(
 
 /// Projects positions and snaps them; matrices are given by rows.
 ///
-/// Padding lanes are zeros, whose results are thrown away.
+/// Padding lanes are zeros, and their results are discarded.
 #[inline(always)]
 fn project_chunk(
     positions: &[[f32; 3]],
@@ -172,10 +170,10 @@ fn project_chunk(
     }
 }
 
-/// The clip-space x, y, z and w of positions: a matrix, given by rows, times each, in the order in
-/// which glam adds up.
+/// The clip-space x, y, z and w of positions: a matrix, given by rows, times each position, in
+/// glam's order of addition.
 ///
-/// The sum is ((x·m₀ + y·m₁) + z·m₂) + m₃: another order would round otherwise, and crack the edge
+/// The sum is ((x·m₀ + y·m₁) + z·m₂) + m₃: another order would round differently and crack the edge
 /// between clipped and unclipped triangles.
 #[inline(always)]
 fn transform_to_clip(positions: &[[f32; 3]; SNAP_LANES], rows: DMat4) -> [F64x8; 4] {
@@ -219,7 +217,7 @@ fn divide_and_snap(
             *coordinate /= w;
         }
     }
-    // Viewport transform, then rounding to the sub-pixel grid.
+    // Viewport transform, then rounding to the subpixel grid.
     let (x, is_x) = snap_to_grid(&transform_row(to_screen.x_axis, &ndc));
     let (y, is_y) = snap_to_grid(&transform_row(to_screen.y_axis, &ndc));
     // Depth is a row of the same matrix: z/w mapped to far = 0, near = 1, in f64.
@@ -232,7 +230,7 @@ fn divide_and_snap(
     }
     let mut vertices = [None; SNAP_LANES];
     for (lane, vertex) in vertices.iter_mut().enumerate() {
-        // Within the guard band is on the grid.
+        // Inside the guard band means on the grid.
         let on_grid = is_x[lane] & is_y[lane] & w[lane].is_finite();
         *vertex =
             ScreenVertex::new_if_drawable(on_grid, x[lane], y[lane], depth[lane], inv_w[lane]);
@@ -240,9 +238,9 @@ fn divide_and_snap(
     vertices
 }
 
-/// A row of a matrix times the points (x, y, z, 1), in the order in which glam adds up.
+/// A row of a matrix times the points (x, y, z, 1), in glam's order of addition.
 ///
-/// The parentheses are glam's: x and y are added first, then z, then w.
+/// The parentheses match glam: x and y are added first, then z, then w.
 #[inline(always)]
 fn transform_row(row: DVec4, [x, y, z]: &[F64x8; 3]) -> F64x8 {
     let mut sums = [0.0; SNAP_LANES];
@@ -254,7 +252,7 @@ fn transform_row(row: DVec4, [x, y, z]: &[F64x8; 3]) -> F64x8 {
 
 /// The nearest grid steps, halves up, and whether the coordinates are within the guard band.
 ///
-/// Lanes outside the guard band give 0, a number that the conversion to `i32` holds.
+/// Lanes outside the guard band give 0, which converts safely to `i32`.
 #[inline(always)]
 fn snap_to_grid(pixels: &F64x8) -> ([i32; SNAP_LANES], [bool; SNAP_LANES]) {
     let (mut steps, mut within) = ([0; SNAP_LANES], [false; SNAP_LANES]);
@@ -263,7 +261,7 @@ fn snap_to_grid(pixels: &F64x8) -> ([i32; SNAP_LANES], [bool; SNAP_LANES]) {
         within[lane] = (at >= *GUARD_BAND.start()) & (at <= *GUARD_BAND.end());
         let at = if within[lane] { at * f64::from(SUBPIXELS) + 0.5 } else { 0.0 };
         // Floor by truncation and correction: SSE2 has no instruction for it, and `floor` would be
-        // a library call that stops the loop from becoming vector instructions.
+        // a library call that prevents vectorization of the loop.
         let truncated = at as i32;
         steps[lane] = truncated - i32::from(f64::from(truncated) > at);
     }

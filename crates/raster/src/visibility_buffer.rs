@@ -1,4 +1,4 @@
-//! The visibility buffer: which primitive is visible in each pixel, and at what depth.
+//! The visibility buffer: the primitive visible in each pixel, and its depth.
 
 use crate::buffer_pool::{DrawBuffers, ThreadBuffers};
 use crate::primitive::ScreenTriangle;
@@ -14,7 +14,7 @@ use homog::PixelRect;
 pub struct VisibilityBuffer {
     /// Depth: 1 at the near plane, 0 at the far plane and for the background.
     pub depth: Vec<f32>,
-    /// The ids that the primitives were submitted with; `None` for the background.
+    /// The ids with which the primitives were submitted; `None` for the background.
     pub ids: Vec<Option<u32>>,
 }
 
@@ -47,7 +47,7 @@ impl Frame {
         buffer
     }
 
-    /// Calls `each` with the fragment of the nearest primitive of each pixel that has one, tile by
+    /// Calls `each` with the fragment of the nearest primitive in each pixel that has one, tile by
     /// tile: the fragments of the [`visibility_buffer`](Self::visibility_buffer).
     pub fn for_each_fragment(&self, mut each: impl FnMut(Fragment<'_>)) {
         self.for_each_visible_pixel(|x, y, _, triangle| {

@@ -1,4 +1,4 @@
-//! Tells what a 4×4 matrix is, and whether it looks like a known misprint.
+//! Identifies a 4×4 matrix and reports whether it looks like a known misprint.
 //!
 //! ```text
 //! cargo run -p alberti-recognition --example doctor                 the slides' Ortho, as printed

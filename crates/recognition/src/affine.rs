@@ -34,7 +34,7 @@ pub(crate) fn read_affine(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
         read_diagonal(diagonal, offset, &mut push);
     } else if diagonal.into_iter().all(|entry| entry.is(1.0)) && slanted <= 2 {
         let entries = off_diagonal.map(|(i, j)| unit[i][j]);
-        // x and y are added to z in matrices for row vectors: an oblique projection of columns.
+        // Row-vector matrices add x and y to z; for columns that is an oblique projection.
         let rare = if unit[2][0].is_zero() || unit[2][1].is_zero() { 0 } else { 4 };
         let cost = 4 + rare + 2 * (total_digits(&entries) + total_digits(&offset));
         let linear = [0, 1, 2].map(|i| [0, 1, 2].map(|j| unit[i][j].simplest()));
@@ -70,7 +70,7 @@ fn read_diagonal(
         push(MatrixMeaning::Scale { factors }, 1 + 2 * digits + 2 * mirrored);
         return;
     }
-    // What all axes have in common counts once.
+    // A factor shared by all axes counts once.
     let different = |numbers: &[Rounded; 3]| -> u32 {
         let repeated = |at: usize| numbers[..at].iter().any(|earlier| earlier.equals(numbers[at]));
         let new = (0..3).filter(|&at| !repeated(at) && !numbers[at].is(1.0));
@@ -84,7 +84,7 @@ fn read_diagonal(
     push(MatrixMeaning::Windowing { scale, offset }, base + 2 * digits + mirrored);
 }
 
-/// Translation, rotation and scale of the axes: columns at right angles, not all of length 1.
+/// Translation, rotation and scale of the axes: perpendicular columns, not all of length 1.
 fn read_model_transform(unit: &Entries<4>, push: &mut impl FnMut(MatrixMeaning, u32)) {
     let columns = [0, 1, 2].map(|j| [0, 1, 2].map(|i| unit[i][j]));
     let lengths = columns.map(|[x, y, z]| (x * x + y * y + z * z).sqrt());
@@ -115,7 +115,7 @@ fn read_model_transform(unit: &Entries<4>, push: &mut impl FnMut(MatrixMeaning, 
     push(meaning, 10 + 2 * (digits + total_digits(&offset)));
 }
 
-/// True if a length may be 1 once the rounding of three entries is counted.
+/// Returns whether a length may be 1, given the rounding of three entries.
 fn is_nearly_one(length: Rounded) -> bool {
     length.is_within(1.0, length.error + 1e-12)
 }

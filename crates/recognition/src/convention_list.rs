@@ -1,4 +1,4 @@
-//! The conventions a matrix is tried in, with how rarely each is met.
+//! The conventions in which a matrix is tried, with their rarity.
 
 use homog::NdcY;
 use projection::Convention;
@@ -7,8 +7,8 @@ const DOWN: NdcY = NdcY::Down;
 
 /// All sixteen combinations of depth range, handedness and direction of y, the usual ones first.
 ///
-/// The second number counts against a reading beside the digits of its parameters; reversed and
-/// left-handed depth in [−1, 1], which no interface has, is rarest.
+/// The second number is a cost in addition to the digits of the parameters. Reversed and
+/// left-handed depth in [−1, 1], which no interface uses, is the rarest.
 pub(crate) const CONVENTIONS: [(Convention, u32); 16] = [
     (Convention::OPENGL, 0),
     (Convention::CHAPTER, 1),
@@ -28,9 +28,9 @@ pub(crate) const CONVENTIONS: [(Convention, u32); 16] = [
     (Convention::CHAPTER.left_handed().with_ndc_y(DOWN), 10),
 ];
 
-/// The conventions of a camera in the world: all that look along −z, and those along +z with y up.
+/// The conventions for a camera in the world: all that look along −z, and those along +z with y up.
 ///
-/// A view space that looks along +z with y down is a right-handed one turned about x: such a
+/// A view space that looks along +z with y down is a right-handed one rotated about x, so such a
 /// product is also one that looks along −z.
 pub(crate) fn placed_conventions() -> impl Iterator<Item = (Convention, u32)> {
     CONVENTIONS
@@ -38,7 +38,7 @@ pub(crate) fn placed_conventions() -> impl Iterator<Item = (Convention, u32)> {
         .filter(|(convention, _)| convention.ahead() < 0.0 || convention.top() > 0.0)
 }
 
-/// Those of the conventions whose view space looks to this side: −1 or +1.
+/// The conventions whose view space looks in this direction: −1 or +1.
 pub(crate) fn conventions_looking(ahead: f64) -> impl Iterator<Item = (Convention, u32)> {
     CONVENTIONS.into_iter().filter(move |(convention, _)| convention.ahead() == ahead)
 }

@@ -1,5 +1,5 @@
-//! Meanings of matrices: which projection, camera, viewport or transform sixteen or nine numbers
-//! are, with which parameters, and which known misprint explains them better.
+//! Meanings of matrices: the projection, camera, viewport or transform that sixteen or nine numbers
+//! represent, its parameters, and any known misprint that explains the numbers better.
 //!
 //! ```text
 //!   entries ─► precision ─► every reader ─► readings with a cost ─► sorted ─► suspicions
@@ -8,11 +8,12 @@
 //!                                             rarely such a matrix is met       better)
 //! ```
 //!
-//! A matrix does not tell its meaning: the OpenGL matrix of (N, F) is the zero-to-one matrix of
-//! (2FN/(F+N), F). What people write has few digits, windows with left < right and bottom < top,
-//! and 0 < near < far; so the reading with the fewest digits stands first, usual conventions before
-//! rare ones (minimum description length, Rissanen 1978). A matrix is called a misprint only if it
-//! has no such reading, or a misprinted one needs clearly fewer digits.
+//! The numbers of a matrix do not determine its meaning: the OpenGL matrix of (N, F) is the
+//! zero-to-one matrix of (2FN/(F+N), F). People write numbers with few digits, windows with left <
+//! right and bottom < top, and 0 < near < far. The reading with the fewest digits therefore comes
+//! first, and usual conventions precede rare ones (minimum description length, Rissanen 1978). A
+//! matrix is called a misprint only if it has no such reading, or if a misprinted one needs clearly
+//! fewer digits.
 //!
 //! ```
 //! use projection::{Convention, Fov, Perspective};
@@ -26,7 +27,7 @@
 //! };
 //! assert_eq!((lens.fov_y_degrees, convention), (60.0, Convention::VULKAN));
 //!
-//! // Its transpose is what row vectors take.
+//! // The transpose is the matrix for row vectors.
 //! let slip = recognize(homog::Projective::<homog::View, homog::Clip>::from_row_major(matrix.to_column_major()).rows()).misprint().map(|found| found.misprint);
 //! assert_eq!(slip, Some(recognition::Misprint::Transposed));
 //! # Ok::<(), projection::ProjectionError>(())
@@ -36,7 +37,7 @@
 //! | --- | --- |
 //! | the meaning of a 4×4 matrix, or a misprint in it | [`recognize`] |
 //! | the meaning of a 3×3 matrix | [`recognize_planar`] |
-//! | the slip in a matrix whose projection is known | [`misprint_of`] |
+//! | the error in a matrix for a known projection | [`misprint_of`] |
 //! | the numbers of a matrix in text or source code | [`parse_matrix`] |
 //! | a matrix as source code or LaTeX | [`CodeLanguage::format_matrix`] |
 //! | the parameters of a matrix in a known convention | [`projection::decompose()`] |

@@ -2,10 +2,10 @@
 //!
 //! | language | order | form |
 //! | --- | --- | --- |
-//! | C, GLSL, Rust | by columns, as OpenGL, glTF and glam | array, `mat4`, `[[f64; 4]; 4]` |
+//! | C, GLSL, Rust | by columns, as in OpenGL, glTF and glam | array, `mat4`, `[[f64; 4]; 4]` |
 //! | Python, LaTeX | by rows | list of lists, `bmatrix` |
 //!
-//! Numbers have the fewest digits that give the same f64.
+//! Numbers have the fewest digits that read back as the same f64.
 
 use alloc::borrow::ToOwned as _;
 use alloc::format;
@@ -13,7 +13,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt::Write as _;
 
-/// A language in which a matrix is written.
+/// An output language for matrices.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum CodeLanguage {
@@ -23,7 +23,7 @@ pub enum CodeLanguage {
     Glsl,
     /// Python: a list of rows.
     Python,
-    /// Rust: an array of columns, as glam takes them.
+    /// Rust: an array of columns, as in glam.
     Rust,
     /// LaTeX: a `bmatrix`.
     Latex,
@@ -68,7 +68,7 @@ impl CodeLanguage {
     }
 }
 
-/// A number with a point or an exponent, as every language takes it for a floating-point one.
+/// A number with a point or an exponent, which every language reads as floating point.
 fn number(x: f64) -> String {
     format!("{:?}", x + 0.0)
 }

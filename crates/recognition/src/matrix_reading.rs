@@ -1,4 +1,4 @@
-//! Reads a 4×4 matrix: every reader is asked, and the reading with the fewest digits stands first.
+//! Reads a 4×4 matrix: every reader is tried, and the reading with the fewest digits comes first.
 
 use crate::rounded::{Entries, Rounded, coarser_measures, measure_entries};
 use crate::{
@@ -7,40 +7,41 @@ use crate::{
 };
 use alloc::vec::Vec;
 
-/// The cost of a matrix that nothing is known of.
+/// The cost of a matrix of unknown meaning.
 pub(crate) const UNNAMED: u32 = 1000;
 
-/// Readings that differ in cost by at most this are equally sensible.
+/// Readings whose costs differ by at most this are equally likely.
 pub(crate) const EQUAL: u32 = 3;
 
-/// How much less a reading must cost before some entries are taken for rounded and others are not.
+/// The saving in cost required to treat some entries as rounded and others as exact.
 pub(crate) const COARSER: u32 = 8;
 
 /// One meaning of a matrix.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct MatrixReading {
-    /// The meaning with its parameters, without the factor.
+    /// The meaning with its parameters, with the factor removed.
     pub meaning: MatrixMeaning,
-    /// The common factor of all entries: a multiple is the same map. Negative where w is negative
-    /// in front of the eye, as in the textbook's M_per (PE-3).
+    /// The common factor of all entries: a multiple is the same map. It is negative if w is
+    /// negative in front of the eye, as in the textbook's M_per (PE-3; Shirley and Marschner, ch.
+    /// 8).
     pub factor: f64,
-    /// Twice the digits of the parameters, and more for rare conventions and mirrored windows. Less
-    /// is more sensible.
+    /// Twice the digits of the parameters, with a penalty for rare conventions and mirrored
+    /// windows. A lower cost is more likely.
     pub cost: u32,
 }
 
-/// Everything a matrix may be.
+/// All possible meanings of a matrix.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct Recognition {
-    /// The meanings, the most sensible first; never empty.
+    /// The meanings, the most likely first; never empty.
     pub readings: Vec<MatrixReading>,
-    /// Misprints that explain the entries better, or as well; the likeliest first.
+    /// Misprints that explain the entries better, or as well; the most likely first.
     pub suspicions: Vec<Suspicion>,
 }
 
 impl Recognition {
-    /// The most sensible reading.
+    /// The most likely reading.
     #[must_use]
     pub fn first(&self) -> MatrixReading {
         self.readings.first().copied().unwrap_or(MatrixReading {
@@ -50,13 +51,13 @@ impl Recognition {
         })
     }
 
-    /// The other readings that are as sensible as the first.
+    /// The other readings that are as likely as the first.
     pub fn equal_readings(&self) -> impl Iterator<Item = &MatrixReading> {
         let most = self.first().cost + EQUAL;
         self.readings.iter().skip(1).filter(move |reading| reading.cost <= most)
     }
 
-    /// The misprint this is, if its reading as one is clearly better.
+    /// The misprint, if reading the matrix as one is clearly better.
     #[must_use]
     pub fn misprint(&self) -> Option<&Suspicion> {
         self.suspicions.iter().find(|found| found.strength == SuspicionStrength::Likely)
@@ -65,11 +66,10 @@ impl Recognition {
 
 /// Recognizes a 4×4 matrix for column vectors, given by its rows.
 ///
-/// A matrix with entries that are not finite, or beyond 1e-40 to 1e40, has one reading: a map
-/// without a name.
+/// If an entry is not finite, or outside 1e-40 to 1e40, the only reading is an unnamed map.
 ///
-/// Entries may be rounded: the number of decimals, or f32, is taken from the entries themselves,
-/// and parameters have the fewest digits that give the same rounded matrix.
+/// Entries may be rounded. Their precision (a number of decimals, or f32) is estimated from the
+/// entries themselves, and parameters get the fewest digits that reproduce the rounded matrix.
 ///
 /// ```
 /// use projection::Convention;
@@ -104,7 +104,7 @@ pub fn recognize(rows: [[f64; 4]; 4]) -> Recognition {
     Recognition { readings, suspicions }
 }
 
-/// The cost of the most sensible reading, also for row vectors.
+/// The cost of the most likely reading, including readings for row vectors.
 pub(crate) fn least_cost(entries: &Entries<4>) -> u32 {
     let cost = |entries| readings_of(entries).first().map_or(UNNAMED, |first| first.cost);
     cost(entries).min(cost(&transpose(entries)) + suspicion::SLIP)
@@ -115,7 +115,7 @@ pub(crate) fn transpose(entries: &Entries<4>) -> Entries<4> {
     [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| entries[j][i]))
 }
 
-/// All readings, the most sensible first.
+/// All readings, the most likely first.
 pub(crate) fn readings_of(entries: &Entries<4>) -> Vec<MatrixReading> {
     let mut found = Vec::new();
     let moderate = entries.as_flattened().iter().all(|entry| is_moderate(entry.value));
@@ -144,17 +144,17 @@ pub(crate) fn readings_of(entries: &Entries<4>) -> Vec<MatrixReading> {
     }
     found.retain(|reading| reading.factor.is_finite() && reading.factor != 0.0);
     found.push(unnamed_reading(entries));
-    // Stable: of two equal costs the reader that comes first.
+    // Stable: at equal cost the earlier reader comes first.
     found.sort_by_key(|reading| reading.cost);
     found
 }
 
-/// True if products of a few such numbers and quotients neither overflow nor vanish.
+/// Returns whether products and quotients of a few such numbers neither overflow nor vanish.
 pub(crate) fn is_moderate(entry: f64) -> bool {
     entry == 0.0 || (1e-40..1e40).contains(&entry.abs())
 }
 
-/// An affine or projective map without a name.
+/// An unnamed affine or projective map.
 fn unnamed_reading(entries: &Entries<4>) -> MatrixReading {
     let affine = (0..3).all(|j| entries[3][j].is_zero()) && !entries[3][3].is_zero();
     let (meaning, cost) = if affine {

@@ -1,5 +1,5 @@
-//! Matrices in text: sixteen or nine numbers as people and programs write them, source code
-//! included.
+//! Matrices in text: sixteen or nine numbers as people and programs write them, including source
+//! code.
 //!
 //! ```text
 //!  1 0 0 2  0 1 0 1/2  0 0 1 -1e3  0 0 0 1              row by row
@@ -15,22 +15,22 @@ use alloc::vec::Vec;
 /// A matrix for column vectors, by rows: translation is in the last column.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum GivenMatrix {
-    /// Of space, in homogeneous coordinates.
+    /// A matrix of space, in homogeneous coordinates.
     Space([[f64; 4]; 4]),
-    /// Of the plane, in homogeneous coordinates.
+    /// A matrix of the plane, in homogeneous coordinates.
     Plane([[f64; 3]; 3]),
 }
 
-/// A matrix, and for source code the order in which it was read.
+/// A matrix and, for source code, the order in which it was read.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ParsedMatrix {
     /// The matrix.
     pub matrix: GivenMatrix,
-    /// Such as `column by column, as mat constructors are`; `None` for plain numbers.
+    /// For example `column by column, as mat constructors are`; `None` for plain numbers.
     pub order: Option<&'static str>,
 }
 
-/// Why a text is not a matrix.
+/// The reason why a text is not a matrix.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MatrixTextError {
@@ -42,7 +42,8 @@ pub enum MatrixTextError {
     WrongCount(usize),
 }
 
-/// Words by which source code tells the order of numbers, in lower case; the first found counts.
+/// Words in source code that reveal the order of the numbers, in lower case; the first one found
+/// counts.
 const ORDERS: [(&str, bool, &str); 13] = [
     ("column by column", true, "column by column, as its comment says"),
     ("row by row", false, "row by row, as its comment says"),
@@ -59,11 +60,11 @@ const ORDERS: [(&str, bool, &str); 13] = [
     ("(", false, "row by row, which is assumed of source code; --column-major reads columns"),
 ];
 
-/// Parses the rows of a matrix from sixteen or nine numbers between any brackets, commas and
+/// Parses the rows of a matrix from sixteen or nine numbers, separated by any brackets, commas and
 /// spaces, or from source code.
 ///
-/// Rows are for column vectors: translation is in the last column. Numbers stored column by
-/// column, as in OpenGL, are transposed here; with `column_major` all are taken for that.
+/// Rows are for column vectors: translation is in the last column. Numbers stored column by column,
+/// as in OpenGL, are transposed here; `column_major` applies this to any input.
 ///
 /// ```
 /// use recognition::{GivenMatrix, parse_matrix};
@@ -76,7 +77,7 @@ const ORDERS: [(&str, bool, &str); 13] = [
 /// ```
 ///
 /// # Errors
-/// If a word is not a number, or there are neither sixteen nor nine of them.
+/// Returns an error if a word is not a number, or there are neither sixteen nor nine numbers.
 pub fn parse_matrix(text: &str, column_major: bool) -> Result<ParsedMatrix, MatrixTextError> {
     if !is_code(text) {
         let matrix = matrix_of(&split_words(text), column_major)?;
@@ -97,13 +98,13 @@ pub fn parse_matrix(text: &str, column_major: bool) -> Result<ParsedMatrix, Matr
     Ok(ParsedMatrix { matrix, order: Some(order) })
 }
 
-/// Whether a text has names or comments beside its numbers.
+/// Whether a text has names or comments in addition to numbers.
 fn is_code(text: &str) -> bool {
     let signs = ["=", "mat", "Mat", "vec", "array", "Array", "//", "/*", "#", "\\begin", "set("];
     signs.iter().any(|sign| text.contains(sign))
 }
 
-/// The text without comments of C, Rust and Python.
+/// The text without C, Rust and Python comments.
 fn without_comments(text: &str) -> String {
     let mut kept = String::new();
     let mut rest = text;
@@ -124,7 +125,7 @@ fn split_words(text: &str) -> Vec<&str> {
     text.split(between).filter(|word| !word.is_empty()).collect()
 }
 
-/// A number of source code without its type: `1.0f`, `1_f64`.
+/// A number in source code without its type suffix: `1.0f`, `1_f64`.
 fn without_suffix(word: &str) -> &str {
     let suffixes = ["_f32", "_f64", "f32", "f64", "lf", "LF", "f", "F"];
     suffixes.iter().find_map(|suffix| word.strip_suffix(suffix)).unwrap_or(word)
@@ -146,13 +147,13 @@ fn arrange<const N: usize>(listed: &[f64], columns: bool) -> [[f64; N]; N] {
     core::array::from_fn(|row| core::array::from_fn(|column| listed[at(row, column)]))
 }
 
-/// Parses a number or a fraction such as `2/3`, also with the minus sign of printed text.
+/// Parses a number or a fraction such as `2/3`; the typographic minus sign is accepted.
 ///
-/// A division by zero gives an infinite number, which is rejected later with all others that are
-/// not finite.
+/// Division by zero gives an infinity, which is rejected later with all other numbers that are not
+/// finite.
 ///
 /// # Errors
-/// If the word is neither.
+/// Returns an error if the word is neither.
 pub fn parse_number(word: &str) -> Result<f64, MatrixTextError> {
     let fault = || MatrixTextError::NotANumber(word.to_owned());
     let parse = |digits: &str| digits.replace('−', "-").parse::<f64>().map_err(|_| fault());

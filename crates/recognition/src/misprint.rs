@@ -1,53 +1,52 @@
-//! Known misprints of projection matrices, and what should have been there.
+//! Known misprints of projection matrices, with their corrections.
 //!
-//! Books, lessons and slides that teach these matrices print some of them wrongly, and programs
-//! copy them. [`misprint_of`] compares a matrix with all known slips of the projection that was
-//! wanted, and is certain; [`crate::recognize`] weighs slips against the readings of sixteen
-//! numbers alone.
+//! Books, lessons and slides that teach these matrices misprint some of them, and programs copy the
+//! errors. [`misprint_of`] compares a matrix with all known misprints of the intended projection,
+//! and is certain; [`crate::recognize`] weighs misprints against other readings, given only the
+//! sixteen numbers.
 
 use glam::{DMat4, DVec4};
 use homog::{Clip, Projective, View};
 use projection::{ApexMovedFrustum, Convention, Frustum, Orthographic, Perspective};
 
-/// A known slip: its number among M1 to M28, and in brackets its row in the formula collection's
-/// table of misprints.
+/// A known misprint: its number from M1 to M28 and, in parentheses, its row in the table of
+/// misprints in the formula collection.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 #[non_exhaustive]
 pub enum Misprint {
-    /// M4 (7): P is left out of M_vp M_orth P M_cam; w stays 1 and nothing is foreshortened.
+    /// M4 (7): P is missing from M_vp M_orth P M_cam; w stays 1 and nothing is foreshortened.
     PerspectiveLeftOut,
-    /// M6 (9): the third row of a translation repeats t_y where t_z is due.
+    /// M6 (9): the third row of a translation repeats t_y where t_z belongs.
     RepeatedTranslation,
-    /// M8 (16): the textbook's depth (near +1) where OpenGL's (near −1) is meant, or the other way
-    /// round.
+    /// M8 (16): the textbook's depth (near +1; Shirley and Marschner, ch. 8) where OpenGL's (near
+    /// −1) is meant, or vice versa.
     DepthReversed,
-    /// M8, PE-3: the textbook's raw sign, w < 0 in front of the eye.
+    /// M8, PE-3: the textbook's original sign, w < 0 in front of the eye.
     NegativeW,
     /// M11 (18): the third row of M_cam's translation is (0, 0, 0, −z_e); every z becomes the same.
     ThirdRowFlat,
-    /// M12 (32): the offsets stand in the fourth column: another projection, its apex moved (LW-1),
-    /// not glFrustum.
+    /// M12 (32): the offsets are in the fourth column: another projection, with its apex moved
+    /// (LW-1), not glFrustum.
     ApexMoved,
     /// M14 (26): the bottom row is (0, 0, −1, 1) instead of (0, 0, −1, 0).
     BottomRowOne,
-    /// M15 (33): the depth offset of Ortho has the wrong sign; near and far land outside of [−1,
-    /// 1].
+    /// M15 (33): the depth offset of Ortho has the wrong sign; near and far map outside [−1, 1].
     OrthoOffsetSign,
     /// M16 (34): (right − left)/(right − left) = 1 instead of (right + left)/(right − left).
     FrustumOffsetOne,
     /// M17 (35): tan(fovy)/2 instead of tan(fovy/2).
     HalfOfTangent,
-    /// M19 (43): degrees where radians are due.
+    /// M19 (43): degrees instead of radians.
     Degrees,
-    /// The last row has the wrong sign: w is the distance behind the eye, where depth is not.
+    /// The last row has the wrong sign: w is the distance behind the eye, but depth is not.
     LastRowNegated,
-    /// One entry of a rotation has the wrong sign: lengths and angles change.
+    /// One entry of a rotation has the wrong sign, which changes lengths and angles.
     WrongSign,
-    /// (24): the matrix is for row vectors; here they are columns.
+    /// (24): the matrix is for row vectors but is used with columns.
     Transposed,
 }
 
-/// The projection that was wanted, in OpenGL's convention.
+/// The intended projection, in OpenGL's convention.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum IntendedProjection {
     /// glFrustum.
@@ -59,7 +58,7 @@ pub enum IntendedProjection {
 }
 
 impl Misprint {
-    /// All of them.
+    /// All misprints.
     pub const ALL: [Self; 14] = [
         Self::PerspectiveLeftOut,
         Self::RepeatedTranslation,
@@ -77,7 +76,7 @@ impl Misprint {
         Self::Transposed,
     ];
 
-    /// Its number among the misprints M1 to M28; `None` for what has none.
+    /// Its number from M1 to M28; `None` if it has none.
     #[must_use]
     pub const fn id(self) -> Option<&'static str> {
         match self {
@@ -160,7 +159,7 @@ impl Misprint {
         }
     }
 
-    /// The wanted matrix with this slip in it; `None` where the slip does not apply.
+    /// The intended matrix with this misprint; `None` if the misprint does not apply.
     #[must_use]
     pub fn misprinted_matrix(self, wanted: IntendedProjection) -> Option<Projective<View, Clip>> {
         self.misprint(wanted.correct_matrix().raw(), wanted).map(Projective::from_raw)
@@ -205,7 +204,7 @@ impl Misprint {
 }
 
 impl IntendedProjection {
-    /// The right matrix, in OpenGL's convention.
+    /// The correct matrix, in OpenGL's convention.
     #[must_use]
     pub fn correct_matrix(self) -> Projective<View, Clip> {
         let c = Convention::OPENGL;
@@ -258,9 +257,9 @@ fn apex_moved(frustum: Frustum) -> Option<DMat4> {
     Some(lesson.view_to_clip(Convention::OPENGL).raw())
 }
 
-/// The slip that turns what was wanted into `matrix`; `None` if the matrix is right, up to a
-/// positive factor, or wrong in a way nobody printed. Entries may differ by one part in a million,
-/// as those of f32 programs do.
+/// The misprint that turns the intended matrix into `matrix`; `None` if the matrix is correct up to
+/// a positive factor, or wrong in an unknown way. Entries may differ by one part in a million, as
+/// in f32 programs.
 ///
 /// ```
 /// use projection::Orthographic;
@@ -287,7 +286,7 @@ pub fn misprint_of(
     })
 }
 
-/// Equal up to a positive factor and one part in a million.
+/// Returns whether two matrices are equal up to a positive factor and one part in a million.
 fn nearly_equal(ours: DMat4, theirs: DMat4) -> bool {
     let size =
         |m: DMat4| m.to_cols_array().iter().fold(0.0, |size: f64, entry| size.max(entry.abs()));

@@ -1,4 +1,4 @@
-//! Readings of parallel matrices as view volumes: upright boxes and oblique prisms.
+//! Readings of parallel matrices as view volumes: orthographic boxes and oblique prisms.
 
 use super::convention_list::CONVENTIONS;
 use super::matrix_reading::factor_cost;
@@ -29,8 +29,8 @@ pub(crate) fn read_boxes(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     }
 }
 
-/// Boxes gain nothing from reversed depth, and few programs reverse it; the textbook's is no
-/// reversed one.
+/// Boxes gain nothing from reversed depth, and few programs reverse it. The depth of the textbook
+/// (Shirley and Marschner, ch. 8) does not count as reversed.
 pub(crate) fn box_rarity(convention: Convention, rarity: u32) -> u32 {
     let reversed = convention.near_depth() > convention.far_depth();
     if reversed && convention != Convention::CHAPTER { rarity + 3 } else { rarity }
@@ -39,7 +39,7 @@ pub(crate) fn box_rarity(convention: Convention, rarity: u32) -> u32 {
 fn box_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixMeaning, u32)> {
     let [x, y, z, _] = unit;
     let (ahead, top) = (Rounded::exact(convention.ahead()), Rounded::exact(convention.top()));
-    // A volume maps z as well; what leaves z alone is a map of the plane.
+    // A volume maps z as well; a map that leaves z unchanged is a map of the plane.
     let mut cost = if z[2].is(1.0) && z[3].is_zero() { MIRRORED } else { 2 };
     let mut edges = |scale: Rounded, offset: Rounded| {
         cost += if scale.value < 0.0 { MIRRORED } else { 0 };
@@ -52,7 +52,7 @@ fn box_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixMeani
     let distance = |depth: f64| (Rounded::exact(depth) - z[3]) / (z[2] * ahead);
     let (near, far) = (distance(convention.near_depth()), distance(convention.far_depth()));
     cost += pair_cost(l, r) + pair_cost(b, t) + pair_cost(near, far);
-    // The depths that glOrtho and gluOrtho2D have for plane pictures.
+    // The depths used by glOrtho and gluOrtho2D for two-dimensional pictures.
     let is_plane_depth = is_screen && near.is(-1.0) && far.is(1.0);
     cost += if is_plane_depth { 0 } else { order_cost(near, far) };
     let volume = Orthographic::new(
@@ -75,19 +75,21 @@ fn box_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixMeani
     Some((MatrixMeaning::ObliqueVolume { projection, volume, convention }, cost))
 }
 
-/// True for a window of whole pixels from the upper left corner: left 0, top 0, bottom below it.
+/// Returns whether a window has whole pixels from the upper left corner: left 0, top 0, bottom
+/// below it.
 fn is_from_top_left([l, r, b, t]: [Rounded; 4]) -> bool {
     let is_side = |side: Rounded| side.value > 1.5 && side.is(libm::round(side.value));
     l.is_zero() && t.is_zero() && is_side(r) && is_side(b)
 }
 
-/// Twice the digits of two edges, of one only if they are opposite.
+/// Twice the digits of two edges, or of only one if they are opposite.
 fn pair_cost(low: Rounded, high: Rounded) -> u32 {
     let second = if (low + high).is_zero() { 0 } else { low.digits() };
     2 * (high.digits() + second)
 }
 
-/// The cost of near and far beside their digits: they should be ahead of the eye and in order.
+/// The cost of near and far in addition to their digits: they should be in front of the eye and in
+/// order.
 fn order_cost(near: Rounded, far: Rounded) -> u32 {
     match (near.value, far.value) {
         (near, far) if near > far => MIRRORED,
@@ -97,8 +99,8 @@ fn order_cost(near: Rounded, far: Rounded) -> u32 {
     }
 }
 
-/// The oblique projection with x' = x + slant z, y' alike, onto z = `plane_z`: by length and angle
-/// if these have fewer digits.
+/// The oblique projection with x' = x + slant z, y' likewise, onto z = `plane_z`: by length and
+/// angle if these have fewer digits.
 pub(crate) fn oblique_by_slants(x: Rounded, y: Rounded, plane_z: f64) -> Option<Oblique> {
     let (length, phi) = length_and_angle(x, y);
     let direction = if length.digits() + phi.digits() < x.digits() + y.digits() {

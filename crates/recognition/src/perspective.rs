@@ -1,5 +1,5 @@
-//! Readings of central matrices: frusta in sixteen conventions, the textbook's P, and the inverses
-//! of both.
+//! Readings of central matrices: frusta in sixteen conventions, the textbook's P (Shirley and
+//! Marschner, ch. 8), and the inverses of both.
 
 use super::convention_list::conventions_looking;
 use super::matrix_reading::factor_cost;
@@ -8,10 +8,11 @@ use super::{Lens, MatrixMeaning, MatrixReading};
 use alloc::vec::Vec;
 use projection::{ApexMovedFrustum, Convention, Frustum};
 
-/// The cost of a mirrored window beside the digits of a reading.
+/// The cost of a mirrored window in addition to the digits of a reading.
 pub(crate) const MIRRORED: u32 = 12;
 
-/// Adds the readings as a frustum (GL-1, PE-2) or as the lesson's with its apex moved (LW-1).
+/// Adds the readings as a frustum (GL-1, PE-2) or as the lesson's frustum with its apex moved
+/// (LW-1).
 pub(crate) fn read_frusta(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let zeros = [m[0][1], m[1][0], m[2][0], m[2][1], m[3][0], m[3][1], m[3][3]];
     if !zeros.into_iter().all(Rounded::is_zero) || m[3][2].is_zero() {
@@ -21,7 +22,7 @@ pub(crate) fn read_frusta(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
         let factor = Rounded { value: sign * m[3][2].value.abs(), ..m[3][2] };
         let unit = divide_entries(m, factor);
         for (convention, rarity) in conventions_looking(unit[3][2].value.signum()) {
-            // The textbook's own sign: w = z, negative in front of the eye.
+            // The textbook's original sign: w = z, negative in front of the eye.
             let natural = sign > 0.0 || convention == Convention::CHAPTER;
             let factor_digits = if natural && factor.is(sign) { 0 } else { factor_cost(factor) };
             let rare = if convention == Convention::CHAPTER && sign < 0.0 { 0 } else { rarity };
@@ -59,7 +60,7 @@ fn frustum_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixM
         (window[2 * axis], window[2 * axis + 1]) = (edge(-Rounded::ONE), edge(Rounded::ONE));
         cost += if scale.value < 0.0 { MIRRORED } else { 0 };
     }
-    // By the window, or by the apex and the window around it.
+    // Described by the window, or by the apex and the window around it.
     let [around_x, around_y] = apex;
     let [l, r, b, t] = window;
     let centered = [l - around_x, r - around_x, b - around_y, t - around_y];
@@ -68,13 +69,13 @@ fn frustum_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixM
         .min(window.into_iter().map(Rounded::digits).sum());
     let digits = near.digits() + far.map_or(0, Rounded::digits) + lens;
     let meaning = named_frustum(window, near, far, apex, convention)?;
-    // Rounded to a few decimals, near 0.1 of one convention is near 0.05 of another: people choose
+    // Rounded to a few decimals, near 0.1 in one convention is near 0.05 in another: people choose
     // powers of ten.
     let usual = if near.is_power_of_ten() { 0 } else { 2 };
     Some((meaning, cost + usual + 2 * digits))
 }
 
-/// The frustum, or the lesson's if the apex is not at the origin.
+/// The frustum, or the lesson's frustum if the apex is not at the origin.
 fn named_frustum(
     window: [Rounded; 4],
     near: Rounded,
@@ -96,7 +97,7 @@ fn named_frustum(
     Some(MatrixMeaning::ApexMoved { frustum, convention })
 }
 
-/// Angles, aspect ratio and focal lengths of a window at a distance.
+/// The angles, aspect ratio and focal lengths of a window at a distance.
 pub(crate) fn read_lens([l, r, b, t]: [Rounded; 4], near: Rounded) -> Lens {
     let angle = |low: Rounded, high: Rounded| {
         ((high / near).atan_degrees() - (low / near).atan_degrees()).simplest()
@@ -110,8 +111,8 @@ pub(crate) fn read_lens([l, r, b, t]: [Rounded; 4], near: Rounded) -> Lens {
     }
 }
 
-/// The fewest digits that describe the lens: by its window, or if it is centered by an angle and an
-/// aspect ratio, or by its two scales.
+/// The fewest digits that describe the lens: by its window, by its two scales, or, if it is
+/// centered, by an angle and an aspect ratio.
 pub(crate) fn lens_digits(
     window: [Rounded; 4],
     near: Rounded,
@@ -129,7 +130,7 @@ pub(crate) fn lens_digits(
     by_angle.min(r.digits() + t.digits()).min(scale_y.digits() + scale_x.digits())
 }
 
-/// The distances at which factor + offset/D is the near and the far depth, if 0 < near < far; no
+/// The distances at which factor + offset/D equals the near and far depths, if 0 < near < far; no
 /// far plane if rounding may hide it.
 pub(crate) fn depth_planes(
     factor: Rounded,
@@ -164,7 +165,7 @@ pub(crate) fn read_p(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     }
 }
 
-/// Adds the reading as the inverse of P in either printed form: as it is, or times nf.
+/// Adds the reading as the inverse of P in either printed form: unscaled, or times nf.
 pub(crate) fn read_p_inverse(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let factor = m[2][3];
     let zeros = [m[0][3], m[1][3]];
@@ -188,7 +189,7 @@ fn p_reading(
     factor: Rounded,
     printed: bool,
 ) -> Option<MatrixReading> {
-    // The textbook's planes are ahead of the eye: 0 > n > f.
+    // The textbook's planes are in front of the eye: 0 > n > f.
     let behind = if n.value > 0.0 { 4 } else { 0 };
     let cost =
         behind + 2 * (n.digits() + f.digits()) + if printed { 0 } else { factor_cost(factor) };

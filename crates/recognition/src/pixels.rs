@@ -1,7 +1,7 @@
 //! Readings of a perspective and a viewport in one matrix: view or world space to pixels (PL-1).
 //!
-//! Sixteen numbers do not tell the size of the image from the window. With a window around the line
-//! of sight they do: that line meets the image in its center.
+//! Sixteen numbers do not separate the size of the image from the window unless the window is
+//! centered on the line of sight: then that line meets the image at its center.
 
 use super::perspective::read_frusta;
 use super::placed::read_placed_perspective;
@@ -9,7 +9,7 @@ use super::rounded::{Entries, Rounded};
 use super::{MatrixMeaning, MatrixReading};
 use alloc::vec::Vec;
 
-/// The smallest image that is told apart from a window beside the line of sight, in pixels.
+/// The smallest image, in pixels, that can be distinguished from an off-center window.
 const LEAST_SIZE: f64 = 16.0;
 
 /// An image and its pixel convention.
@@ -45,7 +45,8 @@ pub(crate) fn read_perspective_to_pixels(m: &Entries<4>, found: &mut Vec<MatrixR
     }
 }
 
-/// M_vp⁻¹ M, the depth row as it is. The offsets of what lies on the line of sight are exactly 0.
+/// M_vp⁻¹ M, with the depth row unchanged. The offsets of points on the line of sight are
+/// exactly 0.
 fn without_viewport(m: &Entries<4>, pixels: &Pixels) -> Entries<4> {
     let shift = if pixels.integer_centers { 0.5 } else { 0.0 };
     let sign = if pixels.y_down { -1.0 } else { 1.0 };
@@ -54,7 +55,7 @@ fn without_viewport(m: &Entries<4>, pixels: &Pixels) -> Entries<4> {
             (Rounded::exact(sign * 2.0 / size), Rounded::exact(size / 2.0 - shift));
         [0, 1, 2, 3].map(|j| {
             let entry = m[at][j] - center * m[3][j];
-            // Pixels are large beside what is left: their rounding is its error.
+            // Pixels are large compared with the remainder, so their rounding is its error.
             let noise = 4.0 * f64::EPSILON * (size * m[3][j].value).abs();
             Rounded { error: entry.error + noise, ..entry } * scale
         })
@@ -62,7 +63,7 @@ fn without_viewport(m: &Entries<4>, pixels: &Pixels) -> Entries<4> {
     [row(0, pixels.size[0], 1.0), row(1, pixels.size[1], sign), m[2], m[3]]
 }
 
-/// The most sensible perspective that is left, of a window around the line of sight.
+/// The most likely remaining perspective with a window centered on the line of sight.
 fn best_reading(clip: &Entries<4>, pixels: Pixels, cost: u32) -> Option<MatrixReading> {
     let mut left = Vec::new();
     read_frusta(clip, &mut left);

@@ -1,11 +1,11 @@
-//! Readings of a camera and its projection in one matrix: world to clip space; and of an inclined
+//! Readings of a camera and its projection in one matrix, world to clip space, and of an inclined
 //! near plane.
 //!
-//! With the rows x, y, w of a central matrix the line of sight is the linear part of w, what is
-//! left of x beside it points to the right, and the eye is where all three rows vanish. What is
-//! left of y points up; whether x, y and the line of sight are those of a left-handed world
-//! (Direct3D), or of a right-handed one with y down in clip space (Vulkan), the numbers leave open:
-//! the reading whose up is upright in the world is the more sensible one.
+//! Take the rows x, y, w of a central matrix. The line of sight is the linear part of w, the part
+//! of x perpendicular to it points right, and the eye is where all three rows vanish. The part of y
+//! perpendicular to it points up. The numbers do not say whether these axes belong to a left-handed
+//! world (Direct3D) or to a right-handed one with y down in clip space (Vulkan). The reading whose
+//! up direction points up in the world is more likely.
 
 use super::convention_list::placed_conventions;
 use super::matrix_reading::factor_cost;
@@ -19,7 +19,7 @@ use glam::{DMat3, DMat4, DVec3};
 use homog::Projective;
 use projection::{Convention, Decomposed, Frustum, Orthographic, decompose};
 
-/// The cost of a camera upside down in the world, where a rival reading has it upright.
+/// The cost of a camera that is upside down in the world, if a rival reading has it upright.
 const UPSIDE_DOWN: u32 = 6;
 
 /// Adds the readings as a camera with a perspective, in a right- or left-handed world.
@@ -66,7 +66,7 @@ fn linear_part(row: &[Rounded; 4]) -> [Rounded; 3] {
     [row[0], row[1], row[2]]
 }
 
-/// `vector` without its part along a vector of length 1.
+/// `vector` without its component along a vector of length 1.
 fn beside(vector: [Rounded; 3], unit: [Rounded; 3]) -> [Rounded; 3] {
     let along = dot(vector, unit);
     [0, 1, 2].map(|i| vector[i] - unit[i] * along)
@@ -76,12 +76,12 @@ fn values(vector: [Rounded; 3]) -> DVec3 {
     DVec3::from_array(vector.map(|x| x.value))
 }
 
-/// True if two vectors may be at right angles.
+/// Returns whether two vectors may be perpendicular.
 fn is_square(a: [Rounded; 3], b: [Rounded; 3]) -> bool {
     dot(a, b).is_within(0.0, 1e-11 * values(a).length() * values(b).length())
 }
 
-/// A camera in the world and the rows of the projection behind it.
+/// A camera in the world, with the rows of the projection after it.
 struct PlacedFrame {
     eye: DVec3,
     eye_error: f64,
@@ -96,7 +96,7 @@ struct PlacedFrame {
 }
 
 impl PlacedFrame {
-    /// Of a matrix whose last row has a linear part of length 1.
+    /// Reads a matrix whose last row has a linear part of length 1.
     fn from_central(m: &Entries<4>) -> Option<Self> {
         let [x, y, z, w] = m;
         let sight = linear_part(w);
@@ -135,7 +135,7 @@ impl PlacedFrame {
         Some(Self { eye, eye_error, right, up, gaze, scale, center, depth })
     }
 
-    /// True if the camera is where a projection matrix has it: such a matrix holds no camera.
+    /// Returns whether the camera is at its default position: such a matrix contains no camera.
     fn is_unplaced(&self) -> bool {
         let turn = 1e-9 + 4.0 * self.scale[0].error / self.scale[0].value.abs();
         let upright = self.right.distance(DVec3::X) < turn && self.gaze.z.abs() > 1.0 - turn;
@@ -152,7 +152,7 @@ impl PlacedFrame {
             let sum = c + Rounded::exact(side);
             if sum.is_zero() { Rounded::exact(0.0) } else { sum / s * near }
         };
-        // Rounded centers that may be 0 are 0: most cameras are symmetric.
+        // Rounded centers that may be 0 are 0, because most cameras are symmetric.
         let [cx, cy] = [cx, cy].map(|c| if is_close(c, 0.0) { Rounded::exact(0.0) } else { c });
         let window = [edge(cx, sx, -1.0), edge(cx, sx, 1.0), edge(cy, sy, -1.0), edge(cy, sy, 1.0)];
         let [l, r, b, t] = window.map(Rounded::simplest);
@@ -163,7 +163,7 @@ impl PlacedFrame {
             + far.map_or(0, Rounded::digits)
             + lens_digits(window, near, sy, sx)
             + self.eye_digits();
-        // What is upside down in OpenGL's convention is so in all.
+        // A camera that is upside down in OpenGL's convention is so in all conventions.
         let rivaled = convention.ahead() > 0.0 || convention.top() < 0.0;
         let turned = match sy.value < 0.0 {
             true => MIRRORED,
@@ -179,7 +179,7 @@ impl PlacedFrame {
         self.eye.to_array().into_iter().map(number).sum()
     }
 
-    /// With x to the right and the line of sight, up is the other way in a left-handed world.
+    /// For the same right axis and line of sight, up is reversed in a left-handed world.
     fn camera(&self, convention: Convention) -> CameraReading {
         let clean = |v: DVec3, error: f64| v.to_array().map(|x| shorten(x, error));
         let turn = self.scale[0].error / self.scale[0].value.abs();
@@ -192,9 +192,10 @@ impl PlacedFrame {
     }
 }
 
-/// The cost of a camera upside down where its numbers may be one upright in another convention.
+/// The cost of an upside-down camera whose numbers may describe an upright one in another
+/// convention.
 ///
-/// Up is y, or z for a camera whose right is level only then.
+/// Up is y, or z for a camera whose right axis is level only then.
 fn posture_cost(camera: &CameraReading) -> u32 {
     let level = |axis: usize| camera.right[axis].abs() < 1e-6;
     let upwards = if (level(2) && !level(1)) || camera.up[1].abs() < 1e-6 {
@@ -209,7 +210,7 @@ fn rows_dot(row: &[Rounded; 4], point: DVec3) -> f64 {
     values(linear_part(row)).dot(point)
 }
 
-/// Adds the readings as a camera with an orthographic box: rows at right angles.
+/// Adds the readings as a camera with an orthographic box: perpendicular rows.
 pub(crate) fn read_placed_box(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let factor = m[3][3];
     if factor.is_zero() || ![m[3][0], m[3][1], m[3][2]].into_iter().all(Rounded::is_zero) {

@@ -13,15 +13,15 @@ use glam::DMat3;
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[expect(clippy::large_enum_variant, reason = "there are few, and they are plain numbers")]
 pub enum PlanarMatrix {
-    /// A map of the plane that leaves w alone; z of the meaning does not count.
+    /// A map of the plane that leaves w unchanged; the z of the meaning is not used.
     Plane(MatrixMeaning),
-    /// The intrinsic matrix of a camera: from its x, y and z to pixels.
+    /// The intrinsic matrix of a camera: from camera x, y and z to pixels.
     Intrinsics(IntrinsicsReading),
     /// A rotation of space, without homogeneous coordinates.
     SpatialRotation {
-        /// Of length 1.
+        /// The axis, with length 1.
         axis: [f64; 3],
-        /// 0 to 180, counterclockwise seen against the axis.
+        /// The angle, 0 to 180, counterclockwise when the axis points at the viewer.
         angle_degrees: f64,
     },
     /// A projective map of the plane, which sends a line to infinity (HO-3).
@@ -37,12 +37,13 @@ pub struct PlanarReading {
     pub meaning: PlanarMatrix,
     /// The common factor of all entries: a multiple is the same map.
     pub factor: f64,
-    /// Twice the digits of its parameters, and more for rare maps. Less is more sensible.
+    /// Twice the digits of its parameters, with a penalty for rare maps. A lower cost is more
+    /// likely.
     pub cost: u32,
 }
 
-/// Recognizes a 3×3 matrix by rows, for column vectors; the readings, the most sensible first, and
-/// whether the transposed matrix is clearly the better one.
+/// Recognizes a 3×3 matrix, given by rows, for column vectors. Returns the readings, the most
+/// likely first, and whether the transposed matrix is clearly better.
 ///
 /// ```
 /// use recognition::{MatrixMeaning, PlanarMatrix, recognize_planar};
@@ -87,8 +88,8 @@ fn planar_readings(entries: &Entries<3>) -> Vec<PlanarReading> {
     found
 }
 
-/// The identity above (p, q, 1): a right matrix for column vectors, as a translation is for row
-/// vectors.
+/// The identity above (p, q, 1): a correct matrix for column vectors, just as a translation is for
+/// row vectors.
 fn is_simple_homography([x, y, w]: &Entries<3>) -> Option<u32> {
     let identity = x[0].is(1.0) && y[1].is(1.0) && w[2].is(1.0);
     let zeros = [x[1], x[2], y[0], y[2]].into_iter().all(Rounded::is_zero);
@@ -96,7 +97,7 @@ fn is_simple_homography([x, y, w]: &Entries<3>) -> Option<u32> {
     (identity && zeros && digits > 0).then_some(3 + 2 * digits)
 }
 
-/// With the bottom row (0, 0, s): as a map of space that leaves z alone.
+/// Reads the bottom row (0, 0, s) as a map of space that leaves z unchanged.
 fn read_affine_plane([x, y, w]: &Entries<3>, found: &mut Vec<PlanarReading>) {
     if !(w[0].is_zero() && w[1].is_zero()) || w[2].is_zero() {
         return;

@@ -13,15 +13,15 @@ use glam::{DMat3, DVec3};
 pub struct CameraReading {
     /// The position of the camera.
     pub eye: [f64; 3],
-    /// The direction of view, of length 1: −w of the textbook.
+    /// The gaze direction, with length 1: −w in the textbook (Shirley and Marschner, ch. 8).
     pub gaze: [f64; 3],
-    /// Up in the picture, of length 1: v of the textbook.
+    /// Up in the picture, with length 1: v in the textbook.
     pub up: [f64; 3],
-    /// To the right in the picture, of length 1: u of the textbook.
+    /// Right in the picture, with length 1: u in the textbook.
     pub right: [f64; 3],
 }
 
-/// True if three vectors of length 1 stand at right angles, as far as their rounding tells.
+/// Returns whether three unit vectors are perpendicular within their rounding.
 pub(crate) fn is_square_frame(axes: &[[Rounded; 3]; 3]) -> bool {
     let dot = |a: [Rounded; 3], b: [Rounded; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let slack = 1e-12 + largest_error(axes);
@@ -29,12 +29,12 @@ pub(crate) fn is_square_frame(axes: &[[Rounded; 3]; 3]) -> bool {
     square(0, 1) && square(1, 2) && square(2, 0)
 }
 
-/// The largest error of an entry: ±1 may be rounded, too.
+/// The largest error of any entry; ±1 may be rounded too.
 pub(crate) fn largest_error(rows: &[[Rounded; 3]; 3]) -> f64 {
     rows.as_flattened().iter().fold(0.0, |error: f64, entry| error.max(entry.error))
 }
 
-/// The rows of a 3×3 matrix, if they have length 1 and stand at right angles; made exactly so.
+/// The rows of a 3×3 matrix, made exactly orthonormal; `None` unless they nearly are.
 pub(crate) fn orthonormal_rows(rows: &[[Rounded; 3]; 3]) -> Option<[DVec3; 3]> {
     let unit = rows.iter().all(|[x, y, z]| {
         let square = *x * *x + *y * *y + *z * *z;
@@ -44,7 +44,7 @@ pub(crate) fn orthonormal_rows(rows: &[[Rounded; 3]; 3]) -> Option<[DVec3; 3]> {
         return None;
     }
     let [u, v, w] = rows.map(|row| DVec3::from_array(row.map(|entry| entry.value)));
-    // Gram and Schmidt, so that rounded rows give a rotation again.
+    // Gram–Schmidt, which turns rounded rows into a rotation again.
     let u = u / libm::sqrt(u.length_squared());
     let v = v - u * u.dot(v);
     let v = v / libm::sqrt(v.length_squared());
@@ -93,7 +93,7 @@ pub(crate) fn read_rigid(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
         push(MatrixMeaning::Rotation { axis, angle_degrees, camera }, 6);
         return;
     }
-    // Few cameras roll, in a world whose y or z is up.
+    // Few cameras roll in a world whose y or z is up.
     let is_level = |camera: &CameraReading| camera.right[1..].iter().any(|x| x.abs() < 1e-9);
     let roll_cost = |camera: &CameraReading| if is_level(camera) { 0 } else { 4 };
     push(MatrixMeaning::Camera(camera), 6 + roll_cost(&camera) + 2 * digits(eye));
@@ -111,8 +111,8 @@ pub(crate) fn read_rigid(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     push(MatrixMeaning::CameraPose(pose), 8 + roll_cost(&pose) + 2 * digits(offset));
 }
 
-/// The cost of a rotation in a model transform: an axis of coordinates and few digits of the angle
-/// are usual, most so the axis z of plane pictures, about which cameras seldom roll.
+/// The cost of a rotation in a model transform: a coordinate axis and few digits of the angle are
+/// common, most of all the z axis of two-dimensional pictures, about which cameras seldom roll.
 fn turn_cost(axis: [f64; 3], angle: Rounded) -> u32 {
     match axis.map(|x| x == 0.0) {
         [true, true, false] => 2 + 2 * angle.digits(),
@@ -121,7 +121,7 @@ fn turn_cost(axis: [f64; 3], angle: Rounded) -> u32 {
     }
 }
 
-/// A component of a unit vector without digits that its rounding does not carry.
+/// A component of a unit vector, without digits below its rounding error.
 pub(crate) fn shorten(value: f64, error: f64) -> f64 {
     Rounded { value, error: error.max(1e-13) }.simplest()
 }
@@ -155,8 +155,8 @@ fn reflection(rows: &[[Rounded; 3]; 3], offset: [Rounded; 3]) -> Option<(MatrixM
     along.then_some((MatrixMeaning::Reflection { normal, distance }, cost))
 }
 
-/// Axis of length 1 and angle in degrees, 0 to 180, of a rotation whose entries have this error
-/// (Shoemake 1994, by the largest component of the quaternion).
+/// The axis, with length 1, and the angle in degrees, 0 to 180, of a rotation whose entries have
+/// this error (Shoemake 1994, by the largest component of the quaternion).
 pub(crate) fn axis_angle(rotation: DMat3, error: f64) -> ([f64; 3], f64) {
     let m = |i: usize, j: usize| rotation.col(j)[i];
     let trace = m(0, 0) + m(1, 1) + m(2, 2);
@@ -166,7 +166,7 @@ pub(crate) fn axis_angle(rotation: DMat3, error: f64) -> ([f64; 3], f64) {
     let axis = if sine > 1e-4 {
         skew / (2.0 * sine)
     } else {
-        // Near 180° the symmetric part holds the axis: (R + I)/2 = nnᵀ.
+        // Near 180° the symmetric part contains the axis: (R + I)/2 = nnᵀ.
         let column = (0..3).max_by(|&a, &b| m(a, a).total_cmp(&m(b, b))).unwrap_or(0);
         let mut along = rotation.col(column);
         along[column] += 1.0;

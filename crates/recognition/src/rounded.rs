@@ -1,16 +1,16 @@
-//! Numbers with the error that their rounding may have, and how many digits they need.
+//! Numbers with their possible rounding error, and the number of digits they need.
 //!
 //! A matrix printed with three decimals, stored as f32 or computed in f64 says the same thing with
-//! other precision. The precision is estimated from the entries and carried through sums, products
-//! and quotients to first order, so that near = 0.0999 ± 0.0002 is read as 0.1.
+//! different precision. The precision is estimated from the entries and propagated through sums,
+//! products and quotients to first order: near = 0.0999 ± 0.0002 is read as 0.1.
 
 use alloc::vec::Vec;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Digits a parameter counts that no short decimal describes.
+/// The digit count of a parameter that no short decimal describes.
 const MANY_DIGITS: u32 = 8;
 
-/// A number and the largest error it may have.
+/// A number and its maximum error.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Rounded {
     pub(crate) value: f64,
@@ -32,17 +32,17 @@ impl Rounded {
         Self { value, error: self.error * derivative.abs() + 4.0 * f64::EPSILON * value.abs() }
     }
 
-    /// True if the number may be `expected`.
+    /// Returns whether the number may be `expected`.
     pub(crate) fn is(self, expected: f64) -> bool {
         self.is_within(expected, 0.0)
     }
 
-    /// True if the number may be `expected`, with some slack for lengths and angles.
+    /// Returns whether the number may be `expected`, with some slack for lengths and angles.
     pub(crate) fn is_within(self, expected: f64, slack: f64) -> bool {
         self.error.is_finite() && (self.value - expected).abs() <= self.error + slack
     }
 
-    /// True if two numbers may be equal.
+    /// Returns whether two numbers may be equal.
     pub(crate) fn equals(self, other: Self) -> bool {
         (self - other).is(0.0)
     }
@@ -51,13 +51,13 @@ impl Rounded {
         self.is(0.0)
     }
 
-    /// The square root; 0 below 0.
+    /// The square root; 0 for negative numbers.
     pub(crate) fn sqrt(self) -> Self {
         let root = libm::sqrt(self.value.max(0.0));
         self.mapped(root, 0.5 / root.max(f64::MIN_POSITIVE))
     }
 
-    /// The angle whose tangent this is, in degrees.
+    /// The angle with this tangent, in degrees.
     pub(crate) fn atan_degrees(self) -> Self {
         let slope = (1.0 / (1.0 + self.value * self.value)).to_degrees();
         self.mapped(libm::atan(self.value).to_degrees(), slope)
@@ -73,7 +73,7 @@ impl Rounded {
         short.next().unwrap_or(self.value)
     }
 
-    /// True for 0.01, 0.1, 1, 10 and so on, as far as the error tells.
+    /// Returns whether the number may be 0.01, 0.1, 1, 10 and so on, within its error.
     pub(crate) fn is_power_of_ten(self) -> bool {
         let simplest = self.simplest();
         let exponent = libm::round(libm::log10(simplest.abs())) as i32;
@@ -82,7 +82,7 @@ impl Rounded {
     }
 
     /// The significant digits of the shortest decimal within the error, or of the terms of a small
-    /// fraction such as 16/9; 0 for zero, 8 if there is none.
+    /// fraction such as 16/9; 0 for zero, 8 if neither exists.
     pub(crate) fn digits(self) -> u32 {
         if self.is_zero() || !self.value.is_finite() {
             return 0;
@@ -100,7 +100,7 @@ impl Rounded {
     }
 }
 
-/// The decimal with this many significant digits that is nearest to x.
+/// The decimal with this many significant digits nearest to x.
 fn round_to_digits(x: f64, digits: u32) -> f64 {
     let exponent = libm::floor(libm::log10(x.abs())) as i32;
     let decimals = digits as i32 - 1 - exponent;
@@ -112,14 +112,14 @@ fn power_of_ten(exponent: u32) -> f64 {
     (0..exponent.min(300)).fold(1.0, |power, _| power * 10.0)
 }
 
-/// The entries with the error that their decimals, or f32, or f64 arithmetic leave them.
+/// The entries, with the error due to their decimals, f32 or f64 arithmetic.
 ///
 /// | entries | error |
 /// | --- | --- |
 /// | 0 and ±1, and all if none has more than two decimals | 0 |
-/// | at most 3 to 12 decimals | 0.6 units of the last one |
-/// | f32 numbers | 2.4e-7 of themselves, 1.2e-7 of the largest |
-/// | others | 1e-14 of themselves, 1e-15 of the largest |
+/// | at most 3 to 12 decimals | 0.6 units of the last decimal |
+/// | f32 numbers | 2.4e-7 relative, 1.2e-7 of the largest |
+/// | others | 1e-14 relative, 1e-15 of the largest |
 pub(crate) fn measure_entries<const N: usize>(rows: [[f64; N]; N]) -> Entries<N> {
     let entries = rows.as_flattened();
     let largest = entries.iter().fold(0.0, |size: f64, entry| size.max(entry.abs()));
@@ -139,11 +139,11 @@ pub(crate) fn measure_entries<const N: usize>(rows: [[f64; N]; N]) -> Entries<N>
     })
 }
 
-/// All entries with the precision of the coarser ones, for matrices put together from numbers
-/// of different precision; finer ones first.
+/// All entries with the precision of the coarser ones, for matrices assembled from numbers of
+/// different precision; finer precisions first.
 ///
-/// At least three entries, and two thirds of those with more than two decimals, must have no more
-/// than the assumed number of decimals. Entries with more keep their own precision.
+/// At least three entries, and two thirds of those with more than two decimals, must have at most
+/// the assumed number of decimals. Entries with more keep their own precision.
 pub(crate) fn coarser_measures<const N: usize>(rows: [[f64; N]; N]) -> Vec<Entries<N>> {
     let decimals = |x: f64| (0..=12).find(|&n| has_decimals(x, n)).unwrap_or(13);
     let mut found: Vec<u32> = rows.as_flattened().iter().map(|&x| decimals(x)).collect();
@@ -165,7 +165,7 @@ pub(crate) fn coarser_measures<const N: usize>(rows: [[f64; N]; N]) -> Vec<Entri
     (3..most).rev().filter(|&n| found.contains(&n) && usual(n)).map(measure).collect()
 }
 
-/// True if x has at most so many decimals.
+/// Returns whether x has at most the given number of decimals.
 fn has_decimals(x: f64, decimals: u32) -> bool {
     let shifted = x * power_of_ten(decimals);
     (shifted - libm::round(shifted)).abs() <= 4.0 * f64::EPSILON * shifted.abs()

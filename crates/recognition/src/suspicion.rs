@@ -1,8 +1,8 @@
 //! Known misprints that explain a matrix better than its best reading, or as well.
 //!
-//! Each test undoes one slip and reads what comes out. A slip is assumed only if that reading needs
-//! clearly fewer digits, or the matrix as it stands makes no sense: every misprint is also the
-//! right matrix of something less likely.
+//! Each test undoes one misprint and reads the result. A misprint is assumed only if that reading
+//! needs clearly fewer digits, or if the matrix as given makes no sense: every misprint is also the
+//! correct matrix of something less likely.
 
 use super::matrix_reading::{is_moderate, readings_of, transpose};
 use super::rounded::{Entries, Rounded};
@@ -11,44 +11,43 @@ use crate::Misprint;
 use alloc::vec::Vec;
 use projection::{Convention, Frustum};
 
-/// How much better a reading must be before a slip is assumed.
+/// The saving in cost required to assume a misprint.
 pub(crate) const SLIP: u32 = 6;
-/// The margin below which a misprint is as good a reading as the right matrix, and above which it
-/// is the better one.
+/// The margin below which a misprint is as likely as the correct matrix, and above which it is more
+/// likely.
 const MARGIN: u32 = 4;
-/// A misprint this much costlier than the best reading is still told.
+/// The maximum extra cost, compared with the best reading, of a misprint that is still reported.
 const TOLD: u32 = 4;
 
-/// How sure a suspicion is.
+/// The confidence in a suspicion.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum SuspicionStrength {
-    /// The matrix as it stands makes no sense, or clearly less than without the slip.
+    /// The matrix as given makes no sense, or clearly less than without the misprint.
     Likely,
-    /// Its numbers are also the right matrix of something else, which is as sensible.
+    /// Its numbers are also the correct matrix of something else, which is equally likely.
     Equal,
 }
 
-/// A known misprint that a matrix may be.
+/// A known misprint that a matrix may contain.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct Suspicion {
-    /// The slip.
+    /// The misprint.
     pub misprint: Misprint,
-    /// How sure it is.
+    /// The confidence.
     pub strength: SuspicionStrength,
-    /// The rows of the matrix that was probably meant; `None` where the numbers that are missing cannot be had
-    /// back.
+    /// The rows of the probable intended matrix; `None` if the missing numbers cannot be recovered.
     pub remedied: Option<[[f64; 4]; 4]>,
 }
 
-/// A slip undone: the cost of the best reading then, and the matrix.
+/// A misprint undone: the cost of the best reading then, and the matrix.
 struct Remedy {
     misprint: Misprint,
     cost: u32,
     remedied: Option<[[f64; 4]; 4]>,
 }
 
-/// The slips that may be in a matrix with these readings, the surest first.
+/// The possible misprints in a matrix with these readings, the most certain first.
 pub(crate) fn suspicions_of(m: &Entries<4>, readings: &[MatrixReading]) -> Vec<Suspicion> {
     if !m.as_flattened().iter().all(|entry| is_moderate(entry.value)) {
         return Vec::new();
@@ -87,7 +86,7 @@ fn matrix_of(m: &Entries<4>) -> [[f64; 4]; 4] {
     m.map(|row| row.map(|entry| entry.value))
 }
 
-/// The best reading of the remedied entries that has a wanted meaning, and what it costs.
+/// The best reading of the corrected entries with an accepted meaning, and its cost.
 fn remedy(
     misprint: Misprint,
     remedied: &Entries<4>,
@@ -106,7 +105,7 @@ fn is_central(meaning: &MatrixMeaning) -> bool {
 fn undo_transposition(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let transposed = transpose(m);
     let symmetric = (0..4).all(|i| (0..4).all(|j| m[i][j].equals(m[j][i])));
-    // (p, q, r, 1) with vanishing points beyond the unit cube is no translation of row vectors.
+    // (p, q, r, 1) with vanishing points outside the unit cube is not a row-vector translation.
     let distant = matches!(best.meaning, MatrixMeaning::NPoint { .. })
         && m[3][..3].iter().all(|term| term.value.abs() < 1.0);
     if symmetric || distant {
@@ -115,7 +114,7 @@ fn undo_transposition(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     remedy(Misprint::Transposed, &transposed, MatrixMeaning::is_named)
 }
 
-/// M11: a rigid motion whose z is lost; the third row is the cross product of the first two.
+/// M11: a rigid motion that has lost its z; the third row is the cross product of the first two.
 fn undo_flat_third_row(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
     let column = (0..3).all(|i| m[i][2].is_zero());
     if !column || m[2][3].is_zero() || !m[3][3].is(1.0) || !m[3][..3].iter().all(|x| x.is_zero()) {
@@ -157,7 +156,7 @@ fn undo_bottom_row_one(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
     remedy(Misprint::BottomRowOne, &remedied, is_central)
 }
 
-/// M15: a box ahead of the eye, if the depth offset changes its sign.
+/// M15: a box in front of the eye, if the sign of the depth offset is flipped.
 fn undo_ortho_offset_sign(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
     let mut remedied = *m;
     remedied[2][3] = -m[2][3];
@@ -171,12 +170,12 @@ fn undo_ortho_offset_sign(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
     if m[2][3].is_zero() {
         return None;
     }
-    // Every such box is also one of Direct3D with reversed depth and another far plane.
+    // Every such box is also a Direct3D box with reversed depth and another far plane.
     let found = remedy(Misprint::OrthoOffsetSign, &remedied, ahead)?;
     Some(Remedy { cost: found.cost + 2, ..found })
 }
 
-/// The scales of x and y of a centered perspective, if it is one in every respect.
+/// The scales of x and y of a centered perspective, if the matrix is one in every respect.
 fn centered_scales(m: &Entries<4>) -> Option<[Rounded; 2]> {
     let central = !m[3][2].is_zero() && m[3][3].is_zero();
     let centered = m[0][2].is_zero() && m[1][2].is_zero() && m[0][3].is_zero();
@@ -191,7 +190,7 @@ fn with_scale_y(m: &Entries<4>, [x, y]: [Rounded; 2], scale_y: Rounded) -> Entri
     changed
 }
 
-/// M17: 2/tan(fovy) stands for 1/tan(fovy/2).
+/// M17: 2/tan(fovy) in place of 1/tan(fovy/2).
 fn undo_half_of_tangent(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let [x, y] = centered_scales(m).filter(|_| is_central(&best.meaning))?;
     let tangent = Rounded::exact(2.0) / y;
@@ -201,7 +200,7 @@ fn undo_half_of_tangent(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> 
     remedy(Misprint::HalfOfTangent, &with_scale_y(m, [x, y], scale), is_central)
 }
 
-/// M19: a scale that a multiple of five degrees gives when taken for radians.
+/// M19: a scale that results from treating a multiple of five degrees as radians.
 fn undo_degrees(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let [x, y] = centered_scales(m).filter(|_| best.meaning.is_named())?;
     let degrees = (2..=34_u32).map(|fives| f64::from(fives * 5)).find(|degrees| {
@@ -214,8 +213,7 @@ fn undo_degrees(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     remedy(Misprint::Degrees, &with_scale_y(m, [x, y], scale), is_central)
 }
 
-/// The last row (0, 0, 1, 0) below the depth row of a camera that looks along −z, or the other way
-/// round.
+/// The last row (0, 0, 1, 0) below the depth row of a camera that looks along −z, or vice versa.
 fn undo_last_row_sign(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let bare = m[3][0].is_zero() && m[3][1].is_zero() && m[3][3].is_zero();
     // Upside down and seen from behind, it is a camera at the origin.
@@ -228,7 +226,7 @@ fn undo_last_row_sign(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     remedy(Misprint::LastRowNegated, &remedied, is_central)
 }
 
-/// A rotation, or a camera, but for the sign of one entry.
+/// A rotation or a camera, except for the sign of one entry.
 fn undo_wrong_sign(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let affine = m[3][..3].iter().all(|entry| entry.is_zero()) && m[3][3].is(1.0);
     if best.meaning.is_named() || !affine {
@@ -253,7 +251,7 @@ fn tell_moved_apex(_: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     Some(Remedy { misprint: Misprint::ApexMoved, cost: best.cost, remedied })
 }
 
-/// M16: a window that begins exactly at x = 0, but neither begins nor ends at y = 0.
+/// M16: a window that begins exactly at x = 0 but neither begins nor ends at y = 0.
 fn tell_frustum_offset_one(_: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let MatrixMeaning::Perspective { frustum, .. } = best.meaning else { return None };
     let w = frustum.window();
@@ -263,7 +261,7 @@ fn tell_frustum_offset_one(_: &Entries<4>, best: &MatrixReading) -> Option<Remed
     told.then_some(Remedy { misprint, cost: best.cost, remedied: None })
 }
 
-/// M6: t_y stands in the place of t_z.
+/// M6: t_y in place of t_z.
 fn tell_repeated_translation(_: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let MatrixMeaning::Translation { by: [x, y, z] } = best.meaning else { return None };
     let told = y == z && y != 0.0 && x != y && x != 0.0;

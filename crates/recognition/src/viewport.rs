@@ -1,4 +1,4 @@
-//! Readings as a map to pixels: the viewport (VP-1 to VP-3) and a camera's intrinsics (OpenCV).
+//! Readings as a map to pixels: the viewport (VP-1 to VP-3) and camera intrinsics (OpenCV).
 
 use super::rounded::{Entries, Rounded};
 use super::{MatrixMeaning, MatrixReading};
@@ -10,17 +10,18 @@ use alloc::vec::Vec;
 pub struct ViewportReading {
     /// The column of the left edge.
     pub x: f64,
-    /// The row of the edge from which rows count.
+    /// The row of the edge from which rows are counted.
     pub y: f64,
-    /// Pixels.
+    /// The width in pixels.
     pub width: f64,
-    /// Pixels.
+    /// The height in pixels.
     pub height: f64,
-    /// True if rows count from the top: y = +1 goes to the smaller row.
+    /// True if rows count from the top: y = +1 maps to the smaller row.
     pub y_down: bool,
-    /// True if pixel centers have integer coordinates, as in the textbook: the image begins at −½.
+    /// True if pixel centers have integer coordinates, as in the textbook (Shirley and Marschner,
+    /// ch. 8): the image begins at −½.
     pub integer_centers: bool,
-    /// The depths to which z = −1 and z = +1 go.
+    /// The depths to which z = −1 and z = +1 map.
     pub depth: [f64; 2],
 }
 
@@ -28,19 +29,19 @@ pub struct ViewportReading {
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct IntrinsicsReading {
-    /// Focal length in pixel widths.
+    /// The focal length in pixel widths.
     pub fx: f64,
-    /// Focal length in pixel heights.
+    /// The focal length in pixel heights.
     pub fy: f64,
-    /// Column of the principal point.
+    /// The column of the principal point.
     pub cx: f64,
-    /// Row of the principal point.
+    /// The row of the principal point.
     pub cy: f64,
-    /// Skew of the pixel axes; 0 in most cameras.
+    /// The skew of the pixel axes; 0 in most cameras.
     pub skew: f64,
 }
 
-/// Adds the reading as a viewport, if size and origin are whole pixels.
+/// Adds the reading as a viewport, if its size and origin are whole pixels.
 pub(crate) fn read_viewport(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let zeros = [m[0][1], m[0][2], m[1][0], m[1][2], m[2][0], m[2][1]];
     let bottom = [m[3][0], m[3][1], m[3][2]];
@@ -77,10 +78,11 @@ pub(crate) fn read_viewport(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     }
 }
 
-/// The intrinsics of a matrix with the rows (fx, skew, cx), (0, fy, cy), (0, 0, 1), up to a factor.
+/// The intrinsics from a matrix with the rows (fx, skew, cx), (0, fy, cy), (0, 0, 1), up to a
+/// factor.
 ///
-/// Scales below 20 or a principal point that is not right of and below the first pixel belong to
-/// other maps; a viewport, whose offsets equal its scales, is told apart by its caller.
+/// If scales are below 20, or the principal point is not right of and below the first pixel, the
+/// matrix is another map. The caller distinguishes viewports, whose offsets equal their scales.
 pub(crate) fn intrinsics_of(k: &Entries<3>) -> Option<(IntrinsicsReading, u32)> {
     let zeros = [k[1][0], k[2][0], k[2][1]];
     if !zeros.into_iter().all(Rounded::is_zero) || !k[2][2].is(1.0) {

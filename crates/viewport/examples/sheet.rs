@@ -1,5 +1,4 @@
-//! A drawing sheet: three views of a house to scale on A4, and what their viewports look like in
-//! pixels.
+//! A drawing sheet: three views of a house to scale on A4, with their viewports in pixels.
 //!
 //! Run it with `cargo run -p alberti-viewport --example sheet`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
@@ -9,7 +8,7 @@ use viewport::{
     DepthRange, DrawingScale, FitPolicy, Paper, Rectangle, Resolution, Viewport, ViewportError,
 };
 
-/// Width and height of the house in millimetres, as each view shows it.
+/// The width and height of the house in millimeters in each view.
 const VIEWS: [(&str, [f64; 2]); 3] =
     [("front", [9_000.0, 6_500.0]), ("side", [12_000.0, 6_500.0]), ("top", [9_000.0, 12_000.0])];
 
@@ -36,7 +35,7 @@ fn main() -> Result<(), ViewportError> {
     );
 
     for ((name, size), cell) in VIEWS.iter().zip(cells) {
-        // The window that fills the cell at this scale, and the viewport it is drawn on.
+        // The window that fills the cell at this scale, and its viewport.
         let window = [scale.to_object_length(cell.width()), scale.to_object_length(cell.height())];
         let on_paper = size.map(|length| scale.to_paper_length(length));
         let place = FitPolicy::Contain.place_picture(window, cell, [0.5, 0.5])?;

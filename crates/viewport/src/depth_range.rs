@@ -1,18 +1,18 @@
-//! Depth: from the canonical volume's z to what a depth buffer stores (DP-1).
+//! Depth: from z in the canonical volume to the value in a depth buffer (DP-1).
 
 use crate::ViewportError;
 use crate::error::{check_finite, check_interval};
 
-/// A linear map of depth, by the images of two depths.
+/// A linear map of depth, defined by the images of two depths.
 ///
-/// | map | of z | puts near, far at |
+/// | map | depth | near, far map to |
 /// | --- | --- | --- |
-/// | [`DepthRange::KEEP`] | z | where they are (VP-1) |
-/// | [`DepthRange::ZERO_ONE`] | (1 + z)/2 | 1, 0 in the chapter's volume; 0, 1 in OpenGL's |
-/// | [`DepthRange::ZERO_ONE_FLIPPED`] | (1 − z)/2 | 0, 1 in the chapter's; 1, 0 in OpenGL's |
+/// | [`DepthRange::KEEP`] | z | themselves (VP-1) |
+/// | [`DepthRange::ZERO_ONE`] | (1 + z)/2 | 1, 0 in the textbook's volume; 0, 1 in OpenGL's |
+/// | [`DepthRange::ZERO_ONE_FLIPPED`] | (1 − z)/2 | 0, 1 in the textbook's; 1, 0 in OpenGL's |
 ///
-/// The last two are easily confused (misprint M22): which is right depends on where the volume has
-/// its near plane.
+/// The last two are easily confused (misprint M22): the correct one depends on the near plane of
+/// the volume. The textbook is Shirley and Marschner, ch. 8.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct DepthRange {
     scale: f64,
@@ -20,22 +20,22 @@ pub struct DepthRange {
 }
 
 impl DepthRange {
-    /// z as it is.
+    /// z unchanged.
     pub const KEEP: Self = Self { scale: 1.0, offset: 0.0 };
     /// (1 + z)/2: [−1, 1] to [0, 1].
     pub const ZERO_ONE: Self = Self { scale: 0.5, offset: 0.5 };
     /// (1 − z)/2: [−1, 1] to [1, 0].
     pub const ZERO_ONE_FLIPPED: Self = Self { scale: -0.5, offset: 0.5 };
-    /// −z: from the chapter's volume to OpenGL's and back, the matrix diag(1, 1, −1, 1).
+    /// −z: from the textbook's volume to OpenGL's and back, the matrix diag(1, 1, −1, 1).
     pub const NEGATED: Self = Self { scale: -1.0, offset: 0.0 };
 
-    /// The map that takes the two depths `ndc` to the two depths `screen`, in this order (LI-1).
+    /// The map from the two depths `ndc` to the two depths `screen`, in this order (LI-1).
     ///
-    /// `glDepthRange(n, f)` is `DepthRange::new([-1.0, 1.0], [n, f])`, Direct3D's `MinDepth` and
+    /// `glDepthRange(n, f)` is `DepthRange::new([-1.0, 1.0], [n, f])`; Direct3D's `MinDepth` and
     /// `MaxDepth` are `DepthRange::new([0.0, 1.0], [min, max])`.
     ///
     /// # Errors
-    /// If a number is not finite or the two depths of a pair are the same.
+    /// Returns an error if a number is not finite or the two depths of a pair are the same.
     pub fn new(ndc: [f64; 2], screen: [f64; 2]) -> Result<Self, ViewportError> {
         let ([a, b], [c, d]) =
             (check_interval("ndc depth", ndc)?, check_interval("screen depth", screen)?);
@@ -53,7 +53,7 @@ impl DepthRange {
         self.scale
     }
 
-    /// The offset, added after the factor.
+    /// The offset, added after scaling.
     #[must_use]
     pub const fn offset(self) -> f64 {
         self.offset

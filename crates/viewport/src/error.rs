@@ -1,8 +1,8 @@
-//! Errors of viewport parameters.
+//! Viewport parameter errors.
 
 use thiserror::Error;
 
-/// A parameter that cannot be used. Every variant names it and says what is allowed.
+/// An invalid parameter. Every variant names it and its allowed values.
 #[derive(Clone, Copy, PartialEq, Debug, Error)]
 #[non_exhaustive]
 pub enum ViewportError {
@@ -22,12 +22,12 @@ pub enum ViewportError {
         /// Its value.
         value: f64,
     },
-    /// Two borders that must differ coincide, so that there is nothing to map.
+    /// Two limits that must differ coincide, so there is nothing to map.
     #[error("{name} is empty: both its ends are {value}")]
     Empty {
         /// The interval.
         name: &'static str,
-        /// Both its ends.
+        /// The value of both ends.
         value: f64,
     },
     /// A count is too small.
@@ -37,11 +37,11 @@ pub enum ViewportError {
         name: &'static str,
         /// The count.
         count: usize,
-        /// The least that makes sense.
+        /// The minimum allowed.
         least: usize,
     },
-    /// A parameter is too large or too small, or parameters are too far apart in size, for maps to
-    /// be finite both ways.
+    /// A parameter is too large or too small, or parameters differ too much in size, for finite
+    /// maps in both directions.
     #[error("{name} is too large or too small to reckon with")]
     OutOfRange {
         /// The parameter or the result.
@@ -58,7 +58,7 @@ pub(crate) fn check_positive(name: &'static str, value: f64) -> Result<f64, View
     if value > 0.0 { Ok(value) } else { Err(ViewportError::NotPositive { name, value }) }
 }
 
-/// Both ends of an interval, which must differ.
+/// Checks both ends of an interval, which must differ.
 pub(crate) fn check_interval(
     name: &'static str,
     ends: [f64; 2],

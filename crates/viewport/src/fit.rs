@@ -1,4 +1,4 @@
-//! Fit policies: what happens when the picture and its place differ in shape.
+//! Fit policies: how to place a picture in a rectangle of another shape.
 //!
 //! ```text
 //!   wide picture, tall place:
@@ -18,30 +18,30 @@
 use crate::error::{check_finite, check_positive};
 use crate::{Rectangle, ViewportError};
 
-/// How a picture is fitted into a place of another shape.
+/// How to fit a picture into a rectangle of another shape.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 #[non_exhaustive]
 pub enum FitPolicy {
-    /// Fill the place and let circles become ellipses.
+    /// Fill the rectangle; circles may become ellipses.
     Stretch,
-    /// As large as possible with nothing cut off; margins remain (letterbox). Default.
+    /// As large as possible without cropping; margins remain (letterbox). The default.
     #[default]
     Contain,
-    /// As small as possible with no margin; what sticks out is cut off (crop).
+    /// As small as possible without margins; the excess is cropped.
     Cover,
-    /// As wide as the place, whatever the height becomes.
+    /// As wide as the rectangle, whatever the height becomes.
     FixedWidth,
-    /// As high as the place, whatever the width becomes.
+    /// As high as the rectangle, whatever the width becomes.
     FixedHeight,
 }
 
 impl FitPolicy {
-    /// The rectangle to draw a picture of this size (only its shape counts) on, so that it fits
-    /// `place`.
+    /// The rectangle on which to draw a picture of this size to fit `place`. Only the shape of the
+    /// picture matters.
     ///
-    /// `align` says where the spare room goes, as fractions of it on x and y: `[0.5, 0.5]` centers,
-    /// `[0.0, 0.0]` puts the picture at the corner of least coordinates. What [`FitPolicy::Cover`]
-    /// cuts off is shared out in the same way.
+    /// `align` distributes the spare room, as fractions of it on x and y: `[0.5, 0.5]` centers,
+    /// `[0.0, 0.0]` puts the picture at the corner of minimum coordinates. The excess cropped by
+    /// [`FitPolicy::Cover`] is distributed the same way.
     ///
     /// ```
     /// use viewport::{FitPolicy, Rectangle};
@@ -52,7 +52,7 @@ impl FitPolicy {
     /// ```
     ///
     /// # Errors
-    /// If a number is not finite, or a size not greater than 0.
+    /// Returns an error if a number is not finite, or a size is not greater than 0.
     pub fn place_picture(
         self,
         picture: [f64; 2],
@@ -75,12 +75,11 @@ impl FitPolicy {
         Rectangle::new(x, y, width, height)
     }
 
-    /// The other way to fit: not the place changes but the window, so that its picture fills
-    /// `place` without distortion. It is the size the camera's window should get instead of
-    /// `window`.
+    /// The other way to fit: changes the window instead of the place, so its picture fills `place`
+    /// without distortion. Give the camera's window this size instead of `window`.
     ///
-    /// [`FitPolicy::Contain`] shows more than asked for instead of margins, [`FitPolicy::Cover`]
-    /// less instead of cutting off.
+    /// [`FitPolicy::Contain`] shows more of the scene instead of margins, and [`FitPolicy::Cover`]
+    /// shows less instead of cropping.
     ///
     /// ```
     /// use viewport::{FitPolicy, Rectangle};
@@ -91,7 +90,7 @@ impl FitPolicy {
     /// ```
     ///
     /// # Errors
-    /// If a size is not finite or not greater than 0.
+    /// Returns an error if a size is not finite or not greater than 0.
     pub fn fit_window(self, window: [f64; 2], place: Rectangle) -> Result<[f64; 2], ViewportError> {
         let (sx, sy) = scale_factors(window, place)?;
         let factor = match self {
@@ -106,7 +105,7 @@ impl FitPolicy {
     }
 }
 
-/// The factors from the picture's width and height to those of the rectangle.
+/// The factors from the width and height of the picture to those of the rectangle.
 fn scale_factors(picture: [f64; 2], place: Rectangle) -> Result<(f64, f64), ViewportError> {
     let sx = place.width() / check_positive("picture width", picture[0])?;
     let sy = place.height() / check_positive("picture height", picture[1])?;

@@ -15,25 +15,25 @@ use crate::error::{check_finite, check_positive};
 use crate::{Rectangle, ViewportError};
 
 impl Rectangle {
-    /// The rectangle without a margin on all four sides; a negative margin makes it larger.
+    /// The rectangle reduced by a margin on all four sides; a negative margin enlarges it.
     ///
     /// # Errors
-    /// If the margin is not finite or leaves nothing.
+    /// Returns an error if the margin is not finite or leaves nothing.
     pub fn shrink(&self, margin: f64) -> Result<Self, ViewportError> {
         check_finite("margin", margin)?;
         let (width, height) = (self.width() - 2.0 * margin, self.height() - 2.0 * margin);
         Self::new(self.x() + margin, self.y() + margin, width, height)
     }
 
-    /// The cells of a grid with a gap between neighbours, row by row from the corner of least
+    /// The cells of a grid with a gap between neighbors, row by row from the corner of minimum
     /// coordinates.
     ///
-    /// Without a gap neighbours share their borders exactly, so that the cells cover the rectangle
+    /// Without a gap, neighbors share their borders exactly, so the cells cover the rectangle
     /// without a seam.
     ///
     /// # Errors
-    /// If there are no columns or rows, or the gap is negative or not finite, or the gaps leave no
-    /// room.
+    /// Returns an error if there are no columns or rows, the gap is negative or not finite, or the
+    /// gaps leave no room.
     pub fn split_grid(
         &self,
         columns: u32,
@@ -54,23 +54,23 @@ impl Rectangle {
         }))
     }
 
-    /// A rectangle of a fraction of the width and height, at the fractions `at` of the room that is
-    /// left: `inset_rectangle(0.25, [1.0, 1.0])` is a quarter of each side in the corner of
-    /// greatest coordinates.
+    /// A rectangle with a fraction of the width and height, at the fractions `at` of the remaining
+    /// room. `inset_rectangle(0.25, [1.0, 1.0])` is a quarter of each side in the corner of maximum
+    /// coordinates.
     ///
     /// # Errors
-    /// If a number is not finite, or the fraction is not greater than 0.
+    /// Returns an error if a number is not finite or the fraction is not greater than 0.
     pub fn inset_rectangle(&self, fraction: f64, at: [f64; 2]) -> Result<Self, ViewportError> {
         let (width, height) = (self.width() * fraction, self.height() * fraction);
         let x = self.x() + (self.width() - width) * at[0];
         Self::new(x, self.y() + (self.height() - height) * at[1], width, height)
     }
 
-    /// The rectangle with its borders rounded to whole numbers, so that it consists of whole
-    /// pixels. Rectangles that shared a border still do.
+    /// The rectangle with its borders rounded to whole pixels. Rectangles that shared a border
+    /// still do.
     ///
     /// # Errors
-    /// If nothing is left of it.
+    /// Returns an error if nothing is left of it.
     pub fn snap_to_pixels(&self) -> Result<Self, ViewportError> {
         let [x0, y0] = [self.x(), self.y()].map(libm::round);
         let x1 = libm::round(self.x() + self.width());
@@ -101,7 +101,7 @@ impl AxisDivision {
         }
         let count = f64::from(count);
         let room = length - gap * (count - 1.0);
-        // As thin as this the borders of a part would be the same number.
+        // A part thinner than this would have equal numbers as its borders.
         let least = (start.abs() + length) * 1e-13;
         if room / count <= least {
             return Err(ViewportError::NotPositive { name: "size of a cell", value: room / count });
@@ -109,8 +109,8 @@ impl AxisDivision {
         Ok(Self { count, gap, start, length })
     }
 
-    /// Where part `i` starts, and how long it is. Borders are computed, not sizes, so that
-    /// neighbours agree on them.
+    /// The start and length of part `i`. Borders are computed rather than sizes, so neighbors agree
+    /// on them.
     fn nth_part(self, i: u32) -> (f64, f64) {
         let border = |i: f64| self.start + (self.length + self.gap) * i / self.count;
         let (start, end) = (border(f64::from(i)), border(f64::from(i) + 1.0) - self.gap);

@@ -1,13 +1,13 @@
-//! Paper: millimetres, dots per inch, and drawings to scale 1:n.
+//! Paper: millimeters, dots per inch, and drawings to scale 1:n.
 
 use crate::error::check_positive;
 use crate::{Rectangle, ViewportError};
 use core::fmt;
 
-/// Millimetres in an inch, by definition.
+/// Millimeters per inch, by definition.
 pub const MILLIMETERS_PER_INCH: f64 = 25.4;
 
-/// How many dots a device has on a length.
+/// The resolution of a device: dots per unit of length.
 #[derive(Clone, Copy, PartialEq, PartialOrd, Debug)]
 pub struct Resolution {
     dots_per_inch: f64,
@@ -17,34 +17,34 @@ impl Resolution {
     /// The resolution of `dpi` dots per inch.
     ///
     /// # Errors
-    /// If it is not finite or not greater than 0.
+    /// Returns an error if it is not finite or not greater than 0.
     pub fn dots_per_inch(dpi: f64) -> Result<Self, ViewportError> {
         Ok(Self { dots_per_inch: check_positive("dots per inch", dpi)? })
     }
 
-    /// The dots on this many millimetres.
+    /// Converts millimeters to dots.
     #[must_use]
     pub fn to_dots(self, millimetres: f64) -> f64 {
         millimetres * self.dots_per_inch / MILLIMETERS_PER_INCH
     }
 
-    /// The millimetres this many dots take.
+    /// Converts dots to millimeters.
     #[must_use]
     pub fn to_millimeters(self, dots: f64) -> f64 {
         dots * MILLIMETERS_PER_INCH / self.dots_per_inch
     }
 
-    /// A rectangle of millimetres in dots.
+    /// Converts a rectangle from millimeters to dots.
     ///
     /// # Errors
-    /// If the result is no finite rectangle.
+    /// Returns an error if the result is not a finite rectangle.
     pub fn to_pixel_rectangle(self, millimetres: Rectangle) -> Result<Rectangle, ViewportError> {
         let [x, y] = [millimetres.x(), millimetres.y()].map(|mm| self.to_dots(mm));
         Rectangle::new(x, y, self.to_dots(millimetres.width()), self.to_dots(millimetres.height()))
     }
 }
 
-/// A size of paper in millimetres, upright.
+/// A paper size in millimeters, portrait.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Paper {
     width: f64,
@@ -69,10 +69,10 @@ impl Paper {
     /// 11 × 17 inches.
     pub const TABLOID: Self = Self { width: 279.4, height: 431.8 };
 
-    /// Paper of any size, in millimetres.
+    /// Paper of any size, in millimeters.
     ///
     /// # Errors
-    /// If a size is not finite or not greater than 0.
+    /// Returns an error if a size is not finite or not greater than 0.
     pub fn new(width: f64, height: f64) -> Result<Self, ViewportError> {
         Ok(Self {
             width: check_positive("paper width", width)?,
@@ -80,32 +80,32 @@ impl Paper {
         })
     }
 
-    /// This sheet rotated by a right angle: landscape for portrait.
+    /// This sheet rotated by a right angle: landscape instead of portrait.
     #[must_use]
     pub const fn rotated(self) -> Self {
         Self { width: self.height, height: self.width }
     }
 
-    /// The width in millimetres.
+    /// The width in millimeters.
     #[must_use]
     pub const fn width(self) -> f64 {
         self.width
     }
 
-    /// The height in millimetres.
+    /// The height in millimeters.
     #[must_use]
     pub const fn height(self) -> f64 {
         self.height
     }
 
-    /// The sheet as a rectangle of millimetres with its corner at the origin.
+    /// The sheet as a rectangle in millimeters with its corner at the origin.
     #[must_use]
     pub fn to_rectangle(self) -> Rectangle {
         Rectangle::new_unchecked(0.0, 0.0, self.width, self.height)
     }
 
-    /// The whole pixels that come nearest to the sheet, at least one; `None` if they are too many
-    /// to count.
+    /// The size of the sheet rounded to whole pixels, at least one; `None` if there are too many to
+    /// count.
     #[must_use]
     pub fn pixel_size(self, resolution: Resolution) -> Option<[u32; 2]> {
         let count = |millimetres: f64| {
@@ -116,7 +116,7 @@ impl Paper {
     }
 }
 
-/// The scale of a drawing: lengths on paper to lengths of the thing, as in 1:50 or 2:1.
+/// The scale of a drawing: the ratio of lengths on paper to real lengths, as in 1:50 or 2:1.
 ///
 /// ```
 /// use viewport::DrawingScale;
@@ -162,15 +162,15 @@ impl DrawingScale {
     /// The scale `paper`:`thing`.
     ///
     /// # Errors
-    /// If one of them is 0.
+    /// Returns an error if either is 0.
     pub fn new(paper: u32, thing: u32) -> Result<Self, ViewportError> {
         check_positive("scale on paper", paper.into())?;
         check_positive("scale of the thing", thing.into())?;
         Ok(Self { paper, thing })
     }
 
-    /// The largest standard scale at which a thing of this size fits on this room, both in the same
-    /// unit; `None` if it is too large for all of them, or a size is no number.
+    /// The largest standard scale at which an object of this size fits into this room, both in the
+    /// same unit; `None` if it is too large for all of them or a size is not finite.
     #[must_use]
     pub fn largest_standard(thing: [f64; 2], room: [f64; 2]) -> Option<Self> {
         let fits = |scale: &&Self| {
@@ -179,20 +179,20 @@ impl DrawingScale {
         Self::STANDARD.iter().find(fits).copied()
     }
 
-    /// Lengths on paper divided by lengths of the thing.
+    /// The ratio of lengths on paper to real lengths.
     #[must_use]
     pub fn ratio(self) -> f64 {
         f64::from(self.paper) / f64::from(self.thing)
     }
 
-    /// How long a length of the thing is on paper, in the same unit.
+    /// Converts a real length to its length on paper, in the same unit.
     #[must_use]
     pub fn to_paper_length(self, length: f64) -> f64 {
         length * f64::from(self.paper) / f64::from(self.thing)
     }
 
-    /// How long what is this long on paper is in truth, in the same unit. The size of a viewport,
-    /// taken so, is the window an orthographic projection needs to be drawn to scale.
+    /// Converts a length on paper to the real length, in the same unit. Applied to the size of a
+    /// viewport, it gives the window that an orthographic projection needs to be drawn to scale.
     #[must_use]
     pub fn to_object_length(self, length: f64) -> f64 {
         length * f64::from(self.thing) / f64::from(self.paper)

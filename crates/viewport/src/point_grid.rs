@@ -28,10 +28,10 @@ pub struct PointGrid {
 }
 
 impl PointGrid {
-    /// The grid with this many points in each direction.
+    /// The grid with the given number of points in each direction.
     ///
     /// # Errors
-    /// If there are fewer than two rows or columns.
+    /// Returns an error if there are fewer than two rows or columns.
     pub fn new(rows: usize, columns: usize) -> Result<Self, ViewportError> {
         const LEAST: usize = 2;
         for (name, count) in [("rows", rows), ("columns", columns)] {
@@ -55,7 +55,7 @@ impl PointGrid {
     }
 
     /// The point at an index: x = 2·row/(rows − 1) − 1, z = 2·column/(columns − 1) − 1; `None`
-    /// beyond the last.
+    /// beyond the last index.
     #[must_use]
     pub fn xz(&self, row: usize, column: usize) -> Option<[f64; 2]> {
         let inside = row < self.rows && column < self.columns;

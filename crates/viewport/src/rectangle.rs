@@ -1,13 +1,13 @@
-//! Rectangles of pixels, of paper, of windows.
+//! Rectangles of pixels, paper and windows.
 
 use crate::ViewportError;
 use crate::error::{check_finite, check_positive};
 
-/// A rectangle with sides along the axes, by its corner of least coordinates and its size.
+/// An axis-aligned rectangle, by its corner of minimum coordinates and its size.
 ///
 /// # Guarantees
-/// Width and height are greater than 0. All four numbers are of a size with which maps stay finite
-/// both ways: at most 10¹⁰⁰, and the sizes at least 10⁻¹⁰⁰.
+/// The width and height are greater than 0. All four numbers are at most 10¹⁰⁰, and the sizes are
+/// at least 10⁻¹⁰⁰, which keeps maps finite in both directions.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Rectangle {
     x: f64,
@@ -23,7 +23,8 @@ impl Rectangle {
     /// The rectangle [x, x + width] × [y, y + height].
     ///
     /// # Errors
-    /// If a number is not finite or too large, or a size is not greater than 0 or too small.
+    /// Returns an error if a number is not finite or too large, or a size is not greater than 0 or
+    /// too small.
     pub fn new(x: f64, y: f64, width: f64, height: f64) -> Result<Self, ViewportError> {
         for (name, value) in [("x", x), ("y", y)] {
             if check_finite(name, value)?.abs() > MAX_EXTENT {
@@ -41,23 +42,23 @@ impl Rectangle {
     /// The rectangle of this size with its corner at the origin.
     ///
     /// # Errors
-    /// If a size is not finite or not greater than 0.
+    /// Returns an error if a size is not finite or not greater than 0.
     pub fn from_size(width: f64, height: f64) -> Result<Self, ViewportError> {
         Self::new(0.0, 0.0, width, height)
     }
 
-    /// The rectangle of numbers that are known to be right.
+    /// A rectangle of numbers that are known to be valid.
     pub(crate) const fn new_unchecked(x: f64, y: f64, width: f64, height: f64) -> Self {
         Self { x, y, width, height }
     }
 
-    /// The least x.
+    /// The minimum x.
     #[must_use]
     pub const fn x(&self) -> f64 {
         self.x
     }
 
-    /// The least y.
+    /// The minimum y.
     #[must_use]
     pub const fn y(&self) -> f64 {
         self.y
@@ -81,13 +82,13 @@ impl Rectangle {
         self.width / self.height
     }
 
-    /// The point in the middle.
+    /// The center.
     #[must_use]
     pub fn center(&self) -> [f64; 2] {
         [self.x + self.width / 2.0, self.y + self.height / 2.0]
     }
 
-    /// True if the point is inside or on the border.
+    /// Returns whether the point is inside or on the border.
     #[must_use]
     pub fn contains(&self, [x, y]: [f64; 2]) -> bool {
         (self.x..=self.x + self.width).contains(&x) && (self.y..=self.y + self.height).contains(&y)

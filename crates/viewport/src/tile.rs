@@ -1,4 +1,4 @@
-//! Tiles: an image in parts that fit together without a seam.
+//! Tiles: parts of an image that fit together without a seam.
 
 use crate::{Rectangle, Viewport, ViewportError};
 use homog::{PixelConvention, PixelRect};
@@ -13,7 +13,7 @@ impl From<PixelRect> for Rectangle {
     }
 }
 
-/// The tiles of an image, row by row: each of its pixels is in exactly one.
+/// The tiles of an image, row by row: each pixel is in exactly one tile.
 ///
 /// ```
 /// use viewport::tiles;
@@ -24,7 +24,7 @@ impl From<PixelRect> for Rectangle {
 /// ```
 ///
 /// # Errors
-/// If the image or the largest tile has no width or no height.
+/// Returns an error if the image or the maximum tile size has no width or no height.
 pub fn tiles(
     image: [u32; 2],
     largest: [u32; 2],
@@ -46,8 +46,8 @@ pub fn tiles(
 }
 
 impl Viewport {
-    /// This viewport as an image that is only the tile sees it: moved by whole pixels and otherwise
-    /// the same, so that the parts show together what the whole would have shown.
+    /// This viewport for an image that consists of only the tile: shifted by whole pixels and
+    /// otherwise unchanged, so the tiles together show the whole image.
     #[must_use]
     pub fn for_tile(&self, tile: PixelRect) -> Self {
         let (area, part) = (self.area(), Rectangle::from(tile));

@@ -13,13 +13,12 @@ use crate::{Rectangle, Viewport, ViewportError};
 use glam::{DMat4, DVec4};
 use homog::{Clip, HPoint, Point, Projective, Ray, Screen, Space, Vector};
 
-/// The way back from pixels and depth to a space `S`: that of the world, of a model or of the
-/// camera.
+/// The way back from pixels and depth to a space `S`: world, model or camera space.
 ///
 /// ```
 /// use homog::{Clip, ClipRange, Projective, View};
 /// use viewport::Viewport;
-/// // P of the chapter, times −1 (PE-3), for n = −1 and f = −3.
+/// // −1 times P of the textbook (PE-3), for n = −1 and f = −3.
 /// let [x, y, z] = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 4.0, 3.0]];
 /// let view_to_clip = Projective::<View, Clip>::from_rows([x, y, z, [0.0, 0.0, -1.0, 0.0]]);
 /// let clip_to_view = view_to_clip.inverse().expect("regular");
@@ -34,21 +33,21 @@ pub struct Unprojector<S: Space> {
     screen_to_source: Projective<Screen, S>,
 }
 
-/// The ray through one position of the image, between the near and the far plane.
+/// The ray through one position of the image, between the near and far planes.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct PickRay<S: Space> {
-    /// The ray away from the viewer, its direction of length 1. It begins at the center of
-    /// projection, or, for a parallel projection, on the near plane.
+    /// The ray away from the viewer, with a direction of length 1. It begins at the center of
+    /// projection or, for a parallel projection, on the near plane.
     pub ray: Ray<S>,
     /// The point on the near plane.
     pub near: Point<S>,
-    /// The point on the far plane, not divided: with w = 0 it is at infinity.
+    /// The point on the far plane, not divided; with w = 0 it is at infinity.
     pub far: HPoint<S>,
 }
 
 impl Viewport {
-    /// The whole chain from a space to the screen, M_vp · M (PL-1), not divided.
+    /// The complete chain from a space to the screen, M_vp · M (PL-1), not divided.
     #[must_use]
     pub fn source_to_screen<S: Space>(
         &self,
@@ -65,12 +64,13 @@ impl Viewport {
         Unprojector { viewport: *self, screen_to_source: Projective::from_raw(raw) }
     }
 
-    /// The map to put after the projection so that `area`, in pixels of this viewport's convention,
-    /// fills the whole view: a pick matrix, as gluPickMatrix makes it, or the sub-view of a tile.
-    /// Everything outside the area is then outside the volume.
+    /// The map to apply after the projection to make `area`, in pixels of this viewport's
+    /// convention, fill the whole view: a pick matrix like the one from gluPickMatrix, or the
+    /// sub-view of a tile. Everything outside the area is then outside the volume.
     ///
     /// # Errors
-    /// If the area is so small against the viewport that the factors are no finite numbers.
+    /// Returns an error if the area is so small compared with the viewport that the factors are not
+    /// finite.
     pub fn pick_matrix(&self, area: Rectangle) -> Result<Projective<Clip, Clip>, ViewportError> {
         let to_ndc = self.screen_to_ndc();
         let [a, b] = [
@@ -93,29 +93,29 @@ impl Viewport {
 }
 
 impl<S: Space> Unprojector<S> {
-    /// The map itself, M⁻¹ (UN-1), not divided.
+    /// The map M⁻¹ (UN-1), not divided.
     #[must_use]
     pub const fn screen_to_source(&self) -> Projective<Screen, S> {
         self.screen_to_source
     }
 
-    /// The point with its image at this place and depth (UN-1); `None` if it is at infinity.
+    /// The point whose image is at this position and depth (UN-1); `None` if it is at infinity.
     #[must_use]
     pub fn unproject_point(&self, screen: Point<Screen>) -> Option<Point<S>> {
         divide_point(self.screen_to_source.transform_point(screen))
     }
 
-    /// The center of projection. With w = 0 it is at infinity: the projection is parallel, and this
-    /// is its direction.
+    /// The center of projection. With w = 0 it is at infinity: the projection is parallel along
+    /// this direction.
     #[must_use]
     pub fn center_of_projection(&self) -> HPoint<S> {
         self.screen_to_source.transform_direction(Vector::Z)
     }
 
-    /// The ray of a place in the picture (UN-2), from the near to the far plane of the viewport's
-    /// clip range.
+    /// The ray through a position in the picture (UN-2), from the near to the far plane of the
+    /// viewport's clip range.
     ///
-    /// `None` where there is no such ray: the map is singular or something is not finite.
+    /// `None` if there is no such ray: the map is singular or a number is not finite.
     #[must_use]
     pub fn pick_ray(&self, [x, y]: [f64; 2]) -> Option<PickRay<S>> {
         let at = |z: f64| {
@@ -125,7 +125,7 @@ impl<S: Space> Unprojector<S> {
         let range = self.viewport.range();
         let (near_z, far_z) = (range.near_depth(), range.far_depth());
         let (near, far) = (divide_point(at(near_z))?, at(far_z));
-        // The far plane may be at infinity; half-way in depth is a place in any case.
+        // The far plane may be at infinity; halfway in depth the point is always finite.
         let beyond = match divide_point(far) {
             Some(far) => far,
             None => divide_point(at(near_z * 0.5 + far_z * 0.5))?,

@@ -4,14 +4,14 @@ use crate::error::check_positive;
 use crate::{DepthRange, Rectangle, ViewportError};
 use homog::{Affine, ClipRange, Ndc, PixelConvention, Point, Screen, Vector, YAxis};
 
-/// A rectangle of pixels on which the canonical square [−1, 1]² is drawn, and the range depth goes
-/// to.
+/// A rectangle of pixels on which the canonical square [−1, 1]² is drawn, with the target depth
+/// range.
 ///
-/// The rectangle is counted in whole pixels from the image's corner: `x = 10, width = 5` are pixels
-/// 10 to 14, whatever the convention. The convention decides the coordinates: those five pixels
-/// cover [10, 15] with half-integer centers and [9½, 14½] with integer ones. y counts from the
-/// lowest row if it runs up, from the topmost if it runs down; in both cases the top of the
-/// canonical square, y = +1 or, in Vulkan's range, −1, is at the upper border of the picture.
+/// The rectangle is in whole pixels from the corner of the image: `x = 10, width = 5` are pixels 10
+/// to 14 in any convention. The convention determines the coordinates: those five pixels cover [10,
+/// 15] with half-integer centers and [9½, 14½] with integer centers. y counts from the bottom row
+/// if it points up, and from the top row if it points down. In both cases the top of the canonical
+/// square, y = +1 or −1 in Vulkan's range, is at the top edge of the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Viewport {
     area: Rectangle,
@@ -21,7 +21,7 @@ pub struct Viewport {
 }
 
 impl Viewport {
-    /// The viewport on `area`, for points of clip space whose range is `range`.
+    /// The viewport on `area`, for points in clip space with the given `range`.
     #[must_use]
     pub const fn new(
         area: Rectangle,
@@ -32,9 +32,9 @@ impl Viewport {
         Self { area, convention, range, depth }
     }
 
-    /// The whole of an image as the pipeline counts it: half-integer centers, y down, depth 1 at
-    /// the near and 0 at the far plane. `range` is that of the projection: a
-    /// [`ClipRange`] or a `projection::Convention`.
+    /// A whole image with the pipeline's convention: half-integer centers, y down, depth 1 at the
+    /// near plane and 0 at the far plane. `range` belongs to the projection: a [`ClipRange`] or a
+    /// `projection::Convention`.
     ///
     /// ```
     /// use homog::{ClipRange, Point};
@@ -51,7 +51,7 @@ impl Viewport {
     /// ```
     ///
     /// # Errors
-    /// If the image has no pixels.
+    /// Returns an error if the image has no pixels.
     pub fn image_for(
         width: u32,
         height: u32,
@@ -62,11 +62,11 @@ impl Viewport {
         Ok(Self::new(area, PixelConvention::IMAGE, range, depth))
     }
 
-    /// The whole of an image of `nx` by `ny` pixels as the chapter counts it: integer centers, y
-    /// up, z kept (VP-1).
+    /// A whole image of `nx` by `ny` pixels with the convention of the textbook (Shirley and
+    /// Marschner, ch. 8): integer centers, y up, z kept (VP-1).
     ///
     /// # Errors
-    /// If the image has no pixels.
+    /// Returns an error if the image has no pixels.
     pub fn chapter(nx: u32, ny: u32) -> Result<Self, ViewportError> {
         let area = Rectangle::new(
             0.0,
@@ -83,37 +83,37 @@ impl Viewport {
         Self { convention, ..self }
     }
 
-    /// This viewport for another clip space; depth stays as it is mapped.
+    /// This viewport for another clip space; the depth map does not change.
     #[must_use]
     pub const fn with_range(self, range: ClipRange) -> Self {
         Self { range, ..self }
     }
 
-    /// This viewport with another range of depth.
+    /// This viewport with another depth range.
     #[must_use]
     pub const fn with_depth(self, depth: DepthRange) -> Self {
         Self { depth, ..self }
     }
 
-    /// The rectangle, in whole pixels from the image's corner.
+    /// The rectangle, in whole pixels from the corner of the image.
     #[must_use]
     pub const fn area(&self) -> Rectangle {
         self.area
     }
 
-    /// How pixels are counted.
+    /// The pixel convention.
     #[must_use]
     pub const fn convention(&self) -> PixelConvention {
         self.convention
     }
 
-    /// The range of the clip space it takes.
+    /// The range of the clip space that it accepts.
     #[must_use]
     pub const fn range(&self) -> ClipRange {
         self.range
     }
 
-    /// The range of depth.
+    /// The depth range.
     #[must_use]
     pub const fn depth(&self) -> DepthRange {
         self.depth
@@ -204,7 +204,7 @@ mod tests {
         assert_eq!(map.transform_point(Point::new(1.0, -1.0, -1.0)), Point::new(4.0, 2.0, 0.0));
         assert!(Viewport::image_for(0, 2, ClipRange::CHAPTER).is_err());
     }
-    /// Finding 6.3: a Vulkan projection on an image came out upside down.
+    /// Regression: a Vulkan projection on an image was upside down (finding 6.3).
     #[test]
     fn up_is_up_and_near_is_one_in_every_range() {
         let reversed = ClipRange::ZERO_ONE.reversed();

@@ -13,17 +13,17 @@ use crate::error::check_interval;
 use glam::{DMat3, DVec2};
 use homog::Homography;
 
-/// A rectangle by its limits [min, max] on each axis. A mirrored one, with max < min, is allowed:
-/// it mirrors the picture.
+/// A rectangle by its limits [min, max] on each axis. With max < min it is mirrored, which is
+/// allowed and mirrors the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Limits {
-    /// From and to on the x axis.
+    /// The limits on the x axis.
     pub x: [f64; 2],
-    /// From and to on the y axis.
+    /// The limits on the y axis.
     pub y: [f64; 2],
 }
 
-/// The map of a window onto a viewport.
+/// The map from a window to a viewport.
 ///
 /// ```
 /// use viewport::{Limits, WindowToViewport};
@@ -46,8 +46,8 @@ impl WindowToViewport {
     /// The map that takes the sides of `window` to the sides of `viewport`.
     ///
     /// # Errors
-    /// If a limit is not finite, the window or the viewport has no width or no height, or they are
-    /// so far apart in size that the factors are no finite numbers.
+    /// Returns an error if a limit is not finite, the window or the viewport has no width or no
+    /// height, or they differ so much in size that the factors are not finite.
     pub fn new(window: Limits, viewport: Limits) -> Result<Self, ViewportError> {
         check_interval("window's x", window.x)?;
         check_interval("window's y", window.y)?;
@@ -71,7 +71,7 @@ impl WindowToViewport {
         [factor(self.window.x, self.viewport.x), factor(self.window.y, self.viewport.y)]
     }
 
-    /// True if a circle stays a circle: |sx| = |sy|, to about 14 digits.
+    /// Returns whether a circle stays a circle: |sx| = |sy|, to about 14 digits.
     #[must_use]
     pub fn is_undistorted(&self) -> bool {
         let [sx, sy] = self.scale_factors().map(f64::abs);
@@ -79,7 +79,7 @@ impl WindowToViewport {
     }
 
     /// The image of a point by equal ratios (WV-1): (xv − xv min)/(xv max − xv min) = (xw − xw
-    /// min)/(xw max − xw min). Points outside of the window go outside of the viewport by the same
+    /// min)/(xw max − xw min). Points outside the window map outside the viewport by the same
     /// ratio.
     #[must_use]
     pub fn map_by_ratio(&self, [x, y]: [f64; 2]) -> [f64; 2] {
@@ -90,16 +90,16 @@ impl WindowToViewport {
         [image(x, self.window.x, self.viewport.x), image(y, self.window.y, self.viewport.y)]
     }
 
-    /// The image of a point by the matrix of the chain (WV-2): the same, up to rounding.
+    /// The image of a point by the matrix of the chain (WV-2): the same up to rounding.
     #[must_use]
     pub fn map_by_chain(&self, point: [f64; 2]) -> [f64; 2] {
         self.homography().raw().transform_point2(point.into()).into()
     }
 
     /// The three factors of the chain, in the order in which a point passes through them: T(−xw
-    /// min, −yw min) to the origin, S(sx, sy), T(xv min, yv min) to its place.
+    /// min, −yw min) to the origin, S(sx, sy), T(xv min, yv min) to the target position.
     ///
-    /// Both signs of the first are minus; one of the sources prints T(−xw min, +yw min) (misprint
+    /// Both signs in the first factor are minus; one source prints T(−xw min, +yw min) (misprint
     /// M18).
     #[must_use]
     pub fn factor_chain(&self) -> [Homography; 3] {
@@ -119,7 +119,7 @@ impl WindowToViewport {
         to_origin.then(scale).then(to_place)
     }
 
-    /// The map back.
+    /// The inverse map.
     #[must_use]
     pub fn inverse(&self) -> Self {
         Self { window: self.viewport, viewport: self.window }

@@ -1,7 +1,7 @@
 //! The types of glam, in the version that this crate is built on.
 //!
-//! `from_raw` and `raw` cost nothing: a point is a `DVec3`. With another version of glam in a
-//! program go by arrays, or by `mint`.
+//! `from_raw` and `raw` cost nothing: a point is a `DVec3`. For another version of glam, convert
+//! through arrays or `mint`.
 
 use crate::{
     Affine, HLine2, HPoint, HPoint2, Homography, Normal, Plane, Point, Projective, Space, Vector,
@@ -56,7 +56,7 @@ impl<S: Space> From<Vec3> for Vector<S> {
 }
 
 impl<A: Space, B: Space> Projective<A, B> {
-    /// Tags a matrix with its two spaces. The caller vouches for them.
+    /// Tags a matrix with its two spaces. The caller chooses them.
     #[must_use]
     pub const fn from_raw(raw: DMat4) -> Self {
         Self::tagged(raw)

@@ -1,4 +1,4 @@
-//! The types of mint, through which glam, nalgebra, cgmath and others of any version convert.
+//! The types of mint, the bridge to any version of glam, nalgebra, cgmath and others.
 
 use crate::{Affine, HPoint, Point, Projective, Space, Vector};
 use glam::DMat4;

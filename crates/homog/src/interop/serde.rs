@@ -1,4 +1,4 @@
-//! Reading and writing by serde: points and vectors are arrays of their coordinates, matrices are
+//! Serialization with serde: points and vectors are arrays of their coordinates, and matrices are
 //! arrays of their rows, as a book prints them.
 
 use crate::{Affine, HPoint, Normal, Plane, Point, Projective, Space, Vector};

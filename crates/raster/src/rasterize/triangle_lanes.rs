@@ -6,7 +6,7 @@ use crate::triangle_setup::{SampleStart, TriangleFunctions};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, i32x8, mask32x8};
 
-/// A block of 8 × 8 pixels: its index in the tile, and its upper left pixel.
+/// A block of 8 × 8 pixels: its index in the tile and its upper left pixel.
 #[derive(Clone, Copy)]
 pub(super) struct Block {
     /// The index of the block in the tile, row by row: 0 … 63.
@@ -31,7 +31,7 @@ impl Block {
     }
 }
 
-/// A block, and the part of the depth that depends on its columns: dx·x for each of the eight.
+/// A block, with the part of the depth that depends on its columns: dx·x for each of the eight.
 #[derive(Clone, Copy)]
 pub(super) struct BlockColumns<S: Simd> {
     pub(super) block: Block,
@@ -60,11 +60,12 @@ pub(super) struct BlockCoverage<S: Simd> {
 
 /// Bounds of a triangle's depth in the eight blocks of a row.
 pub(super) struct BlockDepths<S: Simd> {
-    /// The least depth in each block, not below the farthest vertex.
+    /// The minimum depth in each block, not below the farthest vertex.
     pub(super) min_depth: f32x8<S>,
-    /// The greatest depth in each block, not above the nearest vertex.
+    /// The maximum depth in each block, not above the nearest vertex.
     pub(super) max_depth: f32x8<S>,
-    /// Whether the depth plane stays within the depths of the vertices: no sample needs clamping.
+    /// Whether the depth plane stays within the depths of the vertices, so no sample needs
+    /// clamping.
     pub(super) is_unclamped: mask32x8<S>,
 }
 
@@ -86,7 +87,7 @@ pub(crate) struct TriangleLanes<S: Simd> {
 }
 
 impl<S: Simd> TriangleLanes<S> {
-    /// Spreads the functions of a triangle over eight lanes, for all planes alike.
+    /// Spreads the functions of a triangle over eight lanes, shared by all planes.
     #[inline(always)]
     pub(crate) fn new(simd: S, functions: &TriangleFunctions) -> Self {
         let TriangleFunctions { a, dx, min_depth, max_depth, .. } = *functions;
@@ -105,7 +106,7 @@ impl<S: Simd> TriangleLanes<S> {
     /// Edge function k at a pixel: E₀ + a·x + b·y.
     ///
     /// In 32 bits: E₀ is clamped to ±2³⁰ and changes by less than 2³⁰ across a tile, so nothing
-    /// overflows and the sign is right.
+    /// overflows and the sign is correct.
     #[inline(always)]
     pub(super) fn edge_value(&self, k: usize, start: &SampleStart, x: i32, y: i32) -> i32 {
         start.edges[k] + self.functions.a[k] * x + self.functions.b[k] * y
@@ -130,8 +131,8 @@ impl<S: Simd> TriangleLanes<S> {
     /// Whether an edge excludes the whole block: its function is negative even at the innermost
     /// corner.
     ///
-    /// Of a linear function over a square the greatest value is at one corner, which the signs of A
-    /// and B give: seven pixels to the right if A > 0, seven down if B > 0.
+    /// The maximum of a linear function over a square is at a corner, which the signs of A and B
+    /// select: seven pixels to the right if A > 0, seven down if B > 0.
     #[inline(always)]
     pub(super) fn rejects_block(&self, start: &SampleStart, block: Block) -> bool {
         (0..3).any(|k| {
@@ -153,7 +154,7 @@ impl<S: Simd> TriangleLanes<S> {
     /// A block is touched if no edge excludes its innermost corner, and full if no edge excludes
     /// its outermost corner.
     ///
-    /// The sign bits of the three edges are combined by "or": a set bit means that some edge
+    /// The sign bits of the three edges are combined with "or": a set bit means that some edge
     /// excludes the corner.
     #[inline(always)]
     pub(super) fn classify_blocks(
@@ -167,15 +168,14 @@ impl<S: Simd> TriangleLanes<S> {
         let mut outermost = i32x8::splat(simd, 0);
         for k in 0..3 {
             let first = i32x8::splat(simd, self.edge_value(k, start, 0, row * 8));
-            // E at the upper left sample of each block, then at the corner with the greatest and at
-            // that with the least value.
+            // E at the upper left sample of each block, then at the corners with the maximum and
+            // the minimum.
             let corner = self.lane_indices * i32x8::splat(simd, 8 * a[k]) + first;
             innermost |= corner + i32x8::splat(simd, 7 * (a[k].max(0) + b[k].max(0)));
             outermost |= corner + i32x8::splat(simd, 7 * (a[k].min(0) + b[k].min(0)));
         }
         let zero = i32x8::splat(simd, 0);
-        // Blocks beside the bounding box: an edge alone does not exclude them behind a sharp
-        // vertex.
+        // Blocks outside the bounding box: behind a sharp vertex, no single edge excludes them.
         let after_first = self.lane_indices.simd_ge(i32x8::splat(simd, x0 / 8));
         let to_last = self.lane_indices.simd_le(i32x8::splat(simd, (x1 - 1) / 8));
         let is_full = outermost.simd_ge(zero);
@@ -184,8 +184,8 @@ impl<S: Simd> TriangleLanes<S> {
 
     /// Bounds of the depth in the eight blocks of a row: the depth at two opposite corners of each.
     ///
-    /// Every operation of its evaluation is monotone, rounding included, so no sample between them
-    /// is beyond.
+    /// Every operation in its evaluation is monotone, including rounding, so no sample in between
+    /// exceeds them.
     #[inline(always)]
     pub(super) fn block_depth_bounds(
         &self,
@@ -213,7 +213,8 @@ impl<S: Simd> TriangleLanes<S> {
         }
     }
 
-    /// A block with the first term of its depth, dx·x; the other is [`row_depth`](Self::row_depth).
+    /// A block with the first term of its depth, dx·x; the second is
+    /// [`row_depth`](Self::row_depth).
     #[inline(always)]
     pub(super) fn block_columns(&self, simd: S, block: Block) -> BlockColumns<S> {
         let x = self.lane_offsets + f32x8::splat(simd, (block.x - self.functions.x0) as f32);
@@ -222,7 +223,7 @@ impl<S: Simd> TriangleLanes<S> {
 
     /// The second term of the depth in a block's row: z + dy·y.
     ///
-    /// Added to the first in this order everywhere, so that a sample has the same bits on every
+    /// It is added to the first in this order everywhere, so a sample has the same bits on every
     /// path.
     #[inline(always)]
     pub(super) fn row_depth(
@@ -243,11 +244,10 @@ impl<S: Simd> TriangleLanes<S> {
         depth.simd_gt(self.max_depth).select(self.max_depth, depth)
     }
 
-    /// Whether the triangle's bounds contain the whole block, so that its farthest sample may have
-    /// come nearer.
+    /// Whether the triangle's bounds contain the whole block, so its farthest sample may have come
+    /// nearer.
     ///
-    /// Conservative: the triangle itself may leave out a corner, and the bound is then computed in
-    /// vain.
+    /// Conservative: the triangle itself may miss a corner, and the bound is then computed in vain.
     #[inline(always)]
     pub(super) fn bounds_contain(&self, block: Block) -> bool {
         let TriangleFunctions { x0, y0, x1, y1, .. } = self.functions;
