@@ -130,7 +130,7 @@ impl TileVisibility {
                         self.rasterize_small(simd, &batch, lane, index);
                     }
                     Opacity::Opaque => self.rasterize_opaque(simd, frame, rect, index),
-                    _ => self.rasterize_masked::<S, true>(simd, frame, rect, index, surface),
+                    _ => self.rasterize_masked(simd, frame, rect, index, surface),
                 }
             }
         }
@@ -138,14 +138,14 @@ impl TileVisibility {
         if has_translucent {
             for &index in bin {
                 if frame.triangles.triangle(index).opacity == Opacity::Translucent {
-                    self.collect_translucent::<S, true>(simd, frame, rect, index);
+                    self.collect_translucent(simd, frame, rect, index);
                 }
             }
         }
     }
 
-    /// Rasterizes the triangles of a bin one by one, with the translucent ones last: for depth
-    /// functions without hierarchical z.
+    /// Rasterizes the triangles of a bin one by one, the translucent ones last: for depth functions
+    /// that do not allow hierarchical z.
     #[inline(always)]
     fn rasterize_in_order<S: Simd>(
         &mut self,
@@ -155,39 +155,39 @@ impl TileVisibility {
         bin: &[u32],
         surface: &dyn Surface,
     ) {
-        let opacity = |index: u32| frame.triangles.triangle(index).opacity;
-        for &index in bin.iter().filter(|&&index| opacity(index) != Opacity::Translucent) {
-            self.rasterize_samples(simd, frame, rect, index, surface);
-        }
-        for &index in bin.iter().filter(|&&index| opacity(index) == Opacity::Translucent) {
-            self.collect_translucent::<S, false>(simd, frame, rect, index);
-        }
-    }
-
-    /// Rasterizes a triangle for any depth function: depth test, alpha test if it is masked, depth
-    /// write.
-    #[inline(always)]
-    fn rasterize_samples<S: Simd>(
-        &mut self,
-        simd: S,
-        frame: &Frame,
-        rect: TileRect,
-        index: u32,
-        surface: &dyn Surface,
-    ) {
-        if frame.triangles.triangle(index).opacity == Opacity::Masked {
-            return self.rasterize_masked::<S, false>(simd, frame, rect, index, surface);
-        }
-        let triangle = frame.triangles.triangle(index);
-        let range = frame.samples.offset_range();
-        let Some(setup) = TriangleSetup::new(triangle, rect, range) else { return };
-        let lanes = TriangleLanes::new(simd, &setup.functions);
-        for (plane, offset) in self.planes.iter_mut().zip(frame.samples.sample_offsets()) {
-            let start = setup.sample_start(offset);
-            let compare = frame.compare;
-            plane.visit_visible_samples(simd, &lanes, &start, compare, |plane, at, _, _, depth| {
-                plane.write_sample(at, depth, index);
-            });
+        let is_translucent =
+            |index: &u32| frame.triangles.triangle(*index).opacity == Opacity::Translucent;
+        let opaque = bin.iter().filter(|index| !is_translucent(index));
+        let mut samples = Vec::new();
+        for &index in opaque.chain(bin.iter().filter(|index| is_translucent(index))) {
+            let triangle = frame.triangles.triangle(index);
+            let range = frame.samples.offset_range();
+            let Some(setup) = TriangleSetup::new(triangle, rect, range) else { continue };
+            let lanes = TriangleLanes::new(simd, &setup.functions);
+            let mut masked = MaskedPixels::default();
+            let first = self.layers.len();
+            for (plane, offset) in frame.samples.sample_offsets().enumerate() {
+                let (start, compare) = (setup.sample_start(offset), frame.compare);
+                samples.clear();
+                let sample_plane = &mut self.planes[plane];
+                sample_plane.visit_visible_samples(
+                    simd,
+                    &lanes,
+                    &start,
+                    compare,
+                    |_, at, x, y, depth| samples.push((at, [x, y], depth)),
+                );
+                for &(at, [x, y], depth) in &samples {
+                    if triangle.opacity == Opacity::Translucent {
+                        self.layers.extend(translucent_layer(rect, [x, y], plane, index, depth));
+                    } else if triangle.opacity == Opacity::Opaque
+                        || masked.passes(frame, rect, index, [x, y], surface)
+                    {
+                        self.planes[plane].write_sample(at, depth, index);
+                    }
+                }
+            }
+            merge_layer_samples(&mut self.layers, first);
         }
     }
 
@@ -266,7 +266,7 @@ impl TileVisibility {
 
     /// Rasterizes an alpha-tested triangle: depth test, alpha test, then depth write.
     #[inline(always)]
-    fn rasterize_masked<S: Simd, const STRICT: bool>(
+    fn rasterize_masked<S: Simd>(
         &mut self,
         simd: S,
         frame: &Frame,
@@ -278,27 +278,12 @@ impl TileVisibility {
         let range = frame.samples.offset_range();
         let Some(setup) = TriangleSetup::new(triangle, rect, range) else { return };
         let lanes = TriangleLanes::new(simd, &setup.functions);
-        // Alpha belongs to the pixel, not to its samples: it is tested once, for eight pixels of a
-        // block's row together. One bit per pixel and row records whether it was tested, and
-        // another whether it passed.
-        let (mut tested, mut passed) = ([0_u64; TILE as usize], [0_u64; TILE as usize]);
+        let mut masked = MaskedPixels::default();
         for (plane, offset) in self.planes.iter_mut().zip(frame.samples.sample_offsets()) {
             let start = setup.sample_start(offset);
-            let compare = if STRICT { DepthCompare::Greater } else { frame.compare };
+            let compare = DepthCompare::Greater;
             plane.visit_visible_samples(simd, &lanes, &start, compare, |plane, at, x, y, depth| {
-                let pixel = 1 << x;
-                // The first sample of the pixel to survive the depth test runs the alpha test.
-                if tested[y] & pixel == 0 {
-                    let first = x / LANES * LANES;
-                    tested[y] |= 0xff << first;
-                    let (px, py) = (rect.x + first as u32, rect.y + y as u32);
-                    let eight =
-                        Fragments::from_one_triangle(triangle, &frame.source_weights, px, py);
-                    for (lane, passes) in surface.alpha_test_eight(&eight).into_iter().enumerate() {
-                        passed[y] |= u64::from(passes) << (first + lane);
-                    }
-                }
-                if passed[y] & pixel != 0 {
+                if masked.passes(frame, rect, index, [x, y], surface) {
                     plane.write_sample(at, depth, index);
                 }
             });
@@ -308,30 +293,20 @@ impl TileVisibility {
     /// Adds a layer for each pixel in which a sample of a translucent triangle is not behind an
     /// opaque surface.
     #[inline(always)]
-    fn collect_translucent<S: Simd, const STRICT: bool>(
-        &mut self,
-        simd: S,
-        frame: &Frame,
-        rect: TileRect,
-        index: u32,
-    ) {
+    fn collect_translucent<S: Simd>(&mut self, simd: S, frame: &Frame, rect: TileRect, index: u32) {
         let triangle = frame.triangles.triangle(index);
         let range = frame.samples.offset_range();
         let Some(setup) = TriangleSetup::new(triangle, rect, range) else { return };
         let lanes = TriangleLanes::new(simd, &setup.functions);
         let first = self.layers.len();
         // At equal depth a decal is drawn over the surface below it.
-        let compare = if STRICT { DepthCompare::GreaterEqual } else { frame.compare };
+        let compare = DepthCompare::GreaterEqual;
         let Self { planes, layers, .. } = self;
         let samples = planes.iter_mut().zip(frame.samples.sample_offsets()).enumerate();
         for (sample, (plane, offset)) in samples {
             let start = setup.sample_start(offset);
             plane.visit_visible_samples(simd, &lanes, &start, compare, |_, _, x, y, depth| {
-                if rect.is_visible(x, y) {
-                    let pixel = (y * TILE as usize + x) as u16;
-                    let mask = 1 << sample;
-                    layers.push(TranslucentLayer { pixel, mask, triangle: index, depth });
-                }
+                layers.extend(translucent_layer(rect, [x, y], sample, index, depth));
             });
         }
         merge_layer_samples(layers, first);
@@ -348,6 +323,64 @@ impl TileVisibility {
             a.pixel.cmp(&b.pixel).then(by_depth).then(a.triangle.cmp(&b.triangle))
         });
     }
+}
+
+/// The pixels of a tile that the alpha test of one triangle was run for.
+///
+/// Alpha belongs to the pixel, not to its samples: it is tested once, for eight pixels of a block's
+/// row together. One bit per pixel and row records whether it was tested, and another whether it
+/// passed.
+struct MaskedPixels {
+    tested: [u64; TILE as usize],
+    passed: [u64; TILE as usize],
+}
+
+impl Default for MaskedPixels {
+    fn default() -> Self {
+        Self { tested: [0; TILE as usize], passed: [0; TILE as usize] }
+    }
+}
+
+impl MaskedPixels {
+    /// Whether a triangle passes the alpha test in a pixel of the tile. The first sample of the
+    /// pixel to survive the depth test runs it.
+    #[inline(always)]
+    fn passes(
+        &mut self,
+        frame: &Frame,
+        rect: TileRect,
+        index: u32,
+        [x, y]: [usize; 2],
+        surface: &dyn Surface,
+    ) -> bool {
+        let pixel = 1 << x;
+        if self.tested[y] & pixel == 0 {
+            let first = x / LANES * LANES;
+            self.tested[y] |= 0xff << first;
+            let (px, py) = (rect.x + first as u32, rect.y + y as u32);
+            let triangle = frame.triangles.triangle(index);
+            let eight = Fragments::from_one_triangle(triangle, &frame.source_weights, px, py);
+            for (lane, passes) in surface.alpha_test_eight(&eight).into_iter().enumerate() {
+                self.passed[y] |= u64::from(passes) << (first + lane);
+            }
+        }
+        self.passed[y] & pixel != 0
+    }
+}
+
+/// The layer of a sample of a translucent triangle, with its index and depth; `None` outside of the
+/// visible region.
+#[inline(always)]
+fn translucent_layer(
+    rect: TileRect,
+    [x, y]: [usize; 2],
+    sample: usize,
+    triangle: u32,
+    depth: f32,
+) -> Option<TranslucentLayer> {
+    let pixel = (y * TILE as usize + x) as u16;
+    let layer = TranslucentLayer { pixel, mask: 1 << sample, triangle, depth };
+    rect.is_visible(x, y).then_some(layer)
 }
 
 /// Merges the layers of one triangle, from `first` on, that are samples of the same pixel. The
