@@ -40,7 +40,7 @@ impl DepthBuffer {
     /// A buffer with one depth sample per pixel, rows from the top. Empty pixels have −∞, or +∞ for
     /// [`DepthCompare::Less`].
     ///
-    /// Returns [`RasterError::DepthCount`] unless there are `width` × `height` depths.
+    /// # Errors
     /// [`RasterError::DepthCount`] unless there are `width` × `height` depths.
     pub fn from_depths(width: u32, height: u32, depths: Vec<f32>) -> Result<Self, RasterError> {
         let region = PixelRect::from_size(width, height);
