@@ -1,4 +1,4 @@
-//! Checks a scene file and those that it includes, without its models.
+//! Checks a scene file and the files it includes, without loading any models.
 //!
 //! Run it with `cargo run -p alberti-scene-file --example check_scene -- scene.ron`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]

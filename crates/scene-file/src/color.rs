@@ -1,5 +1,4 @@
-//! Colors of scene files: `#rgb`, `#rrggbb` and the names of CSS, in sRGB; or three linear numbers
-//! for light.
+//! Scene file colors: `#rgb`, `#rrggbb` and CSS names in sRGB, or three linear numbers for light.
 
 mod names;
 
@@ -15,7 +14,7 @@ use shade::color::{parse_hex_srgb, srgb_to_linear_table};
 
 serde_by_scene_value! { Color, LightColor }
 
-/// A color in sRGB, eight bits a channel.
+/// A color in sRGB, with eight bits per channel.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Color(pub [u8; 3]);
 
@@ -25,18 +24,17 @@ impl Color {
     /// White.
     pub const WHITE: Self = Self([255; 3]);
 
-    /// Parses `#rgb`, `#rrggbb`, or the name of a color of CSS in any case; `None` if the text is
-    /// none of them.
+    /// Parses `#rgb`, `#rrggbb` or a CSS color name in any case; returns `None` for any other text.
     ///
-    /// Three digits are doubled, `#1af` is `#11aaff`. There is no alpha channel: opacity is a field
-    /// of its own where it exists.
+    /// Three digits are doubled, so `#1af` is `#11aaff`. There is no alpha channel: where opacity
+    /// exists, it is a separate field.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         parse_hex_srgb(text).or_else(|| parse_color_name(text)).map(Self)
     }
 
-    /// Red, green and blue as linear light from 0 to 1, by the sRGB transfer function (IEC
-    /// 61966-2-1) from a table of 256 entries.
+    /// Red, green and blue as linear light from 0 to 1, converted with the sRGB transfer function
+    /// (IEC 61966-2-1) from a table of 256 entries.
     #[must_use]
     pub fn to_linear(self) -> [f32; 3] {
         self.0.map(|code| srgb_to_linear_table()[usize::from(code)])
@@ -51,7 +49,7 @@ fn parse_color_name(text: &str) -> Option<[u8; 3]> {
     Some([r, g, b])
 }
 
-/// The names of colors that CSS has, in alphabetical order.
+/// The CSS color names, in alphabetical order.
 pub fn color_names() -> impl Iterator<Item = &'static str> {
     CSS_COLORS.iter().map(|(name, _)| *name)
 }
@@ -84,7 +82,7 @@ impl SceneValue for Color {
     }
 }
 
-/// Reports what is wrong with a color.
+/// Reports the mistakes in a color.
 fn check_color(node: &Node<'_>, checker: &mut Checker<'_>) {
     let help = match &node.kind {
         NodeKind::String(_) => return check_color_string(node, checker),
@@ -104,7 +102,7 @@ fn check_color(node: &Node<'_>, checker: &mut Checker<'_>) {
     checker.report_type(node, "a color", Some(help));
 }
 
-/// Reports what is wrong with the color of light.
+/// Reports the mistakes in a light color.
 fn check_light_color(node: &Node<'_>, checker: &mut Checker<'_>) {
     match (&node.kind, unnamed_group(node)) {
         (NodeKind::String(_), _) => check_color_string(node, checker),
@@ -116,7 +114,7 @@ fn check_light_color(node: &Node<'_>, checker: &mut Checker<'_>) {
     }
 }
 
-/// Reports a string that is not a color; a misspelt name gets the closest one as a hint.
+/// Reports a string that is not a color; a misspelled name gets the closest name as a hint.
 fn check_color_string(node: &Node<'_>, checker: &mut Checker<'_>) {
     let Some(text) = checker.read_string(node) else { return };
     if Color::parse(&text).is_none() {
@@ -130,7 +128,7 @@ fn check_color_string(node: &Node<'_>, checker: &mut Checker<'_>) {
     }
 }
 
-/// The help on the notation of colors.
+/// The help on color notation.
 fn hex_help() -> String {
     "write \"#rrggbb\", such as \"#1a1f26\", or a CSS color name, such as \"white\"".to_owned()
 }
@@ -149,12 +147,12 @@ fn color_of_numbers(node: &Node<'_>) -> Option<[u8; 3]> {
     Some([code(0)?, code(1)?, code(2)?]).filter(|_| items.len() <= 4)
 }
 
-/// The color of light: linear red, green and blue.
+/// A light color: linear red, green and blue.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct LightColor(pub [f64; 3]);
 
 impl LightColor {
-    /// White, (1, 1, 1): the intensity of the light is unchanged.
+    /// White, (1, 1, 1): leaves the intensity of the light unchanged.
     pub const WHITE: Self = Self([1.0; 3]);
 }
 

@@ -1,4 +1,4 @@
-//! Errors of scene files: each points at the place in the text and says what to do.
+//! Scene file errors: each points at its position in the text and says what to do.
 
 use super::source_text::SourceText;
 #[cfg(feature = "terminal")]
@@ -7,7 +7,7 @@ use core::fmt;
 use core::ops::Range;
 use files::visible_text;
 
-/// Lines of more bytes are not quoted.
+/// Lines with more bytes than this are not quoted.
 #[cfg(feature = "terminal")]
 const LONGEST_LINE: usize = 10_000;
 
@@ -24,15 +24,15 @@ const LONGEST_LINE: usize = 10_000;
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SceneError {
-    /// The scene file's path, or the name of the model if there is no scene file.
+    /// The path of the scene file, or the name of the model if there is no scene file.
     pub file: String,
     /// The whole text; empty for a model without a scene file.
     pub source: SourceText,
-    /// The bytes of the text that are wrong.
+    /// The byte range of the mistake in the text.
     pub span: Range<usize>,
     /// A description of the mistake.
     pub message: String,
-    /// How to correct it.
+    /// The suggested correction.
     pub help: Option<String>,
 }
 
@@ -43,10 +43,9 @@ impl SceneError {
         self.source.line_and_column(self.span.start)
     }
 
-    /// The message with the line and the caret; with the colors of a terminal (ECMA-48) if
-    /// `colors`.
+    /// The message with the line and the caret, in terminal colors (ECMA-48) if `colors` is set.
     ///
-    /// Without the feature `terminal` it has line and column as numbers, and no colors.
+    /// Without the feature `terminal` it gives the line and column as numbers, without colors.
     #[must_use]
     #[cfg_attr(not(feature = "terminal"), expect(unused_variables, reason = "for the snippet"))]
     pub fn to_message(&self, colors: bool) -> String {
@@ -66,8 +65,8 @@ impl SceneError {
         format!("{place}: {}{help}", visible_text(&self.message))
     }
 
-    /// The message with the line and the caret; `None` without a text, and for a line that is too
-    /// long to be shown.
+    /// The message with the line and the caret; `None` if there is no text, or if the line is too
+    /// long to show.
     #[cfg(feature = "terminal")]
     fn to_snippet(&self, colors: bool) -> Option<String> {
         let (number, line) = self.source.line_at(self.span.start);
@@ -98,22 +97,21 @@ impl fmt::Display for SceneError {
 
 impl std::error::Error for SceneError {}
 
-/// The mistakes of a scene, at least one, in the order of the file. None of them follows from
-/// another.
+/// The mistakes in a scene, at least one, in file order. None of them is a consequence of another.
 ///
-/// Its `Display` shows the first [`SHOWN`](Self::SHOWN), and how many more there are.
+/// Its `Display` shows the first [`SHOWN`](Self::SHOWN) and the number of the others.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SceneErrors {
-    /// Boxed, so that a `Result` with these errors stays small.
+    /// Boxed to keep a `Result` with these errors small.
     first: Box<SceneError>,
     others: Vec<SceneError>,
 }
 
 impl SceneErrors {
-    /// How many mistakes a message shows: more would scroll the first one off the screen.
+    /// The number of mistakes in a message: more would scroll the first one off the screen.
     pub const SHOWN: usize = 5;
 
-    /// The mistakes in this order; `None` if there are none.
+    /// Wraps the mistakes in this order; `None` if there are none.
     #[must_use]
     pub fn from_list(errors: Vec<SceneError>) -> Option<Self> {
         let mut errors = errors.into_iter();
@@ -131,8 +129,8 @@ impl SceneErrors {
         std::iter::once(&*self.first).chain(&self.others)
     }
 
-    /// The messages of the first few mistakes, each but the first with `error: ` before it, and the
-    /// count of the others; with the colors of a terminal if `colors`.
+    /// The messages of the first few mistakes, each but the first prefixed with `error: `, and the
+    /// number of the others; in terminal colors if `colors` is set.
     #[must_use]
     pub fn to_message(&self, colors: bool) -> String {
         let error = if colors { "\x1b[1;31merror\x1b[0m: " } else { "error: " };

@@ -1,8 +1,7 @@
-//! A scene as it is written: RON, with degrees, paths and defaults.
+//! A scene as written: RON, with degrees, paths and defaults.
 //!
-//! These types say what a scene file may contain and nothing of what it means;
-//! resolution does that. Every field but the models' paths may be left out. Unknown fields are
-//! errors, so that misspelt ones are found.
+//! These types define what a scene file may contain; resolution gives it meaning. Only the models'
+//! paths are required. Unknown fields are errors, so that misspelled ones are found.
 
 mod assembly;
 mod background;
@@ -69,69 +68,70 @@ scene_struct! {
     /// `Scene(models: [(path: "model.glb")], style: Shaded)`.
     pub struct SceneFile as "Scene" {
         /// Other scene files to include, in this order. Their models, lights, overlays, sections
-        /// and viewports come before those of this file; every other field of this file replaces
-        /// theirs, and a later file's replaces an earlier one's. Paths in an included file begin at
-        /// its own folder; it must lie below the folder of the scene. Default: none.
+        /// and viewports come before this file's own. Every other field of this file replaces
+        /// theirs, and a later file's replaces an earlier one's. Paths in an included file are
+        /// relative to its folder, which must be inside the scene's folder. Default: none.
         pub include: Paths = Paths(Vec::new()),
-        /// The models to draw. A scene needs one; a file that is included does not. Default: none.
+        /// The models to draw. A scene needs at least one; an included file does not. Default:
+        /// none.
         pub models: Vec<ModelFile> = Vec::new(),
         /// The camera and its projection. Default: framed from a named direction, in perspective.
         pub camera: CameraFile = CameraFile::default(),
-        /// The motion of the camera, for `alberti animate`; pictures ignore it, and so do lights
+        /// The motion of the camera, for `alberti animate`. Pictures ignore it, and so do lights
         /// that the scene leaves open. Default: the camera does not move.
         pub camera_path: Option<CameraPathFile> = None,
-        /// Views of their own in parts of the picture, drawn in this order. Default: none.
+        /// Separate views in parts of the picture, drawn in this order. Default: none.
         pub viewports: Vec<ViewportFile> = Vec::new(),
         /// The scale of the viewports. Default: `Individual`.
         pub viewports_scale: ViewportsScale = ViewportsScale::Individual,
         /// A stereo pair. Default: one picture.
         pub stereo: Option<StereoFile> = None,
-        /// The lights. Default: those of the models; where they have none and there is no
-        /// environment either, a key light from above the viewer's left shoulder, and ambient
-        /// light; with an environment the key light alone, if there are to be shadows.
+        /// The lights. Default: the models' lights. If they have none: without an environment, a
+        /// key light from above the viewer's left shoulder, and ambient light; with one, only the
+        /// key light, if there are shadows.
         pub lights: Option<Vec<LightFile>> = None,
-        /// A factor for the intensity of all lights: those of the scene and of the models, and the
-        /// key light. An environment has its own `strength`. Default: 1.
+        /// A factor for the intensity of all lights: from the scene, from the models, and the key
+        /// light. An environment has its own `strength`. Default: 1.
         pub light_intensity: NonNegative = NonNegative::ONE,
-        /// The shadows of all directional, point and spot lights without shadows of their own,
-        /// those of the models too. Default: `Off`.
+        /// The shadows of all directional, point and spot lights that do not set their own,
+        /// including the models' lights. Default: `Off`.
         pub shadows: Option<ShadowsFile> = None,
         /// The ground below the models. Default: none.
         pub ground: Option<GroundFile> = None,
         /// Light from all directions. Default: none; a model without a scene file and without
-        /// lights of its own stands in a `Studio(strength: 0.45)` with a key light.
+        /// lights is lit by a `Studio(strength: 0.45)` with a key light.
         pub environment: Option<EnvironmentFile> = None,
         /// Screen-space ambient occlusion. Default: none.
         pub ambient_occlusion: Option<AmbientOcclusionFile> = None,
-        /// The style: how surfaces are drawn. Default: `Shaded`.
+        /// The style, which defines how surfaces are drawn. Default: `Shaded`.
         pub style: StyleFile = StyleFile::Shaded,
         /// The colors of the style `Depth`: the nearest vertex of the models has the last color of
-        /// the colormap, the farthest the first. Default: grays, bright where it is near.
+        /// the colormap, the farthest the first. Default: grays, brighter toward the viewer.
         pub depth_colormap: Option<Colormap> = None,
         /// The image: its size, background and sampling. Default: 960 × 720 pixels, transparent.
         pub image: ImageFile = ImageFile::default(),
         /// Explanations drawn over the picture. Default: none.
         pub overlays: Vec<OverlayFile> = Vec::new(),
         /// A line of text below the picture, centered in a strip of 28 pixels at its lower border;
-        /// the view is in the rest. Its letters are strokes, as on drawings, and smaller if the
-        /// text is too long. The strip has the color of the background, and that of its center if
-        /// that is a gradient. Default: none.
+        /// the view fills the rest. The text is drawn with strokes, as on drawings, and smaller if
+        /// it is too long. The strip has the background color, or a gradient's center color.
+        /// Default: none.
         pub caption: Option<String> = None,
-        /// Passes: data of each pixel besides its color. Default: none.
+        /// Passes: data for each pixel in addition to its color. Default: none.
         pub passes: PassesFile = PassesFile::default(),
         /// Section planes that cut the models open, one after the other, in line drawings and on
         /// sheets; at most 16. Default: none.
         pub sections: Vec<SectionFile> = Vec::new(),
-        /// The layout of `alberti sheet`. Default: as its flags say.
+        /// The layout of `alberti sheet`. Default: as its flags specify.
         pub sheet: Option<SheetFile> = None,
     }
 }
 
 scene_struct! {
-    /// A model and its transform: scaled, then rotated, then translated.
+    /// A model and its transform: scale, then rotation, then translation.
     pub struct ModelFile as "Model" {
-        /// The path of a `.gltf`, `.glb`, `.stl`, `.obj`, `.ply` or `.3mf` file, from the folder of
-        /// the scene file.
+        /// The path of a `.gltf`, `.glb`, `.stl`, `.obj`, `.ply` or `.3mf` file, relative to the
+        /// scene file's folder.
         pub path: String,
         /// The translation, in the unit of the file: meters in glTF. Default: (0, 0, 0).
         pub translation: Triple = Triple::ZERO,
@@ -139,28 +139,29 @@ scene_struct! {
         pub rotation_degrees: Triple = Triple::ZERO,
         /// One factor for all axes, or one for each; none of them 0. Default: 1.
         pub scale: Scale = Scale::ONE,
-        /// The axis that points up in the file; the model is turned so that it is y. Default: z for
-        /// STL and 3MF, y for all others.
+        /// The axis that points up in the file; the model is rotated so that it becomes y. Default:
+        /// z for STL and 3MF, y for all others.
         pub up: Option<UpAxis>,
-        /// The unit of the file, for sheets. Default: what the file declares, else millimeters for
-        /// STL and 3MF and meters for all others.
+        /// The unit of the file, for sheets. Default: the unit the file declares, otherwise
+        /// millimeters for STL and 3MF and meters for all others.
         pub unit: Option<LengthUnit>,
         /// The largest angle between faces that are shaded as one smooth surface, in degrees from 0
-        /// to 180, where the file has no normals. Default: 30.
+        /// to 180, if the file has no normals. Default: 30.
         pub crease_degrees: Option<Finite>,
-        /// The scene of the glTF file. Default: its default scene, else its first.
+        /// The scene in the glTF file. Default: its default scene, otherwise its first.
         pub scene: Option<Choice>,
         /// The variant of the model's materials (KHR_materials_variants). Default: none.
         pub variant: Option<Choice>,
-        /// The animation that poses the model. Default: the first, if there is a `time`; else none.
+        /// The animation that poses the model. Default: the first if there is a `time`, otherwise
+        /// none.
         pub animation: Option<Choice>,
-        /// The time of the animation in seconds. Default: 0, if there is an `animation`.
+        /// The animation time in seconds. Default: 0, if there is an `animation`.
         pub time: Option<Finite>,
         /// Instances of the model. Default: one.
         pub instances: Option<InstancesFile>,
-        /// Colors by a scalar attribute of its vertices. Default: its colors and materials.
+        /// Colors from a scalar attribute of its vertices. Default: its own colors and materials.
         pub scalars: Option<ScalarsFile>,
-        /// Overrides of its materials. Default: none.
+        /// Overrides for its materials. Default: none.
         pub materials: Vec<MaterialFile> = Vec::new(),
     }
 }
@@ -169,15 +170,15 @@ scene_enum! {
     /// A choice among the scenes, variants or animations of a model.
     #[derive(Eq, PartialOrd, Ord)]
     pub enum Choice as "Choice" {
-        /// By its index in the file, from 0.
+        /// By index in the file, from 0.
         Index(usize),
-        /// By its name.
+        /// By name.
         Name(String),
     }
 }
 
 impl SceneFile {
-    /// A scene of one model with every default.
+    /// A scene with one model and all defaults.
     #[must_use]
     pub fn from_model_path(path: String) -> Self {
         Self::new([ModelFile::new(path)])

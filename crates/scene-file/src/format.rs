@@ -3,10 +3,10 @@
 //! ```text
 //!  text ─► tokens with their line breaks ─► groups of items ─► lines
 //! ```
-//! A group that fits on a line is written on one line; everything else has a line for each part;
-//! comments stay. A bracket that is followed by a line break stays open: the author decides what is
-//! worth several lines, and formatting again changes nothing. Blank lines between items stay too,
-//! one at a time.
+//! A group that fits on a line is written on one line; in any other, each part gets a line.
+//! Comments are kept. A bracket followed by a line break stays open: the author decides what
+//! deserves several lines, and formatting again changes nothing. Blank lines between items are kept
+//! too, one at a time.
 
 mod tree;
 
@@ -14,9 +14,9 @@ use super::syntax::tokenize;
 use super::{SceneError, SceneErrors, parse_scene};
 use tree::{Element, FormatGroup, FormatItem, Part};
 
-/// The longest line that is not broken.
+/// The maximum line width.
 const MAX_LINE_WIDTH: usize = 100;
-/// Columns of an indentation level.
+/// Columns per indentation level.
 const INDENT_WIDTH: usize = 4;
 
 /// Formats the text of a scene file. `file` is its name in messages.
@@ -29,10 +29,9 @@ const INDENT_WIDTH: usize = 4;
 /// ```
 ///
 /// # Errors
-/// The mistakes in the text, if it is not a scene file; or if formatting would change what it
-/// means.
+/// The mistakes in the text, if it is not a scene file; or if formatting would change its meaning.
 ///
-/// The result is parsed again and compared with the scene of the input: a defect of the formatter
+/// The result is parsed again and compared with the original scene, so that a bug in the formatter
 /// cannot damage a file. Formatting is idempotent, and comments are never lost.
 pub fn format_source(file: &str, text: &str) -> Result<String, SceneErrors> {
     let scene = parse_scene(file, text)?;
@@ -42,17 +41,17 @@ pub fn format_source(file: &str, text: &str) -> Result<String, SceneErrors> {
     if parse_scene(file, &page).is_ok_and(|again| again == scene) {
         return Ok(page);
     }
-    // No text is known that comes here; a person's file is not the place to find one.
+    // No text is known to get here; a user's file is not the place to find one.
     let message = "this file cannot be formatted without changing what it means".to_owned();
     let error =
         SceneError { file: file.into(), source: text.into(), span: 0..0, message, help: None };
     Err(error.into())
 }
 
-/// Writes the items of a group, each on lines of its own; `comma` stands behind each element.
+/// Writes the items of a group, each on separate lines; `comma` follows each element.
 ///
-/// `indent` is in columns. At the top level `comma` is empty: a file holds one value and
-/// attributes. Several blank lines become one, and blank lines at the beginning of a group are
+/// `indent` is in columns. At the top level `comma` is empty, because a file holds one value and
+/// attributes. Consecutive blank lines become one, and blank lines at the start of a group are
 /// dropped.
 fn write_items(page: &mut String, items: &[FormatItem], indent: usize, comma: &str) {
     for (number, item) in items.iter().enumerate() {
@@ -75,12 +74,11 @@ fn write_items(page: &mut String, items: &[FormatItem], indent: usize, comma: &s
     }
 }
 
-/// Writes an element that begins on the line at byte `line` of the page, with `behind` columns
-/// after it.
+/// Writes an element that begins on the line at byte `line` of the page, followed by `behind` more
+/// columns.
 ///
-/// Width is counted in characters and not in bytes. Groups are tried from the outside to the
-/// inside: the outermost group that does not fit is broken, and its items get a chance of their
-/// own.
+/// Width is counted in characters, not bytes. Groups are tried from the outside in: the outermost
+/// group that does not fit is broken, then its items are tried.
 fn write_element(page: &mut String, element: &Element, indent: usize, line: usize, behind: usize) {
     for part in &element.parts {
         match part {
@@ -103,8 +101,8 @@ fn write_element(page: &mut String, element: &Element, indent: usize, line: usiz
     }
 }
 
-/// The group on one line; `None` if it is open in the source, or a comment or an open group is
-/// inside.
+/// The group on one line; `None` if it is open in the source, or contains a comment or an open
+/// group.
 ///
 /// Each level of nesting formats its groups again, so the cost is O(length × depth); the parser
 /// bounds the depth.

@@ -7,7 +7,7 @@
 //!  scene.ron ───────────────────────┴─► one scene; errors point into the file that is wrong
 //! ```
 //! Lists are concatenated, included files first; every other field of the including file replaces
-//! the included ones', whole.
+//! the included value as a whole.
 
 use super::file::{BackgroundFile, EnvironmentFile, ModelFile};
 use super::include_map::{ElementSources, IncludeMap};
@@ -21,13 +21,13 @@ use core::ops::Range;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The most files that one scene includes, each counted as often as it is included.
+/// The maximum number of files that a scene includes, counting each inclusion.
 const MAX_INCLUDED_FILES: usize = 64;
-/// The most bytes that included files have together, each counted as often as it is included. A
-/// few lines could otherwise ask for a gigabyte of text.
+/// The maximum total size of included files in bytes, counting each inclusion. A few lines could
+/// otherwise ask for a gigabyte of text.
 const MAX_INCLUDED_BYTES: usize = 4 << 20;
 
-/// The fields of a scene that are replaced whole.
+/// The fields of a scene that are replaced as a whole.
 const REPLACED_FIELDS: [&str; 15] = [
     "camera",
     "light_intensity",
@@ -51,25 +51,25 @@ const REPLACED_FIELDS: [&str; 15] = [
 pub struct FileMistake {
     /// The message, with the file's name and text.
     pub error: SceneError,
-    /// The bytes of the field or element that is wrong: nothing else is reported of it.
+    /// The bytes of the field or element with the mistake, for which nothing else is reported.
     pub scope: Range<usize>,
 }
 
 impl SceneSource {
-    /// Parses the text and the files it includes, which must lie below its folder or one that is
-    /// `allowed`. What has a mistake is left out of the scene.
+    /// Parses the text and the files it includes, which must be inside its folder or an `allowed`
+    /// one. Parts with mistakes are left out of the scene.
     pub fn parse_recovering(&mut self, allowed: &[PathBuf]) -> (SceneFile, Vec<FileMistake>) {
         let GatheredScene { file, includes, mistakes } = gather_includes(self, allowed);
         self.includes = includes;
         (file, mistakes)
     }
 
-    /// Parses the text and the files it includes, which must lie below its folder or one that is
-    /// `allowed`. The scene that is returned has what they include, and includes nothing itself.
+    /// Parses the text and the files it includes, which must be inside its folder or an `allowed`
+    /// one. The returned scene contains everything they include, and includes nothing itself.
     ///
     /// # Errors
-    /// Every mistake in their texts; and if an included file cannot be read, is not UTF-8, is too
-    /// long, or if files include each other.
+    /// Every mistake in their texts. Also if an included file cannot be read, is not UTF-8 or is
+    /// too long, or if files include each other.
     pub fn parse_with_includes(
         mut self,
         allowed: &[PathBuf],
@@ -88,15 +88,14 @@ struct GatheredScene {
     /// The scene, without the parts that could not be read.
     file: SceneFile,
     includes: IncludeMap,
-    /// The mistakes of the scene file, then those of the included files in the order in which they
-    /// were read.
+    /// The mistakes in the scene file, then those in the included files in reading order.
     mistakes: Vec<FileMistake>,
 }
 
-/// Parses a scene and the files that it includes, depth first, and merges them.
+/// Parses a scene and the files it includes, depth first, and merges them.
 ///
-/// The scene file itself is on the stack of open files from the start, so that an include of it is
-/// found to be a cycle.
+/// The scene file itself is on the stack of open files from the start, so that including it is
+/// detected as a cycle.
 fn gather_includes(scene: &SceneSource, allowed: &[PathBuf]) -> GatheredScene {
     let mut resolver = IncludeResolver {
         scene,
@@ -116,11 +115,11 @@ fn gather_includes(scene: &SceneSource, allowed: &[PathBuf]) -> GatheredScene {
 
 /// A file that is being read.
 struct SourceFile<'a> {
-    /// Its index, if it is included.
+    /// Its index, if it is an included file.
     file: Option<usize>,
     name: &'a str,
     text: &'a SourceText,
-    /// Its folder, relative to that of the scene.
+    /// Its folder, relative to the scene's folder.
     folder: &'a Path,
 }
 
@@ -147,7 +146,7 @@ struct IncludeResolver<'a> {
     allowed: &'a [PathBuf],
     includes: IncludeMap,
     mistakes: Vec<FileMistake>,
-    /// Whether the included files have too many bytes.
+    /// Whether the included files are too large.
     is_full: bool,
 }
 
@@ -193,8 +192,8 @@ impl IncludeResolver<'_> {
     /// A file may be included several times, but not by itself: the message shows the cycle.
     ///
     /// # Errors
-    /// Message and help, if the path leaves the allowed folders, there are too many files,
-    /// the file cannot be read, or it is being read already.
+    /// The message and the help, if the path leaves the allowed folders, there are too many files,
+    /// the file cannot be read, or it is already being read.
     fn load_include(
         &mut self,
         path: &Path,
@@ -206,7 +205,7 @@ impl IncludeResolver<'_> {
                 format!("the path \"{}\" leads out of the scene's folder", path.display());
             return Err((message, Some(help)));
         }
-        // Said once.
+        // Reported only once.
         if self.is_full {
             return Ok(MergedScene::default());
         }
@@ -248,7 +247,7 @@ impl IncludeResolver<'_> {
 /// Makes the paths of a file in `folder` relative to the scene's own folder, with slashes on all
 /// systems.
 ///
-/// A new field that holds a path has to be added here.
+/// When adding a field that holds a path, add it here too.
 fn rebase_paths(file: &mut SceneFile, folder: &Path) {
     if folder.as_os_str().is_empty() {
         return;
@@ -267,12 +266,12 @@ fn rebase_paths(file: &mut SceneFile, folder: &Path) {
     }
 }
 
-/// Merges a scene over another: lists are concatenated, other fields replaced whole if `above` sets
-/// them.
+/// Merges a scene over another: lists are concatenated, other fields replaced as a whole if `above`
+/// sets them.
 ///
-/// Lights are an optional list: an absent one leaves the other as it is.
+/// Lights are an optional list: if absent, the other list stays as it is.
 fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
-    // All fields by name, so that a new field of the scene has to be concatenated or replaced here.
+    // All fields by name, so that a new scene field has to be concatenated or replaced here.
     let SceneFile {
         include,
         models,

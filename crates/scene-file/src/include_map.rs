@@ -1,29 +1,29 @@
-//! Which part of a scene is written in which of the files that it includes.
+//! The map from the parts of a scene to the included files in which they are written.
 
 use super::source_text::SourceText;
 use super::syntax::PathStep::{self, Field, Index};
 use std::collections::BTreeMap;
 
-/// For each list of the scene, by field name, the source of each element: index of the included
+/// For each list of the scene, by field name, the source of each element: the index of the included
 /// file, or `None` for the scene file, and the element's index there.
 pub(super) type ElementSources = BTreeMap<&'static str, Vec<(Option<usize>, usize)>>;
 
 /// The sources of the parts of a scene. A part without an entry is in the scene file itself.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub(super) struct IncludeMap {
-    /// Name and text of each included file, in the order of reading.
+    /// The name and text of each included file, in reading order.
     pub(super) files: Vec<(String, SourceText)>,
-    /// For each field that is replaced whole the index of the file it is from.
+    /// For each field that is replaced as a whole, the index of the file it comes from.
     pub(super) fields: BTreeMap<&'static str, Option<usize>>,
     pub(super) lists: ElementSources,
 }
 
 impl IncludeMap {
-    /// Name and text of the included file that the value at the end of `path` is written in, and
-    /// its path there.
+    /// The name and text of the included file in which the value at the end of `path` is written,
+    /// and its path there.
     ///
-    /// Paths of the merged scene are what resolution works with: `models[3]` may be the first model
-    /// of an included file. `None` stands for the scene file itself.
+    /// Resolution works with paths in the merged scene: `models[3]` may be the first model of an
+    /// included file. `None` means the scene file itself.
     pub(super) fn resolve_source<'a>(
         &self,
         path: &[PathStep<'a>],
@@ -41,12 +41,12 @@ impl IncludeMap {
         (source.map(|(name, text)| (name.as_str(), text)), path)
     }
 
-    /// The names of the included files, in the order in which they were read.
+    /// The included files' names, in reading order.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(|(name, _)| name.as_str())
     }
 
-    /// The texts of the included files, in the order in which they were read.
+    /// The texts of the included files, in reading order.
     pub(super) fn included_texts(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(|(_, text)| text.as_str())
     }

@@ -1,4 +1,4 @@
-//! The scene language: scene files in RON as types, with every mistake found and pointed at.
+//! The scene language: RON scene files as Rust types, with every mistake found and located.
 //!
 //! ```
 //! let text = "Scene(models: [(path: \"duck.glb\")], style: Flat)";
@@ -9,16 +9,16 @@
 //!
 //! | module | subject |
 //! | --- | --- |
-//! | [`mod@file`] | what a scene file may contain, as types that read and write themselves |
+//! | [`mod@file`] | the contents of a scene file, as types that read and write themselves |
 //! | [`options`] | enumerations of other crates, by their names in scene files and flags |
 //! | [`mod@reference`] | the declarations of all types: names, documentation, defaults |
 //! | `scene_source`, `include` | the text of a scene and of the files it includes |
 //! | `parse`, `schema`, `syntax` | the reader: tokens, tree, declarations, mistakes |
-//! | `vocabulary`, `suggest` | what a misspelt word, or one of another program, means |
+//! | `vocabulary`, `suggest` | the meaning of misspelled words and of words from other programs |
 //! | `format` | one layout for all scene files |
 //! | `error` | a mistake with its line and a caret |
 //!
-//! No model is loaded and no image is decoded here: that is resolution, in the crate `scene`.
+//! No model is loaded and no image is decoded here: resolution, in the crate `scene`, does that.
 
 mod color;
 mod error;

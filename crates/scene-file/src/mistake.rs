@@ -1,26 +1,26 @@
-//! A mistake in the text of a scene file: its bytes, and what is wrong with them.
+//! A mistake in the text of a scene file: its bytes and a message.
 
 use super::SceneError;
 use super::source_text::SourceText;
 use core::ops::Range;
 
-/// The most mistakes that are reported of a text: more tell nobody anything, and each costs a
-/// search for what was meant.
+/// The maximum number of mistakes reported for a text: more would help nobody, and each costs a
+/// search for the intended word.
 pub(super) const MAX_MISTAKES: usize = 1000;
 
-/// A mistake at a place in a text that both the parser and the checker of declarations know.
+/// A mistake at a position in a text, shared by the parser and the declaration checker.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Mistake {
     /// The bytes that the message points at.
     pub(super) span: Range<usize>,
-    /// The field or element that is wrong, of which nothing else should be reported.
+    /// The field or element with the mistake, for which nothing else should be reported.
     pub(super) scope: Range<usize>,
     pub(super) message: String,
     pub(super) help: Option<String>,
 }
 
 impl Mistake {
-    /// A mistake whose scope is what it points at.
+    /// Creates a mistake whose scope is its span.
     pub(super) fn new(
         span: Range<usize>,
         message: impl Into<String>,
@@ -29,7 +29,7 @@ impl Mistake {
         Self { scope: span.clone(), span, message: message.into(), help }
     }
 
-    /// The mistake as an error of a file with this name and text.
+    /// The mistake as an error in a file with this name and text.
     pub(super) fn to_error(&self, file: &str, source: &SourceText) -> SceneError {
         SceneError {
             file: file.to_owned(),

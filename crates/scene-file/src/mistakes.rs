@@ -5,7 +5,7 @@ mod vocabulary;
 
 use super::{SceneErrors, parse_scene};
 
-/// Message, line and column, and help of each mistake.
+/// The message, line and column, and help of each mistake.
 fn mistakes(source: &str) -> Vec<(String, (usize, usize), String)> {
     let errors: SceneErrors = parse_scene("scene.ron", source).expect_err(source);
     let mistakes = errors.iter().map(|error| {
@@ -26,7 +26,7 @@ fn check(source: &str, message: &str, location: (usize, usize), help: &str) {
     assert_eq!(mistakes(source), [expected], "{source}");
 }
 
-/// A scene with one more field behind the models.
+/// A scene with one more field after the models.
 fn scene_with(field: &str) -> String {
     format!("Scene(\n  models: [(path: \"a.glb\")],\n  {field}\n)")
 }
@@ -140,7 +140,7 @@ fn errors_of_grammar_are_pointed_at() {
     );
 }
 
-/// After an error of grammar the parser goes on, and reports no error that follows from it.
+/// After a syntax error the parser goes on, and reports no errors caused by it.
 #[test]
 fn errors_of_grammar_do_not_hide_others_nor_cause_them() {
     let comma = "expected a comma or a closing bracket here";
@@ -188,7 +188,7 @@ fn deep_nesting_and_binary_garbage_are_errors_like_others() {
     let _ = mistakes("Scene(models: [(path: \"ä\\u{110000}\")])");
 }
 
-/// No cut of a text breaks the parser, and every mistake points into the text.
+/// Truncated texts do not break the parser, and every mistake points into the text.
 #[test]
 fn every_prefix_of_a_scene_is_parsed() {
     let source = "#![enable(implicit_some)]\n// A (comment.\nScene(models: [Model(path: r#\"ä\"#), (path: \"c\\\"(.glb\", translation: [1, -2.5, 3e-2])], /* a /* b */ */ camera: (view: LookAt(eye: (4, 3, 6), target: (0, 1, 0))), style: Lines(width: Iso(0.5)))";
@@ -247,7 +247,7 @@ fn what_is_left_out_has_a_default_and_marks_of_other_editors_do_not_hurt() {
     assert_eq!(scene, parse_scene("s.ron", long).expect("a long scene"));
 }
 
-/// Twelve different mistakes are twelve messages, in the order of the text.
+/// Twelve different mistakes give twelve messages, in text order.
 #[test]
 fn all_mistakes_come_at_once() {
     let source = include_str!("mistakes/twelve.ron");

@@ -1,4 +1,4 @@
-//! Numbers of scene files: each type admits the values that make sense in its fields.
+//! Numbers in scene files: each type allows only the values that make sense in its fields.
 //!
 //! RON itself accepts `NaN`, `inf` and `1e400`; none of these types does.
 
@@ -10,11 +10,11 @@ use super::syntax::{Group, Key, Node, NodeKind, parse_integer, parse_number};
 
 serde_by_scene_value! { Triple, Scale }
 
-/// A number that a field of scene files does not admit.
+/// A number that a scene file field does not allow.
 #[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
 #[error("expected {expected}, found {found}")]
 pub struct InvalidNumber {
-    /// The numbers that are possible.
+    /// The numbers that are allowed.
     pub expected: &'static str,
     /// The number.
     pub found: f64,
@@ -58,19 +58,19 @@ checked_number! {
 }
 
 checked_number! {
-    /// The amplitude of lines drawn by hand in millimeters, from 0 to 5.
+    /// The amplitude of hand-drawn lines in millimeters, from 0 to 5.
     HandDrawn, "an amplitude from 0 to 5 millimeters", |x| (0.0..=5.0).contains(&x)
 }
 
 impl HandDrawn {
     /// No displacement.
     pub const EXACT: Self = Self(0.0);
-    /// That of the style of sketches.
+    /// The amplitude of the sketch style.
     pub const SKETCH: Self = Self(0.35);
 }
 
 checked_number! {
-    /// The height of letters in pixels, from 1 to 1000.
+    /// The height of text in pixels, from 1 to 1000.
     LabelSize, "a height from 1 to 1000 pixels", |x| (1.0..=1000.0).contains(&x)
 }
 
@@ -82,7 +82,7 @@ impl LabelSize {
 impl HatchSpacing {
     /// 2 millimeters.
     pub const DEFAULT: Self = Self(2.0);
-    /// 1.2 millimeters: the shading of patents.
+    /// 1.2 millimeters, for patent shading.
     pub const PATENT: Self = Self(1.2);
 }
 
@@ -92,14 +92,14 @@ impl Fraction {
 }
 
 impl Percent {
-    /// 0 %.
+    /// 0%.
     pub const ZERO: Self = Self(0.0);
-    /// 80 %.
+    /// 80%.
     pub const EIGHTY: Self = Self(80.0);
 }
 
 checked_number! {
-    /// The side of points in pixels, from 1 to 256.
+    /// The size of points in pixels, from 1 to 256.
     PointSize, "a size from 1 to 256 pixels", |x| (1.0..=256.0).contains(&x)
 }
 
@@ -109,7 +109,7 @@ impl PointSize {
 }
 
 impl CreaseAngle {
-    /// 30 degrees: a cylinder of twelve sides is still round.
+    /// 30 degrees: a twelve-sided cylinder is still round.
     pub const DEFAULT: Self = Self(30.0);
 }
 
@@ -148,7 +148,7 @@ impl NonNegative {
     /// 0.45, the strength of the studio around a model without a scene file.
     pub const BARE_STUDIO: Self = Self(0.45);
 
-    /// 0.2, the strength of the studio around a model with lights of its own.
+    /// 0.2, the strength of the studio around a model with its own lights.
     pub const DIMMED_STUDIO: Self = Self(0.2);
 
     /// 5, the default padding in percent.
@@ -156,7 +156,7 @@ impl NonNegative {
 }
 
 impl FieldOfView {
-    /// 35 degrees: about what a picture covers that is viewed from one and a half times its height.
+    /// 35 degrees: about the angle of a picture viewed from one and a half times its height.
     pub const DEFAULT: Self = Self(35.0);
 }
 
@@ -224,7 +224,7 @@ impl SceneValue for Triple {
     }
 }
 
-/// The direction of an axis that is given by its name.
+/// The direction of an axis given by its name.
 fn axis_vector(node: &Node<'_>) -> Option<&'static str> {
     let name = match node.kind {
         NodeKind::Word(name) => name,
@@ -242,7 +242,7 @@ fn axis_vector(node: &Node<'_>) -> Option<&'static str> {
     }
 }
 
-/// A factor for each axis; none of them is 0. Written as one number or as three.
+/// A factor for each axis, none of them 0. Written as one number or as three.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Scale(pub [f64; 3]);
 
@@ -290,7 +290,7 @@ impl SceneValue for Scale {
     }
 }
 
-/// Reports what is wrong with three numbers.
+/// Reports the mistakes in three numbers.
 fn check_triple(node: &Node<'_>, checker: &mut Checker<'_>) {
     match unnamed_group(node) {
         Some(group) => check_three_numbers(node, group, checker),
@@ -301,7 +301,7 @@ fn check_triple(node: &Node<'_>, checker: &mut Checker<'_>) {
     }
 }
 
-/// Reports what is wrong with the factors of a scale.
+/// Reports the mistakes in the factors of a scale.
 fn check_scale(node: &Node<'_>, checker: &mut Checker<'_>) {
     let is_zero = |node: &Node<'_>| match node.kind {
         NodeKind::Number(word) => parse_number(word) == Some(0.0) || parse_integer(word) == Some(0),
@@ -312,7 +312,7 @@ fn check_scale(node: &Node<'_>, checker: &mut Checker<'_>) {
             check_three_numbers(node, group, checker);
             group.items.iter().any(|item| is_zero(&item.value))
         }
-        // A value that may be a number or three has whole numbers of every base.
+        // Whole numbers in any base are allowed where a value may be one number or three.
         None if matches!(node.kind, NodeKind::Number(word) if parse_integer(word).is_some()) => {
             is_zero(node)
         }
@@ -327,8 +327,8 @@ fn check_scale(node: &Node<'_>, checker: &mut Checker<'_>) {
     }
 }
 
-/// The group of a vector, in brackets of either kind. The name of a struct before it is passed
-/// over, as `ron` does.
+/// The group of a vector, in either kind of brackets. A struct name before it is skipped, as in
+/// `ron`.
 pub(super) fn unnamed_group<'n, 'a>(node: &'n Node<'a>) -> Option<&'n Group<'a>> {
     let is_struct_name = |key: &Key<'_>| {
         let is_word = key.name.starts_with(|c: char| c.is_alphabetic() || c == '_');
@@ -343,7 +343,7 @@ pub(super) fn unnamed_group<'n, 'a>(node: &'n Node<'a>) -> Option<&'n Group<'a>>
     node.group().filter(is_vector)
 }
 
-/// Reports what is wrong with exactly three finite numbers.
+/// Reports every mistake in a group of exactly three finite numbers.
 pub(super) fn check_three_numbers(node: &Node<'_>, group: &Group<'_>, checker: &mut Checker<'_>) {
     if group.items.len() != 3 {
         let problem = format!("expected three numbers, found {}", group.items.len());

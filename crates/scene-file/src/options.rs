@@ -1,8 +1,7 @@
 //! Options with named values: one declaration, read by scene files, flags, help and reference.
 //!
-//! The types are those that the renderer and the line drawings work with. Their names in scene
-//! files are those of their variants (`ThreeQuarter`); flags have them with hyphens
-//! (`three-quarter`).
+//! The types are the ones that the renderer and the line drawings use. Scene files use their
+//! variant names (`ThreeQuarter`); flags use them with hyphens (`three-quarter`).
 
 use super::schema::named_values;
 use crate::pass::{Pass, PassEncoding};
@@ -35,10 +34,10 @@ pub trait NamedOption: Copy + PartialEq + 'static {
     /// The name in scene files.
     fn name(self) -> &'static str;
 
-    /// A sentence on what the value means.
+    /// A sentence that explains the value.
     fn summary(self) -> &'static str;
 
-    /// The name in flags: lower case, words separated by hyphens.
+    /// The name in flags: lowercase, with hyphens between words.
     fn flag_name(self) -> String {
         let mut text = String::new();
         for c in self.name().chars() {
@@ -50,12 +49,12 @@ pub trait NamedOption: Copy + PartialEq + 'static {
         text
     }
 
-    /// The value of a name in scene files.
+    /// The value with this name in scene files.
     fn from_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|value| value.name() == name)
     }
 
-    /// The value of a name in flags.
+    /// The value with this name in flags.
     fn from_flag_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|value| value.flag_name() == name)
     }
@@ -102,7 +101,7 @@ named_values! {
 }
 
 named_values! {
-    /// The directions of a camera's own axes.
+    /// The directions of a camera's axes.
     CameraAxes as "CameraAxes" {
         OpenCv = "x to the right, y down, z ahead: OpenCV, COLMAP, ROS.",
         OpenGl = "x to the right, y up, z backwards: OpenGL, Blender, glTF, NeRF.",
@@ -111,7 +110,7 @@ named_values! {
 }
 
 named_values! {
-    /// Which edges a line drawing draws.
+    /// The edges that a line drawing shows.
     EdgeSelection as "EdgeSelection" {
         Facets = "The sides of all triangles.",
         Features = "Silhouettes, boundaries, creases, intersections of surfaces, and edges between materials.",
@@ -123,7 +122,7 @@ named_values! {
 }
 
 named_values! {
-    /// How hidden lines are drawn.
+    /// The treatment of hidden lines.
     HiddenLines as "HiddenLines" {
         Removed = "Hidden lines are left out.",
         Dashed = "Hidden lines are dashed.",
@@ -133,7 +132,7 @@ named_values! {
 }
 
 named_values! {
-    /// How the silhouettes of smooth surfaces are found.
+    /// The method of finding silhouettes of smooth surfaces.
     SilhouetteMethod as "Silhouettes" {
         Facets = "Sides of triangles: exact for the mesh, in zigzag where it stands for a curved surface.",
         Interpolated = "Across the triangles, where the interpolated normal is at a right angle to the line of sight: smooth, but approximate, with possible gaps at cusps.",
@@ -164,7 +163,7 @@ named_values! {
 }
 
 named_values! {
-    /// How lines end.
+    /// The shape of line ends.
     Cap as "Cap" {
         Butt = "At the end point.",
         Round = "With a half disc around the end point.",
@@ -173,7 +172,7 @@ named_values! {
 }
 
 named_values! {
-    /// How lines join at corners.
+    /// The shape of line joins.
     Join as "Join" {
         Miter = "The outer sides meet in a point.",
         Round = "With a disc around the corner.",
@@ -192,7 +191,7 @@ named_values! {
 }
 
 named_values! {
-    /// How a picture fills the image.
+    /// The fit of a picture to the image.
     ImageFit as "Fit" {
         Stretch = "Stretched to the size of the image.",
         Cover = "As small as covers the whole image; what is too much is cut off on both sides alike.",
@@ -201,7 +200,7 @@ named_values! {
 }
 
 named_values! {
-    /// A pass: what is written of the surface that is nearest at the center of each pixel.
+    /// A pass: data about the nearest surface at the center of each pixel.
     Pass as "Pass" {
         Depth = "The distance from the eye along the view axis, in units of the scene.",
         Distance = "The distance from the eye, in units of the scene.",
@@ -266,7 +265,7 @@ named_values! {
 }
 
 named_values! {
-    /// The language of the names of a title block's fields.
+    /// The language of a title block's field names.
     TitleBlockLanguage as "Language" {
         English = "English.",
         German = "German.",
@@ -284,7 +283,7 @@ named_values! {
 }
 
 named_values! {
-    /// The sign before the decimals of a number.
+    /// The decimal separator.
     DecimalMark as "DecimalMark" {
         Point = "12.5, as in English.",
         Comma = "12,5, as in most other languages.",

@@ -1,5 +1,4 @@
-//! Parsing: from the text of a scene file to its parts by `ron`, and to every mistake in it where
-//! `ron` refuses.
+//! Parsing: reads a scene file with `ron`, and finds every mistake in its text if `ron` refuses it.
 //!
 //! ```text
 //!  text ─► ron ─► SceneFile
@@ -27,8 +26,8 @@ use std::collections::BTreeMap;
 /// ```
 ///
 /// # Errors
-/// Every error of grammar, unknown name, wrong type, missing field and value out of range, in the
-/// order of the text.
+/// Every syntax error, unknown name, wrong type, missing field and out-of-range value, in text
+/// order.
 pub fn parse_scene(file: &str, source: &str) -> Result<SceneFile, SceneErrors> {
     let source = strip_byte_order_mark(source);
     let parsed = read_recovering(source);
@@ -49,22 +48,22 @@ pub(super) fn strip_byte_order_mark(source: &str) -> &str {
 /// A scene and the mistakes in its text.
 #[derive(Default)]
 pub(super) struct ParsedScene {
-    /// The scene without what could not be read.
+    /// The scene, without the parts that could not be read.
     pub(super) scene: SceneFile,
-    /// In the order of the text.
+    /// The mistakes, in text order.
     pub(super) mistakes: Vec<Mistake>,
-    /// For each list of the scene the indices of the elements that could be read.
+    /// For each list of the scene, the indices of the elements that could be read.
     pub(super) retained: BTreeMap<&'static str, Vec<usize>>,
 }
 
-/// The lists of a scene, by the names of their fields.
+/// The lists of a scene, by field name.
 const LISTS: [&str; 5] = ["models", "viewports", "lights", "overlays", "sections"];
 
-/// How often a text is read again without what `ron` refused.
+/// The maximum number of times a text is reread without the parts that `ron` refused.
 const MAX_READINGS: usize = 8;
 
-/// Reads a scene with `ron`. If that fails, reports every mistake and reads whatever has none. The
-/// text has no byte order mark.
+/// Reads a scene with `ron`. If that fails, reports every mistake and reads the parts without one.
+/// The text has no byte order mark.
 pub(super) fn read_recovering(source: &str) -> ParsedScene {
     let error = match scene_ron_options().from_str::<SceneFile>(source) {
         Ok(scene) => {
@@ -83,7 +82,7 @@ pub(super) fn read_recovering(source: &str) -> ParsedScene {
     };
     let (tree, mut mistakes) = check_text(source);
     if let Some(mistake) = hash_comment(source) {
-        // What the checker makes of the words of a comment only misleads.
+        // The checker's messages about the words of a comment would only mislead.
         return ParsedScene { mistakes: vec![mistake], ..ParsedScene::default() };
     }
     if mistakes.is_empty() {
@@ -98,7 +97,7 @@ pub(super) fn read_recovering(source: &str) -> ParsedScene {
     parsed
 }
 
-/// The mistake of a line that begins with `#`, as comments do in Python, YAML and shells.
+/// The mistake in a line that begins with `#`, as comments do in Python, YAML and shells.
 fn hash_comment(source: &str) -> Option<Mistake> {
     let mut start = 0;
     for line in source.split_inclusive('\n') {
@@ -115,7 +114,7 @@ fn hash_comment(source: &str) -> Option<Mistake> {
     None
 }
 
-/// The tree of a text, unless it cannot be relied on, and every mistake in it, in its order.
+/// The tree of a text, unless it is unreliable, and every mistake in the text, in order.
 fn check_text(source: &str) -> (Option<Node<'_>>, Vec<Mistake>) {
     let SyntaxTree { root, errors: mut mistakes, is_unreliable } = parse_tree(source);
     let root = root.filter(|_| !is_unreliable);
@@ -127,7 +126,7 @@ fn check_text(source: &str) -> (Option<Node<'_>>, Vec<Mistake>) {
             let start = root.span.start;
             let length = source[start..].chars().next().map_or(0, char::len_utf8);
             checker.report(start..start + length, "this is not a scene", Some(other_text(source)));
-            // Mistakes in the grammar of a language that this text is not written in mislead.
+            // Syntax errors mislead if the text is in another language.
             mistakes.clear();
         }
         mistakes.extend(checker.finish());
@@ -143,8 +142,8 @@ fn check_text(source: &str) -> (Option<Node<'_>>, Vec<Mistake>) {
     (root, mistakes)
 }
 
-/// What to do about a text that is not a scene: which language it seems to be written in, and how
-/// a scene looks.
+/// The help for a text that is not a scene: which language it seems to be written in, and a sample
+/// scene.
 fn other_text(source: &str) -> String {
     let text = source.trim_start();
     let begins_field = |line: &str| {
@@ -164,10 +163,10 @@ fn other_text(source: &str) -> String {
 }
 
 impl ParsedScene {
-    /// Reads the scene without the fields and elements that contain mistakes, so that errors of
-    /// meaning in the others are reported in the same run.
+    /// Reads the scene without the fields and elements that contain mistakes, so that semantic
+    /// errors in the others are reported in the same run.
     ///
-    /// If a required field is lost, the value around it is left out as well.
+    /// If a required field is lost, the value around it is left out too.
     fn read_rest(&mut self, root: &Node<'_>) {
         let mut removed: Vec<Range<usize>> =
             self.mistakes.iter().map(|mistake| mistake.scope.clone()).collect();
@@ -191,12 +190,12 @@ impl ParsedScene {
     }
 }
 
-/// The text of a tree without some of its fields and elements.
+/// The text of a tree, without some of its fields and elements.
 struct Rest<'a> {
-    /// The bytes of the source that are left out.
+    /// The omitted bytes of the source.
     removed: &'a RemovedSpans,
     text: String,
-    /// For each field and element that is there its bytes in this text, and in the source.
+    /// For each remaining field and element, its bytes in this text and in the source.
     items: Vec<(Range<usize>, Range<usize>)>,
 }
 
@@ -234,21 +233,21 @@ impl Rest<'_> {
         self.text.push(',');
     }
 
-    /// The smallest field or element around a place in the text, by its bytes in the source.
+    /// The smallest field or element around a position in the text, as bytes of the source.
     fn innermost_item(&self, at: usize) -> Option<Range<usize>> {
         let around = self.items.iter().filter(|(here, _)| here.start <= at && at <= here.end);
         around.min_by_key(|(here, _)| here.len()).map(|(_, source)| source.clone())
     }
 }
 
-/// Ranges of bytes that are left out, sorted: a text may have as many mistakes as fields.
+/// Ranges of omitted bytes, sorted, because a text may have as many mistakes as fields.
 struct RemovedSpans(Vec<Range<usize>>);
 
 impl RemovedSpans {
     fn new(removed: &[Range<usize>]) -> Self {
         let mut spans = removed.to_vec();
         spans.sort_by_key(|span| span.start);
-        // Each ends where the longest of those before it does.
+        // Each span ends at the largest end so far.
         let mut end = 0;
         for span in &mut spans {
             end = end.max(span.end);
@@ -257,14 +256,14 @@ impl RemovedSpans {
         Self(spans)
     }
 
-    /// Whether a range lies within one of these.
+    /// Whether a range is within one of these.
     fn contains(&self, span: &Range<usize>) -> bool {
         let count = self.0.partition_point(|outer| outer.start <= span.start);
         count > 0 && span.end <= self.0[count - 1].end
     }
 }
 
-/// For each list of a scene the indices of the elements that are still there.
+/// For each list of a scene, the indices of the elements that remain.
 fn retained_elements(
     root: &Node<'_>,
     removed: &RemovedSpans,
@@ -282,7 +281,7 @@ fn retained_elements(
     LISTS.into_iter().filter_map(elements).collect()
 }
 
-/// The byte at a line and a column of `ron`'s, which counts characters from 1.
+/// The byte at a line and column from `ron`, which counts characters from 1.
 fn offset_of(source: &str, position: Position) -> usize {
     let mut lines = source.split_inclusive('\n');
     let before: usize = lines.by_ref().take(position.line.saturating_sub(1)).map(str::len).sum();
@@ -291,7 +290,7 @@ fn offset_of(source: &str, position: Position) -> usize {
     before + column.map_or(line.len(), |(offset, _)| offset)
 }
 
-/// Whether a value is in the brackets of a struct; what is in them is another question.
+/// Whether a value is in the brackets of a struct, whatever they contain.
 fn is_scene(root: &Node<'_>) -> bool {
     root.group().is_some_and(|group| group.open == '(')
 }
@@ -303,10 +302,10 @@ mod tests {
     use std::fs;
     use std::path::Path;
 
-    /// The mutants of a run of the second tier; a tenth of them in the first.
+    /// The number of mutants in a run of the second tier; the first tier uses a tenth.
     const MUTANTS: usize = 20_000;
 
-    /// What mutants have instead of some token.
+    /// Replacements for tokens in mutants.
     const OTHERS: [&str; 24] = [
         "(",
         ")",
@@ -334,7 +333,7 @@ mod tests {
         "'x'",
     ];
 
-    /// `ron` reads exactly what the checker finds nothing wrong with.
+    /// `ron` reads exactly the texts in which the checker finds no mistake.
     #[track_caller]
     fn assert_same(text: &str) -> bool {
         let read = scene_ron_options().from_str::<SceneFile>(text);
@@ -347,7 +346,7 @@ mod tests {
         read.is_ok()
     }
 
-    /// The texts in a folder of the repository, of files whose names end so.
+    /// The texts of the files in a folder of the repository whose names have this ending.
     fn texts_in(folder: &str, ending: &str) -> Vec<String> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
         let mut paths: Vec<_> = fs::read_dir(folder)
@@ -359,7 +358,7 @@ mod tests {
         paths.iter().map(|path| fs::read_to_string(path).expect("the scene is there")).collect()
     }
 
-    /// Whoever reads a scene by serde alone is told the field.
+    /// Reading a scene with only serde still reports the field.
     #[test]
     fn errors_of_other_readers_name_the_field() {
         let text = "Scene(models: [(path: \"a.glb\"), (path: \"b.glb\", crease_degrees: \"x\")])";
@@ -378,7 +377,7 @@ mod tests {
         for folder in ["book/scenes", "docs/exercises"] {
             assert!(texts_in(folder, ".ron").iter().all(|text| assert_same(text)), "{folder}");
         }
-        // What fuzzing has found need not be a scene.
+        // Inputs found by fuzzing need not be scenes.
         for folder in ["tests/fuzz/corpus/scene", "tests/fuzz/corpus/include"] {
             let texts = texts_in(folder, "");
             assert!(!texts.is_empty(), "{folder}");

@@ -1,4 +1,4 @@
-//! The list of render passes: meaning, unit and empty value of each.
+//! The list of render passes: the meaning, unit and empty value of each.
 //!
 //! | passes | type | channels | empty |
 //! | --- | --- | --- | --- |
@@ -8,39 +8,38 @@
 //! | coverage | f32 | 1 | 0 |
 //! | id, model, node, mesh, material, overdraw | u32 | 1 | 0 |
 
-/// A render pass: one quantity for each pixel, of the nearest surface at its center.
+/// A render pass: one quantity per pixel, from the nearest surface at its center.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Pass {
-    /// Distance from the eye along the view axis (planar depth), in scene units; +∞ where nothing
-    /// is visible.
+    /// Distance from the eye along the view axis (planar depth), in scene units; +∞ for background
+    /// pixels.
     Depth,
-    /// Distance from the eye, in scene units; +∞ where nothing is visible.
+    /// Distance from the eye, in scene units; +∞ for background pixels.
     Distance,
-    /// Unit normal in the world, of the visible side: the interpolated vertex normal, without
-    /// normal maps. 0 where nothing is visible.
+    /// Unit normal in the world, on the visible side: the interpolated vertex normal, without
+    /// normal maps. 0 for background pixels.
     Normal,
-    /// Unit normal in view space: x to the right, y up, z towards the viewer.
+    /// Unit normal in view space: x to the right, y up, z toward the viewer.
     ViewNormal,
-    /// Position in the world; 0 where nothing is visible.
+    /// Position in the world; 0 for background pixels.
     Position,
-    /// Texture coordinates of the set `TEXCOORD_0`: u to the right, v down in the texture. 0 where
-    /// there are none.
+    /// Texture coordinates from the set `TEXCOORD_0`: u to the right, v down in the texture. 0
+    /// where there are none.
     Uv,
-    /// Barycentric weights of the triangle's vertices; their sum is 1, or 0 where nothing is
-    /// visible.
+    /// Barycentric weights of the triangle's vertices; their sum is 1, or 0 for background pixels.
     Barycentric,
-    /// Primitive id: the point, line or triangle, counted from 1 in scene order; 0 where nothing is
-    /// visible.
+    /// Primitive id of the point, line or triangle, counted from 1 in scene order; 0 for background
+    /// pixels.
     Id,
-    /// The model, counted from 1 in scene order; 0 where nothing is visible.
+    /// The model, counted from 1 in scene order; 0 for background pixels.
     Model,
-    /// The node: its glTF index plus 1; 0 where nothing is visible.
+    /// The node: its glTF index plus 1; 0 for background pixels.
     Node,
-    /// The mesh: its glTF index plus 1; 0 where nothing is visible.
+    /// The mesh: its glTF index plus 1; 0 for background pixels.
     Mesh,
     /// The material: its glTF index plus 1; 0 also for the default material.
     Material,
-    /// Number of fragments at the pixel's center, hidden ones included.
+    /// Number of fragments at the pixel's center, including hidden ones.
     Overdraw,
     /// Fraction of the pixel's samples that a surface covers, from 0 to 1.
     Coverage,
@@ -129,7 +128,7 @@ impl Pass {
         )
     }
 
-    /// The value where nothing is visible.
+    /// The value for background pixels.
     #[must_use]
     pub const fn empty_value(self) -> f32 {
         if matches!(self, Self::Depth | Self::Distance) { f32::INFINITY } else { 0.0 }

@@ -1,15 +1,15 @@
 //! The reference of scene files: every type, field and variant, with its documentation.
 //!
-//! The entries are the declarations that scene files are read by, so the reference has every field
-//! that is read and no other.
+//! The entries are the declarations used to read scene files, so the reference has every field that
+//! is read and no other.
 
 pub use super::schema::{FieldEntry, Shape, TypeEntry, ValueType, VariantEntry};
 
 use super::SceneFile;
 use super::schema::Declared as _;
 
-/// Every type that a scene file is made of, the whole scene first, each other type behind the one
-/// that first needs it.
+/// Every type used in scene files: the whole scene first, each other type after the first one that
+/// needs it.
 #[must_use]
 pub fn all_types() -> Vec<&'static TypeEntry> {
     let mut types = Vec::new();
@@ -17,14 +17,14 @@ pub fn all_types() -> Vec<&'static TypeEntry> {
     types
 }
 
-/// The fields and variants that a word of other programs means, as paths such as
-/// `Perspective.near`, the likeliest first.
+/// The fields and variants that a word from another program means, as paths such as
+/// `Perspective.near`, likeliest first.
 #[must_use]
 pub fn meanings_of(word: &str) -> Vec<String> {
     super::vocabulary::meanings_of(word)
 }
 
-/// Adds a type and those that it needs, unless they are there already.
+/// Adds a type and the types it needs, unless they are already present.
 fn collect_types(entry: &'static TypeEntry, types: &mut Vec<&'static TypeEntry>) {
     if types.iter().any(|known| known.name == entry.name) {
         return;

@@ -1,12 +1,12 @@
-//! How the package `ron` reads and writes scenes.
+//! The options with which `ron` reads and writes scenes.
 
 use ron::Options;
 use ron::extensions::Extensions;
 
-/// How `ron` reads and writes scene files: with the extensions `implicit_some`, `unwrap_newtypes`
-/// and `unwrap_variant_newtypes`, so that no file has to begin with an attribute.
+/// The `ron` options for reading and writing scene files: the extensions `implicit_some`,
+/// `unwrap_newtypes` and `unwrap_variant_newtypes`, so that no file has to begin with an attribute.
 ///
-/// With them any function of `ron` reads scenes and their parts:
+/// With these options, any `ron` function reads scenes and their parts:
 ///
 /// ```
 /// use scene_file::file::{ModelFile, SceneFile};

@@ -1,4 +1,4 @@
-//! Scenes as text in RON: read and written by the package `ron`.
+//! Scenes as RON text, read and written with the `ron` crate.
 
 use super::SceneErrors;
 use super::file::SceneFile;
@@ -7,17 +7,17 @@ use super::parse::parse_scene;
 use super::ron_options::scene_ron_options;
 
 impl SceneFile {
-    /// Reads a scene from the text of a scene file. Nothing else is read, neither models nor
-    /// included files.
+    /// Reads a scene from the text of a scene file. Nothing else is read: no models, no included
+    /// files.
     ///
     /// # Errors
-    /// Every mistake in the text, in its order.
+    /// Every mistake in the text, in order.
     pub fn from_ron(text: &str) -> Result<Self, SceneErrors> {
         parse_scene("scene", text)
     }
 
-    /// The text of a scene file that reads back as this scene, laid out as `alberti scene fmt` does.
-    /// Fields that have their defaults are left out.
+    /// The text of a scene file that reads back as this scene, laid out like `alberti scene fmt`
+    /// output. Fields with default values are omitted.
     ///
     /// ```
     /// use scene_file::SceneFile;
@@ -29,7 +29,7 @@ impl SceneFile {
     /// ```
     ///
     /// # Errors
-    /// If a number of the scene is one that scene files refuse, such as NaN or a scale of 0.
+    /// If the scene contains a number that scene files refuse, such as NaN or a scale of 0.
     pub fn to_ron(&self) -> Result<String, ron::Error> {
         let text = format!("Scene{}\n", scene_ron_options().to_string(self)?);
         scene_ron_options().from_str::<Self>(&text).map_err(|error| error.code)?;

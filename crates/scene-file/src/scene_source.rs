@@ -1,4 +1,4 @@
-//! The text of a scene with its name and folder, and those of the files that it includes: what
+//! The text of a scene with its name and folder, and the texts of the files it includes: what
 //! errors quote and point into.
 
 use super::SceneError;
@@ -9,10 +9,10 @@ use super::syntax::PathStep;
 use files::visible_path;
 use std::path::{Component, Path, PathBuf};
 
-/// The longest scene file that is read, in bytes: more is no text that a person wrote.
+/// The maximum length of a scene file in bytes: nobody writes more text by hand.
 const MAX_SCENE_BYTES: u64 = 16 << 20;
 
-/// The text of a scene, and of the files that it includes. Errors quote it.
+/// The text of a scene and of the files it includes, which errors quote.
 ///
 /// ```
 /// use scene_file::SceneSource;
@@ -25,17 +25,17 @@ const MAX_SCENE_BYTES: u64 = 16 << 20;
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SceneSource {
-    /// The name in messages.
+    /// The name for messages.
     pub file: String,
     /// The text; empty for a bare model.
     pub text: SourceText,
-    /// The folder that paths of the scene begin at.
+    /// The folder that the scene's paths are relative to.
     pub folder: PathBuf,
-    /// Which parts are written in files that it includes.
+    /// The map of the parts that are written in included files.
     pub(super) includes: IncludeMap,
-    /// The viewport that is spoken of.
+    /// The viewport that errors refer to.
     viewport: Option<usize>,
-    /// Whether paths have to stay below the folder.
+    /// Whether paths must stay below the folder.
     is_confined: bool,
 }
 
@@ -45,11 +45,11 @@ pub struct SceneSource {
 pub struct UnreadableScene {
     /// The scene file.
     pub path: PathBuf,
-    /// Why it could not be read.
+    /// The reason it could not be read.
     pub cause: std::io::Error,
 }
 
-/// Why a scene file cannot be read; one that is missing is reported as a missing model is.
+/// The message for an unreadable scene file; a missing one is reported like a missing model.
 fn unreadable_message(path: &Path, cause: &std::io::Error) -> String {
     let path = visible_path(path);
     match cause.kind() {
@@ -62,9 +62,9 @@ fn unreadable_message(path: &Path, cause: &std::io::Error) -> String {
 }
 
 impl SceneSource {
-    /// The source of a scene whose text is at hand; its files lie in the folder.
+    /// The source of a scene whose text is already in memory and whose files are in the folder.
     ///
-    /// Errors point into the text. A scene that is built in Rust has that of
+    /// Errors point into the text. For a scene built in Rust, pass the text from
     /// [`SceneFile::to_ron`](super::SceneFile::to_ron), or an empty one: then errors name a field
     /// without its line.
     #[must_use]
@@ -82,38 +82,36 @@ impl SceneSource {
     /// Reads the text of a scene file.
     ///
     /// # Errors
-    /// If it cannot be read, is no regular file, is not UTF-8, or is too long.
+    /// If it cannot be read, is not a regular file, is not UTF-8, or is too long.
     pub fn read(path: &Path) -> Result<Self, UnreadableScene> {
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         let text = read_scene_text(path)?;
         Ok(Self::from_text(path.display().to_string(), text, folder))
     }
 
-    /// The same source with paths that may lead anywhere: those of a folder in memory, which has no
-    /// outside.
+    /// This source with unrestricted paths, for a folder in memory, which has no outside.
     #[must_use]
     pub fn unconfined(self) -> Self {
         Self { is_confined: false, ..self }
     }
 
-    /// The texts of the files that are included, in the order in which they were read.
+    /// The texts of the included files, in reading order.
     pub fn included_texts(&self) -> impl Iterator<Item = &str> {
         self.includes.included_texts()
     }
 
-    /// The names of the scene file and of the files it includes, in the order in which they were
-    /// read.
+    /// The names of the scene file and of the files it includes, in reading order.
     pub fn included_files(&self) -> impl Iterator<Item = &str> {
         std::iter::once(self.file.as_str()).chain(self.includes.names())
     }
 
-    /// Whether a model of a scene file may be read: it must be below the file's folder, or below
-    /// one of those that are `allowed`, by its path and by where symbolic links lead. A path that
-    /// leads elsewhere is refused without looking whether something is there. A bare model may be
-    /// anywhere: a person has named it.
+    /// Whether a model of a scene file may be read. Both its path and the target of any symbolic
+    /// links must be below the file's folder or below an `allowed` one. A path that leads elsewhere
+    /// is refused without checking whether it exists. A bare model may be anywhere, since a person
+    /// has named it.
     #[must_use]
     pub fn allows_path(&self, path: &Path, allowed: &[PathBuf]) -> bool {
-        // A folder in memory has no outside; loading tells which files it lacks.
+        // A folder in memory has no outside; loading reports the files it lacks.
         if self.text.is_empty() || !self.is_confined {
             return true;
         }
@@ -123,18 +121,18 @@ impl SceneSource {
         let others = allowed.iter().filter_map(|other| other.canonicalize().ok());
         let roots: Vec<PathBuf> = std::iter::once(folder).chain(others).collect();
         let holds = |path: &Path| roots.iter().any(|root| path.starts_with(root));
-        // What does not exist does no harm; loading will tell.
+        // A missing file does no harm; loading reports it.
         holds(&wanted) && wanted.canonicalize().map_or(true, |path| holds(&path))
     }
 
-    /// The source for a viewport: errors point at the viewport's own fields, and at those of the
-    /// scene where it has none.
+    /// The source for a viewport: errors point at the viewport's own fields, or at the scene's
+    /// where it has none.
     #[must_use]
     pub fn for_viewport(&self, number: usize) -> Self {
         Self { viewport: Some(number), ..self.clone() }
     }
 
-    /// The path of a field of the scene as a viewport has it, if it says that field.
+    /// The path of a scene field within the viewport, if the viewport sets that field.
     fn viewport_field_path<'a>(
         &self,
         number: usize,
@@ -174,25 +172,25 @@ impl SceneSource {
     }
 }
 
-/// Whether a file is a scene, by its extension.
+/// Whether a file is a scene, judging by its extension.
 ///
-/// The content is not looked at: a file named `.ron` that is no scene gets the error message of a
-/// scene, with its line and column. The standard input, which has no extension, is recognized by
-/// its content instead.
+/// The content is not examined: a file named `.ron` that is not a scene gets a scene's error
+/// message, with line and column. The standard input, which has no extension, is recognized by its
+/// content instead.
 #[must_use]
 pub fn is_scene_file(input: &Path) -> bool {
     input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"))
 }
 
-/// Whether a field of the scene exists in viewports too, so that errors in it point there.
+/// Whether a field of the scene also exists in viewports, so that errors in it point there.
 fn is_viewport_field(field: &str) -> bool {
     matches!(field, "camera" | "style" | "overlays" | "caption")
 }
 
-/// The text of a scene file, without the byte order mark that it may begin with.
+/// The text of a scene file, without any byte order mark at its start.
 ///
 /// # Errors
-/// If it cannot be read, is no regular file, is not UTF-8, or is too long.
+/// If it cannot be read, is not a regular file, is not UTF-8, or is too long.
 pub(super) fn read_scene_text(path: &Path) -> Result<String, UnreadableScene> {
     let unreadable = |cause| UnreadableScene { path: path.to_owned(), cause };
     let metadata = std::fs::metadata(path).map_err(unreadable)?;
@@ -209,7 +207,7 @@ pub(super) fn read_scene_text(path: &Path) -> Result<String, UnreadableScene> {
     Ok(text.strip_prefix('\u{feff}').map(ToOwned::to_owned).unwrap_or(text))
 }
 
-/// A path from a folder on, without `.` and `..`.
+/// A path relative to a folder, without `.` and `..`.
 pub(super) fn normalize_path(folder: &Path, path: &Path) -> PathBuf {
     let mut plain = folder.to_owned();
     for part in path.components() {

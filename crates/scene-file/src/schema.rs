@@ -1,5 +1,5 @@
-//! Declarations of the scene language: one macro call declares a Rust type, how it is read, and its
-//! entry in the reference.
+//! Declarations of the scene language: one macro call declares a Rust type, its reader and writer,
+//! and its entry in the reference.
 //!
 //! ```text
 //!  scene_struct! { pub struct ModelFile as "Model" { pub path: String, pub scale: Scale = … } }
@@ -7,11 +7,11 @@
 //!        ├─► impl Serialize, Deserialize reads and writes it by `ron` and every other format of serde
 //!        └─► ModelFile::ENTRY          fields, types, doc comments: the checker, `alberti scene doc`
 //! ```
-//! A field with `= value`, or of type `Option`, may be left out.
+//! A field with `= value`, or of type `Option`, may be omitted.
 //!
-//! The declarations are the only description of the language: reader, checker, reference, formatter,
-//! suggestions and the search for misplaced fields all read the same `ENTRY` constants, so they
-//! cannot drift apart. All of it is `const` data; nothing is registered at run time.
+//! The declarations are the only description of the language. Reader, checker, reference,
+//! formatter, suggestions and the search for misplaced fields all read the same `ENTRY` constants,
+//! so they cannot drift apart. Everything is `const` data; nothing is registered at run time.
 
 mod checker;
 mod data;
@@ -35,30 +35,30 @@ use super::syntax::Node;
 
 /// A type of values in scene files.
 pub(super) trait SceneValue: Sized + PartialEq {
-    /// Whether a field of this type may be left out even if its declaration gives no default.
+    /// Whether a field of this type may be omitted even if its declaration gives no default.
     const IS_OPTIONAL: bool = false;
 
-    /// The type as the reference names it. It is a function and not a constant, because lists and
-    /// tuples are built from the types of their elements.
+    /// The type as the reference names it. This is a function rather than a constant, because lists
+    /// and tuples are built from the types of their elements.
     fn value_type() -> ValueType;
 
     /// Reads a value.
     ///
     /// # Errors
-    /// If it is not one of this type, in words.
+    /// If it is not a value of this type, in words.
     fn from_data(data: &Data) -> Result<Self, String>;
 
-    /// Writes the value, without fields that have their defaults.
+    /// Writes the value, omitting fields with default values.
     fn to_data(&self) -> Data;
 
-    /// The value of a field that is left out. `None`, for types that are not optional, makes the
-    /// struct around it unreadable.
+    /// The value of an omitted field. `None`, for types that are not optional, makes the struct
+    /// around it unreadable.
     fn when_absent() -> Option<Self> {
         None
     }
 }
 
-/// A type with an entry of its own in the reference: structs, enums, bounded numbers and colors.
+/// A type with an entry in the reference: structs, enums, bounded numbers and colors.
 pub(super) trait Declared {
     /// The declaration, which the macros generate from the Rust type and its doc comments.
     const ENTRY: &'static TypeEntry;
@@ -67,18 +67,18 @@ pub(super) trait Declared {
 /// The type of a field or of the value of a variant.
 #[derive(Clone, Debug)]
 pub enum ValueType {
-    /// A type without parts, such as a number, in words.
+    /// A type without parts, such as a number, described in words.
     Plain(&'static str, Notation),
-    /// A type that the reference describes.
+    /// A type with an entry in the reference.
     Declared(&'static TypeEntry),
     /// A list in square brackets.
     List(Box<Self>),
-    /// A fixed count of values in round brackets.
+    /// A fixed number of values in round brackets.
     Tuple(Vec<Self>),
 }
 
 impl ValueType {
-    /// The type in words; declared types by their names.
+    /// The type in words, with declared types shown by name.
     ///
     /// For example `list of Model` or `(Finite, Finite)`.
     #[must_use]
@@ -94,16 +94,16 @@ impl ValueType {
         }
     }
 
-    /// Whether it is a struct of which every field may be left out.
+    /// Whether it is a struct whose fields may all be omitted.
     pub(super) fn has_only_optional_fields(&self) -> bool {
         matches!(self, Self::Declared(TypeEntry { shape: Shape::Fields(fields), .. })
             if fields.iter().all(|field| field.is_optional))
     }
 
-    /// The declared types that a value of this type is made of.
+    /// The declared types that make up a value of this type.
     ///
-    /// Looks through lists and tuples, but not into the fields of the types it finds: walking the
-    /// whole language is left to the caller, which has to remember the types it has visited.
+    /// Looks through lists and tuples, but not into the fields of the types it finds. The caller
+    /// walks the whole language and has to remember the types it has visited.
     #[must_use]
     pub fn declared(&self) -> Vec<&'static TypeEntry> {
         match self {
@@ -115,12 +115,12 @@ impl ValueType {
     }
 }
 
-/// The declaration of a type of scene files.
+/// The declaration of a scene file type.
 #[derive(Clone, Copy, Debug)]
 pub struct TypeEntry {
-    /// The name in scene files and messages, which may be written before the bracket.
+    /// The name in scene files and messages; it may be written before the bracket.
     pub name: &'static str,
-    /// The lines of the doc comment; [`about`](Self::about) joins them to paragraphs.
+    /// The lines of the doc comment; [`about`](Self::about) joins them into paragraphs.
     pub doc: &'static str,
     /// The form of its values.
     pub shape: Shape,
@@ -137,18 +137,18 @@ pub enum Shape {
     Plain(Notation),
 }
 
-/// How a value without named parts is written.
+/// The notation of a value without named parts.
 #[derive(Clone, Copy, Debug)]
 pub struct Notation {
-    /// Reports the mistakes in one.
+    /// Reports the mistakes in a value.
     pub(super) check: fn(&Node<'_>, &mut Checker<'_>),
-    /// What it looks like.
+    /// The form of the value.
     pub(super) form: Form,
-    /// Whether a value of this form is one of the type.
+    /// Checks that a value of this form belongs to the type.
     pub(super) read: fn(&Data) -> Result<(), String>,
 }
 
-/// What a value without named parts looks like.
+/// The form of a value without named parts.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Form {
     /// `true` or `false`.
@@ -172,7 +172,7 @@ pub struct FieldEntry {
     pub doc: &'static str,
     /// Returns the type of its value.
     pub value_type: fn() -> ValueType,
-    /// Whether it may be left out: its declaration gives a default, or its type is an `Option`.
+    /// Whether it may be omitted: its declaration gives a default, or its type is an `Option`.
     pub is_optional: bool,
     /// Whether it may be `None` or `Some(…)`: its type is an `Option`.
     pub accepts_none: bool,
@@ -195,7 +195,7 @@ pub struct VariantEntry {
 }
 
 impl TypeEntry {
-    /// The number of a variant, for formats that have no names; 0 if there is no such variant.
+    /// The number of a variant, for formats without names; 0 if there is no such variant.
     pub(super) fn variant_index(&self, name: &str) -> u32 {
         let Shape::Variants(variants) = self.shape else { return 0 };
         variants.iter().position(|variant| variant.name == name).unwrap_or(0) as u32

@@ -1,11 +1,11 @@
-//! The text of a scene file, with the places of its lines and values.
+//! The text of a scene file, with the positions of its lines and values.
 
 use super::syntax::{Node, PathStep, parse_tree};
 use core::fmt;
 use core::ops::{Deref, Range};
 use std::sync::{Arc, OnceLock};
 
-/// The text of a scene file. Copies share it, for each mistake quotes it.
+/// The text of a scene file. Copies share it, because each mistake quotes it.
 ///
 /// ```
 /// use scene_file::SourceText;
@@ -20,13 +20,13 @@ pub struct SourceText(Arc<SharedText>);
 #[derive(Default)]
 struct SharedText {
     text: String,
-    /// Where each line begins, from the second on: found at the first question.
+    /// The start of each line from the second on, computed on first use.
     line_starts: OnceLock<Vec<usize>>,
-    /// The values of the text: found at the first question.
+    /// The values in the text, computed on first use.
     root: OnceLock<Option<Place>>,
 }
 
-/// Where a value is, and those inside of it. Bytes of a text, which has less than 4 GiB.
+/// The position of a value and of the values inside it, in bytes of a text of less than 4 GiB.
 struct Place {
     start: u32,
     end: u32,
@@ -49,14 +49,14 @@ impl SourceText {
     /// The line and column of a byte, both from 1; columns count characters.
     ///
     /// # Panics
-    /// If the byte is not at the beginning of a character, or beyond the end.
+    /// If the byte is not at the start of a character, or is beyond the end.
     #[must_use]
     pub fn line_and_column(&self, byte: usize) -> (usize, usize) {
         let (number, line) = self.line_at(byte);
         (number, self[line.start..byte].chars().count() + 1)
     }
 
-    /// The number of the line of a byte, from 1, and its bytes without the line break.
+    /// The line number of a byte, from 1, and the line's bytes without the line break.
     pub(super) fn line_at(&self, byte: usize) -> (usize, Range<usize>) {
         let starts = self
             .0
@@ -87,7 +87,7 @@ impl SourceText {
             .is_some()
     }
 
-    /// The names of the fields that the text sets at the top.
+    /// The names of the top-level fields that the text sets.
     pub(super) fn top_level_fields(&self) -> Vec<&str> {
         let items = self.root().map_or(&[][..], |root| &root.items);
         items.iter().filter_map(|item| item.name(self)).collect()

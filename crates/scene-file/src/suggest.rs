@@ -1,12 +1,12 @@
-//! Names that are close to a misspelt one.
+//! Names that are similar to a misspelled one.
 
-/// The similarity above which a name is probably the one that was meant.
+/// The similarity above which a name is probably the intended one.
 const SIMILAR: f64 = 0.8;
 
-/// The name that is most like `word`, if one is similar. Capitals do not count.
+/// The name most similar to `word`, if any is similar enough. Case is ignored.
 ///
-/// Similarity is that of Jaro and Winkler, which favors a common beginning; below 0.8 of it a
-/// suggestion would mislead.
+/// The measure is the Jaro–Winkler similarity, which favors a common prefix; below 0.8 a suggestion
+/// would mislead.
 #[must_use]
 pub fn closest_name<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
     let similarity = |name: &str| strsim::jaro_winkler(&word.to_lowercase(), &name.to_lowercase());
@@ -23,7 +23,7 @@ pub(super) fn list_names<S: AsRef<str>>(names: &[S]) -> String {
     }
 }
 
-/// "Did you mean", or the list of the names that are possible; `None` if there are none.
+/// "Did you mean", or the list of allowed names; `None` if there are none.
 #[must_use]
 pub fn suggest_name<S: AsRef<str>>(word: &str, names: &[S]) -> Option<String> {
     let all: Vec<&str> = names.iter().map(AsRef::as_ref).collect();

@@ -1,12 +1,12 @@
-//! Syntax of scene files: RON text to tokens, and tokens to a tree in which every node knows its
-//! bytes.
+//! Scene file syntax: RON text to tokens, and tokens to a tree in which every node knows its byte
+//! range.
 //!
 //! ```text
 //!  text ─► tokens ─► tree of nodes ─► checked against the declarations of `scene::file`
 //!             └────► groups of items with comments ─► formatted text
 //! ```
 //! The parser does not stop at an error: it reports it, resynchronizes at the next comma or
-//! bracket, and goes on.
+//! bracket, and continues.
 
 mod literal;
 mod parser;

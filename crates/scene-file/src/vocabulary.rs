@@ -1,9 +1,8 @@
-//! Words that people bring from other programs, and words of older scene files, with the words of
-//! scene files in their place.
+//! Words that people bring from other programs and from older scene files, with the scene file
+//! words to use instead.
 //!
-//! A word is looked up with the struct or enum that it stands in. If that has the field or variant
-//! that is meant, the answer is its name; if another part of the scene has it, the answer shows
-//! where.
+//! A word is looked up together with its struct or enum. If that has the intended field or variant,
+//! the answer is its name; if another part of the scene has it, the answer shows where.
 
 mod advice;
 mod foreign;
@@ -17,21 +16,21 @@ use foreign::FOREIGN_WORDS;
 
 /// An answer to a name that is not declared.
 pub(super) struct Suggestion {
-    /// The help: a name, an example, or the names that are possible.
+    /// The help: a name, an example, or the allowed names.
     pub(super) help: String,
-    /// The field of the same struct that is meant, if there is one.
+    /// The intended field of the same struct, if there is one.
     pub(super) sibling: Option<&'static str>,
     kind: SuggestionKind,
 }
 
-/// How a suggestion was found.
+/// The way a suggestion was found.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum SuggestionKind {
     /// The word is in a table, or means a field or variant elsewhere.
     Known,
-    /// It looks like one of the names that are possible.
+    /// It resembles one of the allowed names.
     Similar,
-    /// The names that are possible.
+    /// The allowed names.
     List,
 }
 
@@ -45,8 +44,8 @@ impl Suggestion {
 /// A field or variant: the struct, variant (`View::LookAt`) or enum that has it, and its name.
 type Target = (&'static str, &'static str);
 
-/// Suggests the name of a field for one that is not declared. `owner` is the struct or variant it
-/// stands in, `siblings` are its fields, and `top_level` is the field of the scene around it.
+/// Suggests a field name for an undeclared one. `owner` is the struct or variant around it,
+/// `siblings` are its fields, and `top_level` is the scene field around it.
 pub(super) fn suggest_field(
     owner: &str,
     siblings: &[&'static str],
@@ -60,7 +59,7 @@ pub(super) fn suggest_field(
     let own = targets.iter().find(|(target, _)| *target == owner);
     if let Some(&(_, name)) = own.filter(|(_, name)| siblings.contains(name)) {
         let mut help = format!("did you mean `{name}`?");
-        // A field of the scene itself is not all that the word can mean there.
+        // The word can mean more than just a field of the scene itself.
         let declared =
             if owner == SceneFile::ENTRY.name { declared_elsewhere(word) } else { vec![] };
         if let Some(example) = declared.first() {
@@ -72,8 +71,8 @@ pub(super) fn suggest_field(
     let similar = same_spelling.or_else(|| closest_name(word, siblings));
     let is_very_similar = similar.is_some_and(|name| strsim::jaro_winkler(word, name) > 0.9);
     if !is_very_similar && same_spelling.is_none() {
-        // A field of this very name goes before what the word means in other programs, unless that
-        // is nearer or in the tables.
+        // A field with exactly this name takes precedence over the word's meaning in other
+        // programs, unless that is nearer or in the tables.
         let is_field = |name: &str| name.starts_with(char::is_lowercase);
         let same_name =
             targets.iter().filter(|(_, name)| is_field(name) && normalize(name) == normalize(word));
@@ -100,7 +99,7 @@ pub(super) fn suggest_field(
     }
 }
 
-/// Suggests the name of a variant for one that is not declared, or for a struct of another type.
+/// Suggests a variant name for an undeclared one, or for a struct of another type.
 pub(super) fn suggest_variant(
     entry: &'static TypeEntry,
     word: &str,
@@ -147,7 +146,7 @@ pub(super) fn suggest_variant(
     }
 }
 
-/// A whole viewport for a named view in its place.
+/// A whole viewport, if only a named view was given.
 fn suggest_viewport(entry: &TypeEntry, word: &str) -> Option<String> {
     let Shape::Variants(views) = FromFile::ENTRY.shape else { return None };
     let is_view = views.iter().any(|view| view.name == word && view.value_type.is_none());
@@ -156,14 +155,14 @@ fn suggest_viewport(entry: &TypeEntry, word: &str) -> Option<String> {
     })
 }
 
-/// The fields and variants that a word of other programs means, as paths: `Perspective.near`.
+/// The fields and variants that a word from another program means, as paths: `Perspective.near`.
 pub(super) fn meanings_of(word: &str) -> Vec<String> {
     let path =
         |(owner, name): Target| format!("{}.{name}", owner.rsplit("::").next().unwrap_or(owner));
     targets_of(word).into_iter().map(path).collect()
 }
 
-/// The meanings of a word in the table, in its order.
+/// The meanings of a word in the table, in table order.
 fn targets_of(word: &str) -> Vec<Target> {
     let word = normalize(word);
     let meanings =
@@ -171,20 +170,20 @@ fn targets_of(word: &str) -> Vec<Target> {
     meanings.map(|&(_, owner, name)| (owner, name)).collect()
 }
 
-/// A word without capitals, underscores and hyphens: `DirectionalLight`, `directional_light` and
-/// `directional-light` are one.
+/// A word in lowercase, without underscores and hyphens: `DirectionalLight`, `directional_light`
+/// and `directional-light` are equal.
 fn normalize(word: &str) -> String {
     word.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
-/// How the first of the targets is written, those in the same field of the scene before others.
+/// An example of the first target, preferring targets in the same scene field.
 fn example_elsewhere(targets: &[Target], top_level: Option<&str>) -> Option<String> {
     let examples =
         targets.iter().filter_map(|(owner, name)| example_of(SceneFile::ENTRY, owner, name));
     nearest_example(&examples.collect::<Vec<_>>(), top_level)
 }
 
-/// How a field is written that other structs have by this name.
+/// Examples of fields with this name in other structs.
 fn declared_elsewhere(word: &str) -> Vec<String> {
     let word = normalize(word);
     let fields = fields_where(SceneFile::ENTRY, |field| normalize(field) == word);
@@ -193,17 +192,17 @@ fn declared_elsewhere(word: &str) -> Vec<String> {
     fields.iter().filter_map(example).collect()
 }
 
-/// How a variant of this name is written within an enum, such as `Frame(from: Left)` for a `Left`
-/// that stands for a whole view.
+/// An example of a variant of this name within an enum, such as `Frame(from: Left)` for a `Left`
+/// given as a whole view.
 fn variant_inside(entry: &'static TypeEntry, word: &str) -> Option<String> {
     let Shape::Variants(_) = entry.shape else { return None };
     let owners = variants_where(entry, word);
     owners.iter().find_map(|owner| example_of(entry, owner, word))
 }
 
-/// How a variant of this very name is written where there is one.
+/// Examples of variants with exactly this name.
 fn variants_elsewhere(word: &str) -> Vec<String> {
-    // What stands for nothing everywhere is no variant that was misplaced.
+    // These names are too generic to be misplaced variants.
     if matches!(word, "None" | "Some" | "All" | "Name" | "Index" | "On" | "Off") {
         return Vec::new();
     }
@@ -211,13 +210,13 @@ fn variants_elsewhere(word: &str) -> Vec<String> {
     owners.iter().filter_map(|owner| example_of(SceneFile::ENTRY, owner, word)).collect()
 }
 
-/// The first example in the same field of the scene, else the first of all.
+/// The first example in the same scene field, otherwise the first of all.
 fn nearest_example(examples: &[String], top_level: Option<&str>) -> Option<String> {
     let is_near = |example: &&String| is_in_field(example, top_level);
     examples.iter().find(is_near).or(examples.first()).cloned()
 }
 
-/// Whether an example begins with a field of the scene.
+/// Whether an example begins with this scene field.
 fn is_in_field(example: &str, top_level: Option<&str>) -> bool {
     top_level.is_some_and(|field| example.starts_with(&format!("{field}: ")))
 }

@@ -1,4 +1,4 @@
-//! Resolves a scene file and says what became of it, with the lints that it has.
+//! Resolves a scene file and describes the result, including its lints.
 //!
 //! Run it with `cargo run -p alberti-scene --example describe_scene -- scene.ron`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]

@@ -1,4 +1,4 @@
-//! Resolution of the pages of an assembly: exploded view, balloons, parts list, masses.
+//! Resolution of the assembly pages: exploded view, balloons, parts list, masses.
 
 use super::Origin;
 use model::ModelInstance;
@@ -7,10 +7,10 @@ use scene_file::file::SheetFile;
 use scene_file::{SceneError, suggest_name};
 use sheet::{AssemblyPages, ExplosionSettings, PartDensity, PartsList};
 
-/// The pages of a sheet that show models as an assembly.
+/// Resolves the pages of a sheet that show models as an assembly.
 ///
 /// # Errors
-/// If a density is that of a name which no part and no material has.
+/// If a density is for a name that no part and no material has.
 pub(super) fn resolve_assembly(
     origin: &Origin,
     file: &SheetFile,
@@ -33,13 +33,13 @@ pub(super) fn resolve_assembly(
     })
 }
 
-/// Whether the list of the models has every name of a density.
+/// Checks that every name with a density is in the parts list.
 fn check_density_names(
     origin: &Origin,
     file: &SheetFile,
     models: &[ModelInstance],
 ) -> Result<(), SceneError> {
-    // Without models a scene file is checked for what is wrong whatever they are.
+    // Without models, a scene file is checked only for mistakes that do not depend on them.
     if models.is_empty() || file.densities.iter().all(|density| density.of == "*") {
         return Ok(());
     }

@@ -1,4 +1,4 @@
-//! Resolution of the background: a color, or a backdrop of a gradient or an image.
+//! Resolution of the background: a color, or a backdrop with a gradient or an image.
 //!
 //! ```text
 //!  none                 white in line drawings, else as Transparent
@@ -20,15 +20,15 @@ use shade::Gradient;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The most colors of a gradient, at even distances.
+/// The maximum number of colors in a gradient, evenly spaced.
 const MAX_GRADIENT_COLORS: usize = 16;
-/// The most pixels of a backdrop image: 67 million, a limit on the memory that a small compressed
-/// file can demand.
+/// The maximum number of pixels in a backdrop image, 67 million: it limits the memory that a small
+/// compressed file can demand.
 const MAX_IMAGE_TEXELS: u64 = 1 << 26;
-/// The path of the background in a scene file; viewports have their own.
+/// The path of the background in a scene file; viewports have separate ones.
 const BACKGROUND_PATH: [PathStep<'static>; 2] = [Field("image"), Field("background")];
 
-/// An error that points into the background, at the value at the end of `rest`.
+/// An error that points to the value at the end of `rest`, inside the background.
 fn background_error(
     origin: &Origin,
     rest: &[PathStep<'_>],
@@ -40,12 +40,12 @@ fn background_error(
 
 /// The clear color of all samples: linear, premultiplied by alpha.
 ///
-/// Behind a gradient it is the color of its center, behind an image the color given with it: it
+/// Behind a gradient it is the gradient's center color, behind an image the color given with it. It
 /// shows where the image does not cover the frame, and automatic line colors are chosen to contrast
 /// with it.
 ///
 /// # Errors
-/// If the background is the environment, and the scene has none.
+/// If the background is the environment, but the scene has none.
 pub(super) fn resolve_background_color(
     origin: &Origin,
     file: &SceneFile,
@@ -73,7 +73,8 @@ pub(super) fn resolve_background_color(
     }
 }
 
-/// The paper of a style for which the scene has no background: that of line drawings, else none.
+/// The default paper of a style for a scene without a background: white for line drawings, else
+/// none.
 fn default_paper(style: &StyleFile) -> Option<Color> {
     match style {
         StyleFile::Wireframe => Some(Color::WHITE),
@@ -82,7 +83,7 @@ fn default_paper(style: &StyleFile) -> Option<Color> {
     }
 }
 
-/// Whether the background is nothing but the white paper that line drawings have by default.
+/// Whether the background is just the white paper that line drawings have by default.
 pub(super) fn is_blank_paper(file: &SceneFile) -> bool {
     let is_blank = match &file.style {
         StyleFile::Lines(lines) => lines.paper.is_none(),
@@ -91,8 +92,8 @@ pub(super) fn is_blank_paper(file: &SceneFile) -> bool {
     is_blank && file.image.background.is_none()
 }
 
-/// The linear gradient of `colors` in the direction `angle`, in radians, over an image of width ×
-/// height pixels.
+/// Resolves a linear gradient of `colors` in the direction `angle`, in radians, over an image of
+/// width × height pixels.
 ///
 /// # Errors
 /// If there are fewer than 2 or more than 16 colors.
@@ -114,12 +115,11 @@ fn resolve_gradient(
 
 /// The backdrop behind the models, a gradient or an image; `None` for plain backgrounds.
 ///
-/// The image is decoded and fitted to the frame once; renderers share it. An image file may lie in
-/// one of the `allowed` folders too.
+/// The image is decoded and fitted to the frame once; renderers share it. An image file may also be
+/// in one of the `allowed` folders.
 ///
 /// # Errors
-/// If the file is outside of the allowed folders, cannot be read, is too large or not an
-/// image.
+/// If the file is outside the allowed folders, cannot be read, is too large or is not an image.
 pub(super) fn resolve_backdrop(
     origin: &Origin,
     file: &SceneFile,

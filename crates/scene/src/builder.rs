@@ -1,4 +1,4 @@
-//! Scenes of models that are in memory, without files.
+//! Scenes built from models in memory, without files.
 
 use super::{Origin, ResolveError, Scene};
 use homog::{Affine, Model as ModelSpace, World};
@@ -7,11 +7,11 @@ use scene_file::file::{CameraFile, LightFile, SceneFile, StyleFile};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Puts together a scene of models, meshes, cameras and lights that are in memory: [`Scene::builder`].
+/// Builds a scene from models, meshes, cameras and lights in memory: [`Scene::builder`].
 ///
-/// What is not said is as `alberti render` has it for a model without a scene file: the camera shows
-/// all of it from the front, a little from the right and from above, under a light from the left in
-/// a studio.
+/// Everything else is as `alberti render` does it for a model without a scene file. The camera
+/// shows everything from the front, slightly from the right and above, under a light from the
+/// left in a studio.
 #[derive(Clone, Debug, Default)]
 pub struct SceneBuilder {
     models: Vec<ModelInstance>,
@@ -19,7 +19,7 @@ pub struct SceneBuilder {
 }
 
 impl Scene {
-    /// Begins a scene of models in memory.
+    /// Starts a scene of models in memory.
     ///
     /// ```
     /// use scene_file::file::{CameraFile, LightFile};
@@ -42,13 +42,13 @@ impl Scene {
 }
 
 impl SceneBuilder {
-    /// Adds a model where its nodes are.
+    /// Adds a model at the original positions of its nodes.
     #[must_use]
     pub fn model(self, model: impl Into<Arc<Model>>) -> Self {
         self.model_at(model, Affine::IDENTITY)
     }
 
-    /// Adds a model that is moved, turned or scaled. Models that share an `Arc` are in memory once.
+    /// Adds a model that is moved, rotated or scaled. Models that share an `Arc` are stored once.
     #[must_use]
     pub fn model_at(
         mut self,
@@ -59,8 +59,8 @@ impl SceneBuilder {
         self
     }
 
-    /// Adds a mesh of triangles without a material: points of the world, and three indices for each
-    /// triangle, counter-clockwise as seen from the front.
+    /// Adds a mesh of triangles without a material: points in the world, and three indices per
+    /// triangle, counterclockwise as seen from the front.
     #[must_use]
     pub fn mesh(
         self,
@@ -75,7 +75,7 @@ impl SceneBuilder {
         self.primitive(primitive)
     }
 
-    /// Adds a primitive, which may have normals, colors and texture coordinates.
+    /// Adds a primitive, optionally with normals, colors and texture coordinates.
     #[must_use]
     pub fn primitive(self, primitive: Primitive) -> Self {
         self.model(Model {
@@ -93,28 +93,28 @@ impl SceneBuilder {
         self
     }
 
-    /// Adds a light. With one, there is no other that nobody asked for.
+    /// Adds a light. Adding one disables the default lights.
     #[must_use]
     pub fn light(mut self, light: LightFile) -> Self {
         self.file.lights.get_or_insert_default().push(light);
         self
     }
 
-    /// Sets how surfaces and lines are drawn.
+    /// Sets the style of surfaces and lines.
     #[must_use]
     pub fn style(mut self, style: StyleFile) -> Self {
         self.file.style = style;
         self
     }
 
-    /// Sets width and height of the picture in pixels.
+    /// Sets the width and height of the picture in pixels.
     #[must_use]
     pub const fn size(mut self, width: u32, height: u32) -> Self {
         self.file.image.size = (width, height);
         self
     }
 
-    /// Changes whatever else a scene file can say; its `models` are not looked at.
+    /// Changes anything else that a scene file can contain; its `models` are ignored.
     ///
     /// ```
     /// use scene::Scene;
@@ -134,10 +134,10 @@ impl SceneBuilder {
         self
     }
 
-    /// The scene, ready to be rendered.
+    /// Builds the scene, ready to be rendered.
     ///
     /// # Errors
-    /// Everything that makes no sense, such as a camera without a direction, or no model to frame.
+    /// Every invalid setting, such as a camera without a direction, or no model to frame.
     pub fn build(self) -> Result<Scene, ResolveError> {
         let origin = Origin::from_text("scene", "", PathBuf::new());
         Scene::from_models(&origin, &self.file, &self.models)

@@ -1,4 +1,4 @@
-//! Resolution of `Intrinsics`: the lens of a calibrated camera for the picture that is drawn.
+//! Resolution of `Intrinsics`: the lens of a calibrated camera for the picture being drawn.
 
 use super::Origin;
 use super::camera_fields::PROJECTION_PATH;
@@ -7,11 +7,11 @@ use scene_file::PathStep::Field;
 use scene_file::SceneError;
 use scene_file::file::{Finite, Positive, ProjectionFile};
 
-/// Sides of pictures of one shape differ by this at most, in pixels: they are whole numbers.
+/// The sides of pictures with one aspect ratio differ by at most this many pixels, from rounding.
 const SHAPE_TOLERANCE: f64 = 1.0;
 
-/// The lens of a projection by intrinsic parameters, for a picture of `picture_size`; `None` for
-/// other projections.
+/// The lens of a projection given by intrinsic parameters, for a picture of `picture_size`; `None`
+/// for other projections.
 pub(super) fn calibrated_lens(
     projection: &ProjectionFile,
     picture_size: [u32; 2],
@@ -33,7 +33,7 @@ pub(super) fn calibrated_lens(
     )
 }
 
-/// The error of intrinsic parameters for pictures of another shape than the one that is drawn.
+/// The error for intrinsic parameters of pictures with a different aspect ratio.
 pub(super) fn check_calibrated_shape(
     origin: &Origin,
     projection: &ProjectionFile,

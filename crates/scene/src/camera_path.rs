@@ -1,11 +1,12 @@
-//! Camera paths: keyframes of a camera, and their interpolation by Catmull–Rom splines.
+//! Camera paths: camera keyframes, interpolated with Catmull–Rom splines.
 //!
 //! ```text
 //!  keys (tᵢ, vᵢ) ─► v(t), ten numbers: eye, target, up, field of view ─► LookAt + projection
 //! ```
-//! Each number is interpolated alone. Eye and target are splines, the orientation follows from
-//! them, so the target stays in the center of the picture between keys too. A path whose last key
-//! has the values of its first is closed: its spline is periodic, smooth at that key too.
+//! Each number is interpolated separately. Eye and target are splines that determine the
+//! orientation, so the target stays in the center of the picture between keys too. A path whose
+//! last key repeats the values of its first is closed: its spline is periodic, and smooth at that
+//! key too.
 
 use super::view_projection::resolve_view_projection;
 use super::{ImageSpec, Origin, Scene};
@@ -17,16 +18,16 @@ use scene_file::file::{
     CameraFile, CameraKeyFile, CurveFile, FieldOfView, ProjectionFile, SceneFile, Triple, ViewFile,
 };
 
-/// The most keyframes of a path.
+/// The maximum number of keyframes in a path.
 const MAX_KEYS: usize = 10_000;
 /// The values of a keyframe: eye, target and view-up vector in world space (three each), vertical
 /// field of view in degrees.
 type KeyValues = [f64; 10];
 
-/// The path of a camera in time.
+/// The path of a camera over time.
 #[derive(Clone, PartialEq, Debug)]
 pub struct CameraPath {
-    /// Times in seconds, strictly increasing, with the values at them; at least two.
+    /// Times in seconds, strictly increasing, with the values at each; at least two.
     keys: Vec<(f64, KeyValues)>,
     /// The interpolation: linear, or Catmull–Rom.
     curve: CurveFile,
@@ -35,11 +36,11 @@ pub struct CameraPath {
 }
 
 impl CameraPath {
-    /// The camera path of a scene file; `None` without one.
+    /// Resolves the camera path of a scene file; returns `None` without one.
     ///
     /// # Errors
-    /// If there are fewer than 2 or more than 10 000 keys, their times do not increase, or
-    /// a key has a field of view and the projection has none; the error points at it.
+    /// If there are fewer than 2 or more than 10,000 keys, or their times do not increase. Also if
+    /// a key has a field of view but the projection has none. The error points at the cause.
     pub fn from_scene_file(origin: &Origin, file: &SceneFile) -> Result<Option<Self>, SceneError> {
         let Some(path) = &file.camera_path else { return Ok(None) };
         let fault = |rest: &[PathStep<'_>], message: String, help: &str| {
@@ -77,14 +78,14 @@ impl CameraPath {
         Ok(Some(Self { keys, curve: path.curve, camera: file.camera.clone() }))
     }
 
-    /// The times of the first and the last key, in seconds.
+    /// The times of the first and last keys, in seconds.
     #[must_use]
     pub fn time_range(&self) -> [f64; 2] {
         let time = |key: Option<&(f64, KeyValues)>| key.map_or(0.0, |key| key.0);
         [time(self.keys.first()), time(self.keys.last())]
     }
 
-    /// The camera at a time in seconds, with the first or last keyframe outside of the range.
+    /// The camera at a time in seconds; outside the range, the first or last keyframe.
     ///
     /// A cubic curve can overshoot its keys, so the field of view is clamped to 0.01° … 179°.
     #[must_use]
@@ -98,17 +99,17 @@ impl CameraPath {
         if let ProjectionFile::Perspective { fov_y_degrees, .. } = projection
             && is_vertical
         {
-            // A curve may swing beyond its keys.
+            // A curve may overshoot its keys.
             *fov_y_degrees = FieldOfView::new(numbers[9].clamp(0.01, 179.0));
         }
         camera
     }
 
-    /// The view-projection at a time in seconds, around models that are loaded and posed.
+    /// The view-projection at a time in seconds, for models that are loaded and posed.
     ///
     /// # Errors
-    /// If eye and target coincide, or up is parallel to the gaze, between keys for
-    /// example; the message gives the time.
+    /// If the eye and the target coincide, or up is parallel to the gaze, for example between keys;
+    /// the message gives the time.
     pub fn view_projection_at(
         &self,
         origin: &Origin,
@@ -122,10 +123,10 @@ impl CameraPath {
         })
     }
 
-    /// Moves the camera of a scene to its place at a time in seconds. Lights and insets stay.
+    /// Moves the camera of a scene to its position at a time in seconds. Lights and insets stay.
     ///
     /// # Errors
-    /// If eye and target coincide there, or up is parallel to the gaze.
+    /// If the eye and the target coincide there, or up is parallel to the gaze.
     pub fn place_camera(
         &self,
         origin: &Origin,
@@ -137,12 +138,12 @@ impl CameraPath {
         Ok(())
     }
 
-    /// The values at a time: those of the first and the last keyframe outside of their range, else
-    /// an interpolation of the keyframes around it, linear or by a cubic Hermite curve with
-    /// Catmull–Rom slopes.
+    /// The values at a time. Outside the keyframes, they are those at the first or last one;
+    /// inside, an interpolation of the neighboring keyframes, linear or by a cubic Hermite curve
+    /// with Catmull–Rom slopes.
     ///
-    /// With s = (t − tᵢ)/(tᵢ₊₁ − tᵢ) and slopes per second scaled by the length of the interval.
-    /// The interval is found by binary search, O(log keys).
+    /// s = (t − tᵢ)/(tᵢ₊₁ − tᵢ), and slopes per second are scaled by the length of the interval.
+    /// Binary search finds the interval, in O(log keys).
     fn interpolate_keys(&self, time: f64) -> KeyValues {
         let after = self.keys.partition_point(|key| key.0 <= time);
         let (Some(before), Some(&(end, to))) = (after.checked_sub(1), self.keys.get(after)) else {
@@ -163,9 +164,9 @@ impl CameraPath {
 
     /// The slope of a value at a key, per second (Catmull and Rom, 1974, at unequal times).
     ///
-    /// mᵢ = (vᵢ₊₁ − vᵢ₋₁)/(tᵢ₊₁ − tᵢ₋₁); at the first and last key of an open path the one-sided
-    /// difference, of a closed one the difference across the seam. Equal slopes on both sides of a
-    /// key make the motion C¹: no jump of velocity.
+    /// mᵢ = (vᵢ₊₁ − vᵢ₋₁)/(tᵢ₊₁ − tᵢ₋₁). The first and last keys use the one-sided difference in an
+    /// open path, and the difference across the seam in a closed one. Equal slopes on both sides of
+    /// a key make the motion C¹: its velocity does not jump.
     fn catmull_rom_slope(&self, at: usize, number: usize) -> f64 {
         let last = self.keys.len() - 1;
         if (at == 0 || at == last) && self.is_closed() {
@@ -179,14 +180,14 @@ impl CameraPath {
         (to[number] - from[number]) / (end - start)
     }
 
-    /// Whether the last key has the values of the first.
+    /// Whether the last key repeats the values of the first.
     fn is_closed(&self) -> bool {
         let values = |key: Option<&(f64, KeyValues)>| key.map(|key| key.1);
         values(self.keys.first()) == values(self.keys.last())
     }
 }
 
-/// The vertical field of view of a perspective that is not given by another one.
+/// The vertical field of view of a perspective; `None` if it is given by another angle.
 fn vertical_field_of_view(projection: &ProjectionFile) -> Option<FieldOfView> {
     match projection {
         ProjectionFile::Perspective {
@@ -199,7 +200,7 @@ fn vertical_field_of_view(projection: &ProjectionFile) -> Option<FieldOfView> {
     }
 }
 
-/// The values of a keyframe; `usual` is the field of view of keyframes without one.
+/// The values of a keyframe; `usual` is the field of view for keyframes without one.
 fn key_values(key: &CameraKeyFile, usual: FieldOfView) -> KeyValues {
     let [[a, b, c], [d, e, f], [g, h, i]] = [key.eye.0, key.target.0, key.up.0];
     [a, b, c, d, e, f, g, h, i, key.fov_y_degrees.unwrap_or(usual).value()]
@@ -268,16 +269,16 @@ mod tests {
         for (time, expected) in [(0.0, [0.0; 3]), (1.0, [2.0, 0.0, 1.0]), (3.0, [6.0, 0.0, 9.0])] {
             assert_eq!(eye(&path, time), expected, "{time}");
         }
-        // x grows by 2 in each second at all keys: so it does between them.
+        // x grows by 2 per second at all keys, and therefore also between them.
         assert!((eye(&path, 2.3)[0] - 4.6).abs() < 1e-12);
-        // z is as fast just before the second key as just after it: 3 in a second.
+        // z is as fast just before the second key as just after it: 3 per second.
         let step = 1e-6;
         let speed = |from: f64| (eye(&path, from + step)[2] - eye(&path, from)[2]) / step;
         assert!((speed(1.0 - step) - 3.0).abs() < 1e-4 && (speed(1.0) - 3.0).abs() < 1e-4);
     }
 
-    /// A path once around the origin in the plane y = 0, of radius 1, with `count` keys a second
-    /// apart and the first one repeated.
+    /// A path once around the origin in the plane y = 0, with radius 1 and `count` keys at
+    /// intervals of a second, the first one repeated.
     fn circle(count: u32) -> CameraPath {
         let key = |number: u32| {
             let angle = core::f64::consts::TAU * f64::from(number % count) / f64::from(count);
@@ -293,7 +294,7 @@ mod tests {
         for count in [3, 4, 8, 12] {
             let path = circle(count);
             let distance = |time: f64| glam::DVec3::from(eye(&path, time)).length();
-            // The middle of the Hermite curve with slopes along the circle: h is half the angle
+            // The middle of the Hermite curve with slopes along the circle; h is half the angle
             // between keys.
             let (sine, cosine) = libm::sincos(core::f64::consts::PI / f64::from(count));
             let expected = cosine * (1.0 + 0.5 * sine * sine);
@@ -301,7 +302,7 @@ mod tests {
                 let middle = distance(f64::from(segment) + 0.5);
                 assert!((middle - expected).abs() < 1e-9, "{count}, {segment}: {middle}");
             }
-            // The velocity at the end is that at the beginning.
+            // The velocity at the end equals the velocity at the beginning.
             let (step, end) = (1e-6, f64::from(count));
             let speed = |from: f64| {
                 let [a, b] = [from, from + step].map(|time| glam::DVec3::from(eye(&path, time)));
@@ -309,7 +310,7 @@ mod tests {
             };
             assert!((speed(0.0) - speed(end - step)).length() < 1e-4, "{count}");
         }
-        // What the reference says of circles.
+        // The values that the reference gives for circles.
         for (count, error) in [(8, 0.01), (12, 0.002)] {
             let path = circle(count);
             let radius = |step: u32| glam::DVec3::from(eye(&path, 0.01 * f64::from(step))).length();

@@ -1,20 +1,20 @@
-//! How a scene file places the camera: by itself, by framing the models, or as one of theirs.
+//! Camera placement in a scene file: explicit, framed around the models, or taken from a model.
 
 use camera::{Camera, CameraError, Extrinsics};
 use scene_file::file::{CameraChoice, Finite, FromFile, RotationFile, Triple, ViewFile};
 
-/// Where the camera is.
+/// The position of the camera.
 pub(super) enum CameraPlacement<'a> {
-    /// Where the file says.
+    /// As given in the file.
     Placed(Camera),
-    /// Where all models just fit into the picture.
+    /// Framed so that all models just fit in the picture.
     Framed {
         /// The direction, if one is given.
         from: Option<&'a FromFile>,
-        /// The margin as a part of the picture's side.
+        /// The margin as a fraction of the side of the picture.
         padding: f64,
     },
-    /// Where a camera of a model is.
+    /// As a camera in a model.
     OfModel(&'a CameraChoice),
 }
 

@@ -1,4 +1,4 @@
-//! What a camera and its projection are resolved from, and the errors that they share.
+//! The inputs for resolving a camera and its projection, and their shared errors.
 
 use super::Origin;
 use super::camera_fields::{PROJECTION_PATH, VIEW_PATH};
@@ -9,20 +9,20 @@ use projection::ProjectionError;
 use scene_file::SceneError;
 use scene_file::file::FromFile;
 
-/// Everything that camera and projection are resolved from.
+/// Everything from which the camera and the projection are resolved.
 pub(super) struct CameraResolver<'a> {
     pub(super) origin: &'a Origin,
     pub(super) models: &'a [ModelInstance],
     pub(super) points: Vec<Point<World>>,
-    /// Points that a framed view shows beside the models: their shadows on the ground.
+    /// Points that a framed view shows in addition to the models: their shadows on the ground.
     pub(super) shadow_points: Vec<Point<World>>,
     pub(super) aspect: f64,
-    /// Columns and rows of the picture.
+    /// The columns and rows of the picture.
     pub(super) picture_size: [u32; 2],
 }
 
 impl CameraResolver<'_> {
-    /// An error of the camera frame, such as a view-up vector along the line of sight.
+    /// An error in the camera frame, such as a view-up vector along the line of sight.
     pub(super) fn camera_error(&self, error: &camera::CameraError) -> SceneError {
         self.view_error(error.to_string(), None)
     }
@@ -36,12 +36,12 @@ impl CameraResolver<'_> {
         self.origin.error_at(&VIEW_PATH, message, help)
     }
 
-    /// An error of the projection, such as a far plane before the near plane.
+    /// An error in the projection, such as a far plane in front of the near plane.
     pub(super) fn projection_error(&self, error: &ProjectionError) -> SceneError {
         self.projection_error_with(error.to_string(), None)
     }
 
-    /// A fault of the projection as a whole.
+    /// An error in the projection as a whole.
     pub(super) fn projection_error_with(
         &self,
         message: impl Into<String>,
@@ -50,7 +50,7 @@ impl CameraResolver<'_> {
         self.origin.error_at(&PROJECTION_PATH, message, help)
     }
 
-    /// An error of framing: nothing to frame, or no room for it.
+    /// A framing error: nothing to frame, or no room for it.
     pub(super) fn framing_error(&self, error: &camera::FramingError) -> SceneError {
         if matches!(error, camera::FramingError::NoPoints) {
             return self.nothing_to_draw_error();
@@ -58,21 +58,21 @@ impl CameraResolver<'_> {
         self.view_error(error.to_string(), None)
     }
 
-    /// Models without primitives: there is nothing to frame.
+    /// The error for models without primitives, which leave nothing to frame.
     pub(super) fn nothing_to_draw_error(&self) -> SceneError {
-        // What the importer left out is the likely reason.
+        // The parts that the importer skipped are the likely reason.
         let warnings = self.models.iter().flat_map(|placed| &placed.model.warnings).next();
         let help = warnings.map(|warning| format!("{}: {}", warning.location, warning.message));
         let message = "there is nothing to draw: the models have no points, lines or triangles";
         self.view_error(message, help)
     }
 
-    /// The middle of the box around everything.
+    /// The center of the box around everything.
     pub(super) fn bounds_center(&self) -> Option<Point<World>> {
         homog::Bounds::from_points(self.points.iter().copied()).map(homog::Bounds::center)
     }
 
-    /// The axes of a camera that looks from a named direction or a vector towards the models.
+    /// The axes of a camera that looks at the models from a named direction or a vector.
     pub(super) fn view_basis(&self, from: &FromFile) -> Result<Basis, SceneError> {
         let named = match from {
             FromFile::Front => NamedView::Front,

@@ -8,8 +8,8 @@
 //!  │    Front     │   the strip, in the color of the background
 //!  └──────────────┘
 //! ```
-//! The strip is a part of the picture, so that pictures with and without captions have one size,
-//! and a caption never covers what it is about.
+//! The strip is part of the picture, so that pictures with and without captions have the same size,
+//! and a caption never covers its subject.
 
 use super::{ImageSpec, Origin};
 use camera::ViewProjection;
@@ -18,10 +18,10 @@ use homog::{Clip, Projective};
 use scene_file::PathStep::Field;
 use scene_file::SceneError;
 
-/// The caption of a view.
+/// Resolves the caption of a view.
 ///
 /// # Errors
-/// If it has no text.
+/// If its text is empty.
 pub(super) fn resolve_caption(
     origin: &Origin,
     caption: Option<&String>,
@@ -36,7 +36,7 @@ pub(super) fn resolve_caption(
 }
 
 impl ImageSpec {
-    /// Width and height in pixels of the part above the caption, which shows the view.
+    /// The width and height in pixels of the part above the caption, which shows the view.
     pub(super) fn view_size(self) -> DVec2 {
         DVec2::new(self.width.into(), (self.height - self.caption_height).into())
     }
@@ -46,13 +46,13 @@ impl ImageSpec {
         DVec2::new(0.0, f64::from(self.caption_height) / f64::from(self.height))
     }
 
-    /// The picture of the view alone, without its caption.
+    /// The picture of only the view, without its caption.
     pub(super) const fn without_caption(self) -> Self {
         Self { height: self.height - self.caption_height, caption_height: 0, ..self }
     }
 
-    /// A view-projection for the part above the caption as one for the whole picture, of which it
-    /// fills that part.
+    /// Turns a view-projection for the part above the caption into one for the whole picture, where
+    /// it fills that part.
     pub(super) fn place_view(self, view: ViewProjection) -> ViewProjection {
         if self.caption_height == 0 {
             return view;
@@ -62,7 +62,7 @@ impl ImageSpec {
     }
 }
 
-/// A view-projection whose normalized device coordinates are scaled, then shifted.
+/// A view-projection with its normalized device coordinates scaled, then shifted.
 pub(super) fn map_window(view: ViewProjection, scale: DVec2, shift: DVec2) -> ViewProjection {
     let map = DMat4::from_translation(shift.extend(0.0)) * DMat4::from_scale(scale.extend(1.0));
     let view_to_clip = view.view_to_clip.then(Projective::<Clip, Clip>::from_raw(map));

@@ -1,10 +1,10 @@
-//! The classical projections: axonometric, oblique, planometric, and perspectives by vanishing
-//! points. Each of them fits its own window around the models.
+//! The classical projections: axonometric, oblique, planometric, and perspectives from vanishing
+//! points. Each fits its window around the models.
 //!
-//! - Projections by a picture plane: the vertices are projected, the box around their images is
-//!   the window, and the depths of that box are the near and far planes.
-//! - Perspectives by vanishing points: the points fix the orientation of the eye and the slopes of
-//!   the window beside its line of sight; framing finds the position of the eye.
+//! - Projections onto a picture plane: the window is the box around the projected vertices, and the
+//!   depths of that box give the near and far planes.
+//! - Perspectives from vanishing points: the points determine the orientation of the eye and the
+//!   slopes of the window around its line of sight; framing finds the position of the eye.
 
 use super::Origin;
 use super::camera_fields::{PROJECTION_PATH, VIEW_PATH};
@@ -20,26 +20,25 @@ use projection::{
 use scene_file::SceneError;
 use scene_file::file::{Finite, FromFile, ProjectionFile};
 
-/// The axis-aligned bounding box of the projected vertices, in the space of the picture plane.
+/// The axis-aligned bounding box of the projected vertices, in picture plane space.
 #[derive(Clone, Copy, Debug)]
 struct ProjectedBounds {
-    /// The least x, y and z.
+    /// The smallest x, y and z.
     low: DVec3,
-    /// The greatest x, y and z; larger z is nearer.
+    /// The largest x, y and z; larger z is nearer.
     high: DVec3,
 }
 
 impl CameraResolver<'_> {
-    /// A classical projection framed around the models, seen from `from`, by default from the
+    /// Frames the models with a classical projection, as seen from `from`, by default from the
     /// front.
     ///
     /// `padding` is the free margin on each side, as a fraction of the window. The camera of a
-    /// projection by a picture plane is at the center of the models: parallel projections do not
-    /// depend on where it stands.
+    /// projection onto a picture plane is at the center of the models, since parallel projections
+    /// do not depend on its position.
     ///
     /// # Errors
-    /// If the parameters are impossible, there is nothing to draw, or a vertex is behind
-    /// the eye.
+    /// If the parameters are invalid, there is nothing to draw, or a vertex is behind the eye.
     pub(super) fn frame_classical(
         &self,
         from: Option<&FromFile>,
@@ -56,11 +55,11 @@ impl CameraResolver<'_> {
         self.frame_on_picture_plane(camera, projection, padding)
     }
 
-    /// A classical projection for a camera whose position is given; the window is fitted with a
-    /// margin of 5 %.
+    /// A classical projection for a camera with a given position; the window is fitted with a
+    /// margin of 5%.
     ///
     /// # Errors
-    /// For perspectives by vanishing points, whose eye follows from their points.
+    /// For perspectives from vanishing points, which determine the eye themselves.
     pub(super) fn project_classical(
         &self,
         camera: Camera,
@@ -72,9 +71,9 @@ impl CameraResolver<'_> {
         self.frame_on_picture_plane(camera, projection, 0.05)
     }
 
-    /// A projection given by its picture plane, with the window fitted to the models.
+    /// A projection onto a picture plane, with the window fitted to the models.
     ///
-    /// The depth-preserving form of the projection keeps a third coordinate for the depth test; the
+    /// The depth-preserving form of the projection keeps a third coordinate for the depth test. The
     /// orthographic volume around the projected bounds then maps to clip space: M = V · P.
     fn frame_on_picture_plane(
         &self,
@@ -101,11 +100,11 @@ impl CameraResolver<'_> {
         Ok(ViewProjection { camera, view_to_clip })
     }
 
-    /// A perspective given by vanishing points, with the eye placed so that the models fit.
+    /// A perspective from vanishing points, with the eye placed so that the models fit.
     ///
-    /// The points determine the rotation of the eye against the axes and the off-axis window
-    /// (slopes per unit of distance); both are independent of scale. [`frame_perspective`] then
-    /// finds the eye in closed form.
+    /// The points determine the rotation of the eye relative to the axes, and the off-axis window
+    /// (slopes per unit of distance); neither depends on scale. [`frame_perspective`] then finds
+    /// the eye in closed form.
     fn frame_construction(
         &self,
         from: Basis,
@@ -113,8 +112,7 @@ impl CameraResolver<'_> {
         padding: f64,
     ) -> Result<ViewProjection, SceneError> {
         let fault = |error: ProjectionError| self.projection_error(&error);
-        // The rows of the rotation are the eye's axes as the side from which the models are seen
-        // has them.
+        // The rows of the rotation are the eye's axes, for the side from which the models are seen.
         let rows = construction.world_to_view().raw().transpose();
         let axis = |row: glam::DVec4| from.to_world(Vector::from_raw(row.truncate()));
         let basis = Basis::from_gaze(-axis(rows.z_axis), axis(rows.y_axis))
@@ -140,10 +138,10 @@ impl CameraResolver<'_> {
     }
 }
 
-/// Validates the parameters of a classical projection without models; `None` if they are possible.
+/// Validates the parameters of a classical projection without models; `None` if they are valid.
 ///
-/// Perspectives by vanishing points also need a framed view (`is_framed`), since they find their
-/// own eye.
+/// Perspectives from vanishing points also need a framed view (`is_framed`), since they determine
+/// the eye themselves.
 pub(super) fn check_classical_projection(
     origin: &Origin,
     projection: Option<&ProjectionFile>,
@@ -161,7 +159,7 @@ pub(super) fn check_classical_projection(
     Some(origin.error_at(&PROJECTION_PATH, error.to_string(), None))
 }
 
-/// The error for a perspective by vanishing points whose camera position is given too.
+/// The error for a perspective from vanishing points with a camera position.
 fn own_eye_error(origin: &Origin) -> SceneError {
     let help = "take Frame(from: …), or leave the view out".to_owned();
     let message = "a perspective by vanishing points finds its own eye";
@@ -171,8 +169,9 @@ fn own_eye_error(origin: &Origin) -> SceneError {
 /// The construction of a one-, two- or three-point perspective from its vanishing points (VN-1);
 /// `None` for other projections.
 ///
-/// Coordinates of the points are in half heights of the picture from its center, y up. The inner
-/// error reports points that no orthogonal axes can have, such as three in an obtuse triangle.
+/// The coordinates of the points are in half heights of the picture from its center, y up. The
+/// inner error reports points that no orthogonal axes can have, such as three in an obtuse
+/// triangle.
 fn vanishing_point_construction(
     projection: &ProjectionFile,
 ) -> Option<Result<ConstructedPerspective, ProjectionError>> {
@@ -191,16 +190,16 @@ fn vanishing_point_construction(
     })
 }
 
-/// The projection given by its picture plane.
+/// The projection onto the picture plane.
 ///
-/// `radius` is the greatest distance of a vertex from the camera; p, q and r of an n-point
-/// perspective are divided by it, so that their effect does not depend on the size of the models.
-/// Projections without parameters cannot fail.
+/// `radius` is the largest distance of a vertex from the camera. An n-point perspective divides p,
+/// q and r by it, so that their effect does not depend on the size of the models. Projections
+/// without parameters cannot fail.
 fn picture_plane_projection(
     projection: &ProjectionFile,
     radius: f64,
 ) -> Result<Classical, ProjectionError> {
-    // People say where depth recedes to; the builder wants where it comes from.
+    // Files give the direction in which depth recedes; the builder wants the one it comes from.
     let phi = |degrees: Finite| (degrees.value() + 180.0).to_radians();
     Ok(match *projection {
         ProjectionFile::Isometric => Axonometric::isometric().into(),
@@ -226,22 +225,22 @@ fn picture_plane_projection(
     })
 }
 
-/// The default trimetric projection: view direction from (2, 3, 6), as the named view of the camera
-/// crate.
+/// The default trimetric projection, with view direction (2, 3, 6) as in the camera crate's named
+/// view.
 fn default_trimetric() -> Result<Axonometric, ProjectionError> {
     Axonometric::by_normal(homog::Normal::new(2.0, 3.0, 6.0))
 }
 
-/// The greatest distance of a point from the origin of view space; 1 without points or if all are
-/// there.
+/// The largest distance of a point from the origin of view space; 1 if there are no points or all
+/// are at the origin.
 fn bounding_radius(points: &[Point<View>]) -> f64 {
     let most = points.iter().map(|point| point.raw().length()).fold(0.0, f64::max);
     if most > 0.0 { most } else { 1.0 }
 }
 
 impl ProjectedBounds {
-    /// The bounding box of the projected points; `None` if one has w ≤ 0, that is lies behind the
-    /// eye, or there are none.
+    /// The bounding box of the projected points; `None` if one has w ≤ 0, which puts it behind the
+    /// eye, or if there are none.
     fn from_points(points: &[Point<View>], map: Projective<View, View>) -> Option<Self> {
         let nothing = DVec3::splat(f64::INFINITY);
         let mut image = Self { low: nothing, high: -nothing };
@@ -257,11 +256,11 @@ impl ProjectedBounds {
         (image.low.is_finite() && image.high.is_finite()).then_some(image)
     }
 
-    /// The orthographic volume around the box with the picture's aspect ratio.
+    /// The orthographic volume around the box, with the picture's aspect ratio.
     ///
-    /// The window is grown along the shorter direction and by the margin, h / (1 − 2 padding); near
-    /// and far get 1 % of the depth, so that no vertex lies on a plane. Flat boxes fall back to
-    /// their depth or to 1.
+    /// The window grows along the shorter direction and by the margin, h / (1 − 2 padding). Near
+    /// and far get 1% of the depth, so that no vertex is on a plane. Flat boxes fall back to their
+    /// depth or to 1.
     fn view_volume(self, aspect: f64, padding: f64) -> Result<Orthographic, ProjectionError> {
         let (size, middle) = (self.high - self.low, (self.high + self.low) * 0.5);
         let height = size.y.max(size.x / aspect);

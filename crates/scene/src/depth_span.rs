@@ -1,19 +1,19 @@
-//! Depth range of a scene along the line of sight, for automatic near and far planes.
+//! The depth range of a scene along the line of sight, for automatic near and far planes.
 
 use camera::Camera;
 use homog::{Point, World};
 
-/// The least and the greatest depth of the vertices, along the line of sight from the eye.
+/// The smallest and largest depth of the vertices, along the line of sight from the eye.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct DepthSpan {
-    /// The least depth in world units, negative behind the eye.
+    /// The smallest depth in world units, negative behind the eye.
     nearest_depth: f64,
-    /// The greatest depth in world units.
+    /// The largest depth in world units.
     farthest_depth: f64,
 }
 
 impl DepthSpan {
-    /// The span of `points` as seen by `camera`; from 0 to 1 if there are none.
+    /// The span of `points` as seen by `camera`; 0 to 1 if there are none.
     #[must_use]
     pub fn from_points(points: &[Point<World>], camera: Camera) -> Self {
         let world_to_view = camera.world_to_view();
@@ -30,7 +30,7 @@ impl DepthSpan {
         }
     }
 
-    /// Near and far planes of a perspective: tight around the vertices with a margin of 1 %.
+    /// Near and far planes of a perspective, tight around the vertices with a margin of 1%.
     ///
     /// The near plane is at least 1e-5 of the far distance away from the eye, because depth
     /// resolution falls with the ratio of the two (ZP-1). Given planes are used unchanged; the
@@ -44,9 +44,9 @@ impl DepthSpan {
         (near, far)
     }
 
-    /// Near and far planes of a parallel projection; they may lie behind the eye.
+    /// Near and far planes of a parallel projection; they may be behind the eye.
     ///
-    /// The margin is 1 % of the depth range, with a lower bound for flat scenes relative to their
+    /// The margin is 1% of the depth range, with a lower bound for flat scenes relative to their
     /// distance, so that the planes stay apart in floating point.
     #[must_use]
     pub fn parallel_planes(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {

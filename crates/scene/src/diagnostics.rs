@@ -1,4 +1,4 @@
-//! What is wrong with a scene: collected while it is resolved, told in the order of its text.
+//! The mistakes in a scene: collected during resolution, reported in text order.
 //!
 //! ```text
 //!  part ─resolve─► Ok(value)    ─► Some(value)
@@ -9,21 +9,21 @@
 use super::{Origin, ResolveError};
 use scene_file::{SceneError, SceneErrors};
 
-/// The mistakes of a scene, as they are found.
+/// The mistakes in a scene, in the order of discovery.
 #[derive(Debug, Default)]
 pub(super) struct Diagnostics {
     errors: Vec<SceneError>,
-    /// What keeps the scene from being resolved and is no mistake in its text.
+    /// A failure that is not a mistake in the scene's text.
     failure: Option<ResolveError>,
 }
 
 impl Diagnostics {
-    /// The value, or nothing in place of a mistake, which is kept.
+    /// Returns the value, or keeps the mistake and returns `None`.
     pub(super) fn take<T>(&mut self, result: Result<T, impl Into<ResolveError>>) -> Option<T> {
         result.map_err(|error| self.report(error)).ok()
     }
 
-    /// Keeps a mistake, or several.
+    /// Keeps one or more mistakes.
     pub(super) fn report(&mut self, error: impl Into<ResolveError>) {
         match error.into() {
             ResolveError::Scene(errors) => self.errors.extend(Vec::from(errors)),
@@ -31,17 +31,17 @@ impl Diagnostics {
         }
     }
 
-    /// Whether nothing is wrong so far.
+    /// Whether there are no mistakes so far.
     pub(super) fn is_empty(&self) -> bool {
         self.errors.is_empty() && self.failure.is_none()
     }
 
-    /// Drops the mistakes that are not to be kept.
+    /// Drops the mistakes that should not be kept.
     pub(super) fn retain(&mut self, is_kept: impl FnMut(&SceneError) -> bool) {
         self.errors.retain(is_kept);
     }
 
-    /// The mistakes in the order of the files and of their texts, each once.
+    /// The mistakes in order of the files and their texts, each once.
     pub(super) fn into_errors(mut self, origin: &Origin) -> Vec<SceneError> {
         let files: Vec<&str> = origin.included_files().collect();
         let file_order = |error: &SceneError| files.iter().position(|file| *file == error.file);
@@ -50,10 +50,10 @@ impl Diagnostics {
         self.errors
     }
 
-    /// The value, if nothing is wrong.
+    /// Returns the value, if there are no mistakes.
     ///
     /// # Errors
-    /// Everything that is wrong.
+    /// Every mistake.
     pub(super) fn finish<T>(
         mut self,
         origin: &Origin,

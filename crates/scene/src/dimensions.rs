@@ -1,4 +1,4 @@
-//! Resolution of the dimensions of a sheet: what they measure in the world.
+//! Resolution of the dimensions of a sheet: the points they measure in the world.
 //!
 //! ```text
 //!   Length(from: Edge(near: …), to: Node(name: "lid"))
@@ -23,27 +23,27 @@ use scene_file::SceneError;
 use scene_file::file::{DimensionFile, DimensionView, PickFile, PlaceFile, SheetFile};
 use sheet::{Dimension, DimensionSide, LengthDirection, Measure};
 
-/// The most decimal places that a number may have.
+/// The maximum number of decimal places.
 const MAX_DECIMALS: u32 = 6;
 
-/// The most dimensions of a sheet: more would never find a place.
+/// The maximum number of dimensions on a sheet: there would never be room for more.
 const MAX_DIMENSIONS: usize = 500;
 
-/// The most circles that are dimensioned because they are large.
+/// The maximum count of circles dimensioned for being the largest.
 const MAX_DIAMETERS: u32 = 50;
 
-/// The place of a dimension in the scene file.
+/// The path of a dimension in the scene file.
 fn path_of<'a>(index: usize, steps: &[PathStep<'a>]) -> Vec<PathStep<'a>> {
     let start = [Field("sheet"), Field("dimensions"), Index(index)];
     start.into_iter().chain(steps.iter().copied()).collect()
 }
 
-/// Whether a sheet has overall dimensions, and its other dimensions.
+/// Resolves whether a sheet has overall dimensions, and its other dimensions.
 ///
-/// Without models only the description itself is checked.
+/// Without models, only the description itself is checked.
 ///
 /// # Errors
-/// If a name does not exist, nothing can be picked, or what is picked has no distance or angle.
+/// If a name does not exist, nothing can be picked, or the picked parts have no distance or angle.
 pub(super) fn resolve_dimensions(
     origin: &Origin,
     file: &SheetFile,
@@ -70,15 +70,15 @@ pub(super) fn resolve_dimensions(
 /// Resolves one dimension.
 struct DimensionResolver<'a> {
     picking: &'a Picking<'a>,
-    /// Its place in the list.
+    /// Its index in the list.
     index: usize,
 }
 
-/// The places of several points in a dimension.
+/// A pick and its path in a dimension.
 type PointPath<'a> = (&'a PickFile, Vec<PathStep<'static>>);
 
 impl DimensionResolver<'_> {
-    /// An error at a part of the dimension.
+    /// An error in a part of the dimension.
     fn error(
         &self,
         steps: &[PathStep<'_>],
@@ -128,7 +128,7 @@ impl DimensionResolver<'_> {
         }
     }
 
-    /// Whether a dimension line of this direction can stand on a side.
+    /// Checks whether a dimension line in this direction can be on the given side.
     fn check_side(
         &self,
         direction: LengthDirection,
@@ -147,7 +147,8 @@ impl DimensionResolver<'_> {
         Err(self.error(&[Field("side")], message, Some(help)))
     }
 
-    /// The dimensions of an entry: one, none for `Overall`, several for the largest diameters.
+    /// The dimensions of an entry: usually one, none for `Overall`, several for the largest
+    /// diameters.
     fn resolve(&self, entry: &DimensionFile) -> Result<Vec<Dimension>, SceneError> {
         let one = |kind, measure, view, side, decimals| {
             vec![self.dimension(kind, measure, view, side, decimals)]
@@ -187,7 +188,7 @@ impl DimensionResolver<'_> {
         })
     }
 
-    /// A dimension with its name.
+    /// Builds a dimension with its name.
     fn dimension(
         &self,
         kind: &str,
@@ -200,12 +201,12 @@ impl DimensionResolver<'_> {
         Dimension { measure, view: view.map(named_view), side, decimals, name }
     }
 
-    /// Finds the thing that a pick names; errors point at its place in the scene file.
+    /// Finds the part that a pick names; errors point at its position in the scene file.
     fn pick(&self, pick: &PickFile, steps: &[PathStep<'static>]) -> Result<Picked, SceneError> {
         self.picking.pick(pick, &path_of(self.index, steps))
     }
 
-    /// Several picks as points.
+    /// Resolves several picks as points.
     fn points<'p>(
         &self,
         paths: impl Iterator<Item = PointPath<'p>>,
@@ -213,12 +214,12 @@ impl DimensionResolver<'_> {
         paths.map(|(pick, steps)| Ok(Point::from_raw(self.pick(pick, &steps)?.point()))).collect()
     }
 
-    /// The circle at a place.
+    /// Finds the circle at a position.
     fn circle(&self, place: &PlaceFile) -> Result<WorldCircle, SceneError> {
         self.picking.circle(place, &path_of(self.index, &[Field("circle")]))
     }
 
-    /// The two points whose distance is that of two picks.
+    /// The two points between which the distance of two picks is measured.
     fn distance(&self, from: &PickFile, to: &PickFile) -> Result<Vec<Point<World>>, SceneError> {
         let picked = [self.pick(from, &[Field("from")])?, self.pick(to, &[Field("to")])?];
         let feet = picked[0].perpendicular_to(&picked[1]).ok_or_else(|| {
@@ -260,7 +261,7 @@ impl DimensionResolver<'_> {
     }
 }
 
-/// The view of a name.
+/// The named view of a dimension view.
 const fn named_view(view: DimensionView) -> NamedView {
     match view {
         DimensionView::Front => NamedView::Front,

@@ -1,7 +1,7 @@
-//! Automatic exposure for models that bring lights of their own.
+//! Automatic exposure for models that come with lights.
 //!
-//! KHR_lights_punctual is photometric: a sun may have 3 lux, as in a viewer, or 100,000, as in the
-//! open. Without a scene file nobody has said how bright the picture shall be.
+//! KHR_lights_punctual is photometric: a sun may have 3 lux, as in a viewer, or 100,000, as
+//! outdoors. Without a scene file, nothing says how bright the picture should be.
 
 use super::Origin;
 use super::surrounding_light::{has_default_light, has_lights};
@@ -10,17 +10,16 @@ use scene_file::file::SceneFile;
 use shade::Light;
 use std::f32::consts::PI;
 
-/// The radiance of matte white that automatic exposure leaves alone. The tone curve brings it below
-/// 1.
+/// The radiance of matte white that automatic exposure accepts. The tone curve brings it below 1.
 const MAX_WHITE: f32 = 1.5;
-/// The part of the vertices that may be brighter.
+/// One vertex in this many may be brighter.
 const BRIGHTER_SHARE: usize = 10;
 
-/// The exposure of a scene in stops: that of the file; without one 0, or less where a bare model's
-/// own lights are too bright.
+/// The exposure of a scene in stops, as given in the file. Without one it is 0, or less if a bare
+/// model's own lights are too bright.
 ///
-/// The measure is the illuminance of the vertices by all lights, unshadowed and at normal
-/// incidence: nine of ten are not above it.
+/// The measure is the illuminance of the vertices from all lights, unshadowed and at normal
+/// incidence, which nine in ten vertices do not exceed.
 pub(super) fn resolve_exposure(
     origin: &Origin,
     file: &SceneFile,
@@ -45,7 +44,7 @@ pub(super) fn resolve_exposure(
     if is_too_bright { libm::log2(f64::from(MAX_WHITE / white)) } else { 0.0 }
 }
 
-/// The illuminance of a surface that faces a light, in lux: the greatest of its channels.
+/// The illuminance of a surface that faces a light, in lux: the largest of its channels.
 fn illuminance(light: &Light, point: [f32; 3]) -> f32 {
     let brightest = |color: [f32; 3]| color.into_iter().fold(0.0, f32::max);
     let (from, candela, range) = match *light {

@@ -1,4 +1,4 @@
-//! The files that a scene's environment and backdrop come from: read, or loaded already.
+//! The source of a scene's environment and backdrop files: read now, or already loaded.
 
 use super::backdrop::resolve_backdrop;
 use super::surrounding_light::resolve_environment;
@@ -10,17 +10,17 @@ use shade::{Backdrop, Environment};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Where the files of environments and backdrops come from.
+/// The source of environment and backdrop files.
 #[derive(Clone, Copy, Debug)]
 pub enum FileAccess<'a> {
-    /// They are read, from the scene's folder or from these.
+    /// Read from the scene's folder or from these folders.
     Read(&'a [PathBuf]),
-    /// A scene of the same description has them, with its models in another pose.
+    /// Taken from a scene with the same description whose models are in a different pose.
     Loaded(&'a Scene),
 }
 
 impl FileAccess<'_> {
-    /// The access for the inset of an index.
+    /// The access for the inset with this index.
     pub(super) fn for_inset(self, index: usize) -> Self {
         match self {
             Self::Loaded(scene) => {
@@ -30,7 +30,7 @@ impl FileAccess<'_> {
         }
     }
 
-    /// The environment of a scene. One without a file depends on the models' lights.
+    /// The environment of a scene. Without a file it depends on the models' lights.
     pub(super) fn environment(
         self,
         origin: &Origin,
@@ -49,7 +49,7 @@ impl FileAccess<'_> {
         }
     }
 
-    /// What is behind the models, if it is more than a color.
+    /// The backdrop behind the models, if it is more than a color.
     pub(super) fn backdrop(
         self,
         origin: &Origin,

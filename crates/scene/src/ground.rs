@@ -12,24 +12,25 @@ use shade::Light;
 pub struct Ground {
     /// The corners in world space, counterclockwise seen from above.
     pub corners: [[f32; 3]; 4],
-    /// The part that the models occlude from light from all around; `None` without such light.
+    /// The area in which models occlude light from all directions; `None` without such light.
     pub occlusion: Option<OcclusionArea>,
 }
 
 /// The rectangle around the models within which they occlude light from the ground.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct OcclusionArea {
-    /// The least coordinates in the world: x and z of the rectangle, and the height of the ground.
+    /// The smallest coordinates in the world: x and z of the rectangle, and the height of the
+    /// ground.
     pub low: Point<World>,
-    /// The greatest coordinates: x and z of the rectangle, and the height of the models.
+    /// The largest coordinates: x and z of the rectangle, and the height of the models.
     pub high: Point<World>,
-    /// The width of its margin beside the models.
+    /// The width of the margin around the models.
     pub margin: f64,
 }
 
 impl OcclusionArea {
-    /// The border of the part that a framed picture shows. Its corners are cut off: the shadow of a
-    /// box is rounded there.
+    /// The border of the part that a framed picture shows. Its corners are beveled, because the
+    /// shadow of a box is rounded there.
     fn framed_points(&self) -> [Point<World>; 8] {
         let (low, high, height) = (self.low.raw(), self.high.raw(), self.low.y());
         let [shown, hidden] = [self.margin, (1.0 - FRAMED_MARGIN) * self.margin];
@@ -40,20 +41,21 @@ impl OcclusionArea {
     }
 }
 
-/// The width of the margin, in heights of the models or half diagonals of their outline from above,
-/// whichever is less: what is high or wide alone hides little of the sky beside it.
+/// The width of the margin, in heights of the models or in half diagonals of their outline from
+/// above, whichever is smaller. Objects that are only high or only wide hide little of the sky
+/// beside them.
 const OCCLUSION_MARGIN: f64 = 0.4;
-/// The part of the margin that a framed picture shows: beyond it, occlusion is faint.
+/// The fraction of the margin that a framed picture shows; beyond it, occlusion is faint.
 const FRAMED_MARGIN: f64 = 0.5;
 
-/// The longest shadow in diagonals of the models' bounding box. A sun at the horizon casts shadows
-/// without end; beyond this length they leave any picture that shows the models.
+/// The longest shadow, in diagonals of the models' bounding box. A sun at the horizon casts
+/// infinite shadows; beyond this length they leave any picture that shows the models.
 const MAX_SHADOW_DIAGONALS: f64 = 20.0;
 
-/// The ground of a scene; `None` if it asks for none or has no models.
+/// Resolves the ground of a scene; returns `None` if it asks for none or has no models.
 ///
 /// The rectangle is the bounding box of the models seen from above, extended by the shadows of its
-/// eight corners under each light, and by 5 % on each side. A convex box has its shadow within the
+/// eight corners under each light, and by 5% on each side. The shadow of a convex box is within the
 /// hull of its corners' shadows, so no vertex of the models needs to be projected. The default
 /// height is the lowest point of the models.
 pub(super) fn resolve_ground(
@@ -88,7 +90,7 @@ pub(super) fn resolve_ground(
 }
 
 /// The part of the ground that models within a bounding box occlude; `None` if they are not above
-/// it, or the scene wants no shadows.
+/// it, or if the scene turns shadows off.
 fn occlusion_area(
     file: &SceneFile,
     least: DVec3,
@@ -110,10 +112,10 @@ fn occlusion_area(
 /// The shadows of the models' points on the ground, in the world, for a camera that frames them
 /// too.
 ///
-/// Those of directional light from above, and the darkest part of what the models occlude. A shadow
-/// is at most as long as the diagonal of the models' bounding box: of longer ones, under a sun
-/// below 30° for a cube, the picture shows only the beginning. Lamps near the models have no such
-/// measure and do not count.
+/// These are the shadows of directional light from above, and the darkest part of the occlusion by
+/// the models. A shadow is at most as long as the diagonal of the models' bounding box. Of longer
+/// ones, under a sun below 30° for a cube, the picture shows only the beginning. Lamps near the
+/// models have no such limit and do not count.
 pub(super) fn shadow_points(
     ground: Ground,
     models: &[ModelInstance],
@@ -135,8 +137,8 @@ pub(super) fn shadow_points(
 /// The shadow of a world point on the plane y = `height`, at most `reach` away horizontally.
 ///
 /// p' = p + d_xz (p_y − height) / (−d_y), where d is the direction in which light travels. `None`
-/// for lights without shadows and for ambient lights. Upward or level light has d_y ≥ 0;
-/// the divisor is then bounded, and `reach` limits the length.
+/// for lights without shadows and for ambient lights. Upward or horizontal light has d_y ≥ 0; the
+/// divisor is then bounded, and `reach` limits the length.
 fn project_shadow(light: &Light, place: DVec3, height: f64, reach: f64) -> Option<DVec3> {
     light.shadow()?;
     let travel = match light {
@@ -148,7 +150,7 @@ fn project_shadow(light: &Light, place: DVec3, height: f64, reach: f64) -> Optio
     };
     let drop = (place.y - height).max(0.0);
     let flat = DVec3::new(travel.x, 0.0, travel.z);
-    // Level light casts shadows without end.
+    // Horizontal light casts infinite shadows.
     let down = (-travel.y).max(1e-9 * travel.length());
     let way = flat * (drop / down);
     let far = way.length();

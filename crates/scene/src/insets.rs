@@ -23,32 +23,32 @@ use scene_file::PathStep::{Field, Index};
 use scene_file::SceneError;
 use scene_file::file::{ImageFile, Positive, SceneFile, StereoFile, ViewportFile, ViewportsScale};
 
-/// The most viewports of a scene.
+/// The maximum number of viewports in a scene.
 const MAX_VIEWPORTS: usize = 256;
-/// The widest border in pixels.
+/// The maximum border width in pixels.
 const MAX_BORDER_WIDTH: u32 = 1000;
 /// The default distance of the convergence plane in eye distances: the 1/30 rule of stereography.
 const CONVERGENCE_PER_EYE_DISTANCE: f64 = 30.0;
 
-/// A rectangle of a picture with a view of its own.
+/// A rectangle of a picture that shows a separate view.
 #[derive(Clone, Debug)]
 pub struct Inset {
-    /// The pixels it covers in the picture, y down.
+    /// The pixels it covers in the picture, with y down.
     pub rect: PixelRect,
-    /// A border inside of the rectangle: color, and width in pixels.
+    /// A border inside the rectangle: color, and width in pixels.
     pub border: Option<(Ink, u32)>,
-    /// Whether only green and blue are written, over the red of the view below: the right eye of an
-    /// anaglyph.
+    /// Whether only green and blue are written, over the red of the view below, for the right eye
+    /// of an anaglyph.
     pub cyan_only: bool,
     /// The scene that it shows; its image has the rectangle's size.
     pub scene: Scene,
 }
 
-/// The insets of a scene file: its viewports in order, or the two views of a stereo pair.
+/// Resolves the insets of a scene file: its viewports in order, or the two views of a stereo pair.
 ///
-/// Models are shared with the main view, not loaded again. Without models, or where a rectangle is
-/// outside of the picture, only the mistakes of viewports are told that need none. `None` if
-/// something is wrong; the errors point into the viewports.
+/// Models are shared with the main view, not loaded again. Without models, or if a rectangle is
+/// outside the picture, only viewport mistakes that need no models are reported. `None` if there
+/// are mistakes; the errors point into the viewports.
 pub(super) fn resolve_insets(
     origin: &Origin,
     file: &SceneFile,
@@ -82,15 +82,15 @@ pub(super) fn resolve_insets(
     Some(insets)
 }
 
-/// The scene file as it holds within a viewport of this size: fields of the viewport replace those
-/// of the scene.
+/// The scene file as it applies within a viewport of this size: the viewport's fields replace the
+/// scene's.
 fn scene_in_viewport(file: &SceneFile, viewport: &ViewportFile, size: (u32, u32)) -> SceneFile {
     let background = viewport.background.as_ref().or(file.image.background.as_ref()).cloned();
     SceneFile {
         camera: viewport.camera.as_ref().unwrap_or(&file.camera).clone(),
         style: viewport.style.as_ref().unwrap_or(&file.style).clone(),
         overlays: viewport.overlays.as_ref().unwrap_or(&file.overlays).clone(),
-        // The caption of the scene is that of the whole picture.
+        // The scene's caption belongs to the whole picture.
         caption: viewport.caption.clone(),
         image: ImageFile { size, background, ..file.image.clone() },
         models: Vec::new(),
@@ -102,11 +102,11 @@ fn scene_in_viewport(file: &SceneFile, viewport: &ViewportFile, size: (u32, u32)
 
 /// The pixel rectangle of a viewport, from fractions of the picture or from pixels.
 ///
-/// Fractions are rounded edge by edge and not as a size, so that adjacent viewports neither overlap
-/// nor leave a gap.
+/// Fractions are rounded edge by edge rather than as a size, so that adjacent viewports neither
+/// overlap nor leave a gap.
 ///
 /// # Errors
-/// If both forms or neither are given, or the rectangle is empty or exceeds the picture.
+/// If both forms or neither are given, or if the rectangle is empty or extends beyond the picture.
 fn resolve_viewport_rect(
     origin: &Origin,
     number: usize,
@@ -118,7 +118,7 @@ fn resolve_viewport_rect(
     let (region, field) = match (viewport.at, viewport.pixels) {
         (Some((x, y, w, h)), None) => {
             let [x, y, w, h] = [x, y, w, h].map(scene_file::file::Fraction::value);
-            // Rounded border by border, so that neighbours meet.
+            // Rounded edge by edge, so that neighbors meet.
             let run = |from: f64, length: f64, side: u32| {
                 let end = libm::round((from + length) * f64::from(side));
                 let start = libm::round(from * f64::from(side));
@@ -172,18 +172,18 @@ fn resolve_border(
     Ok(Some((border.color.0, border.width)))
 }
 
-/// The two insets of a stereo pair, by off-axis projection (no vertical parallax, unlike toed-in
-/// cameras).
+/// The two insets of a stereo pair, from off-axis projections (no vertical parallax, unlike with
+/// toed-in cameras).
 ///
 /// ```text
 ///  side by side   left half, right half       the halves of an odd width share a column
 ///  anaglyph       left eye in red, right eye in green and blue over it
 /// ```
-/// Each eye is half the eye distance from the camera. Points on the convergence plane have equal
-/// images in both and appear at the depth of the screen.
+/// Each eye is half the eye distance from the camera. Points on the convergence plane have the same
+/// position in both images and appear at the depth of the screen.
 ///
 /// # Errors
-/// With viewports, in a picture one pixel wide, in a parallel projection, or if the models
+/// If there are viewports, the picture is one pixel wide, the projection is parallel, or the models
 /// are behind the camera.
 fn resolve_stereo(
     origin: &Origin,
@@ -207,7 +207,7 @@ fn resolve_stereo(
     if beside && width < 2 {
         return Err(fault("the picture is too narrow for two", "make it wider").into());
     }
-    // Of an odd number of columns both have the one in the middle, and the right eye's is seen.
+    // With an odd number of columns both share the middle one, and the right eye's is visible.
     let half = if beside { width.div_ceil(2) } else { width };
     let half = PixelRect { x: 0, y: 0, width: half, height };
     let areas = [half, PixelRect { x: if beside { width - half.width } else { 0 }, ..half }];
@@ -238,7 +238,7 @@ fn resolve_stereo(
     areas.into_iter().zip([-0.5, 0.5]).map(view).collect()
 }
 
-/// The depth of the center of the models along the gaze, in world units; `None` if it is not ahead.
+/// The depth of the center of the models along the gaze, in world units; `None` if not ahead.
 fn models_center_depth(view_projection: ViewProjection, models: &[ModelInstance]) -> Option<f64> {
     let corners = Bounds::from_points(world_points(models))?.corners();
     let middle = (corners[0].raw() + corners[7].raw()) * 0.5;
@@ -247,11 +247,11 @@ fn models_center_depth(view_projection: ViewProjection, models: &[ModelInstance]
     (depth > 0.0).then_some(depth)
 }
 
-/// The view of an eye moved to the right by `aside`, sheared so that its window agrees with the
+/// The view of an eye moved to the right by `aside`, sheared so that its window matches the
 /// camera's at the distance `plane`.
 ///
 /// x' = x − aside · z / plane in view space: the shear moves a point at depth D = −z to the right
-/// by aside · D / plane, against the translation by −aside of the moved eye. They cancel at D =
+/// by aside · D / plane, against the translation of −aside from moving the eye. They cancel at D =
 /// plane, the plane of zero parallax.
 fn shift_eye(view_projection: ViewProjection, aside: f64, plane: f64) -> Option<ViewProjection> {
     let camera = view_projection.camera.moved(view_projection.camera.u() * aside).ok()?;

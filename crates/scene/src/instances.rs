@@ -13,20 +13,20 @@ use scene_file::SceneError;
 use scene_file::file::{Finite, InstanceFile, InstancesFile, ModelFile, Scale, SceneFile, Triple};
 use std::sync::Arc;
 
-/// The most instances of all models in a scene.
+/// The maximum number of instances of all models in a scene.
 pub(super) const MAX_INSTANCES: usize = 100_000;
-/// The most vertices of all instances of one model. Framing keeps their world positions, 24 bytes
-/// each: 800 MB at this limit.
+/// The maximum number of vertices in all instances of one model. Framing keeps their world
+/// positions, 24 bytes each: 800 MB at this limit.
 const MAX_INSTANCE_VERTICES: usize = 1 << 25;
 
-/// A transform of an instance within the space of its model.
+/// The transform of an instance within its model's space.
 type InstanceTransform = Affine<ModelSpace, ModelSpace>;
 
 /// Checks the number of instances before anything is loaded. Products saturate, so that counts of 4
 /// billion along each axis do not wrap around to a small number.
 ///
 /// # Errors
-/// If a model has no instances, or the scene more than [`MAX_INSTANCES`].
+/// If a model has no instances, or the scene has more than [`MAX_INSTANCES`].
 pub(super) fn check_instance_counts(origin: &Origin, file: &SceneFile) -> Result<(), SceneError> {
     let mut total = 0_usize;
     for (number, entry) in file.models.iter().enumerate() {
@@ -47,7 +47,7 @@ fn instances_path<'a>(number: usize, rest: &[PathStep<'a>]) -> Vec<PathStep<'a>>
     [&[Field("models"), Index(number), Field("instances")], rest].concat()
 }
 
-/// The count of a model's instances.
+/// Counts a model's instances.
 ///
 /// # Errors
 /// If there are none.
@@ -69,13 +69,13 @@ fn checked_instance_count(
     Err(origin.error_at(&at, "there is not one copy of the model", help))
 }
 
-/// The instances of a model, which all share its data.
+/// Places the instances of a model, which all share its data.
 ///
 /// model_to_world = T · I · R · S: the model's scale and rotation, the transform of the instance,
 /// the model's translation.
 ///
 /// # Errors
-/// If the instances have too many vertices together, or the axis of a circle is 0.
+/// If the instances have too many vertices in total, or the axis of a circle is 0.
 pub(super) fn instantiate_model(
     origin: &Origin,
     number: usize,
@@ -106,7 +106,7 @@ pub(super) fn instantiate_model(
     Ok(ways.into_iter().map(copy).collect())
 }
 
-/// Scale, then rotations about the fixed axes x, y and z in this order: R_z · R_y · R_x · S.
+/// Scale, then rotation about the fixed axes x, y and z in this order: R_z · R_y · R_x · S.
 fn scale_then_rotate(scale: Scale, rotation_degrees: Triple) -> InstanceTransform {
     let [sx, sy, sz] = scale.0;
     let [rx, ry, rz] = rotation_degrees.0.map(f64::to_radians);
@@ -159,8 +159,8 @@ fn instance_transforms(
     }
 }
 
-/// The translations of a grid, x fastest, then y, then z. Multiples of the step and not sums, so
-/// that errors do not accumulate.
+/// The translations of a grid, x fastest, then y, then z. They are multiples of the step rather
+/// than sums, so that errors do not accumulate.
 fn grid_transforms([across, up, deep]: [u32; 3], step: [f64; 3]) -> Vec<InstanceTransform> {
     let mut ways = Vec::new();
     for z in 0..deep {
@@ -174,10 +174,10 @@ fn grid_transforms([across, up, deep]: [u32; 3], step: [f64; 3]) -> Vec<Instance
     ways
 }
 
-/// The angles of instances on a circle in radians.
+/// The angles of instances on a circle, in radians.
 ///
-/// A full turn is divided by the count, since its two ends coincide; an arc by the count minus one,
-/// so that it has an instance at both ends.
+/// A full turn is divided by the count, since its two ends coincide. An arc is divided by the count
+/// minus one, so that both ends have an instance.
 fn circle_angles(count: u32, start: Finite, sweep: Finite) -> impl Iterator<Item = f64> {
     let (start, sweep) = (start.value(), sweep.value());
     let is_whole = sweep.abs() >= 360.0;
@@ -191,13 +191,13 @@ struct CircleLayout {
     axis: [f64; 3],
     /// The radius in world units.
     radius: f64,
-    /// Whether instances rotate with their angle, or keep the orientation of the model.
+    /// Whether instances rotate with their angle or keep the orientation of the model.
     rotate_copies: bool,
 }
 
 impl CircleLayout {
     /// The transform at an angle in radians: translation to the circle, then rotation about the
-    /// axis; or only the translation that results from both.
+    /// axis; or only the translation that both produce.
     fn transform_at(&self, angle: f64) -> Option<InstanceTransform> {
         let turn = InstanceTransform::rotation(Vector::from(self.axis), angle)?;
         let out = self.zero_degree_direction()?.map(|c| c * self.radius);
@@ -208,7 +208,7 @@ impl CircleLayout {
         Some(translate_by(there.to_array()))
     }
 
-    /// The unit vector towards 0°, perpendicular to the axis.
+    /// The unit vector toward 0°, perpendicular to the axis.
     ///
     /// The projection of x onto the plane of the circle (Gram–Schmidt), or of y if the axis is
     /// within 26° of x, where the projection of x would be short.
@@ -220,9 +220,9 @@ impl CircleLayout {
     }
 }
 
-/// The vector with length 1; `None` if it is 0.
+/// The vector scaled to length 1; `None` if it is 0.
 fn normalize_vector(v: [f64; 3]) -> Option<[f64; 3]> {
-    // Scaled first, so that no square leaves the range of numbers.
+    // Scaled first, so that no square overflows or underflows.
     let largest = v.iter().fold(0.0_f64, |most, c| most.max(c.abs()));
     let v = v.map(|c| c / largest);
     let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
@@ -235,7 +235,7 @@ mod tests {
     use homog::Point;
     use scene_file::parse_scene;
 
-    /// Where the copies have the point (0, 0, 1) of the model.
+    /// The positions of the model's point (0, 0, 1) in the copies.
     fn instance_points(model: &str) -> Result<Vec<[f64; 3]>, String> {
         let text = format!("Scene(models: [(path: \"a.glb\", {model})])");
         let file = parse_scene("a.ron", &text).map_err(|error| error.to_string())?;
@@ -263,7 +263,7 @@ mod tests {
 
     #[test]
     fn copies_on_a_circle_turn_with_their_places_unless_they_are_not_to() {
-        // Counter-clockwise from above, x goes to -z; the copy's own front with it.
+        // Counterclockwise from above, x maps to -z, and the copy's own front turns with it.
         let turned = instance_points("instances: Circle(count: 4, radius: 2)").expect("places");
         assert_eq!(
             turned,

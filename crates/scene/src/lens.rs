@@ -1,5 +1,5 @@
-//! Lenses of a scene file: field of view and shift of a perspective, the windows of the others, and
-//! what makes no sense of them.
+//! Lenses in a scene file: the field of view and shift of a perspective, the windows of other
+//! projections, and the mistakes in them.
 //!
 //! ```text
 //!             2 max(hx, hy) · shift            the window one unit ahead of the eye: half as wide
@@ -19,17 +19,17 @@ use scene_file::PathStep::Field;
 use scene_file::SceneError;
 use scene_file::file::{FieldOfView, Finite, Positive, ProjectionFile};
 
-/// The lens of a perspective: how wide it sees, and how far it is moved sideways.
+/// The lens of a perspective: its field of view and its sideways shift.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Lens {
     pub(super) fov: Fov,
-    /// To the right and upwards, in fractions of the picture's longer side.
+    /// To the right and up, in fractions of the picture's longer side.
     shift: [f64; 2],
 }
 
 impl Lens {
-    /// The lens with the vertical, horizontal or diagonal field of view that is given. Of several,
-    /// which are an error, the first counts.
+    /// Creates a lens from the given vertical, horizontal or diagonal field of view. If several are
+    /// given, which is an error, the first counts.
     pub(super) fn new(angles: [Option<FieldOfView>; 3], shift: (Finite, Finite)) -> Self {
         let radians = |angle: FieldOfView| angle.value().to_radians();
         let fov = match angles {
@@ -55,12 +55,12 @@ impl Lens {
         }
     }
 
-    /// Whether the lens is in the middle of the picture.
+    /// Whether the lens is centered on the picture.
     pub(super) fn is_centered(self) -> bool {
         self.shift == [0.0; 2]
     }
 
-    /// The borders of the window one unit ahead of the eye (FOV-1), for a picture of this aspect
+    /// The borders of the window one unit ahead of the eye (FOV-1), for a picture with this aspect
     /// ratio.
     pub(super) fn slopes(self, aspect: f64) -> Result<Window, ProjectionError> {
         let half = self.fov.half_slopes(aspect)?;
@@ -92,7 +92,7 @@ impl Lens {
     }
 }
 
-/// The window of a projection that is given by four borders; `None` if it is not.
+/// The window of a projection given by four borders; `None` for others.
 pub(super) fn given_window(projection: &ProjectionFile) -> Option<[f64; 4]> {
     let sides = match *projection {
         ProjectionFile::Frustum { left, right, bottom, top, .. }
@@ -107,7 +107,7 @@ pub(super) fn given_window(projection: &ProjectionFile) -> Option<[f64; 4]> {
     Some(sides.map(Finite::value))
 }
 
-/// The errors of lenses and windows, without models: fields that exclude each other, planes and
+/// Lens and window errors that do not depend on models: mutually exclusive fields, planes and
 /// borders in the wrong order.
 pub(super) fn check_lens(origin: &Origin, projection: &ProjectionFile) -> Option<SceneError> {
     check_lens_fields(origin, projection).or_else(|| {
@@ -119,8 +119,8 @@ pub(super) fn check_lens(origin: &Origin, projection: &ProjectionFile) -> Option
     })
 }
 
-/// The error of a projection with fields that exclude each other, or with some of those that need
-/// each other.
+/// The error for mutually exclusive fields in a projection, or for fields that are incomplete
+/// without others.
 pub(super) fn check_lens_fields(
     origin: &Origin,
     projection: &ProjectionFile,
@@ -129,7 +129,7 @@ pub(super) fn check_lens_fields(
         .or_else(|| check_orthographic_window(origin, projection))
 }
 
-/// Whether a perspective has more than one field of view.
+/// Checks that a perspective has at most one field of view.
 fn check_fields_of_view(origin: &Origin, projection: &ProjectionFile) -> Option<SceneError> {
     let ProjectionFile::Perspective { fov_y_degrees, fov_x_degrees, fov_diagonal_degrees, .. } =
         projection
@@ -151,7 +151,7 @@ fn check_fields_of_view(origin: &Origin, projection: &ProjectionFile) -> Option<
     Some(origin.error_at(&path, message, Some(help)))
 }
 
-/// Whether an orthographic window has both a height and borders, or some borders only.
+/// Checks that an orthographic window has a height, all four borders, or neither.
 fn check_orthographic_window(origin: &Origin, projection: &ProjectionFile) -> Option<SceneError> {
     let ProjectionFile::Orthographic { height, left, right, bottom, top, .. } = projection else {
         return None;
@@ -177,7 +177,7 @@ fn check_orthographic_window(origin: &Origin, projection: &ProjectionFile) -> Op
     Some(origin.error_at(&path, message, Some(help)))
 }
 
-/// The error of a projection whose planes or borders are in the wrong order.
+/// The error for a projection with planes or borders in the wrong order.
 fn check_planes(projection: &ProjectionFile) -> Option<ProjectionError> {
     let [l, r, b, t] = given_window(projection).unwrap_or([-1.0, 1.0, -1.0, 1.0]);
     let far_of =

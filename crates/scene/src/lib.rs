@@ -1,4 +1,4 @@
-//! Resolution of scene files: models are loaded, angles are radians, every default is decided.
+//! Resolution of scene files: models are loaded, angles become radians, every default is filled in.
 //!
 //! ```text
 //!  text ─► SceneFile ─► Scene ─► renderer, line drawings
@@ -6,22 +6,22 @@
 //!               mistakes with carets ◄── validate
 //! ```
 //! A scene is described in a file ([`SceneFile`], RON) and resolved ([`Scene`]); every mistake is
-//! an error that points into the file. The crate [`scene_file`] has the language.
+//! an error that points into the file. The crate [`scene_file`] defines the language.
 //!
 //! | module | subject |
 //! | --- | --- |
 //! | `scene` | [`Scene`]: models, camera, lights, style, image |
-//! | `origin`, `read_scene` | where a scene and its models come from; all mistakes at once |
-//! | `resolve`, `single_view`, `insets` | the order of decisions; viewports, stereo |
+//! | `origin`, `read_scene` | the source of a scene and its models; all mistakes at once |
+//! | `resolve`, `single_view`, `insets` | the order of resolution; viewports, stereo |
 //! | `diagnostics` | mistakes, collected while a scene is resolved |
 //! | `model_files`, `instances`, `material_overrides` | models: loaded, posed, placed, recolored |
 //! | `view_projection`, `lens`, `classical`, `camera_path` | cameras and projections |
 //! | `lights`, `shadows`, `surrounding_light`, `exposure`, `ground` | light |
-//! | `style`, `section`, `overlays`, `caption` | what is drawn, and how |
+//! | `style`, `section`, `overlays`, `caption` | the content and style of the drawing |
 //! | `sheet`, `sheet_views`, `dimensions`, `assembly` | drawing sheets |
-//! | `lints` | valid scenes that are probably not meant |
+//! | `lints` | valid scenes that are probably unintended |
 //! | `builder` | scenes of models in memory |
-//! | `referenced_files` | the files that a model refers to, by a quick look |
+//! | `referenced_files` | the files that a model refers to, found by a quick scan |
 
 #[cfg(feature = "sheets")]
 mod assembly;
@@ -95,7 +95,7 @@ pub use resolve_options::ResolveOptions;
 #[cfg(feature = "sheets")]
 pub use sheet_views::sheet_view_error;
 
-/// What an embedder needs of the scene language: to read a scene file, or to build one.
+/// The parts of the scene language that embedders need to read or build a scene file.
 pub use scene_file::{
     SceneError, SceneErrors, SceneFile, SceneSource, SourceText, UnreadableScene, file,
     format_source, options, parse_scene, reference, scene_ron_options,

@@ -1,4 +1,4 @@
-//! Resolution of lights: units, directions and shadows of the lights of a scene file, and the
+//! Resolution of lights: units, directions and shadows of the lights in a scene file, and the
 //! default key light.
 
 use super::Origin;
@@ -17,24 +17,24 @@ use scene_file::file::{
 };
 use shade::{Light, Shadow};
 
-/// The irradiance of the default key light where nothing but ambient light is beside it, in lux.
+/// The irradiance of the default key light with only ambient light beside it, in lux.
 const KEY_LUX: f32 = 2.5;
 /// The irradiance of the ambient light beside it, in lux.
 const AMBIENT_LUX: f32 = 0.7;
-/// The irradiance of the default key light in an environment, in lux. Matte white facing it has
-/// 1.45 / π = 0.46 of it, and with the studio of bare models at most 0.95 in all.
+/// The irradiance of the default key light in an environment, in lux. Matte white facing it
+/// reflects 1.45 / π = 0.46 of it, and together with the studio of bare models at most 0.95.
 const KEY_LUX_IN_ENVIRONMENT: f32 = 1.45;
 /// The elevation of the default key light above the horizon, in degrees.
 const KEY_ELEVATION: f64 = 50.0;
 /// The angle from the view to the default key light, seen from above, in degrees to the left.
 const KEY_AZIMUTH: f64 = 55.0;
 
-/// The most texels of the shadow maps of all directional and spot lights together: 0.8 GB.
+/// The maximum number of texels in all directional and spot shadow maps together: 0.8 GB.
 const MAX_SHADOW_TEXELS: u64 = 1 << 26;
-/// The least texels of a shadow map's side.
+/// The minimum number of texels along the side of a shadow map.
 const LEAST_SHADOW_SIDE: u32 = 64;
 
-/// The shadows that the scene asks for. Ground that only shows shadows is there for their sake.
+/// Resolves the scene's shadows. A ground that shows only shadows turns them on.
 pub(super) fn resolve_scene_shadow(
     origin: &Origin,
     file: &SceneFile,
@@ -43,7 +43,7 @@ pub(super) fn resolve_scene_shadow(
     resolve_shadow(origin, file.shadows.or(of_ground).as_ref(), &[Field("shadows")])
 }
 
-/// The lights that the file describes; `None` in place of `FromModels`.
+/// The lights described in the file; `None` in place of `FromModels`.
 pub(super) fn resolve_described_lights(
     origin: &Origin,
     file: &SceneFile,
@@ -57,10 +57,10 @@ pub(super) fn resolve_described_lights(
     lights.into_iter().collect()
 }
 
-/// The lights of a scene: those that the file describes, or of the models, or a default key light
-/// where nothing else would light the models, or nothing would model them.
+/// The lights of a scene: those described in the file or in the models, or a default key light if
+/// nothing else lights the models or brings out their shape.
 ///
-/// Only light that the style shows counts: clay receives the environment, a line drawing does not.
+/// Only light that the style shows counts: clay receives the environment, but line drawings do not.
 pub(super) fn resolve_lights(
     origin: &Origin,
     file: &SceneFile,
@@ -83,23 +83,23 @@ pub(super) fn resolve_lights(
     let key_light = |lux| default_key_light(view_projection, lux, shadow);
     Ok(match effective_environment(origin, file, models) {
         None => vec![key_light(KEY_LUX), Light::Ambient { lux: [AMBIENT_LUX; 3] }],
-        // A bare model has the same light with shadows and without.
+        // A bare model has the same light with and without shadows.
         Some(EnvironmentFile::Studio { .. }) if origin.text.is_empty() => {
             vec![key_light(KEY_LUX_IN_ENVIRONMENT)]
         }
-        // Shadows were asked for, and something must cast them.
+        // Shadows are requested, so something must cast them.
         Some(_) if shadow.is_some() => vec![key_light(KEY_LUX_IN_ENVIRONMENT)],
         Some(_) => Vec::new(),
     })
 }
 
-/// Keeps the shadow maps of all directional and spot lights together within
-/// [`MAX_SHADOW_TEXELS`]; those of point lights are smaller where there are many.
+/// Keeps all directional and spot shadow maps together within [`MAX_SHADOW_TEXELS`]; the maps of
+/// point lights are smaller if there are many.
 ///
-/// Maps whose size nobody chose become smaller.
+/// Maps without an explicit size become smaller.
 ///
 /// # Errors
-/// If the scene chooses sizes that need more.
+/// If the scene sets sizes that need more.
 fn limit_shadow_maps(
     origin: &Origin,
     file: &SceneFile,
@@ -126,7 +126,7 @@ fn limit_shadow_maps(
     Ok(lights)
 }
 
-/// The shadow of a light that casts it by a single map.
+/// The shadow of a light that uses a single shadow map.
 const fn mapped_shadow(light: &mut Light) -> Option<&mut Shadow> {
     match light {
         Light::Sun { shadow, .. } | Light::Spot { shadow, .. } => shadow.as_mut(),
@@ -134,7 +134,7 @@ const fn mapped_shadow(light: &mut Light) -> Option<&mut Shadow> {
     }
 }
 
-/// Where a scene chooses the size of a shadow map, if it does: of a light, or of all.
+/// The path of the size that a scene sets for a shadow map, of one light or of all.
 fn chosen_size_path(file: &SceneFile) -> Option<Vec<PathStep<'static>>> {
     let is_chosen =
         |shadows: &ShadowsFile| matches!(shadows, ShadowsFile::On { size: Some(_), .. });
@@ -151,11 +151,10 @@ fn chosen_size_path(file: &SceneFile) -> Option<Vec<PathStep<'static>>> {
     file.shadows.as_ref().is_some_and(is_chosen).then(|| vec![Field("shadows")])
 }
 
-/// The lights of the models' files in world space (KHR_lights_punctual).
+/// The lights in the models' files, in world space (KHR_lights_punctual).
 ///
-/// Lights shine along −z of their node. Intensities (lux, candela) are not changed by scales, as
-/// the extension demands; a node whose transform collapses its z axis has no direction and is
-/// skipped.
+/// Lights shine along −z of their node. Scales do not change intensities (lux, candela), as the
+/// extension requires. A node whose transform collapses its z axis has no direction and is skipped.
 fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec<Light> {
     let mut lights = Vec::new();
     for placed in models {
@@ -183,17 +182,17 @@ fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec
 }
 
 /// A directional light high above the ground and to the left of the view, so that visible sides
-/// differ in brightness and shadows fall to the right, where they are seen.
+/// differ in brightness and shadows fall to the right, where they are visible.
 ///
-/// It stands by the world's up, y, and not by the camera's: a camera that looks down does not take
-/// the light with it below the horizon.
+/// It follows the world's up, y, rather than the camera's: a camera that looks down does not take
+/// the light below the horizon with it.
 fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<Shadow>) -> Light {
     let camera = view_projection.camera;
     let level = |axis: Vector<World>| {
         let level = axis - Vector::Y * axis.dot(Vector::Y);
         (level.length() > 1e-3).then(|| level.normalized()).flatten()
     };
-    // To the viewer along the ground; from straight above that is the picture's lower border.
+    // Toward the viewer along the ground; from straight above, toward the picture's lower border.
     let front = level(camera.w()).or_else(|| level(-camera.v())).unwrap_or(Vector::Z);
     let left = front.cross(Vector::Y);
     let [azimuth, elevation] = [KEY_AZIMUTH, KEY_ELEVATION].map(f64::to_radians);
@@ -202,12 +201,12 @@ fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<
     Light::Sun { to_light: to_light.raw().as_vec3().to_array(), lux: [lux; 3], shadow }
 }
 
-/// A light of the file, with the scene's shadows unless it has its own; `Some(None)` for
+/// A light from the file, with the scene's shadows unless it sets its own; `Some(None)` for
 /// `FromModels`.
 ///
 /// Directional and ambient lights are in lux, point and spot lights in candela; the color scales
-/// them. Numbers become f32 here, the precision of shading. What is wrong is a direction of 0, a
-/// cone that is impossible, or shadow settings that are.
+/// them. Numbers become f32 here, the precision of shading. It is an error if the direction is 0,
+/// or the cone or the shadow settings are invalid.
 fn resolve_light(
     origin: &Origin,
     index: usize,
@@ -274,9 +273,9 @@ fn resolve_direction(
     })
 }
 
-/// The cosines of the inner and outer cone angle of a spot light, by default of 0° and 45°.
+/// The cosines of a spot light's inner and outer cone angles, by default 0° and 45°.
 ///
-/// Intensity falls from the inner to the outer angle. The angles are half angles, as in
+/// Intensity falls off from the inner to the outer angle. These are half angles, as in
 /// KHR_lights_punctual.
 ///
 /// # Errors

@@ -1,35 +1,35 @@
-//! Lints: scenes that are valid and still probably not what is meant, such as a camera inside of a
-//! model, or a picture of nothing.
+//! Lints: valid scenes that are probably unintended, such as a camera inside a model or a picture
+//! of nothing.
 //!
-//! Every lint looks at the result: the points, lines and triangles of the scene go through its
-//! camera and are clipped against its view volume once (CL-1), and the counts are compared with
-//! what the file says.
+//! Every lint examines the result. The points, lines and triangles of the scene pass through its
+//! camera and are clipped against its view volume once (CL-1); the counts are compared with the
+//! file.
 //!
 //! | code | condition |
 //! | --- | --- |
 //! | `nothing-visible`, `model-not-visible` | no primitive is left after clipping |
 //! | `camera-inside` | the eye is enclosed by a closed surface |
-//! | `cut-by-near`, `cut-by-far` | vertices within the window are outside of a depth plane |
-//! | `wasteful-depth-range` | the near plane is far nearer than anything visible |
+//! | `cut-by-near`, `cut-by-far` | vertices within the window are outside a depth plane |
+//! | `wasteful-depth-range` | the near plane is far closer than anything visible |
 //! | `aspect-mismatch` | the window's aspect ratio is not the picture's |
 //! | `no-light` | a shaded style without light, environment or emission |
-//! | `flat-stereo` | a stereo pair whose eyes see the same within a pixel |
+//! | `flat-stereo` | a stereo pair whose two pictures are the same to within a pixel |
 //! | `label-not-visible` | the point of a label is not in the picture |
 //! | `missing-glyph` | the stroke font lacks a character of a label, a caption or a sheet |
 //! | `wide-stereo` | a stereo pair whose eyes are too far apart for the distance of the models |
-//! | `sections-ignored` | section planes, and no line drawing that they cut |
+//! | `sections-ignored` | section planes without a line drawing that they could cut |
 //! | `section-removes-all`, `section-misses` | a section plane with all models on one side |
 //! | `sheet-view-missing`, `section-oblique` | a view or a section that the sheet does not show |
 //! | `overlay-not-on-sheet` | an overlay that sheets do not show, such as a grid |
 //! | `tiny-picture`, `tiny-model` | less than a thousandth of the picture, or two pixels |
-//! | `coincident-instances` | instances of a model in one place |
+//! | `coincident-instances` | instances of a model at the same position |
 //! | `ground-above-models` | a ground above the lowest point of the models |
 //! | `narrow-field-of-view` | a field of view that is probably in radians |
-//! | `color-above-one` | the color of a light in bytes |
-//! | `depth-on-white` | the style `Depth`, white where it is near, before a white background |
+//! | `color-above-one` | a light color given in bytes |
+//! | `depth-on-white` | the style `Depth`, white for near surfaces, over a white background |
 //! | `camera-path-turns-over` | a path through its target or parallel to up |
 //!
-//! Viewports with cameras of their own are looked at as pictures for the first and `tiny-picture`.
+//! Viewports with separate cameras are checked as pictures for the first and for `tiny-picture`.
 
 mod camera_path;
 mod coverage;
@@ -56,23 +56,23 @@ use scene_file::file::{ProjectionFile, StyleFile, ViewFile};
 use scene_file::{SceneError, SceneFile};
 use visibility_survey::VisibilitySurvey;
 
-/// Aspect ratios that differ by no more than this fraction count as equal.
+/// Aspect ratios that differ by no more than this fraction are treated as equal.
 const ASPECT_TOLERANCE: f64 = 0.01;
 
 /// A warning about a valid scene.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Lint {
-    /// A stable name for programs, lower case with hyphens.
+    /// A stable name for programs, in lowercase with hyphens.
     pub code: &'static str,
-    /// The message with its position in the file and the remedy.
+    /// The message with its position in the file and the suggested fix.
     pub error: SceneError,
 }
 
-/// The lints of a scene that could be resolved, in the order of the file.
+/// Lints a scene that could be resolved, in file order.
 ///
-/// The cost is that of a pass over all vertices, O(vertices + primitives), for the scene and for
-/// each viewport with a camera of its own, without rendering. Lints never make a scene invalid.
-/// `options` are those with which it was resolved.
+/// The cost is one pass over all vertices, O(vertices + primitives), for the scene and for each
+/// viewport with a separate camera, without rendering. Lints never make a scene invalid. `options`
+/// are the ones used for resolution.
 #[must_use]
 #[cfg_attr(not(feature = "sheets"), expect(unused_variables))]
 pub fn lint_scene(
@@ -107,13 +107,13 @@ pub fn lint_scene(
     advice
 }
 
-/// The visibility survey of each model of a scene, in its order.
+/// The visibility survey of each model in a scene, in scene order.
 fn survey_scene(scene: &Scene) -> Vec<VisibilitySurvey> {
     let survey = |placed| VisibilitySurvey::from_model(scene, placed);
     scene.models.iter().map(survey).collect()
 }
 
-/// Viewports whose own cameras see nothing, or almost nothing.
+/// Viewports whose cameras see nothing, or almost nothing.
 fn lint_viewports(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint> {
     if file.viewports.len() != scene.insets.len() {
         return Vec::new();
@@ -130,7 +130,7 @@ fn lint_viewports(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint>
     advice
 }
 
-/// The lints that a scene file without its models has, also one with mistakes.
+/// The lints of a scene file that do not depend on its models, even if it has mistakes.
 #[must_use]
 pub fn lint_description(origin: &Origin, file: &SceneFile) -> Vec<Lint> {
     let mut advice: Vec<Lint> = camera_path::lint_camera_path(origin, file).into_iter().collect();
@@ -149,27 +149,28 @@ pub fn lint_description(origin: &Origin, file: &SceneFile) -> Vec<Lint> {
     advice
 }
 
-/// The scene under inspection, in every form that the lints need.
+/// The scene under inspection, in every form that lints need.
 struct Linter<'a> {
     /// The file and its text, for positions in messages.
     origin: &'a Origin,
-    /// The scene as written: it says which values were chosen and which are defaults.
+    /// The scene as written, which tells chosen values from defaults.
     file: &'a SceneFile,
     /// The resolved scene.
     scene: &'a Scene,
-    /// The visibility survey of each model, in the order of the scene.
+    /// The visibility survey of each model, in scene order.
     surveys: &'a [VisibilitySurvey],
 }
 
 impl Linter<'_> {
-    /// The name of a model in messages.
+    /// The name of a model for messages.
     fn model_name(&self, model: usize) -> &str {
         &self.scene.models[model].model.name
     }
 
-    /// The surveys of the scene's models, with the number of each and that of its first instance.
+    /// The surveys of the scene's models, each with its number and its first instance's number.
     ///
-    /// A model counts as a whole: that some trees of a forest are beside the picture is no mistake.
+    /// A model counts as a whole: it is not a mistake if some trees of a forest are outside the
+    /// picture.
     fn survey_models(&self) -> Vec<(usize, usize, VisibilitySurvey)> {
         let mut first = 0;
         let models = self.file.models.iter().enumerate().map(|(number, entry)| {
@@ -185,8 +186,8 @@ impl Linter<'_> {
         models.collect()
     }
 
-    /// Models outside of the view volume. If that holds for all of them, one warning at the camera
-    /// replaces one for each model, since the camera is the likelier cause.
+    /// Models outside the view volume. If all of them are, one warning at the camera replaces one
+    /// per model, since the camera is the likelier cause.
     fn lint_visibility(&self) -> Vec<Lint> {
         if let Some(lint) = self.lint_nothing_visible() {
             return vec![lint];
@@ -217,8 +218,8 @@ impl Linter<'_> {
         Some(Lint { code: "nothing-visible", error })
     }
 
-    /// An eye inside of a closed model, of which only back faces would be visible. The first such
-    /// model is named; `eye` is in world space.
+    /// An eye inside a closed model, of which only back faces would be visible. Names the first
+    /// such model; `eye` is in world space.
     fn lint_camera_inside(&self, eye: Point<homog::World>) -> Option<Lint> {
         let number = self.surveys.iter().position(VisibilitySurvey::encloses_eye)?;
         let [x, y, z] = eye.raw().to_array();
@@ -230,11 +231,11 @@ impl Linter<'_> {
         Some(Lint { code: "camera-inside", error: fault })
     }
 
-    /// An aspect ratio of the window, or of the model's camera, that differs from the picture's.
+    /// An aspect ratio of the window, or of a model's camera, that differs from the picture's.
     ///
-    /// A frustum with fixed sides stretches the picture; a camera of the model shows more or less
-    /// at the sides, since only its vertical angle is used. Ratios within [`ASPECT_TOLERANCE`]
-    /// pass: cameras often store 1.7778 for 16 : 9.
+    /// A frustum with fixed sides stretches the picture; a model's camera shows more or less at the
+    /// sides, since only its vertical angle is used. Ratios within [`ASPECT_TOLERANCE`] pass:
+    /// cameras often store 1.7778 for 16 : 9.
     fn lint_aspect_ratio(&self) -> Option<Lint> {
         let image = self.scene.image;
         let view_size = image.view_size();
@@ -278,7 +279,7 @@ impl Linter<'_> {
     }
 
     /// A shaded style without any light source: no light, no environment, and no unlit or emissive
-    /// material. Scenes without the field `lights` get a default key light and never meet this.
+    /// material. Scenes without the field `lights` get a default key light and never trigger this.
     fn lint_missing_light(&self) -> Option<Lint> {
         let scene = self.scene;
         let lit = matches!(scene.style, Style::Shaded | Style::Flat);
@@ -296,7 +297,7 @@ impl Linter<'_> {
 }
 
 impl Scene {
-    /// Why a picture of the scene shows nothing.
+    /// Explains why a picture of the scene shows nothing.
     #[must_use]
     pub fn empty_reason(&self) -> String {
         let surveys = survey_scene(self);
@@ -321,8 +322,8 @@ fn is_behind_eye(scene: &Scene, survey: &VisibilitySurvey) -> bool {
     perspective && survey.depth_range().is_some_and(|(_, far)| far <= 0.0)
 }
 
-/// The planes that everything is outside of, in words. Without a common plane the primitives
-/// are counted at each of the six; one may be outside of several.
+/// The planes that everything is outside of, in words. Without a common plane, the primitives are
+/// counted at each of the six; one may be outside several.
 fn describe_rejection(scene: &Scene, survey: &VisibilitySurvey) -> String {
     if is_behind_eye(scene, survey) {
         return "everything is behind the camera".to_owned();
@@ -343,8 +344,8 @@ fn describe_rejection(scene: &Scene, survey: &VisibilitySurvey) -> String {
     }
 }
 
-/// A remedy: turn the camera if the models are behind it, change the depth planes if they
-/// reject, else aim at the models. Distances are measured along the gaze, in world units.
+/// A suggested fix: turn the camera if the models are behind it, change the depth planes if they
+/// reject the models, otherwise aim at the models. Distances are along the gaze, in world units.
 fn suggest_visibility_fix(scene: &Scene, survey: &VisibilitySurvey) -> String {
     let of = |plane: PlaneIndex| survey.outside[plane.index()] == survey.total;
     let span = survey.depth_range();

@@ -1,7 +1,7 @@
-//! Material overrides: changes of a model's materials, once it is loaded and posed.
+//! Material overrides: changes to a model's materials, applied after it is loaded and posed.
 //!
-//! An override replaces factors of metallic-roughness materials. The texture of a replaced factor
-//! goes with it, because glTF multiplies the two: red paint on a blue texture would be black.
+//! An override replaces factors of metallic-roughness materials. It also drops the texture of a
+//! replaced factor, because glTF multiplies the two: red paint on a blue texture would be black.
 
 use super::Origin;
 use model::{AlphaMode, Emission, Material, Model};
@@ -12,7 +12,7 @@ use scene_file::{SceneError, SceneErrors, suggest_name};
 /// Changes the materials of the model with this number in the scene.
 ///
 /// # Errors
-/// Every override of materials that the model does not have.
+/// Every override for materials that the model does not have.
 pub(super) fn override_materials(
     origin: &Origin,
     number: usize,
@@ -36,7 +36,7 @@ pub(super) fn override_materials(
     SceneErrors::from_list(errors).map_or(Ok(()), Err)
 }
 
-/// Where a change is written.
+/// The path of an override in the file.
 struct OverridePath<'a> {
     origin: &'a Origin,
     path: [PathStep<'a>; 4],
@@ -49,7 +49,7 @@ impl OverridePath<'_> {
     }
 }
 
-/// The numbers of the materials that are meant.
+/// The selected materials' indices.
 fn select_materials(
     place: &OverridePath<'_>,
     of: &MaterialsFile,
@@ -86,7 +86,7 @@ fn select_materials(
     Err(place.error_at("of", message, Some(help)))
 }
 
-/// Surfaces that name no material get one that can be changed.
+/// Gives surfaces without a material one that can be changed.
 fn assign_missing_materials(model: &mut Model) {
     let new = model.materials.len();
     let primitives = model.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives);
@@ -103,7 +103,7 @@ struct MaterialOverride<'a> {
 }
 
 impl MaterialOverride<'_> {
-    /// Replaces the given fields of a material. Textures of replaced fields go, unless
+    /// Replaces the given fields of a material. Drops the textures of replaced fields, unless
     /// `keep_textures` multiplies them by the given values.
     fn apply_to(&self, material: &mut Material) {
         let Self { file, .. } = self;
@@ -134,8 +134,7 @@ impl MaterialOverride<'_> {
         }
     }
 
-    /// Replaces the emitted light: the color, its strength, or both. Their product is what shading
-    /// reads.
+    /// Replaces the emitted light: the color, its strength, or both. Shading uses their product.
     fn apply_emission(&self, material: &mut Material) {
         let strength = self.file.emissive_strength.map(|strength| strength.value() as f32);
         if let Some(color) = self.file.emissive.map(Color::to_linear) {
@@ -149,7 +148,7 @@ impl MaterialOverride<'_> {
         }
     }
 
-    /// Textures of what is given.
+    /// Removes the textures of the given fields.
     fn remove_overridden_textures(&self, material: &mut Material) {
         if self.file.base_color.is_some() {
             material.base_color_texture = None;

@@ -1,4 +1,4 @@
-//! The models of a scene: loaded, posed and copied to their places.
+//! The models of a scene: loaded, posed and placed.
 
 use super::diagnostics::Diagnostics;
 use super::material_overrides::override_materials;
@@ -18,31 +18,31 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The file of a model, its axis and unit, its scene, variant and animation, and the bits of crease
+/// A model's file, its axis and unit, its scene, variant and animation, and the bits of its crease
 /// angle and time.
 type Pose = (PathBuf, (Option<UpAxis>, Option<LengthUnit>), [Option<Choice>; 3], [Option<u64>; 2]);
 
-/// A model of one pose with its colors and materials.
+/// A model in one pose with its colors and materials.
 struct ColoredModel<'a> {
     scalars: Option<&'a ScalarsFile>,
     materials: &'a [MaterialFile],
     model: Arc<Model>,
 }
 
-/// The models that are loaded. Models in one pose are shared; a model in two poses, or with other
-/// materials, is two models.
+/// The loaded models. Models in one pose are shared; a model in two poses, or with different
+/// materials, becomes two models.
 #[derive(Default)]
 struct LoadedModels<'a> {
     by_pose: BTreeMap<Pose, Vec<ColoredModel<'a>>>,
-    /// The bytes of their arrays and images.
+    /// The bytes in their arrays and images.
     bytes: u64,
 }
 
-/// Arrays that an importer may make and drop, however little is left.
+/// Memory for arrays that an importer may create and drop, however little is left.
 const SCRATCH_BYTES: u64 = 1 << 20;
 
 impl<'a> LoadedModels<'a> {
-    /// The model of an entry: one that is loaded already, or a new one.
+    /// Returns the model of an entry, already loaded or new.
     fn load(
         &mut self,
         origin: &Origin,
@@ -61,7 +61,7 @@ impl<'a> LoadedModels<'a> {
         if let Some(loaded) = alike.iter().find(is_same) {
             return Ok(Arc::clone(&loaded.model));
         }
-        // What the models before this one have left; importers count some arrays that they drop.
+        // The limits that earlier models have left; importers count some arrays that they drop.
         let (mut rest, limits) = (options.clone(), &options.import.limits);
         let left = limits.scene_bytes.saturating_sub(self.bytes);
         let with_scratch = left.saturating_mul(2).saturating_add(SCRATCH_BYTES);
@@ -86,7 +86,7 @@ impl<'a> LoadedModels<'a> {
     }
 }
 
-/// The models of a scene in their places, each file loaded once; `None` if not all can be loaded.
+/// Loads and places the models of a scene, each file once; `None` if not all can be loaded.
 pub(super) fn load_models(
     origin: &Origin,
     file: &SceneFile,
@@ -116,7 +116,7 @@ pub(super) fn load_models(
     models
 }
 
-/// The paths of models that lead nowhere, or out of the scene's folder. The files are not read.
+/// Reports model paths that do not exist or lead outside the scene's folder. No file is read.
 pub(super) fn check_model_paths(
     origin: &Origin,
     file: &SceneFile,
@@ -137,7 +137,7 @@ pub(super) fn check_model_paths(
     }
 }
 
-/// The models up to one take more memory than those of a scene may.
+/// The error if the models up to this one take more memory than a scene allows.
 fn scene_bytes_error(origin: &Origin, number: usize, most: u64) -> SceneError {
     let message = format!("with this model, those of the scene take more than {} MiB", most >> 20);
     let help = "leave out models, simplify them or use smaller textures; \
@@ -145,7 +145,7 @@ fn scene_bytes_error(origin: &Origin, number: usize, most: u64) -> SceneError {
     origin.error_at(&[Field("models"), Index(number)], message, Some(help.to_owned()))
 }
 
-/// A model whose path leads out of the scene's folder.
+/// The error for a model whose path leads outside the scene's folder.
 fn outside_folder_error(origin: &Origin, index: usize, entry: &ModelFile) -> SceneError {
     let help = "keep models below the scene's folder, or allow another with --allow-outside DIR";
     let message = format!("the path \"{}\" leads out of the scene's folder", entry.path);
@@ -153,8 +153,8 @@ fn outside_folder_error(origin: &Origin, index: usize, entry: &ModelFile) -> Sce
     origin.error_at(&path, message, Some(help.to_owned()))
 }
 
-/// Why there is no model: the scene asks for something that makes no sense, or the model's file is
-/// at fault.
+/// The reason why there is no model: an invalid request in the scene, or an error in the model's
+/// file.
 enum ModelError {
     Scene(SceneErrors),
     File(ImportError),
@@ -173,8 +173,8 @@ impl From<SceneErrors> for ModelError {
 }
 
 impl ModelError {
-    /// The error as one of the scene file, pointing at the path of the model, if there is a scene
-    /// file.
+    /// Converts the error to one in the scene file, pointing at the path of the model, if there is
+    /// a scene file.
     fn into_resolve_error(self, origin: &Origin, number: usize, entry: &ModelFile) -> ResolveError {
         match self {
             Self::File(error) if origin.text.is_empty() => error.into(),
@@ -192,8 +192,8 @@ impl ModelError {
     }
 }
 
-/// For a model that is not there, the path of one in the same folder with a similar name, or of one
-/// in a folder beside the scene with the same name.
+/// Suggests a path for a missing model: one with a similar name in the same folder, or one with the
+/// same name in a folder next to the scene.
 fn suggest_model_file(folder: &Path, path: &str) -> Option<String> {
     let path = Path::new(path);
     if folder.join(path).exists() {
@@ -214,8 +214,7 @@ fn suggest_model_file(folder: &Path, path: &str) -> Option<String> {
     Some(format!("did you mean \"{}\"?", found.to_str()?.replace('\\', "/")))
 }
 
-/// The names of the files and folders in a folder, in the order of the alphabet; none if it cannot
-/// be read.
+/// Lists the files and folders in a folder, in alphabetical order; empty if it cannot be read.
 fn names_in_folder(folder: &Path) -> Vec<String> {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let entries = std::fs::read_dir(here).into_iter().flatten();
@@ -225,7 +224,7 @@ fn names_in_folder(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Loads a model and poses it.
+/// Loads and poses a model.
 fn load_model(
     origin: &Origin,
     number: usize,
@@ -239,7 +238,7 @@ fn load_model(
     let import = ImportOptions {
         scene: entry.scene.clone().map(name_or_index).or(options.import.scene.clone()),
         variant: entry.variant.clone().map(name_or_index).or(options.import.variant.clone()),
-        // Flags replace what the scene file says.
+        // Flags override the scene file.
         up: options.import.up.or(entry.up),
         length_unit: options.import.length_unit.or(entry.unit),
         crease_angle: options.import.crease_angle.or(resolve_crease(origin, number, entry)?),
@@ -262,7 +261,7 @@ fn load_model(
     Ok(model)
 }
 
-/// A choice among the items of a model, as importers take it.
+/// A choice among the items of a model, in the form that importers take.
 #[must_use]
 pub fn name_or_index(choice: Choice) -> NameOrIndex {
     match choice {
@@ -271,7 +270,7 @@ pub fn name_or_index(choice: Choice) -> NameOrIndex {
     }
 }
 
-/// Colors by a scalar attribute, as importers take them.
+/// Colors from a scalar attribute, in the form that importers take.
 fn scalar_colors(file: &ScalarsFile) -> ScalarColors {
     ScalarColors {
         attribute: file.attribute.clone(),
@@ -280,7 +279,7 @@ fn scalar_colors(file: &ScalarsFile) -> ScalarColors {
     }
 }
 
-/// The crease angle of a model in degrees.
+/// Resolves the crease angle of a model, in degrees.
 ///
 /// # Errors
 /// If it is not between 0 and 180.
@@ -298,7 +297,7 @@ fn resolve_crease(
     Err(origin.error_at(&at, format!("there is no crease angle of {angle} degrees"), Some(help)))
 }
 
-/// A scene, a variant or a scalar attribute that the model does not have is a mistake of the scene
+/// Reports a scene, a variant or a scalar attribute that the model lacks as a mistake in the scene
 /// file, if there is one.
 fn choice_error(
     origin: &Origin,
@@ -321,10 +320,10 @@ fn choice_error(
     origin.error_at(&at, message, error.diagnostic.help).into()
 }
 
-/// The number of the animation that is wanted, or the first.
+/// The number of the selected animation, or of the first.
 ///
 /// # Errors
-/// If there is none: what is wrong, and what to do about it.
+/// If there is none: a message and a suggested fix.
 pub fn select_animation(
     model: &Model,
     choice: Option<&Choice>,

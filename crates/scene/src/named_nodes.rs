@@ -1,12 +1,12 @@
-//! Nodes by their names, and the objects of drawings below them.
+//! Nodes by name, and the drawing objects below them.
 
 use model::{Model, ModelInstance};
 
-/// All objects below the nodes whose name is meant: one list for each such node, in the order of the
+/// All objects below the nodes with a matching name: one list per such node, in the order of the
 /// models and their nodes.
 ///
-/// A node without a name goes by that of its mesh. Objects are counted as in line drawings: nodes
-/// with a mesh, one model after the other.
+/// A node without a name takes its mesh's name. Objects are counted as in line drawings: nodes with
+/// a mesh, one model after another.
 pub(super) fn objects_below(
     models: &[ModelInstance],
     is_meant: impl Fn(&str) -> bool,
@@ -41,14 +41,14 @@ pub(super) fn node_names(models: &[ModelInstance]) -> Vec<String> {
     names
 }
 
-/// The name of a node, else of its mesh.
+/// The name of a node, or of its mesh if it has none.
 fn node_name(model: &Model, node: usize) -> Option<&str> {
     let node = &model.nodes[node];
     let mesh = || node.mesh.and_then(|mesh| model.meshes[mesh].name.as_deref());
     node.name.as_deref().or_else(mesh)
 }
 
-/// For each node, whether it is a node or below it.
+/// For each node of the model, whether it is `node` or a descendant.
 fn nodes_below(model: &Model, node: usize) -> Vec<bool> {
     let mut is_below = vec![false; model.nodes.len()];
     let mut stack = vec![node];

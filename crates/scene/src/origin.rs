@@ -1,5 +1,5 @@
-//! Where a scene comes from: a file with text and a folder, or a bare model and the program's
-//! flags; and where the files of its models are.
+//! The origin of a scene: a file with text and a folder, or a bare model and the program's flags;
+//! also the location of its model files.
 
 use import::MemoryFolder;
 use scene_file::{SceneFile, SceneSource};
@@ -7,38 +7,38 @@ use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Where a scene comes from. Errors quote it: it derefs to the [`SceneSource`] with the scene's
+/// The origin of a scene, which errors quote. It derefs to the [`SceneSource`] with the scene's
 /// text.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Origin {
     source: SceneSource,
-    /// Where the files of its models are.
+    /// The location of its model files.
     pub(super) models: ModelSource,
 }
 
-/// Where the files of models are.
+/// The location of model files.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum ModelSource {
-    /// On the disk, from the folder of the scene on.
+    /// On disk, relative to the scene's folder.
     Disk,
-    /// One file in memory, which is complete in itself.
+    /// A single self-contained file in memory.
     Bytes(Arc<[u8]>),
     /// In a folder in memory.
     Memory(MemoryFolder),
 }
 
 impl Origin {
-    /// Where a scene comes from whose text is at hand; its files lie in the folder.
+    /// The origin of a scene whose text is already in memory and whose files are in the folder.
     ///
-    /// Errors point into the text. A scene that is built in Rust has that of
+    /// Errors point into the text. For a scene built in Rust, pass the text from
     /// [`SceneFile::to_ron`], or an empty one: then errors name a field without its line.
     #[must_use]
     pub fn from_text(file: impl Into<String>, text: impl Into<String>, folder: PathBuf) -> Self {
         SceneSource::from_text(file, text, folder).into()
     }
 
-    /// Where a scene comes from whose text is at hand, and whose models are in memory: their paths
-    /// are those of the folder.
+    /// The origin of a scene whose text and models are in memory; paths refer to files in that
+    /// folder.
     ///
     /// ```
     /// use import::MemoryFolder;
@@ -59,12 +59,12 @@ impl Origin {
         text: impl Into<String>,
         models: MemoryFolder,
     ) -> Self {
-        // A folder in memory has no outside; loading tells which files it lacks.
+        // A folder in memory has no outside; loading reports the files it lacks.
         let source = SceneSource::from_text(file, text, PathBuf::new()).unconfined();
         Self { source, models: ModelSource::Memory(models) }
     }
 
-    /// The origin of a scene that is just one model, with every default.
+    /// The origin of a scene that is just one model, with all defaults.
     #[must_use]
     pub fn from_model_path(path: &Path) -> (Self, SceneFile) {
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
@@ -73,8 +73,7 @@ impl Origin {
         (Self::from_text(file, "", folder), SceneFile::from_model_path(name))
     }
 
-    /// The origin of a scene that is just one model, whose file is in memory and complete in
-    /// itself.
+    /// The origin of a scene that is just one model, in a self-contained file in memory.
     #[must_use]
     pub fn from_model_bytes(name: &str, bytes: Vec<u8>) -> (Self, SceneFile) {
         let source = SceneSource::from_text(name, "", PathBuf::new()).unconfined();
@@ -82,20 +81,20 @@ impl Origin {
         (origin, SceneFile::from_model_path(name.to_owned()))
     }
 
-    /// The source, whose files can be parsed into it.
+    /// The source, into which its files can be parsed.
     pub(super) const fn source_mut(&mut self) -> &mut SceneSource {
         &mut self.source
     }
 
-    /// The origin for a viewport: errors point at the viewport's own fields, and at those of the
-    /// scene where it has none.
+    /// The origin for a viewport: errors point at the viewport's own fields, or at the scene's
+    /// where it has none.
     pub(super) fn for_viewport(&self, number: usize) -> Self {
         Self { source: self.source.for_viewport(number), models: self.models.clone() }
     }
 }
 
 impl From<SceneSource> for Origin {
-    /// The models are on the disk.
+    /// Creates an origin with models on disk.
     fn from(source: SceneSource) -> Self {
         Self { source, models: ModelSource::Disk }
     }

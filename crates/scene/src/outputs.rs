@@ -1,4 +1,4 @@
-//! Outputs of a scene: the bits per channel, and the passes that are written beside the picture.
+//! Outputs of a scene: the bits per channel, and the passes written in addition to the picture.
 
 use super::Origin;
 use scene_file::PathStep::Field;
@@ -7,19 +7,19 @@ use scene_file::{Pass, PassEncoding, SceneError, SceneFile};
 /// The outputs of a scene.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Outputs {
-    /// Whether channels have 16 bits, and not 8.
+    /// Whether channels have 16 bits instead of 8.
     pub sixteen_bit: bool,
-    /// The passes beside the picture.
+    /// The passes to write in addition to the picture.
     pub passes: Vec<Pass>,
-    /// How passes are written.
+    /// The file format of passes.
     pub encoding: PassEncoding,
 }
 
 impl Outputs {
-    /// The outputs that a scene file asks for.
+    /// The outputs that a scene file requests.
     ///
     /// # Errors
-    /// If it asks for another number of bits; the error points at it.
+    /// If it requests another number of bits; the error points at it.
     pub fn from_scene_file(origin: &Origin, file: &SceneFile) -> Result<Self, SceneError> {
         let bits = file.image.bits;
         if bits != 8 && bits != 16 {

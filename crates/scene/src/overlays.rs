@@ -1,4 +1,4 @@
-//! Resolution of overlays: the view volumes of other cameras, and labels at points of the world.
+//! Resolution of overlays: the view volumes of other cameras, and labels at points in the world.
 
 use super::view_projection::resolve_view_projection;
 use super::{ImageSpec, Origin};
@@ -15,10 +15,10 @@ use shade::color::SrgbEncoder;
 const OFFSET: DVec2 = DVec2::new(5.0, -5.0);
 const LEADER_OFFSET: DVec2 = DVec2::new(24.0, -24.0);
 
-/// The overlays, with the view-projection of each camera whose view volume is drawn.
+/// Resolves the overlays, with the view-projection of each camera whose view volume is drawn.
 ///
 /// # Errors
-/// If such a camera is impossible, or a label has no text.
+/// If such a camera is invalid, or a label has no text.
 pub(super) fn resolve_overlays(
     origin: &Origin,
     overlays: &[OverlayFile],
@@ -58,7 +58,7 @@ pub(super) fn resolve_overlays(
     overlays.iter().enumerate().map(resolve).collect()
 }
 
-/// Dark or light ink, to be read on a background.
+/// Dark or light ink that is readable on the background.
 fn contrasting_ink(background: [f32; 4]) -> page::Ink {
     let [r, g, b, alpha] = SrgbEncoder::shared().encode_pixel(background);
     ink_on_paper((alpha == 255).then_some([r, g, b]))

@@ -1,5 +1,5 @@
-//! Reading of scene files, with all mistakes at once: those in the texts, and those that what could
-//! be read has besides.
+//! Reads scene files and reports all mistakes at once: those in the texts, and those found by
+//! resolving the readable parts.
 
 use super::diagnostics::Diagnostics;
 use super::model_files::check_model_paths;
@@ -10,18 +10,18 @@ use scene_file::{FileMistake, SceneError, SceneErrors, SceneFile, SceneSource};
 use std::path::{Path, PathBuf};
 
 impl Origin {
-    /// Reads and parses a scene file and those it includes, which must lie below its folder. The
-    /// scene that is returned has what they include, and includes nothing itself.
+    /// Reads and parses a scene file and the files it includes, which must be inside its folder.
+    /// The returned scene contains everything they include, and includes nothing itself.
     ///
     /// # Errors
-    /// If one cannot be read, is not UTF-8, is too long, or if files include each other; and every
-    /// mistake in their texts.
+    /// If a file cannot be read, is not UTF-8 or is too long, or if files include each other; also
+    /// every mistake in their texts.
     pub fn read_scene(path: &Path) -> Result<(Self, SceneFile), ResolveError> {
         Self::read_scene_allowing(path, &[])
     }
 
-    /// Reads and parses a scene file and those it includes, which must lie below its folder or one
-    /// that is `allowed`.
+    /// Reads and parses a scene file and the files it includes, which must be inside its folder or
+    /// an `allowed` one.
     ///
     /// # Errors
     /// As [`read_scene`](Self::read_scene).
@@ -32,11 +32,11 @@ impl Origin {
         Self::from(SceneSource::read(path)?).parse_with_includes(allowed)
     }
 
-    /// Parses a scene's text and the files it includes, which must lie below its folder or one that
-    /// is `allowed`.
+    /// Parses a scene's text and the files it includes, which must be inside its folder or an
+    /// `allowed` one.
     ///
-    /// If there are mistakes in the texts, what could be read is resolved as far as that is
-    /// possible without the models, so that all mistakes come at once.
+    /// If there are mistakes in the texts, the readable parts are resolved without the models, if
+    /// possible, so that all mistakes are reported at once.
     ///
     /// # Errors
     /// As [`read_scene`](Self::read_scene).
@@ -56,8 +56,8 @@ impl Origin {
     }
 }
 
-/// The mistakes in the texts of a scene's files, and those that what could be read has besides, as
-/// far as the models need not be loaded for that.
+/// The mistakes in the texts of a scene's files, and those in the readable parts that can be found
+/// without loading the models.
 fn with_errors_of_description(
     origin: &Origin,
     file: &SceneFile,
@@ -67,7 +67,7 @@ fn with_errors_of_description(
     let mut faults = Diagnostics::default();
     check_description(origin, file, allowed, &mut faults);
     check_model_paths(origin, file, allowed, &mut faults);
-    // What contains a mistake, or is part of one, may be wrong because of it.
+    // An error that contains a mistake, or is part of one, may be caused by it.
     let is_independent = |error: &SceneError| {
         mistakes.iter().all(|FileMistake { error: mistake, scope }| {
             let (outer, inner) = (&error.span, scope);
@@ -76,7 +76,7 @@ fn with_errors_of_description(
             mistake.file != error.file || !(contains || is_part)
         })
     };
-    // A background that shows the environment needs one that could be read.
+    // A background that shows the environment needs a readable one.
     let environment = origin.error_at(&[Field("environment")], "", None);
     let is_lost = |FileMistake { error, .. }: &FileMistake| {
         error.file == environment.file

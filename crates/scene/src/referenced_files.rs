@@ -1,24 +1,24 @@
-//! The files that a model refers to: buffers and images of glTF, material libraries of OBJ with
-//! their textures, textures of PLY.
+//! The files that a model refers to: glTF buffers and images, OBJ material libraries and their
+//! textures, PLY textures.
 //!
-//! They are found by a quick look at the text and not by the importer, so that it costs a read of
-//! the files and no parse of the meshes. A name too many does no harm: it is a file that does
-//! not exist, or one whose change renders a picture again.
+//! They are found by a quick scan of the text rather than by the importer, so that it only reads
+//! the files and does not parse the meshes. Extra names do no harm: the file does not exist, or a
+//! change in it renders a picture again.
 
 use import::{FileFormat, percent_decode};
 use serde_json::Value;
 use std::path::Path;
 
-/// Names of one file that are looked for.
+/// The maximum number of names looked up for one file.
 const MAX_NAMES: usize = 1024;
 
-/// Words of a statement that a file name may begin at.
+/// The maximum number of words in a statement at which a file name may begin.
 const MAX_WORDS: usize = 16;
 
-/// The names of the files that a model or a material library refers to, relative to the model's
-/// folder, in the order in which they are mentioned. `name` is its own.
+/// The names of the files that a model or material library refers to, relative to the model's
+/// folder, in the order in which they appear. `name` is its own.
 ///
-/// The textures of a material library are not among the names of the model that refers to it.
+/// The textures of a material library are not listed for the model that refers to it.
 #[must_use]
 pub fn referenced_files(name: &str, bytes: &[u8]) -> Vec<String> {
     let path = Path::new(name);
@@ -35,8 +35,8 @@ pub fn referenced_files(name: &str, bytes: &[u8]) -> Vec<String> {
 
 /// The external buffers and images of a glTF file.
 ///
-/// Embedded `data:` URIs are part of the file's bytes and are left out, as are buffers without a
-/// URI, the binary chunk of a GLB. Invalid JSON refers to nothing.
+/// Embedded `data:` URIs are part of the file itself and are omitted, as are buffers without a URI,
+/// the binary chunk of a GLB. Invalid JSON refers to nothing.
 fn gltf_files(bytes: &[u8]) -> Vec<String> {
     let Ok(json) = serde_json::from_slice::<Value>(json_chunk(bytes)) else { return Vec::new() };
     let list = |name: &str| json.get(name).and_then(Value::as_array).cloned().unwrap_or_default();
@@ -45,7 +45,7 @@ fn gltf_files(bytes: &[u8]) -> Vec<String> {
     names.filter(|uri| !uri.starts_with("data:")).flat_map(paths_of_uri).collect()
 }
 
-/// The paths that the importer tries for a URI: as it is written, decoded, and with `\` as `/`.
+/// The paths that the importer tries for a URI: as written, decoded, and with `\` as `/`.
 fn paths_of_uri(uri: String) -> Vec<String> {
     let decoded = percent_decode(&uri);
     let with_slashes = decoded.as_ref().map(|path| path.replace('\\', "/"));
@@ -55,7 +55,7 @@ fn paths_of_uri(uri: String) -> Vec<String> {
 }
 
 /// The material libraries of an OBJ file: `mtllib` takes one name, which may contain spaces, or
-/// several.
+/// several names.
 fn obj_files(bytes: &[u8]) -> Vec<String> {
     let mut files = Vec::new();
     for statement in statements(bytes, |keyword| keyword == "mtllib").take(MAX_NAMES) {
@@ -66,15 +66,15 @@ fn obj_files(bytes: &[u8]) -> Vec<String> {
     files
 }
 
-/// The textures of a material library, which are looked for beside it, beside the model, and there
-/// by the last part of their name alone.
+/// The textures of a material library, which are looked up next to it, next to the model, and there
+/// also by only the last part of their name.
 fn mtl_files(name: &str, bytes: &[u8]) -> Vec<String> {
     let folder = name.rfind('/').map_or("", |slash| &name[..=slash]);
     let is_texture =
         |keyword: &str| keyword.starts_with("map_") || matches!(keyword, "bump" | "norm");
     let mut files = Vec::new();
     for statement in statements(bytes, is_texture).take(MAX_NAMES) {
-        // Options come before the name, and it may contain spaces.
+        // Options come before the name, which may contain spaces.
         let mut rest = statement.as_str();
         for _ in 0..MAX_WORDS {
             let name = rest.replace('\\', "/");
@@ -90,10 +90,10 @@ fn mtl_files(name: &str, bytes: &[u8]) -> Vec<String> {
     files
 }
 
-/// The arguments of all statements of a text whose keyword, in lower case, is accepted.
+/// The arguments of all statements in a text whose keyword, in lowercase, is accepted.
 fn statements(text: &[u8], is_wanted: impl Fn(&str) -> bool) -> impl Iterator<Item = String> {
     let lines = text.split(|byte| matches!(byte, b'\n' | b'\r')).map(<[u8]>::trim_ascii);
-    // Most lines are vertices and faces, which are not worth a string.
+    // Most lines are vertices and faces, for which a string would be wasted.
     let lines = lines.filter(|line| {
         matches!(line.first(), Some(b'm' | b'M' | b'b' | b'B' | b'n' | b'N')) && line.len() > 5
     });
@@ -116,11 +116,11 @@ fn ply_files(bytes: &[u8]) -> Vec<String> {
     names.take(MAX_NAMES).collect()
 }
 
-/// The JSON chunk of a GLB file, or all of a `.gltf` file.
+/// The JSON chunk of a GLB file, or the whole of a `.gltf` file.
 ///
 /// A GLB begins with a header of 12 bytes (magic, version, length), then the length and the type of
 /// the first chunk, 4 bytes each, then the JSON (glTF 2.0 §4.4). Truncated files give a shorter
-/// slice and never a panic.
+/// slice, never a panic.
 fn json_chunk(bytes: &[u8]) -> &[u8] {
     let Some(rest) = bytes.strip_prefix(b"glTF").and_then(|rest| rest.get(8..)) else {
         return bytes;

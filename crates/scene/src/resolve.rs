@@ -1,8 +1,8 @@
-//! Resolution: from a parsed scene file to the scene that is rendered, or to errors that point into
-//! the file. Models are loaded, angles are radians, and every default is decided.
+//! Resolution: from a parsed scene file to a scene that can be rendered, or to errors that point
+//! into the file. Models are loaded, angles become radians, and every default is filled in.
 //!
-//! One pass: each part is resolved by itself, and its mistakes are kept ([`Diagnostics`]), so that
-//! one in the camera does not hide one in the lights.
+//! There is one pass: each part is resolved separately, and its mistakes are kept
+//! ([`Diagnostics`]), so that one in the camera does not hide one in the lights.
 
 use super::diagnostics::Diagnostics;
 use super::file_access::FileAccess;
@@ -17,11 +17,11 @@ use model::ModelInstance;
 use scene_file::{SceneError, SceneFile};
 use std::path::PathBuf;
 
-/// The scene of a file that has been parsed, unless it cannot be resolved, and every mistake in the
-/// file, in its order: in sheets, passes and the path of the camera too. Models are loaded once.
+/// The scene in a parsed file, unless it cannot be resolved, and every mistake in the file, in
+/// order. This includes sheets, passes and the camera path. Models are loaded once.
 ///
-/// A model that cannot be loaded is a mistake, and what depends on the models is then not validated;
-/// the crate `gltf-check` reports whatever else is wrong with a model's file.
+/// A model that cannot be loaded is a mistake, and the parts that depend on the models are then not
+/// validated. The crate `gltf-check` reports everything else that is wrong with a model's file.
 #[must_use]
 pub fn validate_scene(
     origin: &Origin,
@@ -33,16 +33,16 @@ pub fn validate_scene(
     (scene, faults.into_errors(origin))
 }
 
-/// What of a scene is resolved.
+/// The extent of resolution.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Extent {
-    /// What a picture needs. Where something is wrong with that, mistakes of the rest are told too.
+    /// The parts for a picture. If they have mistakes, mistakes in the rest are reported too.
     Picture,
-    /// Whatever the file says: sheets, passes and the path of the camera too.
+    /// Everything in the file, including sheets, passes and the camera path.
     Everything,
 }
 
-/// The scene of a file with its models.
+/// Resolves a scene file together with its models.
 fn resolve_file(
     origin: &Origin,
     file: &SceneFile,
@@ -62,7 +62,7 @@ fn resolve_file(
     scene
 }
 
-/// The mistakes that can be found without the models.
+/// Collects the mistakes that can be found without the models.
 pub(super) fn check_description(
     origin: &Origin,
     file: &SceneFile,
@@ -73,7 +73,7 @@ pub(super) fn check_description(
     check_outputs(origin, file, None, allowed, faults);
 }
 
-/// The mistakes in what a picture of the scene does not need.
+/// Collects the mistakes in the parts that a picture of the scene does not need.
 #[cfg_attr(not(feature = "sheets"), expect(unused_variables, reason = "for sheets"))]
 fn check_outputs(
     origin: &Origin,
@@ -88,7 +88,7 @@ fn check_outputs(
     super::sheet_errors::check_sheet(origin, file, models, allowed, faults);
 }
 
-/// The scene with its insets; `None` if something is wrong with it, or if there are no models.
+/// The scene with its insets; `None` if it has mistakes, or if there are no models.
 fn resolve_parts(
     origin: &Origin,
     file: &SceneFile,
@@ -98,7 +98,7 @@ fn resolve_parts(
 ) -> Option<Scene> {
     let scene = resolve_without_insets(origin, file, models, access, faults);
     if models.is_none() {
-        // How bright the default is depends on the models, but not whether its file can be read.
+        // The models affect the brightness of the default, but not whether its file can be read.
         let _ = faults.take(access.environment(origin, file, &[], 0.0));
         if resolve_image_size(origin, file).is_ok() {
             let _ = faults.take(access.backdrop(origin, file));
@@ -110,11 +110,11 @@ fn resolve_parts(
 }
 
 impl Scene {
-    /// Loads the models of a scene and decides everything that the file leaves open.
+    /// Loads the models of a scene and fills in everything that the file leaves open.
     ///
     /// # Errors
-    /// If a model cannot be loaded; and every mistake of the scene that can be found, in the order
-    /// of the file.
+    /// If a model cannot be loaded; also every mistake in the scene that can be found, in file
+    /// order.
     pub fn resolve(
         origin: &Origin,
         file: &SceneFile,
@@ -130,11 +130,11 @@ impl Scene {
         Ok(scene)
     }
 
-    /// Decides everything that the file leaves open around models that are loaded, posed and
-    /// placed; those of the file are not looked at.
+    /// Fills in everything that the file leaves open, for models that are loaded, posed and placed;
+    /// the file's own models are ignored.
     ///
     /// # Errors
-    /// If something makes no sense; the errors point at their places in the file.
+    /// If a value is invalid; the errors point at its position in the file.
     pub fn from_models(
         origin: &Origin,
         file: &SceneFile,
@@ -143,8 +143,8 @@ impl Scene {
         Self::from_models_allowing(origin, file, models, &[])
     }
 
-    /// As [`from_models`](Self::from_models); images and environments may lie in the `allowed`
-    /// folders too.
+    /// As [`from_models`](Self::from_models); images and environments may also be in the `allowed`
+    /// folders.
     ///
     /// # Errors
     /// As [`from_models`](Self::from_models).
@@ -157,11 +157,11 @@ impl Scene {
         Self::resolve_posed(origin, file, models, FileAccess::Read(allowed))
     }
 
-    /// Decides everything that the file leaves open about the camera alone: where it stands around
-    /// models that are loaded, posed and placed, or without any.
+    /// Fills in only what the file leaves open about the camera: its position around models that
+    /// are loaded, posed and placed, or without any models.
     ///
     /// # Errors
-    /// If the size or the camera makes no sense; without models, if it is to frame them.
+    /// If the size or the camera is invalid; without models, also if the camera should frame them.
     pub fn resolve_camera(
         origin: &Origin,
         file: &SceneFile,
@@ -175,7 +175,7 @@ impl Scene {
         faults.finish(origin, view)
     }
 
-    /// The scene around its models in their pose; files come from where `access` says.
+    /// The scene with its models in their pose; `access` provides the files.
     ///
     /// # Errors
     /// As [`from_models`](Self::from_models).

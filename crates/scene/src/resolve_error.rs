@@ -1,4 +1,4 @@
-//! Why a scene cannot be resolved.
+//! The reasons why a scene cannot be resolved.
 
 use import::ImportError;
 use scene_file::{SceneError, SceneErrors, UnreadableScene};

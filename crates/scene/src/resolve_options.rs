@@ -1,35 +1,35 @@
-//! Options of resolution: what the caller of a scene decides, not its file.
+//! Resolution options: set by the caller of a scene, not by its file.
 
 use super::Origin;
 use import::ImportOptions;
 use scene_file::PathStep::Field;
 use scene_file::{SceneError, SceneFile};
 
-/// The most pixels that a scene may ask for by itself: 16,384 x 16,384.
+/// The maximum number of pixels that a scene may request: 16,384 x 16,384.
 const MAX_PIXELS: u64 = 1 << 28;
 
-/// How a scene is resolved.
+/// Options for resolving a scene.
 #[derive(Clone, Debug, Default)]
 pub struct ResolveOptions {
-    /// How models are loaded. The paths of a scene file may lead out of its folder into those that
-    /// `allow_outside` names.
+    /// Import options for models. The paths in a scene file may lead out of its folder into those
+    /// that `allow_outside` lists.
     pub import: ImportOptions,
-    /// Whether the picture may have more than 2²⁸ pixels. For sizes that a person chose: a line
-    /// in a scene file is enough to ask for hours of work.
+    /// Whether the picture may have more than 2²⁸ pixels. Only for sizes that a person chose: one
+    /// line in a scene file is enough to request hours of work.
     pub allow_large_picture: bool,
-    /// Whether lines are drawn without limits of work, exactly also where hundreds of surfaces lie
+    /// Whether lines are drawn without work limits, exactly even where hundreds of surfaces are
     /// behind each other.
     pub unlimited_lines: bool,
 }
 
 impl ResolveOptions {
-    /// The default with these import options.
+    /// The default options, with these import options.
     #[must_use]
     pub fn with_import(import: ImportOptions) -> Self {
         Self { import, ..Self::default() }
     }
 
-    /// Refuses a picture of more than [`MAX_PIXELS`], unless it is allowed.
+    /// Refuses a picture of more than [`MAX_PIXELS`], unless larger ones are allowed.
     pub(super) fn check_pixels(&self, origin: &Origin, file: &SceneFile) -> Result<(), SceneError> {
         let (width, height) = file.image.size;
         // Longer sides have a separate error.

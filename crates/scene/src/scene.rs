@@ -1,4 +1,4 @@
-//! A resolved scene: models, camera, lights, and how they are drawn.
+//! A resolved scene: models, camera, lights, and the style in which they are drawn.
 
 use super::{Ground, Inset};
 use camera::ViewProjection;
@@ -20,38 +20,39 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// The ground below the models.
     pub ground: Option<Ground>,
-    /// Light from all around.
+    /// Light from all directions.
     pub environment: Option<Arc<Environment>>,
-    /// How far away things still take light from all around, in the units of the world; `None` if
-    /// they do not.
+    /// The distance up to which surfaces occlude light from all directions, in world units; `None`
+    /// if they do not.
     pub occlusion_radius: Option<f64>,
     /// Exposure and tone mapping.
     pub tone_mapper: ToneMapper,
-    /// How surfaces are drawn.
+    /// The style of surfaces.
     pub style: Style,
     /// The picture to make.
     pub image: ImageSpec,
-    /// Views of their own in parts of the picture, in the order in which they are drawn over it.
+    /// Separate views in parts of the picture, in the order in which they are drawn over it.
     pub insets: Vec<Inset>,
     /// The gradient or image behind the models, over the background color.
     pub backdrop: Option<Arc<Backdrop>>,
     /// The overlays, drawn over the picture.
     pub overlays: Vec<Overlay>,
-    /// The text below the view, in the strip at the lower border of the image.
+    /// The text below the view, in the strip along the lower border of the image.
     pub caption: Option<String>,
-    /// Planes that cut the models open in line drawings; their unit normals point to what is kept.
+    /// Planes that cut the models open in line drawings; their unit normals point to the retained
+    /// half.
     pub sections: Vec<Plane<World>>,
     /// The objects that the planes do not cut, in ascending order: nodes with a mesh, counted over
     /// all models.
     pub uncut: Vec<u32>,
-    /// Whether lines are drawn without limits of work.
+    /// Whether lines are drawn without work limits.
     pub unlimited_lines: bool,
 }
 
 impl Scene {
-    /// Models seen through a camera, shaded as they are, without lights and with nothing around them.
+    /// Models seen through a camera, shaded as they are, without lights or surroundings.
     ///
-    /// Take other fields from it, as in `Scene { lights, ..Scene::new(…) }`.
+    /// Other fields can be set on top, as in `Scene { lights, ..Scene::new(…) }`.
     #[must_use]
     pub fn new(
         models: Vec<ModelInstance>,
@@ -78,21 +79,21 @@ impl Scene {
         }
     }
 
-    /// Every vertex that some point, line or triangle of the scene uses, in the world.
+    /// Every vertex used by some point, line or triangle of the scene, in the world.
     #[must_use]
     pub fn world_points(&self) -> Vec<Point<World>> {
         model::world_points(&self.models)
     }
 
-    /// Whether every pixel of the picture is certainly opaque: the scene's background and those of
-    /// all insets are.
+    /// Whether every pixel of the picture is certainly opaque: the backgrounds of the scene and of
+    /// all insets are opaque.
     #[must_use]
     pub fn has_opaque_background(&self) -> bool {
         let is_opaque = |scene: &Self| scene.image.background[3] >= 1.0;
         is_opaque(self) && self.insets.iter().all(|inset| is_opaque(&inset.scene))
     }
 
-    /// Whether a light casts shadows, or the ground shows occlusion by the models.
+    /// Whether a light casts shadows, or the ground shows occlusion from the models.
     #[must_use]
     pub fn casts_shadows(&self) -> bool {
         let has_occlusion = self.ground.is_some_and(|ground| ground.occlusion.is_some());
@@ -119,30 +120,30 @@ impl Scene {
     }
 }
 
-/// How surfaces are drawn.
+/// The style of surfaces.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Style {
-    /// Lit, with smooth normals where the file has them.
+    /// Lit, with smooth normals if the file has them.
     Shaded,
-    /// Lit, one normal for each triangle.
+    /// Lit, with one normal per triangle.
     Flat,
-    /// Lit at the corners of triangles.
+    /// Lit at the corners of the triangles.
     Gouraud,
-    /// Matt clay.
+    /// Matte clay.
     Clay,
     /// A ball of glazed clay.
     Matcap,
-    /// Normals as colours.
+    /// Normals as colors.
     Normals,
-    /// The nearer, the brighter; in a colormap, the closer to its last color.
+    /// The nearer, the brighter; with a colormap, the closer to its last color.
     Depth(Option<Colormap>),
-    /// A checkerboard by texture coordinates.
+    /// A checkerboard from texture coordinates.
     UvChecker,
-    /// A colour for each part.
+    /// A color for each part.
     Ids,
     /// Toon (cel) shading: three steps of light, with outlines.
     Toon,
-    /// As if of glass.
+    /// Translucent, like glass.
     XRay,
     /// The edges of all triangles.
     Wireframe,
@@ -151,7 +152,7 @@ pub enum Style {
 }
 
 impl Style {
-    /// Widths, dashes and hidden lines of the style.
+    /// The style's widths, dashes and hidden lines.
     #[must_use]
     pub const fn line_style(self) -> LineStyle {
         match self {
@@ -161,27 +162,27 @@ impl Style {
         }
     }
 
-    /// Whether surfaces are drawn, and not only lines.
+    /// Whether surfaces are drawn rather than only lines.
     #[must_use]
     pub const fn draws_surfaces(self) -> bool {
         !matches!(self, Self::Wireframe | Self::Lines(_))
     }
 
-    /// Whether colors stand for numbers: normals, depths, texture coordinates, parts.
+    /// Whether colors represent numbers: normals, depths, texture coordinates, parts.
     #[must_use]
     pub const fn is_false_color(self) -> bool {
         matches!(self, Self::Normals | Self::Depth(_) | Self::UvChecker | Self::Ids)
     }
 
-    /// Whether surfaces look otherwise than their materials have it.
+    /// Whether surfaces look different from their materials.
     #[must_use]
     pub const fn overrides_materials(self) -> bool {
         self.draws_surfaces() && !matches!(self, Self::Shaded | Self::Flat)
     }
 }
 
-/// The longest side of a picture in pixels. Pictures with a side beyond 16,384 pixels are rendered
-/// region by region.
+/// The maximum side of a picture in pixels. Pictures with a side of more than 16,384 pixels are
+/// rendered region by region.
 pub const MAX_IMAGE_SIDE: u32 = 1 << 20;
 
 /// The picture to make.
@@ -189,23 +190,23 @@ pub const MAX_IMAGE_SIDE: u32 = 1 << 20;
 pub struct ImageSpec {
     /// Width in pixels.
     pub width: u32,
-    /// Height in pixels, with that of the caption.
+    /// Height in pixels, including the caption.
     pub height: u32,
-    /// The height in pixels of the strip for the caption, at the lower border; 0 without one.
+    /// The height in pixels of the caption strip along the lower border; 0 without a caption.
     pub caption_height: u32,
     /// The background color: linear, premultiplied by alpha.
     pub background: [f32; 4],
-    /// Whether the background is the white paper that line drawings have by default: pages in
-    /// vector format leave it out.
+    /// Whether the background is the white paper that line drawings have by default, which pages in
+    /// vector formats omit.
     pub is_blank_paper: bool,
-    /// How blurred the environment is as the background, from 0 to 1; `None` if it is not visible.
+    /// The blur of the environment as the background, from 0 to 1; `None` if it is not visible.
     pub environment_blur: Option<f32>,
     /// Coverage samples per pixel.
     pub samples: Samples,
-    /// The most samples of anisotropic texture filtering, along the longer axis of a pixel's
-    /// footprint, from 1 to 8.
+    /// The maximum number of samples of anisotropic texture filtering, along the longer axis of a
+    /// pixel's footprint, from 1 to 8.
     pub max_anisotropy: u32,
-    /// The side of points in pixels, from 1 to 256.
+    /// The size of points in pixels, from 1 to 256.
     pub point_size: f64,
 }
 

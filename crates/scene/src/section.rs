@@ -7,7 +7,7 @@ use scene_file::PathStep::{Field, Index};
 use scene_file::SceneError;
 use scene_file::file::SectionFile;
 
-/// More cuts than this are a slip, and each costs another pass over the models.
+/// More cuts than this are a mistake, and each costs another pass over the models.
 const MAX_SECTIONS: usize = 16;
 
 /// The planes of the sections. Their normals have length 1 and point to the half that is retained.
@@ -33,7 +33,7 @@ fn resolve_section(
     section: &SectionFile,
 ) -> Result<Plane<World>, SceneError> {
     let [x, y, z] = section.normal.0;
-    // Scaled first, so that no square leaves the range of numbers.
+    // Scaled first, so that no square overflows or underflows.
     let largest = x.abs().max(y.abs()).max(z.abs());
     let unit = Normal::<World>::new(-x / largest, -y / largest, -z / largest).normalized();
     let fault = || {

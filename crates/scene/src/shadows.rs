@@ -1,4 +1,4 @@
-//! Resolution of shadow settings: the size of the shadow map, and how soft its shadows are.
+//! Resolution of shadow settings: the size of the shadow map and the softness of its shadows.
 
 use super::Origin;
 use scene_file::PathStep::{self, Field};
@@ -6,12 +6,12 @@ use scene_file::SceneError;
 use scene_file::file::ShadowsFile;
 use shade::Shadow;
 
-/// The texels of a shadow map's longer side, by default.
+/// The default number of texels along a shadow map's longer side.
 const DEFAULT_MAP_SIZE: u32 = 2048;
-/// How large the sun looks from the earth, in degrees.
+/// The apparent diameter of the sun from Earth, in degrees.
 const DEFAULT_SOFTNESS_DEGREES: f64 = 0.53;
 
-/// The shadows that the settings at the end of `path` ask for.
+/// Resolves the shadows from the settings at the end of `path`.
 pub(super) fn resolve_shadow(
     origin: &Origin,
     file: Option<&ShadowsFile>,

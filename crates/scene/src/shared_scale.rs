@@ -1,10 +1,10 @@
-//! One scale for several views: the same length is equally long in all of them.
+//! One scale for several views: a given length is equally long in all of them.
 //!
-//! The scale of a parallel view is the number of pixels of a unit of the world that is parallel to
-//! the picture plane: those of the front in an oblique projection, of none of the axes in an
-//! isometric one, which shows them √⅔ as long (AX-1). Perspectives have no scale.
+//! The scale of a parallel view is the number of pixels per unit of world length parallel to the
+//! picture plane. In an oblique projection this applies to the front; in an isometric one to none
+//! of the axes, which appear √⅔ as long (AX-1). Perspectives have no scale.
 //!
-//! The shared scale is the least of those at which each view fits its rectangle.
+//! The shared scale is the smallest of the scales at which each view fits its rectangle.
 
 use super::camera_fields::PROJECTION_PATH;
 use super::caption::map_window;
@@ -17,12 +17,12 @@ use scene_file::SceneError;
 use scene_file::file::{CameraFile, ProjectionFile, SceneFile, ViewFile, ViewportsScale};
 
 impl Scene {
-    /// The scale of the view in pixels for a unit of the world; `None` in perspective, where it
-    /// depends on the distance.
+    /// The scale of the view in pixels per world unit; `None` in perspective, where it depends on
+    /// the distance.
     ///
-    /// With the rows x and y of the map from the world to pixels it is the lesser singular value of
-    /// the two: in an orthographic projection both are the scale, in an oblique one the greater
-    /// belongs to the slanted receding lines.
+    /// It is the smaller singular value of the rows x and y of the map from the world to pixels. In
+    /// an orthographic projection both values are the scale; in an oblique one the larger belongs
+    /// to the slanted receding lines.
     #[must_use]
     pub fn pixels_per_unit(&self) -> Option<f64> {
         let view = &self.view_projection;
@@ -38,7 +38,7 @@ impl Scene {
         (least > 0.0 && least.is_finite()).then_some(least)
     }
 
-    /// Changes the scale of a parallel view about its center; a perspective is left as it is.
+    /// Changes the scale of a parallel view about its center; leaves a perspective unchanged.
     pub fn set_pixels_per_unit(&mut self, scale: f64) {
         let Some(own) = self.pixels_per_unit() else { return };
         let (factor, center) = (scale / own, self.image.view_center());
@@ -47,10 +47,10 @@ impl Scene {
     }
 }
 
-/// Gives the parallel views among the viewports one scale, if the scene wants that.
+/// Gives the parallel views among the viewports one scale, if the scene requests it.
 ///
 /// # Errors
-/// If fewer than two of them are parallel, or one has a scale of its own.
+/// If fewer than two of them are parallel, or if one sets its own scale.
 pub(super) fn share_scale_of_viewports(
     origin: &Origin,
     file: &SceneFile,
@@ -83,7 +83,7 @@ pub(super) fn share_scale_of_viewports(
     Ok(())
 }
 
-/// Whether the file, or a model's camera, gives the size of a parallel window.
+/// Whether the file, or a model's camera, sets the size of a parallel window.
 fn has_own_scale(camera: &CameraFile) -> bool {
     match &camera.projection {
         Some(ProjectionFile::Orthographic { height: Some(_), .. }) => true,

@@ -18,25 +18,25 @@ use sheet::{DimensionUnit, NumberFormat, Sheet, TitleBlockTemplate, TitleBlockTe
 use std::path::PathBuf;
 use viewport::Paper;
 
-/// The content of a drawing sheet, and what it takes from the scene around it.
+/// The content of a drawing sheet, and the settings it takes from the scene.
 #[derive(Clone, Copy, Debug)]
 pub struct SheetContent<'a> {
     /// The models.
     pub models: &'a [ModelInstance],
     /// The section planes.
     pub sections: &'a [Plane<World>],
-    /// The objects that they do not cut.
+    /// The objects that the section planes do not cut.
     pub uncut: &'a [u32],
     /// The line style of the scene, if it is a line drawing.
     pub style: Option<LineStyle>,
     /// The overlays of the scene.
     pub overlays: &'a [Overlay],
-    /// The folders besides that of the scene in which its title block may lie.
+    /// The folders, in addition to the scene's, that may contain its title block.
     pub allowed_folders: &'a [PathBuf],
 }
 
 impl<'a> SheetContent<'a> {
-    /// The content of a resolved scene, with a title block from no other folder than the scene's.
+    /// The content of a resolved scene; a title block may only be in the scene's own folder.
     #[must_use]
     pub fn from_scene(scene: &'a Scene) -> Self {
         Self {
@@ -52,10 +52,10 @@ impl<'a> SheetContent<'a> {
 
 /// Resolves the drawing sheet of a scene file for its models.
 ///
-/// Edges, crease angle, hidden lines, fill, color and depth cue are those of the scene's line
-/// style, and so is a width in millimeters; what the sheet says itself goes before. Without an
-/// orientation the paper is turned so that the scale is greatest, and without a size it is the
-/// smallest that is large enough: [`Sheet::smallest_of`].
+/// Edges, crease angle, hidden lines, fill, color and depth cue come from the scene's line style,
+/// and so does a width in millimeters; the sheet's own settings take precedence. Without an
+/// orientation the paper is turned to give the largest scale. Without a size it is the smallest
+/// that is large enough: [`Sheet::smallest_of`].
 ///
 /// ```
 /// use import::MemoryFolder;
@@ -83,8 +83,8 @@ impl<'a> SheetContent<'a> {
 /// ```
 ///
 /// # Errors
-/// If the scale has a 0, ISO 128 has no line group of the width, the models have several units, or
-/// a dimension names or picks what is not there; the error points into the file.
+/// If the scale has a 0, ISO 128 has no line group with the width, the models have several units,
+/// or a dimension names or picks a missing part. The error points into the file.
 pub fn resolve_sheet(
     origin: &Origin,
     file: &SheetFile,
@@ -105,11 +105,11 @@ pub fn resolve_sheet(
     chosen.ok_or_else(|| origin.error_at(&[Field("sheet")], "there is no paper", None))
 }
 
-/// The papers among which is chosen, the smallest first.
+/// The paper sizes to choose from, smallest first.
 const SERIES_A: [PaperSize; 5] =
     [PaperSize::A4, PaperSize::A3, PaperSize::A2, PaperSize::A1, PaperSize::A0];
 
-/// The sheet on paper of this size, in the orientation of the file or the usual one.
+/// The sheet on paper of this size, in the file's orientation or the usual one.
 fn resolve_sheet_on(
     origin: &Origin,
     file: &SheetFile,
@@ -128,7 +128,7 @@ fn resolve_sheet_on(
             let group = resolve_iso_group(origin, width, &[Field("sheet"), Field("width")])?;
             LineWidths::Iso(group)
         }
-        // Pixels say nothing about paper.
+        // Pixels do not determine a width on paper.
         (None, LineWidths::Pixels(_)) => default_sheet.style.line_widths,
         (None, widths) => widths,
     };
@@ -160,7 +160,7 @@ fn resolve_sheet_on(
     })
 }
 
-/// The texts of the title block; a sheet has a number of those that there are.
+/// The title block texts; the sheet number must not exceed the number of sheets.
 fn resolve_title_block(origin: &Origin, file: &SheetFile) -> Result<TitleBlockText, SceneError> {
     if let Some((number, count)) =
         file.sheet_number.filter(|(number, count)| !(1..=*count).contains(number))
@@ -184,7 +184,7 @@ fn resolve_title_block(origin: &Origin, file: &SheetFile) -> Result<TitleBlockTe
     })
 }
 
-/// The title block of one's own; it lies below the folder of the scene or one that is `allowed`.
+/// The custom title block, which must be inside the scene's folder or an `allowed` one.
 fn resolve_template(
     origin: &Origin,
     file: &SheetFile,
@@ -199,7 +199,7 @@ fn resolve_template(
     template.map(Some).map_err(|error| origin.error_at(&at, format!("{path}, {error}"), None))
 }
 
-/// The form of numbers.
+/// The number format.
 fn resolve_numbers(origin: &Origin, file: &SheetFile) -> Result<NumberFormat, SceneError> {
     let most = NumberFormat::MAX_DECIMALS;
     let fault = |decimals: u32| {
@@ -235,7 +235,7 @@ fn resolve_paper(file: &SheetFile, size: PaperSize) -> (Paper, &'static str) {
     (if upright { paper } else { paper.rotated() }, name)
 }
 
-/// The unit of the models: that of the sheet, else the one that all of their files have.
+/// The unit of the models: the sheet's, otherwise the one that all of their files share.
 fn resolve_unit(
     origin: &Origin,
     file: &SheetFile,

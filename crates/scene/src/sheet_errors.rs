@@ -1,4 +1,5 @@
-//! Errors of a scene's sheet, before it is drawn: values out of range, views larger than the paper.
+//! Errors in a scene's sheet, found before drawing: values out of range, views larger than the
+//! paper.
 
 use super::assembly::resolve_assembly;
 use super::diagnostics::Diagnostics;
@@ -16,8 +17,8 @@ use scene_file::{SceneError, SceneFile};
 use sheet::SheetError;
 use std::path::PathBuf;
 
-/// The mistakes of a scene's sheet; without models those that can be found without them. Mistakes in
-/// sections and style are found elsewhere.
+/// Reports the mistakes in a scene's sheet; without models, only those that do not depend on them.
+/// Mistakes in sections and style are found elsewhere.
 pub(super) fn check_sheet(
     origin: &Origin,
     file: &SceneFile,
@@ -48,8 +49,8 @@ pub(super) fn check_sheet(
     }
 }
 
-/// The error of a sheet whose views are larger than its paper, or that names parts which the models
-/// do not have; `None` without one, or if it is wrong in itself.
+/// The error for a sheet whose views are larger than its paper, or that names parts missing from
+/// the models; `None` without a sheet, or if it is invalid in itself.
 fn layout_error(
     origin: &Origin,
     file: &SheetFile,
@@ -66,11 +67,11 @@ fn layout_error(
     let place: &[PathStep<'_>] = match (&error, file.scale) {
         (SheetError::TooLarge { .. }, Some(_)) => &SCALE_PATH,
         (SheetError::TooLarge { .. }, None) => &[Field("sheet")],
-        // Models without anything to draw are an error of the camera.
+        // Models with nothing to draw are a camera error.
         _ => return None,
     };
     let message = error.to_string();
-    // The remedy is the last part of the message.
+    // The suggested fix is the last part of the message.
     let (message, help) = match message.rsplit_once("; ") {
         Some((message, help)) => (message.to_owned(), Some(help.to_owned())),
         None => (message, None),

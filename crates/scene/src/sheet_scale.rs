@@ -1,14 +1,14 @@
-//! Scales of sheets and of their views.
+//! Scales of sheets and their views.
 
 use super::Origin;
 use scene_file::PathStep::{self, Field};
 use scene_file::SceneError;
 use viewport::DrawingScale;
 
-/// The place of the sheet's scale in a scene file.
+/// The path of the sheet's scale in a scene file.
 pub(super) const SCALE_PATH: [PathStep<'static>; 2] = [Field("sheet"), Field("scale")];
 
-/// The scale as a ratio of lengths on paper to lengths of the object.
+/// The scale as a ratio of lengths on paper to lengths on the object.
 pub(super) fn resolve_scale(
     origin: &Origin,
     scale: (u32, u32),

@@ -9,7 +9,7 @@ use scene_file::SceneError;
 use scene_file::file::{AxisFile, Finite, SheetFile, SheetViewFile, Triple, ViewSideFile};
 use sheet::{SheetError, ViewPlace, ViewRequest, ViewSide};
 
-/// The views that a sheet asks for.
+/// Resolves the views that a sheet requests.
 ///
 /// # Errors
 /// If a scale has a 0; the error points into the file.
@@ -21,7 +21,7 @@ pub(super) fn resolve_sheet_views(
     numbered.map(|(index, view)| resolve_view(origin, index, view)).collect()
 }
 
-/// One view of the list.
+/// Resolves one view in the list.
 fn resolve_view(
     origin: &Origin,
     index: usize,
@@ -79,8 +79,7 @@ fn resolve_view(
     })
 }
 
-/// An error of the views of a sheet as one of the file; `None` for errors that are not of the
-/// views.
+/// Converts an error in the views of a sheet to one in the file; `None` for errors elsewhere.
 #[must_use]
 pub fn sheet_view_error(origin: &Origin, error: &SheetError) -> Option<SceneError> {
     let (number, path, message) = match error {

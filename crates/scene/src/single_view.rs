@@ -1,5 +1,5 @@
-//! Resolution of one view of a scene, without its insets: image, camera, lights, and what is behind
-//! the models.
+//! Resolution of one view of a scene, without its insets: image, camera, lights, and everything
+//! behind the models.
 
 use super::backdrop::{is_blank_paper, resolve_background_color};
 use super::caption::resolve_caption;
@@ -26,7 +26,7 @@ use scene_file::{SceneError, SceneFile};
 use shade::{Backdrop, Environment, Light, ToneMapper, ToneMapping};
 use std::sync::Arc;
 
-/// The parts of a scene without its insets, each of which may be wrong.
+/// The parts of a scene without its insets, each of which may have mistakes.
 struct SceneParts {
     image: Option<ImageSpec>,
     caption: Option<Option<String>>,
@@ -41,8 +41,8 @@ struct SceneParts {
     backdrop: Option<Option<Arc<Backdrop>>>,
 }
 
-/// The scene without its viewports and stereo pair; `None` if something is wrong with it, or if
-/// there are no models. Without models no other files are read.
+/// The scene without its viewports and stereo pair; `None` if it has mistakes, or if there are no
+/// models. Without models, no other files are read.
 pub(super) fn resolve_without_insets(
     origin: &Origin,
     file: &SceneFile,
@@ -98,8 +98,8 @@ pub(super) fn resolve_without_insets(
 }
 
 impl SceneParts {
-    /// The scene, if all parts are there: the ground below it, and the view once more if that shows
-    /// shadows on the ground.
+    /// Assembles the scene, if all parts are present: adds the ground, and resolves the view again
+    /// if it shows shadows on the ground.
     fn assemble(
         self,
         origin: &Origin,
@@ -114,7 +114,7 @@ impl SceneParts {
         let frames_shadows = matches!(file.ground, Some(GroundFile::Shadow { framed: true, .. }));
         let is_framed = frames_shadows && matches!(file.camera.view, ViewFile::Frame { .. });
         if let Some(ground) = ground.filter(|_| is_framed && style.draws_surfaces()) {
-            // The key light stands by the direction of view, which framing keeps.
+            // The key light follows the view direction, which framing preserves.
             let shadows = shadow_points(ground, models, &lights);
             let points = world_points(models);
             let view = resolve_view_of_points(origin, &file.camera, models, points, image, shadows);
@@ -126,11 +126,11 @@ impl SceneParts {
             };
             file.radius.map_or_else(usual, Positive::value)
         });
-        // The studio is calibrated to stay below 1. Lights of a model are of any brightness.
+        // The studio is calibrated to stay below 1. A model's lights may have any brightness.
         let has_model_lights = has_default_light(origin, file) && has_lights(models);
         let curve = if has_model_lights { ToneMapping::Neutral } else { ToneMapping::None };
         let curve = file.image.tone_mapping.unwrap_or(curve);
-        // After the exposure, which would compensate for it.
+        // Applied after exposure, which would compensate for it.
         scale_lights(&mut lights, file.light_intensity);
         Some(Scene {
             models: models.to_vec(),
@@ -153,7 +153,7 @@ impl SceneParts {
     }
 }
 
-/// The points that a view frames: in line drawings those of what section planes leave.
+/// The points that a view frames; in line drawings, those that remain after section cuts.
 fn framed_points(
     models: &[ModelInstance],
     style: Style,
@@ -196,7 +196,7 @@ pub(super) fn resolve_image(
     })
 }
 
-/// Width and height of the image.
+/// The width and height of the image.
 pub(super) fn resolve_image_size(
     origin: &Origin,
     file: &SceneFile,
@@ -211,7 +211,7 @@ pub(super) fn resolve_image_size(
     Err(origin.error_at(&[Field("image"), Field("size")], message, Some(help)))
 }
 
-/// The count of coverage samples.
+/// The number of coverage samples.
 fn resolve_samples(origin: &Origin, file: &SceneFile) -> Result<Samples, SceneError> {
     Samples::from_count(file.image.samples).ok_or_else(|| {
         let message = format!("a pixel cannot have {} samples", file.image.samples);
@@ -220,7 +220,7 @@ fn resolve_samples(origin: &Origin, file: &SceneFile) -> Result<Samples, SceneEr
     })
 }
 
-/// The most samples of anisotropic texture filtering.
+/// The maximum number of samples of anisotropic texture filtering.
 fn resolve_max_anisotropy(origin: &Origin, file: &SceneFile) -> Result<u32, SceneError> {
     let max_anisotropy = file.image.max_anisotropy;
     if (1..=8).contains(&max_anisotropy) {

@@ -1,4 +1,4 @@
-//! Resolution of the style: how surfaces and lines are drawn.
+//! Resolution of the style of surfaces and lines.
 
 use super::{Origin, Style};
 use drawing::{LineStyle, LineWidths};
@@ -7,7 +7,7 @@ use scene_file::PathStep::{self, Field};
 use scene_file::file::{CreaseAngle, LinesFile, Positive, StyleFile, WidthFile};
 use scene_file::{SceneError, SceneFile};
 
-/// The style of a scene.
+/// Resolves the style of a scene.
 pub(super) fn resolve_style(origin: &Origin, file: &SceneFile) -> Result<Style, SceneError> {
     Ok(match &file.style {
         StyleFile::Shaded => Style::Shaded,
@@ -26,7 +26,7 @@ pub(super) fn resolve_style(origin: &Origin, file: &SceneFile) -> Result<Style, 
     })
 }
 
-/// The style of a line drawing.
+/// Resolves the style of a line drawing.
 fn resolve_lines(origin: &Origin, file: &LinesFile) -> Result<LineStyle, SceneError> {
     Ok(LineStyle {
         edges: file.edges,
@@ -59,7 +59,7 @@ fn resolve_widths(origin: &Origin, file: WidthFile) -> Result<LineWidths, SceneE
     }
 }
 
-/// The line group of ISO 128 whose wide lines have this width in millimeters.
+/// The ISO 128 line group whose wide lines have this width in millimeters.
 pub(super) fn resolve_iso_group(
     origin: &Origin,
     wide: Positive,

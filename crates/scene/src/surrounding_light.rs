@@ -1,7 +1,7 @@
 //! Resolution of the environment: radiance from all directions, prefiltered for shading.
 //!
 //! Prefiltering is the expensive part of a small scene, so the last few environments are cached by
-//! their content, across scenes and threads.
+//! content, across scenes and threads.
 
 use super::Origin;
 use model::ModelInstance;
@@ -13,25 +13,25 @@ use shade::{Environment, PreethamSky, studio_radiance};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The longest file that is read, in bytes.
+/// The maximum length of an image file in bytes.
 const MAX_FILE_BYTES: u64 = 256 << 20;
-/// The most texels of a row of an image that lights a scene, and of one that is seen.
+/// The maximum width in texels of an image that lights a scene, and of one that is visible.
 const LIGHT_WIDTH: usize = 1024;
 const SEEN_WIDTH: usize = 4096;
-/// The most environments in the cache.
+/// The maximum number of environments in the cache.
 const MAX_CACHED_ENVIRONMENTS: usize = 4;
 
-/// Whether models bring lights of their own (KHR_lights_punctual).
+/// Whether the models contain lights (KHR_lights_punctual).
 pub(super) fn has_lights(models: &[ModelInstance]) -> bool {
     models.iter().any(|placed| placed.model.scene_lights().next().is_some())
 }
 
-/// Whether nobody has said what light there is: a bare model, without a scene file.
+/// Whether no light is specified: a bare model, without a scene file.
 pub(super) fn has_default_light(origin: &Origin, file: &SceneFile) -> bool {
     origin.text.is_empty() && file.lights.is_none()
 }
 
-/// Whether the scene may have an environment: the file alone does not always say.
+/// Whether the scene may have an environment; the file does not always determine it.
 pub(super) fn may_have_environment(origin: &Origin, file: &SceneFile) -> bool {
     match file.environment {
         Some(EnvironmentFile::Dark) => false,
@@ -40,10 +40,10 @@ pub(super) fn may_have_environment(origin: &Origin, file: &SceneFile) -> bool {
     }
 }
 
-/// The environment whose light the style shows; `None` without one.
+/// The environment whose light appears in the style; `None` without one.
 ///
-/// A bare model stands in the studio: metals show nothing but what is around them. With lights of
-/// its own the studio is dimmed, so that they still matter.
+/// A bare model is placed in the studio, because metals show only their surroundings. If it has its
+/// own lights, the studio is dimmed so that they still matter.
 pub(super) fn effective_environment(
     origin: &Origin,
     file: &SceneFile,
@@ -63,13 +63,13 @@ pub(super) fn effective_environment(
     })
 }
 
-/// The key of an environment: its kind, all its numbers, and a hash of a file's bytes.
+/// The key of an environment: its kind, all its numbers, and a hash of its file's bytes.
 type EnvironmentKey = (u8, [u64; 4]);
 
-/// The environments that were made last. Prefiltering one takes far longer than finding it here.
+/// The most recently made environments. Prefiltering one takes far longer than finding it here.
 static CACHE: Mutex<Vec<(EnvironmentKey, Arc<Environment>)>> = Mutex::new(Vec::new());
 
-/// The environment with this content: one that was made before, or a new one.
+/// Returns the environment with this content, either from the cache or new.
 fn cached_environment(key: EnvironmentKey, make: impl FnOnce() -> Environment) -> Arc<Environment> {
     let mut cache = CACHE.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, known)) = cache.iter().find(|(known, _)| *known == key) {
@@ -83,11 +83,11 @@ fn cached_environment(key: EnvironmentKey, make: impl FnOnce() -> Environment) -
     made
 }
 
-/// The environment of a scene, if it asks for one. Files may lie below the scene's folder and those
-/// that are allowed.
+/// Resolves the environment of a scene, if it requests one. Files may be inside the scene's folder
+/// and the allowed ones.
 ///
-/// The default studio is as bright in the picture whatever the exposure in stops is: automatic
-/// exposure is for other lights.
+/// The default studio is equally bright in the picture at any exposure in stops: automatic exposure
+/// is for other lights.
 pub(super) fn resolve_environment(
     origin: &Origin,
     file: &SceneFile,
@@ -136,7 +136,7 @@ pub(super) fn resolve_environment(
     }))
 }
 
-/// The environment in an image file, finer if the picture shows it.
+/// The environment in an image file, at a finer resolution if the picture shows it.
 fn environment_from_file(
     origin: &Origin,
     file: &SceneFile,
@@ -163,13 +163,13 @@ fn environment_from_file(
     }))
 }
 
-/// An error that points at the path of the environment's file.
+/// An error that points at the path of the environment file.
 fn environment_error(origin: &Origin, message: String, help: Option<String>) -> SceneError {
     origin.error_at(&[Field("environment"), Field("path")], message, help)
 }
 
-/// The bytes of a file that the scene names at `at`: below its folder or one that is allowed, and
-/// not too long.
+/// Reads a file that the scene names at `at`. It must be inside the scene's folder or an allowed
+/// one, and not too long.
 pub(super) fn read_image_bytes(
     origin: &Origin,
     at: &[PathStep<'_>],
@@ -195,7 +195,7 @@ pub(super) fn read_image_bytes(
     std::fs::read(&full).map_err(unreadable)
 }
 
-/// A turn about y and a factor.
+/// A rotation about y and a factor.
 struct EnvironmentRotation {
     strength: f32,
     degrees: f64,
@@ -216,7 +216,7 @@ impl EnvironmentRotation {
         (kind, [content, self.degrees.to_bits(), u64::from(self.strength.to_bits()), 0])
     }
 
-    /// The light from a direction after the surroundings were turned counter-clockwise, seen from
+    /// The light from a direction after the surroundings are rotated counterclockwise, seen from
     /// above.
     fn rotated_radiance(&self, [x, y, z]: [f32; 3], of: impl Fn([f32; 3]) -> [f32; 3]) -> [f32; 3] {
         let before = [x * self.cosine - z * self.sine, y, x * self.sine + z * self.cosine];
@@ -224,13 +224,13 @@ impl EnvironmentRotation {
     }
 }
 
-/// The direction with length 1; `None` if it is 0 or too long for its square.
+/// The direction scaled to length 1; `None` if it is 0 or too long to square.
 fn normalize_direction(v: [f64; 3]) -> Option<[f32; 3]> {
     let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
     (length > 0.0 && length.is_finite()).then(|| v.map(|c| (c / length) as f32))
 }
 
-/// A sum that depends on every byte (Fowler, Noll and Vo).
+/// A hash that depends on every byte (Fowler, Noll and Vo).
 fn fnv1a_hash(bytes: &[u8]) -> u64 {
     let mix = |sum: u64, byte: &u8| (sum ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
     bytes.iter().fold(0xcbf2_9ce4_8422_2325 ^ bytes.len() as u64, mix)

@@ -1,4 +1,4 @@
-//! Parts that section planes do not cut: shafts, bolts and others, by the names of their nodes.
+//! Parts that section planes do not cut, such as shafts and bolts, selected by node name.
 
 use super::Origin;
 use super::named_nodes::{node_names, objects_below};
@@ -10,7 +10,7 @@ use scene_file::{SceneError, suggest_name};
 /// The objects that no section cuts, in ascending order.
 ///
 /// # Errors
-/// If a name or pattern fits no node.
+/// If no node matches a name or pattern.
 pub(super) fn resolve_uncut(
     origin: &Origin,
     sections: &[SectionFile],
@@ -34,7 +34,7 @@ pub(super) fn resolve_uncut(
     Ok(objects)
 }
 
-/// Whether a name fits a pattern, in which `*` stands for any characters.
+/// Whether a name matches a pattern, in which `*` matches any characters.
 fn matches_pattern(pattern: &str, name: &str) -> bool {
     let mut parts = pattern.split('*');
     let first = parts.next().unwrap_or_default();

@@ -1,12 +1,12 @@
-//! Resolution of the camera: world-to-view and projection matrices from what the file gives.
+//! Resolution of the camera: world-to-view and projection matrices from the fields of the file.
 //!
 //! ```text
 //!  LookAt, LookTo ─► camera frame ─┐
 //!  Frame ─► bounds, direction ─────┼─► near and far from the depths of the vertices ─► projection
 //!  FromModel ─► node of the model ─┘    unless the file gives them
 //! ```
-//! Framing finds the eye at which every vertex just fits into the window: in closed form for
-//! perspective, from the box of the images for parallel projections.
+//! Framing finds the eye for which every vertex just fits in the window: in closed form for
+//! perspective, from the box around the projected points for parallel projections.
 
 use super::calibrated_lens::{calibrated_lens, check_calibrated_shape};
 use super::camera_fields::VIEW_PATH;
@@ -33,7 +33,7 @@ use scene_file::file::{
 };
 use scene_file::{SceneError, closest_name};
 
-/// Camera and projection of a scene.
+/// Resolves the camera and projection of a scene.
 pub(super) fn resolve_view_projection(
     origin: &Origin,
     file: &CameraFile,
@@ -43,10 +43,10 @@ pub(super) fn resolve_view_projection(
     resolve_view_of_points(origin, file, models, world_points(models), image, Vec::new())
 }
 
-/// Camera and projection of a scene; a view that frames its models frames these `points` of them,
-/// and `shadow_points` too.
+/// Resolves the camera and projection of a scene. A view that frames its models frames these
+/// `points` of them, and `shadow_points` too.
 ///
-/// The direction of view does not depend on them, and neither do near and far plane.
+/// The view direction does not depend on them, and neither do the near and far planes.
 pub(super) fn resolve_view_of_points(
     origin: &Origin,
     file: &CameraFile,
@@ -75,7 +75,7 @@ pub(super) fn resolve_view_of_points(
     view.map(|view| image.place_view(zoom_view(view, file.zoom)))
 }
 
-/// The view with everything larger by a factor, about the center of the picture.
+/// The view with everything enlarged by a factor, about the center of the picture.
 fn zoom_view(view: ViewProjection, zoom: Positive) -> ViewProjection {
     if zoom == Positive::ONE {
         return view;
@@ -83,7 +83,7 @@ fn zoom_view(view: ViewProjection, zoom: Positive) -> ViewProjection {
     map_window(view, DVec2::splat(zoom.value()), DVec2::ZERO)
 }
 
-/// The mistakes of a camera that can be found without the models: a direction that is none, planes
+/// The camera mistakes that can be found without the models, such as a missing direction or planes
 /// in the wrong order.
 pub(super) fn check_camera(origin: &Origin, file: &CameraFile) -> Vec<SceneError> {
     let view_error = CameraPlacement::from_file(&file.view).err();
@@ -96,7 +96,7 @@ pub(super) fn check_camera(origin: &Origin, file: &CameraFile) -> Vec<SceneError
     view_error.into_iter().chain(projection_error).collect()
 }
 
-/// The lens of the camera that is chosen; `None` if there is no such camera.
+/// The lens of the selected camera; `None` if there is no such camera.
 pub(super) fn select_lens<'a>(
     origin: &'a Origin,
     models: &'a [ModelInstance],
@@ -109,14 +109,14 @@ pub(super) fn select_lens<'a>(
 }
 
 impl<'a> CameraResolver<'a> {
-    /// The error of a lens with skew, which no place of the camera is found for.
+    /// The error for a skewed lens, for which no camera position can be found.
     fn skewed_framing_error(&self, error: &ProjectionError) -> SceneError {
         let help = "say where the camera is: view: LookAt(…), Extrinsics(…) or Pose(…)";
         self.projection_error_with(error.to_string(), Some(help.to_owned()))
     }
 
-    /// A camera in its place with a projection; `height` is that of a parallel window whose file
-    /// leaves it open.
+    /// A camera at its position with a projection; `height` is used for a parallel window whose
+    /// file leaves it open.
     fn project_from_camera(
         &self,
         camera: Camera,
@@ -172,14 +172,14 @@ impl<'a> CameraResolver<'a> {
         Ok(ViewProjection { camera, view_to_clip })
     }
 
-    /// The lens of a projection by intrinsic parameters.
+    /// The lens of a projection given by intrinsic parameters.
     fn calibrated_lens(&self, projection: &ProjectionFile) -> Result<Intrinsics, SceneError> {
         let missing = ProjectionError::Unrepresentable { what: "intrinsics" };
         let lens = calibrated_lens(projection, self.picture_size).unwrap_or(Err(missing));
         lens.map_err(|error| self.projection_error(&error))
     }
 
-    /// The height of the window, centered on the line of sight, into which the whole scene fits.
+    /// The height of the window, centered on the line of sight, in which the whole scene fits.
     fn fitting_window_height(&self, camera: Camera) -> f64 {
         let world_to_view = camera.world_to_view();
         let reach = self.points.iter().map(|&point| {
@@ -190,7 +190,7 @@ impl<'a> CameraResolver<'a> {
         if reach > 0.0 { 2.1 * reach } else { 1.0 }
     }
 
-    /// A camera that looks in a given direction from where everything just fits.
+    /// A camera that looks in a given direction, from where everything just fits.
     fn frame_models(
         &self,
         from: Option<&FromFile>,
@@ -254,8 +254,8 @@ impl<'a> CameraResolver<'a> {
         Ok(Slopes { left, right, bottom, top })
     }
 
-    /// The moved-apex frustum framed around the models: the apex finds its place as the eye of a
-    /// centered window does, and the camera stands beside it.
+    /// The moved-apex frustum framed around the models: the apex is placed like the eye of a
+    /// centered window, and the camera goes beside it.
     fn frame_apex_moved(
         &self,
         basis: Basis,
@@ -274,7 +274,7 @@ impl<'a> CameraResolver<'a> {
         self.project_from_camera(camera, projection, None)
     }
 
-    /// The view, and unless the scene has its own the projection, of a camera in a model.
+    /// The view and, unless the scene sets one, the projection of a camera in a model.
     fn project_from_model_camera(
         &self,
         choice: &CameraChoice,
@@ -282,7 +282,7 @@ impl<'a> CameraResolver<'a> {
     ) -> Result<ViewProjection, SceneError> {
         let (placed, instance, lens) = self.select_model_camera(choice)?;
         let to_world = instance.node_to_model.then(placed.model_to_world);
-        // Only where a node stands and where it points matter to a camera, not how it is scaled.
+        // Only a node's position and direction matter to a camera, not its scale.
         let eye = to_world.transform_point(Point::ORIGIN);
         let gaze = to_world.transform_vector(-Vector::Z);
         let up = to_world.transform_vector(Vector::Y);
@@ -293,7 +293,7 @@ impl<'a> CameraResolver<'a> {
         }
     }
 
-    /// The projection of a camera in a model. The aspect is that of the image: the vertical field
+    /// The projection of a camera in a model. The aspect ratio is the image's: the vertical field
     /// of view of a perspective is kept, and the window of an orthographic camera is widened.
     fn project_through_lens(
         &self,
@@ -343,7 +343,7 @@ impl<'a> CameraResolver<'a> {
         Err(self.unknown_camera_error(choice, &names))
     }
 
-    /// A camera that no model has, with the names of those that exist.
+    /// The error for a camera that no model has, with the existing camera names.
     fn unknown_camera_error(
         &self,
         choice: &CameraChoice,

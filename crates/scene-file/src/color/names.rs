@@ -1,6 +1,6 @@
 //! The named colors of CSS Color Module Level 4, § 6.1, in alphabetical order for binary search.
 
-/// Name and 0xRRGGBB.
+/// A name and its value as 0xRRGGBB.
 pub(super) const CSS_COLORS: [(&str, u32); 148] = [
     ("aliceblue", 0x00f0_f8ff),
     ("antiquewhite", 0x00fa_ebd7),

@@ -1,4 +1,4 @@
-//! Assemblies on sheets in a scene file: exploded views, densities.
+//! Assemblies on sheets in a scene file: exploded views and densities.
 
 use crate::number::{NonNegative, Positive};
 use crate::schema::scene_struct;
@@ -7,21 +7,21 @@ use sheet::ExplosionAxis;
 scene_struct! {
     /// An exploded view: parts moved apart, with their paths.
     pub struct ExplodedFile as "Exploded" {
-        /// The direction in which parts move. Default: the axis on which most parts are in line with
-        /// the largest one, or on which they move least.
+        /// The direction in which parts move. Default: the axis along which most parts line up with
+        /// the largest one, or along which they move least.
         pub axis: ExplosionAxis = ExplosionAxis::Auto,
-        /// The least distance of two parts along it, in units of the scene. Default: 0.08 of the
-        /// diagonal of the assembly.
+        /// The minimum distance between two parts along it, in scene units. Default: 0.08 times the
+        /// assembly's diagonal.
         pub distance: Option<NonNegative> = None,
     }
 }
 
 scene_struct! {
-    /// The density of a material or of a part.
+    /// The density of a material or part.
     pub struct DensityFile as "Density" {
-        /// The name of a material or of a part, as in the parts list; "*" for all others.
+        /// The name of a material or part, as in the parts list; "*" for all others.
         pub of: String,
-        /// Grams in a cubic centimeter, such as 7.85 for steel.
+        /// The density in grams per cubic centimeter, such as 7.85 for steel.
         pub density: Positive,
     }
 }

@@ -6,34 +6,34 @@ use crate::schema::scene_enum;
 use shade::ImageFit;
 
 scene_enum! {
-    /// The background: what the image shows where no model is.
+    /// The background, visible behind the models.
     pub enum BackgroundFile as "Background" {
-        /// Nothing: alpha is 0.
+        /// No background: alpha is 0.
         Transparent,
         /// One color.
         Color(Color),
         /// A gradient across the whole image, interpolated in sRGB as web pages do.
         Gradient {
-            /// From 2 to 16 colors at equal distances; the first and the last touch the image's
-            /// borders or corners.
+            /// From 2 to 16 evenly spaced colors; the first and the last touch the borders or
+            /// corners of the image.
             colors: Vec<Color>,
-            /// The direction the colors run to, in degrees: 0 is down, 90 to the right, 180 up.
-            /// Default: 0.
+            /// The direction in which the colors run, in degrees: 0 is down, 90 to the right, 180
+            /// up. Default: 0.
             angle_degrees: Finite = Finite::ZERO,
         },
-        /// An image in a PNG, JPEG or WebP file, of 67,108,864 pixels at most. The exposure does
-        /// not change its light.
+        /// A PNG, JPEG or WebP image file with at most 67,108,864 pixels. Exposure does not affect
+        /// it.
         Picture {
-            /// The path, from the folder of the scene file.
+            /// The path, relative to the scene file's folder.
             path: String,
-            /// How it fills the image. Default: `Cover`.
+            /// The fit to the image. Default: `Cover`.
             fit: ImageFit = ImageFit::Cover,
-            /// The color beside it and behind its transparent parts. Default: nothing, alpha is 0.
+            /// The color around it and behind its transparent parts. Default: none, alpha is 0.
             color: Option<Color>,
         },
         /// The environment.
         Environment {
-            /// How blurred it is, from 0 to 1. Default: 0.
+            /// The amount of blur, from 0 to 1. Default: 0.
             blur: Option<NonNegative>,
         },
     }

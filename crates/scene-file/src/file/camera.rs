@@ -11,9 +11,10 @@ scene_struct! {
         /// The position and direction. Default: framed from the direction that suits the
         /// projection.
         pub view: ViewFile = ViewFile::DEFAULT,
-        /// The projection. Default: that of the model's camera with `FromModel`, else perspective.
+        /// The projection. Default: from the model's camera with `FromModel`, otherwise
+        /// perspective.
         pub projection: Option<ProjectionFile> = None,
-        /// How many times larger everything appears, about the center of the image. Default: 1.
+        /// The magnification about the center of the image. Default: 1.
         pub zoom: Positive = Positive::ONE,
     }
 }
@@ -21,7 +22,7 @@ scene_struct! {
 scene_enum! {
     /// The position and direction of the camera.
     pub enum ViewFile as "View" {
-        /// From a point towards another.
+        /// From one point toward another.
         LookAt {
             /// The position of the eye.
             eye: Triple,
@@ -30,7 +31,7 @@ scene_enum! {
             /// The view-up vector: the direction that points up in the image. Default: y.
             up: Triple = Triple::Y_AXIS,
         },
-        /// From a point in a direction.
+        /// From a point in a given direction.
         LookTo {
             /// The position of the eye.
             eye: Triple,
@@ -39,18 +40,18 @@ scene_enum! {
             /// The view-up vector. Default: y.
             up: Triple = Triple::Y_AXIS,
         },
-        /// By rotation and translation from the world to the camera, as calibration gives them:
+        /// From the rotation and translation from world to camera, as calibration gives them:
         /// camera = R · world + t.
         Extrinsics {
             /// The rotation R.
             rotation: RotationFile,
-            /// The translation t: the world's origin in the camera's coordinates.
+            /// The translation t: the world's origin in camera coordinates.
             translation: Triple,
             /// The directions of the camera's axes. Default: `OpenCv`.
             axes: CameraAxes = CameraAxes::OpenCv,
         },
-        /// By the pose of the camera in the world, as data sets such as NeRF's have it: world =
-        /// R · camera + eye.
+        /// From the pose of the camera in the world, as in datasets such as NeRF's: world = R ·
+        /// camera + eye.
         Pose {
             /// The rotation R, whose columns are the camera's axes.
             rotation: RotationFile,
@@ -59,22 +60,22 @@ scene_enum! {
             /// The directions of the camera's axes. Default: `OpenGl`.
             axes: CameraAxes = CameraAxes::OpenGl,
         },
-        /// From a direction, at the distance at which everything just fits into the image: the
-        /// models and, with `ground`, the shadows of directional lights on it, up to the length of
-        /// the models' diagonal.
+        /// From a direction, at the distance at which everything just fits in the image. This
+        /// includes the models and, with `ground`, the shadows of directional lights on it, up to
+        /// the length of the models' diagonal.
         Frame {
             /// The direction. Default: `ThreeQuarter`, and `Front` for classical projections.
             from: Option<FromFile>,
-            /// The margin on each side, in percent of the image's side. Default: 5.
+            /// The margin on each side, in percent of the side of the image. Default: 5.
             padding_percent: NonNegative = DEFAULT_PADDING,
         },
-        /// A camera of the first model that has cameras.
+        /// A camera in the first model that has cameras.
         FromModel(CameraChoice),
     }
 }
 
 impl ViewFile {
-    /// Everything framed from the direction that suits the projection.
+    /// Everything, framed from the direction that suits the projection.
     pub const DEFAULT: Self = Self::Frame { from: None, padding_percent: DEFAULT_PADDING };
 }
 
@@ -84,12 +85,12 @@ pub const DEFAULT_PADDING: NonNegative = NonNegative::FIVE;
 scene_enum! {
     /// A rotation.
     pub enum RotationFile as "Rotation" {
-        /// By the three rows of its matrix, which stands before column vectors.
+        /// From the three rows of its matrix, which multiplies column vectors.
         Rows((Triple, Triple, Triple)),
-        /// By the three columns of its matrix: the rows of one that stands behind row vectors, as
-        /// in PyTorch3D.
+        /// From the three columns of its matrix: the rows of a matrix that multiplies row vectors,
+        /// as in PyTorch3D.
         Columns((Triple, Triple, Triple)),
-        /// By a quaternion (w, x, y, z), as in COLMAP. Its length does not matter.
+        /// From a quaternion (w, x, y, z), as in COLMAP. Its length does not matter.
         Quaternion((Finite, Finite, Finite, Finite)),
     }
 }
@@ -109,15 +110,15 @@ scene_enum! {
         Top,
         /// From −y.
         Bottom,
-        /// From the front, a little from the right and from above.
+        /// From the front, slightly from the right and above.
         ThreeQuarter,
-        /// From (1, 1, 1): all three axes equally foreshortened.
+        /// From (1, 1, 1), which foreshortens all three axes equally.
         Isometric,
-        /// x and y foreshortened alike, z half as much again: 7° and 42° on the page.
+        /// x and y foreshortened equally, z to half their length: 7° and 42° on the page.
         Dimetric,
-        /// Each axis foreshortened by a factor of its own.
+        /// A different foreshortening factor on each axis.
         Trimetric,
-        /// From the direction of a vector: (1, 0, 0) is from the right.
+        /// From the direction of a vector; (1, 0, 0) is from the right.
         Direction(Triple),
     }
 }
@@ -140,12 +141,12 @@ impl From<NamedView> for FromFile {
 }
 
 scene_enum! {
-    /// A choice among the cameras of a model.
+    /// A choice among a model's cameras.
     #[derive(Eq)]
     pub enum CameraChoice as "CameraChoice" {
-        /// By its index in the file, from 0.
+        /// By index in the file, from 0.
         Index(usize),
-        /// By its own name or that of its node.
+        /// By its name or its node's name.
         Name(String),
     }
 }

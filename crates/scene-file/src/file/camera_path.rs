@@ -1,13 +1,13 @@
-//! The camera path of a scene file, for `alberti animate` and stills of it.
+//! The camera path of a scene file, for `alberti animate` and stills from it.
 
 use crate::number::{FieldOfView, Finite, Triple};
 use crate::schema::{named_enum, scene_struct};
 
 scene_struct! {
-    /// The motion of the camera in frame sequences. Its projection is that of the scene's `camera`.
+    /// The motion of the camera in frame sequences. The scene's `camera` gives the projection.
     pub struct CameraPathFile as "CameraPath" {
-        /// From 2 to 10,000 keyframes, each later than the one before. With the first repeated at
-        /// the end the path is closed, and smooth there too.
+        /// From 2 to 10,000 keyframes, each later than the one before. If the last repeats the
+        /// first, the path is closed, and smooth there too.
         pub keys: Vec<CameraKeyFile>,
         /// The interpolation between keyframes. Default: `Smooth`.
         pub curve: CurveFile = CurveFile::Smooth,
@@ -26,7 +26,7 @@ scene_struct! {
         pub target: Triple,
         /// The view-up vector. Default: y.
         pub up: Triple = Triple::Y_AXIS,
-        /// The vertical field of view of a perspective in degrees. Default: that of the scene's
+        /// The vertical field of view of a perspective in degrees. Default: from the scene's
         /// projection.
         pub fov_y_degrees: Option<FieldOfView>,
     }

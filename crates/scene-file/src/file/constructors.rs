@@ -1,4 +1,4 @@
-//! Scenes written in Rust: short forms for what most of them have.
+//! Scenes written in Rust: short forms for the most common parts.
 
 use super::projection::NO_SHIFT;
 use super::{CameraFile, LightFile, ModelFile, ProjectionFile, SceneFile, ViewFile, ViewportFile};
@@ -6,7 +6,7 @@ use crate::color::LightColor;
 use crate::number::{InvalidNumber, NonNegative, Positive, Scale, Triple};
 
 impl SceneFile {
-    /// A scene of these models with every default.
+    /// A scene of these models, with defaults for everything else.
     ///
     /// ```
     /// use scene_file::SceneFile;
@@ -26,8 +26,8 @@ impl SceneFile {
 }
 
 impl ModelFile {
-    /// The model in a file, where and as large as it is there. `path` begins at the folder of the
-    /// scene.
+    /// The model in a file, with its original position and size. `path` is relative to the scene's
+    /// folder.
     #[must_use]
     pub fn new(path: impl Into<String>) -> Self {
         Self {
@@ -48,19 +48,19 @@ impl ModelFile {
         }
     }
 
-    /// Moved so that its origin is at a point of the world.
+    /// Moves the model so that its origin is at the given point in the world.
     #[must_use]
     pub fn at(self, translation: impl Into<Triple>) -> Self {
         Self { translation: translation.into(), ..self }
     }
 
-    /// Turned about the x, then the y, then the z axis, by angles in degrees.
+    /// Rotates the model about the x, then the y, then the z axis, by angles in degrees.
     #[must_use]
     pub fn rotated(self, degrees: impl Into<Triple>) -> Self {
         Self { rotation_degrees: degrees.into(), ..self }
     }
 
-    /// Scaled by one factor for all axes.
+    /// Scales the model by one factor on all axes.
     ///
     /// # Errors
     /// If the factor is 0 or not finite.
@@ -70,21 +70,21 @@ impl ModelFile {
 }
 
 impl CameraFile {
-    /// A camera at `eye` that looks at `target`, with y upwards, in perspective.
+    /// A perspective camera at `eye` that looks at `target`, with y up.
     #[must_use]
     pub fn look_at(eye: impl Into<Triple>, target: impl Into<Triple>) -> Self {
         let view = ViewFile::LookAt { eye: eye.into(), target: target.into(), up: Triple::Y_AXIS };
         Self { view, ..Self::default() }
     }
 
-    /// A camera at `eye` that looks in a direction, with y upwards, in perspective.
+    /// A perspective camera at `eye` that looks in a direction, with y up.
     #[must_use]
     pub fn look_to(eye: impl Into<Triple>, gaze: impl Into<Triple>) -> Self {
         let view = ViewFile::LookTo { eye: eye.into(), gaze: gaze.into(), up: Triple::Y_AXIS };
         Self { view, ..Self::default() }
     }
 
-    /// The camera with another projection.
+    /// Replaces the camera's projection.
     #[must_use]
     pub fn with_projection(self, projection: ProjectionFile) -> Self {
         Self { projection: Some(projection), ..self }
@@ -92,11 +92,11 @@ impl CameraFile {
 }
 
 impl ProjectionFile {
-    /// Perspective by its vertical field of view in degrees, between a near and a far plane; `None`
-    /// fits them to the models.
+    /// A perspective with a vertical field of view in degrees, between a near and a far plane;
+    /// `None` fits them to the models.
     ///
     /// # Errors
-    /// If the angle is not between 0 and 180 degrees, or a distance not greater than 0.
+    /// If the angle is not between 0 and 180 degrees, or a distance is not greater than 0.
     pub fn perspective(
         fov_y_degrees: f64,
         planes: impl Into<Option<[f64; 2]>>,
@@ -112,8 +112,8 @@ impl ProjectionFile {
         })
     }
 
-    /// Orthographic through a window with a left, right, bottom and top border, between a near and
-    /// a far plane.
+    /// An orthographic projection through a window with a left, right, bottom and top border,
+    /// between a near and a far plane.
     ///
     /// # Errors
     /// If a number is not finite.
@@ -131,10 +131,10 @@ impl ProjectionFile {
         })
     }
 
-    /// Perspective through a window on the near plane, with a left, right, bottom and top border.
+    /// A perspective through a window on the near plane, with left, right, bottom and top borders.
     ///
     /// # Errors
-    /// If a number is not finite, or the distance of a plane not greater than 0.
+    /// If a number is not finite, or the distance of a plane is not greater than 0.
     pub fn frustum(window: [f64; 4], planes: [f64; 2]) -> Result<Self, InvalidNumber> {
         let [left, right, bottom, top] = window;
         let [near, far] = planes;
@@ -150,11 +150,11 @@ impl ProjectionFile {
 }
 
 impl ViewportFile {
-    /// A view of the scene in a rectangle: its left, top, width and height as fractions of the
+    /// A view of the scene in a rectangle, given by left, top, width and height as fractions of the
     /// picture.
     ///
     /// # Errors
-    /// If one of them is not from 0 to 1.
+    /// If one of them is not between 0 and 1.
     pub fn at(rectangle: [f64; 4]) -> Result<Self, InvalidNumber> {
         let [left, top, width, height] = rectangle;
         let at = Some((left.try_into()?, top.try_into()?, width.try_into()?, height.try_into()?));
@@ -163,8 +163,8 @@ impl ViewportFile {
 }
 
 impl LightFile {
-    /// White light from infinity, such as the sun's, that travels in a direction; its illuminance
-    /// is in lux.
+    /// White light from infinity, such as sunlight, that travels in a direction; its illuminance is
+    /// in lux.
     ///
     /// # Errors
     /// If the intensity is negative or not finite.

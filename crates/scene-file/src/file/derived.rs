@@ -1,19 +1,18 @@
-//! What follows from the fields of a scene file alone: the files of its images, the size of its
-//! view.
+//! Values derived from a scene file without loading anything: image paths and the size of the view.
 
 use super::{BackgroundFile, EnvironmentFile, SceneFile};
 
-/// The height of the strip in pixels: letters of 12 pixels with room above and below.
+/// The height of the strip in pixels: text 12 pixels high, with room above and below.
 const STRIP_HEIGHT: u32 = 28;
-/// The strip takes at most one pixel row of so many of the picture.
+/// The strip takes at most one in this many pixel rows of the picture.
 const LEAST_ROWS_PER_STRIP_ROW: u32 = 4;
 
 impl SceneFile {
     /// The paths of all environment and backdrop images and of the sheet's title block, relative to
     /// the scene's folder.
     ///
-    /// Insets may have backdrops of their own. The caller uses the list for access checks and for
-    /// finding changed files.
+    /// Insets may have their own backdrops. The caller uses the list for access checks and to
+    /// detect changed files.
     pub fn image_paths(&self) -> impl Iterator<Item = &str> {
         let own = self.viewports.iter().filter_map(|viewport| viewport.background.as_ref());
         let behind = own.chain(&self.image.background).filter_map(|background| match background {
@@ -28,7 +27,7 @@ impl SceneFile {
         around.into_iter().chain(behind).chain(title_block)
     }
 
-    /// The height in pixels of the strip for the caption; 0 without one.
+    /// The height of the caption strip in pixels; 0 without a caption.
     #[must_use]
     pub fn caption_height(&self) -> u32 {
         let most = self.image.size.1 / LEAST_ROWS_PER_STRIP_ROW;

@@ -1,4 +1,5 @@
-//! Dimensions of a sheet in a scene file: what is measured, picked by name or by place.
+//! Dimensions of a sheet in a scene file: lengths and angles between parts picked by name or
+//! position.
 
 use crate::number::Triple;
 use crate::schema::{
@@ -49,133 +50,140 @@ impl SceneValue for DimensionsFile {
     }
 }
 
-/// Whether values of this type stand in the list of a sheet's dimensions.
+/// Whether this is the element type of the list of a sheet's dimensions.
 pub(crate) fn is_dimensions_list(element: &ValueType) -> bool {
     matches!(element, ValueType::Declared(entry) if entry.name == DimensionFile::ENTRY.name)
 }
 
 scene_enum! {
-    /// A dimension of a sheet. Lengths are in millimeters or inches of the object, whatever the
-    /// scale. A view shows it that shows it true; where none does, it is left out with a warning.
+    /// A dimension on a sheet. Lengths are in millimeters or inches of the object, whatever the
+    /// scale. It goes into a view that shows its true size; if there is none, it is omitted with a
+    /// warning.
     pub enum DimensionFile as "Dimension" {
-        /// Width, height and depth of the whole, outside of all others.
+        /// The overall width, height and depth, outside all other dimensions.
         Overall,
-        /// The distance between two points; of an edge or a face the distance is perpendicular to
+        /// The distance between two points; for an edge or a face, it is measured perpendicular to
         /// it.
         Length {
             /// The first point, edge or face.
             from: PickFile,
-            /// The other one; two edges, two faces, or an edge and a face must be parallel.
+            /// The other end. Two edges, two faces, or an edge and a face must be parallel.
             to: PickFile,
             /// The direction of measurement. Default: `Aligned`.
             direction: LengthDirection = LengthDirection::Aligned,
-            /// The view. Default: the first that shows the length true.
+            /// The view. Default: the first that shows the true length.
             view: Option<DimensionView> = None,
-            /// The side of the part on which the dimension line stands. Default: the one with
+            /// The side of the part on which the dimension line is placed. Default: the one with
             /// shorter extension lines.
             side: Option<DimensionSide> = None,
-            /// The most decimal places, up to 6. Default: 2 for millimeters, 3 for inches.
+            /// The maximum number of decimal places, up to 6. Default: 2 for millimeters, 3 for
+            /// inches.
             decimals: Option<u32> = None,
         },
-        /// Lengths between neighboring points, on one dimension line.
+        /// Lengths between neighboring points, on a single dimension line.
         Chain {
-            /// At least two points; their order does not matter but for the direction of an aligned
-            /// chain, which is from the first to the last.
+            /// At least two points. Their order matters only for the direction of an aligned chain,
+            /// which is from the first to the last.
             points: Vec<PickFile>,
             /// The direction of measurement. Default: `Aligned`.
             direction: LengthDirection = LengthDirection::Aligned,
-            /// The view. Default: the first that shows the lengths true.
+            /// The view. Default: the first that shows the true lengths.
             view: Option<DimensionView> = None,
-            /// The side of the part on which the dimension line stands. Default: the one with
+            /// The side of the part on which the dimension line is placed. Default: the one with
             /// shorter extension lines.
             side: Option<DimensionSide> = None,
-            /// The most decimal places, up to 6. Default: 2 for millimeters, 3 for inches.
+            /// The maximum number of decimal places, up to 6. Default: 2 for millimeters, 3 for
+            /// inches.
             decimals: Option<u32> = None,
         },
         /// Lengths from one point to each of several others, on parallel dimension lines.
         Baseline {
-            /// The point from which all are measured.
+            /// The point from which all lengths are measured.
             from: PickFile,
-            /// The others, at least one; an aligned length is measured towards the last.
+            /// The other points, at least one; an aligned length is measured toward the last.
             to: Vec<PickFile>,
             /// The direction of measurement. Default: `Aligned`.
             direction: LengthDirection = LengthDirection::Aligned,
-            /// The view. Default: the first that shows the lengths true.
+            /// The view. Default: the first that shows the true lengths.
             view: Option<DimensionView> = None,
-            /// The side of the part on which the dimension lines stand. Default: the one with
+            /// The side of the part on which the dimension lines are placed. Default: the one with
             /// shorter extension lines.
             side: Option<DimensionSide> = None,
-            /// The most decimal places, up to 6. Default: 2 for millimeters, 3 for inches.
+            /// The maximum number of decimal places, up to 6. Default: 2 for millimeters, 3 for
+            /// inches.
             decimals: Option<u32> = None,
         },
-        /// The diameter of a circle, with Ø: an arrow onto the circle where a view shows one, else
+        /// The diameter of a circle, with Ø: an arrow to the circle if a view shows one, otherwise
         /// a length across it.
         Diameter {
             /// The circle or arc.
             circle: PlaceFile,
-            /// The view. Default: the first that shows the circle as one, else from its side.
+            /// The view. Default: the first that shows it as a circle, otherwise one from its side.
             view: Option<DimensionView> = None,
-            /// The most decimal places, up to 6. Default: 2 for millimeters, 3 for inches.
+            /// The maximum number of decimal places, up to 6. Default: 2 for millimeters, 3 for
+            /// inches.
             decimals: Option<u32> = None,
         },
-        /// The radius of a circle or arc, with R, in a view that shows it as one.
+        /// The radius of a circle or arc, with R, in a view that shows it as a circle.
         Radius {
             /// The circle or arc.
             circle: PlaceFile,
-            /// The view. Default: the first that shows the circle as one.
+            /// The view. Default: the first that shows it as a circle.
             view: Option<DimensionView> = None,
-            /// The most decimal places, up to 6. Default: 2 for millimeters, 3 for inches.
+            /// The maximum number of decimal places, up to 6. Default: 2 for millimeters, 3 for
+            /// inches.
             decimals: Option<u32> = None,
         },
-        /// The diameters of the largest full circles, each diameter once.
+        /// The diameters of the largest full circles, without repeats.
         LargestDiameters {
-            /// How many, from 1 to 50. Default: 3.
+            /// The number of diameters, from 1 to 50. Default: 3.
             count: u32 = 3,
-            /// The most decimal places, up to 6. Default: 2 for millimeters, 3 for inches.
+            /// The maximum number of decimal places, up to 6. Default: 2 for millimeters, 3 for
+            /// inches.
             decimals: Option<u32> = None,
         },
-        /// The angle between two edges or two faces, or at a vertex between the directions to two
-        /// points.
+        /// The angle between two edges or two faces, or the angle at a vertex between the
+        /// directions to two points.
         Angle {
             /// The first edge, face or point.
             from: PickFile,
-            /// The other one.
+            /// The second edge, face or point.
             to: PickFile,
-            /// The vertex, between points. Default: where the edges or faces meet.
+            /// The vertex of an angle between points. Default: where the edges or faces meet.
             vertex: Option<PickFile> = None,
-            /// The view. Default: the first that shows the angle true.
+            /// The view. Default: the first that shows the true angle.
             view: Option<DimensionView> = None,
-            /// The most decimal places of degrees, up to 6. Default: 2.
+            /// The maximum number of decimal places in degrees, up to 6. Default: 2.
             decimals: Option<u32> = None,
         },
     }
 }
 
 scene_enum! {
-    /// A part of the models, picked by its place or by the name of its node.
+    /// A part of the models, picked by its position or by the name of its node.
     pub enum PickFile as "Pick" {
-        /// A point of the world.
+        /// A point in the world.
         Point(Triple),
-        /// A point of the box around all models: (0, 0, 0) is the corner with the least x, y and z,
-        /// (1, 1, 1) that with the greatest.
+        /// A point in the box around all models: (0, 0, 0) is the corner with the smallest x, y and
+        /// z, (1, 1, 1) the one with the largest.
         Fraction(Triple),
-        /// A point of the box around a node and everything below it.
+        /// A point in the box around a node and all its descendants.
         Node {
             /// The name of the node, or of a mesh whose node has no name.
             name: String,
-            /// Which of several nodes with this name, from 0. Default: 0.
+            /// The index among the nodes with this name, from 0. Default: 0.
             number: usize = 0,
-            /// The point of the box, as for `Fraction`. Default: (0.5, 0.5, 0.5), its center.
+            /// The point in the box, as for `Fraction`. Default: (0.5, 0.5, 0.5), its center.
             fraction: Triple = HALVES,
         },
         /// The nearest vertex.
         Vertex(PlaceFile),
-        /// The nearest edge: a crease of more than 30 degrees or a boundary. As a point it is the
-        /// nearest one.
+        /// The nearest edge: a crease of more than 30 degrees or a boundary. Used as a point, it is
+        /// the nearest point on the edge.
         Edge(PlaceFile),
-        /// The center of the nearest circle or arc of edges.
+        /// The center of the nearest circle or arc formed by edges.
         Circle(PlaceFile),
-        /// The plane of the nearest triangle. As a point it is the nearest one.
+        /// The plane of the nearest triangle. Used as a point, it is the nearest point on it.
         Face(PlaceFile),
     }
 }
@@ -184,23 +192,23 @@ scene_enum! {
 const HALVES: Triple = Triple([0.5; 3]);
 
 scene_struct! {
-    /// A place at which the nearest part is picked: a point, or one of a box.
+    /// A position near which a part is picked: a point, or a point in a box.
     pub struct PlaceFile as "Place" {
-        /// A point of the world. Default: that of `fraction`.
+        /// A point in the world. Default: the point that `fraction` gives.
         pub near: Option<Triple> = None,
-        /// A point of the box around the node, or around all models without one: (0, 0, 0) is the
-        /// corner with the least x, y and z, (1, 1, 1) that with the greatest.
-        /// Default: (0.5, 0.5, 0.5), its center.
+        /// A point in the box around the node, or around all models without one: (0, 0, 0) is the
+        /// corner with the smallest x, y and z, (1, 1, 1) the one with the largest. Default: (0.5,
+        /// 0.5, 0.5), its center.
         pub fraction: Option<Triple> = None,
-        /// The name of a node: only it and everything below it is looked at. Default: all models.
+        /// The name of a node; only it and its descendants are searched. Default: all models.
         pub node: Option<String> = None,
-        /// Which of several nodes with this name, from 0. Default: 0.
+        /// The index among the nodes with this name, from 0. Default: 0.
         pub number: usize = 0,
     }
 }
 
 named_enum! {
-    /// A view of a sheet that has dimensions.
+    /// A sheet view that can have dimensions.
     pub enum DimensionView as "DimensionView" {
         Front = "From the front.",
         Back = "From the back.",
@@ -212,7 +220,7 @@ named_enum! {
 }
 
 named_values! {
-    /// The side of a part on which a dimension line stands.
+    /// The side of a part on which a dimension line is placed.
     DimensionSide as "DimensionSide" {
         Above = "Above the part.",
         Below = "Below the part.",

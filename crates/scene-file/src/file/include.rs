@@ -8,7 +8,7 @@ use crate::syntax::Node;
 
 serde_by_scene_value! { Paths }
 
-/// Paths of included files. Written `"studio.ron"` or `["studio.ron", "paper.ron"]`.
+/// Paths of included files, written as `"studio.ron"` or `["studio.ron", "paper.ron"]`.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Paths(pub Vec<String>);
 
@@ -44,7 +44,7 @@ impl SceneValue for Paths {
     }
 }
 
-/// Reports what is wrong with one path or a list of paths.
+/// Reports the mistakes in one path or a list of paths.
 fn check_paths(node: &Node<'_>, checker: &mut Checker<'_>) {
     match node.group() {
         Some(group) if group.open != '{' => {

@@ -5,38 +5,38 @@ use crate::number::{Finite, NonNegative, Scale, Triple};
 use crate::schema::{scene_enum, scene_struct};
 
 scene_enum! {
-    /// Instances of a model. The model is scaled and rotated first, as its own fields say; then
-    /// each instance is moved to its position; then all of them are moved together by the model's
-    /// `translation`. A scene has 100,000 instances at most.
+    /// Instances of a model. The model is first scaled and rotated by its own fields. Each instance
+    /// is then moved to its position, and finally all are moved together by the model's
+    /// `translation`. A scene has at most 100,000 instances.
     pub enum InstancesFile as "Instances" {
-        /// In rows, columns and layers: the first instance where the model is, the others beside
+        /// In rows, columns and layers: the first instance is where the model is, the others beside
         /// it.
         Grid {
             /// The counts along x, y and z, each at least 1.
             count: (u32, u32, u32),
-            /// The distances between neighbors along x, y and z, in the world's units.
+            /// The distances between neighbors along x, y and z, in world units.
             step: Triple,
         },
-        /// On a circle around where the model is.
+        /// On a circle around the model's position.
         Circle {
-            /// The count, at least 1.
+            /// The number of instances, at least 1.
             count: u32,
-            /// The radius in the world's units.
+            /// The radius in world units.
             radius: NonNegative,
-            /// The axis of the circle, which is perpendicular to it; its length does not matter,
-            /// but is not 0. Default: y, a level circle.
+            /// The axis of the circle, perpendicular to its plane. Its length does not matter, but
+            /// must not be 0. Default: y, a horizontal circle.
             axis: Triple = Triple::Y_AXIS,
-            /// The position of the first instance in degrees, counter-clockwise around the axis: 0
-            /// is towards x; about the axis x, towards y. Default: 0.
+            /// The position of the first instance in degrees, counterclockwise around the axis: 0
+            /// is toward x, or toward y if the axis is x. Default: 0.
             start_degrees: Finite = Finite::ZERO,
-            /// The angle that the instances divide: of a full circle the last is one step before
-            /// the first, else it is at the end. Default: 360.
+            /// The angle that the instances divide. On a full circle the last is one step before
+            /// the first; otherwise it is at the end. Default: 360.
             sweep_degrees: Finite = FULL_CIRCLE,
-            /// Whether each instance is rotated with its position, so that all show the same side
-            /// to the center. Default: true.
+            /// Whether each instance rotates with its position, so that all turn the same side to
+            /// the center. Default: true.
             rotate_copies: bool = true,
         },
-        /// Each with a transform of its own.
+        /// Each with a separate transform.
         List(Vec<InstanceFile>),
     }
 }
@@ -44,10 +44,10 @@ scene_enum! {
 const FULL_CIRCLE: Finite = Finite::constant(360.0);
 
 scene_struct! {
-    /// An instance: scaled, then rotated, then translated.
+    /// An instance and its transform: scale, then rotation, then translation.
     #[derive(Copy)]
     pub struct InstanceFile as "Instance" {
-        /// The translation in the world's units. Default: (0, 0, 0).
+        /// The translation in world units. Default: (0, 0, 0).
         pub translation: Triple = Triple::ZERO,
         /// Rotations about the x, then the y, then the z axis, in degrees. Default: (0, 0, 0).
         pub rotation_degrees: Triple = Triple::ZERO,

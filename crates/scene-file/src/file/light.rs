@@ -6,7 +6,7 @@ use crate::number::{Finite, NonNegative, Positive, Triple};
 use crate::schema::scene_enum;
 
 scene_enum! {
-    /// A light, with the units of KHR_lights_punctual.
+    /// A light, in the units of KHR_lights_punctual.
     pub enum LightFile as "Light" {
         /// A light at infinity, such as the sun: its rays are parallel.
         Directional {
@@ -26,14 +26,14 @@ scene_enum! {
             position: Triple,
             /// The luminous intensity in candela: the illuminance at distance 1.
             intensity: NonNegative,
-            /// The distance at which no light arrives any more. Default: infinite.
+            /// The distance beyond which the light has no effect. Default: infinite.
             range: Option<Positive>,
             /// The color. Default: white.
             color: LightColor = LightColor::WHITE,
-            /// Its shadows, by six shadow maps. Default: the scene's `shadows`.
+            /// Its shadows, from six shadow maps. Default: the scene's `shadows`.
             shadows: Option<ShadowsFile>,
         },
-        /// A spot light: a point light that shines into a cone.
+        /// A spot light: a point light restricted to a cone.
         Spot {
             /// The position.
             position: Triple,
@@ -45,16 +45,16 @@ scene_enum! {
             inner_cone_degrees: Option<Finite>,
             /// The angle from the axis where the falloff ends. Default: 45.
             outer_cone_degrees: Option<Finite>,
-            /// The distance at which no light arrives any more. Default: infinite.
+            /// The distance beyond which the light has no effect. Default: infinite.
             range: Option<Positive>,
             /// The color. Default: white.
             color: LightColor = LightColor::WHITE,
             /// Its shadows. Default: the scene's `shadows`.
             shadows: Option<ShadowsFile>,
         },
-        /// The lights of the models' files (KHR_lights_punctual).
+        /// The lights in the models' files (KHR_lights_punctual).
         FromModels,
-        /// Uniform diffuse light from all directions, without highlights; an environment has
+        /// Uniform diffuse light from all directions, without highlights. An environment does have
         /// highlights.
         Ambient {
             /// The illuminance in lux of every surface.
@@ -66,7 +66,7 @@ scene_enum! {
 }
 
 impl LightFile {
-    /// The distance at which the light is cut off, in world units; `None` for unlimited lights.
+    /// The distance beyond which the light has no effect, in world units; `None` if unlimited.
     #[must_use]
     pub const fn range(&self) -> Option<Positive> {
         match self {

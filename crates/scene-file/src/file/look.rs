@@ -10,45 +10,44 @@ use page::palette::{BLUEPRINT_BLUE, GRAPHITE};
 use shade::ToneMapping;
 
 scene_enum! {
-    /// The style: how surfaces are drawn.
+    /// The style, which defines how surfaces are drawn.
     pub enum StyleFile as "Style" {
         /// Physically based shading, with the smooth normals of the file.
         Shaded,
-        /// Physically based shading, with one normal for each triangle.
+        /// Physically based shading, with one normal per triangle.
         Flat,
-        /// Gouraud shading: lit at vertices and interpolated, matte, in the colors of the
-        /// materials.
+        /// Gouraud shading: lit at the vertices and interpolated, matte, in the material colors.
         Gouraud,
-        /// Matte clay in the light of the scene.
+        /// Matte clay in the scene's light.
         Clay,
-        /// A material capture of glazed clay: color by the normal in view space, whatever the
-        /// lights of the scene.
+        /// A material capture of glazed clay: colors from the normal in view space, regardless of
+        /// the scene's lights.
         Matcap,
         /// World-space normals as colors: red, green and blue are (n + 1) / 2.
         Normals,
         /// Depth as gray: the nearer, the brighter. A black background suits it.
         Depth,
-        /// A checkerboard by texture coordinates, 8 squares for each unit; red grows with u, green
-        /// with v.
+        /// A checkerboard from texture coordinates, with 8 squares per unit; red grows with u,
+        /// green with v.
         UvChecker,
         /// A color for each mesh primitive.
         Ids,
-        /// Cel shading: the colors of the materials in three steps of light, with outlines.
+        /// Cel shading: the material colors in three steps of light, with outlines.
         Toon,
-        /// X-ray: translucent surfaces, denser the more they lie along the line of sight.
+        /// X-ray: translucent surfaces, denser the more they are seen edge-on.
         XRay,
-        /// The edges of all triangles, hidden ones too.
+        /// The edges of all triangles, including hidden ones.
         Wireframe,
         /// A line drawing. Default: hidden lines removed.
         Lines(LinesFile),
     }
 }
 
-/// The name that flags have for a style, and the style.
+/// The name of a style in flags, and the style.
 type NamedStyle = (&'static str, fn() -> StyleFile);
 
 impl StyleFile {
-    /// The styles by the names that flags have for them, each with the default of its fields.
+    /// The styles by their names in flags, each with the defaults of its fields.
     pub const NAMED: [NamedStyle; 21] = [
         ("shaded", || Self::Shaded),
         ("flat", || Self::Flat),
@@ -73,7 +72,7 @@ impl StyleFile {
         ("sketch", Self::lines_sketch),
     ];
 
-    /// Whether the light of an environment arrives in pictures of this style.
+    /// Whether pictures of this style receive the light of an environment.
     #[must_use]
     pub const fn shows_environment(&self) -> bool {
         matches!(self, Self::Shaded | Self::Flat | Self::Gouraud | Self::Clay | Self::Toon)
@@ -91,13 +90,13 @@ impl StyleFile {
         Self::Lines(LinesFile { hidden: HiddenLines::Dashed, ..LinesFile::default() })
     }
 
-    /// A line drawing of the outline alone.
+    /// A line drawing of only the outline.
     #[must_use]
     pub fn lines_silhouette() -> Self {
         Self::Lines(LinesFile { edges: EdgeSelection::Silhouette, ..LinesFile::default() })
     }
 
-    /// A line drawing of the outline alone: closed loops around the whole and its holes.
+    /// A line drawing of only the outline: closed loops around the whole and its holes.
     #[must_use]
     pub fn lines_outline() -> Self {
         Self::Lines(LinesFile { edges: EdgeSelection::Outline, ..LinesFile::default() })
@@ -119,7 +118,7 @@ impl StyleFile {
         Self::Lines(LinesFile { edges, hidden, width, ..LinesFile::default() })
     }
 
-    /// Black lines without hidden ones, and faces in shade hatched, as in patents.
+    /// Black lines with hidden ones removed, and faces in shade hatched, as in patents.
     #[must_use]
     pub fn lines_patent() -> Self {
         Self::Lines(LinesFile {
@@ -144,7 +143,7 @@ impl StyleFile {
         })
     }
 
-    /// Lines without hidden ones as drawn by hand, with a pencil.
+    /// Lines as drawn by hand with a pencil, with hidden ones removed.
     #[must_use]
     pub fn lines_sketch() -> Self {
         Self::Lines(LinesFile {
@@ -155,8 +154,8 @@ impl StyleFile {
         })
     }
 
-    /// The style with a line group of ISO 128 that suits a picture of this size in pixels, if its
-    /// lines are those of a group: 0.25 mm below 300 pixels, 0.35 mm below 600.
+    /// The style with the ISO 128 line group that suits a picture of this size in pixels, if it
+    /// uses a line group: 0.25 mm below 300 pixels, 0.35 mm below 600.
     #[must_use]
     pub fn with_fitting_lines(self, size: (u32, u32)) -> Self {
         let (width, height) = size;
@@ -178,7 +177,7 @@ impl StyleFile {
         }
     }
 
-    /// The style without hidden lines if it is a line drawing: a section shows what is inside, and
+    /// The style without hidden lines, if it is a line drawing: a section shows the inside, and
     /// hidden edges would only confuse (ISO 128-3).
     #[must_use]
     pub fn without_hidden_lines(self) -> Self {
@@ -195,7 +194,7 @@ scene_struct! {
         /// Width and height in pixels, each from 1 to 1048576. Default: (960, 720).
         pub size: (u32, u32) = (960, 720),
         /// The background. Default: `Transparent`; white paper in line drawings, which SVG, PDF and
-        /// DXF leave out.
+        /// DXF omit.
         pub background: Option<BackgroundFile> = None,
         /// Coverage samples per pixel (MSAA): 1, 4, 8 or 16. Default: 4.
         pub samples: u32 = 4,
@@ -205,13 +204,13 @@ scene_struct! {
         /// a scene file whose own lights are too bright.
         pub exposure_ev: Option<Finite> = None,
         /// The tone mapping curve, which brings bright light into the range of the picture.
-        /// Default: `None`, and `Neutral` for a model without a scene file that has lights.
+        /// Default: `None`; `Neutral` for a model with lights but without a scene file.
         pub tone_mapping: Option<ToneMapping> = None,
-        /// The most samples of anisotropic texture filtering, from 1 to 8: with 1, surfaces at
-        /// grazing angles are blurred; with more they are sharp. Default: 4.
+        /// The maximum number of samples of anisotropic texture filtering, from 1 to 8: with 1,
+        /// surfaces at grazing angles are blurred; with more, they are sharp. Default: 4.
         pub max_anisotropy: u32 = 4,
-        /// The side of points in pixels, from 1 to 256: those of models, which glTF leaves open.
-        /// Lines draw them as strokes instead. Default: 3.
+        /// The size of the models' points in pixels, from 1 to 256; glTF does not define it. Line
+        /// drawings draw points as strokes instead. Default: 3.
         pub point_size: PointSize = PointSize::DEFAULT,
     }
 }

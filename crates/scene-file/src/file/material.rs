@@ -5,18 +5,18 @@ use crate::number::{Fraction, NonNegative};
 use crate::schema::{scene_enum, scene_struct};
 
 scene_struct! {
-    /// A material override. Each field that is given replaces that of the model's material, with
-    /// its texture; the others are unchanged. Of several overrides of one material, later ones win.
+    /// A material override. Each given field replaces the field of the model's material, along with
+    /// its texture; the others are unchanged. If a material has several overrides, later ones win.
     pub struct MaterialFile as "Material" {
-        /// Which materials. Default: `All`.
+        /// The materials to override. Default: `All`.
         pub of: MaterialsFile = MaterialsFile::All,
         /// The base color; vertex colors still multiply it. Default: as in the model.
         pub base_color: Option<Color> = None,
-        /// The base color's alpha, from 0 to 1; it counts with `Blend` and `Mask`. Default: as in
-        /// the model.
+        /// The base color's alpha, from 0 to 1; it takes effect with `Blend` and `Mask`. Default:
+        /// as in the model.
         pub alpha: Option<Fraction> = None,
-        /// 0 for dielectrics, 1 for metals. Where it or `roughness` is given, the texture of both
-        /// is left out. Default: as in the model.
+        /// 0 for dielectrics, 1 for metals. If it or `roughness` is given, their shared texture is
+        /// dropped. Default: as in the model.
         pub metallic: Option<Fraction> = None,
         /// 0 for mirrors, 1 for chalk. Default: as in the model.
         pub roughness: Option<Fraction> = None,
@@ -26,7 +26,7 @@ scene_struct! {
         pub emissive_strength: Option<NonNegative> = None,
         /// The meaning of alpha. Default: as in the model.
         pub alpha_mode: Option<AlphaModeFile> = None,
-        /// Whether back faces are shown too. Default: as in the model.
+        /// Whether back faces are also shown. Default: as in the model.
         pub double_sided: Option<bool> = None,
         /// Whether the base color is shown without lighting. Default: as in the model.
         pub unlit: Option<bool> = None,
@@ -39,11 +39,11 @@ scene_enum! {
     /// A choice of materials of a model.
     #[derive(Eq)]
     pub enum MaterialsFile as "Materials" {
-        /// All of them, and that of surfaces without one.
+        /// All materials, including the one for surfaces without a material.
         All,
-        /// Those of this name.
+        /// The materials with this name.
         Name(String),
-        /// By the index in the file, from 0.
+        /// By index in the file, from 0.
         Index(usize),
     }
 }
@@ -54,12 +54,12 @@ scene_enum! {
     pub enum AlphaModeFile as "AlphaMode" {
         /// Alpha is ignored.
         Opaque,
-        /// The surface is opaque where alpha is at least the cutoff, and absent elsewhere.
+        /// The surface is opaque where alpha reaches the cutoff, and absent elsewhere.
         Mask {
             /// The smallest alpha that is opaque, from 0 to 1. Default: 0.5.
             cutoff: Fraction = Fraction::HALF,
         },
-        /// Alpha is the opacity over what is behind the surface.
+        /// Alpha is the surface's opacity over everything behind it.
         Blend,
     }
 }

@@ -4,13 +4,13 @@ use crate::number::Positive;
 use crate::schema::scene_struct;
 
 scene_struct! {
-    /// Screen-space ambient occlusion: corners and crevices get less ambient light, as far as the
-    /// picture shows what occludes it. Like the occlusion textures of models it changes ambient
-    /// light and the environment, and no other lights.
+    /// Screen-space ambient occlusion: corners and crevices get less ambient light, if the picture
+    /// shows the surfaces that occlude it. Like the models' occlusion textures, it affects only
+    /// ambient light and the environment.
     #[derive(Copy)]
     pub struct AmbientOcclusionFile as "AmbientOcclusion" {
-        /// The distance up to which surfaces occlude, in the units of the world. Default: a twelfth
-        /// of the diagonal of the box around the models.
+        /// The distance up to which surfaces occlude, in world units. Default: a twelfth of the
+        /// diagonal of the box around the models.
         pub radius: Option<Positive> = None,
     }
 }

@@ -10,41 +10,41 @@ scene_enum! {
     pub enum OverlayFile as "Overlay" {
         /// The axes of the world.
         Axes {
-            /// Their length. Default: to suit the models.
+            /// Their length. Default: chosen to suit the models.
             length: Option<Positive>,
         },
         /// A grid on the ground, y = 0.
         Grid {
-            /// The distance of its lines. Default: a round number to suit the models.
+            /// The distance between its lines. Default: a round number that suits the models.
             step: Option<Positive>,
         },
         /// The horizon: where horizontal directions vanish.
         Horizon,
-        /// The vanishing points of the axes, with the lines from the corners of the box around the
+        /// The vanishing points of the axes, with lines from the corners of the box around the
         /// models.
         VanishingPoints,
         /// The view volume and the eye of another camera.
         Volume(CameraFile),
-        /// Text at a point of the world, over the models also where they hide the point. A point
-        /// that is not in the picture has no label, but a warning.
+        /// Text at a point in the world, drawn over the models even where they hide the point. A
+        /// point outside the picture gets a warning instead of a label.
         Label {
-            /// The point, in the world.
+            /// The point in the world.
             at: Triple,
-            /// The text, one line. Its letters are strokes, as on drawings.
+            /// The text, a single line, drawn with strokes as on drawings.
             text: String,
-            /// From the point to the nearest corner of the text, in pixels to the right and down;
-            /// with a 0 to the middle of its nearest side. A text that would leave the picture is
-            /// moved. Default: (5, -5); (24, -24) with a leader line.
+            /// The offset from the point to the nearest corner of the text, in pixels to the right
+            /// and down; with a 0, to the middle of its nearest side. Text that would leave the
+            /// picture is moved. Default: (5, -5); (24, -24) with a leader line.
             offset: Option<(Finite, Finite)>,
             /// The color. Default: dark, or light on a dark background.
             color: Option<Color>,
             /// The height of capitals in pixels, from 1 to 1000. Default: 12.
             size: LabelSize = LabelSize::DEFAULT,
-            /// Whether a leader line, with a dot at its end, joins the text and the point.
-            /// Default: false.
+            /// Whether a leader line, ending in a dot, joins the text and the point. Default:
+            /// false.
             leader: bool = false,
         },
-        /// The visible edges of the surfaces: silhouettes, boundaries, creases. Line drawings have
+        /// The visible edges of the surfaces: silhouettes, boundaries, creases. Line drawings show
         /// them anyway.
         Edges,
     }

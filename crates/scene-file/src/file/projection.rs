@@ -8,35 +8,35 @@ use projection::homog::PixelCenters;
 scene_enum! {
     /// A projection.
     ///
-    /// Those from `Multiview` on are the classical ones. Each of them fits its own window around
-    /// the models, and unless the view says otherwise it shows their front.
+    /// The variants from `Multiview` on are the classical projections. Each fits its window around
+    /// the models and, unless the view says otherwise, shows their front.
     pub enum ProjectionFile as "Projection" {
-        /// Perspective, the eye in front of the image's center unless the lens is shifted. One
-        /// field of view is given, or none.
+        /// Perspective, with the eye in front of the image's center unless the lens is shifted.
+        /// Give at most one field of view.
         Perspective {
             /// The vertical field of view in degrees. Default: 35, if no other is given.
             fov_y_degrees: Option<FieldOfView>,
             /// The horizontal field of view in degrees. Default: from the vertical one and the
-            /// shape of the image.
+            /// aspect ratio of the image.
             fov_x_degrees: Option<FieldOfView>,
             /// The field of view from corner to corner in degrees. Default: from the vertical one
-            /// and the shape of the image.
+            /// and the aspect ratio of the image.
             fov_diagonal_degrees: Option<FieldOfView>,
-            /// How far the lens is shifted to the right and upwards, in fractions of the image's
-            /// longer side, as in Blender. Verticals stay parallel: a camera that looks straight
-            /// ahead with `shift: (0, 0.2)` shows a tower without falling lines. Default: (0, 0).
+            /// The shift of the lens to the right and up, in fractions of the image's longer side,
+            /// as in Blender. Verticals stay parallel: a camera that looks straight ahead with
+            /// `shift: (0, 0.2)` shows a tower without converging lines. Default: (0, 0).
             shift: (Finite, Finite) = NO_SHIFT,
-            /// The distance of the near plane. Default: as far as the models allow.
+            /// The distance of the near plane. Default: as far from the eye as the models allow.
             near: Option<Positive>,
             /// The distance of the far plane. Default: just behind the models.
             far: Option<Positive>,
         },
-        /// Orthographic: parallel, perpendicular to the image. The window is given by its height,
-        /// or by all four borders, or by none of them.
+        /// Orthographic: parallel, perpendicular to the image. Give the height of the window, all
+        /// four of its borders, or neither.
         Orthographic {
-            /// The height of the view volume in the scene's units. Default: from the framing.
+            /// The height of the view volume in scene units. Default: from the framing.
             height: Option<Positive>,
-            /// The window's left border, from the line of sight. Default: from the height.
+            /// The window's left border, measured from the line of sight. Default: from the height.
             left: Option<Finite>,
             /// The window's right border. Default: from the height.
             right: Option<Finite>,
@@ -44,12 +44,12 @@ scene_enum! {
             bottom: Option<Finite>,
             /// The window's top border. Default: from the height.
             top: Option<Finite>,
-            /// The distance of the near plane. Default: just before the models.
+            /// The distance of the near plane. Default: just in front of the models.
             near: Option<Finite>,
             /// The distance of the far plane. Default: just behind the models.
             far: Option<Finite>,
         },
-        /// Perspective through any window on the near plane, also an off-axis one.
+        /// Perspective through any window on the near plane, including an off-axis one.
         Frustum {
             /// The window's left border.
             left: Finite,
@@ -64,9 +64,9 @@ scene_enum! {
             /// The distance of the far plane. Default: just behind the models.
             far: Option<Positive>,
         },
-        /// The frustum of the WebGL lesson (createFrustum): from an apex right behind the window's
-        /// center, in the plane of the eye. Another picture than that of `Frustum`, unless the
-        /// window's center is on the line of sight.
+        /// The frustum of the WebGL lesson (createFrustum): its apex is straight behind the
+        /// window's center, in the plane of the eye. Its picture differs from that with `Frustum`,
+        /// unless the window's center is on the line of sight.
         ApexMovedFrustum {
             /// The window's left border.
             left: Finite,
@@ -81,8 +81,8 @@ scene_enum! {
             /// The distance of the far plane. Default: just behind the models.
             far: Option<Positive>,
         },
-        /// The perspective of a calibrated camera, by the numbers of its matrix K: focal lengths and
-        /// principal point in pixels, rows counted from the top.
+        /// The perspective of a calibrated camera, from the entries of its matrix K: focal lengths
+        /// and principal point in pixels, with rows counted from the top.
         Intrinsics {
             /// The focal length in columns.
             fx: Positive,
@@ -92,28 +92,28 @@ scene_enum! {
             cx: Option<Finite>,
             /// The row of the principal point. Default: the middle of the image.
             cy: Option<Finite>,
-            /// The skew: what a row downwards adds to the column. Default: 0.
+            /// The skew: the entry of K that makes the column depend on the row. Default: 0.
             skew: Finite = Finite::ZERO,
-            /// Columns and rows of the pictures that the numbers are for. The image may be larger
-            /// or smaller, but has their shape. Default: the image's own.
+            /// Columns and rows of the pictures that the numbers apply to. The image may be larger
+            /// or smaller, but must have the same aspect ratio. Default: the size of the image.
             size: Option<(u32, u32)>,
-            /// The origin of the numbers. Default: `Integer`.
+            /// The origin of the pixel coordinates. Default: `Integer`.
             pixel_centers: PixelCenters = PixelCenters::Integer,
-            /// The distance of the near plane. Default: as far as the models allow.
+            /// The distance of the near plane. Default: as far from the eye as the models allow.
             near: Option<Positive>,
             /// The distance of the far plane. Default: just behind the models.
             far: Option<Positive>,
         },
         /// One of the six principal views.
         Multiview(PrincipalView),
-        /// Isometric: orthographic, all three axes foreshortened alike.
+        /// Isometric: orthographic, all three axes foreshortened equally.
         Isometric,
-        /// Dimetric: orthographic, x and y in full and z by half, the 42°/7° of engineering
+        /// Dimetric: orthographic, x and y at full length and z at half, the 42°/7° of engineering
         /// drawing.
         Dimetric,
-        /// Trimetric: orthographic, each axis foreshortened by a factor of its own.
+        /// Trimetric: orthographic, each axis foreshortened by a different factor.
         Trimetric,
-        /// Orthographic, the axes foreshortened as x : y : z.
+        /// Orthographic, with the axes foreshortened in the ratio x : y : z.
         Axonometric {
             /// The foreshortening of the x axis.
             x: Positive,
@@ -122,17 +122,17 @@ scene_enum! {
             /// The foreshortening of the z axis.
             z: Positive,
         },
-        /// Oblique: the front in true shape, depth in full.
+        /// Oblique: the front in true shape, depth at full length.
         Cavalier {
-            /// The direction in which depth recedes, from the right counterclockwise. Default: 45.
+            /// The direction in which depth recedes, counterclockwise from the right. Default: 45.
             angle_degrees: Finite = HALF_RIGHT_ANGLE,
         },
-        /// Oblique: the front in true shape, depth by half.
+        /// Oblique: the front in true shape, depth at half length.
         Cabinet {
             /// The direction in which depth recedes. Default: 45.
             angle_degrees: Finite = HALF_RIGHT_ANGLE,
         },
-        /// Oblique: the front in true shape, depth by any factor.
+        /// Oblique: the front in true shape, depth scaled by any factor.
         Oblique {
             /// The drawn length of a unit of depth.
             length: NonNegative,
@@ -146,39 +146,39 @@ scene_enum! {
             /// The drawn length of a unit of height. Default: 1.
             height: NonNegative = NonNegative::ONE,
         },
-        /// One-point perspective, the front parallel to the picture plane: lines in depth meet in
-        /// one vanishing point. Points of the picture go from −1 at its bottom to 1 at its top.
+        /// One-point perspective, with the front parallel to the picture plane: lines in depth meet
+        /// in one vanishing point. Picture coordinates go from −1 at the bottom to 1 at the top.
         OnePoint {
-            /// The vanishing point of lines in depth. Default: a little to the right and above the
-            /// center.
+            /// The vanishing point of lines in depth. Default: slightly to the right of and above
+            /// the center.
             at: (Finite, Finite) = point(0.35, 0.45),
-            /// The distance of the eye from the picture, in half heights of it. Default: 3.
+            /// The eye's distance from the picture, in half heights of it. Default: 3.
             distance: Positive = Positive::constant(3.0),
         },
-        /// Two-point perspective, verticals parallel to the picture plane. Points as for
-        /// `OnePoint`.
+        /// Two-point perspective, with verticals parallel to the picture plane. Picture coordinates
+        /// are as for `OnePoint`.
         TwoPoint {
-            /// The vanishing point of lines along x. Default: at the left, outside of the picture.
+            /// The vanishing point of lines along x. Default: on the left, outside the picture.
             x: (Finite, Finite) = point(-3.2, 0.4),
-            /// The vanishing point of lines along z. Default: at the right.
+            /// The vanishing point of lines along z. Default: on the right.
             z: (Finite, Finite) = point(2.4, 0.4),
             /// The position of the eye between the two, 0 at x and 1 at z. Default: 0.57, the
             /// center of the picture.
             fraction: Finite = Finite::constant(0.57),
         },
-        /// Three-point perspective, no axis parallel to the picture plane. Points as for
-        /// `OnePoint`.
+        /// Three-point perspective, with no axis parallel to the picture plane. Picture coordinates
+        /// are as for `OnePoint`.
         ThreePoint {
-            /// The vanishing point of lines along x. Default: at the left, above the center.
+            /// The vanishing point of lines along x. Default: on the left, above the center.
             x: (Finite, Finite) = point(-3.2, 1.2),
             /// The vanishing point of verticals. Default: far below.
             y: (Finite, Finite) = point(0.1, -5.0),
-            /// The vanishing point of lines along z. Default: at the right, above the center.
+            /// The vanishing point of lines along z. Default: on the right, above the center.
             z: (Finite, Finite) = point(2.4, 1.2),
         },
-        /// Perspective by the bottom row (p, q, r, 1) of the textbooks' matrix, with the models
-        /// scaled so that they just fit into a sphere of radius 1. With r > 0 it is a reverse
-        /// perspective: lines in depth run apart, and what is farther away is larger.
+        /// Perspective from the bottom row (p, q, r, 1) of the textbooks' matrix, with the models
+        /// scaled to just fit in a sphere of radius 1. With r > 0 it is a reverse perspective:
+        /// lines in depth diverge, and farther objects appear larger.
         NPoint {
             /// Lines along x meet at 1/p. Default: 0.
             p: Finite = Finite::ZERO,
@@ -191,7 +191,7 @@ scene_enum! {
 }
 
 impl ProjectionFile {
-    /// Perspective with every default.
+    /// Perspective with all defaults.
     pub const PERSPECTIVE: Self = Self::Perspective {
         fov_y_degrees: None,
         fov_x_degrees: None,
@@ -200,7 +200,7 @@ impl ProjectionFile {
         near: None,
         far: None,
     };
-    /// Orthographic with every default.
+    /// Orthographic with all defaults.
     pub const ORTHOGRAPHIC: Self = Self::Orthographic {
         height: None,
         left: None,
@@ -211,43 +211,43 @@ impl ProjectionFile {
         far: None,
     };
 
-    /// Cavalier with every default.
+    /// Cavalier with all defaults.
     #[must_use]
     pub const fn cavalier() -> Self {
         Self::Cavalier { angle_degrees: HALF_RIGHT_ANGLE }
     }
 
-    /// Cabinet with every default.
+    /// Cabinet with all defaults.
     #[must_use]
     pub const fn cabinet() -> Self {
         Self::Cabinet { angle_degrees: HALF_RIGHT_ANGLE }
     }
 
-    /// Military with every default.
+    /// Military with all defaults.
     #[must_use]
     pub const fn military() -> Self {
         Self::Military { rotation_degrees: HALF_RIGHT_ANGLE, height: NonNegative::ONE }
     }
 
-    /// One-point perspective with every default.
+    /// One-point perspective with all defaults.
     #[must_use]
     pub const fn one_point() -> Self {
         Self::OnePoint { at: point(0.35, 0.45), distance: Positive::constant(3.0) }
     }
 
-    /// Two-point perspective with every default.
+    /// Two-point perspective with all defaults.
     #[must_use]
     pub const fn two_point() -> Self {
         Self::TwoPoint { x: point(-3.2, 0.4), z: point(2.4, 0.4), fraction: Finite::constant(0.57) }
     }
 
-    /// Three-point perspective with every default.
+    /// Three-point perspective with all defaults.
     #[must_use]
     pub const fn three_point() -> Self {
         Self::ThreePoint { x: point(-3.2, 1.2), y: point(0.1, -5.0), z: point(2.4, 1.2) }
     }
 
-    /// Whether it is one of the classical projections, which find their own windows.
+    /// Whether it is one of the classical projections, which choose their own windows.
     #[must_use]
     pub fn is_classical(&self) -> bool {
         !matches!(
@@ -261,13 +261,13 @@ impl ProjectionFile {
     }
 }
 
-/// The lens in the middle of the picture.
+/// A lens centered on the picture.
 pub(super) const NO_SHIFT: (Finite, Finite) = point(0.0, 0.0);
 
-/// 45 degrees, the direction of depth in most oblique drawings.
+/// 45 degrees, the usual direction of depth in oblique drawings.
 const HALF_RIGHT_ANGLE: Finite = Finite::constant(45.0);
 
-/// A point of the picture.
+/// A point in picture coordinates.
 const fn point(x: f64, y: f64) -> (Finite, Finite) {
     (Finite::constant(x), Finite::constant(y))
 }

@@ -7,20 +7,20 @@ scene_struct! {
     /// A section plane that cuts the models open. Line drawings and sheets show the section; other
     /// styles show the models whole.
     pub struct SectionFile as "Section" {
-        /// A point of the plane, in the world. Default: the origin.
+        /// A point on the plane, in the world. Default: the origin.
         pub point: Triple = Triple::ZERO,
         /// The direction of the half that is removed, perpendicular to the plane; its length does
-        /// not matter, but is not 0.
+        /// not matter, but must not be 0.
         pub normal: Triple,
-        /// The names of nodes that no section cuts, with everything below them, such as shafts,
-        /// bolts and ribs: they are drawn whole, without hatching. `*` stands for any characters.
-        /// The lists of all sections count together. Default: none.
+        /// The names of nodes, such as shafts, bolts and ribs, that no section cuts. They and their
+        /// descendants are drawn whole, without hatching. `*` matches any characters. The lists of
+        /// all sections are combined. Default: none.
         pub uncut: Vec<String> = Vec::new(),
     }
 }
 
 impl SectionFile {
-    /// The section through a point that removes what lies in a direction; `None` if a number is not
+    /// The section through a point that removes the half in a direction; `None` if a number is not
     /// finite or the direction is 0.
     #[must_use]
     pub fn new(point: [f64; 3], normal: [f64; 3]) -> Option<Self> {

@@ -4,31 +4,31 @@ use crate::number::Softness;
 use crate::schema::scene_enum;
 
 scene_enum! {
-    /// Whether a light casts shadows, and how soft they are. Directional, point and spot lights
-    /// can.
+    /// Whether a light casts shadows, and how soft they are. Only directional, point and spot
+    /// lights can cast them.
     ///
     /// Masked materials cast the shadow of their opaque parts; blended and transmissive ones cast
     /// none.
     #[derive(Copy)]
     pub enum ShadowsFile as "Shadows" {
-        /// None.
+        /// No shadows.
         Off,
-        /// By a shadow map: a depth image of the scene from the light.
+        /// From a shadow map: a depth image of the scene as seen from the light.
         On {
-            /// The texels of the map's longer side, from 64 to 8192. Details finer than a texel
-            /// cast no shadow; each takes 12 bytes. A point light has six maps, each with so many
-            /// texels for 90°; all point lights together have 67 million at most, and smaller maps
-            /// beyond that. Default: 2048.
+            /// The texels along the map's longer side, from 64 to 8192. Details finer than a texel
+            /// cast no shadow; each texel takes 12 bytes. A point light has six such maps, each
+            /// covering 90°. All point lights together have at most 67 million texels; beyond that,
+            /// their maps shrink. Default: 2048.
             size: Option<u32>,
-            /// The angle that the light subtends, in degrees, from 0 to 30: shadows get softer with
-            /// the distance from what casts them, and 0 makes them all sharp. Default: 0.53, as the
-            /// sun.
+            /// The angle that the light subtends, in degrees from 0 to 30. Shadows get softer with
+            /// distance from the object that casts them; 0 makes them all sharp. Default: 0.53,
+            /// like the sun.
             softness_degrees: Option<Softness>,
         },
     }
 }
 
 impl ShadowsFile {
-    /// Shadows with every default.
+    /// Shadows with all defaults.
     pub const DEFAULT: Self = Self::On { size: None, softness_degrees: None };
 }

@@ -15,95 +15,95 @@ scene_struct! {
     pub struct SheetFile as "Sheet" {
         /// The paper size. Default: A3.
         pub paper: PaperSize = PaperSize::A3,
-        /// The orientation of the paper. Default: the one in which the views are larger; if they
-        /// are equal, portrait for A4, A5 and Letter, landscape for all others.
+        /// The orientation of the paper. Default: the one that makes the views larger; if they are
+        /// equal, portrait for A4, A5 and Letter, landscape for all others.
         pub orientation: Option<PageOrientation> = None,
         /// The arrangement of the views. Default: first angle.
         pub projection_angle: SheetAngle = SheetAngle::First,
-        /// The scale, paper to object, as in (1, 50). Default: the largest of the standard series
-        /// that fits.
+        /// The scale, paper to object, as in (1, 50). Default: the largest standard scale that
+        /// fits.
         pub scale: Option<(u32, u32)> = None,
-        /// The unit of the models. Default: that of their files: meters in glTF, millimeters in
-        /// STL. With inches or feet the dimensions are in inches, else in millimeters.
+        /// The unit of the models. Default: the unit in their files: meters in glTF, millimeters in
+        /// STL. With inches or feet, dimensions are in inches, otherwise in millimeters.
         pub unit: Option<LengthUnit> = None,
         /// The view beside the front view. Default: from the left in first angle, from the right in
-        /// third; the other one if only that looks onto a section.
+        /// third angle; the other one if only that faces a section.
         pub side_view: Option<SideView> = None,
         /// The fourth view. Default: isometric.
         pub axonometric_view: AxonometricView = AxonometricView::Isometric,
-        /// How hidden lines are drawn in views that are not cut, along the axes. Default: as in the
-        /// scene's line style, else dashed.
+        /// Hidden lines in uncut views along the axes. Default: as in the scene's line style,
+        /// otherwise dashed.
         pub hidden: Option<HiddenLines> = None,
         /// The fill of the faces under the lines, on all pages. Default: as in the scene's line
-        /// style, else none.
+        /// style, otherwise none.
         pub face_fill: Option<FaceFill> = None,
-        /// The width of wide lines in millimeters, a line group of ISO 128. Default: that of the
-        /// scene's line style if it is in millimeters, else to suit the paper.
+        /// The width of wide lines in millimeters, an ISO 128 line group. Default: from the scene's
+        /// line style if that is in millimeters, otherwise chosen to suit the paper.
         pub width: Option<Positive> = None,
         /// The dimensions: `true` for the overall ones, `false` for none, or a list such as
         /// `[Overall, Length(from: Node(name: "lid"), to: Point((0, 0, 0)))]`. Default: true.
         pub dimensions: DimensionsFile = DimensionsFile::overall(),
-        /// Whether circles and the axes of round parts have center lines: chain lines of ISO 128.
-        /// A circle is an edge of at least eight equal parts, of which half a turn is there.
+        /// Whether circles and the axes of round parts have center lines: ISO 128 chain lines. A
+        /// circle is an edge of at least eight equal parts, with at least half a turn present.
         /// Default: false.
         pub center_lines: bool = false,
-        /// Whether models that are symmetric have a line of symmetry in the views that look along the
-        /// plane, where that is upright or level: chain lines of ISO 128. Default: false.
+        /// Whether symmetric models have a line of symmetry in views along the plane of symmetry
+        /// where it is vertical or horizontal: ISO 128 chain lines. Default: false.
         pub symmetry_lines: bool = false,
-        /// The title. Default: the names of the models.
+        /// The title. Default: the models' names.
         pub title: String = String::new(),
-        /// The author. Default: the field is left out.
+        /// The author. Default: the field is omitted.
         pub author: String = String::new(),
-        /// The date, as it is to be printed. Default: the field is left out.
+        /// The date, printed as given. Default: the field is omitted.
         pub date: String = String::new(),
-        /// The drawing number. Default: the field is left out.
+        /// The drawing number. Default: the field is omitted.
         pub number: String = String::new(),
-        /// Whether a list counts the equal parts of the models: their nodes with meshes. It stands
-        /// on the page of the assembly, else on pages of its own. Default: false.
+        /// Whether a list counts identical parts of the models: their nodes with meshes. It goes on
+        /// the page of the assembly, otherwise on separate pages. Default: false.
         pub parts_list: bool = false,
-        /// Whether a page shows the assembly, in the axonometric view, with the number of each item
-        /// of the list in a balloon. Default: false.
+        /// Whether a page shows the assembly in the axonometric view, with each item's list number
+        /// in a balloon. Default: false.
         pub balloons: bool = false,
-        /// How the parts are moved apart on the page of the assembly, which need not have balloons.
-        /// Default: they stay in their places.
+        /// The exploded view on the page of the assembly, with or without balloons. Default: the
+        /// parts stay in place.
         pub exploded: Option<ExplodedFile> = None,
-        /// Whether each item of the list has a page of its own, with its principal views. Default:
+        /// Whether each item in the list has a separate page with its principal views. Default:
         /// false.
         pub part_sheets: bool = false,
-        /// The densities from which the masses of the list follow. Default: none, and no masses.
+        /// The densities for computing the masses in the list. Default: none, and no masses.
         pub densities: Vec<DensityFile> = Vec::new(),
-        /// Views beyond the usual ones, or in their place, and ways to show them. A list with a
-        /// `View` names all views; without any, front, top, side and axonometric view are there as
-        /// well. Default: none.
+        /// Views in addition to the usual ones or instead of them, and ways to show them. A list
+        /// with a `View` names all views; otherwise the front, top, side and axonometric views are
+        /// included as well. Default: none.
         pub views: Vec<SheetViewFile> = Vec::new(),
-        /// The second line of the title. With it, or an owner, a document type, a name of who
-        /// approved the drawing or a revision, the title block has all fields of ISO 7200.
-        /// Default: none.
+        /// The second line of the title. With it, an owner, a document type, an approver or a
+        /// revision, the title block has all fields of ISO 7200. Default: none.
         pub supplementary_title: String = String::new(),
         /// The legal owner, such as a company. Default: none.
         pub owner: String = String::new(),
         /// The type of the document, such as "Part drawing". Default: none.
         pub document_type: String = String::new(),
-        /// Who approved the drawing. Default: none.
+        /// The person who approved the drawing. Default: none.
         pub approved_by: String = String::new(),
         /// The revision index, such as "B". Default: none.
         pub revision: String = String::new(),
-        /// The number of the sheet and that of all sheets, as in (2, 5). Default: no number.
+        /// The sheet number and the number of sheets, as in (2, 5). Default: no number.
         pub sheet_number: Option<(u32, u32)> = None,
-        /// The language of the names of the title block's fields. Default: English.
+        /// The language of the title block's field names. Default: English.
         pub language: TitleBlockLanguage = TitleBlockLanguage::English,
-        /// The path of a title block of one's own, an SVG file with fields such as {title} in its
-        /// texts, in the folder of the scene or below. Default: the program's title block.
+        /// The path of a custom title block, an SVG file with fields such as {title} in its texts,
+        /// in the scene's folder or below it. Default: the built-in title block.
         pub title_block: Option<String> = None,
         /// The border around the drawing area. Default: a plain line.
         pub frame: SheetFrame = SheetFrame::Plain,
-        /// The unit in which lengths are written. Default: inches if the unit of the models is
-        /// inches or feet, else millimeters.
+        /// The unit in which lengths are written. Default: inches if the models are in inches or
+        /// feet, otherwise millimeters.
         pub dimension_unit: Option<DimensionUnit> = None,
-        /// The most decimals of lengths, from 0 to 6; zeros at the end are left out. Default: 2 in
-        /// millimeters and none from one meter on, 3 in inches, sixteenths in feet and inches.
+        /// The maximum number of decimals in lengths, from 0 to 6; trailing zeros are omitted.
+        /// Default: 2 in millimeters and none from one meter on, 3 in inches, sixteenths in feet
+        /// and inches.
         pub decimals: Option<u32> = None,
-        /// The sign before decimals. Default: a point.
+        /// The decimal separator. Default: a point.
         pub decimal_mark: DecimalMark = DecimalMark::Point,
     }
 }
@@ -126,7 +126,7 @@ named_enum! {
 }
 
 named_enum! {
-    /// The orientation of paper.
+    /// The orientation of the paper.
     pub enum PageOrientation as "Orientation" {
         Portrait = "Upright.",
         Landscape = "On its long side.",

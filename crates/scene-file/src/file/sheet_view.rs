@@ -7,25 +7,25 @@ use camera::NamedView;
 scene_enum! {
     /// A view of a drawing sheet, or a way to show one.
     ///
-    /// Views along the axes stand about the front view, all others where the sheet is free, and
-    /// every view with `at` there. Points and lengths of the models are in the world, those of the
+    /// Views along the axes are arranged around the front view, all others where the sheet is free;
+    /// `at` sets a view's position. Points and lengths of the models are in world space, those on
     /// paper in millimeters.
     pub enum SheetViewFile as "SheetView" {
-        /// The view from a named direction. A list with views of this kind names all that there
-        /// are.
+        /// The view from a named direction. Views of this kind in a list are all the views of the
+        /// sheet.
         View {
             /// The direction.
             from: NamedView,
             /// The center of the view on the paper, in millimeters from the left and from the top.
-            /// Default: as the projection angle says, or where the sheet is free.
+            /// Default: according to the projection angle, or where the sheet is free.
             at: Option<(Finite, Finite)>,
-            /// The scale, paper to object; the view then stands where the sheet is free. Default:
-            /// that of the sheet.
+            /// The scale, paper to object; the view then goes where the sheet is free. Default: the
+            /// sheet's scale.
             scale: Option<(u32, u32)>,
             /// The text below the view. Default: none.
             caption: Option<String>,
         },
-        /// A part of a view, enlarged. The view has a circle around it, with a letter.
+        /// An enlarged part of a view, in which a circle with a letter marks it.
         Detail {
             /// The view.
             of: NamedView,
@@ -33,76 +33,76 @@ scene_enum! {
             center: Triple,
             /// The radius of the circle.
             radius: Positive,
-            /// The scale, paper to object. Default: two to five times that of the sheet, the
+            /// The scale, paper to object. Default: two to five times the sheet's scale, the
             /// largest that fits.
             scale: Option<(u32, u32)>,
             /// The center of the detail on the paper, in millimeters from the left and from the
             /// top. Default: where the sheet is free.
             at: Option<(Finite, Finite)>,
-            /// The text below the detail. Default: letter and scale, such as `B (5:1)`.
+            /// The text below the detail. Default: its letter and scale, such as `B (5:1)`.
             caption: Option<String>,
         },
-        /// A section along parallel planes that are joined by steps. It is shown by the view that
-        /// looks onto the planes, or by one of its own; the view along the steps has its line.
+        /// A section along parallel planes joined by steps. The view facing the planes shows it, or
+        /// a separate view; the view along the steps has its line.
         Stepped {
-            /// The direction of what is removed, perpendicular to the planes.
+            /// The direction of the removed side, perpendicular to the planes.
             normal: Triple,
-            /// The corners of the line: two for each plane, and a step from one plane to the next.
+            /// The corners of the line: two for each plane, with a step from one plane to the next.
             corners: Vec<Triple>,
             /// The center of the section on the paper, in millimeters from the left and from the
-            /// top. Default: where the sheet is free, or in the view that looks onto the planes.
+            /// top. Default: where the sheet is free, or in the view that faces the planes.
             at: Option<(Finite, Finite)>,
-            /// The scale, paper to object. Default: that of the sheet.
+            /// The scale, paper to object. Default: the sheet's scale.
             scale: Option<(u32, u32)>,
-            /// A text below the section, besides its letters. Default: none.
+            /// A text below the section, in addition to its letters. Default: none.
             caption: Option<String>,
         },
         /// A view straight onto an oblique face, with an arrow and a letter in another view.
         Auxiliary {
-            /// The direction in which the face looks.
+            /// The direction that the face points in.
             normal: Triple,
             /// The center of the view on the paper, in millimeters from the left and from the top.
             /// Default: where the sheet is free.
             at: Option<(Finite, Finite)>,
-            /// The scale, paper to object. Default: that of the sheet, or smaller.
+            /// The scale, paper to object. Default: the sheet's scale, or smaller.
             scale: Option<(u32, u32)>,
             /// The text below the view. Default: its letter.
             caption: Option<String>,
         },
-        /// Cuts one half of a view, for symmetric parts; a center line stands between the halves.
+        /// Cuts one half of a view, for symmetric parts; a center line separates the halves.
         HalfSection {
             /// The view.
             of: NamedView,
-            /// A point of the center line and of the plane. Default: the center of the models.
+            /// A point on the center line and the plane. Default: the center of the models.
             point: Option<Triple>,
-            /// The half that is cut, as it lies on the paper. Default: `Right`.
+            /// The half that is cut, as seen on the paper. Default: `Right`.
             side: ViewSideFile = ViewSideFile::Right,
         },
         /// Cuts a view around a point, up to a freehand line.
         LocalSection {
             /// The view.
             of: NamedView,
-            /// The middle of what is cut: a point of the plane of the section.
+            /// The center of the cut: a point on the section plane.
             center: Triple,
             /// The mean distance of the freehand line from the center.
             radius: Positive,
         },
-        /// Leaves out a part of a long model. Dimensions remain those of the whole.
+        /// Omits a part of a long model. Dimensions still give the full length.
         Broken {
             /// The view. Default: all views along the axes that show the length.
             of: Option<NamedView>,
-            /// The axis of the length.
+            /// The axis along the length.
             axis: AxisFile,
-            /// Where the part begins on this axis.
+            /// The start of the omitted part on this axis.
             from: Finite,
-            /// Where it ends.
+            /// The end of the omitted part.
             to: Finite,
         },
     }
 }
 
 named_enum! {
-    /// A half of a view, as it lies on the paper.
+    /// A half of a view, as seen on the paper.
     pub enum ViewSideFile as "ViewSide" {
         Left = "The left half.",
         Right = "The right half.",

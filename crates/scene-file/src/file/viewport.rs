@@ -9,27 +9,27 @@ use crate::number::{Fraction, Positive};
 use crate::schema::{named_enum, scene_enum, scene_struct};
 
 scene_struct! {
-    /// A rectangle of the picture with a view of its own, drawn over what is there. Pictures, frame
-    /// sequences and line drawings have it; passes and `explain` show the scene's own camera alone.
-    /// In SVG and PDF all views are line drawings. One of `at` and `pixels` gives its position.
+    /// A rectangle of the picture that shows another view, drawn over the picture. Pictures, frame
+    /// sequences and line drawings have it; passes and `explain` use only the scene's own camera.
+    /// In SVG and PDF all views are line drawings. Either `at` or `pixels` gives its position.
     pub struct ViewportFile as "Viewport" {
         /// Left, top, width and height as fractions of the picture without its caption, from 0 to
-        /// 1, from its upper left corner. Default: by `pixels`.
+        /// 1, from its upper left corner. Default: from `pixels`.
         pub at: Option<(Fraction, Fraction, Fraction, Fraction)> = None,
-        /// Left, top, width and height in pixels, above the caption of the picture. Default: by
+        /// Left, top, width and height in pixels, above the caption of the picture. Default: from
         /// `at`.
         pub pixels: Option<(u32, u32, u32, u32)> = None,
-        /// The camera. Default: that of the scene.
+        /// The camera. Default: the scene's.
         pub camera: Option<CameraFile> = None,
-        /// The style. Default: that of the scene.
+        /// The style. Default: the scene's.
         pub style: Option<StyleFile> = None,
-        /// The background; all of it is in the rectangle. Default: that of the scene.
+        /// The background, fitted to the rectangle. Default: the scene's.
         pub background: Option<BackgroundFile> = None,
-        /// The overlays. Default: those of the scene.
+        /// The overlays. Default: the scene's.
         pub overlays: Option<Vec<OverlayFile>> = None,
-        /// A border, inside of the rectangle. Default: none.
+        /// A border, inside the rectangle. Default: none.
         pub border: Option<BorderFile> = None,
-        /// A line of text below the view, as `caption` of the scene; the view is in the rest of
+        /// A line of text below the view, like the scene's `caption`; the view fills the rest of
         /// the rectangle. Default: none.
         pub caption: Option<String> = None,
     }
@@ -37,7 +37,7 @@ scene_struct! {
 
 named_enum! {
     /// The scale of the parallel views among the viewports: orthographic, axonometric and oblique
-    /// ones. Perspectives have no scale, and are left as they are.
+    /// ones. Perspectives have no scale and are not changed.
     pub enum ViewportsScale as "ViewportsScale" {
         Individual = "Each view fills its rectangle.",
         Shared = "The same length is equally long in all parallel views, at the least scale at which each fits: a line parallel to the picture plane, or in an oblique projection to its front. No view may give the size of its window.",
@@ -56,27 +56,25 @@ scene_struct! {
 }
 
 scene_enum! {
-    /// A stereo pair: two pictures, for two eyes beside the camera. They look in one direction
-    /// through off-axis windows, so that both see what is at the convergence distance in one
-    /// position, without vertical parallax. The projection must be a perspective.
+    /// A stereo pair: two pictures, for two eyes on either side of the camera. They look in the
+    /// same direction through off-axis windows. A point at the convergence distance has the same
+    /// position in both, without vertical parallax. The projection must be a perspective.
     #[derive(Copy)]
     pub enum StereoFile as "Stereo" {
         /// The left eye's picture in the left half, the right eye's in the right half.
         SideBySide {
-            /// The interocular distance, in the world's units. Default: a thirtieth of the
-            /// convergence.
+            /// The interocular distance, in world units. Default: a thirtieth of the convergence.
             eye_distance: Option<Positive>,
-            /// The distance of the plane of zero parallax: what is nearer stands out of the
-            /// picture. Default: the distance of the center of the models.
+            /// The distance of the plane of zero parallax; nearer objects seem to come out of the
+            /// picture. Default: the distance to the center of the models.
             convergence: Option<Positive>,
         },
-        /// One over the other for red and cyan glasses: red from the left eye's picture, green and
-        /// blue from the right eye's.
+        /// One on top of the other, for red and cyan glasses: red from the left eye's picture,
+        /// green and blue from the right eye's.
         Anaglyph {
-            /// The interocular distance, in the world's units. Default: a thirtieth of the
-            /// convergence.
+            /// The interocular distance, in world units. Default: a thirtieth of the convergence.
             eye_distance: Option<Positive>,
-            /// As for `SideBySide`. Default: the distance of the center of the models.
+            /// As for `SideBySide`. Default: the distance to the center of the models.
             convergence: Option<Positive>,
         },
     }

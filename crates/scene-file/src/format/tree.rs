@@ -1,18 +1,18 @@
 //! The formatter's tree: tokens grouped into brackets and items, each with its comment.
 //!
-//! Unlike the syntax tree of the parser it keeps comments, blank lines and the spelling of
-//! literals, and it knows nothing about fields or types. An item is everything between two commas.
+//! Unlike the parser's syntax tree, it keeps comments, blank lines and the spelling of literals,
+//! and it knows nothing about fields or types. An item is everything between two commas.
 
 use crate::syntax::{Token, TokenKind};
 
-/// An element, a comment, or an element with a comment behind it on its line.
+/// An element, a comment, or an element followed by a comment on its line.
 #[derive(Debug, Default)]
 pub(super) struct FormatItem {
-    /// The element; `None` for a comment on a line of its own.
+    /// The element; `None` for a comment on a separate line.
     pub(super) element: Option<Element>,
-    /// The comment with its slashes, behind the element or alone.
+    /// The comment with its slashes, with or without an element before it.
     pub(super) comment: Option<String>,
-    /// Whether a blank line separates it from the item before.
+    /// Whether a blank line separates it from the previous item.
     pub(super) blank_before: bool,
 }
 
@@ -26,9 +26,9 @@ pub(super) struct Element {
 /// A run of text or a bracketed group.
 #[derive(Debug)]
 pub(super) enum Part {
-    /// Words with the blanks between them.
+    /// Words with the spaces between them.
     Text(String),
-    /// Brackets with their items.
+    /// Brackets with the items inside.
     Group(FormatGroup),
 }
 
@@ -73,8 +73,8 @@ impl<'a> ItemReader<'a> {
 
     /// The items up to the closing bracket, or to the end.
     ///
-    /// Comments inside of an element become items before it, and the first of them takes over the
-    /// blank line. Commas are dropped; the writer sets them again, one behind each element.
+    /// Comments inside an element become items before it, and the first of them takes over the
+    /// blank line. Commas are dropped; the writer puts one after each element.
     fn read_items(&mut self) -> Vec<FormatItem> {
         let mut items: Vec<FormatItem> = Vec::new();
         while let Some(token) = self.peek() {
@@ -106,9 +106,9 @@ impl<'a> ItemReader<'a> {
         items
     }
 
-    /// A comment on the line of the item before it belongs to that; any other is an item.
+    /// Attaches a comment to the item before it on the same line; any other comment is an item.
     ///
-    /// Only one comment can stand behind an element; a second one on the line begins an item.
+    /// Only one comment can follow an element; a second one on the line begins an item.
     fn attach_comment(&self, items: &mut Vec<FormatItem>, token: Token<'_>) {
         let text = token.text.to_owned();
         match items.last_mut() {
@@ -122,23 +122,23 @@ impl<'a> ItemReader<'a> {
         }
     }
 
-    /// Whether the block comment that comes now ends its line.
+    /// Whether the next token, a block comment, ends its line.
     fn ends_its_line(&self) -> bool {
         let next = self.tokens.get(self.at + 1);
         next.is_none_or(|next| next.line_breaks_before > 0 || next.kind == TokenKind::Close)
     }
 
-    /// An element, and the line comments inside of it.
+    /// An element, and the line comments inside it.
     ///
-    /// Line comments inside cannot stay where they are, since the element may end up on one line;
-    /// they are returned to be put before it. Block comments stay among the words.
+    /// Line comments cannot stay inside, since the element may end up on one line; they are
+    /// returned to be put before it. Block comments stay among the words.
     fn read_element(&mut self) -> (Element, Vec<&'a str>) {
         let (mut parts, mut comments) = (Vec::new(), Vec::new());
         let mut text = String::new();
         while let Some(token) = self.peek() {
             match token.kind {
                 TokenKind::Comma | TokenKind::Close => break,
-                // Behind the element, before its comma or instead of it.
+                // After the element, before its comma or instead of it.
                 TokenKind::LineComment if self.is_element_end() => break,
                 TokenKind::LineComment => comments.push(token.text),
                 TokenKind::Colon => text.push_str(": "),
@@ -168,9 +168,9 @@ impl<'a> ItemReader<'a> {
         rest.is_none_or(|token| matches!(token.kind, TokenKind::Comma | TokenKind::Close))
     }
 
-    /// The group behind an opening bracket.
+    /// The group after an opening bracket.
     ///
-    /// The first token behind the bracket decides whether the group stays open: if a line break
+    /// The first token after the bracket decides whether the group stays open: if a line break
     /// precedes it, every item gets a line. An empty group is always closed.
     fn read_group(&mut self, open: Token<'_>) -> FormatGroup {
         let broken = self.peek().is_some_and(|first| first.line_breaks_before > 0);

@@ -1,10 +1,10 @@
-//! Tests: hints that are followed. Each row is a field as a newcomer writes it, words of the help,
-//! and the field as the help has it written; that must be a scene.
+//! Tests: following the hints. Each row has a field as a newcomer writes it, words from the help,
+//! and the field as the help says to write it; that must be a valid scene.
 
 use super::{mistakes, scene_with};
 use crate::parse_scene;
 
-/// The field of a scene, the help, and the field that follows it.
+/// The field of a scene, the help, and the field written according to the help.
 const FIELDS: &[(&str, &str, &str)] = &[
     (
         "sheet: Sheet(layout: 4)",
@@ -142,7 +142,7 @@ const FIELDS: &[(&str, &str, &str)] = &[
     ),
 ];
 
-/// Materials that are written as colors or as a map are answered with the list of them.
+/// Materials written as colors or as a map are answered with a list of them.
 #[test]
 fn materials_of_other_forms_are_answered_with_a_list() {
     for (field, followed) in [
@@ -182,7 +182,7 @@ fn a_hint_that_is_followed_makes_a_scene() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// A model that is written without its list and brackets is answered at once with all of them.
+/// A model written without its list and brackets is answered with both at once.
 #[test]
 fn models_without_lists_are_answered_with_the_whole_field() {
     for scene in ["(model: \"a.glb\")", "(models: \"a.glb\")", "(model: (path: \"a.glb\"))"] {
@@ -209,7 +209,7 @@ fn a_missing_list_does_not_hide_the_mistakes_in_its_element() {
     );
 }
 
-/// The contents of a misspelt field are checked in the same run.
+/// The contents of a misspelled field are checked in the same run.
 #[test]
 fn a_misspelt_field_does_not_hide_the_mistakes_in_its_value() {
     let path = "camera_path: (points: [(t: 0, eye: (0, 2, 5), target: (0, 1, 0)), (time: 4, eye: (5, 2, 0), target: (0, 1, 0))])";

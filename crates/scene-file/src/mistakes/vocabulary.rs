@@ -1,8 +1,8 @@
-//! Tests: words of three.js, Blender, glTF and f3d, each used where a word of scene files is meant.
+//! Tests: words from three.js, Blender, glTF and f3d, each used instead of a scene file word.
 
 use super::{mistakes, scene_with};
 
-/// A field of the scene with a foreign word, and what the help must contain.
+/// A scene field with a foreign word, and what the help must contain.
 const WORDS: [(&str, &str); 66] = [
     // three.js
     ("camera: (projection: Perspective(fov: 35))", "`fov_y_degrees`"),
@@ -91,7 +91,7 @@ const WORDS: [(&str, &str); 66] = [
     ("samples: 4", "image: (samples: …)"),
 ];
 
-/// Fields of a model with a foreign word.
+/// Model fields with a foreign word.
 const MODEL_WORDS: [(&str, &str); 20] = [
     ("position: (1, 2, 3)", "`translation`"),
     ("location: (1, 2, 3)", "`translation`"),
@@ -131,7 +131,7 @@ fn words_of_other_programs_are_answered_with_ours() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// A field of any part of the language is answered, in the scene's own brackets, with its place.
+/// Any field of the language, put in the scene's own brackets, is answered with its position.
 #[test]
 fn fields_in_the_wrong_place_are_answered_with_their_place() {
     use crate::reference::{FieldEntry, Shape, all_types};
@@ -146,7 +146,7 @@ fn fields_in_the_wrong_place_are_answered_with_their_place() {
     let own: Vec<&str> = fields_of(types[0].shape).iter().map(|field| field.name).collect();
     let mut wrong = Vec::new();
     for field in types.iter().flat_map(|entry| fields_of(entry.shape)) {
-        // Whoever writes a width and a height means those of the picture.
+        // A width and a height here are taken for the picture's.
         if own.contains(&field.name) || ["width", "height"].contains(&field.name) {
             continue;
         }
@@ -159,7 +159,7 @@ fn fields_in_the_wrong_place_are_answered_with_their_place() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Variants have the brackets that `ron` wants; the message shows them.
+/// Variants need the brackets that `ron` expects; the message shows them.
 #[test]
 fn variants_with_fields_have_brackets_and_others_have_none() {
     for (field, help) in [

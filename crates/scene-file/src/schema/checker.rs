@@ -1,7 +1,7 @@
-//! Checks a syntax tree against the declarations, where `ron` could not read it.
+//! Checks a syntax tree against the declarations, after `ron` failed to read it.
 //!
-//! Every mistake is reported once, where it is. What follows from it is not: a value that could not
-//! be read has no other mistakes, and a field that was meant by a misspelt one is not missing.
+//! Every mistake is reported once, where it is. Its consequences are not reported: a value that
+//! could not be read has no other mistakes, and a field with a misspelled name is not also missing.
 //!
 //! ```text
 //!  check ─► find_struct  ─► find_fields ─► check_fields ─► check …
@@ -10,7 +10,7 @@
 //!       └─► Notation: numbers, strings, colors, vectors
 //! ```
 //! The checker holds the path to the value, for messages, and the scope, which is the innermost
-//! field or element around it: a later resolution skips errors in a scope that already has one.
+//! field or element around it: later resolution skips errors in a scope that already has one.
 
 mod corrections;
 mod fields;
@@ -43,19 +43,19 @@ enum Segment {
 /// Collects the mistakes in a text.
 #[derive(Debug, Default)]
 pub(crate) struct Checker<'a> {
-    /// The text of the file, which spans of nodes index into.
+    /// The text of the file, to which the spans of nodes refer.
     source: &'a str,
     mistakes: Vec<Mistake>,
     /// The path from the scene to the value that is being checked.
     path: Vec<Segment>,
     /// The fields and elements around the value that is being read.
     scopes: Vec<Range<usize>>,
-    /// The beginnings of values that are known to lack the brackets of a list.
+    /// The starts of values already reported as lacking list brackets.
     told_lists: Vec<usize>,
 }
 
 impl<'a> Checker<'a> {
-    /// A checker of a text; spans of nodes index into `source`.
+    /// Creates a checker for a text; node spans index into `source`.
     pub(crate) fn new(source: &'a str) -> Self {
         Self { source, ..Self::default() }
     }
@@ -66,7 +66,7 @@ impl<'a> Checker<'a> {
 
     /// Reports every mistake in a value of this type.
     ///
-    /// It stops at one more than are reported.
+    /// Stops after one mistake more than the maximum that is reported.
     pub(crate) fn check(&mut self, node: &Node<'_>, value_type: &ValueType) {
         if self.is_full() {
             return;
@@ -87,7 +87,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether there are more mistakes than are reported.
+    /// Whether there are more mistakes than the maximum that is reported.
     fn is_full(&self) -> bool {
         self.mistakes.len() > MAX_MISTAKES
     }
@@ -95,7 +95,7 @@ impl<'a> Checker<'a> {
     /// Reports a mistake at `span`.
     ///
     /// `span` is underlined in the message. The scope of the mistake is the innermost field or
-    /// element, or the span itself outside of all fields.
+    /// element, or the span itself outside all fields.
     pub(crate) fn report(
         &mut self,
         span: Range<usize>,
@@ -106,9 +106,9 @@ impl<'a> Checker<'a> {
         self.mistakes.push(Mistake { scope, ..Mistake::new(span, message, help) });
     }
 
-    /// Reports that a value is not of its field's type: `camera.view: expected …, found …`.
+    /// Reports that a value does not have its field's type: `camera.view: expected …, found …`.
     ///
-    /// Nodes that the parser could not read are skipped, since it has reported them already.
+    /// Nodes that the parser could not read are skipped, since it has already reported them.
     pub(crate) fn report_type(&mut self, node: &Node<'_>, expected: &str, help: Option<String>) {
         if node.kind != NodeKind::Invalid {
             let message =
@@ -117,7 +117,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Reports that a value is of the right type and out of its range.
+    /// Reports that a value has the right type but is out of range.
     pub(crate) fn report_value(&mut self, node: &Node<'_>, problem: &str, help: Option<String>) {
         let message = format!("{}{problem}", self.path_prefix());
         self.report(node.span.clone(), message, help);
@@ -126,7 +126,7 @@ impl<'a> Checker<'a> {
     /// The path of the value that is being read, such as `camera.view.LookAt.eye[1]`; empty for the
     /// whole scene.
     ///
-    /// Indices have no point before them, names have one except for the first.
+    /// Indices have no point before them; names have one, except for the first.
     fn path_text(&self) -> String {
         let mut text = String::new();
         for segment in &self.path {
@@ -138,13 +138,13 @@ impl<'a> Checker<'a> {
         }
         text
     }
-    /// The path of the value, quoted, as a message begins; empty for the whole scene.
+    /// The path of the value, quoted, as messages begin; empty for the whole scene.
     fn path_prefix(&self) -> String {
         let path = self.path_text();
         if path.is_empty() { path } else { format!("`{path}`: ") }
     }
 
-    /// The name of the field of the scene that the value belongs to.
+    /// The name of the scene field that the value belongs to.
     pub(crate) fn top_level_field(&self) -> Option<&'static str> {
         match self.path.first() {
             Some(Segment::Field(name)) => Some(name),
@@ -160,7 +160,7 @@ impl<'a> Checker<'a> {
         })
     }
 
-    /// A value as a message names it: quoted up to 40 bytes, its kind in words beyond that.
+    /// A value as messages name it: quoted up to 40 bytes, beyond that its kind in words.
     fn describe(&self, node: &Node<'_>) -> String {
         let text = &self.source[node.span.clone()];
         match &node.kind {
@@ -177,8 +177,8 @@ impl<'a> Checker<'a> {
 
     /// The fields in the brackets of a struct; `None` if the node is not a struct.
     ///
-    /// The type's name before the bracket is optional: `Camera(…)` and `(…)` are the same. A word
-    /// that is a variant of another type gets the hint where it belongs.
+    /// The type's name before the bracket is optional: `Camera(…)` and `(…)` are equivalent. A word
+    /// that is a variant of another type gets a hint where it belongs.
     fn find_struct<'n>(
         &mut self,
         node: &'n Node<'n>,
@@ -215,11 +215,11 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Reports that a struct has another name than its type. Returns whether it is likely to be
-    /// that type all the same.
+    /// Reports that a struct's name is not its type's. Returns whether it is probably that type
+    /// anyway.
     ///
     /// `Some` for an unknown name, such as a misspelling: its fields are then checked too. `None`
-    /// for a name that the language knows elsewhere, whose fields would all be wrong.
+    /// for a name that the language uses elsewhere, whose fields would all be wrong.
     fn report_struct_name(&mut self, name: &Key<'_>, entry: &'static TypeEntry) -> Option<()> {
         let message = format!("expected `{}`, found `{}`", entry.name, name.name);
         let suggestion = suggest_variant(entry, name.name, self.top_level_field());
@@ -231,13 +231,13 @@ impl<'a> Checker<'a> {
         (!is_known).then_some(())
     }
 
-    /// Finds the declared fields among the items of a group, and reports those that are unknown,
-    /// doubled or missing.
+    /// Finds the declared fields among the items of a group, and reports unknown, duplicate and
+    /// missing ones.
     ///
-    /// A missing field is reported only if every unknown field could be explained as something
-    /// else: `modles: […]` is reported as a misspelling of `models`, and `models` not as missing
-    /// besides. If no item has a name, the brackets hold a tuple or a list, and one message says
-    /// so. Linear in items × declared fields, which are at most a few dozen.
+    /// A missing field is reported only if every unknown field has another explanation: `modles:
+    /// […]` is reported as a misspelling of `models`, and `models` is not reported as missing too.
+    /// If no item has a name, the brackets hold a tuple or a list, and one message says so. Linear
+    /// in items × declared fields, which number at most a few dozen.
     fn find_fields<'n>(
         &mut self,
         group: &'n Group<'n>,
@@ -264,7 +264,7 @@ impl<'a> Checker<'a> {
                     None => {
                         unknown += 1;
                         let sibling = self.report_unknown_field(item, key, owner, declared);
-                        // Mistakes inside of what a misspelt field holds are told in the same run.
+                        // Mistakes inside a misspelled field are reported in the same run.
                         let structured = sibling.filter(|_| has_named_parts(&item.value));
                         let structured = structured
                             .and_then(|name| declared.iter().find(|field| field.name == name));
@@ -284,7 +284,7 @@ impl<'a> Checker<'a> {
             }
             self.scopes.pop();
         }
-        // A field that nobody knows may stand for one that is missing.
+        // An unexplained field may be meant as a missing one.
         let has_unexplained = unknown > meant.len();
         for field in declared.iter().filter(|_| !has_unexplained) {
             let is_there = field.is_optional || meant.contains(&field.name);
@@ -299,7 +299,7 @@ impl<'a> Checker<'a> {
         Some(found)
     }
 
-    /// Reports a value without a name among fields, such as the 5 of `fov_y_degrees: 3,5`.
+    /// Reports an unnamed value among fields, such as the 5 of `fov_y_degrees: 3,5`.
     fn report_keyless_item(
         &mut self,
         item: &SyntaxItem<'_>,
@@ -310,7 +310,7 @@ impl<'a> Checker<'a> {
             return;
         }
         let found = self.describe(&item.value);
-        // The only field that must be there, such as `path` in `Model("model.glb")`.
+        // The only required field, such as `path` in `Model("model.glb")`.
         let mut required = declared.iter().filter(|field| !field.is_optional);
         let only = required.next().filter(|_| required.next().is_none());
         let mut help = "a field is written `name: value`".to_owned();
@@ -326,10 +326,9 @@ impl<'a> Checker<'a> {
         self.report(item.value.span.clone(), message, Some(help));
     }
 
-    /// Reports a field that is not declared. Returns the field of the same struct that is probably
-    /// meant.
+    /// Reports an undeclared field. Returns the field of the same struct that is probably meant.
     ///
-    /// The suggestion compares with the fields of this struct, of the whole language, of other
+    /// The suggestion is based on the fields of this struct, of the whole language, of other
     /// programs and of older versions of this one.
     fn report_unknown_field(
         &mut self,
@@ -348,7 +347,7 @@ impl<'a> Checker<'a> {
             self.told_lists.push(item.value.span.start);
         }
         let message = format!("unexpected field `{}` in `{}`", key.name, owner.shown);
-        // `top` and `bottom` of a gradient are two mistakes with one remedy.
+        // `top` and `bottom` of a gradient are two mistakes with one fix.
         let around = self.scopes.iter().rev().nth(1).map_or(0, |outer| outer.start);
         let is_told = self
             .mistakes
@@ -398,11 +397,11 @@ impl<'a> Checker<'a> {
         variant.map(|variant| (variant, group))
     }
 
-    /// Reports a value that names no variant, with the variant that holds such values, if there is
-    /// one.
+    /// Reports a value that does not name a variant, with the variant that holds such values, if
+    /// any.
     ///
-    /// A string where a color's variant is expected gets `Color("…")` as its hint, a number the
-    /// variant with a number inside.
+    /// A string where a color's variant is expected gets the hint `Color("…")`, a number the
+    /// variant that contains a number.
     fn report_no_variant(
         &mut self,
         node: &Node<'_>,
@@ -462,14 +461,14 @@ fn has_named_parts(node: &Node<'_>) -> bool {
         .is_some_and(|group| group.open == '[' || group.items.iter().any(|item| item.key.is_some()))
 }
 
-/// The name of a file in quotation marks: a string with an extension.
+/// A file name in quotation marks: a string with an extension.
 fn named_file<'n>(node: &'n Node<'_>) -> Option<&'n str> {
     let NodeKind::String(text) = &node.kind else { return None };
     let name: &str = text.trim_matches('"');
     Path::new(name).extension().map(|_| name)
 }
 
-/// How a file is written with the first variant that has a path: `File(path: "studio.hdr")`.
+/// A file path in the first variant that has one: `File(path: "studio.hdr")`.
 fn variant_with_path(name: &str, variants: &[VariantEntry]) -> Option<String> {
     let has_path = |variant: &&VariantEntry| {
         variant.fields.iter().any(|field| field.name == "path" && !field.is_optional)
@@ -478,7 +477,7 @@ fn variant_with_path(name: &str, variants: &[VariantEntry]) -> Option<String> {
     Some(format!("{}(path: \"{name}\")", variant.name))
 }
 
-/// The first variant that has all the fields in brackets that lack its name.
+/// The first variant that has all fields of a group without a variant name.
 fn variant_with_fields(group: &Group<'_>, variants: &[VariantEntry]) -> Option<&'static str> {
     let has = |variant: &VariantEntry, item: &SyntaxItem<'_>| {
         let is_key =

@@ -1,10 +1,10 @@
-//! Values of scene files without their Rust types.
+//! Scene file values without their Rust types.
 //!
 //! ```text
 //!  formats of serde ◄─► Data ◄─► scene_struct!, scene_enum!
 //! ```
 //! One reader and one writer per format then serve all types ([`serialized`](super::serialized)).
-//! With readers generated for each type, scenes took a third of the time to compile this crate.
+//! Readers generated for each type took a third of this crate's compile time.
 
 use super::SceneValue;
 use crate::options::NamedOption;
@@ -12,11 +12,11 @@ use crate::options::NamedOption;
 /// A value of a scene file.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Data {
-    /// An optional value that is not there, or nothing behind the name of a variant.
+    /// An absent optional value, or no value after the name of a variant.
     None,
     /// `true` or `false`.
     Bool(bool),
-    /// A whole number, where only those are possible.
+    /// A whole number, where only whole numbers are allowed.
     Whole(u64),
     /// A number.
     Number(f64),
@@ -24,16 +24,16 @@ pub(crate) enum Data {
     Text(String),
     /// Values in square brackets.
     List(Vec<Self>),
-    /// A fixed count of values. Reading takes it for a list.
+    /// A fixed number of values. Reading treats it as a list.
     Tuple(Vec<Self>),
-    /// Named fields in the order of their declaration, without those that have their defaults.
+    /// Named fields in declaration order, without those that have default values.
     Fields(Vec<(&'static str, Self)>),
-    /// A variant, and its fields or its value.
+    /// A variant with its fields or its value.
     Variant(&'static str, Box<Self>),
 }
 
 impl Data {
-    /// A variant, and what is behind its name.
+    /// A variant with the value after its name.
     pub(crate) fn of_variant(name: &'static str, value: Self) -> Self {
         Self::Variant(name, Box::new(value))
     }
@@ -43,7 +43,7 @@ impl Data {
         Self::Tuple(numbers.map(Self::Number).to_vec())
     }
 
-    /// The value of a field, or its default if it was left out.
+    /// The value of a field, or its default if it was omitted.
     ///
     /// # Errors
     /// If there is neither: the field is required.
@@ -64,7 +64,7 @@ impl Data {
         fields.iter().find(|(field, _)| *field == name).map(|(_, value)| value)
     }
 
-    /// The name of a variant, and what is behind it.
+    /// The name of a variant, and the value after it.
     pub(crate) fn variant(&self) -> (&str, &Self) {
         match self {
             Self::Variant(name, value) => (name, value),
@@ -88,7 +88,7 @@ impl Data {
         }
     }
 
-    /// Exactly three numbers.
+    /// Reads exactly three numbers.
     pub(crate) fn three_numbers(&self) -> Option<[f64; 3]> {
         match self.list()? {
             [x, y, z] => Some([x.number()?, y.number()?, z.number()?]),
@@ -97,12 +97,12 @@ impl Data {
     }
 }
 
-/// The message on a required field that was left out.
+/// The message about a missing required field.
 pub(super) fn missing_field(name: &str) -> String {
     format!("missing field `{name}`")
 }
 
-/// Adds a field to those that are written, unless it has the value that it has when it is left out.
+/// Adds a field to the written ones, unless it has the value that it would have if omitted.
 pub(crate) fn push_field<T: SceneValue>(
     fields: &mut Vec<(&'static str, Data)>,
     name: &'static str,

@@ -7,8 +7,8 @@
 //! Doc comments are matched as `#[doc = "…"]` literals: rustdoc and the printed reference show one
 //! text. The macros expand to absolute `$crate` paths, since they are used in many modules.
 
-/// Joins the lines of a doc comment to paragraphs, with a blank line between them. Links to Rust's
-/// items say nothing to the author of a scene: ``[`a`](b)`` and ``[`a`]`` become `` `a` ``.
+/// Joins the lines of a doc comment into paragraphs, with a blank line between them. Links to Rust
+/// items mean nothing to scene authors: ``[`a`](b)`` and ``[`a`]`` become `` `a` ``.
 #[must_use]
 pub(super) fn join_doc_lines(doc: &str) -> String {
     let lines: Vec<&str> = doc.lines().map(str::trim).collect();
@@ -17,10 +17,10 @@ pub(super) fn join_doc_lines(doc: &str) -> String {
     remove_links(&paragraphs.join("\n\n"))
 }
 
-/// Replaces links to Rust items by the text they show.
+/// Replaces links to Rust items with the text they show.
 ///
-/// Quadratic input is impossible: every link is passed once. A bracket that is never closed ends
-/// the search, and the rest of the text is kept without it.
+/// Quadratic time is impossible: every link is passed once. An unclosed bracket ends the search,
+/// and the rest of the text is kept without it.
 fn remove_links(text: &str) -> String {
     let mut plain = String::new();
     let mut rest = text;
@@ -38,15 +38,15 @@ fn remove_links(text: &str) -> String {
 }
 
 /// Doc comments of a type, for the reference of the scene language. Without the feature `terminal`
-/// nobody can ask for it.
+/// nothing prints them.
 macro_rules! documentation {
     ($($line:literal),* $(,)?) => {
         if cfg!(feature = "terminal") { concat!($($line),*) } else { "" }
     };
 }
 
-/// Declares a struct of scene files. `as "Name"` is its name in scene files; a field with `= value`
-/// may be left out. If every field has a default, so has the struct.
+/// Declares a scene file struct. `as "Name"` is its name in scene files; a field with `= value` may
+/// be omitted. If every field has a default, so does the struct.
 ///
 /// The first rule matches structs whose fields all have defaults and adds `impl Default`; the
 /// second matches any other; `@declare` is the common part.
@@ -132,7 +132,7 @@ macro_rules! scene_struct {
     };
 }
 
-/// Declares an enum of scene files, whose variants have no value, fields, or one value.
+/// Declares a scene file enum, whose variants have no value, fields, or one value.
 macro_rules! scene_enum {
     (
         $(#[doc = $doc:literal])*
@@ -212,7 +212,7 @@ macro_rules! scene_enum {
     };
 }
 
-/// Makes the declaration of a field. With a default it is optional; without, its type decides.
+/// Builds the declaration of a field. With a default it is optional; otherwise its type decides.
 macro_rules! field_entry {
     ([$($doc:literal)*] $field:ident: $type:ty = $default:expr) => {
         $crate::schema::FieldEntry {
@@ -234,8 +234,8 @@ macro_rules! field_entry {
     };
 }
 
-/// Makes the function that returns the value of a field that is left out: the given default, or the
-/// type's own answer, which is `None` for required fields.
+/// Builds the function that returns the value of an omitted field: the given default, or the type's
+/// own answer, which is `None` for required fields.
 macro_rules! default_value {
     ($type:ty = $default:expr) => {
         || -> Option<$type> { Some($default) }
@@ -245,7 +245,7 @@ macro_rules! default_value {
     };
 }
 
-/// Makes the optional type of the value in a variant's brackets.
+/// Builds the optional type of the value in a variant's brackets.
 macro_rules! inner_type {
     () => {
         None
@@ -274,7 +274,7 @@ macro_rules! read_fields {
     };
 }
 
-/// Reads a variant: nothing behind its name, its fields, or its value.
+/// Reads a variant: its fields, its value, or nothing after its name.
 macro_rules! read_variant {
     ($data:ident, $name:ident, $variant:ident) => {{
         let _ = $data;
@@ -288,7 +288,7 @@ macro_rules! read_variant {
     };
 }
 
-/// Writes the fields that are bound to variables, without those that have their defaults.
+/// Writes the fields bound to variables, omitting those with default values.
 macro_rules! write_fields {
     ($($field:ident: $type:ty $(= $default:expr)?),*) => {{
         let mut fields = Vec::new();
@@ -302,7 +302,7 @@ macro_rules! write_fields {
     }};
 }
 
-/// Writes what is behind the name of a variant.
+/// Writes the fields or the value of a variant, after its name.
 macro_rules! write_variant {
     ($value:ident) => {
         $crate::schema::Data::None
@@ -319,8 +319,8 @@ pub(crate) use {default_value, documentation, field_entry, inner_type};
 pub(crate) use {read_fields, read_variant, scene_enum, scene_struct};
 pub(crate) use {variant_value, write_fields, write_variant};
 
-/// Names the values of an enum without fields: implements `NamedOption`, and reads and writes it in
-/// scene files. Each summary is the entry of the value in the reference.
+/// Names the values of an enum without fields: implements `NamedOption`, and reads and writes them
+/// in scene files. Each summary is the value's entry in the reference.
 macro_rules! named_values {
     (
         $(#[doc = $doc:literal])*
@@ -377,7 +377,7 @@ macro_rules! named_values {
     };
 }
 
-/// Declares an enum without fields whose values have names.
+/// Declares an enum without fields, with named values.
 macro_rules! named_enum {
     (
         $(#[doc = $doc:literal])*

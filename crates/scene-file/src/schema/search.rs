@@ -1,8 +1,8 @@
-//! Search in the declarations: the position in a scene at which a field or a variant belongs.
+//! Searches the declarations for the position in a scene where a field or a variant belongs.
 //!
-//! Suggestions are written from the scene's own brackets on, such as `camera: (projection:
-//! Perspective(fov_y_degrees: …))`, so that they can be pasted. Positions are found by
-//! breadth-first search over the types: the shortest path to each type is its example.
+//! Suggestions start at the scene's own brackets, such as `camera: (projection:
+//! Perspective(fov_y_degrees: …))`, so that they can be pasted. A breadth-first search over the
+//! types finds the positions: the shortest path to each type is its example.
 
 use super::{Shape, TypeEntry, ValueType};
 use std::collections::BTreeSet;
@@ -14,18 +14,18 @@ struct Site {
     owner: String,
     /// The text of a scene up to its brackets, such as `camera: (view: LookAt(`.
     before: String,
-    /// The closing brackets that end the scene behind it.
+    /// The closing brackets that end the scene after it.
     after: String,
-    /// The names of its fields.
+    /// Its field names.
     fields: Vec<&'static str>,
-    /// The words that are possible here, for an enum.
+    /// The words allowed here, for an enum.
     variants: Vec<&'static str>,
 }
 
-/// The fields that `is_meant` accepts, each with its owner such as `Model` or `View::LookAt`, those
-/// nearest to the scene's own brackets first.
+/// The fields that `is_meant` accepts, each with its owner such as `Model` or `View::LookAt`,
+/// starting with those nearest to the scene's own brackets.
 ///
-/// Each call walks the whole language, a few hundred fields: it runs only for messages.
+/// Each call walks the whole language, a few hundred fields, so it runs only for messages.
 pub(crate) fn fields_where(
     root: &'static TypeEntry,
     is_meant: impl Fn(&str) -> bool,
@@ -38,16 +38,16 @@ pub(crate) fn fields_where(
     found
 }
 
-/// The enums that have a variant of this name, those nearest to the scene's own brackets first.
+/// The enums with a variant of this name, starting with those nearest to the scene's own brackets.
 pub(crate) fn variants_where(root: &'static TypeEntry, name: &str) -> Vec<String> {
     let has_it = sites(root).into_iter().filter(|site| site.variants.contains(&name));
     has_it.map(|site| site.owner).collect()
 }
 
-/// How a field or a variant is written in a scene, from the scene's own brackets on: `camera:
-/// (view: LookAt(eye: …))`. `None` if the owner has none of this name.
+/// An example of a field or variant in a scene, from the scene's own brackets on: `camera: (view:
+/// LookAt(eye: …))`. `None` if the owner has none with this name.
 ///
-/// A variant that has fields or a value is shown with brackets, `Frame(…)`, another one without.
+/// A variant with fields or a value is shown with brackets, `Frame(…)`, any other without.
 pub(crate) fn example_of(root: &'static TypeEntry, owner: &str, name: &str) -> Option<String> {
     let sites = sites(root);
     let site = sites.iter().find(|site| site.owner == owner)?;
@@ -65,7 +65,7 @@ pub(crate) fn example_of(root: &'static TypeEntry, owner: &str, name: &str) -> O
 
 /// Every struct and variant with brackets, each at its shortest path from the root.
 ///
-/// Breadth first, one queue for each depth. A type is entered once, at its first and therefore
+/// Breadth first, with one queue per depth. A type is entered once, at its first and therefore
 /// shortest path; this also ends cycles, if types should ever refer to each other.
 fn sites(root: &'static TypeEntry) -> Vec<Site> {
     let mut sites: Vec<Site> = Vec::new();
@@ -86,7 +86,7 @@ fn sites(root: &'static TypeEntry) -> Vec<Site> {
 
 /// Adds the struct or enum of an entry with its variants, and queues the types of their fields.
 ///
-/// Variants come before their enum in the list. A variant without brackets has no site of its own,
+/// Variants come before their enum in the list. A variant without brackets has no separate site,
 /// and is found as a word of the enum.
 fn add_sites(
     entry: &'static TypeEntry,
@@ -123,7 +123,7 @@ fn add_sites(
                     next.extend(opened(&(field.value_type)(), &before, &after));
                 }
                 if let Some(value_type) = variant.value_type {
-                    // The brackets of the variant are those of the struct inside.
+                    // The struct inside shares the variant's brackets.
                     let declared = value_type().declared();
                     next.extend(
                         declared.into_iter().map(|entry| (entry, before.clone(), after.clone())),
@@ -138,10 +138,10 @@ fn add_sites(
     sites.push(own);
 }
 
-/// The declared types of a field's value, each with the text around what stands in its brackets.
+/// The declared types of a field's value, each with the text around its brackets.
 ///
-/// A list opens a square bracket, a struct a round one; enums open theirs behind the name of the
-/// variant. Types in tuples are not followed: they are numbers.
+/// A list opens a square bracket, a struct a round one; an enum opens a bracket after the variant's
+/// name. Types in tuples are not followed, because they are numbers.
 fn opened(
     value_type: &ValueType,
     before: &str,

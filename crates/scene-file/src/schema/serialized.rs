@@ -1,4 +1,4 @@
-//! Values of scene files in the data model of serde, for `ron` and every other format.
+//! Scene file values in serde's data model, for `ron` and every other format.
 //!
 //! ```text
 //!  Deserializer ─► Reader(ValueType) ─► Data     fields and variants as they are declared
@@ -33,7 +33,7 @@ pub(crate) fn write_value<T: SceneValue, S: Serializer>(
     Writer(&T::value_type(), &value.to_data()).serialize(serializer)
 }
 
-/// Reads a value of this type. What it refuses is refused where it stands in the text.
+/// Reads a value of this type. Errors are raised where they occur in the text.
 struct Reader<'a>(&'a ValueType);
 
 impl<'de> DeserializeSeed<'de> for Reader<'_> {
@@ -52,7 +52,7 @@ impl<'de> DeserializeSeed<'de> for Reader<'_> {
                 }
                 Shape::Plain(notation) => notation,
             },
-            // The dimensions of a sheet may be `true` or `false`.
+            // A sheet's dimensions may be `true` or `false`.
             ValueType::List(element) if is_dimensions_list(element) => {
                 return deserializer.deserialize_any(PlainVisitor(Some(element)));
             }
@@ -151,7 +151,7 @@ impl<'de> Visitor<'de> for PlainVisitor<'_> {
     }
 }
 
-/// Reads as many values as there are types, in brackets of either kind where the format has two.
+/// Reads as many values as there are types, in either kind of brackets if the format has two.
 struct TupleVisitor<'a>(&'a [ValueType]);
 
 impl<'de> Visitor<'de> for TupleVisitor<'_> {
@@ -211,8 +211,8 @@ impl<'de> Visitor<'de> for FieldsVisitor {
     }
 }
 
-/// The error of a value with the field or element that it stands in, as in
-/// `` `camera.projection.near`: expected … ``.
+/// Prefixes the error of a value with the field or element that contains it, as in ``
+/// `camera.projection.near`: expected … ``.
 fn error_in<E: Error>(place: &str, error: &E) -> E {
     let text = error.to_string();
     match text.strip_prefix('`').and_then(|rest| rest.split_once("`: ")) {
@@ -224,7 +224,7 @@ fn error_in<E: Error>(place: &str, error: &E) -> E {
     }
 }
 
-/// Reads a variant: nothing behind its name, its fields, or its value.
+/// Reads a variant: its fields, its value, or nothing after its name.
 struct VariantVisitor(&'static [VariantEntry]);
 
 impl<'de> Visitor<'de> for VariantVisitor {
@@ -249,8 +249,8 @@ impl<'de> Visitor<'de> for VariantVisitor {
     }
 }
 
-/// Reads the index of one of the names that a function lists, by its name, or by itself in formats
-/// without names. An unknown one is refused.
+/// Reads the index of a name that a function lists: from the name, or from the index itself in
+/// formats without names. Unknown ones are refused.
 struct NameOf<'a>(&'static str, &'a dyn Fn(usize) -> Option<&'static str>);
 
 impl<'de> DeserializeSeed<'de> for NameOf<'_> {
@@ -365,7 +365,7 @@ impl Writer<'_> {
     }
 }
 
-/// Writes an element of a list or a tuple of this type.
+/// Writes an element of a list or tuple of this type.
 struct ListElement<'a>(&'a ValueType, usize, &'a Data);
 
 impl Serialize for ListElement<'_> {
@@ -386,7 +386,7 @@ impl Serialize for ListElement<'_> {
 struct WrittenField<'a>(&'a FieldEntry, &'a Data);
 
 impl<'a> WrittenField<'a> {
-    /// For each field its value, if it is written.
+    /// The value of each field, if it is written.
     fn all(entries: &'a [FieldEntry], fields: &'a Data) -> Vec<Option<Self>> {
         let field = |entry: &'a FieldEntry| Some(Self(entry, fields.field_data(entry.name)?));
         entries.iter().map(field).collect()
@@ -405,9 +405,9 @@ impl Serialize for WrittenField<'_> {
     }
 }
 
-/// Writes a number; whole ones without a decimal point, as people write them.
+/// Writes a number, without a decimal point if it is whole, as people write it.
 fn write_number<S: Serializer>(number: f64, serializer: S) -> Result<S::Ok, S::Error> {
-    // Up to 2⁵³ all whole numbers are exact. A negative zero has no integer.
+    // Up to 2⁵³ all whole numbers are exact. Negative zero has no integer.
     let is_small = number.abs() <= 9_007_199_254_740_992.0;
     let is_whole = is_small && number == libm::trunc(number);
     if serializer.is_human_readable() && is_whole && !(number == 0.0 && number.is_sign_negative()) {
@@ -417,7 +417,7 @@ fn write_number<S: Serializer>(number: f64, serializer: S) -> Result<S::Ok, S::E
     }
 }
 
-/// Implements serde's traits for a type by its [`SceneValue`].
+/// Implements serde's traits for a type from its [`SceneValue`].
 macro_rules! serde_by_scene_value {
     ($($name:ident),* $(,)?) => {$(
         impl<'de> serde::Deserialize<'de> for $name {

@@ -1,11 +1,11 @@
-//! Values without declared parts: numbers with bounds, strings, lists, tuples, and optional values.
+//! Values without declared parts: bounded numbers, strings, lists, tuples and optional values.
 
 use super::{Checker, Data, Form, Notation, SceneValue, ValueType};
 
-/// Declares a number type that only admits some values. `"…"` names them in messages.
+/// Declares a number type that allows only some values. `"…"` describes them in messages.
 ///
-/// The number is finite and satisfies `$allowed`; the type is a new one for each range, so that
-/// resolution needs no checks. The doc comment is the entry in the reference.
+/// The number is finite and satisfies `$allowed`. Each range has its own type, so that resolution
+/// needs no checks. The doc comment is the entry in the reference.
 macro_rules! checked_number {
     ($(#[doc = $doc:literal])* $name:ident, $expected:literal, $allowed:expr) => {
         $(#[doc = $doc])*
@@ -19,7 +19,7 @@ macro_rules! checked_number {
                 self.0
             }
 
-            /// A checked number; `None` if `value` is not one of those that are allowed.
+            /// Checks a number; returns `None` if `value` is not allowed.
             #[must_use]
             pub fn new(value: f64) -> Option<Self> {
                 let allowed: fn(f64) -> bool = $allowed;
@@ -74,7 +74,7 @@ macro_rules! checked_number {
 
 pub(crate) use checked_number;
 
-/// Implements [`SceneValue`] for a type of Rust's: its name in words, its mistakes, its form.
+/// Implements [`SceneValue`] for a Rust type: its name in words, its mistakes, its form.
 macro_rules! plain_value {
     ($type:ty, $words:literal, $check:ident, $form:ident($value:ident) => $read:expr, $write:expr) => {
         impl SceneValue for $type {
@@ -104,7 +104,7 @@ pub(crate) fn read_plain<T: SceneValue>(data: &Data) -> Result<(), String> {
     T::from_data(data).map(drop)
 }
 
-/// A whole number in fewer bits.
+/// Converts a whole number to a smaller type.
 fn small_number<T: TryFrom<u64>>(number: u64) -> Result<T, String> {
     T::try_from(number).map_err(|_| format!("the number {number} is too large"))
 }

@@ -1,10 +1,9 @@
-//! Values of RON literals: the escapes of strings and the notations of numbers.
+//! Values of RON literals: string escapes and number notations.
 
-/// The text that a string literal stands for: `"…"` with escapes, or `r"…"` and `r#"…"#` as they
-/// are.
+/// The text of a string literal: `"…"` with escapes, or `r"…"` and `r#"…"#` verbatim.
 ///
 /// # Errors
-/// The byte offset of the first bad escape in the literal, and how it is wrong.
+/// The byte offset of the first invalid escape in the literal, and the reason.
 pub(crate) fn unescape_string(literal: &str) -> Result<String, (usize, &'static str)> {
     if let Some(raw) = literal.strip_prefix('r') {
         let hashes = raw.chars().take_while(|c| *c == '#').count();
@@ -25,9 +24,9 @@ pub(crate) fn unescape_string(literal: &str) -> Result<String, (usize, &'static 
     Ok(text)
 }
 
-/// The character of an escape behind its backslash, and the length of what it is written with. A
-/// backslash at the end of a line continues the string behind the blanks of the next line, and
-/// stands for no character.
+/// The character of an escape, read after its backslash, and the length of the escape. A backslash
+/// at the end of a line continues the string after the blanks of the next line and gives no
+/// character.
 fn unescape_character(rest: &str) -> Result<(Option<char>, usize), &'static str> {
     let single = |character: char| Ok((Some(character), 1));
     match rest.chars().next() {
@@ -61,16 +60,16 @@ fn is_hexadecimal(digits: &str) -> bool {
     !digits.is_empty() && digits.chars().all(|digit| digit.is_ascii_hexdigit())
 }
 
-/// Whether a word is written like a number, valid or not: it begins with a digit, or with a sign or
-/// point before one.
+/// Whether a word looks like a number, valid or not: it begins with a digit, or with a sign or
+/// point followed by one.
 pub(crate) fn looks_like_number(word: &str) -> bool {
     let unsigned = word.strip_prefix(['+', '-']).unwrap_or(word);
     let digits = unsigned.strip_prefix('.').unwrap_or(unsigned);
     digits.starts_with(|c: char| c.is_ascii_digit()) || matches!(unsigned, "inf" | "NaN")
 }
 
-/// The value of a number: decimal with an optional point and exponent, `inf` or `NaN`; digits may be
-/// grouped by underscores. `None` if the word is not a number.
+/// The value of a number: decimal with an optional point and exponent, `inf` or `NaN`; digits may
+/// be grouped with underscores. `None` if the word is not a number.
 pub(crate) fn parse_number(word: &str) -> Option<f64> {
     let digits = without_underscores(word)?;
     // `f64::from_str` takes "infinity" and "nan" in any case; RON does not.
@@ -81,8 +80,8 @@ pub(crate) fn parse_number(word: &str) -> Option<f64> {
     digits.parse().ok().filter(|_| plausible)
 }
 
-/// The value of a whole number without point and exponent; `None` if the word is none, or out of
-/// range.
+/// The value of a whole number without point and exponent; `None` if the word is not one, or is out
+/// of range.
 pub(crate) fn parse_integer(word: &str) -> Option<i128> {
     let (negative, unsigned) = match word.strip_prefix('-') {
         Some(rest) => (true, rest),
@@ -98,7 +97,7 @@ pub(crate) fn parse_integer(word: &str) -> Option<i128> {
     Some(if negative { -value } else { value })
 }
 
-/// The digits without the underscores that group them; `None` if one stands at the beginning.
+/// The digits without the underscores that group them; `None` if an underscore comes first.
 fn without_underscores(digits: &str) -> Option<String> {
     (!digits.starts_with('_')).then(|| digits.replace('_', ""))
 }

@@ -1,4 +1,4 @@
-//! Error-tolerant recursive-descent parser of RON: reports every error of grammar and still makes a
+//! Error-tolerant recursive-descent parser for RON: reports every syntax error and still builds a
 //! tree.
 //!
 //! ```text
@@ -18,20 +18,19 @@ use super::tree::{Group, Key, Node, NodeKind, SyntaxItem};
 use crate::mistake::Mistake;
 use core::ops::Range;
 
-/// Groups are nested this deep at most, so that no text overflows the stack.
+/// The maximum nesting depth of groups, so that no text can overflow the stack.
 const MAX_DEPTH: usize = 128;
 
-/// The help for files that are no scenes at all.
+/// The help for files that are not scenes at all.
 pub(crate) const SAMPLE_SCENE: &str =
     "a scene looks like this: Scene(models: [(path: \"model.glb\")])";
 
-/// The tree of a text, and the errors of grammar that it has.
+/// The tree of a text, and the syntax errors in it.
 pub(crate) struct SyntaxTree<'a> {
     /// The value of the file; `None` if there is none.
     pub(crate) root: Option<Node<'a>>,
     pub(crate) errors: Vec<Mistake>,
-    /// Whether the brackets or strings are so wrong that the tree may have values in the wrong
-    /// group.
+    /// Whether brackets or strings are so wrong that the tree may have values in the wrong group.
     pub(crate) is_unreliable: bool,
 }
 
@@ -55,18 +54,18 @@ pub(crate) fn parse_tree(source: &str) -> SyntaxTree<'_> {
     SyntaxTree { root, errors, is_unreliable }
 }
 
-/// The state of the parser: a position among the tokens, and the brackets that are open.
+/// The state of the parser: a position among the tokens, and the open brackets.
 struct Parser<'a> {
     source: &'a str,
     /// The tokens without comments and attributes.
     tokens: Vec<Token<'a>>,
     /// Index of the next token.
     at: usize,
-    /// The brackets that are open, from outside to inside.
+    /// The open brackets, from outside to inside.
     open: Vec<Token<'a>>,
     errors: Vec<Mistake>,
     is_unreliable: bool,
-    /// Where a group ended without its bracket, so that no comma is missing there.
+    /// The position where a group ended without its bracket, so that no comma is missing there.
     resumed_at: Option<usize>,
 }
 
@@ -88,7 +87,7 @@ impl<'a> Parser<'a> {
         found
     }
 
-    /// Reports an error of grammar.
+    /// Reports a syntax error.
     fn report(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
         self.errors.push(Mistake::new(span, message, Some(help.into())));
     }
@@ -112,15 +111,15 @@ impl<'a> Parser<'a> {
             }
             _ => return,
         };
-        // Where a quotation mark is missing, the strings behind it are inside out: the first that
-        // spans lines is the likely one.
+        // If a quotation mark is missing, the strings after it are inside out: the first that spans
+        // lines is the likely one.
         let spans_lines =
             |token: &&Token<'_>| token.kind == TokenKind::Word && token.text.contains('\n');
         let first = tokens.iter().find(spans_lines).filter(|_| last.kind == TokenKind::Word);
         let start = first.unwrap_or(last).start;
         self.is_unreliable = true;
         self.report(start..start + 1, message, help);
-        // What follows is not worth reporting.
+        // The rest of the text is not worth reporting.
         self.tokens.retain(|token| token.start < start);
     }
 
@@ -133,7 +132,7 @@ impl<'a> Parser<'a> {
             return None;
         }
         let root = self.parse_value();
-        // What is no scene has no last bracket; the checker reports it.
+        // Text that is not a scene has no last bracket; the checker reports it.
         let is_scene = matches!(root.kind, NodeKind::Group(_) | NodeKind::Invalid);
         if let Some(token) = self.peek().filter(|_| is_scene && !self.is_unreliable) {
             let end = self.tokens.last().map_or(token.start, |last| last.span().end);
@@ -175,7 +174,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// A number; a ratio such as 1:20 is reported, with the form that it has here.
+    /// A number; a ratio such as 1:20 is reported, with the form to write instead.
     fn parse_ratio(&mut self, number: Token<'a>) -> Node<'a> {
         let colon = self.peek_kind() == Some(TokenKind::Colon);
         let second = self.tokens.get(self.at + 1).copied();
@@ -191,7 +190,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Reports that a value is missing before `token`, and skips what cannot begin one.
+    /// Reports that a value is missing before `token`, and skips tokens that cannot begin one.
     fn missing_value(&mut self, token: Token<'a>) -> Node<'a> {
         self.report(token.span(), "expected a value here", "a field is written `name: value`");
         if matches!(token.kind, TokenKind::Word | TokenKind::Colon) {
@@ -239,8 +238,8 @@ impl<'a> Parser<'a> {
         Node { span: start..end, kind: NodeKind::Group(Group { name, open, items }) }
     }
 
-    /// Moves past the bracket `close`, if it is the innermost group's or stands for that. Returns
-    /// where the group ends.
+    /// Moves past the bracket `close`, if it closes the innermost group or replaces the bracket
+    /// that would. Returns the end of the group.
     fn close_group(&mut self, close: Token<'a>) -> usize {
         let open = self.open.last().copied().unwrap_or(close);
         if close.text == closing(open.text) {
@@ -251,7 +250,7 @@ impl<'a> Parser<'a> {
         let help =
             format!("the `{}` of line {line} is closed by `{}`", open.text, closing(open.text));
         self.report(close.span(), "expected a comma or a closing bracket here", help);
-        // Brackets that the rest of the text closes without opening them.
+        // Brackets that the rest of the text closes but does not open.
         let mut depth = 0_usize;
         let mut unopened = 0_usize;
         for token in &self.tokens[self.at + 1..] {
@@ -269,7 +268,7 @@ impl<'a> Parser<'a> {
         close.start
     }
 
-    /// Reports the end of the text inside of a group, once.
+    /// Reports the end of the text inside a group, once.
     fn report_unclosed(&mut self) {
         if self.is_unreliable {
             return;
@@ -287,8 +286,8 @@ impl<'a> Parser<'a> {
         );
     }
 
-    /// Whether a field begins here although the innermost group is a list: then the list's bracket
-    /// is missing.
+    /// Whether a field begins here although the innermost group is a list, so that the list's
+    /// bracket is missing.
     fn is_field_in_list(&self, token: Token<'_>) -> bool {
         let in_list = self.open.last().is_some_and(|open| open.text == "[")
             && self.open.iter().any(|open| open.text == "(");
@@ -325,7 +324,7 @@ impl<'a> Parser<'a> {
         SyntaxItem { key: Some(key), value: self.parse_value() }
     }
 
-    /// Moves past the comma behind an item; reports it if it is missing.
+    /// Moves past the comma after an item, and reports it if it is missing.
     fn expect_comma(&mut self) {
         if self.eat(TokenKind::Comma) {
             return;
@@ -374,7 +373,7 @@ fn is_terminated_string(word: &str) -> bool {
 }
 
 /// Whether a word can be a name. Hyphens are accepted, so that `camera-position` is an unknown
-/// field and not an error of grammar.
+/// field and not a syntax error.
 fn is_identifier(word: &str) -> bool {
     let word = word.strip_prefix("r#").unwrap_or(word);
     word.starts_with(|c: char| c.is_alphabetic() || c == '_')

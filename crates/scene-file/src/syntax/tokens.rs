@@ -1,7 +1,8 @@
-//! Lexer for RON text: words, strings, punctuation and comments, each with its place in the text.
+//! Lexer for RON text: words, strings, punctuation and comments, each with its position in the
+//! text.
 //!
-//! The lexer accepts any text. A string or comment without an end runs to the end of the text, and
-//! the parser reports it; the formatter only sees text that has been parsed without errors.
+//! The lexer accepts any text. An unterminated string or comment runs to the end of the text, and
+//! the parser reports it; the formatter only sees text that was parsed without errors.
 
 use core::ops::Range;
 
@@ -9,11 +10,11 @@ use core::ops::Range;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Token<'a> {
     pub(crate) kind: TokenKind,
-    /// The token as it is written, without the white space that ends a line comment.
+    /// The token as written, without the white space that ends a line comment.
     pub(crate) text: &'a str,
     /// Byte offset of the token in the text.
     pub(crate) start: usize,
-    /// Line breaks between the token before it and this one.
+    /// Line breaks between the previous token and this one.
     pub(crate) line_breaks_before: usize,
 }
 
@@ -67,7 +68,7 @@ fn token_kind_and_length(rest: &str, first: char) -> (TokenKind, usize) {
         ')' | ']' | '}' => (TokenKind::Close, 1),
         ',' => (TokenKind::Comma, 1),
         ':' => (TokenKind::Colon, 1),
-        // A color without its quotation marks.
+        // A color without quotation marks.
         '#' if rest[1..].starts_with(|c: char| c.is_ascii_hexdigit()) => {
             (TokenKind::Word, word_length(rest, first))
         }
@@ -75,8 +76,8 @@ fn token_kind_and_length(rest: &str, first: char) -> (TokenKind, usize) {
         '"' => (TokenKind::Word, 1 + string_length(&rest[1..])),
         '/' if rest.starts_with("//") => (TokenKind::LineComment, line()),
         '/' if rest.starts_with("/*") => (TokenKind::BlockComment, block_comment_length(rest)),
-        // An equals sign or a semicolon is never right; as a word of its own the parser can point
-        // at it.
+        // An equals sign or a semicolon is never valid; as a separate word, the parser can point at
+        // it.
         '=' | ';' => (TokenKind::Word, 1),
         _ => (TokenKind::Word, raw_string_length(rest).unwrap_or_else(|| word_length(rest, first))),
     }
@@ -94,7 +95,7 @@ fn word_length(rest: &str, first: char) -> usize {
     length.max(first.len_utf8())
 }
 
-/// The length of a string behind its first quotation mark.
+/// The length of a string after its first quotation mark.
 fn string_length(rest: &str) -> usize {
     let mut escaped = false;
     let end = rest.find(|c| {
@@ -113,7 +114,7 @@ fn raw_string_length(rest: &str) -> Option<usize> {
     Some(body.find(&end).map_or(rest.len(), |at| 2 + hashes + at + end.len()))
 }
 
-/// The length of a block comment with the comments that are nested in it.
+/// The length of a block comment, including the comments nested in it.
 fn block_comment_length(rest: &str) -> usize {
     let mut depth = 0_usize;
     let mut at = 0;

@@ -13,13 +13,13 @@ pub(crate) struct Node<'a> {
 /// The syntactic form of a value.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum NodeKind<'a> {
-    /// A number, as it is written.
+    /// A number, as written.
     Number(&'a str),
     /// A string literal with its quotation marks.
     String(&'a str),
     /// An identifier without brackets: a variant, `true` or `false`, or `None`.
     Word(&'a str),
-    /// Items in brackets, perhaps with a name before them.
+    /// Items in brackets, perhaps preceded by a name.
     Group(Group<'a>),
     /// No value could be read; the parser has reported why.
     Invalid,
@@ -28,7 +28,7 @@ pub(crate) enum NodeKind<'a> {
 /// Items in brackets: `Name(field: value)`, `(1, 2, 3)` or `[value, value]`.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Group<'a> {
-    /// The name before the bracket, such as that of a variant.
+    /// The name before the bracket, such as a variant's.
     pub(crate) name: Option<Key<'a>>,
     /// `(`, `[` or `{`.
     pub(crate) open: char,
@@ -66,7 +66,7 @@ impl<'a> Node<'a> {
     }
 }
 
-/// A step from a value to one inside of it. Names of variants are no steps.
+/// A step from a value to one inside it. Variant names are not steps.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum PathStep<'a> {
     /// The field of a struct or of an enum's variant.

@@ -1,7 +1,7 @@
-//! Words for which there is no field, with what gives the same effect.
+//! Words for which there is no field, with advice on getting the same effect.
 
-/// The struct, variant or enum that the word stands in; words without capitals and separators,
-/// parted by blanks; and the help.
+/// The struct, variant or enum around the word; lowercase words without separators, separated by
+/// spaces; and the help.
 const ADVICE: &[(&str, &str, &str)] = &[
     (
         "Sheet",
@@ -199,7 +199,7 @@ const ADVICE: &[(&str, &str, &str)] = &[
     ("Style", "hatched hatching hatch engraving", "write style: Lines(face_fill: Hatching)"),
 ];
 
-/// Advice for a word that stands in `owner` and is no field of it; `word` is without capitals and
+/// Advice for a word in `owner` that is not one of its fields; `word` is lowercase and without
 /// separators.
 pub(super) fn find_advice(owner: &str, word: &str) -> Option<&'static str> {
     let is_meant = |(place, words, _): &&(&str, &str, &str)| {
@@ -214,7 +214,7 @@ mod tests {
     use crate::file::StyleFile;
     use crate::parse_scene;
 
-    /// The names that the flag has for line drawings lead to the very same style in a scene.
+    /// The flag's names for line drawings lead to the same style in a scene.
     #[test]
     fn advice_on_line_styles_is_what_the_flags_stand_for() {
         let mut checked = 0;

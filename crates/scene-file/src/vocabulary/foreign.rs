@@ -1,11 +1,11 @@
-//! Words of three.js, Blender, glTF, f3d and others, each with the field or variant that it means
+//! Words from three.js, Blender, glTF, f3d and others, each with the field or variant that it means
 //! here.
 
-/// Words without capitals and separators, parted by blanks; the struct, variant or enum that has
-/// what they mean; and its name there.
+/// Lowercase words without separators, separated by spaces; the struct, variant or enum that has
+/// the field or variant they mean; and its name there.
 ///
-/// Of several rows for a word the one goes first that has the struct in which the word stands, then
-/// those in the same field of the scene, then the first.
+/// If a word has several rows, the row with the struct around the word comes first, then rows in
+/// the same scene field, then the first row.
 pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
     // Cameras: three.js PerspectiveCamera and OrthographicCamera, glTF camera.perspective, Blender
     // and f3d's --camera-… options.
@@ -47,7 +47,7 @@ pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
     ("modelcamera cameraindex", "View", "FromModel"),
     ("position location pos from camera", "CameraKey", "eye"),
     ("lookat center focalpoint", "CameraKey", "target"),
-    // Lights: three.js lights, Blender's light types, KHR_lights_punctual.
+    // Lights: three.js lights, Blender's light types and KHR_lights_punctual.
     (
         "directionallight sun sunlight directional distantlight infinitelight",
         "Light",
@@ -153,7 +153,7 @@ pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
     ("name material target", "Material", "of"),
     ("hashed clip cutout", "AlphaMode", "Mask"),
     ("transparent translucent alphablend", "AlphaMode", "Blend"),
-    // The picture: renderers of three.js, Blender's output and color management, f3d.
+    // The picture: three.js renderers, Blender's output and color management, f3d.
     ("resolution width height dimensions viewport aspect aspectratio outputsize", "Image", "size"),
     ("resolution width height dimensions aspect aspectratio", "Scene", "image"),
     ("aspect aspectratio resolution width height", "Image", "size"),
@@ -197,7 +197,7 @@ pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
     ("stereoeffect anaglypheffect vr", "Scene", "stereo"),
     ("eyesep interoculardistance ipd", "Stereo::SideBySide", "eye_distance"),
     ("focus focallength convergencedistance", "Stereo::SideBySide", "convergence"),
-    // Styles: materials and viewport shading of other programs, f3d's --edges and --axis.
+    // Styles: materials and viewport shading in other programs, f3d's --edges and --axis.
     ("solid smooth phong pbr rendered lit material", "Style", "Shaded"),
     ("flatshading flatshaded facetted", "Style", "Flat"),
     ("flatshading", "Scene", "style"),

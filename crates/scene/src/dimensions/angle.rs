@@ -4,11 +4,11 @@ use super::picking::Picked;
 use glam::DVec3;
 use hidden_line::PickedFeature;
 
-/// Edges whose nearest points are farther apart, as a part of the distance of their middles, do not
-/// lie in one plane.
+/// Edges are not in one plane if the distance of their nearest points, as a fraction of the
+/// distance of their midpoints, is larger than this.
 const SKEW: f64 = 1e-3;
 
-/// The fault of a pair of picks, and a remedy.
+/// The error for a pair of picks, and a suggested fix.
 type Fault = (&'static str, &'static str);
 
 /// The vertex of the angle between two edges or two faces, and a point on each of its sides.
@@ -23,7 +23,7 @@ pub(super) fn angle_points(from: &Picked, to: &Picked) -> Result<[DVec3; 3], Fau
     }
 }
 
-/// The angle between two edges, towards the middle of each.
+/// The angle between two edges, toward the midpoint of each.
 fn between_edges(a: &PickedFeature, b: &PickedFeature) -> Result<[DVec3; 3], Fault> {
     let [(p, u), (q, v)] = [a, b].map(|edge| (edge.middle.raw(), edge.direction.raw()));
     let normal = u.cross(v);
@@ -44,7 +44,7 @@ fn between_edges(a: &PickedFeature, b: &PickedFeature) -> Result<[DVec3; 3], Fau
     Ok([vertex, side(p, u), side(q, v)])
 }
 
-/// The angle between two faces, in the plane perpendicular to both through the middle of the first.
+/// The angle between two faces, in the plane perpendicular to both through the center of the first.
 fn between_faces(a: &PickedFeature, b: &PickedFeature) -> Result<[DVec3; 3], Fault> {
     let [(p, m), (q, n)] = [a, b].map(|face| (face.middle.raw(), face.direction.raw()));
     let axis = m.cross(n);
@@ -52,7 +52,7 @@ fn between_faces(a: &PickedFeature, b: &PickedFeature) -> Result<[DVec3; 3], Fau
         return Err(("the faces are parallel", "pick faces that meet, or measure their distance"));
     }
     let axis = axis.normalize();
-    // The point of three planes (Goldman 1990).
+    // The intersection of three planes (Goldman 1990).
     let determinant = m.dot(n.cross(axis));
     let vertex = (n.cross(axis) * p.dot(m) + axis.cross(m) * q.dot(n) + m.cross(n) * p.dot(axis))
         / determinant;

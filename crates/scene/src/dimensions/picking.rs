@@ -1,4 +1,4 @@
-//! Picking: points, edges, faces and circles by place and name, or an error that points at them.
+//! Picking: points, edges, faces and circles by position and name, or an error that points at them.
 
 use super::super::Origin;
 use super::super::named_nodes::{node_names, objects_below};
@@ -10,20 +10,20 @@ use scene_file::PathStep::{self, Field};
 use scene_file::file::{PickFile, PlaceFile};
 use scene_file::{SceneError, suggest_name};
 
-/// Faces that meet at more than this angle, in radians, have an edge that can be picked.
+/// Faces that meet at more than this angle, in radians, have a pickable edge.
 const CREASE_ANGLE: f64 = core::f64::consts::FRAC_PI_6;
 
-/// Directions whose sine is no greater are parallel.
+/// Directions are parallel if the sine of their angle is at most this.
 const PARALLEL_SINE: f64 = 1e-4;
 
-/// A part of the models that a dimension begins or ends at.
+/// A part of the models at which a dimension begins or ends.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Picked {
     /// A point.
     Point(DVec3),
-    /// An edge, which stands for its line.
+    /// An edge, which represents its line.
     Edge(PickedFeature),
-    /// A face, which stands for its plane.
+    /// A face, which represents its plane.
     Face(PickedFeature),
 }
 
@@ -36,7 +36,7 @@ impl Picked {
         }
     }
 
-    /// The part in messages.
+    /// The part as named in messages.
     pub(super) const fn noun(&self) -> &'static str {
         match self {
             Self::Point(_) => "the point",
@@ -45,7 +45,7 @@ impl Picked {
         }
     }
 
-    /// The nearest points of this part and another, on the line or plane that they stand for;
+    /// The nearest points of this part and another, on the line or plane that each represents;
     /// `None` if those are not parallel.
     pub(super) fn perpendicular_to(&self, other: &Self) -> Option<[DVec3; 2]> {
         let (a, b) = (self.point(), other.point());
@@ -92,12 +92,12 @@ pub(super) struct Picking<'a> {
 }
 
 impl<'a> Picking<'a> {
-    /// Picking in models.
+    /// Sets up picking in these models.
     pub(super) fn new(origin: &'a Origin, models: &'a [ModelInstance]) -> Self {
         Self { origin, models, picker: FeaturePicker::new(models, CREASE_ANGLE) }
     }
 
-    /// The part that is picked, with errors at the end of `path`.
+    /// Picks a part; errors point at the end of `path`.
     pub(super) fn pick(
         &self,
         pick: &PickFile,
@@ -131,7 +131,7 @@ impl<'a> Picking<'a> {
         })
     }
 
-    /// The circle at a place.
+    /// Finds the circle at a position.
     pub(super) fn circle(
         &self,
         place: &PlaceFile,
@@ -141,7 +141,7 @@ impl<'a> Picking<'a> {
         self.found(self.picker.nearest_circle(near, objects.as_deref()), "circle", path)
     }
 
-    /// The thing that was found, or an error that there is none.
+    /// Returns the part that was found, or an error if there is none.
     fn found<T>(
         &self,
         found: Option<T>,
@@ -157,7 +157,7 @@ impl<'a> Picking<'a> {
         })
     }
 
-    /// The point of a place, and the objects among which is picked; `None` for all.
+    /// The point of a position, and the objects in which to pick; `None` for all.
     fn place(
         &self,
         place: &PlaceFile,
@@ -191,7 +191,7 @@ impl<'a> Picking<'a> {
         self.picker.bounds(objects).ok_or_else(nothing)
     }
 
-    /// The objects below the node of a name, which is in a field at the end of a path.
+    /// The objects below the named node; the name is in the field at the end of a path.
     fn objects(
         &self,
         name: &str,
@@ -218,7 +218,7 @@ impl<'a> Picking<'a> {
     }
 }
 
-/// A point of a box: the least corner at 0, the greatest at 1.
+/// A point in a box: the corner with the smallest coordinates is at 0, the largest at 1.
 fn point_of_box(bounds: Bounds<World>, fraction: [f64; 3]) -> DVec3 {
     bounds.min().raw() + bounds.size().raw() * DVec3::from(fraction)
 }

@@ -1,4 +1,4 @@
-//! Lint of camera paths on which the picture turns over between keyframes.
+//! Lint for camera paths on which the picture turns over between keyframes.
 
 use super::Lint;
 use crate::{CameraPath, Origin};
@@ -7,16 +7,16 @@ use scene_file::PathStep::{Field, Index};
 use scene_file::SceneFile;
 use scene_file::file::ViewFile;
 
-/// Between two keyframes the path is looked at in so many steps.
+/// The number of steps in which the path between two keyframes is examined.
 const STEPS: u32 = 64;
-/// A gaze this many times shorter than the longest near it has passed through its target; a sine
-/// this small is that of parallel directions.
+/// A gaze this many times shorter than the longest one near it has passed through its target; two
+/// directions with a sine this small are parallel.
 const DEGENERATE: f64 = 1e-6;
 
-/// A path whose eye meets its target, or whose gaze becomes parallel to the view-up vector: there
-/// is no picture at that time, or the picture turns over from one frame to the next.
+/// A path whose eye meets its target, or whose gaze becomes parallel to the view-up vector. The
+/// picture does not exist at that time, or it turns over from one frame to the next.
 ///
-/// The right-hand direction gaze × up vanishes at such a time and is reversed behind it, so two
+/// The right-hand direction gaze × up vanishes at such a time and is reversed after it, so two
 /// samples with opposite right-hand directions enclose one.
 pub(super) fn lint_camera_path(origin: &Origin, file: &SceneFile) -> Option<Lint> {
     let path = CameraPath::from_scene_file(origin, file).ok()??;

@@ -1,15 +1,15 @@
-//! Lints of models that are hardly to be seen: specks in the picture.
+//! Lints for models that are hardly visible: specks in the picture.
 
 use super::{Lint, Linter, VisibilitySurvey};
 use scene_file::PathStep::{Field, Index};
 
-/// Models whose rectangle in the picture has both sides below this fraction of the picture's: less
-/// than a thousandth of its area.
+/// Models are specks if their rectangle in the picture has both sides below this fraction of the
+/// picture's: less than a thousandth of its area.
 const LEAST_SIDE: f64 = 0.0316;
 /// One of several models is a speck if it is smaller than this in both directions, in pixels.
 const LEAST_PIXELS: f64 = 2.0;
 
-/// All models together as a speck in the picture; one warning at the camera.
+/// All models together are a speck in the picture; gives one warning at the camera.
 pub(super) fn lint_tiny_picture(adviser: &Linter<'_>) -> Option<Lint> {
     let whole = adviser.surveys.iter().fold(VisibilitySurvey::default(), VisibilitySurvey::merge);
     let [width, height] = whole.window_part()?;
@@ -25,7 +25,7 @@ pub(super) fn lint_tiny_picture(adviser: &Linter<'_>) -> Option<Lint> {
     Some(Lint { code: "tiny-picture", error })
 }
 
-/// Models of less than two pixels beside others, such as one in meters beside one in millimeters.
+/// Models of less than two pixels among others, such as one in meters beside one in millimeters.
 pub(super) fn lint_tiny_models(adviser: &Linter<'_>) -> Vec<Lint> {
     let models = adviser.survey_models();
     if models.len() < 2 {
@@ -46,7 +46,7 @@ pub(super) fn lint_tiny_models(adviser: &Linter<'_>) -> Vec<Lint> {
     tiny.collect()
 }
 
-/// Fractions of the picture's sides in pixels.
+/// Converts fractions of the picture's sides to pixels.
 fn pixels(adviser: &Linter<'_>, [width, height]: [f64; 2]) -> [f64; 2] {
     let image = adviser.scene.image;
     [width * f64::from(image.width), height * f64::from(image.height)]

@@ -9,10 +9,10 @@ use scene_file::file::{ProjectionFile, ViewFile};
 /// distance is inversely proportional to the near distance, so about two decimal digits are lost.
 const WASTEFUL_DEPTH_RATIO: f64 = 100.0;
 
-/// Models that are partly visible, and cut by the near or the far plane within the window.
+/// Models that are partly visible and are cut by the near or far plane within the window.
 ///
-/// Vertices that other planes reject as well are not counted: the sides of the picture may cut a
-/// model off, depth planes rarely should.
+/// Vertices that other planes also reject are not counted: the sides of the picture may cut off
+/// parts of a model, but depth planes rarely should.
 pub(super) fn lint_depth_clipping(adviser: &Linter<'_>) -> Vec<Lint> {
     let mut advice = Vec::new();
     let models = adviser.survey_models().into_iter();
@@ -37,11 +37,11 @@ pub(super) fn lint_depth_clipping(adviser: &Linter<'_>) -> Vec<Lint> {
     advice
 }
 
-/// A near plane of a perspective far before everything: depth is spent on empty space, for most of
-/// its steps are just behind the near plane (ZP-1).
+/// A near plane of a perspective far in front of everything: it wastes depth on empty space, since
+/// most of its steps are just beyond the near plane (ZP-1).
 ///
-/// Only one warning for the scene, with the distance of its nearest vertex. The suggested plane
-/// lies 1 % before that.
+/// Gives only one warning per scene, with the distance of the nearest vertex. The suggested plane
+/// is 1% in front of that.
 pub(super) fn lint_depth_range(adviser: &Linter<'_>) -> Option<Lint> {
     let near = near_distance(adviser)?;
     let spans = adviser.surveys.iter().filter_map(super::VisibilitySurvey::depth_range);
@@ -60,8 +60,8 @@ pub(super) fn lint_depth_range(adviser: &Linter<'_>) -> Option<Lint> {
 
 /// The distance of the near plane, if the projection is a perspective that looks straight ahead.
 ///
-/// Read from the matrix: on the near plane of the chapter's volume z_clip = w. With the rows (…, z,
-/// d) and (0, 0, −1, 0) and a point at distance n ahead, −z n + d = n, so n = d / (1 + z).
+/// It is read from the matrix: on the near plane of the chapter's volume z_clip = w. With the rows
+/// (…, z, d) and (0, 0, −1, 0) and a point at distance n ahead, −z n + d = n, so n = d / (1 + z).
 fn near_distance(adviser: &Linter<'_>) -> Option<f64> {
     let rows = adviser.scene.view_projection.view_to_clip.rows();
     let [.., [_, _, z, depth], last] = rows;
@@ -69,8 +69,8 @@ fn near_distance(adviser: &Linter<'_>) -> Option<f64> {
     (last == [0.0, 0.0, -1.0, 0.0]).then(|| depth / (1.0 + z))
 }
 
-/// The path of the value to underline: the plane's own field, or the model's camera, or the camera
-/// as a whole where planes are automatic.
+/// The path of the value to underline: the plane's own field, the model's camera, or the whole
+/// camera if the planes are automatic.
 fn plane_path<'a>(adviser: &Linter<'_>, plane: &'a str) -> Vec<scene_file::PathStep<'a>> {
     let given = matches!(
         adviser.file.camera.projection,

@@ -1,4 +1,4 @@
-//! Lint of pictures of depth whose near parts are as white as their background.
+//! Lint for depth pictures whose near parts are as white as the background.
 
 use super::Lint;
 use crate::Origin;
@@ -9,7 +9,7 @@ use scene_file::file::{BackgroundFile, StyleFile};
 /// A background is white if all three bytes of its color are at least this.
 const WHITE: u8 = 0xd0;
 
-/// The style `Depth`, which is white where it is near, before a white background.
+/// The style `Depth`, white for near surfaces, over a white background.
 pub(super) fn lint_white_background(origin: &Origin, file: &SceneFile) -> Option<Lint> {
     let Some(BackgroundFile::Color(color)) = &file.image.background else { return None };
     if file.style != StyleFile::Depth || color.0.iter().any(|channel| *channel < WHITE) {

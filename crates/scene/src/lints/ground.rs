@@ -1,11 +1,11 @@
-//! Lint of grounds that models stick through.
+//! Lint for grounds that models stick through.
 
 use super::{Lint, Linter};
 use homog::Bounds;
 use scene_file::PathStep::Field;
 use scene_file::file::GroundFile;
 
-/// Models may be sunk into the ground by this fraction of their height.
+/// Models may sink into the ground by this fraction of their height.
 const SUNK: f64 = 0.01;
 
 /// A ground above the lowest point of the models.

@@ -1,12 +1,12 @@
-//! Lint of instances that stand in one place, where one hides the others.
+//! Lint for instances at the same position, where one hides the others.
 
 use super::{Lint, Linter};
 use scene_file::PathStep::{Field, Index};
 use scene_file::file::InstancesFile;
 
-/// Instances of a model that have the same transform, such as those of a grid with a step of 0.
+/// Instances of a model with the same transform, such as in a grid with a step of 0.
 ///
-/// Equal transforms of neighbors are found by sorting, O(n log n) for n instances.
+/// Sorting finds equal neighboring transforms, in O(n log n) for n instances.
 pub(super) fn lint_coincident_instances(adviser: &Linter<'_>) -> Vec<Lint> {
     let mut first = 0;
     let mut advice = Vec::new();
@@ -16,7 +16,7 @@ pub(super) fn lint_coincident_instances(adviser: &Linter<'_>) -> Vec<Lint> {
         first = end;
         let mut transforms: Vec<[u64; 16]> = placed
             .iter()
-            // Adding 0 makes one number of both zeros.
+            // Adding 0 makes both zeros equal.
             .map(|one| {
                 one.model_to_world.raw().to_cols_array().map(|entry| (entry + 0.0).to_bits())
             })

@@ -1,4 +1,4 @@
-//! Lint of section planes that cut nothing: before or behind all models.
+//! Lint for section planes that cut nothing: all models are on one side.
 
 use super::{Lint, Linter};
 use homog::{Bounds, Point, World};
@@ -7,10 +7,11 @@ use scene_file::PathStep::{Field, Index};
 /// Distances up to this fraction of the models' diagonal count as touching.
 const TOUCHING: f64 = 1e-9;
 
-/// Sections that remove all models, or that meet none of them.
+/// Sections that remove all models or touch none of them.
 ///
 /// The planes' normals point to the half that is retained, so negative distances are removed. Each
-/// plane is looked at alone: planes that leave nothing only together are not found.
+/// plane is examined separately: planes that remove everything only in combination are not
+/// detected.
 pub(super) fn lint_idle_sections(adviser: &Linter<'_>) -> Vec<Lint> {
     if adviser.scene.sections.is_empty() {
         return Vec::new();
@@ -43,7 +44,7 @@ pub(super) fn lint_idle_sections(adviser: &Linter<'_>) -> Vec<Lint> {
     advice
 }
 
-/// The least and the greatest signed distance of the points from a plane.
+/// The smallest and largest signed distances of the points from a plane.
 fn distance_range(plane: &homog::Plane<World>, points: &[Point<World>]) -> (f64, f64) {
     points
         .iter()

@@ -1,4 +1,4 @@
-//! Lints of sheets: views without a place, sections that no view shows, letters without a glyph.
+//! Lints for sheets: views without room, sections that no view shows, characters without a glyph.
 
 use super::{Lint, Linter};
 use crate::sheet::{SheetContent, resolve_sheet};
@@ -8,7 +8,7 @@ use sheet::SheetWarning;
 use std::path::PathBuf;
 
 /// The warnings that `alberti sheet` would give about the layout of the scene's sheet, whose title
-/// block lies in the scene's folder or one of those that are allowed.
+/// block is in the scene's folder or an allowed one.
 pub(super) fn lint_sheet(adviser: &Linter<'_>, allowed_folders: &[PathBuf]) -> Vec<Lint> {
     let Linter { origin, file, scene, .. } = *adviser;
     let Some(sheet_file) = &file.sheet else { return Vec::new() };
@@ -27,7 +27,7 @@ pub(super) fn lint_sheet(adviser: &Linter<'_>, allowed_folders: &[PathBuf]) -> V
             SheetWarning::OverlayNotOnSheets { .. } => {
                 ("overlay-not-on-sheet", "`alberti render` draws it in pictures")
             }
-            // Planes beside the models are reported at their own fields.
+            // Planes that miss the models are reported at their own fields.
             _ => return None,
         };
         let error = origin.error_at(&[Field("sheet")], warning.to_string(), Some(help.to_owned()));

@@ -1,4 +1,4 @@
-//! Lints of labels and captions: points that are not in the picture, characters without a glyph.
+//! Lints for labels and captions: points outside the picture, characters without a glyph.
 
 use super::{Lint, Linter};
 use crate::Scene;
@@ -6,7 +6,7 @@ use crate::origin::Origin;
 use drawing::{LabelFault, Overlay, PointLabel, missing_glyph_warning};
 use scene_file::PathStep::{Field, Index};
 
-/// The lints of the texts in the scene's own view and in its viewports, each once.
+/// The lints for the texts in the scene's main view and in its viewports, each once.
 pub(super) fn lint_text(adviser: &Linter<'_>) -> Vec<Lint> {
     let Linter { origin, file, scene, .. } = *adviser;
     let mut lints = lint_view(origin, scene);
@@ -25,7 +25,7 @@ pub(super) fn lint_text(adviser: &Linter<'_>) -> Vec<Lint> {
     distinct
 }
 
-/// The lints of the texts in one view.
+/// The lints for the texts in one view.
 fn lint_view(origin: &Origin, scene: &Scene) -> Vec<Lint> {
     let mut lints = Vec::new();
     for (number, overlay) in scene.overlays.iter().enumerate() {
@@ -37,7 +37,7 @@ fn lint_view(origin: &Origin, scene: &Scene) -> Vec<Lint> {
     lints
 }
 
-/// A label whose point is not in the picture.
+/// A label whose point is outside the picture.
 fn lint_label(origin: &Origin, scene: &Scene, number: usize, label: &PointLabel) -> Option<Lint> {
     let view_height = scene.image.view_size().y / f64::from(scene.image.height);
     let place = match label.fault(&scene.view_projection, view_height)? {
@@ -50,7 +50,7 @@ fn lint_label(origin: &Origin, scene: &Scene, number: usize, label: &PointLabel)
     Some(Lint { code: "label-not-visible", error: origin.error_at(&at, message, Some(help)) })
 }
 
-/// A text with characters that the stroke font lacks: of the label with a number, or the caption.
+/// A text with characters missing from the stroke font: the numbered label, or the caption.
 fn lint_glyphs(origin: &Origin, text: &str, label: Option<usize>) -> Option<Lint> {
     let message = missing_glyph_warning(text)?.to_string();
     let at = match label {

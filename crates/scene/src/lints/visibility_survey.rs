@@ -1,7 +1,7 @@
 //! Visibility survey of a model: how many of its primitives the view volume clips or rejects.
 //!
-//! Ray casting in the course of the survey decides whether the eye is inside of the model: for a
-//! closed surface, each ray from an inner point leaves once more than it enters.
+//! Ray casting during the survey decides whether the eye is inside the model: for a closed surface,
+//! each ray from an interior point leaves once more than it enters.
 
 use crate::Scene;
 use clip::{Outcode, PlaneIndex, Volume, clip_point, clip_segment, clip_triangle};
@@ -11,8 +11,8 @@ use model::ModelInstance;
 use model::{MeshInstance, Primitive};
 
 /// Directions of the rays from the eye, in world space. Their components are unrelated, so that
-/// rays hardly ever meet an edge or vertex of a modeled shape, where a crossing would count twice;
-/// three rays have to agree.
+/// rays almost never hit an edge or vertex of a modeled shape, where a crossing would count twice;
+/// three rays must agree.
 const PROBE_DIRECTIONS: [DVec3; 3] = [
     DVec3::new(0.5773, 0.6191, 0.5324),
     DVec3::new(-0.7167, 0.3291, 0.6149),
@@ -22,26 +22,27 @@ const PROBE_DIRECTIONS: [DVec3; 3] = [
 /// Counts of a model's primitives and vertices by their position in the view volume.
 #[derive(Clone, Copy, Default, Debug)]
 pub(super) struct VisibilitySurvey {
-    /// Its points, lines and triangles.
+    /// The number of points, lines and triangles.
     pub(super) total: usize,
-    /// Those of which some part is inside of the view volume.
+    /// The number with some part inside the view volume.
     pub(super) inside: usize,
-    /// Those wholly outside of a plane, for each of the six.
+    /// The number wholly outside a plane, for each of the six.
     pub(super) outside: [usize; 6],
-    /// Vertices that the near plane alone keeps out of the picture, though they are before the eye.
+    /// Vertices that only the near plane keeps out of the picture, although they are in front of
+    /// the eye.
     pub(super) before_near: usize,
-    /// Vertices that the far plane alone keeps out.
+    /// Vertices that only the far plane keeps out.
     pub(super) behind_far: usize,
-    /// The least and the greatest distance of a vertex along the gaze.
+    /// The smallest and largest distance of a vertex along the gaze.
     depth_range: Option<(f64, f64)>,
-    /// The least x and y and the greatest in the window, from −1 to 1, of what is inside.
+    /// The smallest x and y and the largest, in the window from −1 to 1, of the parts inside.
     window: Option<[f64; 4]>,
-    /// For each ray from the eye the number of exits minus the number of entries.
+    /// For each ray from the eye, the number of exits minus the number of entries.
     crossings: [i64; 3],
 }
 
 impl VisibilitySurvey {
-    /// Surveys every visible primitive of a model of the scene, in O(vertices + primitives). Rays
+    /// Surveys every visible primitive of a model in the scene, in O(vertices + primitives). Rays
     /// from the center of projection decide whether the model encloses it.
     pub(super) fn from_model(scene: &Scene, placed: &ModelInstance) -> Self {
         let mut survey = Self::default();
@@ -51,8 +52,8 @@ impl VisibilitySurvey {
         survey
     }
 
-    /// The survey of two models together. Ray crossings are not added: an eye is inside of one
-    /// model or another, not of their sum.
+    /// Combines the surveys of two models. Ray crossings are not added: an eye is inside one model
+    /// or another, not inside their sum.
     pub(super) fn merge(mut self, other: &Self) -> Self {
         self.total += other.total;
         self.inside += other.inside;
@@ -71,37 +72,38 @@ impl VisibilitySurvey {
         self
     }
 
-    /// Whether there is something, and none of it is in the picture.
+    /// Whether there are primitives, but none of them is in the picture.
     pub(super) fn is_unseen(&self) -> bool {
         self.total > 0 && self.inside == 0
     }
 
-    /// The least and the greatest distance of a vertex along the line of sight; `None` without
+    /// The smallest and largest distance of a vertex along the line of sight; `None` without
     /// vertices.
     pub(super) fn depth_range(&self) -> Option<(f64, f64)> {
         self.depth_range
     }
 
-    /// Whether the eye is inside: every ray leaves the model once more than it comes into it. An
-    /// open surface, and a room that shows its faces to the inside, surround nothing.
+    /// Whether the eye is inside: every ray leaves the model once more than it enters it. An open
+    /// surface, or a room with faces that point inward, encloses nothing.
     pub(super) fn encloses_eye(&self) -> bool {
         self.crossings.iter().all(|count| *count >= 1)
     }
 
-    /// Width and height of the rectangle around what is visible, as fractions of the picture's;
-    /// `None` if nothing is. What is partly behind the eye counts as filling the picture.
+    /// The width and height of the rectangle around the visible parts, as fractions of the
+    /// picture's; `None` if nothing is visible. Parts partly behind the eye count as filling the
+    /// picture.
     pub(super) fn window_part(&self) -> Option<[f64; 2]> {
         self.window.map(|[left, bottom, right, top]| [(right - left) / 2.0, (top - bottom) / 2.0])
     }
 
-    /// Extends the rectangle in the window to another.
+    /// Extends the rectangle in the window to include another.
     fn extend_window(&mut self, other: [f64; 4]) {
         let own = self.window.unwrap_or(other);
         let least = [own[0].min(other[0]), own[1].min(other[1])];
         self.window = Some([least[0], least[1], own[2].max(other[2]), own[3].max(other[3])]);
     }
 
-    /// Extends the depth range to a distance.
+    /// Extends the depth range to include a distance.
     fn extend_depth_range(&mut self, distance: f64) {
         let (near, far) = self.depth_range.unwrap_or((distance, distance));
         self.depth_range = Some((near.min(distance), far.max(distance)));
@@ -110,8 +112,8 @@ impl VisibilitySurvey {
     /// Adds the vertices and the points, lines or triangles of a mesh primitive.
     ///
     /// Vertices are skinned and transformed once; every primitive then uses their positions and
-    /// outcodes by index. A transform with a negative determinant exchanges front and back faces,
-    /// which `sign` undoes.
+    /// outcodes by index. A transform with a negative determinant swaps front and back faces, which
+    /// `sign` undoes.
     fn survey_primitive(
         &mut self,
         scene: &Scene,
@@ -121,7 +123,7 @@ impl VisibilitySurvey {
     ) {
         let view_projection = &scene.view_projection;
         let eye = view_projection.viewer().divide();
-        // Near and far plane enclose what sections leave.
+        // The near and far planes enclose the parts that sections leave.
         let sections = if scene.style.draws_surfaces() { &[][..] } else { &scene.sections };
         let posed = placed.model.skin_primitive(instance, primitive);
         let to_world = posed.to_model.then(placed.model_to_world);
@@ -155,10 +157,10 @@ impl VisibilitySurvey {
         }
     }
 
-    /// Counts a vertex at a distance along the gaze that a depth plane cuts off.
+    /// Counts a vertex, at a distance along the gaze, that a depth plane cuts off.
     ///
-    /// A vertex counts as cut only if a depth plane is the one plane that it is outside of.
-    /// Vertices shared by several primitives are counted for each of them.
+    /// A vertex counts as cut only if a depth plane is the only plane that it is outside of.
+    /// Vertices shared by several primitives are counted once for each.
     fn count_vertex(&mut self, code: Outcode, distance: f64) {
         if code == Outcode::INSIDE.with_plane(PlaneIndex::NEAR) && distance > 0.0 {
             self.before_near += 1;
@@ -170,8 +172,8 @@ impl VisibilitySurvey {
 
     /// Counts a point, line or triangle.
     ///
-    /// Exact clipping decides, not the outcodes alone: a large triangle can pass every trivial test
-    /// beside a corner of the volume and still have nothing inside.
+    /// Exact clipping decides, not just the outcodes: a large triangle can pass every trivial test
+    /// next to a corner of the volume and still be entirely outside.
     fn count_primitive(&mut self, item: &[usize], clip: &[HPoint<Clip>], codes: &[Outcode]) {
         self.total += 1;
         let corner_codes: Vec<Outcode> = item.iter().map(|&at| codes[at]).collect();
@@ -196,11 +198,11 @@ impl VisibilitySurvey {
     }
 }
 
-/// 1 if a ray from the origin goes out through the triangle, -1 if it comes in, 0 if it does not
-/// meet it (Möller and Trumbore, 1997, with the triangle seen from the ray's begin).
+/// 1 if a ray from the origin exits through the triangle, -1 if it enters, 0 if it misses (Möller
+/// and Trumbore, 1997, with the triangle seen from the ray's origin).
 ///
-/// Solves t d = (1 − u − v) a + u b + v c by Cramer's rule. The triangle is relative to the eye;
-/// rays parallel to its plane have the determinant 0 and miss. Borders are inclusive on both sides.
+/// Solves t d = (1 − u − v) a + u b + v c by Cramer's rule. The triangle is relative to the eye.
+/// Rays parallel to its plane have the determinant 0 and miss. Borders are inclusive on both sides.
 fn ray_crossing(ray: DVec3, [a, b, c]: [DVec3; 3]) -> i64 {
     let (along, across) = (b - a, c - a);
     let normal = ray.cross(across);
@@ -213,8 +215,8 @@ fn ray_crossing(ray: DVec3, [a, b, c]: [DVec3; 3]) -> i64 {
     let v = ray.dot(rest) / determinant;
     let distance = across.dot(rest) / determinant;
     let hit = u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 0.0;
-    // Faces are counterclockwise from the front: one that turns its back to the ray's begin is
-    // left.
+    // Faces are counterclockwise from the front: the ray exits through a face turned away from its
+    // origin.
     match (hit, determinant < 0.0) {
         (false, _) => 0,
         (true, true) => 1,

@@ -1,4 +1,4 @@
-//! Dimensions from the text of a scene: what they measure, and where mistakes are shown.
+//! Dimensions from the text of a scene: the points they measure, and the positions of mistakes.
 
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may fail by a panic")]
 

@@ -1,5 +1,5 @@
-//! Lenses and windows of scene files against the formulas of the sources (FOV-1, OR-1, LW-1), and
-//! that what is written by hand is read back.
+//! Compares lenses and windows in scene files with the formulas of the sources (FOV-1, OR-1, LW-1),
+//! and checks that hand-written values are read back.
 
 use glam::DMat4;
 use import::{ImportOptions, load};
@@ -18,7 +18,7 @@ fn text(camera: &str) -> String {
     format!("Scene(models: [(path: \"crate.glb\")], camera: ({camera}), image: (size: (400, 200)))")
 }
 
-/// The scene of a camera, in a picture twice as wide as high.
+/// The scene of a camera, in a picture twice as wide as it is high.
 fn scene(camera: &str) -> Scene {
     let text = text(camera);
     let file = parse_scene("lens.ron", &text).expect("a scene");
@@ -28,7 +28,7 @@ fn scene(camera: &str) -> Scene {
     Scene::from_models(&origin, &file, &[instance]).expect("a scene")
 }
 
-/// View space to clip space of a projection, seen from (0, 0, 9).
+/// The view-to-clip matrix of a projection, seen from (0, 0, 9).
 fn matrix(projection: &str) -> DMat4 {
     let camera =
         format!("view: LookTo(eye: (0, 0, 9), gaze: (0, 0, -1)), projection: {projection}");
@@ -39,7 +39,7 @@ fn check_close(actual: f64, expected: f64) {
     assert!((actual - expected).abs() < 1e-12, "{actual} is not {expected}");
 }
 
-/// FOV-1: the angle is that between the middles of opposite borders, or between corners.
+/// FOV-1: the angle is between the midpoints of opposite borders, or between corners.
 #[test]
 fn the_horizontal_and_the_diagonal_field_of_view_are_those_of_fov_1() {
     for degrees in [20.0_f64, 60.0, 110.0] {
@@ -51,7 +51,7 @@ fn the_horizontal_and_the_diagonal_field_of_view_are_those_of_fov_1() {
         let [x, y] = [1.0 / diagonal.x_axis.x, 1.0 / diagonal.y_axis.y];
         check_close(x, 2.0 * y);
         check_close(libm::hypot(x, y), slope);
-        // One field of view may be said in three ways.
+        // One field of view can be given in three ways.
         let vertical = 2.0 * libm::atan(slope / 2.0).to_degrees();
         let upright = matrix(&format!("Perspective(fov_y_degrees: {vertical:?})"));
         check_close(upright.x_axis.x, across.x_axis.x);
@@ -78,7 +78,7 @@ fn a_shift_moves_the_window_by_fractions_of_the_longer_side() {
     }
 }
 
-/// A shift of nothing is no shift, to the last bit.
+/// A zero shift equals no shift, to the last bit.
 #[test]
 fn a_centered_lens_keeps_its_bits() {
     assert_eq!(matrix("Perspective(fov_y_degrees: 40)"), {
@@ -116,7 +116,7 @@ fn the_frustum_of_the_lesson_moves_its_apex() {
     assert_eq!(rows.w_axis.to_array(), [0.0, 0.0, -1.0, 0.0]);
 }
 
-/// Framing knows the window: everything is in the picture, and touches its margin.
+/// Framing respects the window: everything is in the picture and touches its margin.
 #[test]
 fn framed_views_fill_the_windows_of_every_lens() {
     for projection in [
@@ -152,7 +152,7 @@ fn what_the_sources_say_is_read_back_after_formatting() {
     }
 }
 
-/// K of calibration: pixels of points are those of its definition, wherever its centers are.
+/// K from calibration: points map to the pixels of its definition, wherever the pixel centers are.
 #[test]
 fn intrinsics_and_extrinsics_are_those_of_calibration() {
     // OpenCV's axes, looking along −z of the world from z = 9: x right, y down, z ahead.
@@ -184,7 +184,7 @@ fn intrinsics_and_extrinsics_are_those_of_calibration() {
     }
 }
 
-/// Pixels, to the billionth part.
+/// Compares pixels to one part in a billion.
 fn check_near(actual: f64, expected: f64) {
     assert!((actual - expected).abs() < 1e-9, "{actual} is not {expected}");
 }

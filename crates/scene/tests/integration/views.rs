@@ -1,5 +1,5 @@
-//! Several views in one scene: one scale for all, and captions below them. A box of 2 × 1 × 3 has
-//! the extents that the projections' formulas give.
+//! Several views in one scene: one scale for all, with captions below them. The extents of a 2 × 1
+//! × 3 box match the projections' formulas.
 
 use glam::DVec2;
 use homog::Point;
@@ -18,7 +18,7 @@ fn crate_model() -> Arc<Model> {
     Arc::new(load(&path, &ImportOptions::default()).expect("a model"))
 }
 
-/// A scene of the box; its model is a cube of side 1.
+/// A scene with the box; its model is a cube with side 1.
 fn resolve(fields: &str) -> Result<Scene, ResolveError> {
     let text =
         format!("Scene(models: [(path: \"crate.glb\")], image: (size: (800, 600)), {fields})");
@@ -46,7 +46,7 @@ fn quarters(cameras: [&str; 4]) -> String {
     format!("viewports: [{}]", views.collect::<Vec<_>>().join(", "))
 }
 
-/// The pixels of a view from the least to the greatest coordinate of the box.
+/// The pixels of a view from the smallest to the largest coordinate of the box.
 fn image_bounds(scene: &Scene) -> [DVec2; 2] {
     let size = DVec2::new(scene.image.width.into(), scene.image.height.into());
     let nothing = DVec2::splat(f64::INFINITY);
@@ -69,7 +69,7 @@ fn the_same_length_is_equally_long_in_all_parallel_views() {
     let [x, y, z] = BOX;
     let (cos30, r23) = (0.75_f64.sqrt(), (2.0_f64 / 3.0).sqrt());
     let r12 = 0.5_f64.sqrt();
-    // The extents of the box's image for a unit on the picture plane (MV-1, AX-1, OB-1).
+    // The extents of the box's image per unit on the picture plane (MV-1, AX-1, OB-1).
     let cases = [
         ("projection: Isometric", [(x + z) * cos30 * r23, (x + z) * 0.5 * r23 + y * r23]),
         (
@@ -89,12 +89,12 @@ fn the_same_length_is_equally_long_in_all_parallel_views() {
             let [low, high] = image_bounds(&inset.scene);
             let difference = (high - low) / scale - expected;
             assert!(difference.abs().max_element() < 1e-9, "{fourth}: {low} {high} {expected}");
-            // All of it is in the view, and in its middle, above the caption of 28 pixels.
+            // All of it is in the view, and centered, above the caption of 28 pixels.
             let view = DVec2::new(400.0, 300.0 - 28.0);
             assert!(low.min_element() >= 0.0 && (view - high).min_element() >= 0.0);
             assert!(((low + high) * 0.5 - view * 0.5).abs().max_element() < 1e-6);
         }
-        // It is no smaller than it must be: without sharing some view has that scale.
+        // It is as large as possible: without sharing, some view has that scale.
         let free = self::scene(&views);
         let scales = free.insets.iter().map(|inset| inset.scene.pixels_per_unit().expect("one"));
         let least = scales.fold(f64::INFINITY, f64::min);
@@ -124,7 +124,7 @@ fn a_scale_that_cannot_be_shared_is_a_mistake() {
     assert!(mistake("viewports_scale: Shared").contains("there are none"));
 }
 
-/// The part above the caption is the picture that a scene without caption has in that size.
+/// The part above the caption equals the picture of a scene without a caption in that size.
 #[test]
 fn a_view_above_a_caption_is_that_of_a_lower_picture() {
     for camera in [

@@ -1,12 +1,13 @@
-//! Values of another form, written as the struct that they stand for.
+//! Values of another form, rewritten as the structs they represent.
 
 use crate::color::Color;
 use crate::file::MaterialFile;
 use crate::schema::{Declared, FieldEntry, Shape, TypeEntry, ValueType};
 use crate::syntax::{Node, NodeKind, SyntaxItem};
 
-/// A string as a struct: as the only required field, `(path: "a.glb")`, or a color as the first
-/// color of a struct that requires nothing, `(base_color: "red")`; `Color("red")` is that string.
+/// Writes a string as a struct: as its only required field, `(path: "a.glb")`, or a color as the
+/// first color of a struct that requires nothing, `(base_color: "red")`; `Color("red")` is treated
+/// as that string.
 pub(super) fn bracket_string(node: &Node<'_>, entry: &TypeEntry) -> Option<String> {
     let color = node.group().filter(|group| {
         group.name.as_ref().is_some_and(|name| name.name == "Color") && group.items.len() == 1
@@ -29,8 +30,8 @@ pub(super) fn bracket_string(node: &Node<'_>, entry: &TypeEntry) -> Option<Strin
     Some(format!("({}: {text})", field.name))
 }
 
-/// A map from the names of materials to their fields, or to colors, as the elements of a list:
-/// `(of: Name("wood"), base_color: "red")`. `source` is the text of the file.
+/// Writes a map from material names to fields or colors as the elements of a list: `(of:
+/// Name("wood"), base_color: "red")`. `source` is the text of the file.
 pub(super) fn bracket_map(node: &Node<'_>, entry: &TypeEntry, source: &str) -> Option<String> {
     let group = node.group().filter(|group| group.open == '{' && !group.items.is_empty())?;
     if entry.name != MaterialFile::ENTRY.name {

@@ -1,24 +1,24 @@
-//! Lists, and values that should have been in one.
+//! Lists, and values that should be in one.
 
 use super::{Checker, Segment, bracket_map, bracket_string};
 use crate::file::is_dimensions_list;
 use crate::schema::{FieldEntry, Shape, TypeEntry, ValueType};
 use crate::syntax::{Group, Node, NodeKind, SyntaxItem};
 
-/// Corrections that are longer than this are not shown.
+/// Corrections longer than this are not shown.
 const LONGEST_EXAMPLE: usize = 120;
 
 impl Checker<'_> {
     /// Reports the mistakes in a list in square brackets.
     ///
-    /// Of one element without its brackets the mistakes are reported too, so that they all come in
-    /// one run.
+    /// For a single element without the list's brackets its mistakes are reported too, so that they
+    /// all come in one run.
     pub(super) fn check_list(&mut self, node: &Node<'_>, element: &ValueType) {
         if let Some(group) = node.group().filter(|group| group.open == '[') {
             return self.check_elements(&group.items, element);
         }
         if is_dimensions_list(element) {
-            // `true` and `false` are lists of dimensions, and so are values in round brackets.
+            // `true`, `false` and values in round brackets are also valid lists of dimensions.
             match node.group() {
                 None if matches!(node.kind, NodeKind::Word("true" | "false")) => return,
                 Some(group) if group.items.iter().all(|item| item.key.is_none()) => {
@@ -53,7 +53,7 @@ impl Checker<'_> {
 
     /// Reports the mistakes in an element of a list or a tuple.
     ///
-    /// The element is a scope by itself: a mistake in it does not hide those of its neighbors.
+    /// The element is a separate scope: a mistake in it does not hide mistakes in its neighbors.
     pub(crate) fn check_element(
         &mut self,
         index: usize,
@@ -73,7 +73,7 @@ impl Checker<'_> {
         self.path.pop();
     }
 
-    /// A list as a struct with one field for a list: `(write: [Depth])`.
+    /// Writes a list as a struct with one list field: `(write: [Depth])`.
     pub(super) fn bracket_list(&self, node: &Node<'_>, entry: &TypeEntry) -> Option<String> {
         let Shape::Fields(fields) = entry.shape else { return None };
         node.group().filter(|group| group.open == '[')?;
@@ -86,8 +86,8 @@ impl Checker<'_> {
         other.is_none().then(|| format!("({}: {list})", field.name))
     }
 
-    /// How a value is written where a list is expected: in square brackets, and strings in the
-    /// brackets of their elements. `None` if it is right as it is, or too long to be shown.
+    /// The value as written where a list is expected: in square brackets, with strings in the
+    /// brackets of their elements. `None` if it is correct as it is, or too long to show.
     pub(super) fn write_as_list(&self, node: &Node<'_>, expected: &ValueType) -> Option<String> {
         let ValueType::List(element) = expected else { return None };
         let written = |node: &Node<'_>| match element.as_ref() {

@@ -1,4 +1,4 @@
-//! Values without named parts: numbers, strings, truth values and tuples.
+//! Values without named parts: numbers, strings, booleans and tuples.
 
 use super::Checker;
 use crate::number::unnamed_group;
@@ -8,10 +8,10 @@ use crate::syntax::{
 };
 
 impl Checker<'_> {
-    /// A number of any value; `expected` names the numbers that are possible.
+    /// Reads any number; `expected` describes the allowed ones.
     ///
-    /// A number in quotation marks has a special hint. Infinities and NaN parse here and are
-    /// refused by the range.
+    /// A number in quotation marks gets a special hint. Infinities and NaN are parsed here and
+    /// refused by the range check.
     pub(crate) fn read_number(&mut self, node: &Node<'_>, expected: &str) -> Option<f64> {
         if let NodeKind::Number(word) = node.kind {
             let number = parse_number(word);
@@ -31,7 +31,7 @@ impl Checker<'_> {
         None
     }
 
-    /// The correction for a number with a percent sign: the number alone, or a fraction.
+    /// The correction for a number with a percent sign: just the number, or a fraction.
     fn suggest_fraction(&self, word: &str, expected: &str) -> Option<String> {
         let percent = word.strip_suffix('%')?;
         let number = parse_number(percent)?;
@@ -42,10 +42,10 @@ impl Checker<'_> {
         is_fraction.then(|| format!("write {}", number / 100.0))
     }
 
-    /// A whole number from 0 to 2³² − 1.
+    /// Checks a whole number from 0 to 2³² − 1.
     ///
-    /// Decimal, hexadecimal, octal and binary, with underscores, as in RON. `4.0` is refused with
-    /// the hint to leave out the decimal point.
+    /// Decimal, hexadecimal, octal and binary, with underscores, as in RON. `4.0` is refused with a
+    /// hint to drop the decimal point.
     pub(crate) fn check_whole_number(node: &Node<'_>, checker: &mut Checker<'_>) {
         let help = || Some("such as 4".to_owned());
         let NodeKind::Number(word) = node.kind else {
@@ -60,7 +60,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A number that `check` accepts; `expected` names those.
+    /// Reads a number that `check` accepts; `expected` describes those numbers.
     pub(crate) fn check_number<T>(
         &mut self,
         node: &Node<'_>,
@@ -73,19 +73,19 @@ impl Checker<'_> {
         }
     }
 
-    /// `true` or `false`.
+    /// Checks for `true` or `false`.
     pub(crate) fn check_bool(node: &Node<'_>, checker: &mut Checker<'_>) {
         if !matches!(node.kind, NodeKind::Word("true" | "false")) {
             checker.report_type(node, "true or false", None);
         }
     }
 
-    /// A string.
+    /// Checks for a string.
     pub(crate) fn check_string(node: &Node<'_>, checker: &mut Checker<'_>) {
         checker.read_string(node);
     }
 
-    /// The text of a string without its quotation marks and escapes.
+    /// Returns the text of a string without its quotation marks and escapes.
     pub(crate) fn read_string(&mut self, node: &Node<'_>) -> Option<String> {
         let NodeKind::String(literal) = node.kind else {
             let written = match node.kind {
@@ -107,7 +107,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A tuple: values of these types in brackets of either kind.
+    /// Checks a tuple: values of these types in either kind of brackets.
     pub(super) fn check_tuple(&mut self, node: &Node<'_>, parts: &[ValueType]) {
         let Some(items) = tuple_items(node, parts.len(), self) else { return };
         for (index, (item, part)) in items.iter().zip(parts).enumerate() {
@@ -116,8 +116,8 @@ impl Checker<'_> {
     }
 }
 
-/// A value that is no tuple, as one: `"320x240"` and `"1:20"` as their numbers, and one number in
-/// the place of two.
+/// Suggests a tuple for a value that is not one: the numbers of `"320x240"` and `"1:20"`, or a
+/// single number where two are expected.
 fn suggest_tuple(node: &Node<'_>, count: usize, checker: &Checker<'_>) -> Option<String> {
     let parts: Vec<&str> = match node.kind {
         NodeKind::String(text) => {
@@ -138,7 +138,7 @@ fn suggest_tuple(node: &Node<'_>, count: usize, checker: &Checker<'_>) -> Option
 }
 
 impl Checker<'_> {
-    /// For counts and steps of a grid along two axes only, those along all three.
+    /// Suggests all three axes for grid counts and steps along only two.
     pub(crate) fn suggest_three_axes(&self, group: &Group<'_>) -> Option<String> {
         let [x, z] = group.items.as_slice() else { return None };
         let (NodeKind::Number(x), NodeKind::Number(z)) = (&x.value.kind, &z.value.kind) else {
@@ -153,8 +153,8 @@ impl Checker<'_> {
     }
 }
 
-/// The elements of a tuple of `count` values, in brackets of either kind: vectors are written
-/// either way by hand.
+/// The elements of a tuple of `count` values, in either kind of brackets: people write vectors both
+/// ways.
 fn tuple_items<'n, 'a>(
     node: &'n Node<'a>,
     count: usize,

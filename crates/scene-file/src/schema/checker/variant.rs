@@ -1,11 +1,11 @@
-//! A variant of an enum, and what is in its brackets.
+//! A variant of an enum, and the contents of its brackets.
 
 use super::{Checker, Owner, Segment};
 use crate::schema::{Shape, TypeEntry, ValueType, VariantEntry};
 use crate::syntax::{Group, Node, NodeKind, SyntaxItem};
 
 impl Checker<'_> {
-    /// Reports the mistakes in a value of an enum.
+    /// Reports the mistakes in an enum value.
     pub(super) fn check_variant(&mut self, node: &Node<'_>, entry: &'static TypeEntry) {
         let Some((variant, group)) = self.find_variant(node, entry) else { return };
         self.path.push(Segment::Variant(variant.name));
@@ -17,7 +17,7 @@ impl Checker<'_> {
         self.path.pop();
     }
 
-    /// Reports brackets behind a variant that has none.
+    /// Reports brackets after a variant that has none.
     fn check_empty(&mut self, name: &str, group: Option<&Group<'_>>) {
         let Some(group) = group else { return };
         let message = format!("`{name}` has no fields");
@@ -47,7 +47,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Reports a variant without the brackets that it needs; with all defaults they are empty.
+    /// Reports a variant without its required brackets, which are empty if all fields have
+    /// defaults.
     fn report_no_brackets(&mut self, name: &str, node: &Node<'_>, is_complete: bool, with: &str) {
         let message = format!("`{name}` needs brackets");
         let help = if is_complete {
@@ -58,14 +59,14 @@ impl Checker<'_> {
         self.report(node.span.clone(), message, Some(help));
     }
 
-    /// Reports the mistakes in the value in the brackets of a variant, or of `Some`.
+    /// Reports the mistakes in the value inside the brackets of a variant, or of `Some`.
     ///
     /// ```text
     ///  Color("#fff")               one item without a name: that item is the value
     ///  FromModel(name: "front")    the brackets of the variant are those of the struct
     ///  Point(1, 2, 3)              or those of the vector
     /// ```
-    /// The second form is RON's extension `unwrap_variant_newtypes`, and for structs the only one.
+    /// The second form is RON's extension `unwrap_variant_newtypes`, and the only one for structs.
     pub(super) fn check_inner(
         &mut self,
         name: &str,
