@@ -6,14 +6,14 @@
 //!  ●      ●──────────●       ●      ●──────────●
 //! ```
 //!
-//! Circles of a mesh are polygons, and machines that cut want circles. A polygon must not be bent,
+//! Circles in a mesh are polygons, but cutting machines want circles. A polygon must not be bent,
 //! though, so a run of points is an arc only if
 //!
 //! - it has at least eight points,
-//! - all of them lie on one circle within the tolerance,
-//! - its steps are equal, but for the first and the last, which visibility may have shortened, and
-//!   for steps so short that chord and arc differ by less than the tolerance, and
-//! - each step turns by less than 29.5°: about the angle from which a bend is a crease.
+//! - all of them are on one circle, within the tolerance,
+//! - its steps are equal, except for the first and the last, which visibility may have shortened,
+//!   and for steps so short that chord and arc differ by less than the tolerance, and
+//! - each step turns by less than 29.5°, about the angle from which a bend is a crease.
 //!
 //! A regular polygon with up to twelve corners therefore stays a polygon.
 //!
@@ -21,10 +21,10 @@
 //! | --- | --- |
 //! | [`recognize_arcs`] | the curve of a polyline |
 //! | [`LineShape`] | a circle, an arc, or a path of sides and arcs |
-//! | [`ArcVertex`] | a vertex of such a path, with the bulge of DXF |
+//! | [`ArcVertex`] | a vertex of such a path, with its DXF bulge |
 //!
-//! The points of a polyline are whole numbers: micrometers of a page, or steps of a grid of one's
-//! own.
+//! The points of a polyline have integer coordinates: micrometers on a page, or steps of a custom
+//! grid.
 
 mod recognition;
 

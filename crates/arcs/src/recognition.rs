@@ -1,17 +1,17 @@
-//! The search for the circle of a run of points.
+//! The search for the circle through a run of points.
 
 use glam::DVec2;
 
-/// The least number of points of an arc.
+/// The minimum number of points of an arc.
 const MIN_ARC_POINTS: usize = 8;
 
 /// Steps of this angle and more are corners.
 const MAX_STEP_DEGREES: f64 = 29.5;
 
-/// The part by which steps may differ; the grid adds to it.
+/// The relative tolerance between steps; the grid adds to it.
 const STEP_TOLERANCE: f64 = 0.02;
 
-/// The greatest radius in spans of the points: flatter runs are too uncertain.
+/// The maximum radius, in spans of the points; flatter runs are too uncertain.
 const MAX_RADIUS_FACTOR: f64 = 50.0;
 
 /// The largest angle of one arc in a polyline, a little less than a turn: a bulge has no full circle.
@@ -41,17 +41,17 @@ pub struct Circle {
 pub enum LineShape {
     /// A full circle.
     Circle(Circle),
-    /// One arc from an angle to a greater one in radians, from x to y.
+    /// One arc from an angle to a larger one, in radians, from x to y.
     Arc(Circle, [f64; 2]),
-    /// Sides and arcs; whether the last vertex is joined to the first.
+    /// Sides and arcs, and whether the last vertex is joined to the first.
     Path(Vec<ArcVertex>, bool),
 }
 
-/// The curve of a polyline, with arcs where its points lie on circles within a tolerance in steps
-/// of the grid; with a tolerance of 0 there are none.
+/// Converts a polyline to lines and arcs. Its points become arcs where they are on circles within a
+/// tolerance in grid steps; a tolerance of 0 gives no arcs.
 ///
-/// It has two points or more, neighbors differ, and `closed` is whether the last one is joined to
-/// the first, which is not repeated.
+/// The polyline has at least two points and no repeated neighbors. `closed` tells whether the last
+/// point is joined to the first, which is not repeated.
 #[must_use]
 pub fn recognize_arcs(points: &[[i32; 2]], closed: bool, tolerance: f64) -> LineShape {
     let points: Vec<DVec2> = points.iter().copied().map(grid_point).collect();
@@ -64,7 +64,7 @@ pub fn recognize_arcs(points: &[[i32; 2]], closed: bool, tolerance: f64) -> Line
     if closed && let Some(circle) = full_circle(&points, tolerance) {
         return LineShape::Circle(circle);
     }
-    // A closed line is begun at a corner, so that no arc is cut in two by its first point.
+    // A closed line starts at a corner, so that its first point does not cut an arc in two.
     let start = if closed { corner_index(&points, tolerance) } else { 0 };
     let mut ring: Vec<DVec2> = points[start..].iter().chain(&points[..start]).copied().collect();
     if closed {
@@ -129,7 +129,7 @@ fn corner_index(points: &[DVec2], tolerance: f64) -> usize {
     (0..count).find(is_corner).unwrap_or(0)
 }
 
-/// The vertices of an open run of points: a greedy pass, the longest arc from each point on.
+/// The vertices of an open run of points: a greedy pass that takes the longest arc from each point.
 fn arc_vertices(points: &[DVec2], tolerance: f64) -> Vec<ArcVertex> {
     let mut vertices = Vec::new();
     let mut at = 0;
@@ -142,10 +142,9 @@ fn arc_vertices(points: &[DVec2], tolerance: f64) -> Vec<ArcVertex> {
     vertices
 }
 
-/// The number of steps of the longest arc that begins with the first point, and its bulge.
+/// The number of steps of the longest arc that begins at the first point, and its bulge.
 ///
-/// The run is doubled while it is an arc, then halved down to its end, so that the time is
-/// O(n log n).
+/// The run doubles while it is an arc, then its end is found by bisection, in O(n log n).
 fn longest_arc(points: &[DVec2], tolerance: f64) -> Option<(usize, f64)> {
     let arc = |count: usize| {
         let run = points.get(..count)?;
@@ -171,7 +170,7 @@ fn longest_arc(points: &[DVec2], tolerance: f64) -> Option<(usize, f64)> {
     Some((best.0 - 1, best.1))
 }
 
-/// The circle through a run of points that make an arc; `None` if they do not.
+/// The circle through a run of points that form an arc; `None` if they do not.
 fn circle_of(points: &[DVec2], tolerance: f64) -> Option<Circle> {
     let last = points.len() - 1;
     let circle = fit_circle([points[0], points[last / 2], points[last]])
@@ -182,8 +181,8 @@ fn circle_of(points: &[DVec2], tolerance: f64) -> Option<Circle> {
     is_arc.then_some(circle)
 }
 
-/// Whether the points of a run lie on a circle and its steps are those of an arc: they turn alike,
-/// and are equal but for short ones and the first and the last.
+/// Whether the points of a run are on a circle and its steps form an arc: they turn the same way
+/// and are equal, except for short steps and the first and last.
 fn has_arc_steps(points: &[DVec2], circle: Circle, tolerance: f64) -> bool {
     let is_on = |point: &DVec2| (point.distance(circle.center) - circle.radius).abs() <= tolerance;
     if !points.iter().all(is_on) {
@@ -194,7 +193,7 @@ fn has_arc_steps(points: &[DVec2], circle: Circle, tolerance: f64) -> bool {
     let inner = &angles[1..angles.len() - 1];
     let longest = inner.iter().fold(0.0, |most: f64, angle| most.max(angle.abs()));
     let sense = if inner.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
-    // Both points of a step are up to 0.7 steps of the grid beside their place on the grid.
+    // Rounding moves both ends of a step by up to 0.7 grid steps.
     let slack = longest * STEP_TOLERANCE + 2.0 / circle.radius;
     let is_short =
         |angle: f64| circle.radius * (1.0 - libm::cos(0.5 * angle)) <= tolerance && angle > 0.0;
@@ -206,7 +205,7 @@ fn has_arc_steps(points: &[DVec2], circle: Circle, tolerance: f64) -> bool {
         && inner.iter().all(|angle| longest - angle * sense <= slack || is_short(angle * sense))
 }
 
-/// The circle through three points; `None` if they are on a line.
+/// The circle through three points; `None` if they are collinear.
 fn fit_circle([a, b, c]: [DVec2; 3]) -> Option<Circle> {
     let (b, c) = (b - a, c - a);
     let doubled = 2.0 * b.perp_dot(c);
@@ -216,8 +215,8 @@ fn fit_circle([a, b, c]: [DVec2; 3]) -> Option<Circle> {
     (doubled != 0.0 && radius.is_finite()).then_some(Circle { center: a + center, radius })
 }
 
-/// The circle nearest to points in the sense of least squares (Kåsa 1976); `about` is a point near
-/// its center, for the sake of precision.
+/// The least-squares circle through points (Kåsa 1976); `about` is a point near its center, for
+/// precision.
 fn best_circle(points: &[DVec2], about: DVec2) -> Option<Circle> {
     let count = points.len() as f64;
     let mean = points.iter().fold(DVec2::ZERO, |sum, point| sum + (*point - about)) / count;
@@ -234,7 +233,7 @@ fn best_circle(points: &[DVec2], about: DVec2) -> Option<Circle> {
     (radius.is_finite() && radius > 0.0).then_some(Circle { center, radius })
 }
 
-/// The angles of the ends of an arc, the first one less than the second by the angle of the arc.
+/// The angles of the ends of an arc; the second is larger than the first by the angle of the arc.
 fn arc_angles(circle: Circle, [from, to]: [DVec2; 2], bulge: f64) -> [f64; 2] {
     let angle = |point: DVec2| {
         let arm = point - circle.center;

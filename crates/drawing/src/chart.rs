@@ -17,7 +17,7 @@ use glam::DVec2;
 use page::palette::{INK, LIGHT_GRAY};
 use page::{Cap, Group, Ink, Join, Label, Layer, LineType, Pen, Polyline, TextAlign};
 
-/// The height of letters in millimeters.
+/// The height of characters in millimeters.
 const LETTER_HEIGHT: f64 = 2.2;
 /// The length of a tick in millimeters.
 const TICK_LENGTH: f64 = 1.0;
@@ -27,7 +27,7 @@ const CURVE_WIDTH: f64 = 0.35;
 /// The line width of axes and grid in millimeters.
 const AXIS_WIDTH: f64 = 0.13;
 
-/// The length of the sample of a curve in the legend, in millimeters.
+/// The length of a curve's sample in the legend, in millimeters.
 const LEGEND_SAMPLE: f64 = 9.0;
 
 /// A chart: two axes, curves, and marked values.
@@ -58,7 +58,7 @@ const LEGEND_SAMPLE: f64 = 9.0;
 /// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Chart {
-    /// An identifier: lower case, hyphens, unique on its page.
+    /// An identifier, unique on its page: lower case, hyphens.
     pub id: String,
     /// The horizontal axis.
     pub x: Axis,
@@ -66,7 +66,7 @@ pub struct Chart {
     pub y: Axis,
     /// The curves, drawn in this order.
     pub curves: Vec<Curve>,
-    /// Marked values of the x axis.
+    /// Marked values on the x axis.
     pub marks: Vec<AxisMark>,
 }
 
@@ -79,13 +79,13 @@ pub struct Curve {
     pub title: String,
     /// The color.
     pub ink: Ink,
-    /// Whether it is dashed, so that another one shows below it.
+    /// Whether it is dashed, so that another one shows through.
     pub dashed: bool,
-    /// The points it runs through, in units of the axes; clamped to their ranges.
+    /// The points of the curve, in units of the axes; clamped to the axis ranges.
     pub points: Vec<[f64; 2]>,
 }
 
-/// A value of the x axis with a note.
+/// A value on the x axis with a note.
 #[derive(Clone, PartialEq, Debug)]
 pub struct AxisMark {
     /// The value.
@@ -105,8 +105,8 @@ struct Plot<'a> {
 }
 
 impl Chart {
-    /// The layers of the chart. Its axes span the rectangle with this upper left corner and size,
-    /// in millimeters; labels are outside.
+    /// Returns the layers of the chart. Its axes span the rectangle with this upper left corner and
+    /// size, in millimeters; labels are outside it.
     #[must_use]
     pub fn to_layers(&self, corner: DVec2, size: DVec2) -> Vec<Layer> {
         let plot = Plot { chart: self, corner, size };
@@ -120,7 +120,7 @@ impl Chart {
 }
 
 impl Plot<'_> {
-    /// A layer of the chart with these strokes.
+    /// A layer of the chart with the given strokes.
     fn plot_layer(&self, id: &str, title: &str, pen: Pen, strokes: Vec<Polyline>) -> Layer {
         let mut layer = Layer::new(format!("{}-{id}", self.chart.id), title, pen);
         layer.groups.push(Group { strokes, ..Group::default() });
@@ -147,7 +147,7 @@ impl Plot<'_> {
         self.corner.y + self.size.y
     }
 
-    /// A line over the height of the plot.
+    /// A vertical line over the height of the plot.
     fn vertical_line(&self, x: f64) -> Option<Polyline> {
         Polyline::through_points(
             &[DVec2::new(x, self.corner.y), DVec2::new(x, self.bottom_edge())],
@@ -193,7 +193,7 @@ impl Plot<'_> {
         self.plot_layer("marks", "what is marked", pen, lines.collect())
     }
 
-    /// Numbers at the ticks, titles of the axes, notes and legend.
+    /// Numbers at the ticks, axis titles, notes and legend.
     fn text_layer(&self) -> Layer {
         let mut strokes = Vec::new();
         let mut write = |text: &str, at: DVec2, align: TextAlign| {
@@ -243,7 +243,7 @@ impl Plot<'_> {
         )
     }
 
-    /// A curve, and its sample in the legend.
+    /// A curve and its sample in the legend.
     fn curve_layer(&self, index: usize, curve: &Curve) -> Layer {
         let on_page = |&[x, y]: &[f64; 2]| DVec2::new(self.page_x(x), self.page_y(y));
         let points: Vec<DVec2> = curve.points.iter().map(on_page).collect();

@@ -8,20 +8,20 @@
 //!   └──┴──┴──┘        ●──●
 //! ```
 //!
-//! What lies between two junctions is straightened in one direction, whichever of its two areas
-//! asks, so that neighbors have the same border without gaps and overlaps.
+//! The border between two junctions is straightened in one fixed direction, for both of its areas.
+//! Neighbors therefore share the same border, without gaps or overlaps.
 
 use picture::Picture;
 use std::collections::BTreeMap;
 
-/// A corner of pixels: counted from the upper left one, to the right and down.
+/// A pixel corner: counted from the upper left one, to the right and down.
 pub(super) type PixelCorner = [i32; 2];
 
-/// How far a border may leave the corners of the pixels that it runs along, in pixels.
+/// The maximum distance of a border from the pixel corners along it, in pixels.
 const TOLERANCE: f64 = 1.2;
 
-/// The borders of each color of an image but of what is transparent: closed lines, by the even-odd
-/// rule.
+/// Traces the border of each color of an image, except transparent areas, as closed lines for the
+/// even-odd rule.
 pub(super) fn trace_color_areas(picture: &Picture) -> BTreeMap<[u8; 4], Vec<Vec<PixelCorner>>> {
     let image = ColorImage { picture, size: [picture.width, picture.height].map(|n| n as i32) };
     let mut areas: BTreeMap<[u8; 4], Vec<Vec<PixelCorner>>> = BTreeMap::new();
@@ -43,20 +43,20 @@ pub(super) fn trace_color_areas(picture: &Picture) -> BTreeMap<[u8; 4], Vec<Vec<
     areas
 }
 
-/// The four directions along the sides of pixels, clockwise as seen with y down.
+/// The four directions along pixel sides, clockwise with y down.
 const STEPS: [PixelCorner; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
 
-/// From the corner at which a side begins to the pixel at its right, by its direction.
+/// The offset from the start of a side to the pixel on its right, by direction.
 const RIGHT: [PixelCorner; 4] = [[0, 0], [-1, 0], [-1, -1], [0, -1]];
 
-/// A corner of a border, and whether more than two borders meet there.
+/// A border corner, and whether more than two borders meet there.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 struct BorderCorner {
     at: PixelCorner,
     is_junction: bool,
 }
 
-/// An image whose outside is transparent.
+/// An image with transparent surroundings.
 struct ColorImage<'a> {
     picture: &'a Picture,
     size: [i32; 2],
@@ -70,11 +70,11 @@ impl ColorImage<'_> {
         color.filter(|color| color[3] > 0)
     }
 
-    /// Walks along the border of a color, which stays at the right, from the upper left corner of a
+    /// Follows the border of a color, which stays on the right, from the upper left corner of a
     /// pixel; marks the pixels whose upper sides are passed.
     ///
-    /// Pixels that touch at a corner only are not of one area. The corners are those where the
-    /// border turns, and junctions.
+    /// Pixels that touch only at a corner belong to different areas. The corners are the turns of
+    /// the border and the junctions.
     fn walk_border(
         &self,
         start: PixelCorner,
@@ -92,8 +92,8 @@ impl ColorImage<'_> {
                 let pixel = RIGHT[(direction + turned) % 4];
                 self.color([0, 1].map(|axis| at[axis] + pixel[axis])) == Some(color)
             };
-            // The pixel ahead at the right is that at the right of the way straight on; the one
-            // ahead at the left is at the right of a turn to the left.
+            // The right pixel ahead is on the right of the straight continuation; the left pixel
+            // ahead is on the right of a left turn.
             let turn = match (beside(0), beside(3)) {
                 (false, _) => 1,
                 (true, false) => 0,
@@ -110,14 +110,14 @@ impl ColorImage<'_> {
         }
     }
 
-    /// Whether more than two borders meet at a corner of pixels.
+    /// Whether more than two borders meet at a pixel corner.
     fn is_junction(&self, at: PixelCorner) -> bool {
         let around = RIGHT.map(|pixel| self.color([0, 1].map(|axis| at[axis] + pixel[axis])));
         (0..4).filter(|&k| around[k] != around[(k + 1) % 4]).count() > 2
     }
 }
 
-/// A closed border with fewer corners: only junctions stay where they are for certain.
+/// Removes corners from a closed border; only junctions are guaranteed to stay.
 fn straighten(border: &[BorderCorner]) -> Vec<PixelCorner> {
     let first = match border.iter().position(|corner| corner.is_junction) {
         Some(first) => first,
@@ -145,8 +145,8 @@ fn straighten(border: &[BorderCorner]) -> Vec<PixelCorner> {
     outline
 }
 
-/// A part of a border with fewer corners; its ends stay. The result for the reversed part is the
-/// reversed result.
+/// Removes corners from a part of a border; its ends stay. A reversed part gives the reversed
+/// result.
 fn straighten_part(mut part: Vec<PixelCorner>) -> Vec<PixelCorner> {
     let last = part.len() - 1;
     let is_reversed = if part[0] == part[last] {
@@ -204,7 +204,7 @@ fn squared_distance(point: PixelCorner, [a, b]: [PixelCorner; 2]) -> f64 {
 mod tests {
     use super::*;
 
-    /// An image of letters, each a color of its own; points are transparent.
+    /// An image given as letters, one color per letter; dots are transparent.
     fn image(rows: &[&str]) -> Picture {
         let color = |letter: u8| if letter == b'.' { [0; 4] } else { [letter, 0, 0, 255] };
         Picture {
@@ -234,7 +234,7 @@ mod tests {
 
     #[test]
     fn neighbors_share_their_border() {
-        // A disc of three sectors and a tail, in a frame.
+        // A disc of three sectors with a tail, in a frame.
         let side = 200_i32;
         let color = |at: i32| {
             let (x, y) = (at % side - 100, at / side - 100);
@@ -254,7 +254,7 @@ mod tests {
                 *sides.entry((*a.min(b), *a.max(b))).or_insert(0) += if a < b { 1 } else { -1 };
             }
         }
-        // Sides that are not shared are those of the disc.
+        // Sides that are not shared belong to the outline of the disc.
         for ((a, b), sum) in sides {
             let radius =
                 |at: PixelCorner| libm::hypot(f64::from(at[0] - 100), f64::from(at[1] - 100));

@@ -1,4 +1,4 @@
-//! Drawing of a subject with a fill: hidden lines, hatching by luma, an image of the faces.
+//! Drawing of a subject with a fill: hidden lines, luma hatching, an image of the faces.
 //!
 //! ```text
 //!   subject ─► hidden_line: segments, regions, faces ─┬─► Drawing
@@ -16,11 +16,11 @@ use hidden_line::{
 use homog::ClipRange;
 use viewport::Viewport;
 
-/// Draws the edges of a subject with hidden-line removal and the fill of its faces. `workers` is
-/// the number of threads, which does not change the drawing, or that with a monitor.
+/// Draws the edges of a subject with hidden-line removal, and the fill of its faces. `workers` is
+/// the number of threads, which does not change the drawing, or that number with a monitor.
 ///
 /// # Errors
-/// As [`hidden_line::draw`], or if the image of the fill is out of range.
+/// See [`hidden_line::draw`]; also if the image of the fill is out of range.
 pub fn draw<'a>(
     subject: &Subject<'_>,
     options: &DrawOptions,
@@ -35,11 +35,11 @@ pub fn draw<'a>(
     Ok(Drawing { face_fill, ..lines.into() })
 }
 
-/// Draws a welded surface as one camera sees it, with the fill of its faces, on an image of `size`
+/// Draws a welded surface as seen by one camera, with the fill of its faces, on an image of `size`
 /// pixels; see [`draw`] for the rest.
 ///
 /// # Errors
-/// As [`draw`].
+/// See [`draw`].
 pub fn draw_surface<'a>(
     surface: &WeldedSurface,
     view_projection: &ViewProjection,
@@ -56,8 +56,8 @@ pub fn draw_surface<'a>(
     Ok(Drawing { face_fill, ..lines.into() })
 }
 
-/// The luma of faces under the key light of a view, with the colors of their materials where the
-/// fill shows them.
+/// The luma of faces under the key light of a view, with their material colors if the fill shows
+/// them.
 fn face_luma(
     view_projection: &ViewProjection,
     [width, height]: [u32; 2],
@@ -72,7 +72,7 @@ fn face_luma(
     })
 }
 
-/// The hatch lines that a fill consists of.
+/// The hatch lines that make up a fill.
 fn face_hatching(fill: FaceFill, luma: &dyn Fn([DVec3; 3], [f32; 3]) -> f64) -> FaceHatching<'_> {
     match fill {
         FaceFill::Hatching | FaceFill::ShadeHatching => FaceHatching::ByLuma(luma),

@@ -6,26 +6,26 @@ use glam::DVec2;
 use hidden_line::{EdgeSegment, LineDrawing, Region};
 use picture::Picture;
 
-/// A line drawing with the fill under its lines: what becomes layers of a page.
+/// A line drawing with a fill under its lines, ready to become page layers.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Drawing {
     /// The width and height of the image in pixels.
     pub size: DVec2,
-    /// The names of the objects, from the nodes of the models.
+    /// The object names, from the nodes of the models.
     pub objects: Vec<String>,
     /// Visible segments, and hidden ones if the options retain them.
     pub segments: Vec<EdgeSegment>,
-    /// The cut faces with their hatch lines, and the outlines if the options ask for them.
+    /// The cut faces with their hatch lines, and the outlines if requested in the options.
     pub regions: Vec<Region>,
-    /// The flat or gray fill under the lines, if the options ask for one and there are faces: an
-    /// image that fills the drawing. Of a gray fill its pixels are levels of gray, not colors.
+    /// The flat or gray fill under the lines, if requested and if there are faces: an image that
+    /// covers the drawing. In a gray fill the pixels are gray levels, not colors.
     pub face_fill: Option<Picture>,
-    /// Warnings of the drawing, each once.
+    /// Warnings of the drawing, without duplicates.
     pub warnings: Vec<Warning>,
 }
 
 impl Drawing {
-    /// Whether there is nothing to see.
+    /// Whether the drawing is empty.
     pub fn is_empty(&self) -> bool {
         let is_clear = |fill: &Picture| fill.pixels.iter().all(|pixel| pixel[3] == 0);
         let has_fill = self.face_fill.as_ref().is_some_and(|fill| !is_clear(fill));
@@ -34,7 +34,7 @@ impl Drawing {
 }
 
 impl From<LineDrawing> for Drawing {
-    /// The lines without a fill; a warning is added if their outlines are not exact on a page.
+    /// Converts the lines without a fill, with a warning if their outlines are not exact on a page.
     fn from(lines: LineDrawing) -> Self {
         let LineDrawing { size, objects, segments, regions, warnings } = lines;
         let is_traced = regions.iter().any(|region| Placement::PICTURE.traces_region(region));

@@ -1,8 +1,8 @@
 //! Flat shading of faces under the lines: a fixed key light, and a z-buffer image of flat colors.
 //!
-//! A flat fill is an image, not vector fills: faces that overlap cyclically, or intersect, cannot
-//! be painted in any order (the painter's algorithm fails), and their visible parts would have to
-//! be cut out. So a z-buffer resolves them, at a higher resolution than any screen, and the exact
+//! A flat fill is an image instead of vector fills. Faces that overlap cyclically or intersect
+//! cannot be painted in any order (the painter's algorithm fails); their visible parts would have
+//! to be cut out. A z-buffer resolves them at a higher resolution than any screen, and the exact
 //! lines go over it.
 
 use super::FaceFill;
@@ -26,7 +26,7 @@ const MAX_FILL_SIDE: f64 = 8192.0;
 pub struct FillOptions {
     /// The kind of fill. Default: none.
     pub face_fill: FaceFill,
-    /// Pixels of the fill image for each pixel of the drawing. Default: 3.
+    /// Fill-image pixels per drawing pixel. Default: 3.
     pub scale: f64,
 }
 
@@ -37,10 +37,10 @@ impl Default for FillOptions {
 }
 
 impl FillOptions {
-    /// A fill of this kind, at the resolution that it needs.
+    /// Returns a fill of this kind at the resolution that it needs.
     #[must_use]
     pub fn new(face_fill: FaceFill) -> Self {
-        // Borders of areas must lie under the lines, which are a pixel wide or more.
+        // The borders of areas must stay hidden under the lines, which are at least a pixel wide.
         Self { face_fill, scale: if face_fill == FaceFill::Gray { 6.0 } else { 3.0 } }
     }
 }
@@ -48,9 +48,9 @@ impl FillOptions {
 /// A directional light from above the viewer's left shoulder, fixed to the camera.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct KeyLight {
-    /// The unit vector towards the light, in world space.
+    /// The unit vector toward the light, in world space.
     direction: DVec3,
-    /// For the direction to the viewer: both sides of a face are lit as the visible one.
+    /// Finds the direction to the viewer: both sides of a face are lit like the visible one.
     projector: Projector,
 }
 
@@ -67,8 +67,8 @@ impl KeyLight {
         Self { direction, projector }
     }
 
-    /// The linear color of a face by Lambert's cosine law: base color · (ambient + (1 − ambient) ·
-    /// max(n·l, 0)).
+    /// Returns the linear color of a face by Lambert's cosine law: base color · (ambient + (1 −
+    /// ambient) · max(n·l, 0)).
     pub(super) fn shade_face(&self, [a, b, c]: [DVec3; 3], surface: [f32; 3]) -> [f32; 3] {
         let normal = (b - a).cross(c - a).normalize_or_zero();
         let normal = normal * normal.dot(self.projector.towards_viewer(a)).signum();
@@ -76,10 +76,10 @@ impl KeyLight {
         surface.map(|channel| (f64::from(channel) * light) as f32)
     }
 
-    /// The luma of the shaded face: Rec. 709 weights on sRGB-encoded channels, 0 for black and 1
-    /// for white.
+    /// Returns the luma of the shaded face, from 0 for black to 1 for white: Rec. 709 weights on
+    /// sRGB-encoded channels.
     ///
-    /// Hatching compares it with thresholds; encoded values are nearly uniform to the eye, linear
+    /// Hatching compares it with thresholds. Encoded values are nearly uniform to the eye; linear
     /// ones are not.
     pub(super) fn face_luma(&self, vertices: [DVec3; 3], surface: [f32; 3]) -> f64 {
         let [r, g, b] = self.shade_face(vertices, surface);
@@ -89,12 +89,12 @@ impl KeyLight {
     }
 }
 
-/// Renders faces in one flat color each, or in the gray of their materials: an image of their
-/// visible parts, transparent where there is none; `None` for other fills and without faces.
+/// Renders each face in one flat color, or in the gray of its material. Returns an image of the
+/// visible parts, transparent elsewhere; `None` for other fills or without faces.
 ///
-/// Faces come with the linear color of their material, `None` for section caps, which are white, or
-/// have no gray. The image has `fill.scale` pixels for each pixel of the drawing, but no side above
-/// [`MAX_FILL_SIDE`]; nothing is filtered, as its pixels are finer than those of the output.
+/// Each face comes with the linear color of its material, or `None` for section caps, which are
+/// white, or without gray. The image has `fill.scale` pixels per drawing pixel, but no side longer
+/// than [`MAX_FILL_SIDE`]. It is not filtered, because its pixels are finer than the output's.
 ///
 /// # Errors
 /// If the image has no viewport, or there are more faces than ids.

@@ -1,9 +1,9 @@
-//! Gray fill: the visible faces in tints of the ink by the luminance of their materials, as areas.
+//! Gray fill: the visible faces in tints of the ink, by the luminance of their materials.
 //!
-//! Exact outlines of what is visible of a face would have to be put together from lines that end
-//! where tolerances let them end. So the visible parts come from a z-buffer, as those of a flat
-//! fill do, and their borders are traced: they are off by about a pixel of a fine image, and lie
-//! under lines that are wider.
+//! Exact outlines of the visible parts of faces would have to be assembled from lines whose ends
+//! depend on tolerances. Instead, a z-buffer finds the visible parts, as for a flat fill, and their
+//! borders are traced. They are off by about a pixel of a fine image and are hidden under wider
+//! lines.
 
 use super::Drawing;
 use super::color_areas::{PixelCorner, trace_color_areas};
@@ -13,17 +13,17 @@ use glam::DVec2;
 use page::{Group, Ink, Layer, Pen, Polyline};
 use shade::color::SrgbEncoder;
 
-/// The number of grays, from black to white.
+/// The number of gray levels, from black to white.
 const LEVELS: u8 = 32;
 
-/// The part of ink in the fill of a white and of a black material: lines are to be seen on both,
-/// and a white part is told from the paper.
+/// The fraction of ink in the fill of a white and of a black material: lines must show on both, and
+/// a white part must differ from the paper.
 const TINTS: [f64; 2] = [0.06, 0.55];
 
-/// The pixel that stands for the gray of a material in the image of a fill; transparent without one.
+/// Encodes the gray of a material as a pixel of the fill image; transparent without a color.
 ///
-/// The luminance of the base color (Rec. 709) is encoded as sRGB, so that levels are nearly uniform
-/// to the eye.
+/// The luminance of the base color (Rec. 709) is sRGB-encoded, so that levels are nearly uniform to
+/// the eye.
 pub(super) fn gray_pixel(color: Option<[f32; 3]>) -> [u8; 4] {
     let Some([r, g, b]) = color else { return [0; 4] };
     let luminance = r * 0.2126 + g * 0.7152 + b * 0.0722;
@@ -32,7 +32,7 @@ pub(super) fn gray_pixel(color: Option<[f32; 3]>) -> [u8; 4] {
     [level as u8, level as u8, level as u8, 255]
 }
 
-/// The color of a gray level: paper with a part of ink.
+/// The color of a gray level: paper with a fraction of ink.
 fn tint(level: u8, [ink, paper]: [Ink; 2]) -> Ink {
     let [least, most] = TINTS;
     let part = most - (most - least) * f64::from(level) / f64::from(LEVELS - 1);
@@ -44,10 +44,10 @@ fn tint(level: u8, [ink, paper]: [Ink; 2]) -> Ink {
 }
 
 impl Drawing {
-    /// The layers of a [gray](FaceFill::Gray) fill, one for each gray, which belong under the lines;
-    /// none of another fill.
+    /// Returns the layers of a [gray](FaceFill::Gray) fill, one for each gray, to be placed under
+    /// the lines; empty for another fill.
     ///
-    /// Grays are tints of the ink on the paper; `prefix` begins the ids of the layers, as in
+    /// Grays are tints of the ink on the paper. `prefix` is prepended to the layer ids, as in
     /// [`to_layers`](Self::to_layers).
     #[must_use]
     pub fn face_fill_layers(
@@ -95,10 +95,10 @@ mod tests {
         let (black, white) = ([0; 3], [255; 3]);
         let gray = |color: [f32; 3]| tint(gray_pixel(Some(color))[0], [black, white])[0];
         assert_eq!([gray([0.0; 3]), gray([1.0; 3])], [115, 240]);
-        // Blue is darker than green of the same strength.
+        // Blue is darker than green of the same intensity.
         assert!(gray([0.0, 0.0, 1.0]) < gray([0.0, 1.0, 0.0]));
         assert_eq!(gray_pixel(None)[3], 0);
-        // On blue paper with white ink a dark part is lighter: a negative.
+        // On blue paper with white ink, a dark part is lighter: a negative.
         assert!(tint(0, [white, [0, 0, 128]])[0] > tint(31, [white, [0, 0, 128]])[0]);
     }
 }

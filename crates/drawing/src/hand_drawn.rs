@@ -1,4 +1,4 @@
-//! Hand-drawn lines: strokes that waver about their true place, each drawn twice.
+//! Hand-drawn lines: strokes that waver around their true position, each drawn twice.
 //!
 //! ```text
 //!   true     ●───────────────────●
@@ -7,9 +7,9 @@
 //!            ╶─╌╌──────────╌╌──────╴     the line by a random part of the overshoot at both ends
 //! ```
 //!
-//! Only strokes on the page are changed, by less than twice the amplitude; edges, visibility and the
-//! model are not. The random numbers follow from the line itself, so equal lines waver alike in
-//! every run, and a line keeps its form when others come and go.
+//! Only strokes on the page change, by less than twice the amplitude; edges, visibility and the
+//! model do not. The random numbers depend only on the line itself. Identical lines therefore waver
+//! alike in every run, and a line keeps its shape when others are added or removed.
 
 use glam::DVec2;
 use page::{PagePoint, Polyline, to_micrometers, to_millimeters};
@@ -20,16 +20,16 @@ const STEP: f64 = 1.5;
 /// The distance over which the displacement changes, in millimeters.
 const WAVELENGTH: f64 = 12.0;
 
-/// The number of times that each line is drawn.
+/// The number of strokes for each line.
 const ROUNDS: u64 = 2;
 
-/// The greatest length by which a stroke exceeds an open line at each end, in amplitudes.
+/// The maximum overshoot of a stroke at each end of an open line, in amplitudes.
 const OVERSHOOT: f64 = 4.0;
 
-/// The most points of a stroke; longer lines have larger steps.
+/// The maximum number of points in a stroke; longer lines have larger steps.
 const MOST_POINTS: f64 = 20_000.0;
 
-/// The lines as drawn by hand, displaced by up to `amplitude` millimeters in x and y.
+/// Draws lines by hand, displaced by up to `amplitude` millimeters in x and y.
 pub(super) fn draw_by_hand(lines: &[Polyline], amplitude: f64) -> Vec<Polyline> {
     let rounds = lines.iter().flat_map(|line| (0..ROUNDS).map(move |round| (line, round)));
     rounds.filter_map(|(line, round)| drawn_stroke(line, round, amplitude)).collect()
@@ -56,7 +56,7 @@ fn drawn_stroke(line: &Polyline, round: u64, amplitude: f64) -> Option<Polyline>
     (points.len() > 1).then_some(Polyline { points, closed: false })
 }
 
-/// Moves both ends outward along their segments by lengths in millimeters.
+/// Moves both ends outward along their segments, by lengths in millimeters.
 fn extend_ends(points: &mut [DVec2], [first, last]: [f64; 2]) {
     let end = points.len() - 1;
     let outward = |from: DVec2, to: DVec2| (to - from).normalize_or_zero();
@@ -66,8 +66,8 @@ fn extend_ends(points: &mut [DVec2], [first, last]: [f64; 2]) {
     points[end] += finish;
 }
 
-/// Points along a line at most `step` apart, corners among them, with their distance from its
-/// beginning in millimeters.
+/// Returns points along a line at most `step` apart, including corners, with their distance from
+/// its beginning in millimeters.
 fn resample(points: &[DVec2], step: f64) -> Vec<(DVec2, f64)> {
     let mut samples = vec![(points[0], 0.0)];
     let mut start = 0.0;
@@ -83,8 +83,8 @@ fn resample(points: &[DVec2], step: f64) -> Vec<(DVec2, f64)> {
     samples
 }
 
-/// Noise from -1 to 1 with a continuous slope: random values at whole numbers, joined by cubics
-/// (value noise).
+/// Noise from -1 to 1 with a continuous slope: random values at integers, joined by cubics (value
+/// noise).
 fn smooth_noise(seed: u64, x: f64) -> f64 {
     let cell = x.floor();
     let t = x - cell;
@@ -92,13 +92,13 @@ fn smooth_noise(seed: u64, x: f64) -> f64 {
     from + (to - from) * t * t * (3.0 - 2.0 * t)
 }
 
-/// A seed from the points of a line.
+/// Derives a seed from the points of a line.
 fn seed_of_line(points: &[PagePoint], round: u64) -> u64 {
     let numbers = points.iter().flatten().map(|micrometers| *micrometers as u64);
     numbers.fold(mix(round), |seed, number| mix(seed ^ number)) << 1
 }
 
-/// A number from 0 to 1 for each seed and index.
+/// A pseudorandom number from 0 to 1 for a seed and an index.
 fn random(seed: u64, index: u64) -> f64 {
     (mix(seed ^ mix(index)) >> 11) as f64 / (1_u64 << 53) as f64
 }

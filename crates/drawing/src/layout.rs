@@ -1,4 +1,4 @@
-//! Layout of a line drawing in layers: one for each kind of line, and in it one group for each
+//! Layout of a line drawing in layers: one layer for each kind of line, with one group for each
 //! object.
 //!
 //! ```text
@@ -11,9 +11,9 @@
 //!   …  hidden silhouette      visible silhouette    last, so on top
 //! ```
 //!
-//! The order of kinds has two effects. A layer of a more important kind is drawn over the others,
-//! and where segments coincide on the page only that of the most important kind remains. Layers
-//! have stable ids, such as `hidden-crease`, by which style sheets and scripts can address them.
+//! The order of kinds has two effects. Layers of more important kinds are drawn over the others.
+//! Only the most important of the segments that coincide on the page remains. Layers have stable
+//! ids, such as `hidden-crease`, for use in style sheets and scripts.
 
 use super::hand_drawn::draw_by_hand;
 use super::line_density::Thinning;
@@ -31,39 +31,38 @@ use page::{
     Polyline, to_micrometers,
 };
 
-/// The map from pixels of a drawing to millimeters of a page: millimeters = pixels × `scale` +
-/// `corner`.
+/// The map from drawing pixels to page millimeters: millimeters = pixels × `scale` + `corner`.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Placement {
     /// The position of the drawing's upper left corner, in millimeters.
     pub corner: DVec2,
-    /// Millimeters for each pixel, in x and y.
+    /// Millimeters per pixel, in x and y.
     pub scale: DVec2,
 }
 
 impl Placement {
-    /// At the upper left corner of the page, 96 pixels to the inch.
+    /// At the upper left corner of the page, 96 pixels per inch.
     pub const PICTURE: Self =
         Self { corner: DVec2::ZERO, scale: DVec2::splat(MILLIMETERS_PER_PIXEL) };
 
-    /// A point of the drawing in millimeters of the page.
+    /// Converts a point of the drawing to millimeters on the page.
     pub fn pixels_to_page(&self, pixels: DVec2) -> DVec2 {
         self.corner + pixels * self.scale
     }
 
-    /// The closed lines around a region on the page.
+    /// The closed lines around a region, on the page.
     fn region_loops(&self, region: &Region) -> Vec<Polyline> {
         let on_page = |end: DVec2| to_micrometers(self.pixels_to_page(end));
         outline_loops(region.edges.iter().map(|edge| (edge.ends.map(on_page), edge.winding)))
     }
 
-    /// Whether the loops around a region are traced on a grid.
+    /// Whether the outline of a region is traced on a grid.
     pub(super) fn traces_region(&self, region: &Region) -> bool {
         let on_page = |end: DVec2| to_micrometers(self.pixels_to_page(end));
         is_traced(region.edges.iter().map(|edge| (edge.ends.map(on_page), edge.winding)))
     }
 
-    /// The area of a hatched region on the page; `None` if there is none.
+    /// The area of a hatched region on the page; `None` if it has no hatching.
     fn hatch_area(&self, region: &Region) -> Option<HatchArea> {
         let RegionHatching { direction, spacing } = region.hatching?;
         let loops = self.region_loops(region);
@@ -74,10 +73,10 @@ impl Placement {
     }
 }
 
-/// The number of depth bands of a drawing with a depth cue, each with an ink of its own.
+/// The number of depth bands in a drawing with a depth cue, each with a different ink.
 const DEPTH_BANDS: u32 = 8;
 
-/// A kind of line: the lines that make one layer.
+/// A kind of line: the lines that form one layer.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 struct LineKind {
     /// Whether it is hidden.
@@ -87,21 +86,21 @@ struct LineKind {
     class: EdgeClass,
 }
 
-/// The kinds of lines of a style, most important first; other modules know them by their indices.
+/// The kinds of lines in a style, most important first; other modules refer to them by index.
 struct LineKinds<'a> {
     style: &'a LineStyle,
     kinds: Vec<LineKind>,
-    /// The nearest and the farthest depth of all lines.
+    /// The nearest and farthest depths of all lines.
     depths: [f64; 2],
-    /// How much lines are thinned for their density: visible ones, then hidden ones.
+    /// The thinning of dense lines: visible ones, then hidden ones.
     thinning: [Thinning; 2],
 }
 
 impl Drawing {
-    /// The drawing as a page of its own, 96 pixels to the inch.
+    /// Returns the drawing as a separate page, 96 pixels per inch.
     ///
-    /// `title` is that of the document; `paper` fills the background, and decides between dark and
-    /// light ink if the style has none.
+    /// `title` is the title of the document. `paper` fills the background; if the style has no ink,
+    /// it also selects dark or light ink.
     #[must_use]
     pub fn to_page(&self, style: &LineStyle, title: &str, paper: Option<Ink>) -> Page {
         let mut page = Page::new(self.size * MILLIMETERS_PER_PIXEL, title, paper);
@@ -114,10 +113,10 @@ impl Drawing {
         page
     }
 
-    /// The flat fill as an image on a page, if the drawing has one.
+    /// Returns the flat fill as an image on a page, if the drawing has one.
     ///
-    /// Its rectangle is that of the whole drawing, rounded to micrometers, so that lines and fill
-    /// stay in register.
+    /// Its rectangle covers the whole drawing, rounded to micrometers, so that lines and fill stay
+    /// in register.
     #[must_use]
     pub fn face_fill_image(
         &self,
@@ -132,11 +131,11 @@ impl Drawing {
         Some(PlacedImage { id: format!("{prefix}tone"), corner, size, picture })
     }
 
-    /// The layers of the drawing, the lowest first; `prefix` begins their ids, so that several
-    /// drawings can share a page.
+    /// Returns the layers of the drawing, lowest first. `prefix` is prepended to their ids, so that
+    /// several drawings can share a page.
     ///
     /// Kinds without lines have no layer. The drawing must be made with the options of the same
-    /// style, see [`LineStyle::to_draw_options`].
+    /// style; see [`LineStyle::to_draw_options`].
     #[must_use]
     pub fn to_layers(
         &self,
@@ -177,7 +176,7 @@ impl Drawing {
         layers
     }
 
-    /// The layer of the outlines: a group of the whole, or one for each object.
+    /// The outline layer: one group for the whole, or one for each object.
     fn outline_layer(
         &self,
         kinds: &LineKinds<'_>,
@@ -204,7 +203,7 @@ impl Drawing {
         (!layer.groups.is_empty()).then_some(layer)
     }
 
-    /// Says of the hatch lines in the groups of a layer which areas they hatch; not where faces are
+    /// Records in the groups of a layer which areas their hatch lines fill, unless faces are
     /// hatched as well as cuts.
     fn mark_hatchings(&self, layer: &mut Layer, style: &LineStyle, placement: Placement) {
         if matches!(style.face_fill, FaceFill::Hatching | FaceFill::ShadeHatching) {
@@ -231,7 +230,7 @@ impl Drawing {
         self.objects.get(object as usize).cloned().unwrap_or_default()
     }
 
-    /// One layer from the chains of one kind.
+    /// Creates one layer from the chains of one kind.
     fn layer_of_kind(
         &self,
         kinds: &LineKinds<'_>,
@@ -254,8 +253,8 @@ impl Drawing {
 }
 
 impl LineStyle {
-    /// The ink of the style on paper of this color: its own, or a dark or light one that contrasts
-    /// with the paper: [`ink_on_paper`].
+    /// Returns the ink of the style on paper of this color: its own, or one that contrasts with the
+    /// paper, as in [`ink_on_paper`].
     #[must_use]
     pub fn ink_on(&self, paper: Option<Ink>) -> Ink {
         self.ink.unwrap_or_else(|| ink_on_paper(paper))
@@ -263,7 +262,7 @@ impl LineStyle {
 }
 
 impl<'a> LineKinds<'a> {
-    /// The kinds of lines that a style draws, and the range of depths.
+    /// Collects the kinds of lines that a style draws, and the range of depths.
     fn new(drawing: &Drawing, style: &'a LineStyle, placement: Placement) -> Self {
         let depths = drawing.segments.iter().flat_map(|segment| segment.depths);
         let nearest = depths.clone().fold(0.0, f64::max);
@@ -277,15 +276,15 @@ impl<'a> LineKinds<'a> {
                 kinds.extend(classes.map(|class| LineKind { hidden, band, class }));
             }
         }
-        // Facets are construction lines: even hidden feature edges take precedence over them.
+        // Facets are construction lines: even hidden feature edges take precedence.
         kinds.sort_by_key(|kind| (kind.class == EdgeClass::Facet, kind.hidden, kind.band));
         let thinning = thinning_for_style(drawing, style, placement);
         Self { style, kinds, depths: [nearest, farthest], thinning }
     }
 
-    /// Calls `push` with each part of a segment that is drawn, and the index of its kind.
+    /// Calls `push` with each drawn part of a segment and the index of its kind.
     ///
-    /// Kinds that the style does not draw have no index, and their segments are skipped.
+    /// Segments of kinds that the style does not draw are skipped.
     fn for_each_segment(&self, segment: &EdgeSegment, mut push: impl FnMut(u32, [DVec2; 2], u32)) {
         let hidden = !segment.visible && self.style.hidden_lines != HiddenLines::Drawn;
         let kind_index = |band: u32| {
@@ -301,7 +300,7 @@ impl<'a> LineKinds<'a> {
         }
     }
 
-    /// The parts of a segment in each depth band.
+    /// Splits a segment into parts by depth band.
     ///
     /// Depth is linear on the screen, so band borders cut a segment at fixed fractions: t = (border
     /// − from) / (to − from).
@@ -329,7 +328,7 @@ impl<'a> LineKinds<'a> {
         cuts.windows(2).map(part).collect()
     }
 
-    /// The first kind with which lines of a kind make common chains: dashes continue where the
+    /// The first kind whose lines form common chains with this kind: dashes continue where the
     /// class of a hidden line changes.
     fn joined_kind(&self, index: u32) -> u32 {
         let kind = self.kinds[index as usize];
@@ -342,8 +341,8 @@ impl<'a> LineKinds<'a> {
         self.kinds.iter().position(continues).map_or(index, |first| first as u32)
     }
 
-    /// Which short chains of a kind are left out: none of a wireframe, of lines that the model
-    /// draws itself and of hatchings.
+    /// The treatment of short chains of a kind: all are kept in wireframes, in lines from the model
+    /// itself and in hatchings.
     fn short_chains(&self, index: u32) -> ShortChains {
         let kind = self.kinds[index as usize];
         let [wide, _] = self.style.line_widths.wide_and_narrow();
@@ -351,7 +350,7 @@ impl<'a> LineKinds<'a> {
         match kind.class {
             EdgeClass::Line => ShortChains::Retained,
             _ if self.style.edges == EdgeSelection::Facets => ShortChains::Retained,
-            // An outline has to close.
+            // An outline has to be closed.
             _ if self.style.edges == EdgeSelection::Silhouette => ShortChains::RemovedAlone(least),
             EdgeClass::Intersection => ShortChains::Removed(least),
             EdgeClass::Crease => ShortChains::RemovedUnlessBridge(least),
@@ -363,7 +362,7 @@ impl<'a> LineKinds<'a> {
     }
 
     /// The pen of a kind: narrow for hidden, tangent and hatch lines, dashed for hidden ones, faded
-    /// by depth.
+    /// with depth.
     fn pen_for_kind(&self, kind: LineKind, ink: Ink) -> Pen {
         let style = self.style;
         let [wide, narrow] = style.line_widths.wide_and_narrow();
@@ -380,11 +379,10 @@ impl<'a> LineKinds<'a> {
     }
 }
 
-/// How much the lines of a style are thinned for their density, visible ones and hidden ones.
+/// The thinning of dense lines in a style, for visible and for hidden lines.
 ///
-/// Thinned are the lines that lie over each other: those of wireframes, and hidden ones. Visible
-/// lines of other styles show the drawing itself. Sheets are to scale, and have the widths and the
-/// ink that were asked for.
+/// Only lines that overlap each other are thinned: wireframes and hidden lines. Visible lines of
+/// other styles are the drawing itself. Sheets are to scale and keep the requested widths and ink.
 fn thinning_for_style(drawing: &Drawing, style: &LineStyle, placement: Placement) -> [Thinning; 2] {
     if placement != Placement::PICTURE {
         return [Thinning::NONE; 2];
@@ -403,7 +401,7 @@ fn thinning_for_style(drawing: &Drawing, style: &LineStyle, placement: Placement
     }
 }
 
-/// Ink with a part of its contrast removed, towards white, or towards black for light inks on dark
+/// Fades an ink by a fraction of its contrast: toward white, or toward black for light inks on dark
 /// paper.
 fn faded_ink(ink: Ink, part: f64) -> Ink {
     let ground = if ink.iter().map(|c| u32::from(*c)).sum::<u32>() > 384 { 0.0 } else { 255.0 };
@@ -416,21 +414,21 @@ fn selects_class(style: &LineStyle, class: EdgeClass, hidden: bool) -> bool {
     if hidden && style.hidden_lines == HiddenLines::Removed {
         return false;
     }
-    // Of a model without faces all lines and points are drawn, whatever the style selects.
+    // Without faces, all lines and points of a model are drawn, regardless of the style.
     let is_own = matches!(class, EdgeClass::Line | EdgeClass::Marked);
     if !is_own && !style.to_draw_options().classes.contains(class) {
         return false;
     }
     match class {
         EdgeClass::Hatching => !hidden,
-        // Tangent edges have no bend to show: hidden ones are left out.
+        // Tangent edges show no bend, so hidden ones are skipped.
         EdgeClass::Tangent => !hidden || style.edges == EdgeSelection::Facets,
         _ => true,
     }
 }
 
 impl LineKind {
-    /// The id and the title of the layer.
+    /// The id and title of the layer.
     fn layer_names(self, style: &LineStyle) -> (String, String) {
         let class = self.class.name();
         let visibility = match (self.hidden, style.hidden_lines) {

@@ -1,5 +1,5 @@
-//! Drawings for pages: line styles, fills of faces, layers of polylines from hidden-line removal,
-//! overlays, charts.
+//! Drawings for pages: line styles, face fills, layers of polylines from hidden-line removal,
+//! overlays and charts.
 //!
 //! ```text
 //!   models ─► hidden_line: visible and hidden segments ─► Drawing ─► layers of polylines ─► page
@@ -9,15 +9,15 @@
 //! | module | technique |
 //! | --- | --- |
 //! | `draw`, `drawing` | the lines of a subject and the fill under them |
-//! | `face_fill`, `gray_fill`, `color_areas` | fills of visible faces; areas traced from them |
+//! | `face_fill`, `gray_fill`, `color_areas` | fills of visible faces, and areas traced from them |
 //! | `line_style` | which edges are drawn, their pens and widths, as in ISO 128 |
 //! | `layout`, `overlap_removal`, `polyline_chain` | from segments to layers of polylines |
-//! | `line_density`, `hand_drawn` | lines thinned where they are dense; strokes that waver |
-//! | `region_outline` | outlines of what faces cover, by winding numbers and snap rounding |
-//! | `line_clip` | drawings clipped to parts of views |
+//! | `line_density`, `hand_drawn` | thinning of dense lines; hand-drawn strokes |
+//! | `region_outline` | outlines of the area that faces cover, by winding numbers and snap rounding |
+//! | `line_clip` | drawings clipped to parts of a view |
 //! | `overlay`, `chart`, `panels` | teaching material: axes, labels, vanishing points, curves |
 //!
-//! A drawing lies exactly over a picture of the same scene. Results do not depend on the number of
+//! A drawing exactly matches a picture of the same scene. Results do not depend on the number of
 //! threads.
 
 mod chart;

@@ -1,4 +1,4 @@
-//! Clipping of line drawings to areas of the picture, and drawings put together from such parts.
+//! Clipping of line drawings to areas of the picture, and merging of such parts.
 //!
 //! ```text
 //!   ──────╱─────╲──────        ╱─────╲        lines are cut where they cross the border,
@@ -6,16 +6,16 @@
 //!   ──────╲─────╱──────        ╲─────╱
 //! ```
 //!
-//! Every line is cut at its crossings with the border, and each part is kept or removed by its
-//! middle: what one area keeps, its complement removes, and nothing is drawn twice. Depth is linear
+//! Each line is cut where it crosses the border, and each part is kept or removed by its midpoint.
+//! One area keeps exactly what its complement removes, so nothing is drawn twice. Depth is linear
 //! on the screen, so the depths of parts are interpolated.
 
 use super::Drawing;
 use glam::DVec2;
 use hidden_line::{EdgeSegment, Region, RegionEdge};
 
-/// The number of corners of a disc where it is a polygon: its sides leave the circle by 0.02 % of
-/// the radius.
+/// The number of corners of the polygon that represents a disc: its sides leave the circle by 0.02
+/// % of the radius.
 const DISC_CORNERS: u32 = 180;
 
 /// An area of the picture in pixels, y down.
@@ -28,9 +28,9 @@ pub enum ClipArea {
         /// The radius.
         radius: f64,
     },
-    /// A polygon whose border is seen whole from its center.
+    /// A polygon whose whole border is visible from its center.
     Star {
-        /// The point from which all of the border is seen.
+        /// The point from which the whole border is visible.
         center: DVec2,
         /// The corners in order.
         corners: Vec<DVec2>,
@@ -42,12 +42,12 @@ pub enum ClipArea {
 pub enum ClipSide {
     /// The part within the area.
     Inside,
-    /// The part beside it.
+    /// The part outside it.
     Outside,
 }
 
 impl ClipArea {
-    /// The half of the plane to the left of a line as seen with y up; large enough for any drawing.
+    /// Returns the half-plane to the left of a line, with y up; large enough for any drawing.
     pub fn half_plane(point: DVec2, along: DVec2) -> Self {
         const FAR: f64 = 1e6;
         let (along, left) = (along * FAR, DVec2::new(along.y, -along.x) * FAR);
@@ -56,7 +56,7 @@ impl ClipArea {
         Self::Star { center: point + left * 0.5, corners }
     }
 
-    /// The area as a polygon: its center and its corners.
+    /// Converts the area to a polygon: its center and corners.
     fn to_star(&self) -> (DVec2, Vec<DVec2>) {
         match self {
             Self::Star { center, corners } => (*center, corners.clone()),
@@ -77,7 +77,8 @@ impl ClipArea {
         }
     }
 
-    /// The fractions of a line at which it crosses the border, sorted, with 0 and 1 around them.
+    /// The fractions of a line at which it crosses the border, sorted, with 0 before and 1 after
+    /// them.
     fn crossings(&self, [a, b]: [DVec2; 2]) -> Vec<f64> {
         let mut cuts = vec![0.0, 1.0];
         let step = b - a;
@@ -111,7 +112,7 @@ impl ClipArea {
         cuts
     }
 
-    /// The parts of a line on one side of the border, as intervals of its fractions.
+    /// Returns the parts of a line on one side of the border, as intervals of fractions.
     pub fn intervals(&self, ends: [DVec2; 2], side: ClipSide) -> Vec<[f64; 2]> {
         let wanted = side == ClipSide::Inside;
         let mut kept: Vec<[f64; 2]> = Vec::new();
@@ -133,7 +134,7 @@ fn sides(corners: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> {
     corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| [*a, *b])
 }
 
-/// Points on a circle at equal distances.
+/// Returns equally spaced points on a circle.
 pub fn circle_points(center: DVec2, radius: f64, count: u32) -> Vec<DVec2> {
     let at = |k: u32| {
         let (sine, cosine) = libm::sincos(std::f64::consts::TAU * f64::from(k) / f64::from(count));
@@ -142,13 +143,13 @@ pub fn circle_points(center: DVec2, radius: f64, count: u32) -> Vec<DVec2> {
     (0..count).map(at).collect()
 }
 
-/// The point of a line at a fraction of its length; its ends are exact.
+/// Returns the point at a fraction of a line; its ends are exact.
 pub fn point_at([a, b]: [DVec2; 2], t: f64) -> DVec2 {
     if t == 1.0 { b } else { a.lerp(b, t) }
 }
 
 impl Drawing {
-    /// The part of the drawing inside or outside of an area. Regions outside are left out.
+    /// Returns the part of the drawing inside or outside an area. Regions are dropped outside.
     pub fn clipped(mut self, area: &ClipArea, side: ClipSide) -> Self {
         let segments = self.segments.iter().flat_map(|segment| {
             let parts = area.intervals(segment.ends, side).into_iter();
@@ -166,7 +167,7 @@ impl Drawing {
         self
     }
 
-    /// Makes the fill transparent where a pixel of the drawing is not kept.
+    /// Makes the fill transparent in drawing pixels that are not kept.
     fn mask_face_fill(&mut self, keeps: impl Fn(DVec2) -> bool) {
         let size = self.size;
         let Some(fill) = &mut self.face_fill else { return };
@@ -180,7 +181,7 @@ impl Drawing {
         }
     }
 
-    /// The drawing moved by a vector in pixels; its fill by whole pixels.
+    /// Returns the drawing moved by a vector in pixels; its fill moves by whole pixels.
     pub fn moved_by(mut self, by: DVec2) -> Self {
         self.segments.iter_mut().flat_map(|segment| &mut segment.ends).for_each(|end| *end += by);
         let edges = self.regions.iter_mut().flat_map(|region| &mut region.edges);
@@ -199,8 +200,8 @@ impl Drawing {
         self
     }
 
-    /// Adds the lines of another drawing of the same models and the same size, and its fill where
-    /// there is none.
+    /// Adds the lines of another drawing of the same models and size, and its fill if there is
+    /// none.
     pub fn merge(&mut self, other: Self) {
         let offset = self.segments.iter().map(|segment| segment.edge + 1).max().unwrap_or(0);
         let moved = |segment: EdgeSegment| EdgeSegment { edge: segment.edge + offset, ..segment };
@@ -224,10 +225,10 @@ impl Drawing {
     }
 }
 
-/// The part of a region in an area.
+/// Clips a region to an area.
 ///
-/// What is outside is drawn in along the rays to the center. That retraction leaves closed chains
-/// closed, so the winding numbers of the area are those of the region.
+/// Points outside are pulled in along the rays to the center. That retraction keeps closed chains
+/// closed, so inside the area the winding numbers are unchanged.
 fn clip_region(region: Region, area: &ClipArea) -> Region {
     let (center, corners) = area.to_star();
     let star = ClipArea::Star { center, corners };
@@ -245,7 +246,7 @@ fn clip_region(region: Region, area: &ClipArea) -> Region {
                 push(&mut edges, ends[0], ends[1]);
                 continue;
             }
-            // An end within the line lies on the border as it is.
+            // An end inside the line is on the border already.
             let drawn_in = |t: f64, end: DVec2| {
                 let is_crossing = t > 0.0 && t < 1.0 || star.contains(end);
                 if is_crossing { end } else { border_point(center, corners, end) }
@@ -274,7 +275,7 @@ fn border_point(center: DVec2, corners: &[DVec2], point: DVec2) -> DVec2 {
     if t > 0.0 { center + ray * t } else { point }
 }
 
-/// The corners of a polygon that the ray from its center meets on the way from one end of a line to
+/// The corners of a polygon that a ray from its center meets as it sweeps from one end of a line to
 /// the other.
 fn corners_between(center: DVec2, corners: &[DVec2], ends: [DVec2; 2]) -> Vec<DVec2> {
     let [from, to] = ends.map(|end| end - center);
@@ -310,7 +311,7 @@ mod tests {
     #[test]
     fn lines_are_cut_at_the_circle() {
         let area = ClipArea::Disc { center: DVec2::splat(50.0), radius: 5.0 };
-        // A chord at a distance of 3 from the center is 2 · 4 long.
+        // A chord at distance 3 from the center is 2 · 4 long.
         let ends = [DVec2::new(0.0, 53.0), DVec2::new(100.0, 53.0)];
         let inside = drawing(ends).clipped(&area, ClipSide::Inside);
         let [part] = inside.segments.as_slice() else { panic!("{:?}", inside.segments) };
@@ -319,7 +320,7 @@ mod tests {
         assert!((part.depths[0] - 0.46).abs() < 1e-12 && (part.depths[1] - 0.54).abs() < 1e-12);
         let outside = drawing(ends).clipped(&area, ClipSide::Outside).segments;
         assert_eq!((outside.len(), outside[0].ends[1]), (2, part.ends[0]));
-        // A tangent and a line beside the circle are outside.
+        // A tangent, and a line that misses the circle, are outside.
         for y in [55.0, 60.0] {
             let ends = [DVec2::new(0.0, y), DVec2::new(100.0, y)];
             assert_eq!(drawing(ends).clipped(&area, ClipSide::Inside).segments, []);
@@ -364,7 +365,7 @@ mod tests {
         }
     }
 
-    /// The area around which the edges of a region wind, by the shoelace formula.
+    /// The area enclosed by the edges of a region, by the shoelace formula.
     fn area_of(region: &Region) -> f64 {
         let part =
             |edge: &RegionEdge| 0.5 * f64::from(edge.winding) * edge.ends[0].perp_dot(edge.ends[1]);
@@ -378,7 +379,7 @@ mod tests {
         let region = Region { object: None, edges, hatching: None };
         let half = ClipArea::half_plane(DVec2::new(40.0, 0.0), DVec2::Y);
         assert!((area_of(&clip_region(region.clone(), &half)) - 60.0 * 60.0).abs() < 1e-6);
-        // Within the region, across its border, around it and beside it.
+        // Inside the region, across its border, around it and outside it.
         let disc = |x: f64, radius: f64| ClipArea::Disc { center: DVec2::new(x, 30.0), radius };
         let circle = |radius: f64| std::f64::consts::PI * radius * radius;
         for (area, expected) in [

@@ -1,5 +1,4 @@
-//! Line density: dense lines are drawn thinner and paler, so that many of them do not become one
-//! blot.
+//! Line density: dense lines are drawn thinner and paler, so that they do not merge into a blot.
 //!
 //! ```text
 //!   coverage   area of the ink / area of the page, where lines are
@@ -8,8 +7,8 @@
 //!        0 ┤    ╱
 //! ```
 //!
-//! The measure is one number for all lines that are thinned together, and so has no borders in the
-//! drawing: the mean coverage that a point of a line finds around it.
+//! The measure is a single number for all lines that are thinned together, so it leaves no borders
+//! in the drawing: the mean coverage around the points of a line.
 
 use crate::Drawing;
 use glam::DVec2;
@@ -17,30 +16,30 @@ use hidden_line::EdgeSegment;
 
 /// The side of the squares in which coverage is measured, in pixels.
 const CELL_SIDE: f64 = 16.0;
-/// The coverage up to which lines are drawn as they are.
+/// The coverage up to which lines are drawn unchanged.
 const MAX_COVERAGE: f64 = 0.6;
-/// The least part of its width that a line keeps; from there on it becomes paler.
+/// The minimum fraction of its width that a line keeps; beyond that it becomes paler.
 const MIN_WIDTH_FACTOR: f64 = 0.4;
-/// The least part of its contrast that a line keeps.
+/// The minimum fraction of its contrast that a line keeps.
 const MIN_CONTRAST: f64 = 0.4;
 
-/// How much dense lines are thinned.
+/// The thinning of dense lines.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Thinning {
-    /// The factor of the width.
+    /// The factor for the width.
     pub(crate) width: f64,
-    /// The factor of the contrast with the paper.
+    /// The factor for the contrast with the paper.
     pub(crate) contrast: f64,
 }
 
 impl Thinning {
-    /// Lines as they are.
+    /// No thinning.
     pub(crate) const NONE: Self = Self { width: 1.0, contrast: 1.0 };
 
-    /// The thinning of the selected segments of a drawing, drawn with this width in pixels.
+    /// Computes the thinning of the selected segments of a drawing, drawn with this width in
+    /// pixels.
     ///
-    /// With `keeps_width` lines only become paler, for drawings whose widths are those of a
-    /// standard.
+    /// With `keeps_width` lines only become paler, for drawings whose widths follow a standard.
     pub(crate) fn for_lines(
         drawing: &Drawing,
         width: f64,
@@ -53,13 +52,12 @@ impl Thinning {
         }
         let factor = MAX_COVERAGE / coverage;
         let width = if keeps_width { 1.0 } else { factor.max(MIN_WIDTH_FACTOR) };
-        // The root: lines over each other add up to less than their sum.
+        // The root, because overlapping lines add up to less than their sum.
         Self { width, contrast: (factor / width).sqrt().clamp(MIN_CONTRAST, 1.0) }
     }
 }
 
-/// The mean coverage around the points of the selected segments: more than 1 where lines lie over
-/// each other.
+/// The mean coverage around the points of the selected segments; more than 1 where lines overlap.
 fn mean_coverage(drawing: &Drawing, width: f64, selects: impl Fn(&EdgeSegment) -> bool) -> f64 {
     let [columns, rows] =
         [drawing.size.x, drawing.size.y].map(|side| (side / CELL_SIDE).ceil().max(1.0));
@@ -67,7 +65,7 @@ fn mean_coverage(drawing: &Drawing, width: f64, selects: impl Fn(&EdgeSegment) -
     for segment in drawing.segments.iter().filter(|segment| selects(segment)) {
         let [from, to] = segment.ends;
         let length = from.distance(to);
-        // Steps of at most half a cell; each counts where its middle is.
+        // Steps of at most half a cell; each counts at its midpoint.
         let steps = (2.0 * length / CELL_SIDE).ceil().max(1.0);
         for step in 0..steps as usize {
             let middle = from.lerp(to, (step as f64 + 0.5) / steps);
@@ -86,7 +84,7 @@ mod tests {
     use super::*;
     use hidden_line::EdgeClass;
 
-    /// A drawing of 160 × 160 pixels with so many horizontal lines from side to side.
+    /// A drawing of 160 × 160 pixels with `count` horizontal lines from side to side.
     fn drawing_of_lines(count: usize) -> Drawing {
         let segment = |line: usize| EdgeSegment {
             ends: [0.0, 160.0].map(|x| DVec2::new(x, 160.0 * (line as f64 + 0.5) / count as f64)),

@@ -7,7 +7,7 @@ use page::{Cap, Ink, IsoLineGroup, Join, MILLIMETERS_PER_PIXEL};
 
 /// The appearance of a line drawing.
 ///
-/// Constants are complete styles; change one with the update syntax:
+/// Constants are complete styles; modify one with the update syntax:
 ///
 /// ```
 /// use drawing::{HiddenLines, LineStyle, LineWidths};
@@ -31,15 +31,15 @@ pub struct LineStyle {
     /// Two faces that meet at more than this angle, in radians, but at no crease, have a tangent
     /// edge between them; `None` if only a change of material makes one.
     pub tangent_angle: Option<f64>,
-    /// Whether there is no crease where the vertex normals of the file agree on both sides.
+    /// Whether an edge is smooth if the vertex normals in the file agree on both sides.
     pub asks_normals: bool,
-    /// How silhouettes of smooth surfaces are found.
+    /// The method for silhouettes of smooth surfaces.
     pub silhouettes: SilhouetteMethod,
-    /// The part of its contrast that the farthest line loses: 0 for none, 1 for all.
+    /// The fraction of its contrast that the farthest line loses: 0 for none, 1 for all.
     pub depth_cue: f64,
     /// The widths of the lines.
     pub line_widths: LineWidths,
-    /// The color of the lines; `None` for one that contrasts with the paper.
+    /// The color of the lines; `None` for a color that contrasts with the paper.
     pub ink: Option<Ink>,
     /// The color of the paper of sheets; `None` for white.
     pub paper: Option<Ink>,
@@ -47,12 +47,12 @@ pub struct LineStyle {
     pub cap: Cap,
     /// The corners of lines.
     pub join: Join,
-    /// The distance between hatch lines in millimeters.
+    /// The distance between hatch lines, in millimeters.
     pub hatch_spacing: f64,
     /// The fill of faces under the lines.
     pub face_fill: FaceFill,
-    /// How far strokes waver about their true place, in millimeters, as if drawn by hand; 0 for
-    /// exact lines.
+    /// The amplitude with which strokes waver, as if drawn by hand, in millimeters; 0 for exact
+    /// lines.
     pub hand_drawn: f64,
 }
 
@@ -64,27 +64,27 @@ pub enum EdgeSelection {
     /// Silhouettes, boundaries, creases, intersections, section outlines, marked edges, and
     /// tangent edges, where two materials meet smoothly.
     Features,
-    /// As `Features`, with tangent edges as narrow lines.
+    /// Like `Features`, with tangent edges as narrow lines.
     Tangents,
-    /// Silhouettes and boundaries only, also where they run before other surfaces.
+    /// Only silhouettes and boundaries, including those in front of other surfaces.
     Contours,
-    /// The outline alone: edges beside which there is nothing.
+    /// Only the outline: edges with nothing beside them.
     Silhouette,
-    /// Closed loops around the whole and its holes; with section planes, around what they cut.
+    /// Closed loops around the whole and its holes; with section planes, around the cuts.
     Outline,
 }
 
 /// The treatment of hidden lines.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum HiddenLines {
-    /// They are not drawn.
+    /// Not drawn.
     Removed,
-    /// They are dashed.
+    /// Dashed.
     Dashed,
-    /// They are dashed where at most two faces are in front of them, the two sides of one wall;
-    /// those farther behind are not drawn.
+    /// Dashed if at most two faces are in front of them, the two sides of one wall; lines farther
+    /// behind are not drawn.
     FirstLayer,
-    /// They are drawn like visible ones, as if the bodies were of glass.
+    /// Drawn like visible lines, as if the bodies were made of glass.
     Drawn,
 }
 
@@ -95,33 +95,32 @@ pub enum FaceFill {
     None,
     /// An image in which each face has one color, shaded by a fixed key light.
     Flat,
-    /// Hatch lines on the faces, the denser the darker a face is.
+    /// Hatch lines on the faces, denser on darker faces.
     Hatching,
-    /// Hatch lines on the faces that the key light leaves dark, whatever the colors of the
-    /// materials.
+    /// Hatch lines on the faces that the key light leaves dark, independent of the material colors.
     ShadeHatching,
-    /// Areas of one gray for each brightness of the materials, whatever the light: tints of the ink.
+    /// Areas in one gray for each material brightness, independent of the light: tints of the ink.
     /// Section cuts stay blank.
     Gray,
-    /// Hatch lines on all faces of an object, at an angle and a spacing that its neighbors do not
-    /// have. Where section planes cut, only their cuts are hatched.
+    /// Hatch lines on all faces of an object, at an angle and a spacing different from its
+    /// neighbors. Where section planes cut, only the cuts are hatched.
     PartHatching,
 }
 
 /// The widths of lines.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum LineWidths {
-    /// One width for all, in pixels of 1/96 inch.
+    /// One width for all lines, in pixels of 1/96 inch.
     Pixels(f64),
-    /// One width for all, in millimeters.
+    /// One width for all lines, in millimeters.
     Millimeters(f64),
     /// A wide and a narrow width, as in technical drawings.
     Iso(IsoLineGroup),
 }
 
 impl LineWidths {
-    /// The widths in a picture that is smaller by a factor, so that it looks as the larger one seen
-    /// from farther away; no line is thinner than half a pixel.
+    /// Returns the widths for a picture that is smaller by a factor, so that it looks like the
+    /// larger one seen from farther away; no line is thinner than half a pixel.
     ///
     /// ```
     /// use drawing::LineWidths;
@@ -141,7 +140,7 @@ impl LineWidths {
 }
 
 impl LineStyle {
-    /// Features with hidden lines removed, 1.25 pixels wide.
+    /// Feature edges with hidden lines removed, 1.25 pixels wide.
     pub const HIDDEN_REMOVED: Self = Self {
         edges: EdgeSelection::Features,
         hidden_lines: HiddenLines::Removed,
@@ -159,10 +158,10 @@ impl LineStyle {
         face_fill: FaceFill::None,
         hand_drawn: 0.0,
     };
-    /// Features with hidden lines dashed.
+    /// Feature edges with hidden lines dashed.
     pub const HIDDEN_DASHED: Self =
         Self { hidden_lines: HiddenLines::Dashed, ..Self::HIDDEN_REMOVED };
-    /// The sides of all triangles, none hidden.
+    /// The sides of all triangles, with none hidden.
     pub const WIREFRAME: Self = Self {
         edges: EdgeSelection::Facets,
         hidden_lines: HiddenLines::Drawn,
@@ -170,11 +169,11 @@ impl LineStyle {
     };
     /// A wireframe whose lines fade with depth.
     pub const DEPTH_CUED: Self = Self { depth_cue: 0.8, ..Self::WIREFRAME };
-    /// Silhouettes and boundaries, also where they run before other surfaces.
+    /// Silhouettes and boundaries, including those in front of other surfaces.
     pub const CONTOURS: Self = Self { edges: EdgeSelection::Contours, ..Self::HIDDEN_REMOVED };
-    /// The outline alone.
+    /// Only the outline.
     pub const SILHOUETTE: Self = Self { edges: EdgeSelection::Silhouette, ..Self::HIDDEN_REMOVED };
-    /// The outline of the whole alone, as closed loops.
+    /// Only the outline of the whole, as closed loops.
     pub const OUTLINE: Self = Self { edges: EdgeSelection::Outline, ..Self::HIDDEN_REMOVED };
     /// Visible, hidden and tangent edges with the line types and widths of ISO 128.
     pub const TECHNICAL: Self = Self {
@@ -183,7 +182,7 @@ impl LineStyle {
         line_widths: LineWidths::Iso(IsoLineGroup::MM_0_5),
         ..Self::HIDDEN_REMOVED
     };
-    /// Black lines without hidden ones, and faces in shade hatched by thin lines, as in patents.
+    /// Black lines without hidden ones, and shaded faces hatched with thin lines, as in patents.
     pub const PATENT: Self = Self {
         line_widths: LineWidths::Iso(IsoLineGroup::MM_0_35),
         ink: Some(BLACK),
@@ -194,7 +193,7 @@ impl LineStyle {
     /// White lines on blue paper, with the line types and widths of ISO 128.
     pub const BLUEPRINT: Self =
         Self { ink: Some(WHITE), paper: Some(BLUEPRINT_BLUE), ..Self::TECHNICAL };
-    /// Lines without hidden ones as drawn by hand, with a pencil.
+    /// Hand-drawn pencil lines without hidden ones.
     pub const SKETCH: Self = Self {
         line_widths: LineWidths::Millimeters(0.3),
         ink: Some(GRAPHITE),
@@ -204,9 +203,10 @@ impl LineStyle {
 }
 
 impl LineStyle {
-    /// The options with which a drawing for this style is made.
+    /// Returns the options for making a drawing in this style.
     ///
-    /// Hatch spacing is converted to pixels of 1/96 inch; a drawing at another scale sets it anew.
+    /// Hatch spacing is converted to pixels of 1/96 inch; a drawing at another scale must set it
+    /// again.
     #[must_use]
     pub fn to_draw_options(&self) -> DrawOptions {
         DrawOptions {
@@ -236,7 +236,7 @@ impl LineStyle {
         }
     }
 
-    /// The fill of a drawing for this style.
+    /// Returns the fill of a drawing in this style.
     #[must_use]
     pub fn to_fill_options(&self) -> FillOptions {
         FillOptions::new(self.face_fill)
@@ -244,7 +244,7 @@ impl LineStyle {
 }
 
 impl LineWidths {
-    /// The widths of wide and of narrow lines in millimeters.
+    /// Returns the wide and narrow line widths in millimeters.
     #[must_use]
     pub fn wide_and_narrow(self) -> [f64; 2] {
         match self {

@@ -1,4 +1,4 @@
-//! Overlap removal: of collinear segments that cover each other, only the most important is drawn.
+//! Overlap removal: of overlapping collinear segments, only the most important is drawn.
 //!
 //! ```text
 //!   visible  ├────────┤                     ├────────┤
@@ -6,12 +6,12 @@
 //!   hidden                ├───────┤                       ├──┤   merged with the one before
 //! ```
 //!
-//! In a front view the edges of the back run exactly behind those of the front. Drawn twice they
-//! would be darker, and their dashes would fill each other's gaps. Precedence is that of technical
-//! drawing: visible lines before hidden ones (ISO 128-2). Adjacent segments of one object and layer
-//! are merged.
+//! In a front view, the back edges are exactly behind the front edges. Drawn twice, they would be
+//! darker, and their dashes would fill each other's gaps. Precedence follows technical drawing:
+//! visible lines before hidden ones (ISO 128-2). Adjacent segments of one object and layer are
+//! merged.
 //!
-//! Segments are grouped by their supporting line, rounded to a grid; the cost is that of sorting,
+//! Segments are grouped by their supporting line, rounded to a grid; sorting dominates the cost,
 //! O(n log n).
 
 use glam::DVec2;
@@ -27,17 +27,18 @@ pub(super) struct PageSegment {
     pub(super) object: u32,
 }
 
-/// Segments nearer than this, in millimeters, coincide: one step of the page's grid.
+/// Segments closer than this, in millimeters, coincide: one step of the page's grid.
 const GRID_STEP: f64 = 1e-3;
 
-/// Slopes that differ by less coincide: over the longest sheet, 1.2 m, the difference is less than
-/// a grid step.
+/// Slopes that differ by less than this coincide: over the longest sheet, 1.2 m, the difference is
+/// less than a grid step.
 const SLOPE_STEP: f64 = 0.5e-6;
 
-/// A shorter segment, in millimeters, is left as it is: its direction is too uncertain.
+/// The length, in millimeters, below which a segment is left unchanged: its direction is too
+/// uncertain.
 const MIN_LENGTH: f64 = 0.02;
 
-/// A segment on its supporting line: from `from` to `to` along the dominant axis.
+/// A segment on its supporting line, from `from` to `to` along the dominant axis.
 #[derive(Clone, Copy, Debug)]
 struct LineInterval {
     layer: u32,
@@ -49,12 +50,11 @@ struct LineInterval {
     to: f64,
 }
 
-/// A supporting line rounded to a grid, so that collinear segments share it: steepness, slope,
-/// intercept.
+/// A supporting line rounded to a grid, shared by collinear segments: steepness, slope, intercept.
 type SupportLine = (bool, i64, i64);
 
-/// Removes what more important segments cover, and merges adjacent segments; the result is in the
-/// order of the input.
+/// Removes the parts covered by more important segments, and merges adjacent segments; the result
+/// keeps the order of the input.
 pub(super) fn remove_overlaps(segments: &[PageSegment]) -> Vec<PageSegment> {
     let center = bounds_center(segments);
     let mut retained: Vec<(usize, PageSegment)> = Vec::with_capacity(segments.len());
@@ -85,7 +85,7 @@ pub(super) fn remove_overlaps(segments: &[PageSegment]) -> Vec<PageSegment> {
     retained.into_iter().map(|(_, segment)| segment).collect()
 }
 
-/// The center of all segments, about which rounding of slopes matters least.
+/// The center of all segments, where the rounding of slopes matters least.
 fn bounds_center(segments: &[PageSegment]) -> DVec2 {
     let bounds = |f: fn(DVec2, DVec2) -> DVec2, start: f64| {
         segments.iter().flat_map(|segment| segment.ends).fold(DVec2::splat(start), f)
@@ -95,13 +95,13 @@ fn bounds_center(segments: &[PageSegment]) -> DVec2 {
     if middle.is_finite() { middle } else { DVec2::ZERO }
 }
 
-/// The supporting line of a segment, and its interval on it; `None` for segments without a clear
-/// direction.
+/// Returns the supporting line of a segment and its interval on that line; `None` for segments
+/// without a clear direction.
 ///
 /// Lines are written y = slope · x + height, or with x and y swapped if they are steep, so that
-/// slopes stay within ±1. Slope and height are rounded to a grid: collinear segments from different
-/// computations then share a key. Two collinear segments whose values fall on both sides of a
-/// rounding border are missed, and both are drawn, which does no harm.
+/// slopes stay within ±1. Slope and height are rounded to a grid, so collinear segments from
+/// different computations share a key. Two collinear segments whose values are on either side of a
+/// rounding border are missed. Both are then drawn, which does no harm.
 fn support_line(
     segment: &PageSegment,
     center: DVec2,
@@ -127,8 +127,8 @@ fn support_line(
 
 /// Pushes the parts of one line's intervals that no more important interval covers.
 ///
-/// Intervals come sorted by importance and then along the line. All of one importance are merged
-/// and compared with those before, then they cover in turn.
+/// Intervals are sorted by importance, then along the line. Those of equal importance are merged
+/// and compared with earlier ones, and then cover later ones.
 fn push_uncovered_segments(
     line: &[(SupportLine, LineInterval)],
     retained: &mut Vec<(usize, PageSegment)>,
@@ -141,23 +141,23 @@ fn push_uncovered_segments(
     }
 }
 
-/// The covered parts of a line by their starts; no two touch.
+/// The covered parts of a line, by their starts; no two touch.
 #[derive(Default)]
 struct CoveredIntervals(BTreeMap<i64, LineInterval>);
 
-/// An integer that is ordered as the number is (IEEE 754 total order), so that it can be a key of a
-/// map.
+/// Maps a number to an integer with the same order (IEEE 754 total order), for use as a map key.
 ///
-/// Negative numbers have descending bit patterns; flipping all bits but the sign makes them ascend.
+/// Negative numbers have descending bit patterns; flipping all bits except the sign makes them
+/// ascend.
 fn total_order_key(number: f64) -> i64 {
     let bits = number.to_bits() as i64;
     bits ^ (((bits >> 63) as u64) >> 1) as i64
 }
 
 impl CoveredIntervals {
-    /// Adds an interval, merged with those it touches.
+    /// Adds an interval, merged with any that it touches.
     ///
-    /// Merging takes intervals out of the map for good, so the total time is O(n log n).
+    /// Merging removes intervals from the map for good, so the total time is O(n log n).
     fn cover_interval(&mut self, mut interval: LineInterval) {
         while let Some((&at, last)) =
             self.0.range(..=total_order_key(interval.to + GRID_STEP)).next_back()
@@ -176,7 +176,7 @@ impl CoveredIntervals {
         self.0.insert(total_order_key(interval.from), interval);
     }
 
-    /// Pushes the parts of an interval that are not covered and longer than two grid steps.
+    /// Pushes the uncovered parts of an interval that are longer than two grid steps.
     ///
     /// ```text
     ///   covered       ├────┤     ├──┤
@@ -185,7 +185,7 @@ impl CoveredIntervals {
     /// ```
     ///
     /// A part begins exactly at the end point of the interval that covers its neighbor, so lines
-    /// meet without a gap.
+    /// meet without gaps.
     fn push_uncovered_parts(
         &self,
         interval: &LineInterval,
@@ -208,7 +208,7 @@ impl CoveredIntervals {
     }
 }
 
-/// Merges intervals that touch; they come in order of their starts.
+/// Merges intervals that touch, given in order of their starts.
 fn merge_touching(intervals: impl Iterator<Item = LineInterval>) -> Vec<LineInterval> {
     let mut joined: Vec<LineInterval> = Vec::new();
     for interval in intervals {
@@ -246,7 +246,7 @@ mod tests {
     fn visible_segments_cover_hidden_ones() {
         let rest = remaining_on_line(&[(1, 0, 4.0, 9.0), (0, 0, 0.0, 5.0), (1, 1, 8.0, 12.0)]);
         assert_eq!(rest, [(1, 0, 5.0, 9.0), (0, 0, 0.0, 5.0), (1, 1, 9.0, 12.0)]);
-        // From both sides, and from the middle; backwards too.
+        // From both sides and from the middle, and backward too.
         let rest = remaining_on_line(&[
             (2, 0, 10.0, 0.0),
             (1, 0, 4.0, 5.0),
@@ -265,7 +265,7 @@ mod tests {
             [(0, 0, 0.0, 3.0)]
         );
         assert_eq!(remaining_on_line(&[(0, 0, 0.0, 1.0), (0, 0, 1.0, 0.0)]), [(0, 0, 0.0, 1.0)]);
-        // Other objects keep their own lines, and layers too.
+        // Other objects keep their own lines, and so do other layers.
         let apart = [(0, 0, 0.0, 1.0), (0, 1, 1.0, 2.0), (1, 1, 2.0, 3.0)];
         assert_eq!(remaining_on_line(&apart), apart);
     }
@@ -277,7 +277,7 @@ mod tests {
         let many: Vec<PageSegment> =
             (0..count).map(|k| segment(0, count - k, [at(k), 0.0, at(k) + 0.5, 0.0])).collect();
         let rest = remove_overlaps(&many);
-        // Objects are in falling order: each one takes precedence over the one before it.
+        // Objects are in descending order: each one takes precedence over the previous one.
         assert_eq!(rest.len(), many.len());
         let length: f64 =
             rest.iter().map(|segment| (segment.ends[1] - segment.ends[0]).length()).sum();

@@ -8,9 +8,9 @@
 //!                     │           │                camera
 //! ```
 //!
-//! Axes, grid and view volume stand in the world, and the models hide them; horizon and vanishing
-//! points are drawn on the picture plane. What is behind the eye is clipped before the divide; the
-//! near and the far plane do not clip.
+//! Axes, grid and view volume are part of the world, and the models hide them. The horizon and the
+//! vanishing points are drawn on the picture plane. Anything behind the eye is clipped before the
+//! divide; the near and far planes do not clip.
 
 mod perspective;
 mod point_label;
@@ -31,13 +31,12 @@ use page::{
     Cap, Group, Ink, Label, Layer, LineType, MILLIMETERS_PER_PIXEL, Pen, Polyline, TextAlign,
 };
 
-/// Something drawn over a picture to explain it.
+/// A drawing over a picture that explains it.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Overlay {
-    /// The axes of the world from its origin, of this length; `None` for a length relative to the
-    /// models.
+    /// The world axes from the origin, of this length; `None` for a length relative to the models.
     Axes(Option<f64>),
-    /// A grid on the ground, y = 0, with this spacing; `None` for a round one relative to the
+    /// A grid on the ground, y = 0, with this spacing; `None` for a round value relative to the
     /// models.
     Grid(Option<f64>),
     /// The vanishing line of horizontal planes.
@@ -52,19 +51,19 @@ pub enum Overlay {
     Label(PointLabel),
 }
 
-/// The axes of the world, their names and their colors.
+/// The world axes, with names and colors.
 pub const AXES: [(Vector<World>, &str, Ink); 3] =
     [(Vector::X, "x", RED), (Vector::Y, "y", GREEN), (Vector::Z, "z", BLUE)];
 
-/// The width of lines, the height of letters, the length of arrowheads, in millimeters.
+/// The line width, the character height and the arrowhead length, in millimeters.
 const LINE_WIDTH: f64 = 0.25;
 const LETTER_HEIGHT: f64 = 3.0;
 const ARROW_LENGTH: f64 = 2.4;
 
-/// The most lines of a grid in each direction.
+/// The maximum number of grid lines in each direction.
 const MAX_GRID_LINES: f64 = 200.0;
 
-/// The layers of all overlays, on a page of the picture's size.
+/// Returns the layers of all overlays, for a page of the picture's size.
 #[must_use]
 pub fn overlay_layers(
     subject: &Subject<'_>,
@@ -93,18 +92,18 @@ pub fn overlay_layers(
     layers.filter(|layer| layer.groups.iter().any(|group| !group.strokes.is_empty())).collect()
 }
 
-/// The picture plane: projects points, directions and lines of the world to the page.
+/// The picture plane: projects world points, directions and lines to the page.
 struct PicturePlane {
     world_to_clip: Projective<World, Clip>,
     /// Half the width and height of the page in millimeters.
     half: DVec2,
     /// The bounding box of the models.
     bounds: Bounds<World>,
-    /// The faces that hide overlays; `None` if none do.
+    /// The faces that hide overlays, if any.
     occluders: Option<Occluders>,
 }
 
-/// The visible and the hidden parts of lines, on the page.
+/// The visible and hidden parts of lines, on the page.
 #[derive(Default)]
 struct DividedStrokes {
     visible: Vec<Polyline>,
@@ -116,7 +115,7 @@ struct DividedStrokes {
 const DEPTH_RANGE_FACTOR: f64 = 1000.0;
 
 impl PicturePlane {
-    /// `None` if there are no models to draw over.
+    /// Returns `None` if there are no models.
     fn new(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Self> {
         let bounds = Bounds::from_points(model::world_points(subject.models))?;
         let size = DVec2::from(subject.size.map(f64::from));
@@ -128,23 +127,23 @@ impl PicturePlane {
         })
     }
 
-    /// The image of a point: x, y and w of its clip coordinates.
+    /// Projects a point: x, y and w of its clip coordinates.
     fn project_point(&self, point: Point<World>) -> DVec3 {
         drop_depth(self.world_to_clip.transform_point(point).raw())
     }
 
-    /// The image of a direction, a vanishing point with w ≥ 0.
+    /// Projects a direction to a vanishing point with w ≥ 0.
     fn project_direction(&self, direction: Vector<World>) -> DVec3 {
         let image = drop_depth(self.world_to_clip.transform_direction(direction).raw());
         if image.z < 0.0 { -image } else { image }
     }
 
-    /// From normalized device coordinates to millimeters of the page.
+    /// Converts normalized device coordinates to page millimeters.
     fn ndc_to_page(&self, ndc: DVec2) -> DVec2 {
         self.half + DVec2::new(ndc.x, -ndc.y) * self.half
     }
 
-    /// Clips a homogeneous segment to the picture, divides, and maps it to the page.
+    /// Clips a homogeneous segment to the picture, divides, and maps the result to the page.
     ///
     /// The four planes w ± x ≥ 0, w ± y ≥ 0 imply w ≥ 0, so nothing behind the eye is divided
     /// (Liang–Barsky in homogeneous coordinates).
@@ -168,10 +167,10 @@ impl PicturePlane {
         if from < to { Some([at(from)?, at(to)?]) } else { None }
     }
 
-    /// Divides a line of the world into visible and hidden strokes.
+    /// Divides a world line into visible and hidden strokes.
     ///
-    /// Without occluders the whole line is visible. The parts come as fractions of the line in the
-    /// world, and each is clipped to the picture and projected by itself.
+    /// Without occluders the whole line is visible. Parts are fractions of the line in the world;
+    /// each one is clipped to the picture and projected separately.
     fn divide_line(&self, from: Point<World>, to: Point<World>, strokes: &mut DividedStrokes) {
         let stroke = |[a, b]: [f64; 2]| {
             let [a, b] = [a, b].map(|t| self.project_point(from.lerp(to, t)));
@@ -185,13 +184,13 @@ impl PicturePlane {
         strokes.hidden.extend(parts.hidden.into_iter().filter_map(stroke));
     }
 
-    /// The position of a homogeneous point on the page, if it is within the picture.
+    /// Returns the position of a homogeneous point on the page, if it is inside the picture.
     fn point_in_picture(&self, image: DVec3) -> Option<DVec2> {
         let inside = image.z > 0.0 && image.x.abs() <= image.z && image.y.abs() <= image.z;
         inside.then(|| self.ndc_to_page(image.truncate() / image.z))
     }
 
-    /// The three axes of the world.
+    /// The layers of the three world axes.
     fn axes_layers(&self, length: Option<f64>) -> Vec<Layer> {
         let diagonal = self.bounds.diagonal();
         let length = length.unwrap_or(if diagonal > 0.0 { 0.6 * diagonal } else { 1.0 });
@@ -200,7 +199,7 @@ impl PicturePlane {
             .collect()
     }
 
-    /// One axis: its visible and its hidden part, and its arrowhead with its name.
+    /// The layers of one axis: its visible and hidden parts, and its arrowhead and name.
     fn axis_layers(&self, direction: Vector<World>, name: &str, ink: Ink) -> [Layer; 3] {
         let tip = Point::ORIGIN + direction;
         let [visible, hidden] =
@@ -221,7 +220,8 @@ impl PicturePlane {
         [visible, hidden, head]
     }
 
-    /// Lines of the world as a layer of their visible parts, and one of their hidden parts, dashed.
+    /// The layers of world lines: one of their visible parts, and a dashed one of their hidden
+    /// parts.
     fn line_layers(&self, name: &str, ink: Ink, lines: &[[Point<World>; 2]]) -> [Layer; 2] {
         let mut strokes = DividedStrokes::default();
         lines.iter().for_each(|[from, to]| self.divide_line(*from, *to, &mut strokes));
@@ -234,10 +234,10 @@ impl PicturePlane {
         [visible, hidden]
     }
 
-    /// The ground grid under the models, one cell larger than their bounding box on each side.
+    /// The ground grid under the models, extending one cell beyond their bounding box on each side.
     ///
-    /// Lines are at multiples of the step, so grids of different scenes coincide. A given step is
-    /// raised where it would give more than [`MAX_GRID_LINES`] lines.
+    /// Lines are at multiples of the step, so the grids of different scenes coincide. A given step
+    /// is raised if it would give more than [`MAX_GRID_LINES`] lines.
     fn grid_layers(&self, step: Option<f64>) -> Vec<Layer> {
         let (min, max) = (self.bounds.min(), self.bounds.max());
         let size = (max.x() - min.x()).max(max.z() - min.z()).max(self.bounds.diagonal() * 0.1);
@@ -263,14 +263,14 @@ impl PicturePlane {
 /// The faces of the models as occluders, unless the style draws hidden lines like visible ones.
 ///
 /// The third row of the projection is divided by [`DEPTH_RANGE_FACTOR`], which flattens depths
-/// without changing their order: points far before and behind the models stay within the view
-/// volume.
+/// without changing their order. Points far in front of or behind the models then stay within the
+/// view volume.
 fn model_occluders(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Occluders> {
     if hidden == HiddenLines::Drawn {
         return None;
     }
     let viewport = subject.viewport().ok()?;
-    // Only the order of depths counts, so the range may be extended to hold the overlays.
+    // Only the order of depths matters, so the range may be extended to include the overlays.
     let deep = DMat4::from_diagonal(DVec4::new(1.0, 1.0, 1.0 / DEPTH_RANGE_FACTOR, 1.0));
     let view_to_clip = Projective::from_raw(deep * subject.view_projection.view_to_clip.raw());
     let projector =
@@ -289,14 +289,14 @@ fn overlay_layer(id: &str, title: &str, ink: Ink) -> Layer {
     Layer::new(id, title, Pen { cap: Cap::Butt, ..Pen::solid(LINE_WIDTH, ink) })
 }
 
-/// An arrowhead with this tip, at the end of a line in direction `along`.
+/// An arrowhead with this tip, at the end of a line in the direction `along`.
 fn arrowhead(tip: DVec2, along: DVec2) -> Option<Polyline> {
     let across = DVec2::new(-along.y, along.x) * (ARROW_LENGTH / 6.0);
     let base = tip - along * ARROW_LENGTH;
     Polyline::through_points(&[tip, base + across, base - across], true)
 }
 
-/// The greatest length of the form 1, 2 or 5 · 10ⁿ that is not above `most`; 1 if that is not
+/// The largest length of the form 1, 2 or 5 · 10ⁿ that is at most `most`; 1 if `most` is not
 /// positive.
 fn round_grid_step(most: f64) -> f64 {
     if !(most > 0.0 && most.is_finite()) {

@@ -18,22 +18,22 @@ use page::{Group, Label, Layer, Pen, Polyline};
 
 /// The margin around all panels, in millimeters.
 const MARGIN: f64 = 8.0;
-/// The gap between two panels, in millimeters.
+/// The gap between panels, in millimeters.
 const PANEL_GAP: f64 = 7.0;
 
-/// The height of letters of the page's title, in millimeters.
+/// The height of the page's title, in millimeters.
 const HEADING_HEIGHT: f64 = 4.5;
-/// The height of letters of a panel's title, in millimeters.
+/// The height of a panel's title, in millimeters.
 const TITLE_HEIGHT: f64 = 3.0;
-/// The height of letters of a panel's notes, in millimeters.
+/// The height of a panel's notes, in millimeters.
 const NOTE_HEIGHT: f64 = 2.0;
-/// The distance of baselines, in heights of letters.
+/// The distance between baselines, in character heights.
 const LEADING: f64 = 1.75;
 
 /// A drawing with a caption.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Panel {
-    /// An identifier: lower case, hyphens, unique among its neighbors.
+    /// An identifier, unique among the panels: lower case, hyphens.
     pub id: String,
     /// The title of the caption.
     pub title: String,
@@ -43,7 +43,7 @@ pub struct Panel {
     pub page: Page,
 }
 
-/// Drawings side by side.
+/// A page of drawings side by side.
 ///
 /// ```
 /// use drawing::{Page, Panel, Panels};
@@ -72,19 +72,19 @@ pub struct Panels {
 }
 
 impl Panel {
-    /// The panel with other notes.
+    /// Returns the panel with other notes.
     #[must_use]
     pub fn with_notes(self, notes: Vec<String>) -> Self {
         Self { notes, ..self }
     }
 
-    /// Width and height with the caption, in millimeters.
+    /// The width and height including the caption, in millimeters.
     fn outer_size(&self) -> DVec2 {
         let text = TITLE_HEIGHT * LEADING + self.notes.len() as f64 * NOTE_HEIGHT * LEADING;
         self.page.size + DVec2::new(0.0, text)
     }
 
-    /// The title and the notes, with their upper left corner at `at`.
+    /// The title and notes, with their upper left corner at `at`.
     fn text_groups(&self, at: DVec2) -> (Group, Vec<Group>) {
         let named = |id: String, group| Group { id, title: self.title.clone(), ..group };
         let width = self.page.size.x;
@@ -100,7 +100,8 @@ impl Panel {
 }
 
 impl Panels {
-    /// Panels in a single row up to three, otherwise in a grid about as wide as high.
+    /// Arranges up to three panels in a single row, and more in a grid that is about as wide as
+    /// high.
     #[must_use]
     pub fn new(title: impl Into<String>, panels: Vec<Panel>) -> Self {
         let count = panels.len();
@@ -108,13 +109,13 @@ impl Panels {
         Self { title: title.into(), introduction: Vec::new(), columns: columns.max(1), panels }
     }
 
-    /// The panels with lines of text below the title; HTML joins them to a paragraph.
+    /// Returns the panels with lines of text below the title; HTML joins them into a paragraph.
     #[must_use]
     pub fn with_introduction(self, introduction: Vec<String>) -> Self {
         Self { introduction, ..self }
     }
 
-    /// The warnings of all drawings, each once.
+    /// Returns the warnings of all drawings, without duplicates.
     #[must_use]
     pub fn warnings(&self) -> Vec<Warning> {
         let all = self.panels.iter().flat_map(|panel| panel.page.warnings.iter().cloned());
@@ -124,10 +125,10 @@ impl Panels {
         warnings
     }
 
-    /// All panels on one white page.
+    /// Returns all panels on one white page.
     ///
-    /// Rows and columns are as large as their largest panel; the captions are strokes, so the page
-    /// can be written in every format.
+    /// Each row and column is as large as its largest panel. Captions are strokes, so the page can
+    /// be written in every format.
     #[must_use]
     pub fn to_page(&self) -> Page {
         let sizes: Vec<DVec2> = self.panels.iter().map(Panel::outer_size).collect();
@@ -174,7 +175,7 @@ impl Panels {
     }
 }
 
-/// The greatest of some lengths, 0 if there are none.
+/// The largest of some lengths, or 0 without any.
 fn largest_side(sides: impl Iterator<Item = f64>) -> f64 {
     sides.fold(0.0, f64::max)
 }

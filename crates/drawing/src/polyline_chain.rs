@@ -1,7 +1,7 @@
-//! Polyline chaining: segments with common ends become polylines.
+//! Polyline chaining: segments with common ends are joined into polylines.
 //!
 //! Corners are joined, dashes continue around them, and files are smaller. Ends are equal if they
-//! are the same point of the page's micrometer grid. At a junction of more than two segments a
+//! are the same point on the page's micrometer grid. At a junction of more than two segments, a
 //! chain continues in the straightest direction.
 //!
 //! ```text
@@ -21,23 +21,24 @@ pub(super) struct PolylineChain {
     pub(super) polyline: Polyline,
 }
 
-/// At a junction of more than two segments, a turn with a smaller cosine ends the chain: 60°.
+/// At a junction of more than two segments, a turn of more than 60° ends the chain.
 const MIN_TURN_COSINE: f64 = 0.5;
 
-/// A point no farther, in micrometers, from the line of its neighbors is removed.
+/// A point is removed if it is at most this far from the line between its neighbors, in
+/// micrometers.
 const COLLINEAR_TOLERANCE: f64 = 1.0;
 
-/// The most consecutive points that are removed; each is tested again for every further one, so the
-/// time grows with the square.
+/// The maximum number of consecutive points that are removed; each one is tested again for every
+/// further one, so the time grows with the square.
 const MAX_DROPPED_RUN: usize = 64;
 
 /// Joins segments into chains: by layer, by object, and in the order of their first segments.
 ///
-/// `pen_of_layer` is the same number for layers whose lines continue each other, as all dashed ones
-/// do: a dash pattern would begin anew where the class of a line changes. A chain of several layers
-/// belongs to the one of its greatest length.
+/// `pen_of_layer` is the same number for layers whose lines continue each other, such as all dashed
+/// ones: otherwise a dash pattern would restart where the class of a line changes. A chain across
+/// several layers belongs to the one where it is longest.
 ///
-/// Time is O(n log n) for the sort of ends, plus the run limit of [`remove_collinear`].
+/// Time is O(n log n) for sorting the ends, plus the run limit of [`remove_collinear`].
 pub(super) fn join_into_chains(
     segments: &[PageSegment],
     pen_of_layer: impl Fn(u32) -> u32,
@@ -58,21 +59,21 @@ pub(super) fn join_into_chains(
     chains
 }
 
-/// The segments of one layer and object on the grid, with their incidence at each point.
+/// The segments of one layer and object on the grid, and how they meet.
 struct SegmentGraph {
     /// The two ends of each segment.
     segments: Vec<[PagePoint; 2]>,
     /// The layer of each segment.
     layers: Vec<u32>,
-    /// Each end as its point, its segment and which end it is; sorted, so that ends at one point
-    /// are neighbors.
+    /// Each end as its point, its segment and which end it is, sorted so that ends at one point are
+    /// neighbors.
     ends: Vec<(PagePoint, u32, u8)>,
-    /// Whether a segment is in a chain already.
+    /// Whether each segment is already in a chain.
     is_used: Vec<bool>,
 }
 
 impl SegmentGraph {
-    /// Snaps segments to the grid, and drops those without length and duplicates.
+    /// Snaps segments to the grid, and drops duplicates and segments without length.
     fn new(segments: &[&PageSegment]) -> Self {
         let on_grid = |segment: &&PageSegment| (segment.ends.map(to_micrometers), segment.layer);
         let on_page = segments.iter().map(on_grid).filter(|([a, b], _)| a != b);
@@ -114,7 +115,7 @@ impl SegmentGraph {
         lines
     }
 
-    /// The layer with the greatest length among these segments; the first of equals.
+    /// The layer with the largest total length among these segments; the first one if equal.
     fn longest_layer(&self, chain: &[usize]) -> u32 {
         let mut lengths: Vec<(u32, f64)> = Vec::new();
         for &index in chain {
@@ -133,7 +134,7 @@ impl SegmentGraph {
     /// Extends a chain from its last point until no segment continues it or it closes; adds the
     /// segments to `chain`.
     ///
-    /// `points` has at least two points, whose segment is used already.
+    /// `points` has at least two points; the segment between them is already used.
     fn extend_chain(&mut self, points: &mut Vec<PagePoint>, chain: &mut Vec<usize>) {
         while let Some((index, next)) =
             self.next_segment(points[points.len() - 2], points[points.len() - 1])
@@ -147,8 +148,8 @@ impl SegmentGraph {
         }
     }
 
-    /// The unused segment that continues a chain from `before` through `here` best, and its far
-    /// end.
+    /// Finds the unused segment that best continues a chain from `before` through `here`, and its
+    /// far end.
     ///
     /// ```text
     ///             ╱ best: the smallest turn
@@ -156,7 +157,7 @@ impl SegmentGraph {
     ///             ╲ also incident: at a junction a candidate only below 60°
     /// ```
     ///
-    /// Where only two segments meet, the other one is taken whatever the angle.
+    /// If only two segments meet, the other one is taken at any angle.
     fn next_segment(&self, before: PagePoint, here: PagePoint) -> Option<(usize, PagePoint)> {
         let first = self.ends.partition_point(|(point, ..)| *point < here);
         let incident = self.ends[first..].iter().take_while(|(point, ..)| *point == here);
@@ -175,7 +176,7 @@ impl SegmentGraph {
     }
 }
 
-/// The segments without later duplicates, in either direction, in their order.
+/// Removes later duplicates, in either direction; the order is kept.
 fn drop_duplicate_segments(segments: &[([PagePoint; 2], u32)]) -> Vec<([PagePoint; 2], u32)> {
     let sorted = |([a, b], _): ([PagePoint; 2], u32)| [a.min(b), a.max(b)];
     let mut order: Vec<u32> = (0..segments.len() as u32).collect();
@@ -197,12 +198,12 @@ fn turn_cosine(a: PagePoint, b: PagePoint, c: PagePoint) -> f64 {
     (x0 * x1 + y0 * y1) / libm::sqrt(squares)
 }
 
-/// Removes points that lie on the segment between the points around them.
+/// Removes points on the segment between their neighbors.
 ///
-/// A greedy pass: as long as all points dropped since the last retained one lie within
-/// [`COLLINEAR_TOLERANCE`] of the segment to the next point, the run grows. Since every dropped
-/// point is tested against the *final* segment, the error does not accumulate along a curve of many
-/// small steps, as it would if each were compared only with its neighbors.
+/// A greedy pass: the run grows as long as all points dropped since the last retained one are
+/// within [`COLLINEAR_TOLERANCE`] of the segment to the next point. Every dropped point is tested
+/// against the *final* segment, so the error does not accumulate along a curve of many small steps,
+/// as it would if each point were compared only with its neighbors.
 fn remove_collinear(points: Vec<PagePoint>, closed: bool) -> Vec<PagePoint> {
     let mut retained = vec![points[0]];
     let mut dropped: Vec<PagePoint> = Vec::new();
@@ -226,10 +227,10 @@ fn remove_collinear(points: Vec<PagePoint>, closed: bool) -> Vec<PagePoint> {
     if retained.len() < 2 { points } else { retained }
 }
 
-/// Whether a point lies on the segment from `from` to `to`, up to the tolerance.
+/// Whether a point is on the segment from `from` to `to`, up to the tolerance.
 ///
-/// With d = to − from and p = point − from it tests 0 ≤ d·p ≤ |d|² and |d × p| ≤ tolerance · |d|,
-/// squared to avoid the root.
+/// With d = to − from and p = point − from, this tests 0 ≤ d·p ≤ |d|² and |d × p| ≤ tolerance ·
+/// |d|, squared to avoid the root.
 fn lies_on_segment(from: PagePoint, point: PagePoint, to: PagePoint) -> bool {
     let ([dx, dy], [px, py]) = (grid_offset(from, to), grid_offset(from, point));
     let square = dx * dx + dy * dy;
@@ -292,7 +293,7 @@ mod tests {
         ];
         let expected = [(vec![[0, 5], [10, 5]], false), (vec![[5, 0], [5, 10]], false)];
         assert_eq!(chains_in_millimeters(&cross), expected);
-        // A T: the bar is one line, the foot another.
+        // A T: the bar is one line, the stem another.
         let expected = [(vec![[0, 5], [10, 5]], false), (vec![[5, 5], [5, 10]], false)];
         assert_eq!(chains_in_millimeters(&[cross[0], cross[3], cross[2]]), expected);
     }

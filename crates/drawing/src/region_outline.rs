@@ -1,4 +1,4 @@
-//! Outlines of regions: simple closed loops around an area, each point of the border on one loop.
+//! Region outlines: simple closed loops around an area, with each border point on one loop.
 //!
 //! ```text
 //!   ┌───────┐              ┌───────┐
@@ -8,17 +8,18 @@
 //!       └───────┘              └───────┘
 //! ```
 //!
-//! 1. Sides are put on the grid of the page and cut where they cross. Crossings are rounded to the
-//!    grid too, and every side that passes through the grid cell of a point runs through that
-//!    point: snap rounding (Hobby 1999), which makes no new crossings. It is repeated until there
-//!    are none.
-//! 2. The winding number at a side says how many faces are beside it, counted along a ray in
-//!    integers. A side is of the outline if there are some at its one side and none at the other.
-//! 3. At each point as many sides of the outline begin as end, so they join to loops. Each loop
-//!    keeps the area at its left and is divided where it touches itself.
+//! 1. Sides are placed on the grid of the page and cut where they cross. Crossings are rounded to
+//!    the grid too, and every side that passes through the grid cell of a point runs through that
+//!    point: snap rounding (Hobby 1999), which adds no crossings. It is repeated until there are
+//!    none.
+//! 2. The winding number at a side is the number of faces beside it, counted along a ray in
+//!    integers. A side belongs to the outline if there are faces on one side of it and none on the
+//!    other.
+//! 3. At each point the same number of outline sides begin and end, so they form loops. Each loop
+//!    keeps the area on its left and is divided where it touches itself.
 //!
-//! Sides of random triangles cross as often as they have pairs. Where they are too many, the area is
-//! sampled on a fine grid, and its border follows the cells of the grid.
+//! The number of crossings between random triangles grows with the square. If there are too many,
+//! the area is sampled on a fine grid, and its border follows the cells of the grid.
 
 mod coverage;
 
@@ -32,14 +33,14 @@ type Point = [i64; 2];
 /// A side from its lesser end to its greater one, and its multiplicity.
 type Side = ([Point; 2], i32);
 
-/// The most rounds of snap rounding; crossings are gone after one or two.
+/// The maximum number of snap rounding passes; crossings are gone after one or two.
 const MAX_ROUNDS: usize = 8;
 
-/// Loops whose mean width is below this, in micrometers, are gaps between faces.
+/// Loops with a smaller mean width, in micrometers, are gaps between faces.
 const MIN_WIDTH: f64 = 2.0;
 
-/// The loops around the area of some sides, which must make closed curves: around matter
-/// positively, around holes negatively, in coordinates with x to the right and y up.
+/// Returns the loops around the area of some sides, which must form closed curves: counterclockwise
+/// around matter, clockwise around holes, with x to the right and y up.
 pub(super) fn outline_loops(sides: impl Iterator<Item = ([PagePoint; 2], i32)>) -> Vec<Polyline> {
     let widen = |point: PagePoint| point.map(i64::from);
     let mut sides = merge_sides(sides.map(|(ends, sign)| (ends.map(widen), sign)).collect());
@@ -51,7 +52,7 @@ pub(super) fn outline_loops(sides: impl Iterator<Item = ([PagePoint; 2], i32)>) 
                     break;
                 }
                 sides = snap_to_points(&sides, crossings);
-                // The pieces are as many as the crossings, and cross hardly ever.
+                // There are as many pieces as crossings, and they hardly ever cross.
                 crossings = find_crossings(&sides).unwrap_or_default();
             }
             border_sides(&sides)
@@ -61,20 +62,21 @@ pub(super) fn outline_loops(sides: impl Iterator<Item = ([PagePoint; 2], i32)>) 
     loops.iter().filter_map(|points| finish_loop(points)).collect()
 }
 
-/// Whether sides cross so often that the outline of their area is traced on a grid.
+/// Whether sides cross so often that the outline is traced on a grid.
 pub(super) fn is_traced(sides: impl Iterator<Item = ([PagePoint; 2], i32)>) -> bool {
     let widen = |point: PagePoint| point.map(i64::from);
     let sides = merge_sides(sides.map(|(ends, sign)| (ends.map(widen), sign)).collect());
     find_crossings(&sides).is_none()
 }
 
-/// The number of crossings up to which an outline is exact: this many, and
-/// [`CROSSINGS_PER_SIDE`] more for each side.
+/// The number of crossings up to which an outline is exact: this many, plus [`CROSSINGS_PER_SIDE`]
+/// for each side.
 const ANY_CROSSINGS: usize = 1 << 14;
 /// See [`ANY_CROSSINGS`].
 const CROSSINGS_PER_SIDE: usize = 8;
 
-/// Orients sides from the lesser to the greater end, sums equal ones, and drops those that cancel.
+/// Orients sides from the lesser to the greater end, sums equal ones, and drops those that cancel
+/// out.
 fn merge_sides(mut sides: Vec<Side>) -> Vec<Side> {
     for (ends, sign) in &mut sides {
         if ends[0] > ends[1] {
@@ -95,10 +97,10 @@ fn cross(from: Point, a: Point, b: Point) -> i128 {
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// The points, rounded to the grid, where sides cross or touch other than at common ends; the ends
-/// of sides that lie on others are among them. `None` if there are too many.
+/// Finds the points, rounded to the grid, where sides cross or touch other than at common ends;
+/// these include the ends of sides on other sides. `None` if there are too many.
 ///
-/// A sweep along x over the sides, which are sorted by their lesser ends.
+/// Sweeps along x over the sides, sorted by their lesser ends.
 fn find_crossings(sides: &[Side]) -> Option<Vec<Point>> {
     let most = ANY_CROSSINGS + CROSSINGS_PER_SIDE * sides.len();
     let mut crossings = Vec::new();
@@ -122,7 +124,7 @@ fn find_crossings(sides: &[Side]) -> Option<Vec<Point>> {
     Some(crossings)
 }
 
-/// Adds where two sides meet, unless that is an end of both.
+/// Adds the point where two sides meet, unless it is an end of both.
 fn add_crossings([a, b]: [Point; 2], [c, d]: [Point; 2], crossings: &mut Vec<Point>) {
     let [from_c, from_d] = [cross(a, b, c), cross(a, b, d)];
     let [from_a, from_b] = [cross(c, d, a), cross(c, d, b)];
@@ -131,7 +133,7 @@ fn add_crossings([a, b]: [Point; 2], [c, d]: [Point; 2], crossings: &mut Vec<Poi
         return;
     }
     if from_c == from_d {
-        // On one line: ends that lie on the other side.
+        // Collinear: ends that are on the other side.
         let on = |point: Point, [low, high]: [Point; 2]| low < point && point < high;
         crossings.extend([c, d].into_iter().filter(|&end| from_c == 0 && on(end, [a, b])));
         crossings.extend([a, b].into_iter().filter(|&end| from_c == 0 && on(end, [c, d])));
@@ -149,7 +151,7 @@ fn add_crossings([a, b]: [Point; 2], [c, d]: [Point; 2], crossings: &mut Vec<Poi
     }
 }
 
-/// Lets every side run through all points, ends and crossings, whose grid cell it passes through.
+/// Routes every side through all points, ends and crossings, whose grid cell it passes through.
 fn snap_to_points(sides: &[Side], crossings: Vec<Point>) -> Vec<Side> {
     let mut points = crossings;
     points.extend(sides.iter().flat_map(|(ends, _)| *ends));
@@ -162,7 +164,7 @@ fn snap_to_points(sides: &[Side], crossings: Vec<Point>) -> Vec<Side> {
     merge_sides(pieces)
 }
 
-/// Points in columns of equal width, sorted by y in each.
+/// Points in columns of equal width, sorted by y in each column.
 struct PointColumns {
     columns: BTreeMap<i64, Vec<Point>>,
     width: i64,
@@ -183,7 +185,7 @@ impl PointColumns {
         Self { columns, width }
     }
 
-    /// The points whose cell a side passes through, from its one end to its other.
+    /// The points whose cell a side passes through, from one end of the side to the other.
     fn points_on(&self, [a, b]: [Point; 2]) -> Vec<Point> {
         let along = [b[0] - a[0], b[1] - a[1]];
         let columns = (a[0] - 1).div_euclid(self.width)..=(b[0] + 1).div_euclid(self.width);
@@ -198,14 +200,14 @@ impl PointColumns {
             (0..2).map(|axis| i128::from(point[axis] - a[axis]) * i128::from(along[axis])).sum()
         };
         found.sort_by_key(|&point| (position(point), point));
-        // The ends are points themselves; others may be as far along within their cells.
+        // The ends are points too; other points may be equally far along within their cells.
         found.retain(|point| *point != a && *point != b);
         found.insert(0, a);
         found.push(b);
         found
     }
 
-    /// The least and the greatest y of a side in a column, with a margin of a cell.
+    /// The minimum and maximum y of a side in a column, with a margin of one cell.
     fn heights_in_column(&self, [a, b]: [Point; 2], column: i64) -> [i64; 2] {
         if a[0] == b[0] {
             return [a[1].min(b[1]) - 1, a[1].max(b[1]) + 1];
@@ -233,12 +235,12 @@ fn passes_cell([a, b]: [Point; 2], point: Point) -> bool {
     2 * cross(a, b, point).abs() <= reach
 }
 
-/// The sides between the area and what is outside of it, with the area at their left.
+/// The sides between the area and its surroundings, with the area on their left.
 fn border_sides(sides: &[Side]) -> Vec<[Point; 2]> {
     let rows = SideRows::new(sides);
     let mut border = Vec::new();
     for (index, &([a, b], sign)) in sides.iter().enumerate() {
-        // Of a horizontal side what is above it, of others what is at their right.
+        // Tests above a horizontal side, and to the right of other sides.
         let beyond = rows.winding_beyond(sides, index);
         let rises = b[1] > a[1];
         let (left, right) = if a[1] == b[1] {
@@ -257,7 +259,7 @@ fn border_sides(sides: &[Side]) -> Vec<[Point; 2]> {
     border
 }
 
-/// The sides that rise or fall, in rows of equal height.
+/// The sides that are not horizontal, in rows of equal height.
 struct SideRows {
     rows: Vec<Vec<usize>>,
     low: i64,
@@ -282,16 +284,17 @@ impl SideRows {
         Self { rows, low, height }
     }
 
-    /// The winding number beside the middle of a side: just beyond it in x, or in y if it is
+    /// The winding number next to the middle of a side: just beyond it in x, or in y if it is
     /// horizontal.
     ///
-    /// A ray from there to the right counts the sides that it crosses; a side has its lower end and
-    /// not its upper one. Coordinates are doubled, so that the middle is an integer.
+    /// A ray from there to the right counts the sides that it crosses; a side includes its lower
+    /// end but not its upper one. Coordinates are doubled, so that the middle has integer
+    /// coordinates.
     fn winding_beyond(&self, sides: &[Side], index: usize) -> i32 {
         let [a, b] = sides[index].0;
         let middle = [a[0] + b[0], a[1] + b[1]];
         let row = (middle[1].div_euclid(2) - self.low) / self.height;
-        // A middle between two steps may be in the row of either.
+        // A middle between two steps may be in either row.
         let next = ((middle[1] + 1).div_euclid(2) - self.low) / self.height;
         let mut winding = 0;
         let rows = &self.rows[row as usize..=next as usize];
@@ -309,7 +312,7 @@ impl SideRows {
     }
 }
 
-/// The change of the winding number about a point at a side, by a ray to the right.
+/// The change of the winding number around a point at a side, by a ray to the right.
 fn crossing_of_ray(point: Point, [a, b]: [Point; 2], sign: i32) -> i32 {
     let rises = b[1] > a[1];
     let (low, high) = if rises { (a, b) } else { (b, a) };
@@ -319,7 +322,7 @@ fn crossing_of_ray(point: Point, [a, b]: [Point; 2], sign: i32) -> i32 {
     if rises { sign } else { -sign }
 }
 
-/// Joins directed sides to loops, each divided where it touches itself.
+/// Joins directed sides into loops, each divided where it touches itself.
 fn join_loops(sides: &[[Point; 2]]) -> Vec<Vec<Point>> {
     let mut sorted = sides.to_vec();
     sorted.sort_unstable();
@@ -335,7 +338,7 @@ fn join_loops(sides: &[[Point; 2]]) -> Vec<Vec<Point>> {
         while !used[at] {
             used[at] = true;
             let [from, here] = sorted[at];
-            // A point that the loop has been at divides it.
+            // A point that the loop has already visited divides it.
             if let Some(&start) = places.get(&here) {
                 let closed = path.split_off(start);
                 for point in &closed {
@@ -352,8 +355,8 @@ fn join_loops(sides: &[[Point; 2]]) -> Vec<Vec<Point>> {
     loops
 }
 
-/// The unused side from `here` that is the first clockwise from the way back to `from`: it bounds
-/// the same part of the area.
+/// The first unused side from `here`, clockwise from the direction back to `from`: it bounds the
+/// same part of the area.
 fn next_side(sides: &[[Point; 2]], used: &[bool], from: Point, here: Point) -> Option<usize> {
     let first = sides.partition_point(|[start, _]| *start < here);
     let starting = (first..sides.len()).take_while(|&index| sides[index][0] == here);
@@ -368,9 +371,10 @@ fn next_side(sides: &[[Point; 2]], used: &[bool], from: Point, here: Point) -> O
     best
 }
 
-/// Whether the direction to `a` comes before that to `b`, clockwise about `center` from `from`.
+/// Whether the direction to `a` comes before the direction to `b`, clockwise around `center` from
+/// `from`.
 fn is_clockwise_before(center: Point, from: Point, a: Point, b: Point) -> bool {
-    // The half turn after `from` clockwise comes first, then the other one.
+    // The half turn clockwise after `from` comes first, then the other one.
     let half = |to: Point| {
         let turn = cross(center, from, to);
         let ahead: i128 =
@@ -385,7 +389,7 @@ fn is_clockwise_before(center: Point, from: Point, a: Point, b: Point) -> bool {
     half(a).cmp(&half(b)).then_with(|| cross(center, a, b).cmp(&0)).is_lt()
 }
 
-/// A loop as a polyline, without points on straight lines; `None` if it is only a gap.
+/// Converts a loop to a polyline without collinear points; `None` if it is only a gap.
 fn finish_loop(points: &[Point]) -> Option<Polyline> {
     let count = points.len();
     let at = |index: usize| points[index % count];
@@ -396,7 +400,7 @@ fn finish_loop(points: &[Point]) -> Option<Polyline> {
     let length = |(a, b): (&Point, &Point)| libm::hypot((b[0] - a[0]) as f64, (b[1] - a[1]) as f64);
     let perimeter: f64 = pairs().map(length).sum();
     let is_area = kept.len() >= 3 && doubled.unsigned_abs() as f64 > MIN_WIDTH * perimeter;
-    // The points of the page came as i32, and crossings are between them.
+    // The page points came from i32, and crossings are between them.
     let narrow = |point: &Point| point.map(|c| c as i32);
     is_area.then(|| Polyline { points: kept.iter().map(narrow).collect(), closed: true })
 }

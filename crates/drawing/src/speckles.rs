@@ -1,37 +1,36 @@
-//! Speckles: lines too short to show anything, which are left out.
+//! Speckles: lines that are removed because they are too short to show anything.
 //!
 //! ```text
 //!   ──────╮  ·          a chain that is shorter than a pen is wide is a dot
 //!         ╰─────·──     a stub of a crease or a crossing beside longer lines
 //! ```
 //!
-//! On scanned surfaces single facets are silhouettes, and bodies that touch cross each other here
-//! and there by the width of a rounding. Where an edge bridges a gap between longer lines it stays,
-//! however short.
+//! On scanned surfaces single facets are silhouettes, and touching bodies cross each other here and
+//! there by a rounding error. An edge that bridges a gap between longer lines stays, however short.
 
 use super::polyline_chain::PolylineChain;
 use page::PagePoint;
 
-/// The least length of chains on paper, in millimeters: about the width of a line on a screen.
+/// The minimum length of chains on paper, in millimeters: about the width of a line on a screen.
 pub(super) const LEAST_CHAIN_LENGTH: f64 = 0.3;
 
-/// The treatment of chains of a layer that are shorter than a length in millimeters.
+/// The treatment of a layer's chains that are shorter than a length in millimeters.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum ShortChains {
-    /// They are drawn.
+    /// Drawn.
     Retained,
-    /// They are left out where all lines connected with them are shorter together.
+    /// Removed if all lines connected with them are shorter in total.
     RemovedAlone(f64),
-    /// So are those that end freely beside a longer line.
+    /// Also removed if they end freely beside a longer line.
     RemovedAtEnds(f64),
-    /// They are left out unless both of their ends are on longer lines.
+    /// Removed unless both of their ends are on longer lines.
     RemovedUnlessBridge(f64),
-    /// They are left out.
+    /// Removed.
     Removed(f64),
 }
 
 impl ShortChains {
-    /// The length from which on chains are drawn.
+    /// The minimum length of chains that are drawn.
     fn least_length(self) -> f64 {
         match self {
             Self::Retained => 0.0,
@@ -81,14 +80,14 @@ pub(super) fn remove_speckles(
     chains.into_iter().filter(|_| kept.next() == Some(true)).collect()
 }
 
-/// Which chains have which points: sorted, so that those at one point are neighbors.
+/// The chains at each point, sorted so that chains at one point are neighbors.
 struct Contacts {
     corners: Vec<(PagePoint, usize)>,
     count: usize,
 }
 
 impl Contacts {
-    /// The points of all chains.
+    /// Collects the points of all chains.
     fn new(chains: &[PolylineChain]) -> Self {
         let mut corners: Vec<(PagePoint, usize)> = Vec::new();
         for (index, chain) in chains.iter().enumerate() {
@@ -98,16 +97,16 @@ impl Contacts {
         Self { corners, count: chains.len() }
     }
 
-    /// The chains at a point but this one.
+    /// The chains at a point, except this one.
     fn others_at(&self, point: PagePoint, chain: usize) -> impl Iterator<Item = usize> {
         let first = self.corners.partition_point(|(other, _)| *other < point);
         let here = self.corners[first..].iter().take_while(move |(other, _)| *other == point);
         here.map(|(_, other)| *other).filter(move |other| *other != chain)
     }
 
-    /// For each chain the length of all chains that are connected with it by common points.
+    /// For each chain, the total length of all chains connected with it by common points.
     fn connected_lengths(&self, lengths: &[f64]) -> Vec<f64> {
-        // Union-find: each chain points to an earlier one that it is connected with, or to itself.
+        // Union-find: each chain points to an earlier connected chain, or to itself.
         let mut parents: Vec<usize> = (0..self.count).collect();
         for pair in self.corners.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
             let [a, b] = [pair[0].1, pair[1].1].map(|chain| root_of(&mut parents, chain));
@@ -135,7 +134,7 @@ mod tests {
     use super::*;
     use page::Polyline;
 
-    /// A chain of a layer through points on one line, given in micrometers.
+    /// A chain of a layer through collinear points, given in micrometers.
     fn chain(layer: u32, xs: &[i32]) -> PolylineChain {
         let points = xs.iter().map(|x| [*x, 0]).collect();
         PolylineChain { layer, object: 0, polyline: Polyline { points, closed: false } }

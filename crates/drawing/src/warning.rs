@@ -1,45 +1,45 @@
-//! Warnings: what a page of a drawing leaves out, returned along with it.
+//! Warnings about missing parts of a page, returned along with it.
 
 use crate::overlay::LabelFault;
 use core::cmp::Ordering;
 use core::fmt;
 use files::visible_excerpt;
 
-/// Something that a drawing leaves out or could not do, with the reason in its `Display` text.
+/// A part that a drawing lacks or could not compute, with the reason in its `Display` text.
 ///
-/// Warnings are sorted and each is reported once, so their order does not depend on threads:
-/// sections come first, then labels, then limits of work. They are part of the result, not logged:
-/// the caller decides whether and where to print them.
+/// Warnings are sorted and reported once each, so their order does not depend on threads: sections
+/// first, then labels, then work limits. They are part of the result and are not logged: the caller
+/// decides whether and where to print them.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum Warning {
-    /// Something that its lines leave out.
+    /// A part that the lines lack.
     Lines(hidden_line::Warning),
-    /// The style shows surfaces, and sections apply to line drawings only.
+    /// The style shows surfaces, but sections apply only to line drawings.
     SectionsIgnored,
-    /// The format has no anaglyphs; only PNG images have.
+    /// The format does not support anaglyphs; only PNG images do.
     AnaglyphIgnored,
-    /// The format has no images: DXF has lines, areas and texts.
+    /// The format does not support images: DXF has lines, areas and texts.
     ImagesNotInDxf,
     /// The point of a label is not in the picture.
     LabelNotDrawn {
         /// The text of the label.
         text: String,
-        /// Where the point is.
+        /// The reason.
         fault: LabelFault,
     },
     /// The stroke font lacks characters of a text.
     GlyphsMissing {
         /// The text.
         text: String,
-        /// The characters, each once.
+        /// The missing characters, without duplicates.
         characters: String,
     },
-    /// So many faces overlap that their outlines are traced on a grid, and are not exact.
+    /// So many faces overlap that their outlines are traced on a grid and are not exact.
     OutlinesTraced,
-    /// Outlines over surfaces are left out, because copies have too many triangles.
+    /// Outlines over surfaces are not drawn, because copies have too many triangles.
     OutlinesLeftOut,
-    /// Nothing is in the picture.
+    /// The picture is empty.
     PictureEmpty {
         /// The reason.
         reason: String,
@@ -47,7 +47,8 @@ pub enum Warning {
 }
 
 impl Warning {
-    /// The place of the warning in a report, among those of [`hidden_line::Warning::report_order`].
+    /// Returns the position of the warning in a report, relative to
+    /// [`hidden_line::Warning::report_order`].
     #[must_use]
     pub const fn report_order(&self) -> u8 {
         match self {
@@ -63,7 +64,7 @@ impl Warning {
         }
     }
 
-    /// The order of two warnings of one kind.
+    /// The order of two warnings of the same kind.
     fn compare_values(&self, other: &Self) -> Ordering {
         match (self, other) {
             (Self::Lines(a), Self::Lines(b)) => a.cmp(b),

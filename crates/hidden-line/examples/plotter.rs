@@ -1,11 +1,11 @@
-//! A mesh of one's own as lines for a pen plotter: exact hidden lines, SVG on standard output.
+//! A custom mesh as lines for a pen plotter: exact hidden lines, SVG on standard output.
 //!
 //! ```text
 //! cargo run -p alberti-hidden-line --example plotter > house.svg
 //! ```
 //!
-//! A plotter moves a pen along lines, and cannot paint over what should not be seen: so lines have
-//! to end where faces hide them. Hidden parts get a layer of their own, for a second pen.
+//! A plotter moves a pen along lines and cannot paint over what should not be visible, so lines
+//! must end where faces hide them. Hidden parts go on a separate layer, for a second pen.
 
 #![allow(clippy::print_stdout, reason = "an example speaks on its standard output")]
 
@@ -44,7 +44,7 @@ const POSITIONS: [[f32; 3]; 18] = [
     [0.6, 3.6, 0.8],
 ];
 
-/// The triangles of both, three corners each.
+/// The triangles of both, as index triples.
 const INDICES: [u32; 84] = [
     0, 1, 2, 0, 2, 3, // the floor
     0, 4, 5, 0, 5, 1, 3, 2, 6, 3, 6, 7, // the walls below the eaves
@@ -55,7 +55,7 @@ const INDICES: [u32; 84] = [
     12, 16, 17, 12, 17, 13, 13, 17, 14, 13, 14, 10,
 ];
 
-/// The arrays as a model with one object.
+/// Converts the arrays to a model with one object.
 fn house() -> ModelInstance {
     let primitive = Primitive {
         positions: POSITIONS.to_vec(),
@@ -71,7 +71,7 @@ fn house() -> ModelInstance {
     ModelInstance { model: Arc::new(model), model_to_world: Affine::IDENTITY }
 }
 
-/// The lines of one pen as a path of SVG.
+/// Writes the lines of one pen as an SVG path.
 fn path(segments: &[EdgeSegment], visible: bool) -> String {
     let of_pen = segments.iter().filter(|segment| segment.visible == visible);
     let line = |segment: &EdgeSegment| {

@@ -1,9 +1,8 @@
-//! Circles of models: chains of feature edges that lie on a circle or an arc in space.
+//! Circles of models: chains of feature edges that follow a circle or an arc in space.
 //!
-//! The chain is laid out in its plane, on a grid of a billionth of its size, and the arcs of DXF
-//! files are recognized there: at least eight points, at equal distances, less than 29.5° apart, and
-//! all of them within the tolerance of plane and circle. A polygon of up to twelve sides is no
-//! circle.
+//! The chain is mapped to its plane, on a grid of a billionth of its size, and arcs are recognized
+//! there as for DXF files: at least eight points at equal distances, less than 29.5° apart, all
+//! within the tolerance of plane and circle. A polygon with up to twelve sides is not a circle.
 
 use crate::edges::FeatureChain;
 use arcs::{ArcVertex, Circle, LineShape, recognize_arcs};
@@ -11,7 +10,7 @@ use core::f64::consts::TAU;
 use glam::{DVec2, DVec3};
 use homog::{Point, Vector, World};
 
-/// A circle in the world.
+/// A circle in world space.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct WorldCircle {
     /// The center.
@@ -20,28 +19,28 @@ pub struct WorldCircle {
     pub axis: Vector<World>,
     /// The radius.
     pub radius: f64,
-    /// The angle of the arc that is there in radians: 2π for a full circle.
+    /// The angle of the existing arc, in radians; 2π for a full circle.
     pub sweep: f64,
 }
 
-/// Points may be so far beside a circle, as a part of the diagonal of the models.
+/// The maximum distance of points from a circle, as a fraction of the models' diagonal.
 pub(crate) const CIRCLE_TOLERANCE: f64 = 5e-5;
 
-/// The grid steps of the larger half extent of a chain.
+/// The number of grid steps in the larger half extent of a chain.
 const GRID_STEPS: f64 = 1e9;
 
-/// The plane of a chain and its coordinates.
+/// The plane of a chain, with its coordinates.
 struct ChainPlane {
     origin: DVec3,
     axes: [DVec3; 2],
-    /// Grid steps in a unit.
+    /// Grid steps per unit.
     steps: f64,
 }
 
 impl ChainPlane {
-    /// The plane in which all points lie within a tolerance; `None` if there is none.
+    /// Finds the plane that contains all points within a tolerance; `None` if there is none.
     ///
-    /// Its normal is that of the area that the chain encloses (Newell).
+    /// Its normal is the normal of the area that the chain encloses (Newell).
     fn of_chain(chain: &FeatureChain, tolerance: f64) -> Option<Self> {
         let points = &chain.points;
         let count = points.len() as f64;
@@ -60,13 +59,13 @@ impl ChainPlane {
         })
     }
 
-    /// A point as a point of the grid.
+    /// Converts a point to grid coordinates.
     fn to_grid(&self, point: DVec3) -> [i32; 2] {
         let arm = (point - self.origin) * self.steps;
         self.axes.map(|axis| libm::round(arm.dot(axis)) as i32)
     }
 
-    /// A circle of the grid in the world.
+    /// Converts a circle from the grid to the world.
     fn to_world(&self, circle: Circle, sweep: f64) -> WorldCircle {
         let [x, y] = self.axes;
         let center = circle.center / self.steps;
@@ -79,7 +78,7 @@ impl ChainPlane {
     }
 }
 
-/// The circles and arcs of a chain, within a tolerance in units of the world.
+/// Returns the circles and arcs of a chain, within a tolerance in world units.
 pub(crate) fn circles_of_chain(chain: &FeatureChain, tolerance: f64) -> Vec<WorldCircle> {
     let Some(plane) = ChainPlane::of_chain(chain, tolerance) else { return Vec::new() };
     let points: Vec<[i32; 2]> = chain.points.iter().map(|point| plane.to_grid(*point)).collect();
@@ -97,13 +96,13 @@ pub(crate) fn circles_of_chain(chain: &FeatureChain, tolerance: f64) -> Vec<Worl
     }
 }
 
-/// The circle of an arc of a polyline, and its angle; `None` for a straight side.
+/// Returns the circle of an arc of a polyline, and its angle; `None` for a straight side.
 fn arc_of_bulge(from: &ArcVertex, to: DVec2) -> Option<(Circle, f64)> {
     let (bulge, chord) = (from.bulge, to - from.point);
     if bulge == 0.0 {
         return None;
     }
-    // The height of the center over the chord, to the left for a positive bulge.
+    // The height of the center above the chord, to the left for a positive bulge.
     let height = (1.0 - bulge * bulge) / (4.0 * bulge);
     let center = from.point + chord * 0.5 + chord.perp() * height;
     let radius = center.distance(from.point);

@@ -13,8 +13,8 @@
 //!   visible and hidden segments = LineDrawing
 //! ```
 //!
-//! The surface depends on models and sections only, everything below it on the viewer too. Edges
-//! keep the order of their objects, so drawings are reproducible and diffs of files are small.
+//! The surface depends only on models and sections; everything below it also depends on the viewer.
+//! Edges keep the order of their objects, so drawings are reproducible and file diffs are small.
 
 use super::edges::{CandidateEdge, SectionCap, WeldedSurface, WorldMesh};
 use super::hatching::{FaceHatching, Hatching};
@@ -40,7 +40,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use viewport::Viewport;
 
-/// The faces of a subject that was drawn, for a fill under its lines.
+/// The faces of a drawn subject, for a fill under its lines.
 #[derive(Debug)]
 pub struct DrawnFaces(WeldedSurface);
 
@@ -51,11 +51,11 @@ impl DrawnFaces {
     }
 }
 
-/// Draws the edges of a subject with hidden-line removal. `workers` is the number of threads, on
-/// which the drawing does not depend, or that with a monitor.
+/// Draws the edges of a subject with hidden-line removal. `workers` is the number of threads, which
+/// does not change the drawing, or that number with a monitor.
 ///
 /// # Errors
-/// If the image has no pixels, or if copies of meshes have too many triangles.
+/// If the image has no pixels, or if mesh copies have too many triangles.
 pub fn draw<'a>(
     subject: &Subject<'_>,
     options: &DrawOptions,
@@ -64,10 +64,10 @@ pub fn draw<'a>(
     Ok(draw_hatched(subject, options, FaceHatching::None, workers)?.0)
 }
 
-/// As [`draw`], with hatch lines on faces, and the faces that were drawn.
+/// Like [`draw`], with hatch lines on faces; also returns the drawn faces.
 ///
 /// # Errors
-/// As [`draw`].
+/// See [`draw`].
 pub fn draw_hatched<'a>(
     subject: &Subject<'_>,
     options: &DrawOptions,
@@ -86,7 +86,7 @@ pub fn draw_hatched<'a>(
     }
     let mut surface = WeldedSurface::from_mesh(mesh, subject.sections, subject.uncut);
     let mut candidates = surface.mesh_edges(&projector, options);
-    // There is no other view: memory of millions of edges is free for what follows.
+    // There is no other view, so the memory of millions of edges can be reused.
     surface.forget_half_edges();
     let cover = view_cover(&surface, projector, subject.size, options);
     let hiding = cover.as_ref().map(|view| &view.cover);
@@ -102,12 +102,12 @@ pub fn draw_hatched<'a>(
     Ok((drawing, DrawnFaces(surface)))
 }
 
-/// Draws a welded surface as one camera sees it, on an image of `size` pixels.
+/// Draws a welded surface as seen by one camera, on an image of `size` pixels.
 ///
-/// A sheet draws the same surface from several sides; see [`draw_hatched`] for the rest.
+/// A sheet draws the same surface from several directions; see [`draw_hatched`] for the rest.
 ///
 /// # Errors
-/// As [`draw`].
+/// See [`draw`].
 pub fn draw_surface<'a>(
     surface: &WeldedSurface,
     view_projection: &ViewProjection,
@@ -123,29 +123,31 @@ pub fn draw_surface<'a>(
     );
     let mut candidates = surface.mesh_edges(&projector, options);
     let cover = view_cover(surface, projector, size, options);
-    // Other views need other intersections: all are found once, unless they are too many.
+    // Other views need other intersections: all are found once, unless there are too many.
     let crowd = cover.as_ref().and_then(ViewCover::crowd);
     let is_cut_off = surface.add_intersections(&mut candidates, options, crowd, workers);
     let candidates = Candidates { edges: candidates, is_cut_off, cover, face_hatching };
     draw_candidates(surface, candidates, view_projection, size, options, workers)
 }
 
-/// What may be visible of a surface.
+/// The candidate lines of a surface.
 struct Candidates<'a> {
-    /// Its edges.
+    /// The edges.
     edges: Vec<CandidateEdge>,
     /// Whether intersections are missing.
     is_cut_off: bool,
-    /// What the surface hides of itself; `None` where hidden lines do not matter.
+    /// The cover by which the surface hides itself; `None` if hidden lines do not matter.
     cover: Option<ViewCover>,
     /// The hatch lines of faces other than section caps.
     face_hatching: FaceHatching<'a>,
 }
 
-/// Copies of meshes may have this many triangles together, and twice as many as the models have.
+/// The number of triangles that all mesh copies may have, in addition to twice the triangles of the
+/// models.
 const TRIANGLES_OF_COPIES: u64 = 1 << 20;
 
-/// Lines take memory and time for each triangle, and a small file may have any number of copies.
+/// Rejects too many copies: lines cost memory and time per triangle, and a small file may have any
+/// number of copies.
 fn refuse_many_copies(models: &[ModelInstance]) -> Result<(), DrawError> {
     let triangles = |primitive: &Primitive| match primitive.topology {
         Topology::Triangles => primitive.item_count() as u64,
@@ -165,7 +167,7 @@ fn refuse_many_copies(models: &[ModelInstance]) -> Result<(), DrawError> {
     if count > most { Err(DrawError::TooManyCopies { count, distinct, most }) } else { Ok(()) }
 }
 
-/// Draws the candidate edges of a surface, and its hatching, where they are visible.
+/// Draws the visible candidate edges of a surface, and its hatching.
 fn draw_candidates(
     surface: &WeldedSurface,
     Candidates { mut edges, is_cut_off, cover, face_hatching }: Candidates<'_>,
@@ -191,7 +193,7 @@ fn draw_candidates(
     let crowd = cover.as_ref().and_then(ViewCover::crowd);
     warnings.extend(crowd.map(|_| Warning::CrowdApproximated));
     if let Some(view) = &cover {
-        // Behind a crowd hidden lines would only be black.
+        // Behind a crowd, hidden lines would only be black.
         edges.retain(|edge| !view.cover.hides_segment(edge.ends));
     }
     edges.sort_by_key(|candidate| candidate.object);
@@ -212,8 +214,8 @@ fn draw_candidates(
     })
 }
 
-/// The outlines that the options ask for: those of the cut faces that the viewer sees, object by
-/// object; where nothing is cut, the one around all faces.
+/// The requested outlines: of the cut faces that the viewer sees, object by object; without cuts,
+/// the one around all faces.
 fn outlines(surface: &WeldedSurface, projector: &Projector, options: &DrawOptions) -> Vec<Region> {
     if !options.outlines {
         return Vec::new();
@@ -232,7 +234,7 @@ fn outlines(surface: &WeldedSurface, projector: &Projector, options: &DrawOption
     caps.map(outline).collect()
 }
 
-/// The hatching of section caps, and that of all other faces if one is asked for.
+/// The hatching of section caps, and of all other faces if requested.
 fn hatch_surface(
     surface: &WeldedSurface,
     face_hatching: FaceHatching<'_>,
@@ -252,7 +254,7 @@ fn hatch_surface(
                 .map(|(vertices, object, color)| (vertices, object, luma(vertices, color)));
             hatchings.push(Hatching::hatch_faces_by_luma(faces, projector, spacing));
         }
-        // Beside cuts, whose sign it is, a hatching of other faces would be misread.
+        // Hatching marks cuts; next to them, hatching on other faces would be misread.
         FaceHatching::Parts if !surface.is_cut() => {
             let faces = surface.colored_faces().map(|(vertices, object, _)| (vertices, object));
             let boxes = surface.part_boxes();
@@ -263,36 +265,40 @@ fn hatch_surface(
     hatchings
 }
 
-/// The faces of a wall: lines behind more are not drawn if only the first layer is.
+/// The number of faces of a wall: lines behind more are not drawn if only the first layer is.
 const FACES_OF_A_WALL: u32 = 2;
 
-/// Edges may have this many comparisons each, on average, whatever their number.
+/// The number of comparisons always allowed per edge, on average.
 const MIN_COMPARISONS: u64 = 512;
-/// All edges together may have this many, below which no drawing takes long: half a second.
+/// The number of comparisons always allowed for all edges together, which take at most half a
+/// second.
 const ANY_COMPARISONS: u64 = 1 << 26;
-/// They may have this many more for each face, so that a file twice as large is at most twice the
-/// work. Edges of a model meet a few hundred faces; those of a soup of triangles meet all.
+/// The number of comparisons allowed per face, so that a file twice as large takes at most twice
+/// the work. The edges of a model meet a few hundred faces; in a soup of triangles they meet all
+/// faces.
 const COMPARISONS_PER_FACE: u64 = 4096;
 
-/// Divides edges into visible and hidden segments against the occluders of one view.
+/// Divides edges into visible and hidden segments, using the occluders of one view.
 ///
-/// Edges are independent of each other, so this is where threads are used.
+/// Edges are independent of each other, so this step runs on threads.
 struct EdgeDivider<'a> {
     projector: Projector,
-    /// The faces of the surface; `None` where visibility is ignored.
+    /// The faces of the surface; `None` if visibility is ignored.
     occluders: Option<MeshOccluders<Occluding<'a>>>,
-    /// What a crowd of faces hides.
+    /// The cover of a crowd of faces.
     crowd: Option<&'a DepthCover>,
-    /// Which hidden segments are part of the drawing.
+    /// The hidden segments to include in the drawing.
     hidden_edges: HiddenEdges,
-    /// About how many comparisons there may be.
+    /// The approximate maximum number of comparisons.
     max_comparisons: u64,
 }
 
 impl<'a> EdgeDivider<'a> {
-    /// A divider with the faces of a surface as occluders, or none where visibility is ignored.
+    /// Creates a divider with the faces of a surface as occluders, or none if visibility is
+    /// ignored.
     ///
-    /// For outlines faces hide what is before them as well: what is left has nothing beside it.
+    /// For outlines, faces also hide edges in front of them: the remaining edges have no face
+    /// beside them.
     fn new(
         surface: &'a WeldedSurface,
         projector: Projector,
@@ -318,10 +324,11 @@ impl<'a> EdgeDivider<'a> {
         Self { projector, occluders, crowd, hidden_edges, max_comparisons }
     }
 
-    /// The segments of all edges, in the order of the edges; `false` if there was too much work.
+    /// Returns the segments of all edges, in the order of the edges; `false` if there was too much
+    /// work.
     ///
     /// The work is divided among groups of edges that do not depend on the number of threads, so
-    /// that what is left out does not either.
+    /// the skipped parts do not depend on it either.
     fn divide_edges(
         &self,
         edges: &[CandidateEdge],
@@ -347,10 +354,10 @@ impl<'a> EdgeDivider<'a> {
         (segments, is_complete.into_inner())
     }
 
-    /// Cuts one edge where hidden lines begin and end: pushes its visible segments, and the hidden
+    /// Cuts one edge at the ends of its hidden parts: pushes its visible segments, and the hidden
     /// ones if they are retained.
     ///
-    /// Hatch lines are never drawn where they are hidden.
+    /// Hidden parts of hatch lines are never drawn.
     fn divide_edge(
         &self,
         edge: &CandidateEdge,

@@ -8,10 +8,10 @@
 //!                             half_edges ─classify─► edges to draw ◄─ intersections
 //! ```
 //!
-//! A file seldom says which edges a draftsman would draw. They follow from the faces at each edge,
-//! once vertices that the file split for texture coordinates or normals are welded; an edge with
-//! one face is a boundary, one between faces on both sides of the viewer a silhouette, one with a
-//! sharp angle a crease.
+//! A file seldom specifies which edges a draftsman would draw. They follow from the faces at each
+//! edge, once vertices that the file split for texture coordinates or normals are welded. An edge
+//! with one face is a boundary. An edge between a front-facing and a back-facing face is a
+//! silhouette, and one with a sharp angle is a crease.
 
 mod classify;
 mod feature_edges;

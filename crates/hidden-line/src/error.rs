@@ -1,4 +1,4 @@
-//! Errors of line drawings.
+//! Line drawing errors.
 
 /// A subject that cannot be drawn as lines.
 #[derive(Debug, thiserror::Error)]
@@ -13,22 +13,22 @@ pub enum DrawError {
     /// There are more triangles than the z-buffer has ids for.
     #[error("the scene has more than {} points, lines and triangles", u32::MAX)]
     TooManyPrimitives,
-    /// The [monitor](raster::Monitor) asked for the end.
+    /// The [monitor](raster::Monitor) requested cancellation.
     #[error("the drawing was canceled")]
     Canceled,
-    /// Copies of meshes have more triangles than lines are drawn of, unless
-    /// [`DrawOptions::is_unlimited`](crate::DrawOptions::is_unlimited) is set.
+    /// Mesh copies have too many triangles for a line drawing, and
+    /// [`DrawOptions::is_unlimited`](crate::DrawOptions::is_unlimited) is not set.
     #[error(
         "lines of {count} triangles would take long: the models have only {distinct}, and copies of them \
          may have {most} together; show fewer copies, choose a style that shows surfaces, or lift \
          the limit (`--no-line-limits`)"
     )]
     TooManyCopies {
-        /// The triangles of all copies.
+        /// The number of triangles in all copies.
         count: u64,
-        /// Those of the models.
+        /// The number of triangles in the models.
         distinct: u64,
-        /// The greatest number for these models.
+        /// The maximum number for these models.
         most: u64,
     },
 }

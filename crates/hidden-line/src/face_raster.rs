@@ -1,10 +1,10 @@
-//! Face rasterization: the id of the nearest face in each pixel, by the z-buffer of the pictures.
+//! Face rasterization: the id of the nearest face in each pixel, by the z-buffer used for pictures.
 //!
 //! ```text
 //!  triangles ─► clip space ─► clip ─► divide, snap ─► Frame ─► visibility buffer of ids
 //! ```
-//! The check of drawings asks which face is in front, and fills of faces color the ids. Each
-//! sample is at a pixel center; faces are opaque and seen from both sides.
+//! The drawing check asks which face is in front, and face fills color the ids. Each sample is at a
+//! pixel center; faces are opaque and visible from both sides.
 
 use super::projector::Projector;
 use crate::DrawError;
@@ -13,10 +13,10 @@ use glam::DVec3;
 use homog::Point;
 use raster::{Frame, Opacity, Samples, ScreenVertex};
 
-/// Rasterizes triangles of the world and returns for each pixel, row by row, the index of the
-/// nearest one; `None` where there is none.
+/// Rasterizes world-space triangles and returns for each pixel, row by row, the index of the
+/// nearest one; `None` without one.
 ///
-/// `size` is that of the viewport of `projector`.
+/// `size` is the size of the viewport of `projector`.
 ///
 /// # Errors
 /// If the image is too large, or there are more triangles than ids.

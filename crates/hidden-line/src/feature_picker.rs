@@ -1,4 +1,4 @@
-//! Feature picker: vertices, edges, circles and faces of models by their place, for dimensions.
+//! Feature picker: finds vertices, edges, circles and faces of models by position, for dimensions.
 
 use crate::WorldCircle;
 use crate::circles::{CIRCLE_TOLERANCE, circles_of_chain};
@@ -9,9 +9,9 @@ use homog::{Bounds, Point, Vector, World};
 use model::ModelInstance;
 use std::sync::OnceLock;
 
-/// The features of models in the world.
+/// The features of models in world space.
 ///
-/// Objects are the nodes with a mesh, in the order of [`Model::mesh_instances`] of one model after
+/// Objects are the nodes with a mesh, in the order of [`Model::mesh_instances`], one model after
 /// the other. `None` for objects means all of them.
 ///
 /// [`Model::mesh_instances`]: model::Model::mesh_instances
@@ -31,7 +31,7 @@ struct Features {
     circles: Vec<(WorldCircle, u32)>,
 }
 
-/// An edge or a face with the point of it that is nearest to the place where it was picked.
+/// An edge or a face, with its point nearest to the picked position.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct PickedFeature {
     /// The nearest point.
@@ -43,14 +43,14 @@ pub struct PickedFeature {
 }
 
 impl<'a> FeaturePicker<'a> {
-    /// The features of models; edges between faces are those sharper than an angle in radians.
+    /// Creates a picker for models; edges between faces are those sharper than an angle in radians.
     #[must_use]
     pub fn new(models: &'a [ModelInstance], crease_angle: f64) -> Self {
         let mesh = WorldMesh::from_models(models);
         Self { models, mesh, crease_angle, features: OnceLock::new() }
     }
 
-    /// The features of the welded surface, found at the first request.
+    /// The features of the welded surface, found on demand.
     fn features(&self) -> &Features {
         self.features.get_or_init(|| {
             let surface = WeldedSurface::new(self.models, &[], &[]);
@@ -60,7 +60,7 @@ impl<'a> FeaturePicker<'a> {
         })
     }
 
-    /// The box around objects; `None` if they have no vertices.
+    /// Returns the bounding box of objects; `None` if they have no vertices.
     #[must_use]
     pub fn bounds(&self, objects: Option<&[u32]>) -> Option<Bounds<World>> {
         let points = self.vertices(objects).map(Point::from_raw);
@@ -75,7 +75,7 @@ impl<'a> FeaturePicker<'a> {
         of_faces.chain(lines.flat_map(|line| line.ends)).map(|at| self.mesh.points[at as usize])
     }
 
-    /// The vertex of objects that is nearest to a point.
+    /// Returns the vertex of objects nearest to a point.
     #[must_use]
     pub fn nearest_vertex(
         &self,
@@ -87,7 +87,7 @@ impl<'a> FeaturePicker<'a> {
         vertices.min_by(|a, b| distance(a).total_cmp(&distance(b))).map(Point::from_raw)
     }
 
-    /// The edge of objects that is nearest to a point: a crease or a boundary.
+    /// Returns the edge of objects nearest to a point: a crease or a boundary.
     #[must_use]
     pub fn nearest_edge(&self, to: Point<World>, objects: Option<&[u32]>) -> Option<PickedFeature> {
         let Features { surface, edges, .. } = self.features();
@@ -101,7 +101,7 @@ impl<'a> FeaturePicker<'a> {
         nearest(picked, to)
     }
 
-    /// The face of objects that is nearest to a point: a triangle, which stands for its plane.
+    /// Returns the face of objects nearest to a point: a triangle, which represents its plane.
     #[must_use]
     pub fn nearest_face(&self, to: Point<World>, objects: Option<&[u32]>) -> Option<PickedFeature> {
         let wanted = self.mesh.faces.iter().filter(|face| is_wanted(objects, face.object));
@@ -114,7 +114,7 @@ impl<'a> FeaturePicker<'a> {
         nearest(picked, to)
     }
 
-    /// The circle or arc of objects whose center or line is nearest to a point.
+    /// Returns the circle or arc of objects whose center or line is nearest to a point.
     #[must_use]
     pub fn nearest_circle(&self, to: Point<World>, objects: Option<&[u32]>) -> Option<WorldCircle> {
         let circles = self.circles(objects);
@@ -127,13 +127,13 @@ impl<'a> FeaturePicker<'a> {
         circles.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
-    /// The search for planes about which all objects are symmetric.
+    /// Returns a search for planes of symmetry of all objects.
     pub fn mirror_symmetry(&self) -> MirrorSymmetry<'_> {
         let Features { surface, edges, .. } = self.features();
         MirrorSymmetry::new(surface, edges)
     }
 
-    /// The circles and arcs of objects.
+    /// Returns the circles and arcs of objects.
     pub fn circles(&self, objects: Option<&[u32]>) -> impl Iterator<Item = WorldCircle> {
         let circles = self.features().circles.iter();
         circles.filter(move |(_, object)| is_wanted(objects, *object)).map(|(circle, _)| *circle)
@@ -141,9 +141,9 @@ impl<'a> FeaturePicker<'a> {
 }
 
 impl WeldedSurface {
-    /// The circles and arcs of feature edges, each with its object.
+    /// Finds the circles and arcs of feature edges, each with its object.
     ///
-    /// Points may be 1/20,000 of the diagonal of the models beside their circle.
+    /// Points may be off their circle by 1/20,000 of the models' diagonal.
     pub(crate) fn circles(&self, edges: &[FeatureEdge]) -> Vec<(WorldCircle, u32)> {
         let tolerance = CIRCLE_TOLERANCE * self.diagonal();
         let chains = self.feature_chains(edges);
@@ -155,13 +155,13 @@ impl WeldedSurface {
     }
 }
 
-/// Whether an object is one of those that are wanted.
+/// Whether an object is one of the requested objects.
 fn is_wanted(objects: Option<&[u32]>, object: u32) -> bool {
     objects.is_none_or(|objects| objects.contains(&object))
 }
 
-/// The feature whose point is nearest, by its point, direction and middle; those without a direction
-/// are none.
+/// The feature with the nearest point, from points, directions and middles; features without a
+/// direction are ignored.
 fn nearest(picked: impl Iterator<Item = [DVec3; 3]>, to: Point<World>) -> Option<PickedFeature> {
     let distance = |feature: &[DVec3; 3]| feature[0].distance_squared(to.raw());
     let [point, direction, middle] = picked
@@ -174,8 +174,7 @@ fn nearest(picked: impl Iterator<Item = [DVec3; 3]>, to: Point<World>) -> Option
     })
 }
 
-/// The point of a triangle that is nearest to a point (Ericson, Real-Time Collision Detection,
-/// 5.1.5).
+/// The nearest point of a triangle (Ericson, Real-Time Collision Detection, 5.1.5).
 pub(crate) fn nearest_point_of_triangle([a, b, c]: [DVec3; 3], to: DVec3) -> DVec3 {
     let normal = (b - a).cross(c - a);
     let is_inside = |from: DVec3, side: DVec3| side.cross(to - from).dot(normal) >= 0.0;
@@ -192,7 +191,7 @@ pub(crate) fn nearest_point_of_triangle([a, b, c]: [DVec3; 3], to: DVec3) -> DVe
     )
 }
 
-/// The point of a segment that is nearest to a point.
+/// The nearest point of a segment.
 pub(crate) fn nearest_point_of_segment([a, b]: [DVec3; 2], to: DVec3) -> DVec3 {
     let span = b - a;
     let length = span.length_squared();

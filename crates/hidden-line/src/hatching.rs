@@ -7,14 +7,13 @@
 //!   ───────┴──────
 //! ```
 //!
-//! A line of the paper is the image of a plane through the viewer. Where that plane cuts a face is
-//! a segment of the world, found by the signs of a linear function at the vertices. From there on
-//! it is an edge like any other: clipped, projected, and divided by hidden-line removal.
+//! A line on the paper is the image of a plane through the viewer. The segment where that plane
+//! cuts a face is found in the world, by the signs of a linear function at the vertices. From then
+//! on it is an edge like any other: clipped, projected, and divided by hidden-line removal.
 //!
-//! Section caps are hatched at 45°. Each part has a direction or a spacing of its own, the same
-//! wherever it is cut, so that neighbors differ; whole parts under [`FaceHatching::Parts`] have
-//! such patterns too. Faces under [`FaceHatching::ByLuma`] are hatched by luma: the darker, the
-//! denser.
+//! Section caps are hatched at 45°. Each part has its own direction or spacing, the same wherever
+//! it is cut, so that neighbors differ; whole parts under [`FaceHatching::Parts`] have such
+//! patterns too. Under [`FaceHatching::ByLuma`], faces are hatched by luma: the darker, the denser.
 
 use super::edges::SectionCap;
 use super::projector::Projector;
@@ -26,7 +25,7 @@ use glam::{DVec2, DVec3, DVec4};
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// The greatest number of segments of one hatching.
+/// The maximum number of segments in one hatching.
 const MAX_SEGMENTS: usize = 1 << 22;
 
 /// The spacings that distinguish parts with the same direction, as multiples of the first.
@@ -35,21 +34,21 @@ const SPACING_FACTORS: [f64; 4] = [1.0, 1.5, 0.75, 2.0];
 /// The cosine of 30°.
 const HALF_SQRT_3: f64 = 0.866_025_403_784_438_6;
 
-/// Parts whose hatchings are compared with those of their neighbors: comparisons grow by the
-/// square.
+/// The maximum number of parts whose hatchings are compared with their neighbors': comparisons grow
+/// with the square.
 const MAX_COMPARED_PARTS: usize = 1 << 13;
 
-/// The hatch lines on faces, beside those on section caps.
+/// The hatch lines on faces, in addition to those on section caps.
 #[derive(Clone, Copy, Default)]
 pub enum FaceHatching<'a> {
     /// No hatch lines.
     #[default]
     None,
-    /// Hatch lines on all faces of an object, at an angle and a spacing that its neighbors do not
-    /// have. Where section planes cut, only their cuts are hatched.
+    /// Hatch lines on all faces of an object, at an angle and a spacing different from its
+    /// neighbors. Where section planes cut, only the cuts are hatched.
     Parts,
-    /// Hatch lines by the luma of each face, 0 for black to 1 for white, the denser the darker it
-    /// is. The function takes the corners of a face in the world, and the linear color of its
+    /// Hatch lines by the luma of each face, from 0 for black to 1 for white: the darker, the
+    /// denser. The function takes the corners of a face in the world and the linear color of its
     /// material.
     ByLuma(&'a dyn Fn([DVec3; 3], [f32; 3]) -> f64),
 }
@@ -80,11 +79,11 @@ impl HatchPattern {
         Self { normal, spacing }
     }
 
-    /// The number of patterns that differ.
+    /// The number of different patterns.
     const COUNT: usize = 6 * SPACING_FACTORS.len();
 
-    /// The pattern of a part by its index: alternating directions first, then other spacings, then
-    /// lines at 30° and 60°.
+    /// Returns the pattern of a part by its index: first alternating directions, then other
+    /// spacings, then lines at 30° and 60°.
     ///
     /// ```text
     ///   part      0      1      2        3        4         5         6      7
@@ -112,27 +111,28 @@ impl HatchPattern {
         libm::ceil(from / self.spacing) as i64..=libm::floor(to / self.spacing) as i64
     }
 
-    /// The function of homogeneous screen coordinates (x, y, z, w) that is zero on a line: n·(x, y)
-    /// − i · spacing · w.
+    /// The linear function of homogeneous screen coordinates (x, y, z, w) that is zero on a line:
+    /// n·(x, y) − i · spacing · w.
     fn line_function(&self, line: i64) -> DVec4 {
         let at = line as f64 * self.spacing;
         DVec4::new(self.normal.x, self.normal.y, 0.0, -at)
     }
 }
 
-/// The hatch lines of some faces.
+/// The hatch lines on some faces.
 #[derive(Debug, Default)]
 pub(super) struct Hatching {
-    /// Segments in the world, each with the object it lies on.
+    /// Segments in the world, each with its object.
     pub(super) segments: Vec<([DVec3; 2], u32)>,
-    /// The caps that the viewer sees, with their patterns.
+    /// The visible caps, with their patterns.
     pub(super) regions: Vec<Region>,
     /// Whether segments are missing because there were too many.
     pub(super) is_cut_off: bool,
 }
 
 impl Hatching {
-    /// Hatches section caps: triangles by object and section plane, those of one object in a row.
+    /// Hatches section caps: triangles by object and section plane, with the caps of one object in
+    /// a row.
     ///
     /// Collinear segments of a cap's triangles are joined, so that the triangulation does not show.
     pub(super) fn hatch_caps(
@@ -166,8 +166,8 @@ impl Hatching {
         hatching
     }
 
-    /// Hatches the faces of each part by a pattern that its neighbors do not have, the same for
-    /// every viewer; neighbors are those whose boxes touch.
+    /// Hatches the faces of each part with a pattern different from its neighbors, the same for
+    /// every viewer; neighbors are parts whose boxes touch.
     pub(super) fn hatch_parts(
         faces: impl Iterator<Item = ([DVec3; 3], u32)>,
         boxes: BTreeMap<u32, Aabb>,
@@ -199,8 +199,8 @@ impl Hatching {
         hatching
     }
 
-    /// Hatches faces by their luma, 0 for black to 1 for white: the darker, the denser; the darkest
-    /// in both directions.
+    /// Hatches faces by luma, from 0 for black to 1 for white: the darker, the denser. The darkest
+    /// are hatched in both directions.
     pub(super) fn hatch_faces_by_luma(
         faces: impl Iterator<Item = ([DVec3; 3], u32, f64)>,
         projector: &Projector,
@@ -224,16 +224,16 @@ impl Hatching {
     }
 }
 
-/// Faces with a higher luma are not hatched.
+/// The maximum luma of hatched faces.
 const MAX_HATCHED_LUMA: f64 = 0.88;
 
-/// Faces with a lower luma are cross-hatched.
+/// The maximum luma of cross-hatched faces.
 const MAX_CROSS_HATCHED_LUMA: f64 = 0.4;
 
-/// The factor of the luma limit below which a face gets a line: every fourth line comes first, then
-/// every second.
+/// The fraction of the luma limit below which a face gets a line: every fourth line comes first,
+/// then every second.
 ///
-/// The densities are nested, so lines of adjacent faces continue each other.
+/// The densities are nested, so lines on adjacent faces continue each other.
 fn line_luma_factor(line: i64) -> f64 {
     match line & 3 {
         0 => 1.0,
@@ -242,15 +242,16 @@ fn line_luma_factor(line: i64) -> f64 {
     }
 }
 
-/// The faces of one object that are hatched, with the index of its pattern.
+/// The hatched faces of one object, with the index of their pattern.
 struct HatchedPart {
     object: u32,
-    /// The boxes around its faces, or around each cap, with a margin of the touching distance.
+    /// The boxes around its faces, or around each cap, with the touching distance as a margin.
     boxes: Vec<Aabb>,
     pattern: usize,
 }
 
-/// A pattern index for each cap: greedy coloring such that objects whose caps may touch differ.
+/// Assigns a pattern index to each cap: greedy coloring, so that objects whose caps may touch
+/// differ.
 fn assign_cap_patterns(caps: &[SectionCap], touching: f64) -> Vec<usize> {
     let mut parts: Vec<HatchedPart> = Vec::new();
     for SectionCap { object, triangles, .. } in caps {
@@ -266,9 +267,9 @@ fn assign_cap_patterns(caps: &[SectionCap], touching: f64) -> Vec<usize> {
     caps.iter().map(|cap| pattern_of(cap.object).map_or(0, |part| part.pattern)).collect()
 }
 
-/// Gives each part the least pattern index that no earlier part near it has.
+/// Gives each part the lowest pattern index not used by an earlier part near it.
 ///
-/// Of more than [`MAX_COMPARED_PARTS`] parts the rest take turns.
+/// Parts beyond [`MAX_COMPARED_PARTS`] take turns.
 fn choose_patterns(parts: &mut [HatchedPart]) {
     for index in 0..parts.len() {
         if index >= MAX_COMPARED_PARTS {
@@ -295,7 +296,7 @@ fn choose_patterns(parts: &mut [HatchedPart]) {
 /// ```
 ///
 /// A line is the zero set of a linear function of clip coordinates, so its segment is found in the
-/// world without inverting the projection. The segments reach over the unclipped triangle;
+/// world without inverting the projection. The segments cross the whole unclipped triangle;
 /// hidden-line removal clips them. Lines that `is_drawn` rejects are skipped.
 fn hatch_triangle(
     vertices: [DVec3; 3],
@@ -334,7 +335,7 @@ fn zero_segment(vertices: [DVec3; 3], heights: [f64; 3]) -> Option<[DVec3; 2]> {
         if (one.1 < 0.0) == (other.1 < 0.0) {
             continue;
         }
-        // Oriented alike for both faces at the side, so that neighbors meet at the same bits.
+        // Oriented alike for both faces at the side, so neighbors meet at the same bits.
         let rises = one.0.to_array() < other.0.to_array();
         let ((p, from), (q, to)) = if rises { (one, other) } else { (other, one) };
         let position = p + (q - p) * (from / (from - to));
@@ -344,7 +345,7 @@ fn zero_segment(vertices: [DVec3; 3], heights: [f64; 3]) -> Option<[DVec3; 2]> {
     (a != b && a.is_finite() && b.is_finite()).then_some([a, b])
 }
 
-/// Joins segments of one plane that continue each other on the same hatch line, up to a gap of
+/// Joins coplanar segments that continue each other on the same hatch line, up to a gap of
 /// `touching`.
 fn join_collinear_segments(mut by_line: Vec<(i64, [DVec3; 2])>, touching: f64) -> Vec<[DVec3; 2]> {
     by_line.sort_by_key(|(line, _)| *line);
@@ -355,7 +356,7 @@ fn join_collinear_segments(mut by_line: Vec<(i64, [DVec3; 2])>, touching: f64) -
     joined
 }
 
-/// Joins the segments of one hatch line: an interval union along the direction of the longest.
+/// Joins the segments of one hatch line: an interval union along the direction of the longest one.
 fn join_on_line(on_line: &mut [(i64, [DVec3; 2])], touching: f64, joined: &mut Vec<[DVec3; 2]>) {
     let longest = |a: &DVec3, b: &DVec3| a.length_squared().total_cmp(&b.length_squared());
     let along = on_line.iter().map(|(_, [a, b])| *b - *a).max_by(longest);

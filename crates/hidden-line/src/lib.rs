@@ -7,23 +7,24 @@
 //!
 //! | module | technique |
 //! | --- | --- |
-//! | `draw` | the drawing of a subject: candidate edges, divided into visible and hidden segments |
+//! | `draw` | drawing of a subject: candidate edges, divided into visible and hidden segments |
 //! | `edges` | vertex welding, T-junctions, silhouettes and creases, section cuts with caps |
 //! | `visibility` | hidden-line removal by interval arithmetic over a BVH (Roberts, Appel 1967) |
 //! | `view_cover` | what a crowd of faces hides as a whole |
 //! | `hatching` | ISO 128-50 hatching of caps and of parts, hatching by luma of faces |
-//! | `region` | what faces cover on the screen, by winding numbers |
-//! | `feature_picker`, `circles` | vertices, edges, faces and circles by their place |
+//! | `region` | areas that faces cover on the screen, by winding numbers |
+//! | `feature_picker`, `circles` | vertices, edges, faces and circles by position |
 //! | `mirror_symmetry` | planes of symmetry |
-//! | `retained_points` | what section planes leave of models, for framing |
+//! | `retained_points` | the points of models that section planes retain, for framing |
 //! | `face_raster`, `z_buffer_check` | faces in a z-buffer; a drawing checked against it |
 //!
-//! [`draw`](draw()) takes a [`Subject`], models with a camera, and returns a [`LineDrawing`]:
-//! segments in pixels. It knows no pens and no pages; the crate `drawing` makes pages of it.
+//! [`draw`](draw()) takes a [`Subject`], which has models and a camera, and returns a
+//! [`LineDrawing`]: segments in pixels. It does not know pens or pages; the crate `drawing` turns
+//! it into pages.
 //!
-//! All geometry is f64 and runs through the stages of the pictures (`camera`, `projection`, `clip`,
-//! `viewport`), so a line drawing lies exactly over a picture of the same scene. Results do not
-//! depend on the number of threads.
+//! All geometry is f64 and runs through the same stages as pictures (`camera`, `projection`,
+//! `clip`, `viewport`), so a line drawing exactly matches a picture of the same scene. Results do
+//! not depend on the number of threads.
 
 mod circles;
 mod draw;

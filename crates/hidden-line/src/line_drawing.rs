@@ -8,7 +8,7 @@
 use super::{Region, Warning};
 use glam::DVec2;
 
-/// The reason why an edge is drawn; the first that applies, in order of importance.
+/// The reason why an edge is drawn: the first that applies, in order of importance.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum EdgeClass {
     /// Between a front-facing and a back-facing face.
@@ -21,7 +21,7 @@ pub enum EdgeClass {
     Intersection,
     /// The outline of a section through a model.
     Section,
-    /// The file marks it as an edge to be drawn.
+    /// The file marks it as an edge.
     Marked,
     /// Two surfaces of different materials meet smoothly.
     Tangent,
@@ -29,7 +29,7 @@ pub enum EdgeClass {
     Line,
     /// A hatch line, on a section cap or by the luma of a face.
     Hatching,
-    /// Any other side of a triangle; drawn by wireframes only.
+    /// Any other side of a triangle; drawn only in wireframes.
     Facet,
 }
 
@@ -48,7 +48,7 @@ impl EdgeClass {
         Self::Facet,
     ];
 
-    /// The name of the class, in lower case.
+    /// Returns the name of the class, in lower case.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -66,14 +66,14 @@ impl EdgeClass {
     }
 }
 
-/// A segment of an edge that is visible, or hidden, from end to end.
+/// A segment of an edge that is either visible or hidden from end to end.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct EdgeSegment {
     /// The ends on the screen: pixels, y down.
     pub ends: [DVec2; 2],
     /// The depths of the ends, 0 at the far plane and 1 at the near plane.
     pub depths: [f64; 2],
-    /// Why the edge is drawn.
+    /// The reason why the edge is drawn.
     pub class: EdgeClass,
     /// Whether no face is in front of it.
     pub visible: bool,
@@ -88,18 +88,18 @@ pub struct EdgeSegment {
 pub struct LineDrawing {
     /// The width and height of the image in pixels.
     pub size: DVec2,
-    /// The names of the objects, from the nodes of the models.
+    /// The object names, from the nodes of the models.
     pub objects: Vec<String>,
     /// Visible segments, and hidden ones if the options retain them.
     pub segments: Vec<EdgeSegment>,
-    /// The cut faces with their hatch lines, and the outlines if the options ask for them.
+    /// The cut faces with their hatch lines, and the outlines if requested in the options.
     pub regions: Vec<Region>,
-    /// Warnings of the drawing, each once.
+    /// Warnings of the drawing, without duplicates.
     pub warnings: Vec<Warning>,
 }
 
 impl LineDrawing {
-    /// Whether there is nothing to see.
+    /// Whether the drawing is empty.
     pub fn is_empty(&self) -> bool {
         self.segments.is_empty() && self.regions.is_empty()
     }

@@ -1,9 +1,9 @@
-//! Mirror symmetry of models, by their surface and not by its triangles.
+//! Mirror symmetry of models, based on their surface instead of its triangles.
 //!
-//! Models are symmetric about a plane if the mirror image of each vertex lies on a face, and those
-//! of the ends and the middle of each feature edge on feature edges. So it does not matter how flat
-//! faces are divided into triangles; round ones must be divided alike, or as finely as the
-//! tolerance.
+//! Models are symmetric about a plane if the mirror image of each vertex is on a face, and the
+//! mirror images of the ends and the middle of each feature edge are on feature edges. The
+//! triangulation of flat faces therefore does not matter. Round faces must be divided
+//! symmetrically, or as finely as the tolerance.
 
 use crate::circles::CIRCLE_TOLERANCE;
 use crate::edges::{FeatureEdge, WeldedSurface};
@@ -12,7 +12,7 @@ use crate::visibility::{Aabb, Bvh, TriangleMesh};
 use glam::DVec3;
 use homog::{Point, Vector, World};
 
-/// Directions whose cosine is nearer to 1 are the same.
+/// The difference from 1 below which the cosine of two directions makes them the same.
 const SAME_COSINE: f64 = 1e-12;
 
 /// The search for planes of symmetry.
@@ -23,14 +23,14 @@ pub struct MirrorSymmetry<'a> {
     edge_bvh: Bvh,
     /// The vertices of faces.
     vertices: Vec<u32>,
-    /// Mirror images may be so far beside what they are images of, in units of the world.
+    /// The maximum distance of mirror images from their counterparts, in world units.
     tolerance: f64,
-    /// The directions that were asked for, with the answers.
+    /// The directions already requested, with the answers.
     known: Vec<(DVec3, Option<Point<World>>)>,
 }
 
 impl<'a> MirrorSymmetry<'a> {
-    /// The symmetry of a surface with these creases and boundaries.
+    /// Prepares the search on a surface with these creases and boundaries.
     pub(crate) fn new(surface: &'a WeldedSurface, edges: &'a [FeatureEdge]) -> Self {
         let points = &surface.mesh().points;
         let ends = |edge: &FeatureEdge| edge.ends.map(|end| points[end as usize]);
@@ -48,8 +48,8 @@ impl<'a> MirrorSymmetry<'a> {
         }
     }
 
-    /// A point of the plane that is perpendicular to a unit vector and about which the models are
-    /// symmetric; `None` if there is no such plane.
+    /// Returns a point of the plane of symmetry perpendicular to a unit vector; `None` if there is
+    /// no such plane.
     pub fn plane_across(&mut self, direction: Vector<World>) -> Option<Point<World>> {
         let direction = direction.raw();
         let is_same = |known: DVec3| known.dot(direction).abs() > 1.0 - SAME_COSINE;
@@ -62,7 +62,7 @@ impl<'a> MirrorSymmetry<'a> {
         point
     }
 
-    /// The point in the middle of the extent along a direction; `None` without faces.
+    /// The point at the middle of the extent along a direction; `None` without faces.
     fn middle_along(&self, direction: DVec3) -> Option<DVec3> {
         let points = self.vertices.iter().map(|&vertex| self.surface.position(vertex));
         let by_height = |a: &DVec3, b: &DVec3| a.dot(direction).total_cmp(&b.dot(direction));
@@ -70,7 +70,7 @@ impl<'a> MirrorSymmetry<'a> {
         Some((lowest + points.max_by(by_height)?) * 0.5)
     }
 
-    /// Whether everything has its mirror image in the plane through a point.
+    /// Whether the plane through a point maps everything to its mirror image.
     fn mirrors(&self, middle: DVec3, direction: DVec3) -> bool {
         let mirror = |point: DVec3| point - direction * (2.0 * (point - middle).dot(direction));
         let mut open = Vec::new();
@@ -83,7 +83,7 @@ impl<'a> MirrorSymmetry<'a> {
             && vertices.all(|point| self.is_on_face(mirror(point), &mut open))
     }
 
-    /// Whether a point lies on a feature edge.
+    /// Whether a point is on a feature edge.
     fn is_on_edge(&self, point: DVec3, open: &mut Vec<u32>) -> bool {
         let mut is_on = false;
         self.edge_bvh.for_each_overlapping(&self.around(point), usize::MAX, open, |edge| {
@@ -93,7 +93,7 @@ impl<'a> MirrorSymmetry<'a> {
         is_on
     }
 
-    /// Whether a point lies on a face.
+    /// Whether a point is on a face.
     fn is_on_face(&self, point: DVec3, open: &mut Vec<u32>) -> bool {
         let mut is_on = false;
         let faces = self.surface.face_bvh();
@@ -104,7 +104,7 @@ impl<'a> MirrorSymmetry<'a> {
         is_on
     }
 
-    /// The box of what may be near a point.
+    /// The search box around a point.
     fn around(&self, point: DVec3) -> Aabb {
         Aabb::from_points([point]).expanded_by(DVec3::splat(self.tolerance))
     }

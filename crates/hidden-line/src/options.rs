@@ -1,12 +1,11 @@
-//! Options of hidden-line removal: the edge classes, the hidden parts and the faces that go into a
-//! drawing.
+//! Options of hidden-line removal: the edge classes, hidden parts and faces included in a drawing.
 //!
-//! They say what is computed, and nothing of pens, widths and colors.
+//! They control the computed lines, not pens, widths or colors.
 
 use super::EdgeClass;
 use viewport::MILLIMETERS_PER_INCH;
 
-/// Pixels of a drawing to the inch, where nothing else is said: as in CSS.
+/// The default number of drawing pixels per inch, as in CSS.
 const PIXELS_PER_INCH: f64 = 96.0;
 
 /// The content of a line drawing.
@@ -16,63 +15,62 @@ pub struct DrawOptions {
     pub classes: EdgeClasses,
     /// The treatment of hidden parts.
     pub hidden_edges: HiddenEdges,
-    /// Two faces that meet at more than this angle make a crease: in radians, 0 between coplanar
+    /// Two faces that meet at more than this angle form a crease, in radians, 0 between coplanar
     /// faces. Default: 30 degrees.
     pub crease_angle: f64,
-    /// Two faces that meet at more than this angle, and at no more than a crease, make a tangent
-    /// edge, in radians; `None` if only a change of material does. Default: `None`.
+    /// Two faces that meet at more than this angle, but do not form a crease, form a tangent edge,
+    /// in radians; `None` if only a change of material does. Default: `None`.
     pub tangent_angle: Option<f64>,
     /// Whether an edge with the same vertex normals on both sides is smooth, however sharp: scanned
     /// and sculpted surfaces have such edges. Default: true.
     pub asks_normals: bool,
-    /// How silhouettes of smooth surfaces are found. Default: from the facets, exactly.
+    /// The method for silhouettes of smooth surfaces. Default: exact, from the facets.
     pub silhouettes: SilhouetteMethod,
-    /// Whether only the outline of everything is drawn: edges beside which there is no face, before
-    /// them or behind. Default: false.
+    /// Whether to draw only the outline of everything: edges with no face beside them, in front or
+    /// behind. Default: false.
     pub outline_only: bool,
-    /// The distance between hatch lines in pixels, greater than 0. Default: 2 mm at 96 pixels to
-    /// the inch.
+    /// The distance between hatch lines in pixels, greater than 0. Default: 2 mm at 96 pixels per
+    /// inch.
     pub hatch_spacing: f64,
-    /// Whether the drawing has the outlines of the whole, or of what section planes cut, as regions.
+    /// Whether to add the outlines of the whole, or of the cuts of section planes, as regions.
     /// Default: no.
     pub outlines: bool,
-    /// Whether faces with parts that their textures cut out, such as leaves on rectangles, neither
-    /// have edges nor hide any. Default: false.
+    /// Whether to ignore faces whose textures have cut-outs, such as leaves on rectangles: they
+    /// neither have edges nor hide any. Default: false.
     pub leaves_out_cut_outs: bool,
-    /// About the greatest number of comparisons of edges with faces, and with boxes around faces:
-    /// where it is reached, parts of edges that would be hidden are visible, and the drawing has
-    /// the warning [`VisibilityIncomplete`](crate::Warning::VisibilityIncomplete). Each edge may
-    /// have 512, whatever the number of edges; all together have no more than 2²⁶ and 4096 for each
-    /// face. Default: 2³², minutes of work.
+    /// The approximate maximum number of comparisons of edges with faces and with boxes around
+    /// faces. If it is reached, some hidden parts of edges are drawn as visible, with the warning
+    /// [`VisibilityIncomplete`](crate::Warning::VisibilityIncomplete). Each edge may have 512, for
+    /// any number of edges; all together have at most 2²⁶ plus 4096 per face. Default: 2³², minutes
+    /// of work.
     pub max_comparisons: u64,
-    /// Whether drawings have no other limits of work: crowds of faces are drawn exactly as well,
-    /// and any number of triangles, of intersections and of comparisons for each face is taken.
-    /// Default: false.
+    /// Whether to lift all other work limits: crowds of faces are drawn exactly too, and any number
+    /// of triangles, intersections and comparisons per face is allowed. Default: false.
     pub is_unlimited: bool,
 }
 
 /// The treatment of the hidden parts of edges.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum HiddenEdges {
-    /// They are left out.
+    /// Not drawn.
     Removed,
-    /// They are drawn as segments that are not visible, to be dashed.
+    /// Drawn as segments that are not visible, to be dashed.
     Retained,
-    /// As `Retained`, where at most two faces are in front of them: the two sides of one wall.
+    /// Like `Retained`, if at most two faces are in front of them: the two sides of one wall.
     FirstLayer,
-    /// Visibility is not computed: all edges are visible from end to end, as in a wireframe.
+    /// Not computed: all edges are visible from end to end, as in a wireframe.
     Ignored,
 }
 
-/// How the silhouettes of smooth surfaces are found.
+/// The method for silhouettes of smooth surfaces.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum SilhouetteMethod {
-    /// They are the sides of triangles where the mesh turns away from the viewer: exact for the
-    /// mesh, and in zigzag near the outline of the surface that it stands for.
+    /// The sides of triangles where the mesh turns away from the viewer: exact for the mesh, but a
+    /// zigzag near the outline of the surface that it approximates.
     Facets,
-    /// They run across the triangles, where the interpolated normal is at a right angle to the line
-    /// of sight (Hertzmann and Zorin 2000): smooth, and approximate. There can be gaps at cusps, and
-    /// where triangles are large the line lies beside what they cover.
+    /// Lines across the triangles, where the interpolated normal is perpendicular to the line of
+    /// sight (Hertzmann and Zorin 2000): smooth, but approximate. There can be gaps at cusps, and
+    /// with large triangles the line is beside the covered area.
     Interpolated,
 }
 
@@ -86,7 +84,7 @@ impl DrawOptions {
     /// 30 degrees, in radians.
     const DEFAULT_CREASE_ANGLE: f64 = std::f64::consts::FRAC_PI_6;
 
-    /// The edges a draftsman would draw, where they are visible.
+    /// Options for the visible edges that a draftsman would draw.
     #[must_use]
     pub const fn hidden_edges_removed() -> Self {
         Self {
@@ -105,20 +103,20 @@ impl DrawOptions {
         }
     }
 
-    /// Those edges with their hidden parts.
+    /// Options for those edges with their hidden parts.
     #[must_use]
     pub const fn hidden_edges_retained() -> Self {
         Self { hidden_edges: HiddenEdges::Retained, ..Self::hidden_edges_removed() }
     }
 
-    /// Silhouettes and boundaries, where they are visible.
+    /// Options for visible silhouettes and boundaries.
     #[must_use]
     pub const fn silhouettes() -> Self {
         let classes = EdgeClasses::NONE.with(EdgeClass::Silhouette).with(EdgeClass::Boundary);
         Self { classes, ..Self::hidden_edges_removed() }
     }
 
-    /// The outline of everything.
+    /// Options for the outline of everything.
     #[must_use]
     pub const fn outline() -> Self {
         let classes = EdgeClasses::FEATURES
@@ -128,7 +126,7 @@ impl DrawOptions {
         Self { classes, outline_only: true, ..Self::hidden_edges_removed() }
     }
 
-    /// Every side of every face, as if surfaces were of wire.
+    /// Options for every side of every face, as if surfaces were made of wire.
     #[must_use]
     pub const fn wireframe() -> Self {
         Self {
@@ -139,7 +137,7 @@ impl DrawOptions {
     }
 }
 
-/// A set of edge classes, one bit for each.
+/// A set of edge classes, one bit per class.
 ///
 /// ```
 /// use hidden_line::{EdgeClass, EdgeClasses};
@@ -161,13 +159,13 @@ impl EdgeClasses {
     /// All but facets.
     pub const FEATURES: Self = Self::ALL.without(EdgeClass::Facet);
 
-    /// The set with a class added.
+    /// Returns the set with a class added.
     #[must_use]
     pub const fn with(self, class: EdgeClass) -> Self {
         Self(self.0 | 1 << class as u16)
     }
 
-    /// The set with a class removed.
+    /// Returns the set with a class removed.
     #[must_use]
     pub const fn without(self, class: EdgeClass) -> Self {
         Self(self.0 & !(1 << class as u16))

@@ -5,9 +5,9 @@
 //! ```
 //!
 //! Hidden-line removal does linear algebra on plain vectors; this type keeps the steps between
-//! spaces in one place. The viewer is homogeneous, so facing tests read the same in perspective,
-//! where it is the eye, and in parallel projection, where it is a point at infinity: the vector to
-//! the viewer v from p is v.xyz − p · v.w.
+//! spaces in one place. The viewer is homogeneous, so facing tests are the same in perspective,
+//! where it is the eye, and in parallel projection, where it is a point at infinity. The vector
+//! from p to the viewer v is v.xyz − p · v.w.
 
 use camera::{ViewProjection, ViewTransform};
 use clip::{ClippedSegment, Volume, clip_segment};
@@ -20,37 +20,37 @@ use viewport::Viewport;
 pub struct Projector(ViewTransform);
 
 impl Projector {
-    /// The transform of a camera on a viewport, whose depths must run from 0 at the far plane to 1
-    /// at the near plane.
+    /// Creates the transform for a camera on a viewport, whose depths must run from 0 at the far
+    /// plane to 1 at the near plane.
     #[must_use]
     pub fn new(view_projection: &ViewProjection, viewport: &Viewport) -> Self {
         Self(ViewTransform::new(view_projection, viewport.ndc_to_screen()))
     }
 
-    /// World space to clip space.
+    /// Transforms a point from world space to clip space.
     pub(super) fn world_to_clip_point(&self, point: DVec3) -> HPoint<Clip> {
         self.0.project_to_clip(Point::from_raw(point))
     }
 
-    /// Perspective divide and viewport transform; `None` where there is no finite image.
+    /// Perspective divide and viewport transform; `None` if there is no finite image.
     pub(super) fn project_to_screen(&self, point: HPoint<Clip>) -> Option<DVec3> {
         let screen = self.0.project_to_screen(point)?.raw();
         screen.is_finite().then_some(screen)
     }
 
-    /// World to pixels and depth as one matrix, before the divide.
+    /// World space to pixels and depth as one matrix, before the divide.
     pub(super) fn world_to_screen(&self) -> DMat4 {
         self.0.world_to_screen().raw()
     }
 
-    /// The vector from a point to the eye; of length 1 in a parallel view.
+    /// Returns the vector from a point to the eye; a unit vector in a parallel view.
     #[must_use]
     #[inline]
     pub fn towards_viewer(&self, from: DVec3) -> DVec3 {
         self.0.vector_to_viewer(Point::from_raw(from)).raw()
     }
 
-    /// The part of a segment inside the view volume, clipped before the divide.
+    /// Returns the part of a segment inside the view volume, clipped before the divide.
     pub(super) fn clip_edge(&self, ends: [DVec3; 2]) -> Option<ClippedSegment> {
         let [a, b] = ends.map(|end| self.world_to_clip_point(end));
         clip_segment(a, b, &Volume::CHAPTER)

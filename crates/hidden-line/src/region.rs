@@ -1,4 +1,4 @@
-//! Regions: areas that faces cover on the screen, by the edges at their borders.
+//! Regions: areas that faces cover on the screen, represented by their border edges.
 //!
 //! ```text
 //!    ┌─────┐
@@ -7,30 +7,29 @@
 //!    └─────┘
 //! ```
 //!
-//! Every triangle is turned so that it is positively oriented on the screen, and the directed sides
-//! of all triangles are summed. The winding number of the sum about a point is the number of
-//! triangles that cover it, whatever the mesh is like: open, self-intersecting or inside out.
-//! Shared vertices have the same bits on the screen, and triangles are clipped at the same bits, so
-//! sides cancel exactly.
+//! Every triangle is oriented positively on the screen, and the directed sides of all triangles are
+//! summed. The winding number of the sum around a point is the number of triangles that cover it,
+//! even if the mesh is open, self-intersecting or inside out. Shared vertices have the same bits on
+//! the screen, and triangles are clipped at the same bits, so sides cancel exactly.
 
 use super::projector::Projector;
 use clip::{Volume, clip_triangle};
 use glam::{DVec2, DVec3};
 
-/// A directed side with its multiplicity: the faces at its left less those at its right, as seen
-/// with x to the right and y up.
+/// A directed side with its multiplicity: the number of faces on its left minus the number on its
+/// right, with x to the right and y up.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct RegionEdge {
     /// The ends on the screen: pixels, y down.
     pub ends: [DVec2; 2],
-    /// How often it counts; never 0.
+    /// The multiplicity; never 0.
     pub winding: i32,
 }
 
-/// An area on the screen, where one face or more are.
+/// An area on the screen covered by at least one face.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Region {
-    /// The object it belongs to; `None` for the whole of the scene.
+    /// The object it belongs to; `None` for the whole scene.
     pub object: Option<u32>,
     /// Its sides; some of them may be covered by other faces.
     pub edges: Vec<RegionEdge>,
@@ -38,18 +37,18 @@ pub struct Region {
     pub hatching: Option<RegionHatching>,
 }
 
-/// Parallel lines at equal distances, one through the upper left corner of the screen.
+/// Equally spaced parallel lines, one through the upper left corner of the screen.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct RegionHatching {
     /// The unit vector along the lines, y down.
     pub direction: DVec2,
-    /// The distance between two lines in pixels.
+    /// The distance between lines in pixels.
     pub spacing: f64,
 }
 
-/// The sides of the area that triangles cover on the screen, sorted.
+/// Returns the sides of the area that triangles cover on the screen, sorted.
 ///
-/// What is outside of the view volume is clipped, so the border of the picture may be a side.
+/// Triangles are clipped to the view volume, so the border of the picture may be a side.
 pub fn region_edges(
     triangles: impl Iterator<Item = [DVec3; 3]>,
     projector: &Projector,
@@ -82,7 +81,7 @@ fn add_polygon(polygon: &[DVec2], sides: &mut Vec<([DVec2; 2], i32)>) {
     }
     let turn = if area > 0.0 { 1 } else { -1 };
     for (&from, &to) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
-        // Adding 0 makes −0 to 0: equal points have equal bits.
+        // Adding 0 turns −0 into 0: equal points have equal bits.
         let (from, to) = (from + DVec2::ZERO, to + DVec2::ZERO);
         match compare_points(from, to) {
             std::cmp::Ordering::Less => sides.push(([from, to], turn)),

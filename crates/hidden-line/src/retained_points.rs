@@ -1,4 +1,4 @@
-//! Retained points: what section planes leave of models, as points for framing.
+//! Retained points: the parts of models that section planes retain, as points for framing.
 
 use crate::Warning;
 use crate::edges::WorldMesh;
@@ -9,11 +9,11 @@ use model::ModelInstance;
 /// Distances up to this fraction of the models' diagonal count as touching.
 const TOUCHING: f64 = 1e-9;
 
-/// The points of models that section planes retain: corners of what is left of their triangles and
-/// lines. Objects that are `uncut`, in ascending order, are retained whole. All points if nothing is
-/// left.
+/// Returns the points of models that section planes retain: the corners of the remaining triangles
+/// and lines. Objects in `uncut`, in ascending order, are retained whole. Returns all points if
+/// nothing remains.
 ///
-/// A view that frames them shows the cut models as large as possible.
+/// A view that frames these points shows the cut models as large as possible.
 #[must_use]
 pub fn retained_points(
     models: &[ModelInstance],
@@ -47,7 +47,7 @@ pub fn retained_points(
     if retained.is_empty() { model::world_points(models) } else { retained }
 }
 
-/// The triangles that a plane leaves of a triangle.
+/// The triangles that remain after a plane cuts a triangle.
 fn cut_pieces(triangle: [Point<World>; 3], plane: Plane<World>) -> Vec<[Point<World>; 3]> {
     let cut = cut_triangle(triangle, plane);
     let left = cut.vertices();
@@ -67,7 +67,7 @@ fn cut_line([a, b]: [Point<World>; 2], plane: &Plane<World>) -> Option<[Point<Wo
     }
 }
 
-/// The warnings of all sections that lie beside the models.
+/// The warnings about all sections that do not cut the models.
 pub(crate) fn idle_section_warnings(
     models: &[ModelInstance],
     sections: &[Plane<World>],
@@ -80,8 +80,8 @@ pub(crate) fn idle_section_warnings(
     numbered.filter_map(|(plane, number)| idle_section_warning(&points, *plane, number)).collect()
 }
 
-/// The warning of a section, by its number from 1, that lies beside all points: it removes nothing,
-/// or everything.
+/// Returns the warning about a section, numbered from 1, that does not cut the models: it removes
+/// nothing, or everything.
 pub fn idle_section_warning(
     points: &[Point<World>],
     plane: Plane<World>,

@@ -8,23 +8,23 @@ use viewport::{Viewport, ViewportError};
 /// The input of a line drawing.
 #[derive(Clone, Copy, Debug)]
 pub struct Subject<'a> {
-    /// The models in the world.
+    /// The models in world space.
     pub models: &'a [ModelInstance],
     /// Camera and projection.
     pub view_projection: ViewProjection,
     /// Width and height of the image in pixels.
     pub size: [u32; 2],
-    /// The height in pixels of the strip at the bottom that does not show the view, but a caption;
-    /// 0 without one.
+    /// The height in pixels of the caption strip at the bottom, which does not show the view; 0
+    /// without one.
     pub caption_height: u32,
-    /// Section planes; the side to which their unit normals point is retained.
+    /// Section planes; the side that their unit normals point to is retained.
     pub sections: &'a [Plane<World>],
-    /// The objects that they do not cut: nodes with a mesh, counted over all models.
+    /// The objects that the sections do not cut: nodes with a mesh, counted over all models.
     pub uncut: &'a [u32],
 }
 
 impl Subject<'_> {
-    /// The viewport of the whole image.
+    /// Returns the viewport of the whole image.
     ///
     /// # Errors
     /// If the image has no pixels, or too many.
@@ -32,7 +32,7 @@ impl Subject<'_> {
         Viewport::image_for(self.size[0], self.size[1], ClipRange::CHAPTER)
     }
 
-    /// The part of the image's height, from the top, that shows the view.
+    /// Returns the fraction of the image's height, from the top, that shows the view.
     #[must_use]
     pub fn view_height(&self) -> f64 {
         1.0 - f64::from(self.caption_height) / f64::from(self.size[1].max(1))

@@ -1,4 +1,4 @@
-//! What a view hides of itself as a whole, found before any two things are compared.
+//! Self-occlusion of a view as a whole, found before any two faces are compared.
 
 use super::edges::WeldedSurface;
 use super::options::{DrawOptions, HiddenEdges};
@@ -9,19 +9,19 @@ use glam::DVec3;
 /// The depths behind which nothing is visible in a view.
 pub(super) struct ViewCover {
     pub(super) cover: DepthCover,
-    /// Whether it is that of all faces together, up to gaps of some pixels, and not of single ones.
+    /// Whether it covers all faces together, up to gaps of a few pixels, instead of single faces.
     is_crowd: bool,
 }
 
 impl ViewCover {
-    /// The cover, if it is that of a crowd.
+    /// The cover, if it is the cover of a crowd.
     pub(super) fn crowd(&self) -> Option<&DepthCover> {
         self.is_crowd.then_some(&self.cover)
     }
 }
 
-/// What a surface hides of itself: by all faces if they are a crowd, else by single ones where
-/// hidden lines are not drawn.
+/// Finds the cover of a surface: by all faces together if they are a crowd, otherwise by single
+/// faces if hidden lines are not drawn.
 pub(super) fn view_cover(
     surface: &WeldedSurface,
     projector: Projector,
@@ -40,20 +40,20 @@ pub(super) fn view_cover(
     (!cover.is_empty()).then_some(ViewCover { cover, is_crowd: false })
 }
 
-/// The triangles that hide in a view.
+/// The occluding triangles of a view.
 #[derive(Clone, Debug)]
 pub(super) struct Occluding<'a> {
     pub(super) surface: &'a WeldedSurface,
-    /// What hides instead of the triangles of the surface.
+    /// The occluders used instead of the triangles of the surface.
     pub(super) parts: Option<VisibleParts>,
 }
 
-/// The parts of triangles that a crowd does not hide itself: of a soup of long triangles, an edge
-/// meets few of them.
+/// The parts of triangles that a crowd does not hide: in a soup of long triangles, an edge meets
+/// few of them.
 #[derive(Clone, Debug)]
 pub(super) struct VisibleParts {
     corners: Vec<[DVec3; 3]>,
-    /// The triangle of the surface that each is a part of.
+    /// The triangle of the surface that contains each part.
     triangles: Vec<u32>,
 }
 

@@ -1,4 +1,4 @@
-//! Hidden-line removal: hidden lines are cut here, each edge into visible and hidden parts (HL-1).
+//! Hidden-line removal: cuts each edge into visible and hidden parts (HL-1).
 //!
 //! The algorithm works in object space, edge against face, as Roberts (1963) and Appel (*The Notion
 //! of Quantitative Invisibility and the Machine Rendering of Solids*, 1967) introduced it. Nothing
@@ -20,16 +20,16 @@
 //! ```
 //!
 //! Appel counts, at each point of an edge, the faces in front of it: the *quantitative
-//! invisibility*. Most line drawings only ask whether that count is zero, so the union of the
-//! intervals that single faces hide is enough; `covering_faces` counts them, for drawings that dash
-//! the lines behind one wall alone. Two rules make the union agree with intuition on meshes:
+//! invisibility*. Most line drawings ask only whether that count is zero, so the union of the
+//! intervals hidden by single faces is enough. `covering_faces` counts them, for drawings that dash
+//! only the lines behind one wall. Two rules make the union match intuition on meshes:
 //!
-//! - Touching does not hide. An edge that lies in a face, or on its border, belongs to the face and
-//!   stays visible; [`Tolerance`] gives the distances below which an edge touches.
-//! - Two faces that share a side hide together what runs exactly behind the side, although each
-//!   alone would only touch it. Such intervals are collected by the side of the edge on which the
-//!   face lies, and their intersection is hidden. A crack between two objects that is narrower than
-//!   a pen hides in the same way what runs along it.
+//! - Touching does not hide. An edge in a face, or on its border, belongs to the face and stays
+//!   visible; [`Tolerance`] gives the distances below which an edge touches.
+//! - Two faces that share a side together hide a line exactly behind the side, although each face
+//!   by itself would only touch it. Such intervals are collected separately for faces on the left
+//!   and on the right of the edge, and their intersection is hidden. A crack between two objects,
+//!   narrower than a pen, hides a line along it in the same way.
 
 mod bounds;
 mod bvh;

@@ -1,50 +1,50 @@
-//! Warnings: what a line drawing leaves out, returned along with it.
+//! Warnings about missing parts of a line drawing, returned along with it.
 
 use core::fmt;
 use files::visible_excerpt;
 
-/// Something that a line drawing leaves out or could not do, with the reason in its `Display` text.
+/// A part that a line drawing lacks or could not compute, with the reason in its `Display` text.
 ///
-/// Warnings are sorted and each is reported once, so their order does not depend on threads. They
-/// are part of the result, not logged: the caller decides whether and where to print them.
+/// Warnings are sorted and reported once each, so their order does not depend on threads. They are
+/// part of the result and are not logged: the caller decides whether and where to print them.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 #[non_exhaustive]
 pub enum Warning {
     /// The outline of a section does not close.
     SectionOpen {
-        /// The name of the object.
+        /// The object name.
         object: String,
     },
     /// The outline of a section has too many points for a cap.
     SectionTooComplex {
-        /// The name of the object.
+        /// The object name.
         object: String,
     },
-    /// A section plane lies beside the models and removes nothing.
+    /// A section plane misses the models and removes nothing.
     SectionMisses {
         /// The number of the section, from 1.
         number: usize,
     },
-    /// A section plane lies beside the models, which are all on the side that is removed.
+    /// A section plane misses the models, which are all on the removed side.
     SectionRemovesAll {
         /// The number of the section, from 1.
         number: usize,
     },
-    /// The textures of some materials cut out parts of their faces, and lines show these whole.
+    /// The textures of some materials have cut-outs, but lines show their faces whole.
     CutOutsDrawnWhole,
-    /// So many faces lie behind each other that small gaps between them count as closed.
+    /// So many faces are behind each other that small gaps between them count as closed.
     CrowdApproximated,
-    /// The search for intersection edges was cut off.
+    /// The search for intersection edges ended early.
     IntersectionsIncomplete,
-    /// The hatching was cut off.
+    /// The hatching ended early.
     HatchingIncomplete,
-    /// The search for hidden lines was cut off.
+    /// The search for hidden lines ended early.
     VisibilityIncomplete,
 }
 
 impl Warning {
-    /// The place of the warning in a report: sections, then labels, then limits of work. Crates
-    /// above put theirs between these numbers.
+    /// Returns the position of the warning in a report: sections, then labels, then work limits.
+    /// Higher crates put theirs between these numbers.
     #[must_use]
     pub const fn report_order(&self) -> u8 {
         match self {

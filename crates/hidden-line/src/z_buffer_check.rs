@@ -1,8 +1,8 @@
 //! Verification of a line drawing against the z-buffer image of the same scene.
 //!
-//! The two share the welded surface and the stages up to clip space, and nothing after: on one side
-//! rounding to a grid, coverage of samples and a depth for each pixel, on the other intersections
-//! of lines. Where a segment is drawn as visible, the z-buffer must show, within half a pixel,
+//! The two share the welded surface and the stages up to clip space, and nothing after that. One
+//! side rounds to a grid, samples coverage and stores a depth for each pixel; the other intersects
+//! lines. Where a segment is drawn as visible, the z-buffer must show, within half a pixel,
 //! something that is not in front of it: the face at the edge, one behind it, or nothing.
 //!
 //! ```text
@@ -22,13 +22,13 @@ use viewport::Viewport;
 /// The longest side of the z-buffer image in pixels.
 const MAX_Z_BUFFER_SIDE: u32 = 8192;
 
-/// Pixels of the z-buffer image for each pixel of the drawing, if its side allows it.
+/// Z-buffer image pixels per drawing pixel, if its side allows it.
 const SUPERSAMPLING: u32 = 4;
 
 /// The distance from a point at which the z-buffer may show it, in pixels of the drawing.
 const SEARCH_RADIUS: f64 = 0.5;
 
-/// The agreement of a drawing with the z-buffer image: lengths on the screen in pixels.
+/// The agreement of a drawing with the z-buffer image, as lengths on the screen in pixels.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Agreement {
     /// The length of all visible segments.
@@ -44,7 +44,7 @@ pub struct Agreement {
 }
 
 impl Agreement {
-    /// The fraction of the visible length that the z-buffer hides.
+    /// Returns the fraction of the visible length that the z-buffer hides.
     #[must_use]
     pub fn disagreement_ratio(&self) -> f64 {
         if self.visible_length > 0.0 { self.denied_length / self.visible_length } else { 0.0 }
@@ -56,8 +56,8 @@ impl Agreement {
 ///
 /// Each point is unprojected with its depth and compared with the planes of the faces that the
 /// image shows within half a pixel. A visible point is denied if all of them are in front of it; a
-/// hidden one is contradicted if none is. Disagreement below about 0.2 % of the length is normal:
-/// the image resolves a quarter of a pixel.
+/// hidden one is contradicted if none of them is. Disagreement below about 0.2 % of the length is
+/// normal: the image resolves a quarter of a pixel.
 ///
 /// # Errors
 /// If the image has no pixels or is larger than a z-buffer may be.
@@ -99,18 +99,18 @@ pub fn verify_with_z_buffer(
 struct ZBufferImage {
     width: i64,
     height: i64,
-    /// Pixels for each pixel of the drawing.
+    /// Image pixels per drawing pixel.
     scale: f64,
     ids: Vec<Option<u32>>,
     /// The planes of the faces by id.
     planes: Vec<FacePlane>,
-    /// From points of the drawing with their depth to the world.
+    /// The transform from drawing points with depth to the world.
     to_world: DMat4,
-    /// The distance below which a point lies in a plane, in world units.
+    /// The distance below which a point is in a plane, in world units.
     touching: f64,
 }
 
-/// The plane of a face: the normal towards the viewer, and the distance from the origin along it.
+/// The plane of a face: the normal toward the viewer, and the distance from the origin along it.
 #[derive(Clone, Copy, Debug)]
 struct FacePlane {
     normal: DVec3,
@@ -118,12 +118,12 @@ struct FacePlane {
 }
 
 impl FacePlane {
-    /// The plane of a triangle, oriented towards the viewer.
+    /// Returns the plane of a triangle, oriented toward the viewer.
     ///
-    /// The side of the viewer is the one where depth grows: it is read from the matrix and not from
-    /// the projector's viewer, by which hidden lines are cut, so that a wrong viewer cannot hide
-    /// from the comparison. The row vector (n, −offset) in the world is (n, −offset) · M⁻¹ on the
-    /// screen; its third number is the change with depth.
+    /// The viewer's side is the one where depth grows. It is derived from the matrix instead of the
+    /// projector's viewer, which is used to cut hidden lines, so that a wrong viewer is detected.
+    /// The row vector (n, −offset) in the world is (n, −offset) · M⁻¹ on the screen; its third
+    /// component is the change with depth.
     fn from_triangle([a, b, c]: [DVec3; 3], screen_to_world: &DMat4) -> Self {
         let normal = (b - a).cross(c - a).normalize_or_zero();
         let offset = normal.dot(a);
@@ -164,13 +164,13 @@ impl ZBufferImage {
         })
     }
 
-    /// Whether something that is not in front of a point is visible near it.
+    /// Whether something visible near a point is not in front of it.
     fn shows_point(&self, point: DVec2, depth: f64) -> bool {
         let at = self.unproject_point(point, depth);
         self.face_ids_near(point).any(|id| id.is_none_or(|id| !self.is_face_in_front(id, at)))
     }
 
-    /// Whether something in front of a point is visible near it.
+    /// Whether something visible near a point is in front of it.
     fn hides_point(&self, point: DVec2, depth: f64) -> bool {
         let at = self.unproject_point(point, depth);
         self.face_ids_near(point).any(|id| id.is_some_and(|id| self.is_face_in_front(id, at)))
@@ -188,8 +188,8 @@ impl ZBufferImage {
         normal.dot(at) - offset < -self.touching
     }
 
-    /// The ids in the pixels within [`SEARCH_RADIUS`] of a point of the drawing; `None` where there
-    /// is no face.
+    /// The ids in the pixels within [`SEARCH_RADIUS`] of a point of the drawing; `None` without a
+    /// face.
     fn face_ids_near(&self, point: DVec2) -> impl Iterator<Item = Option<u32>> {
         let at = point * self.scale;
         let radius = SEARCH_RADIUS * self.scale;

@@ -1,4 +1,4 @@
-//! A ruler of ten centimeters as SVG, true to scale when it is printed.
+//! A ten-centimeter ruler as SVG, true to scale when printed.
 //!
 //! ```text
 //! cargo run -p alberti-page --example ruler > ruler.svg

@@ -2,7 +2,7 @@
 //!
 //! Only this module depends on tiny-skia. Faces are never drawn here: adjacent triangles filled
 //! with anti-aliased paths would let the background show through their seams, and tiny-skia breaks
-//! ties the other way round (RA-3).
+//! ties the opposite way (RA-3).
 //!
 //! ```text
 //!   picture  ┌────────┬────────┬───┐   tiles of 4096 × 2048 pixels, from the corner
@@ -13,7 +13,7 @@
 //! ```
 //!
 //! A region is drawn tile by tile, and each tile as a whole, so that pixels do not depend on the
-//! region that was asked for.
+//! requested region.
 
 use crate::{
     Cap, Ink, Join, Layer, MILLIMETERS_PER_PIXEL, Page, Pen, PlacedImage, Polyline, to_millimeters,
@@ -25,22 +25,22 @@ use tiny_skia::{
     PremultipliedColorU8, Stroke, StrokeDash, Transform,
 };
 
-/// The number of points after which a new path is begun: long paths fill slowly, short ones cost a
-/// call each.
+/// The number of points after which a new path starts: long paths fill slowly, and each short one
+/// costs a call.
 const MAX_PATH_POINTS: usize = 256;
 
-/// The longest side of a picture, as the rasterizer of surfaces has it.
+/// The longest side of a picture, the same as for the surface rasterizer.
 const MAX_PICTURE_SIDE: u32 = 16_384;
 
 /// Width and height of the tiles in which a picture is drawn.
 ///
 /// tiny-skia rounds coordinates relative to the corner of its pixmap, so pixels depend on the tile
-/// they are in. Tiles are counted from the corner of the whole picture and so do not depend on the
-/// region.
+/// they are in. Tiles are counted from the corner of the whole picture, so they do not depend on
+/// the region.
 const TILE_SIZE: [u32; 2] = [4096, 2048];
 
-/// A picture as a pixmap of tiny-skia, so that anything can be drawn over it. Opaque pictures are not
-/// copied; pixels that let something through are multiplied by their alpha, as pixmaps have it.
+/// Converts a picture to a tiny-skia pixmap, so that anything can be drawn over it. Opaque pictures
+/// are not copied; translucent pixels are premultiplied, as pixmaps require.
 ///
 /// `None` if the picture has no pixels.
 ///
@@ -66,8 +66,8 @@ pub fn picture_to_pixmap(picture: Picture) -> Option<Pixmap> {
     Pixmap::from_vec(pixels.into_flattened(), size)
 }
 
-/// A pixmap of tiny-skia as a picture. Colors of pixels that let something through are divided by
-/// their alpha, and so rounded.
+/// Converts a tiny-skia pixmap to a picture. The colors of translucent pixels are divided by their
+/// alpha, and so rounded.
 #[must_use]
 pub fn pixmap_to_picture(pixmap: &Pixmap) -> Picture {
     let (width, height) = (pixmap.width(), pixmap.height());
@@ -79,9 +79,9 @@ pub fn pixmap_to_picture(pixmap: &Pixmap) -> Picture {
 }
 
 impl<W> Page<W> {
-    /// The page as a picture of this size in pixels, stretched to fill it; transparent where there
-    /// is no paper. For a resolution the sides are those of the page in millimeters, times the dots
-    /// per inch, over 25.4.
+    /// Renders the page as a picture of this size in pixels, stretched to fill it, and transparent
+    /// if the page has no paper. For a given resolution, each side is the page's side in
+    /// millimeters times the dots per inch, divided by 25.4.
     ///
     /// `None` if the picture would have no pixels, or a side longer than 16,384.
     #[must_use]
@@ -92,7 +92,7 @@ impl<W> Page<W> {
             .then(|| self.to_picture_region([width, height], whole))
     }
 
-    /// A region of the picture of this size in pixels.
+    /// Renders a region of the picture of this size in pixels.
     #[must_use]
     pub fn to_picture_region<C: Channel>(&self, size: [u32; 2], region: PixelRect) -> Picture<C> {
         let [width, height] = size.map(f64::from);
@@ -112,7 +112,7 @@ impl<W> Page<W> {
     }
 }
 
-/// Draws layers of a page of 96 pixels to the inch over a region of a picture of this size.
+/// Draws layers of a page with 96 pixels per inch over a region of a picture of this size.
 pub fn draw_layers_over<C: Channel>(
     picture: &mut Picture<C>,
     size: [u32; 2],
@@ -135,7 +135,7 @@ struct RegionCanvas<'a, C> {
 }
 
 impl<C: Channel> RegionCanvas<'_, C> {
-    /// Draws images and layers over the region, with `scale` pixels for a millimeter in x and y.
+    /// Draws images and layers over the region, with `scale` pixels per millimeter in x and y.
     fn draw_tiles(
         &mut self,
         size: [u32; 2],
@@ -164,10 +164,10 @@ impl<C: Channel> RegionCanvas<'_, C> {
         }
     }
 
-    /// Draws over the part of the region in one tile.
+    /// Draws over the part of the region that is in one tile.
     ///
-    /// The whole tile is drawn, also outside the region: lines are clipped at its borders, and
-    /// clipped elsewhere they could be rounded to other pixels.
+    /// The whole tile is drawn, even outside the region. Lines are clipped at the borders of the
+    /// tile; clipped elsewhere, they could be rounded to other pixels.
     fn draw_tile(&mut self, tile: PixelRect, draw: impl FnOnce(&mut Canvas)) {
         let Some(shown) = tile.intersection(self.region) else { return };
         let Some(pixmap) = Pixmap::new(tile.width, tile.height) else { return };
@@ -181,7 +181,7 @@ impl<C: Channel> RegionCanvas<'_, C> {
         });
     }
 
-    /// Calls `each` with the pixels that the region and a canvas have in common, row by row.
+    /// Calls `each` with the pixels shared by the region and a canvas, row by row.
     fn for_each_shared_pixel(
         &mut self,
         shown: PixelRect,
@@ -204,10 +204,10 @@ impl<C: Channel> RegionCanvas<'_, C> {
     }
 }
 
-/// Conversion of pixels to the 8-bit canvas and back.
+/// Conversion of pixels to and from the 8-bit canvas.
 ///
-/// Pixels of 8 bits are drawn on. Pixels of 16 bits would lose precision: they keep their values,
-/// and the drawing is composited over them.
+/// Pixels of 8 bits are drawn on directly. Pixels of 16 bits would lose precision: they keep their
+/// values, and the drawing is composited over them.
 trait CanvasChannel: Channel {
     /// The pixel of the canvas under the drawing.
     fn to_canvas(pixel: [Self; 4]) -> PremultipliedColorU8;
@@ -249,7 +249,7 @@ struct Canvas {
 impl Canvas {
     /// Draws the strokes and fills of a layer.
     ///
-    /// Continuous strokes share paths; dashed ones need a path each, with a pattern of their own.
+    /// Continuous strokes share paths. A dashed stroke needs its own path with its own pattern.
     fn draw_layer(&mut self, layer: &Layer, scale: [f64; 2]) {
         let mut paint = Paint { anti_alias: true, ..Paint::default() };
         paint.set_color(skia_color(layer.pen.ink));
@@ -271,7 +271,7 @@ impl Canvas {
                     self.pixmap.stroke_path(&path, &paint, &stroke, Transform::identity(), None);
                 }
             }
-            // The even-odd rule applies within a path: holes must share that of their outline.
+            // The even-odd rule applies within a path: holes must share the path of their outline.
             for path in skia_paths(&group.fills, scale, self.corner, usize::MAX) {
                 let rule = FillRule::EvenOdd;
                 self.pixmap.fill_path(&path, &paint, rule, Transform::identity(), None);
@@ -285,14 +285,14 @@ impl Canvas {
     ///   canvas pixel ─► image columns [from, to) in real numbers, clamped to the image
     /// ```
     ///
-    /// The mean is weighted by area and alpha and composited over what is there, so edges of the
-    /// fill are anti-aliased.
+    /// The mean is weighted by area and alpha and composited over the canvas, so edges of the fill
+    /// are anti-aliased.
     fn draw_image(&mut self, pasted: &PlacedImage, scale: [f64; 2]) {
         let PlacedImage { corner, size, picture, .. } = pasted;
         let (width, height) = (self.pixmap.width(), self.pixmap.height());
         let first = self.corner;
         let span = |axis: usize, side: u32, sides: u32| {
-            // Image pixels for one canvas pixel, and where the canvas begins in the image.
+            // Image pixels per canvas pixel, and where the canvas begins in the image.
             let pixels = f64::from(side) / (f64::from(size[axis]) / 1000.0 * scale[axis]);
             let start = -f64::from(corner[axis]) / 1000.0 * scale[axis] * pixels;
             (first[axis]..first[axis] + sides).map(move |at| {
@@ -314,12 +314,12 @@ impl Canvas {
     }
 }
 
-/// An ink as an opaque color of tiny-skia.
+/// Converts an ink to an opaque tiny-skia color.
 fn skia_color([r, g, b]: Ink) -> Color {
     Color::from_rgba8(r, g, b, 255)
 }
 
-/// A pen as a stroke of tiny-skia, with lengths in pixels.
+/// Converts a pen to a tiny-skia stroke, with lengths in pixels.
 fn skia_stroke(pen: &Pen, dashes: &[f64], scale: f64) -> Stroke {
     let dashes = dashes.iter().map(|dash| (dash * scale) as f32).collect::<Vec<_>>();
     Stroke {
@@ -340,11 +340,11 @@ fn skia_stroke(pen: &Pen, dashes: &[f64], scale: f64) -> Stroke {
     }
 }
 
-/// The mean of an area of a picture: premultiplied red, green and blue, and alpha, 0 to 255;
+/// The mean of an area of a picture as premultiplied red, green and blue, and alpha, 0 to 255;
 /// transparent outside the picture.
 ///
 /// Each image pixel counts with the area it shares with the rectangle. Colors are weighted by
-/// alpha, or the color of transparent pixels would bleed into the edges.
+/// alpha, so that the color of transparent pixels does not bleed into the edges.
 fn area_mean(picture: &Picture, columns: [f64; 2], rows: [f64; 2]) -> [f64; 4] {
     let cells = |[from, to]: [f64; 2]| {
         let first = from as u32;
@@ -369,7 +369,7 @@ fn area_mean(picture: &Picture, columns: [f64; 2], rows: [f64; 2]) -> [f64; 4] {
     sum
 }
 
-/// Porter–Duff *over*: a premultiplied color over a straight one, as a straight one.
+/// Porter–Duff *over*: composites a premultiplied color over a straight one, giving a straight one.
 ///
 /// ```text
 ///   α = αₐ + α_b (1 − αₐ)        c = (cₐ + c_b α_b (1 − αₐ)) / α
@@ -388,8 +388,8 @@ fn composite_over([r, g, b, alpha]: [f64; 4], below: [u8; 4]) -> [u8; 4] {
 
 /// Lines as paths of about `most` points, in pixels of the canvas.
 ///
-/// Coordinates are subtracted from the corner of the tile in f64 and only then rounded to f32, as
-/// tiny-skia wants them: far from the origin of a large picture f32 has no subpixel bits left.
+/// Coordinates are subtracted from the corner of the tile in f64 and only then rounded to the f32
+/// of tiny-skia: far from the origin of a large picture, f32 has no subpixel bits left.
 fn skia_paths<'a>(
     lines: impl IntoIterator<Item = &'a Polyline>,
     scale: [f64; 2],

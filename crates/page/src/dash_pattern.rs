@@ -5,25 +5,25 @@
 //! ```
 //!
 //! A hidden edge should meet its ends with dashes, not with gaps (ISO 128-2). The pattern is
-//! stretched or shrunk a little so that a whole number n of periods and one more dash fit:
+//! stretched or shrunk a little so that a whole number n of periods plus one dash fit:
 //!
 //! ```text
 //!   open    length = scale · (n · period + dash)
 //!   closed  length = scale · n · period           n ≥ 2
 //! ```
 //!
-//! n is the nearest integer, so the scale stays within about 0.6 and 1.5; lines too short for that
-//! are drawn without gaps.
+//! n is the nearest integer, so the scale stays within about 0.6 and 1.5; shorter lines are drawn
+//! without gaps.
 
 use super::page::{Pen, Polyline};
 
-/// The least scale of a pattern: a line shorter than this many patterns of two dashes is drawn
+/// The minimum scale of a pattern. A line shorter than this many patterns of two dashes is drawn
 /// without gaps.
 const MIN_PATTERN_SCALE: f64 = 0.6;
 
 impl Pen {
-    /// The lengths of dashes and gaps in millimeters with which this pen draws a line; empty for a
-    /// line without gaps.
+    /// Returns the lengths of dashes and gaps, in millimeters, with which this pen draws a line;
+    /// empty for a line without gaps.
     ///
     /// ```
     /// use page::{IsoLineGroup, LineType, Polyline};
@@ -63,7 +63,7 @@ mod tests {
     }
 
     fn test_polyline(length: f64, closed: bool) -> Polyline {
-        // A triangle with sides of 0.3, 0.4 and 0.5 of the length's twelfths if it is closed.
+        // If closed, a triangle whose sides are 3, 4 and 5 twelfths of the length.
         let corners = [DVec2::ZERO, DVec2::new(length / 4.0, 0.0), DVec2::new(0.0, length / 3.0)];
         let straight = [DVec2::ZERO, DVec2::new(length, 0.0)];
         Polyline::through_points(if closed { &corners } else { &straight }, closed).expect("a line")

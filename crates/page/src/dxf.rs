@@ -9,18 +9,18 @@
 //!   OBJECTS    the dictionaries and layouts that readers require
 //! ```
 //!
-//! | of the page | in the file |
+//! | on the page | in the file |
 //! | --- | --- |
 //! | layer and object | a layer `visible-crease.shaft` with the color, width and line type of the pen |
-//! | polyline | LWPOLYLINE, or LINE; arcs of it are bulges, or ARC and CIRCLE: see `arcs` |
+//! | polyline | LWPOLYLINE, or LINE; its arcs are bulges, or ARC and CIRCLE: see `arcs` |
 //! | text | TEXT in the font txt, fitted to the width that it has in the other formats |
 //! | hatching | HATCH with its pattern and its outlines |
 //! | filled area | HATCH, solid |
-//! | image | nothing: the format has none that are part of the file |
+//! | image | nothing: the format cannot embed images |
 //!
-//! Colors are the nearest of AutoCAD's 255; blacks and whites are color 7, which contrasts with the
-//! screen. Characters beyond ASCII are written by their code, Ø as `\U+00D8`. The file has no dates:
-//! equal pages give equal bytes.
+//! Colors are the nearest of AutoCAD's 255. Blacks and whites are color 7, which contrasts with the
+//! screen. Characters beyond ASCII are written by code, Ø as `\U+00D8`. The file has no dates:
+//! identical pages give identical bytes.
 
 mod color_index;
 mod entities;
@@ -51,7 +51,7 @@ pub enum DxfUnit {
     Micrometer,
 }
 
-/// The coordinates of a DXF file and its arcs.
+/// The coordinates and arcs of a DXF file.
 ///
 /// ```
 /// use page::{DxfOptions, Page};
@@ -64,15 +64,15 @@ pub enum DxfUnit {
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct DxfOptions {
-    /// The unit of the drawing; `None` if it is not known.
+    /// The unit of the drawing; `None` if unknown.
     pub unit: Option<DxfUnit>,
-    /// Units of the drawing for a millimeter of the page, greater than 0.
+    /// Drawing units per millimeter of the page, greater than 0.
     pub units_per_millimeter: f64,
-    /// The point of the page that becomes (0, 0), in millimeters from its upper left corner; y of
-    /// the file is up.
+    /// The point of the page that becomes (0, 0), in millimeters from its upper left corner; y
+    /// points up in the file.
     pub origin: DVec2,
-    /// How far in millimeters of the page points may be from a circle to be written as an arc; 0 for
-    /// straight lines alone.
+    /// The tolerance for arcs, in millimeters on the page: points this close to a circle become an
+    /// arc; 0 writes straight lines only.
     pub arc_tolerance: f64,
 }
 
@@ -80,7 +80,7 @@ impl DxfOptions {
     /// Half of a hundredth of a millimeter.
     pub const DEFAULT_ARC_TOLERANCE: f64 = 0.005;
 
-    /// Millimeters on paper from its lower left corner.
+    /// Millimeters on paper, measured from its lower left corner.
     #[must_use]
     pub const fn on_paper<W>(page: &Page<W>) -> Self {
         Self {
@@ -93,7 +93,7 @@ impl DxfOptions {
 }
 
 impl<W> Page<W> {
-    /// The page as the bytes of a DXF file; images are left out.
+    /// Writes the page as a DXF file; images are skipped.
     #[must_use]
     pub fn to_dxf(&self, options: &DxfOptions) -> Vec<u8> {
         write_page(self.content(), options)

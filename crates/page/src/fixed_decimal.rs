@@ -1,13 +1,14 @@
-//! Fixed-point decimals: lengths written exactly with at most three decimals, as short as possible.
+//! Fixed-point decimals: lengths written exactly, as short as possible, with at most three
+//! decimals.
 //!
-//! SVG and PDF count in millimeters, pages in micrometers: a number of thousandths is written digit
-//! by digit, so nothing is rounded, no locale interferes, and both formats show the same digits.
+//! SVG and PDF use millimeters, pages use micrometers. A number of thousandths is written digit by
+//! digit, so nothing is rounded, no locale interferes, and both formats have the same digits.
 //! Leading and trailing zeros are omitted, as both grammars allow.
 
 /// Writes a number of thousandths: 12500 as `12.5`, −250 as `-.25`.
 ///
-/// Zero is `0`; an integer part of zero is omitted otherwise. All of `i64` is written, including
-/// its least value.
+/// Zero is `0`; otherwise an integer part of zero is omitted. Supports all of `i64`, including its
+/// minimum.
 pub(super) fn write_thousandths(out: &mut Vec<u8>, number: i64) {
     if number < 0 {
         out.push(b'-');
@@ -22,16 +23,16 @@ pub(super) fn write_thousandths(out: &mut Vec<u8>, number: i64) {
     }
 }
 
-/// A number of thousandths as text.
+/// Formats a number of thousandths.
 pub(super) fn format_thousandths(number: i64) -> String {
     let mut out = Vec::new();
     write_thousandths(&mut out, number);
     String::from_utf8_lossy(&out).into_owned()
 }
 
-/// A length in millimeters, rounded to the micrometer, as text.
+/// Formats a length in millimeters, rounded to the micrometer.
 ///
-/// For sizes and line widths, which are not on the grid; halves round away from zero.
+/// Used for sizes and line widths, which are not on the grid; halves round away from zero.
 pub(super) fn format_millimeters(millimeters: f64) -> String {
     format_thousandths(libm::round(millimeters * 1000.0) as i64)
 }

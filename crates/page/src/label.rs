@@ -1,4 +1,4 @@
-//! Labels: lines of text on a page, as strokes of a pen.
+//! Labels: lines of text on a page, drawn as pen strokes.
 //!
 //! ```text
 //!    ↑ height
@@ -13,12 +13,12 @@ use glam::DVec2;
 /// The alignment of text about its anchor.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum TextAlign {
-    /// It begins at the anchor.
+    /// Begins at the anchor.
     #[default]
     Start,
-    /// It is centered on the anchor.
+    /// Centered on the anchor.
     Middle,
-    /// It ends at the anchor.
+    /// Ends at the anchor.
     End,
 }
 
@@ -34,7 +34,7 @@ pub enum TextAlign {
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Label<'a> {
-    /// The text; characters that the font lacks become boxes.
+    /// The text; characters missing from the font become boxes.
     pub text: &'a str,
     /// The anchor on the baseline, in millimeters.
     pub anchor: DVec2,
@@ -42,43 +42,44 @@ pub struct Label<'a> {
     pub height: f64,
     /// The direction of the baseline, a unit vector: (1, 0) to the right, (0, −1) upward.
     pub direction: DVec2,
-    /// The part of the text that is at the anchor.
+    /// The part of the text placed at the anchor.
     pub align: TextAlign,
 }
 
 impl<'a> Label<'a> {
-    /// A label that begins at a point and runs to the right.
+    /// Creates a label that begins at a point and runs to the right.
     #[must_use]
     pub const fn new(text: &'a str, anchor: DVec2, height: f64) -> Self {
         Self { text, anchor, height, direction: DVec2::X, align: TextAlign::Start }
     }
 
-    /// The label with another alignment.
+    /// Returns the label with another alignment.
     #[must_use]
     pub const fn with_align(self, align: TextAlign) -> Self {
         Self { align, ..self }
     }
 
-    /// The label in another direction.
+    /// Returns the label in another direction.
     #[must_use]
     pub const fn with_direction(self, along: DVec2) -> Self {
         Self { direction: along, ..self }
     }
 
-    /// The label, reduced in height where it would be wider than this, in millimeters.
+    /// Returns the label with its height reduced if it would be wider than this, in millimeters.
     #[must_use]
     pub fn fit_to_width(self, width: f64) -> Self {
         let own = self.width();
         if own > width { Self { height: self.height * width / own, ..self } } else { self }
     }
 
-    /// The width of the text in millimeters, between the centers of the first and the last stroke.
+    /// Returns the width of the text in millimeters, between the centers of the first and last
+    /// strokes.
     #[must_use]
     pub fn width(&self) -> f64 {
         typeset_line(self.text).width * self.height / CAP_HEIGHT
     }
 
-    /// The pen for its height: a stroke of a tenth of it.
+    /// Returns the pen for the label's height: its stroke is a tenth of the height.
     #[must_use]
     pub fn pen(&self, ink: Ink) -> Pen {
         Pen::solid(self.height / CAP_HEIGHT, ink)
@@ -94,7 +95,7 @@ impl<'a> Label<'a> {
         self.anchor - self.direction * (width * part)
     }
 
-    /// The text as a group of its own, which knows that its strokes are letters.
+    /// Returns the text as a separate group, marked as text.
     #[must_use]
     pub fn group(&self) -> Group {
         let width = self.width();
@@ -108,7 +109,7 @@ impl<'a> Label<'a> {
         Group { strokes: self.strokes(), content, ..Group::default() }
     }
 
-    /// The strokes of the text on the page.
+    /// Returns the strokes of the text on the page.
     #[must_use]
     pub fn strokes(&self) -> Vec<Polyline> {
         let set = typeset_line(self.text);
@@ -144,7 +145,7 @@ mod tests {
         assert!((high.x - low.x - label.width()).abs() < 1e-3);
         let [low, high] = bounds(&label.with_align(TextAlign::End));
         assert!((high.x - 100.0).abs() < 1e-3 && (low.x - 100.0 + label.width()).abs() < 1e-3);
-        // Upward: above the baseline is at its left.
+        // Upward: above the baseline means to its left.
         let [low, high] = bounds(&label.with_direction(-DVec2::Y).with_align(TextAlign::Middle));
         assert!((low.x - 95.0).abs() < 1e-3 && (high.x - 100.0).abs() < 1e-3);
         assert!((low.y + high.y - 100.0).abs() < 2e-3);

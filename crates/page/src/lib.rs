@@ -1,4 +1,4 @@
-//! Pages: lines, texts, hatchings and pictures in whole micrometers, and their writers.
+//! Pages: lines, texts, hatchings and pictures in whole micrometers, and writers for four formats.
 //!
 //! ```text
 //!   Page ─┬─ PlacedImage …                                  ┌─► SVG
@@ -12,11 +12,11 @@
 //! | `page` | the page, its layers, pens and polylines |
 //! | `svg`, `pdf`, `dxf`, `canvas` | the four formats |
 //! | `line_type`, `dash_pattern` | line types and widths of ISO 128, dashes fitted to a line |
-//! | `label`, `stroke_font` | text as strokes of a pen: Latin, Greek, some Han |
-//! | `page_clip` | what is drawn in a rectangle, or beyond the border, is removed |
-//! | [`palette`] | the colors of inks |
+//! | `label`, `stroke_font` | text as pen strokes: Latin, Greek, some Chinese |
+//! | `page_clip` | removes strokes inside a rectangle or beyond the border |
+//! | [`palette`] | ink colors |
 //!
-//! Nothing here knows models or views. Equal pages give equal bytes.
+//! Nothing here depends on models or views. Identical pages give identical bytes.
 
 mod canvas;
 mod dash_pattern;
@@ -44,7 +44,7 @@ pub use page::{
 pub use pdf::to_pdf;
 pub use stroke_font::missing_glyphs;
 
-/// The library that [`picture_to_pixmap`] hands pictures to.
+/// The library whose pixmaps [`picture_to_pixmap`] returns.
 pub use tiny_skia;
 
 /// The example of the README, compiled as a documentation test.

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! Lengths are multiples of the line width d. Wide lines are twice as wide as narrow ones, and
-//! widths form a series with ratio √2, like paper sizes: a drawing reduced from A3 to A4 still has
+//! widths form a series with ratio √2, like paper sizes: a drawing reduced from A3 to A4 still uses
 //! widths of the series.
 
 use super::page::{Cap, Ink, Join, Pen};
@@ -16,7 +16,7 @@ use super::page::{Cap, Ink, Join, Pen};
 /// The line widths of the series, in millimeters.
 const WIDTH_SERIES: [f64; 9] = [0.13, 0.18, 0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0];
 
-/// A line group of ISO 128: a wide, a lettering and a narrow width, named by the wide one.
+/// A line group of ISO 128: a wide, a lettering and a narrow width, named after the wide one.
 ///
 /// ```
 /// use page::IsoLineGroup;
@@ -40,7 +40,8 @@ impl IsoLineGroup {
     /// 0.7 mm and 0.35 mm: large sheets.
     pub const MM_0_7: Self = Self { wide_index: 5 };
 
-    /// The group whose wide lines have this width in millimeters: 0.25, 0.35, 0.5, 0.7, 1, 1.4 or
+    /// Returns the group whose wide lines have this width in millimeters: 0.25, 0.35, 0.5, 0.7, 1,
+    /// 1.4 or 2. `None` for any other width.
     /// 2. `None` for any other.
     #[must_use]
     pub fn from_wide_width(wide: f64) -> Option<Self> {
@@ -48,19 +49,19 @@ impl IsoLineGroup {
         (found >= 2).then_some(Self { wide_index: found })
     }
 
-    /// The width of wide lines in millimeters.
+    /// Returns the width of wide lines in millimeters.
     #[must_use]
     pub fn wide_width(self) -> f64 {
         WIDTH_SERIES[self.wide_index]
     }
 
-    /// The stroke width of lettering in millimeters: between wide and narrow.
+    /// Returns the stroke width of lettering in millimeters, between wide and narrow.
     #[must_use]
     pub fn lettering_width(self) -> f64 {
         WIDTH_SERIES[self.wide_index - 1]
     }
 
-    /// The width of narrow lines in millimeters.
+    /// Returns the width of narrow lines in millimeters.
     #[must_use]
     pub fn narrow_width(self) -> f64 {
         WIDTH_SERIES[self.wide_index - 2]
@@ -94,8 +95,8 @@ impl LineType {
         in_widths.iter().map(|length| length * width).collect()
     }
 
-    /// A pen of this type. Dashes get butt caps: round ones would make them longer than the pattern
-    /// says.
+    /// Creates a pen of this type. Dashes get butt caps, because round ones would lengthen them
+    /// beyond the pattern.
     #[must_use]
     pub fn to_pen(self, width: f64, ink: Ink, cap: Cap, join: Join) -> Pen {
         let cap = if self == Self::Continuous { cap } else { Cap::Butt };
@@ -118,7 +119,7 @@ mod tests {
         assert_eq!(of(0.7), Some([0.7, 0.5, 0.35]));
         assert_eq!(of(2.0), Some([2.0, 1.4, 1.0]));
         assert_eq!((of(0.18), of(0.4), of(f64::NAN)), (None, None, None));
-        // The ratio of the series is √2, up to rounding to widths of drawing pens.
+        // The ratio of the series is √2, rounded to the widths of drawing pens.
         for pair in WIDTH_SERIES.windows(2) {
             assert!((pair[1] / pair[0] - core::f64::consts::SQRT_2).abs() < 0.05, "{pair:?}");
         }

@@ -1,7 +1,7 @@
-//! Page model: strokes and fills on paper, common to SVG, PDF, DXF and PNG.
+//! Page model: strokes and fills on paper, shared by SVG, PDF, DXF and PNG.
 //!
 //! Coordinates are whole micrometers from the upper left corner, y down. Integers are the same in
-//! every format, and relative steps between them add up without error.
+//! every format, and sums of relative steps are exact.
 //!
 //! ```text
 //!   Page ─┬─ PlacedImage …
@@ -14,10 +14,10 @@ use core::convert::Infallible;
 use glam::DVec2;
 use picture::Picture;
 
-/// The size of an image pixel on paper in millimeters: 96 to the inch, as in CSS.
+/// The size of an image pixel on paper in millimeters: 96 per inch, as in CSS.
 pub const MILLIMETERS_PER_PIXEL: f64 = MILLIMETERS_PER_INCH / 96.0;
 
-/// The length of an inch.
+/// The length of an inch in millimeters.
 pub(crate) const MILLIMETERS_PER_INCH: f64 = 25.4;
 
 /// A color of ink: sRGB, opaque.
@@ -28,8 +28,8 @@ pub type PagePoint = [i32; 2];
 
 /// A page and everything on it, in drawing order.
 ///
-/// `W` is the type of its warnings, which belong to whoever made the drawing; without them it need
-/// not be named.
+/// `W` is the type of its warnings, chosen by the maker of the drawing; without warnings it can be
+/// omitted.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Page<W = Infallible> {
     /// Width and height in millimeters.
@@ -40,31 +40,31 @@ pub struct Page<W = Infallible> {
     pub paper: Option<Ink>,
     /// Images on the paper, under the lines.
     pub images: Vec<PlacedImage>,
-    /// Layers, each drawn over the ones before.
+    /// Layers, each drawn over the previous ones.
     pub layers: Vec<Layer>,
-    /// Warnings of the drawings on the page, each once.
+    /// Warnings from the drawings on the page, without duplicates.
     pub warnings: Vec<W>,
 }
 
 /// An image on a page.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PlacedImage {
-    /// An identifier: lower case, hyphens, unique on its page.
+    /// An identifier, unique on its page: lower case, hyphens.
     pub id: String,
     /// The upper left corner in micrometers.
     pub corner: PagePoint,
     /// Width and height in micrometers, greater than 0.
     pub size: PagePoint,
-    /// The pixels, stretched to this size.
+    /// The pixels, stretched to `size`.
     pub picture: Picture,
 }
 
 /// Lines of one kind, drawn with one pen.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Layer {
-    /// An identifier: lower case, hyphens, unique on its page.
+    /// An identifier, unique on its page: lower case, hyphens.
     pub id: String,
-    /// A title for the reader.
+    /// A readable title.
     pub title: String,
     /// The pen of its lines.
     pub pen: Pen,
@@ -87,15 +87,15 @@ pub struct Group {
     pub content: GroupContent,
 }
 
-/// The meaning of a group of strokes: all of them are one text, one hatch, or lines.
+/// The meaning of a group of strokes: lines, one text or one hatch.
 ///
-/// Every format can draw the strokes. DXF has texts and hatches, which programs edit as such.
+/// Every format can draw the strokes. DXF has texts and hatches, which programs can edit.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub enum GroupContent {
     /// Lines.
     #[default]
     Lines,
-    /// The letters of a text.
+    /// The characters of a text.
     Text(TextLine),
     /// The hatch lines of areas.
     Hatching(Vec<HatchArea>),
@@ -106,27 +106,27 @@ pub enum GroupContent {
 pub struct TextLine {
     /// The text.
     pub text: String,
-    /// The start and the end of its baseline in micrometers.
+    /// The start and end of its baseline, in micrometers.
     pub baseline: [PagePoint; 2],
     /// The height of capitals in micrometers.
     pub height: i32,
 }
 
-/// An area with parallel lines at equal distances.
+/// An area with parallel, equally spaced lines.
 #[derive(Clone, PartialEq, Debug)]
 pub struct HatchArea {
-    /// Closed lines around it and around its holes: the even-odd rule.
+    /// Closed lines around it and its holes, by the even-odd rule.
     pub loops: Vec<Polyline>,
-    /// A point through which a line goes, or would go, in micrometers.
+    /// A point on one of the lines, or on its extension, in micrometers.
     pub origin: PagePoint,
     /// The unit vector along the lines, y down.
     pub direction: DVec2,
-    /// The distance between two lines in millimeters.
+    /// The distance between lines in millimeters.
     pub spacing: f64,
 }
 
 impl GroupContent {
-    /// Moves what the strokes are along with them, in micrometers.
+    /// Moves the content along with its strokes, in micrometers.
     pub(crate) fn move_by(&mut self, by: PagePoint) {
         let move_point = |point: &mut PagePoint| {
             *point = [point[0].saturating_add(by[0]), point[1].saturating_add(by[1])];
@@ -172,7 +172,7 @@ pub struct Pen {
     /// The color.
     pub ink: Ink,
     /// Alternating lengths of dashes and gaps in millimeters; empty for a continuous line. Each
-    /// polyline starts anew, with a pattern fitted to its length: [`Pen::fitted_dashes`].
+    /// polyline starts a new pattern, fitted to its length: [`Pen::fitted_dashes`].
     pub dashes: Vec<f64>,
     /// The ends of lines.
     pub cap: Cap,
@@ -183,28 +183,28 @@ pub struct Pen {
 /// The shape of the ends of lines.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Cap {
-    /// Cut off at the end point.
+    /// Ends flat at the end point.
     Butt,
-    /// With a half disc around the end point.
+    /// Adds a half disc around the end point.
     #[default]
     Round,
-    /// Extended by half a line width.
+    /// Extends by half a line width.
     Square,
 }
 
 /// The shape of the corners of lines.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Join {
-    /// Outer sides extended to a point, up to a miter limit of 4.
+    /// Extends the outer sides to a point, up to a miter limit of 4.
     Miter,
-    /// With a disc around the corner.
+    /// Adds a disc around the corner.
     #[default]
     Round,
-    /// The corner is cut off.
+    /// Cuts the corner off.
     Bevel,
 }
 
-/// A page without its warnings: the input of the writers of formats.
+/// A page without its warnings: the input of the format writers.
 #[derive(Clone, Copy)]
 pub(crate) struct PageContent<'a> {
     pub(crate) size: DVec2,
@@ -215,14 +215,14 @@ pub(crate) struct PageContent<'a> {
 }
 
 impl<W> Page<W> {
-    /// An empty page; the size is in millimeters.
+    /// Creates an empty page; the size is in millimeters.
     #[must_use]
     pub fn new(size: DVec2, title: impl Into<String>, paper: Option<Ink>) -> Self {
         let (images, layers, warnings) = (Vec::new(), Vec::new(), Vec::new());
         Self { size, title: title.into(), paper, images, layers, warnings }
     }
 
-    /// The page with its warnings as another type, such as that of a layer above.
+    /// Converts the warnings to another type, for example to the type of a higher crate.
     #[must_use]
     pub fn map_warnings<V>(self, map: impl FnMut(W) -> V) -> Page<V> {
         let Self { size, title, paper, images, layers, warnings } = self;
@@ -238,10 +238,10 @@ impl<W> Page<W> {
 }
 
 impl<W: Clone> Page<W> {
-    /// Puts the content of another page onto this one, with its upper left corner at `corner` in
+    /// Puts the content of another page onto this one, with its upper left corner at `corner`, in
     /// millimeters.
     ///
-    /// `prefix` begins the ids of images and layers, so that they stay unique.
+    /// `prefix` is prepended to the ids of images and layers, so that they stay unique.
     pub fn paste_page(&mut self, other: &Self, corner: DVec2, prefix: &str) {
         let by = to_micrometers(corner);
         let moved = |point: PagePoint| [point[0] + by[0], point[1] + by[1]];
@@ -265,7 +265,7 @@ impl<W: Clone> Page<W> {
 }
 
 impl Layer {
-    /// An empty layer.
+    /// Creates an empty layer.
     #[must_use]
     pub fn new(id: impl Into<String>, title: impl Into<String>, pen: Pen) -> Self {
         Self { id: id.into(), title: title.into(), pen, groups: Vec::new() }
@@ -273,7 +273,7 @@ impl Layer {
 }
 
 impl Pen {
-    /// A pen for continuous lines with round caps and joins.
+    /// Creates a pen for continuous lines with round caps and joins.
     #[must_use]
     pub fn solid(width: f64, ink: Ink) -> Self {
         Self { width, ink, dashes: Vec::new(), cap: Cap::Round, join: Join::Round }
@@ -281,10 +281,10 @@ impl Pen {
 }
 
 impl Polyline {
-    /// The polyline through points given in millimeters, without points that repeat their neighbor
+    /// Creates a polyline through points in millimeters, without points that repeat their neighbor
     /// on the grid.
     ///
-    /// `None` if fewer than two are left.
+    /// `None` if fewer than two remain.
     #[must_use]
     pub fn through_points(millimeters: &[DVec2], closed: bool) -> Option<Self> {
         let mut points: Vec<PagePoint> = millimeters.iter().copied().map(to_micrometers).collect();
@@ -295,7 +295,7 @@ impl Polyline {
         (points.len() >= 2).then_some(Self { points, closed })
     }
 
-    /// The length in millimeters.
+    /// Returns the length in millimeters.
     #[must_use]
     pub fn length(&self) -> f64 {
         let last = self.closed.then(|| [self.points[self.points.len() - 1], self.points[0]]);
@@ -304,16 +304,16 @@ impl Polyline {
     }
 }
 
-/// The nearest point of the grid; saturates for points too far away for it.
+/// Rounds to the nearest grid point; saturates if the point is too far away.
 ///
 /// Ties round away from zero. The grid reaches to ±2147 m, beyond any paper.
 #[must_use]
 pub fn to_micrometers(millimeters: DVec2) -> PagePoint {
-    // A float-to-int cast is exact for whole numbers and saturates.
+    // A float-to-int cast is exact for integers and saturates.
     (millimeters * 1000.0).to_array().map(|c| libm::round(c) as i32)
 }
 
-/// A point of the grid in millimeters.
+/// Converts a grid point to millimeters.
 #[must_use]
 pub fn to_millimeters([x, y]: PagePoint) -> DVec2 {
     DVec2::new(f64::from(x), f64::from(y)) / 1000.0

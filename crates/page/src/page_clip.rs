@@ -1,4 +1,4 @@
-//! Clipping of pages: lines outside of a rectangle, or inside of it, are removed.
+//! Clipping of pages: removes lines outside or inside a rectangle.
 //!
 //! ```text
 //!   ───────┌┄┄┄┄┄┄┄┄┐───────   erased inside: room for a view of its own
@@ -13,9 +13,9 @@ use glam::DVec2;
 /// The lines of a page that are kept.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Keep {
-    /// The parts in the rectangle, its border included.
+    /// The parts inside the rectangle, including its border.
     Inside,
-    /// The parts outside of it, its border included.
+    /// The parts outside it, including its border.
     Outside,
 }
 
@@ -23,8 +23,7 @@ enum Keep {
 type PageRect = [PagePoint; 2];
 
 impl<W> Page<W> {
-    /// Removes what is drawn in a rectangle, from one corner to the other in millimeters; images
-    /// are left.
+    /// Erases the lines inside a rectangle, given by two corners in millimeters; images stay.
     ///
     /// ```
     /// use page::{Group, Layer, Page, Pen, Polyline};
@@ -44,18 +43,18 @@ impl<W> Page<W> {
         self.clip_layers([low, high].map(to_micrometers), Keep::Outside);
     }
 
-    /// Removes what is drawn beyond the border of the page.
+    /// Removes lines beyond the border of the page.
     pub fn crop_to_border(&mut self) {
         self.clip_layers([DVec2::ZERO, self.size].map(to_micrometers), Keep::Inside);
     }
 
-    /// Clips all layers, and removes those of which nothing is left.
+    /// Clips all layers and removes those that become empty.
     fn clip_layers(&mut self, rect: PageRect, keep: Keep) {
         for group in self.layers.iter_mut().flat_map(|layer| &mut layer.groups) {
             let strokes: Vec<Polyline> =
                 group.strokes.iter().flat_map(|line| clip(line, rect, keep)).collect();
             if strokes != group.strokes {
-                // Half a text is no text, and half a hatching has another outline.
+                // Clipping turns a text into lines and changes the outline of hatching.
                 group.content = GroupContent::Lines;
                 group.strokes = strokes;
             }
@@ -68,8 +67,8 @@ impl<W> Page<W> {
     }
 }
 
-/// Whether a filled area is kept: outside if it does not reach into the rectangle, inside if all of
-/// it is there.
+/// Whether a filled area is kept: outside if none of it is in the rectangle, inside if all of it
+/// is.
 fn keeps_area(area: &Polyline, [low, high]: PageRect, keep: Keep) -> bool {
     let on_axis = |axis: usize| {
         let at = || area.points.iter().map(move |point| point[axis]);
@@ -85,7 +84,7 @@ fn keeps_area(area: &Polyline, [low, high]: PageRect, keep: Keep) -> bool {
     }
 }
 
-/// The parts of a line that are kept; the line itself if it is kept whole.
+/// The parts of a line that are kept, or the line itself if all of it is.
 fn clip(line: &Polyline, rect: PageRect, keep: Keep) -> Vec<Polyline> {
     let closing = line.closed.then(|| [line.points[line.points.len() - 1], line.points[0]]);
     let sides = line.points.windows(2).map(|pair| [pair[0], pair[1]]).chain(closing);
@@ -104,7 +103,7 @@ fn clip(line: &Polyline, rect: PageRect, keep: Keep) -> Vec<Polyline> {
     clipped
 }
 
-/// The parts of a side that are kept, in its direction.
+/// The parts of a side that are kept, in the direction of the side.
 fn kept_parts(side: [PagePoint; 2], rect: PageRect, keep: Keep) -> Vec<[PagePoint; 2]> {
     let inside = inside_interval(side, rect, keep == Keep::Inside);
     let intervals = match (keep, inside) {
@@ -117,7 +116,7 @@ fn kept_parts(side: [PagePoint; 2], rect: PageRect, keep: Keep) -> Vec<[PagePoin
     parts.filter(|[from, to]| from != to).collect()
 }
 
-/// The point of a side at a fraction of its length; its ends are exact.
+/// The point at a fraction of a side; its ends are exact.
 fn point_on([from, to]: [PagePoint; 2], t: f64) -> PagePoint {
     if t == 1.0 {
         return to;
@@ -128,8 +127,8 @@ fn point_on([from, to]: [PagePoint; 2], t: f64) -> PagePoint {
     })
 }
 
-/// The fractions of a side between which it is in the rectangle (Liang–Barsky); `None` if it is
-/// not. With `closed` the border belongs to the rectangle.
+/// The interval of fractions in which a side is inside the rectangle (Liang–Barsky); `None` if it
+/// is outside. If `closed`, the border counts as inside.
 fn inside_interval(
     [from, to]: [PagePoint; 2],
     [low, high]: PageRect,

@@ -26,13 +26,13 @@ pub const LIGHT_INK: Ink = [240, 243, 246];
 /// Ink of outlines over shaded surfaces.
 pub const OUTLINE: Ink = [20, 24, 30];
 
-/// The x axis; errors and what goes wrong.
+/// The x axis; errors and failures.
 pub const RED: Ink = [179, 38, 30];
 
 /// The y axis.
 pub const GREEN: Ink = [30, 122, 52];
 
-/// The z axis; view volumes, and what goes right.
+/// The z axis; view volumes, and correct results.
 pub const BLUE: Ink = [26, 86, 176];
 
 /// The horizon.
@@ -44,7 +44,7 @@ pub const GRAY: Ink = [150, 156, 163];
 /// Grid lines of charts.
 pub const LIGHT_GRAY: Ink = [222, 225, 229];
 
-/// The ink that contrasts with paper: dark without paper, light on dark paper.
+/// Returns an ink that contrasts with the paper: light on dark paper, otherwise dark.
 ///
 /// Paper is dark if its luma (Rec. 601 weights) is below 118 of 255.
 #[must_use]

@@ -8,13 +8,13 @@
 //!   optional content groups, one for each layer;  3 document information
 //! ```
 //!
-//! At its beginning each page scales its unit from points to millimeters and flips y; from there on
-//! its numbers are those of the SVG. Layers are optional content groups, which a viewer can switch
-//! on and off. Streams are compressed by DEFLATE.
+//! Each page first scales its unit from points to millimeters and flips y; from then on it has the
+//! same numbers as the SVG. Layers are optional content groups, which a viewer can switch on and
+//! off. Streams are compressed with DEFLATE.
 //!
-//! Texts are strokes, with invisible glyphs over them that a reader finds and copies.
+//! Text is drawn as strokes, with invisible glyphs over them for searching and copying.
 //!
-//! The file holds no dates and no random identifiers: equal pages give equal bytes, on every
+//! The file holds no dates and no random identifiers: identical pages give identical bytes on every
 //! machine.
 
 mod invisible_text;
@@ -27,19 +27,19 @@ use invisible_text::TextFonts;
 use pdf_writer::{Dict, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 use picture::Picture;
 
-/// An inch has 72 points.
+/// Points per millimeter: an inch has 72 points.
 const POINTS_PER_MILLIMETER: f64 = 72.0 / super::page::MILLIMETERS_PER_INCH;
 
-/// The compression level of streams, of 10: higher levels take longer and gain little.
+/// The compression level of streams, from 0 to 10; higher levels take longer and gain little.
 const DEFLATE_LEVEL: u8 = 6;
 
-/// The longest name of a layer that is written, in characters.
+/// The maximum length of a layer name, in characters.
 const MAX_LAYER_NAME: usize = 200;
 
 /// The ids of a file's indirect objects: three fixed ones, two for each page, one for each layer,
-/// two for each image, then those of the fonts.
+/// two for each image, then the fonts.
 ///
-/// Ids follow from counts alone, so that objects can refer to others that are not yet written.
+/// Ids depend only on counts, so objects can refer to others that are not yet written.
 struct ObjectIds {
     pages: usize,
     layers: usize,
@@ -66,19 +66,19 @@ impl ObjectIds {
         Ref::new(4 + 2 * self.pages as i32 + index as i32)
     }
 
-    /// The image object with the colors, and that with the alpha as its soft mask.
+    /// The image object with the colors, and the one with the alpha as its soft mask.
     fn image_ids(&self, index: usize) -> [Ref; 2] {
         let first = 4 + 2 * self.pages + self.layers + 2 * index;
         [first, first + 1].map(|id| Ref::new(id as i32))
     }
 
-    /// The number of the first object of the fonts.
+    /// The id of the first font object.
     fn first_of_fonts(&self) -> usize {
         4 + 2 * self.pages + self.layers + 2 * self.images
     }
 }
 
-/// The pages as a PDF file; its title is that of the first page.
+/// Returns the pages as one PDF, titled after the first page.
 ///
 /// ```
 /// use page::{Page, to_pdf};
@@ -142,8 +142,7 @@ fn write_optional_content(catalog: &mut Dict<'_>, layers: impl Iterator<Item = R
 
 /// Writes an image as two XObjects: RGB, and alpha as its soft mask.
 ///
-/// PDF has no interleaved alpha, so the channels are compressed apart, which also makes them
-/// smaller.
+/// PDF has no interleaved alpha. Compressing the channels separately also makes them smaller.
 fn write_image(pdf: &mut Pdf, [color, mask]: [Ref; 2], picture: &Picture) {
     let (width, height) = (picture.width as i32, picture.height as i32);
     let packed = |bytes: Vec<u8>| miniz_oxide::deflate::compress_to_vec_zlib(&bytes, DEFLATE_LEVEL);
@@ -162,8 +161,7 @@ fn write_image(pdf: &mut Pdf, [color, mask]: [Ref; 2], picture: &Picture) {
 
 /// Writes the page object, its resources and its content stream.
 ///
-/// Resource names are local to the page: `L0`, `L1` … for layers and `P0`, `P1` … for images.
-/// `layers` and `pictures` count those of the pages before, for the ids of the objects.
+/// `layers` and `pictures` count the ones on earlier pages, for the ids of the objects.
 fn write_page(
     pdf: &mut Pdf,
     ids: &ObjectIds,
@@ -205,7 +203,7 @@ fn write_page(
     pdf.stream(ObjectIds::content_id(index), &content).filter(Filter::FlateDecode);
 }
 
-/// The content stream of a page, uncompressed.
+/// Returns the uncompressed content stream of a page.
 ///
 /// ```text
 ///   2.83… 0 0 −2.83… 0 height cm      points to millimeters, y down
@@ -247,7 +245,7 @@ fn page_content(page: PageContent<'_>, fonts: &TextFonts) -> Vec<u8> {
     out.0
 }
 
-/// A content stream under construction: operands in postfix order, one operator to a line.
+/// A content stream under construction: operands in postfix order, one operator per line.
 struct ContentStream(Vec<u8>);
 
 impl ContentStream {
@@ -273,8 +271,8 @@ impl ContentStream {
         self.push_number(y.into());
     }
 
-    /// Sets a color: `RG` for strokes, `rg` for fills. Channels are rounded to thousandths of 0 to
-    /// 1.
+    /// Sets a color: `RG` for strokes, `rg` for fills. Channels are from 0 to 1, rounded to
+    /// thousandths.
     fn set_color(&mut self, ink: Ink, command: &str) {
         for channel in ink {
             self.push_number((i64::from(channel) * 1000 + 127) / 255);
@@ -285,8 +283,8 @@ impl ContentStream {
 
     /// Draws the strokes and fills of a layer.
     ///
-    /// All continuous strokes of a group are one path and one `S`; dashed ones are stroked each
-    /// with its own pattern. Fills use the even-odd rule (`f*`).
+    /// All continuous strokes of a group share one path and one `S`; each dashed stroke has its own
+    /// pattern. Fills use the even-odd rule (`f*`).
     fn draw_layer(&mut self, layer: &Layer) {
         self.set_pen(&layer.pen);
         for group in &layer.groups {

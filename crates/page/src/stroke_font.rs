@@ -1,6 +1,6 @@
-//! Stroke font: letters as single strokes of a pen, made for this program.
+//! Stroke font: characters drawn as single pen strokes, designed for this program.
 //!
-//! Labels need no font file and have the same bytes on every machine.
+//! Labels need no font file and have identical bytes on every machine.
 //!
 //! ```text
 //!   10 ┌ ─ ╱╲ ─ ─ ─ ─ ┐ cap height              strokes are a tenth of the height wide,
@@ -10,9 +10,9 @@
 //!   −3                  descenders
 //! ```
 //!
-//! A glyph is a text: `m x,y` moves, `l x,y` is a straight line, `h x,y` a quarter of an ellipse
-//! that leaves horizontally and arrives vertically, `v x,y` the converse, `c x,y x,y x,y` a cubic
-//! Bézier curve. Round letters are four quarters and the lines between them.
+//! A glyph is a string of commands: `m x,y` moves, `l x,y` draws a straight line, `h x,y` a quarter
+//! of an ellipse that leaves horizontally and arrives vertically, `v x,y` the converse, and `c x,y
+//! x,y x,y` a cubic Bézier curve. Round letters are four quarters joined by lines.
 
 mod accents;
 mod glyphs;
@@ -21,20 +21,20 @@ mod han;
 
 use glam::DVec2;
 
-/// The height of capitals in units of the glyphs.
+/// The height of capitals in glyph units.
 pub(super) const CAP_HEIGHT: f64 = 10.0;
 
 /// The distance between letters.
 const LETTER_SPACING: f64 = 2.4;
 
-/// The width of a space; with the letter spacing at both of its sides it makes the distance of
+/// The width of a space; with the letter spacing on both sides, it gives the distance between
 /// words.
 const SPACE_WIDTH: f64 = 1.6;
 
 /// The number of straight lines that approximate a quarter ellipse or a cubic.
 const CURVE_STEPS: u32 = 6;
 
-/// A character, or a line of them, as strokes: x from its left side, y up from the baseline.
+/// A character or a line of characters as strokes: x from its left side, y up from the baseline.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Glyph {
     /// The advance width without letter spacing.
@@ -43,7 +43,7 @@ pub(super) struct Glyph {
     pub(super) strokes: Vec<Vec<DVec2>>,
 }
 
-/// A line of text as strokes: x from its beginning, y up from the baseline.
+/// Typesets a line of text as strokes: x from its beginning, y up from the baseline.
 ///
 /// There is no kerning; each character of the text is one glyph, and combining characters become
 /// boxes.
@@ -61,12 +61,13 @@ pub(super) fn typeset_line(text: &str) -> Glyph {
     line
 }
 
-/// From the start of a character in a line to that of the next one.
+/// The distance from the start of a character in a line to the start of the next.
 pub(super) fn advance_width(character: char) -> f64 {
     glyph_for_char(character).width + LETTER_SPACING
 }
 
-/// The characters of a text that the font lacks, each once in the order of the text.
+/// Returns the characters of a text that the font lacks, without duplicates, in the order of the
+/// text.
 pub fn missing_glyphs(text: &str) -> String {
     let mut missing = String::new();
     for character in text.chars().filter(|character| !has_glyph(*character)) {
@@ -85,14 +86,14 @@ fn has_glyph(character: char) -> bool {
         || han::GLYPHS.iter().any(|(c, _)| *c == character)
 }
 
-/// The width and the path of a character that is not composed of others.
+/// The width and path of a character that is not a composite.
 fn plain_glyph(character: char) -> Option<(f64, &'static str)> {
     let wanted = greek::look_alike(character);
     let all = glyphs::GLYPHS.iter().chain(greek::GLYPHS);
     all.into_iter().find(|(c, ..)| *c == wanted).map(|(_, width, path)| (*width, *path))
 }
 
-/// The glyph of a character; a box for characters that the font lacks.
+/// The glyph of a character, or a box if the font lacks it.
 fn glyph_for_char(character: char) -> Glyph {
     if character.is_whitespace() {
         return Glyph { width: SPACE_WIDTH, strokes: Vec::new() };
@@ -107,7 +108,7 @@ fn glyph_for_char(character: char) -> Glyph {
         .unwrap_or_else(|| Glyph { width: 5.0, strokes: parse_strokes(glyphs::MISSING_GLYPH) })
 }
 
-/// The strokes of a glyph's path, curves as polylines.
+/// Parses a glyph's path into strokes, with curves as polylines.
 fn parse_strokes(path: &str) -> Vec<Vec<DVec2>> {
     let mut strokes: Vec<Vec<DVec2>> = Vec::new();
     let mut words = path.split_ascii_whitespace();
@@ -130,7 +131,7 @@ fn parse_strokes(path: &str) -> Vec<Vec<DVec2>> {
     strokes
 }
 
-/// A point written as `x,y`.
+/// Parses a point written as `x,y`.
 fn parse_point(word: &str) -> DVec2 {
     let number = |text: &str| text.parse().unwrap_or(0.0);
     word.split_once(',').map_or(DVec2::ZERO, |(x, y)| DVec2::new(number(x), number(y)))
@@ -138,8 +139,7 @@ fn parse_point(word: &str) -> DVec2 {
 
 /// A quarter of an ellipse about `center`, without its first point.
 ///
-/// From `from` to `to` it is center + (from − center) cos φ + (to − center) sin φ for φ from 0 to
-/// 90°.
+/// It is center + (from − center) cos φ + (to − center) sin φ for φ from 0 to 90°.
 fn quarter_ellipse(from: DVec2, to: DVec2, center: DVec2) -> impl Iterator<Item = DVec2> {
     (1..=CURVE_STEPS).map(move |step| {
         let angle = core::f64::consts::FRAC_PI_2 * f64::from(step) / f64::from(CURVE_STEPS);

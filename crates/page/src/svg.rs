@@ -15,9 +15,9 @@
 //! ```
 //!
 //! Path data use relative commands (`m`, `l`, `h`, `v`) with steps of whole micrometers. They are
-//! shorter than absolute coordinates, and since each step is an exact decimal their sums have no
-//! error: a closed outline of a thousand points ends where it began. Text is drawn as strokes, so
-//! the file needs no font; names from files are escaped by [`escape_markup`].
+//! shorter than absolute coordinates. Each step is an exact decimal, so sums have no error: a
+//! closed outline of a thousand points ends exactly where it began. Text is drawn as strokes, so
+//! the file needs no font. Names from files are escaped by [`escape_markup`].
 
 use super::fixed_decimal::{format_millimeters, format_thousandths, write_thousandths};
 use super::markup::escape_markup;
@@ -30,7 +30,7 @@ use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write;
 
 impl<W> Page<W> {
-    /// The page as the text of an SVG file.
+    /// Writes the page as an SVG file.
     ///
     /// ```
     /// use page::{Group, Layer, Page, Pen, Polyline};
@@ -92,8 +92,8 @@ fn write_image(svg: &mut String, pasted: &PlacedImage) {
 
 /// Writes a layer as a group, with a group in it for each object.
 ///
-/// Ids are unique because that of an object is prefixed by that of its layer; titles become
-/// tooltips in browsers. Where a text has an id, it is its own title.
+/// Ids are unique because an object's id is prefixed with the id of its layer. Titles become
+/// tooltips in browsers. A text with an id is its own title.
 fn write_layer(svg: &mut String, layer: &Layer) {
     let id = escape_markup(&layer.id);
     let _ = write!(
@@ -121,10 +121,10 @@ fn write_layer(svg: &mut String, layer: &Layer) {
     *svg += "</g>\n";
 }
 
-/// Writes the strokes and fills of a group: one path for all continuous strokes, one for each
+/// Writes the strokes and fills of a group: one path for all continuous strokes, and one for each
 /// dashed stroke.
 ///
-/// A dashed stroke has a dash pattern of its own, which fits its length. Fills come last, over the
+/// A dashed stroke has its own dash pattern, fitted to its length. Fills come last, over the
 /// strokes.
 fn write_paths(svg: &mut String, group: &Group, pen: &Pen) {
     let (dashed, whole): (Vec<_>, Vec<_>) = group
@@ -150,8 +150,8 @@ fn write_paths(svg: &mut String, group: &Group, pen: &Pen) {
     }
 }
 
-/// The presentation attributes of a pen; defaults of SVG (butt caps, miter joins with limit 4) are
-/// left out.
+/// The presentation attributes of a pen; SVG defaults (butt caps, miter joins with limit 4) are
+/// omitted.
 fn pen_attributes(pen: &Pen) -> String {
     let mut words = format!(
         "fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"",
@@ -171,7 +171,7 @@ fn pen_attributes(pen: &Pen) -> String {
     words
 }
 
-/// A color as `#rrggbb`, or as `#rgb` where that is the same.
+/// A color as `#rrggbb`, or as `#rgb` if that is the same color.
 fn css_color([r, g, b]: Ink) -> String {
     if [r, g, b].iter().all(|c| c % 17 == 0) {
         return format!("#{:x}{:x}{:x}", r / 17, g / 17, b / 17);
@@ -179,7 +179,7 @@ fn css_color([r, g, b]: Ink) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// The `d` attribute of a path through all these lines.
+/// The `d` attribute of a path through all the lines.
 fn path_data<'a>(lines: impl IntoIterator<Item = &'a Polyline>) -> String {
     let mut path = PathWriter { out: Vec::new(), position: [0, 0], has_started: false };
     for line in lines {
@@ -193,7 +193,7 @@ struct PathWriter {
     out: Vec<u8>,
     /// The current point in micrometers.
     position: PagePoint,
-    /// Whether a `M` command was written; the first one is absolute.
+    /// Whether an `M` command was written; the first one is absolute.
     has_started: bool,
 }
 
@@ -217,7 +217,7 @@ impl PathWriter {
         }
     }
 
-    /// Appends a straight line with the shortest command, and returns that command.
+    /// Appends a straight line with the shortest command, and returns it.
     ///
     /// ```text
     ///   dy = 0   h dx        a command letter equal to the last one is omitted, and so is

@@ -1,4 +1,4 @@
-//! Assemblies: the parts of models, their list, their masses, and the moves that part them.
+//! Assemblies: the parts of models, parts lists, masses and exploded views.
 //!
 //! ```text
 //!   models ─part─► parts ─geometry─► equal ones ─parts_list─► items: number, quantity, name …
@@ -8,8 +8,8 @@
 //!                                      exploded view with the paths of the parts
 //! ```
 //!
-//! A part is a node with a mesh, once for each of its instances. Objects of drawings are the same
-//! nodes in the same order.
+//! A part is a node with a mesh, once for each of its instances. The objects of drawings are the
+//! same nodes in the same order.
 
 mod explosion;
 mod geometry;
@@ -31,17 +31,17 @@ pub use parts_list::{PartDensity, PartPlace, PartsList, PartsListItem};
 /// The pages of a sheet that show its models as an assembly of parts. Default: none.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct AssemblyPages {
-    /// Whether a parts list is drawn: on the page of the assembly if it fits there, else on pages
-    /// of its own.
+    /// Whether to draw a parts list: on the page of the assembly if it fits there, otherwise on
+    /// separate pages.
     pub parts_list: bool,
-    /// Whether a page shows the assembly with the number of each item of the list in a balloon.
+    /// Whether a page shows the assembly with balloons that contain the item numbers.
     pub balloons: bool,
-    /// How far the parts are moved apart on that page; `None` for parts in their places. An
+    /// The settings for moving the parts apart on that page; `None` keeps them in place. An
     /// exploded view has a page with or without balloons.
     pub explosion: Option<ExplosionSettings>,
     /// Whether each item of the list has a page with its principal views.
     pub part_sheets: bool,
-    /// The densities from which the masses of the list follow; without any it has no masses.
+    /// The densities used for the masses in the list; without any, the list has no masses.
     pub densities: Vec<PartDensity>,
 }
 

@@ -1,5 +1,5 @@
-//! Drawing sheets of models: orthographic views to scale with dimensions and title block; assemblies
-//! with their parts lists.
+//! Drawing sheets of models: orthographic views to scale, with dimensions and title block;
+//! assemblies with parts lists.
 //!
 //! ```text
 //!   models ─► views ─► layout on the paper ─► dimensions, marks ─► pages
@@ -8,8 +8,8 @@
 //!  module | technique |
 //!  --- | --- |
 //!  `sheet` | orthographic views in first or third angle, title block, dimensions |
-//!  `warning` | what a sheet leaves out, with the reason |
-//!  `assembly` | parts of models counted by content, masses by the divergence theorem, exploded views |
+//!  `warning` | missing parts of a sheet, with the reason |
+//!  `assembly` | parts counted by content, masses by the divergence theorem, exploded views |
 
 mod assembly;
 mod sheet;

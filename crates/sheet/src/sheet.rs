@@ -1,5 +1,5 @@
-//! Drawing sheets: orthographic views of an object on paper, to scale, with title block and overall
-//! dimensions.
+//! Drawing sheets: orthographic views of an object on paper, to scale, with a title block and
+//! overall dimensions.
 //!
 //! ```text
 //!   first angle                              third angle
@@ -15,9 +15,9 @@
 //!   └─────────────────┴────────────┘         └─────────────────┴────────────┘
 //! ```
 //!
-//! Views are aligned: those of one row have the same heights, those of one column the same widths
-//! (ISO 5456-2). The scale is one of the standard series (ISO 5455). Frame and title block follow
-//! ISO 5457 and ISO 7200, dimensions ISO 129-1.
+//! Views are aligned: views in one row have the same height, views in one column the same width
+//! (ISO 5456-2). The scale is a standard scale (ISO 5455). Frame and title block follow ISO 5457
+//! and ISO 7200, dimensions ISO 129-1.
 
 mod angle_dimension;
 mod annotation;
@@ -108,55 +108,55 @@ use viewport::{DrawingScale, Paper, Rectangle};
 /// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Sheet {
-    /// The paper in its orientation.
+    /// The paper, including its orientation.
     pub paper: Paper,
     /// The name of the paper, such as A3.
     pub paper_name: String,
     /// First-angle or third-angle projection: the layout of the views.
     pub projection_angle: SheetAngle,
-    /// The scale; `None` for the largest of the standard series that fits.
+    /// The scale; `None` for the largest standard scale that fits.
     pub scale: Option<DrawingScale>,
-    /// Millimeters in a unit of the scene.
+    /// Millimeters per scene unit.
     pub millimeters_per_unit: f64,
-    /// The unit of dimensions and scale bar.
+    /// The unit of dimensions and of the scale bar.
     pub dimension_unit: DimensionUnit,
-    /// The view beside the front view; `None` for that from the left in first angle and from the
-    /// right in third, or the opposite one if only that looks onto a section plane.
+    /// The view beside the front view. `None` for the left view in first angle and the right view
+    /// in third, or the opposite one if only that faces a section plane.
     pub side_view: Option<NamedView>,
-    /// The axonometric view, which stands where the sheet is free; `None` for no such view.
+    /// The axonometric view, placed in free space on the sheet; `None` for no such view.
     pub axonometric_view: Option<NamedView>,
     /// The line style of the views.
     pub style: LineStyle,
-    /// Whether overall dimensions are drawn.
+    /// Whether to draw overall dimensions.
     pub dimensions: bool,
-    /// Further dimensions, which are numbered in this order.
+    /// Further dimensions, numbered in this order.
     pub measures: Vec<Dimension>,
-    /// Whether circles and the axes of round parts have center lines.
+    /// Whether to draw center lines for circles and for the axes of round parts.
     pub center_lines: bool,
-    /// Whether views along a plane about which the models are symmetric have a line there, if it is
-    /// upright or level in the view.
+    /// Whether to draw lines of symmetry: in views along a plane about which the models are
+    /// symmetric, if the line is vertical or horizontal in the view.
     ///
-    /// Mirror images of vertices lie on faces, and those of edges on edges, within 1/20,000 of the
-    /// diagonal of the models.
+    /// Mirror images of vertices must be on faces, and mirror images of edges on edges, within
+    /// 1/20,000 of the diagonal of the models.
     pub symmetry_lines: bool,
     /// The objects that section planes do not cut: nodes with a mesh, counted over all models.
     pub uncut: Vec<u32>,
     /// The texts of the title block.
     pub title_block: TitleBlockText,
-    /// The pages that show the models as an assembly of parts: see
+    /// The pages that show the models as an assembly of parts; see
     /// [`draw_pages`](Self::draw_pages).
     pub assembly: AssemblyPages,
-    /// Views beyond the principal and the axonometric one, or in their place, and views that are
-    /// cut or broken in part.
+    /// Views that add to or replace the principal and axonometric views, and views that are cut or
+    /// broken in part.
     pub views: Vec<ViewRequest>,
     /// The border around the drawing area.
     pub frame: SheetFrame,
-    /// The decimals of dimensions and scale bar.
+    /// The number format of dimensions and scale bar.
     pub numbers: NumberFormat,
-    /// A title block of one's own; `None` for that of the program.
+    /// A custom title block; `None` for the default one.
     pub title_block_template: Option<TitleBlockTemplate>,
-    /// Labels of points, and axes of the world, in every view of the first page that shows the
-    /// whole; other overlays are warned of.
+    /// Point labels and world axes, in every view of the first page that shows the whole; other
+    /// overlays give a warning.
     pub overlays: Vec<Overlay>,
 }
 
@@ -178,7 +178,7 @@ pub enum SheetError {
         /// The reason.
         reason: String,
     },
-    /// A requested view cannot be made as it was asked for.
+    /// A requested view cannot be made as requested.
     #[error("view {number} of the sheet, the {view}: {reason}")]
     Request {
         /// The number of the request, from 1.
@@ -188,7 +188,7 @@ pub enum SheetError {
         /// The reason.
         reason: String,
     },
-    /// A view reaches beyond the frame from the place that it was given.
+    /// A view extends beyond the frame at the requested position.
     #[error(
         "view {number} of the sheet, the {view}, reaches beyond the frame at its place: its center must be from {:.0} to {:.0} mm \
          from the left and from {:.0} to {:.0} mm from the top",
@@ -199,9 +199,9 @@ pub enum SheetError {
         number: usize,
         /// The name of the view.
         view: String,
-        /// The least and the greatest distance from the left, in millimeters.
+        /// The minimum and maximum distance from the left, in millimeters.
         x: [f64; 2],
-        /// The least and the greatest distance from the top, in millimeters.
+        /// The minimum and maximum distance from the top, in millimeters.
         y: [f64; 2],
     },
     #[error(
@@ -214,28 +214,28 @@ pub enum SheetError {
         paper: String,
         /// The scale.
         scale: DrawingScale,
-        /// Width and height of the views at this scale, in millimeters.
+        /// The width and height of the views at this scale, in millimeters.
         need: [f64; 2],
-        /// Width and height that are available to them, in millimeters.
+        /// The available width and height, in millimeters.
         available: [f64; 2],
         /// A change that would make them fit.
         remedy: String,
     },
 }
 
-/// Views of which none is as large, in millimeters of paper, cannot be read.
+/// If no view reaches this size, in millimeters of paper, the views cannot be read.
 const LEAST_DRAWING: f64 = 1.0;
 
-/// A length in whole units, or with an exponent where it has more than six digits.
+/// A length in whole units, or with an exponent if it has more than six digits.
 fn in_few_digits(length: f64) -> String {
     if length < 1e6 { format!("{length:.0}") } else { format!("{length:.2e}") }
 }
 
 impl Sheet {
-    /// A technical drawing on this paper: first angle, the view from the left, an isometric view,
-    /// overall dimensions.
+    /// Returns a technical drawing on this paper: first angle, with a left view, an isometric view
+    /// and overall dimensions.
     ///
-    /// Line groups grow with the paper: 0.35 mm up to A5, 0.5 mm up to A2, 0.7 mm beyond.
+    /// Line groups grow with the paper: 0.35 mm up to A5, 0.5 mm up to A2, 0.7 mm for larger paper.
     #[must_use]
     pub fn for_paper(paper: Paper, paper_name: impl Into<String>) -> Self {
         let group = match paper.width().max(paper.height()) {
@@ -268,9 +268,9 @@ impl Sheet {
         }
     }
 
-    /// Draws models, cut open by section planes, with up to `threads` threads; their number does
-    /// not change the page. Parts lists, exploded views and sheets of single parts are further
-    /// pages: [`draw_pages`](Self::draw_pages).
+    /// Draws models, cut open by section planes, with up to `threads` threads, whose number does
+    /// not change the page. Parts lists, exploded views and sheets of single parts are on further
+    /// pages: see [`draw_pages`](Self::draw_pages).
     ///
     /// # Errors
     /// If there is nothing to draw, a view cannot be drawn, or the views are larger than the paper.
@@ -283,7 +283,7 @@ impl Sheet {
         self.draw_views(models, sections, &mut SurfaceCache::new(models, &self.uncut), threads)
     }
 
-    /// As [`draw`](Self::draw), with surfaces that other pages use as well.
+    /// Like [`draw`](Self::draw), with surfaces shared with other pages.
     fn draw_views(
         &self,
         models: &[ModelInstance],
@@ -317,11 +317,11 @@ impl Sheet {
         Ok(page)
     }
 
-    /// Whether the views of models, cut by section planes, fit on the paper, without drawing them;
-    /// the warnings of [`draw`](Self::draw) about views, sections and texts.
+    /// Checks, without drawing them, whether the views of models, cut by section planes, fit on the
+    /// paper. Returns the warnings of [`draw`](Self::draw) about views, sections and texts.
     ///
     /// # Errors
-    /// As for [`draw`](Self::draw).
+    /// See [`draw`](Self::draw).
     pub fn check_layout(
         &self,
         models: &[ModelInstance],
@@ -332,13 +332,13 @@ impl Sheet {
         Ok(self.warnings_of_layout(&plan, &layout, &self.title_of(models)))
     }
 
-    /// The title of the drawing: its own, or the names of the models.
+    /// The title of the drawing: from the title block, otherwise the model names.
     fn title_of(&self, models: &[ModelInstance]) -> String {
         let own = &self.title_block.title;
         if own.is_empty() { model_names(models) } else { own.clone() }
     }
 
-    /// Warnings: views not shown as they were asked for, and letters that its texts lack.
+    /// Warnings about views not shown as requested, and about characters that the font lacks.
     fn warnings_of_layout(
         &self,
         plan: &ViewPlan,
@@ -382,8 +382,8 @@ impl Sheet {
     /// The style of a view's lines.
     ///
     /// Hidden lines are removed from axonometric views and from sectional views, where they would
-    /// only confuse (ISO 128-3). Hatchings of parts are removed where something is cut: there they
-    /// are the sign of the cut.
+    /// only confuse (ISO 128-3). Part hatchings are removed from cut views, where hatching marks
+    /// the cut.
     fn style_of_view(&self, placed: &PlacedView<'_>) -> LineStyle {
         let is_outside = placed.planned.is_outside_view();
         let hidden_lines = if is_outside { self.style.hidden_lines } else { HiddenLines::Removed };
@@ -394,7 +394,7 @@ impl Sheet {
         LineStyle { hidden_lines, face_fill, ..self.style }
     }
 
-    /// Puts the drawing of a view onto the page, with the name of the view before its layers' ids.
+    /// Adds the drawing of a view to the page; the name of the view is prepended to its layer ids.
     fn add_view(
         &self,
         page: &mut SheetPage,
@@ -423,7 +423,8 @@ impl Sheet {
         page.warnings.extend(drawing.warnings.into_iter().map(SheetWarning::from));
     }
 
-    /// Draws dimensions and the other annotations of views, scale bar, frame and title block.
+    /// Draws the dimensions and other annotations of views, the scale bar, the frame and the title
+    /// block.
     fn draw_annotations(&self, page: &mut SheetPage, layout: &ViewLayout<'_>, ink: Ink) {
         for kind in AnnotationLayer::ALL {
             let mut layer = kind.to_layer(self.line_width_group(), self.lettering_height(), ink);
@@ -440,7 +441,7 @@ impl Sheet {
         page.layers.extend(title_block::title_block_layers(self, &title, scale, block, ink));
     }
 
-    /// The frame, with its zones if it has them; centering marks stop where contents are near.
+    /// The frame, with zones if requested; centering marks stop near contents.
     fn frame_layers(&self, contents: &[Extent], ink: Ink) -> Vec<Layer> {
         let frame = frame::frame_layer(self.paper, self.frame, contents, ink);
         let zones = match self.frame {
@@ -450,7 +451,7 @@ impl Sheet {
         core::iter::once(frame).chain(zones).collect()
     }
 
-    /// The line group, 0.5 mm if the style has other widths.
+    /// The line group, or 0.5 mm if the style has other widths.
     fn line_width_group(&self) -> IsoLineGroup {
         match self.style.line_widths {
             LineWidths::Iso(group) => group,
@@ -458,12 +459,12 @@ impl Sheet {
         }
     }
 
-    /// The form of lengths.
+    /// The format of lengths.
     fn length_format(&self) -> LengthFormat {
         LengthFormat { unit: self.dimension_unit, numbers: self.numbers }
     }
 
-    /// The height of letters in millimeters: a standard size (ISO 3098) for the line group.
+    /// The character height in millimeters: a standard size (ISO 3098) for the line group.
     fn lettering_height(&self) -> f64 {
         match self.line_width_group().wide_width() {
             wide if wide < 0.4 => 2.5,
@@ -488,7 +489,7 @@ impl Sheet {
     }
 }
 
-/// A rectangle from values that are finite by construction; its sides are made positive.
+/// A rectangle from finite values; its sides are made positive.
 fn rectangle_from_size(x: f64, y: f64, width: f64, height: f64) -> Rectangle {
     let fallback = || Rectangle::from_size(1.0, 1.0);
     let rectangle = Rectangle::new(x, y, width.max(1e-6), height.max(1e-6)).or_else(|_| fallback());

@@ -1,4 +1,4 @@
-//! Warnings: what a sheet leaves out, returned along with its pages.
+//! Warnings about missing parts of a sheet, returned along with its pages.
 
 mod assembly;
 mod dimension;
@@ -10,20 +10,20 @@ pub use dimension::DimensionFault;
 use drawing::Warning;
 use files::visible_excerpt;
 
-/// Something that a sheet leaves out or could not do, with the reason in its `Display` text.
+/// A part that a sheet lacks or could not compute, with the reason in its `Display` text.
 ///
-/// Warnings are sorted and each is reported once; see [`Warning`].
+/// Warnings are sorted and reported once each; see [`Warning`].
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum SheetWarning {
-    /// Something that a drawing on the sheet leaves out.
+    /// A part that a drawing on the sheet lacks.
     Drawing(Warning),
-    /// No principal view of a sheet sees a section plane from the front or edge-on.
+    /// No principal view of a sheet sees a section plane face-on or edge-on.
     SectionOblique {
         /// The number of the section, from 1.
         number: usize,
     },
-    /// A view of a sheet finds no place beside the others.
+    /// A view does not fit on the sheet.
     ViewLeftOut {
         /// The name of the view, such as `isometric view` or `section A-A`.
         view: String,
@@ -35,13 +35,12 @@ pub enum SheetWarning {
         /// The reason.
         fault: DimensionFault,
     },
-    /// The line of a section has no view on the sheet that could show it.
+    /// No view on the sheet can show the line of a section.
     CutLineNotShown {
         /// The name of the section, such as `A-A`.
         section: String,
     },
-    /// A view of a sheet lies over another one, or over the title block, at the place that it was
-    /// given.
+    /// A view overlaps another one, or the title block, at its given position.
     ViewOverlaps {
         /// The name of the view, such as `isometric view`.
         view: String,
@@ -53,7 +52,7 @@ pub enum SheetWarning {
         /// The kind of overlay, such as `grid`.
         overlay: String,
     },
-    /// The label of a point, or the name of an axis, is not in a view of a sheet.
+    /// A point label or an axis name is missing from a view.
     LabelNotInView {
         /// The text of the label.
         text: String,
@@ -62,29 +61,29 @@ pub enum SheetWarning {
         /// The reason.
         fault: SheetLabelFault,
     },
-    /// The style of the scene shows surfaces, and a sheet is a line drawing.
+    /// The style of the scene shows surfaces, but a sheet is a line drawing.
     StyleIgnored,
-    /// Something that the pages of an assembly leave out.
+    /// A part that the pages of an assembly lack.
     Assembly(AssemblyWarning),
-    /// The models have no size, or points only: no view of a sheet has a line.
+    /// The models have no size, or only points: no view of a sheet has a line.
     NothingDrawn,
-    /// No view of a sheet is as large as a millimeter of the paper.
+    /// No view of a sheet is as large as a millimeter of paper.
     ViewsTiny,
 }
 
-/// Why a label is not in a view of a sheet.
+/// The reason why a label is not in a view of a sheet.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum SheetLabelFault {
-    /// Its point is too far from the models.
+    /// The point is too far from the models.
     Far,
-    /// It would touch something at every place.
+    /// The label would touch something at every position.
     NoRoom,
     /// The view has too many labels.
     TooMany,
 }
 
 impl SheetWarning {
-    /// The place of the warning in a report, among those of [`Warning::report_order`].
+    /// Returns the position of the warning in a report, relative to [`Warning::report_order`].
     #[must_use]
     pub const fn report_order(&self) -> u8 {
         match self {
@@ -103,7 +102,7 @@ impl SheetWarning {
         }
     }
 
-    /// The order of two warnings of one kind.
+    /// The order of two warnings of the same kind.
     fn compare_values(&self, other: &Self) -> Ordering {
         match (self, other) {
             (Self::Drawing(a), Self::Drawing(b)) => a.cmp(b),
@@ -121,7 +120,7 @@ impl SheetWarning {
         }
     }
 
-    /// The names of views, sections and overlays in a warning.
+    /// The view, section and overlay names in a warning.
     fn texts(&self) -> [&str; 2] {
         match self {
             Self::ViewLeftOut { view: text }
@@ -223,7 +222,7 @@ mod tests {
     use super::*;
     use hidden_line::Warning as Lines;
 
-    /// The messages of each crate stand between those of the others, as one reads a report.
+    /// The messages of all crates are interleaved in reading order.
     #[test]
     fn a_report_begins_with_sections_and_ends_with_limits() {
         let ordered = [

@@ -1,4 +1,4 @@
-//! Arcs against circles that are known, and polygons that must stay as they are.
+//! Arcs compared with known circles, and polygons that must stay as they are.
 
 use super::*;
 use core::f64::consts::TAU;
@@ -6,7 +6,7 @@ use core::f64::consts::TAU;
 /// Five micrometers.
 const TOLERANCE: f64 = 5.0;
 
-/// Points of a circle in millimeters, from one angle to another in parts of a turn.
+/// Points of a circle in millimeters, from one angle to another, in turns.
 fn on_circle(center: [f64; 2], radius: f64, [from, to]: [f64; 2], steps: u32) -> Vec<DVec2> {
     let point = |k: u32| {
         let (sin, cos) = libm::sincos(TAU * (from + (to - from) * f64::from(k) / f64::from(steps)));
@@ -55,7 +55,7 @@ fn polygons_of_few_corners_stay_polygons() {
         assert_eq!(vertices.len(), sides as usize);
         assert!(vertices.iter().all(|vertex| vertex.bulge == 0.0), "{sides}");
     }
-    // Corners on a circle at unequal distances are no circle either.
+    // Corners on a circle at unequal distances are not a circle either.
     let points: Vec<DVec2> = [0.0, 0.05, 0.11, 0.14, 0.22, 0.26, 0.33, 0.37, 0.45, 0.5]
         .iter()
         .flat_map(|&at| on_circle([0.0, 0.0], 50.0, [at, at], 1).into_iter().take(1))
@@ -102,12 +102,12 @@ fn a_slot_is_two_lines_and_two_half_turns() {
 #[test]
 fn steps_cut_short_at_the_ends_and_collinear_points_left_out_are_no_matter() {
     let mut points = on_circle([0.0, 0.0], 20.0, [0.0, 0.5], 24);
-    // The first step ends halfway, as where a line becomes hidden.
+    // The first step ends halfway, as it does where a line becomes hidden.
     points[0] = points[0].lerp(points[1], 0.9);
     assert!(
         matches!(recognize_arcs(&grid(&points), false, TOLERANCE), LineShape::Path(v, _) if v.len() == 2 || v.len() == 3)
     );
-    // Of many short steps some are left out.
+    // Some of many short steps are skipped.
     let mut fine = on_circle([0.0, 0.0], 20.0, [0.0, 1.0], 600);
     fine.pop();
     let mut count = 0;

@@ -8,7 +8,7 @@
 //! Ticks are round numbers, few enough to label (Heckbert, *Nice Numbers for Graph Labels*, 1990):
 //! multiples of 1, 2 or 5 times a power of ten.
 
-/// The most ticks of an axis.
+/// The maximum number of ticks on an axis.
 const MAX_TICKS: usize = 9;
 
 /// An axis of a chart.
@@ -22,7 +22,7 @@ const MAX_TICKS: usize = 9;
 /// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Axis {
-    /// The quantity it shows.
+    /// The quantity shown.
     pub title: String,
     /// The value at its start; greater than 0 on a logarithmic axis.
     pub from: f64,
@@ -42,7 +42,8 @@ pub enum Spacing {
 }
 
 impl Axis {
-    /// The position of a value on the axis: 0 at its start, 1 at its end; clamped to that range.
+    /// Returns the position of a value on the axis: 0 at its start, 1 at its end, clamped to that
+    /// range.
     #[must_use]
     pub fn fraction_at(&self, value: f64) -> f64 {
         let part = match self.spacing {
@@ -55,7 +56,7 @@ impl Axis {
         if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) }
     }
 
-    /// Round values in rising order, at most nine.
+    /// Returns round values in ascending order, at most nine.
     #[must_use]
     pub fn ticks(&self) -> Vec<f64> {
         match self.spacing {
@@ -64,10 +65,10 @@ impl Axis {
         }
     }
 
-    /// Ticks at multiples of 1, 2 or 5 · 10ⁿ, with the smallest step that gives at most nine.
+    /// Ticks at multiples of 1, 2 or 5 · 10ⁿ, with the smallest step that gives at most nine ticks.
     ///
-    /// Values are quotients where the step is a fraction: 3 / 10 has the bits of 0.3, while 3 · 0.1
-    /// has not.
+    /// Values are quotients if the step is a fraction: 3 / 10 has the same bits as 0.3, but 3 · 0.1
+    /// does not.
     fn linear_ticks(&self) -> Vec<f64> {
         let span = self.to - self.from;
         if !(span > 0.0 && span.is_finite()) {
@@ -78,11 +79,11 @@ impl Axis {
         let steps = [power - 1, power].into_iter().flat_map(|n| [1.0, 2.0, 5.0].map(|d| (d, n)));
         for (digit, power) in steps {
             let step = nearest_decimal(digit, power);
-            // Ticks within half a thousandth of a step of the ends are at the ends.
+            // Ticks within half a thousandth of a step of an end are at the end.
             let first = libm::ceil(self.from / step - 5e-4) as i64;
             let last = libm::floor(self.to / step + 5e-4) as i64;
             if last - first < MAX_TICKS as i64 {
-                // A quotient where the step is a fraction: 3 / 10 has the bits of the literal 0.3.
+                // A quotient if the step is a fraction: 3 / 10 has the bits of the literal 0.3.
                 let value = |n: i64| match power {
                     ..0 => n as f64 * digit / power_of_ten(-power),
                     _ => n as f64 * step,
@@ -93,8 +94,8 @@ impl Axis {
         vec![self.from, self.to]
     }
 
-    /// Ticks at 1, 2 and 5 · 10ⁿ, or at every k-th power of ten where those are too many; linear
-    /// where they are too few.
+    /// Ticks at 1, 2 and 5 · 10ⁿ, or at every k-th power of ten if those are too many; linear ticks
+    /// if they are too few.
     fn logarithmic_ticks(&self) -> Vec<f64> {
         let [low, high] = [self.from, self.to].map(|end| libm::floor(libm::log10(end)) as i32);
         let fitting = |digits: &[f64], every: i32| -> Vec<f64> {
@@ -114,7 +115,7 @@ impl Axis {
     }
 }
 
-/// The number nearest to a digit times a power of ten: the one that is written so.
+/// The number nearest to a digit times a power of ten: the value of that literal.
 fn nearest_decimal(digit: f64, power: i32) -> f64 {
     format!("{digit}e{power}").parse().unwrap_or(1.0)
 }
@@ -124,7 +125,7 @@ fn power_of_ten(power: i32) -> f64 {
     nearest_decimal(1.0, power)
 }
 
-/// A round number, as short as it can be written.
+/// Formats a round number as briefly as possible.
 pub(super) fn format_tick(value: f64) -> String {
     let value = value + 0.0;
     let size = value.abs();
@@ -155,7 +156,8 @@ mod tests {
         assert_eq!(ticks(3.0, 3.5, Logarithmic), [3.0, 3.1, 3.2, 3.3, 3.4, 3.5]);
     }
 
-    /// However wide or narrow the axis, there are ticks, on it, rising, not too many.
+    /// However wide or narrow the axis, it has ticks: within its range, ascending, and not too
+    /// many.
     #[test]
     fn every_axis_has_ticks() {
         for spacing in [Spacing::Linear, Spacing::Logarithmic] {

@@ -1,7 +1,7 @@
 //! Perspective overlays: the horizon, and the vanishing points of the axes (C80, C81).
 //!
-//! The image of a direction d, a point at infinity, is its vanishing point: clip coordinates of (d,
-//! 0), divided. The images of all horizontal directions lie on one line, the horizon: the cross
+//! The image of a direction d, a point at infinity, is its vanishing point: the clip coordinates of
+//! (d, 0), divided. The images of all horizontal directions are on one line, the horizon: the cross
 //! product of the images of x and z.
 
 use super::{AXES, LETTER_HEIGHT, PicturePlane, overlay_layer};
@@ -13,17 +13,18 @@ use page::{Group, Label, Layer, LineType, Polyline, TextAlign};
 /// The radius of the ring around a vanishing point, in millimeters.
 const RING_RADIUS: f64 = 0.8;
 
-/// The distance from the border of the picture to the name of a point beyond it, in millimeters.
+/// The distance from the border of the picture to the name of a vanishing point beyond it, in
+/// millimeters.
 const BORDER_GAP: f64 = 1.5;
 
 /// The number of sides of a ring.
 const RING_SIDES: u32 = 24;
 
-/// A component less than this fraction of the others is zero but for rounding.
+/// A component smaller than this fraction of the others counts as zero.
 const ZERO_TOLERANCE: f64 = 1e-12;
 
 impl PicturePlane {
-    /// The horizon with its label; empty in a parallel projection, where it is at infinity.
+    /// Returns the horizon with its label; empty in a parallel projection, where it is at infinity.
     pub(super) fn horizon_layers(&self) -> Vec<Layer> {
         let Some(ends) = self.horizon_ends() else { return Vec::new() };
         let mut line = overlay_layer("horizon", "horizon", BROWN);
@@ -32,7 +33,7 @@ impl PicturePlane {
         line.groups.push(Group { strokes, ..Group::default() });
         let mut text = overlay_layer("horizon-text", "horizon: text", BROWN);
         let along = (ends[1] - ends[0]).normalize_or(DVec2::X);
-        // Below the line: the names of vanishing points are above it.
+        // Below the line: the vanishing points have their names above it.
         let (height, below) = (0.8 * LETTER_HEIGHT, DVec2::new(-along.y, along.x));
         let at = ends[0] + along * 2.0 + below * (height + 0.8);
         let label = Label::new("horizon", at, height);
@@ -40,12 +41,12 @@ impl PicturePlane {
         vec![line, text]
     }
 
-    /// The points where the horizon enters and leaves the picture, from left to right.
+    /// Returns the points where the horizon enters and leaves the picture, from left to right.
     ///
     /// The horizon is the line through the vanishing points of x and z. In homogeneous coordinates
     /// of the picture plane a line through two points is their cross product (a, b, c), with a x +
-    /// b y + c = 0; its foot from the center is −c (a, b) / (a² + b²), and the line is clipped to
-    /// the picture from there.
+    /// b y + c = 0; its point nearest to the center is −c (a, b) / (a² + b²), and the line is
+    /// clipped to the picture from there.
     fn horizon_ends(&self) -> Option<[DVec2; 2]> {
         let [x, z] = [Vector::X, Vector::Z].map(|direction| self.project_direction(direction));
         if x.z.max(z.z) <= ZERO_TOLERANCE * x.length().max(z.length()) {
@@ -55,7 +56,7 @@ impl PicturePlane {
         let line = x.cross(z);
         let normal = line.truncate();
         let foot = normal * (-line.z / normal.length_squared());
-        // A camera that looks straight down has no horizon, or one far beyond the picture.
+        // A camera that looks straight down has no horizon, or only one far beyond the picture.
         let half_length = foot.length() + 4.0;
         if !half_length.is_finite() || half_length > 1e6 {
             return None;
@@ -69,9 +70,9 @@ impl PicturePlane {
     /// Rings around the vanishing points of the axes, and lines to them from the corners of the
     /// models' bounding box.
     ///
-    /// A vanishing point outside of the picture is named at the border, on the line from the center
-    /// to it. An axis parallel to the picture plane has no finite vanishing point (w = 0 but for
-    /// rounding) and is left out.
+    /// The name of a vanishing point outside the picture is at the border, on the line to it from
+    /// the center. An axis parallel to the picture plane has no finite vanishing point (w = 0 up to
+    /// rounding) and is skipped.
     pub(super) fn vanishing_point_layers(&self) -> Vec<Layer> {
         let mut layers = Vec::new();
         for (direction, name, ink) in AXES {
@@ -97,7 +98,7 @@ impl PicturePlane {
         layers
     }
 
-    /// `Vx outside`, at the border on the way from the center to a vanishing point.
+    /// The mark `Vx outside`, at the border on the line from the center to a vanishing point.
     fn outside_mark(&self, image: DVec3, name: &str) -> Vec<Polyline> {
         let Some([_, border]) = self.clip_to_picture(DVec3::Z, image) else { return Vec::new() };
         let text = format!("V{name} outside");
@@ -119,7 +120,7 @@ impl PicturePlane {
     }
 }
 
-/// A ring with a name.
+/// A ring with the name of a vanishing point.
 fn vanishing_point_mark(center: DVec2, name: &str) -> Vec<Polyline> {
     let point = |k: u32| {
         let (sin, cos) =

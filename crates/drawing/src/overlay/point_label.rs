@@ -1,5 +1,4 @@
-//! Labels at points of the world: text beside the image of a point, with a leader line if asked
-//! for.
+//! Labels at world points: text beside the image of a point, with an optional leader line.
 //!
 //! ```text
 //!         ridge               offset (24, −24): up and to the right of the point,
@@ -7,7 +6,7 @@
 //!      ●  at
 //! ```
 //!
-//! Labels are over the models, also where these hide the point.
+//! Labels are drawn over the models, even where models hide the point.
 
 use super::{LETTER_HEIGHT, LINE_WIDTH, PicturePlane, overlay_layer};
 use crate::{Overlay, Warning};
@@ -20,28 +19,28 @@ use page::{
     to_millimeters,
 };
 
-/// The distance between a leader line and the text, in heights of letters.
+/// The distance between a leader line and the text, in character heights.
 const LEADER_GAP: f64 = 0.3;
-/// The distance between the baselines of lines, in heights of letters.
+/// The distance between baselines, in character heights.
 const LINE_PITCH: f64 = 1.7;
-/// How far a halo reaches beyond the strokes of letters, in millimeters.
+/// The width of a halo beyond the character strokes, in millimeters.
 const HALO: f64 = 0.5;
 /// The radius of the dot at the end of a leader line, in millimeters.
 const DOT_RADIUS: f64 = 0.15 * LETTER_HEIGHT;
 /// The number of sides of the dot.
 const DOT_SIDES: u32 = 12;
-/// The least distance of a label from the border of the picture, in millimeters.
+/// The minimum distance of a label from the border of the picture, in millimeters.
 const BORDER_DISTANCE: f64 = 0.8;
 
-/// A label at a point of the world.
+/// A label at a world point.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PointLabel {
-    /// The point.
+    /// The labeled point.
     pub at: Point<World>,
     /// The text; it may have several lines.
     pub text: String,
-    /// From the image of the point to the nearest corner of the text, or the middle of its nearest
-    /// side where a component is 0: pixels, y down.
+    /// The offset from the image of the point to the nearest corner of the text, or to the middle
+    /// of its nearest side where a component is 0, in pixels, y down.
     pub offset: DVec2,
     /// The color.
     pub ink: Ink,
@@ -51,18 +50,18 @@ pub struct PointLabel {
     pub leader: bool,
 }
 
-/// Why a label is not in the picture.
+/// The reason why a label is not in the picture.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum LabelFault {
-    /// Its point is behind the eye.
+    /// The point is behind the eye.
     BehindEye,
-    /// Its point is outside of the picture.
+    /// The point is outside the picture.
     Outside,
 }
 
 impl PointLabel {
-    /// Why the label is not in a picture; `None` if it is. `view_height` is the part of the
-    /// picture's height, from the top, that shows the view.
+    /// Returns the reason why the label is not in a picture; `None` if it is. `view_height` is the
+    /// fraction of the picture's height, from the top, that shows the view.
     #[must_use]
     pub fn fault(&self, view: &ViewProjection, view_height: f64) -> Option<LabelFault> {
         let clip = view.world_to_clip().transform_point(self.at).raw();
@@ -75,8 +74,7 @@ impl PointLabel {
     }
 }
 
-/// The warnings about labels: those that are not in the picture, and characters that the font
-/// lacks.
+/// Returns warnings about labels that are not in the picture and characters that the font lacks.
 #[must_use]
 pub fn label_warnings(subject: &Subject<'_>, overlays: &[Overlay]) -> Vec<Warning> {
     let labels = overlays.iter().filter_map(|overlay| match overlay {
@@ -92,7 +90,8 @@ pub fn label_warnings(subject: &Subject<'_>, overlays: &[Overlay]) -> Vec<Warnin
     warnings.collect()
 }
 
-/// The warning about the characters of a text that the font lacks; `None` if it has all.
+/// Returns a warning about the characters of a text that the font lacks; `None` if it has all of
+/// them.
 #[must_use]
 pub fn missing_glyph_warning(text: &str) -> Option<Warning> {
     let characters = missing_glyphs(text);
@@ -100,7 +99,7 @@ pub fn missing_glyph_warning(text: &str) -> Option<Warning> {
 }
 
 impl PicturePlane {
-    /// The leader line and the text of a label; nothing if its point is not in the picture.
+    /// The leader line and text of a label; empty if its point is not in the picture.
     pub(super) fn point_label_layers(
         &self,
         label: &PointLabel,
@@ -118,7 +117,7 @@ impl PicturePlane {
         let width = lines.iter().map(Label::width).fold(0.0, f64::max);
         let pitch = LINE_PITCH * height;
         let extent = DVec2::new(width, height + pitch * lines.len().saturating_sub(1) as f64);
-        // From the corner at the offset to the upper left one.
+        // The offset back from the corner to the upper left.
         let back = |offset: f64, extent: f64| match offset {
             x if x > 0.0 => 0.0,
             x if x < 0.0 => -extent,
@@ -127,7 +126,7 @@ impl PicturePlane {
         let back = DVec2::new(back(offset.x, extent.x), back(offset.y, extent.y));
         let low = DVec2::splat(BORDER_DISTANCE);
         let high = self.half * 2.0 * DVec2::new(1.0, subject.view_height()) - low - extent;
-        // Kept in the picture; what is too large for it begins at its left.
+        // The text is kept inside the picture; if it is too large, it begins at the left.
         let corner = (at + offset + back).min(high).max(low);
         let mut text = overlay_layer("label", &format!("label: {}", label.text), label.ink);
         text.pen = Label::new("", at, height).pen(label.ink);
@@ -140,8 +139,8 @@ impl PicturePlane {
     }
 }
 
-/// The layers with a halo below each label: its letters once more, wider and in the opposite color,
-/// so that they are read before anything. Other layers are as they were.
+/// Adds a halo below each label, so that it is clearly visible: its characters drawn wider in the
+/// opposite color. Other layers are unchanged.
 #[must_use]
 pub fn with_label_halos(layers: Vec<Layer>) -> Vec<Layer> {
     let add_halo = |layer: Layer| {
@@ -161,7 +160,7 @@ pub fn with_label_halos(layers: Vec<Layer>) -> Vec<Layer> {
     layers.into_iter().flat_map(add_halo).collect()
 }
 
-/// The rectangles of the page that labels take, in millimeters, with a border about them.
+/// Returns the page rectangles that labels occupy, in millimeters, with a border around them.
 #[must_use]
 pub fn label_rectangles(layers: &[Layer]) -> Vec<[DVec2; 2]> {
     let labels = layers.iter().filter(|layer| is_label(layer));
@@ -176,12 +175,12 @@ pub fn label_rectangles(layers: &[Layer]) -> Vec<[DVec2; 2]> {
     labels.filter_map(rectangle).collect()
 }
 
-/// Whether a layer is the text of a label of the scene.
+/// Whether a layer is the text of a scene label.
 fn is_label(layer: &Layer) -> bool {
     layer.id.starts_with("overlay-") && layer.id.ends_with("-label")
 }
 
-/// A line from a point to its label, less a gap, with a dot at the point.
+/// A line from a point to its label, ending at a gap, with a dot at the point.
 fn leader_layer(label: &PointLabel, [at, end]: [DVec2; 2]) -> Layer {
     let gap = LEADER_GAP * label.height * MILLIMETERS_PER_PIXEL;
     let end = end - (end - at).normalize_or_zero() * gap;

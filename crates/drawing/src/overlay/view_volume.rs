@@ -7,8 +7,9 @@
 //!               ╲│─────────│╱
 //! ```
 //!
-//! The corners are those of the clip-space cube, taken back to the world by the inverse projection,
-//! so any projection can be shown: an oblique one is a sheared box, one without an eye has no rays.
+//! The corners of the clip-space cube are mapped back to the world by the inverse projection. Any
+//! projection can therefore be shown: an oblique one is a sheared box, and one without an eye has
+//! no rays.
 
 use super::{LETTER_HEIGHT, PicturePlane, overlay_layer};
 use camera::ViewProjection;
@@ -19,10 +20,10 @@ use page::{Group, Label, Layer, TextAlign};
 use projection::{Convention, ViewVolume};
 
 impl PicturePlane {
-    /// The twelve edges, and the rays from the eye to the near plane.
+    /// The layers of the twelve edges, and of the rays from the eye to the near plane.
     ///
-    /// Corners at infinity, of a volume without a far plane, have no image; their edges are left
-    /// out.
+    /// Corners at infinity, in a volume without a far plane, have no image; their edges are
+    /// skipped.
     pub(super) fn view_volume_layers(&self, view_projection: &ViewProjection) -> Vec<Layer> {
         let volume = ViewVolume::new(view_projection.view_to_clip, Convention::CHAPTER);
         let view_to_world = view_projection.camera.view_to_world();

@@ -1,7 +1,7 @@
 //! HTML output of panels: one self-contained page of figures, with searchable text.
 //!
-//! Drawings are inline SVG, captions are HTML text. The page loads nothing: no scripts, fonts or
-//! images from elsewhere, so it can be mailed and archived. Figures wrap to the width of the
+//! Drawings are inline SVG and captions are HTML text. The page loads nothing: it has no external
+//! scripts, fonts or images, so it can be mailed and archived. Figures wrap to the width of the
 //! window.
 
 use super::{Page, Panel, Panels};
@@ -9,7 +9,7 @@ use glam::DVec2;
 use page::escape_markup;
 use std::fmt::Write as _;
 
-/// The style sheet of the page: figures wrap as the window is wide.
+/// The style sheet of the page: figures wrap to the width of the window.
 const STYLE_SHEET: &str = "
   body { margin: 2rem auto; max-width: 100rem; padding: 0 2rem; font: 15px/1.5 Georgia, serif; color: #1a1f26; background: #fff; }
   main { display: flex; flex-wrap: wrap; gap: 2rem 1.5rem; }
@@ -20,7 +20,7 @@ const STYLE_SHEET: &str = "
 ";
 
 impl Panels {
-    /// All panels as an HTML page that refers to no other file.
+    /// Returns all panels as an HTML page that refers to no other file.
     #[must_use]
     pub fn to_html(&self) -> String {
         let title = escape_markup(&self.title);
@@ -40,10 +40,10 @@ impl Panels {
 
 /// Appends a panel as a `<figure>` with its drawing as inline SVG.
 ///
-/// Ids within a page of HTML are shared by all figures, so those of layers are prefixed by the id
-/// of the panel.
+/// All figures on an HTML page share one set of ids, so layer ids are prefixed with the id of the
+/// panel.
 fn push_figure(html: &mut String, panel: &Panel) {
-    // Ids are unique on the page only with that of the panel as a prefix.
+    // The panel's id as a prefix makes ids unique on the page.
     let mut page = Page::new(panel.page.size, panel.title.clone(), panel.page.paper);
     page.paste_page(&panel.page, DVec2::ZERO, &format!("{}-", panel.id));
     let (id, svg, title) = (escape_markup(&panel.id), page.to_svg(), escape_markup(&panel.title));

@@ -1,4 +1,4 @@
-//! The area of sides, sampled at the centers of the cells of a grid.
+//! The area enclosed by sides, sampled at the centers of grid cells.
 //!
 //! ```text
 //!     ╱╲             ┌─┐          a cell is of the area if its center has a winding number
@@ -8,12 +8,12 @@
 
 use super::{Point, Side};
 
-/// The side of a cell in micrometers: a tenth of a pen of 0.5 mm.
+/// The side of a cell in micrometers: a tenth of a 0.5 mm pen.
 const CELL: i64 = 50;
-/// The most cells in a row or a column. Drawings of more than 0.4 m have larger cells.
+/// The maximum number of cells in a row or a column. Drawings larger than 0.4 m have larger cells.
 const MAX_CELLS: i64 = 8192;
 
-/// The cells between which the border runs.
+/// The cells crossed by the border.
 struct Grid {
     low: Point,
     cell: i64,
@@ -22,7 +22,7 @@ struct Grid {
 }
 
 impl Grid {
-    /// The grid over some sides, with a cell beside them all around.
+    /// Creates the grid over some sides, with one more cell all around.
     fn over(sides: &[Side]) -> Self {
         let ends = || sides.iter().flat_map(|(ends, _)| *ends);
         let bound = |axis: usize| {
@@ -40,7 +40,7 @@ impl Grid {
         }
     }
 
-    /// The height of the centers of a row, doubled, so that it is an integer.
+    /// The doubled y of a row's centers, so that it is an integer.
     const fn doubled_center(&self, row: i64) -> i64 {
         2 * (self.low[1] + row * self.cell) + self.cell
     }
@@ -50,8 +50,8 @@ impl Grid {
         [self.low[0] + column as i64 * self.cell, self.low[1] + row * self.cell]
     }
 
-    /// The first column whose center is at the right of a side at the height of a row's centers;
-    /// `None` if the side does not reach it.
+    /// The first column whose center is to the right of a side, at the height of a row's centers;
+    /// `None` if the side does not reach that height.
     fn column_after(&self, [a, b]: [Point; 2], row: i64) -> Option<usize> {
         let (low, high) = if a[1] < b[1] { (a, b) } else { (b, a) };
         let y = self.doubled_center(row);
@@ -59,7 +59,7 @@ impl Grid {
             return None;
         }
         let (run, rise) = (i128::from(high[0] - low[0]), i128::from(high[1] - low[1]));
-        // Twice the place of the crossing, from twice the center of the first column.
+        // Twice the position of the crossing, from twice the center of the first column.
         let along = run * i128::from(y - 2 * low[1]);
         let first = 2 * self.low[0] + self.cell;
         let ahead = i128::from(2 * low[0] - first) * rise + along;
@@ -68,13 +68,13 @@ impl Grid {
     }
 }
 
-/// The border of the area in steps of one cell, each with the area at its left. The border sides of
-/// the exact outline have the same form.
+/// The border of the area in steps of one cell, each with the area on its left, like the border
+/// sides of the exact outline.
 pub(super) fn traced_border(sides: &[Side]) -> Vec<[Point; 2]> {
     let grid = Grid::over(sides);
     let mut waiting: Vec<&Side> =
         sides.iter().filter(|(ends, _)| ends[0][1] != ends[1][1]).collect();
-    // The lowest last.
+    // The lowest comes last.
     waiting.sort_by_key(|(ends, _)| std::cmp::Reverse(ends[0][1].min(ends[1][1])));
     let (mut active, mut border) = (Vec::<&Side>::new(), Vec::new());
     let mut below = vec![false; grid.columns];
@@ -97,7 +97,7 @@ fn covered_cells(grid: &Grid, active: &[&Side], row: i64) -> Vec<bool> {
     let mut changes = vec![0_i32; grid.columns + 1];
     for (ends, sign) in active {
         if let Some(column) = grid.column_after(*ends, row) {
-            // At the left of a side that rises there are `sign` more faces.
+            // On the left of a rising side there are `sign` more faces.
             changes[column] -= if ends[1][1] > ends[0][1] { *sign } else { -*sign };
         }
     }
@@ -109,7 +109,7 @@ fn covered_cells(grid: &Grid, active: &[&Side], row: i64) -> Vec<bool> {
     covered.collect()
 }
 
-/// Adds the steps of the border at the left side and at the lower side of the cells of a row.
+/// Adds the steps of the border along the left and lower sides of a row's cells.
 fn add_steps(grid: &Grid, row: i64, [below, covered]: [&[bool]; 2], border: &mut Vec<[Point; 2]>) {
     for column in 0..grid.columns {
         let corner = grid.corner(column, row);

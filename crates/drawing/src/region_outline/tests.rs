@@ -1,4 +1,4 @@
-//! Outlines against areas that are known, and random triangles against counting by points.
+//! Outlines compared with known areas, and random triangles compared with point counts.
 
 use super::*;
 
@@ -26,8 +26,7 @@ fn areas(sides: Vec<([PagePoint; 2], i32)>) -> Vec<i64> {
     areas
 }
 
-/// Whether no two sides of the loops meet other than at common ends of neighbors, or at a point
-/// where two loops touch.
+/// Whether the sides of the loops meet only at common ends of neighbors, or where two loops touch.
 fn are_simple(loops: &[Polyline]) -> bool {
     let sides: Vec<Side> = loops
         .iter()
@@ -56,9 +55,9 @@ fn squares_that_overlap_touch_or_nest_have_the_area_of_their_union() {
     assert_eq!(areas(both(square(500, 500, 1000))), [1_750_000]);
     assert_eq!(areas(both(square(200, 200, 100))), [1_000_000]);
     assert_eq!(areas(both(square(1000, 0, 1000))), [2_000_000]);
-    // At a corner alone: two loops.
+    // Only at a corner: two loops.
     assert_eq!(areas(both(square(1000, 1000, 1000))), [1_000_000, 1_000_000]);
-    // A hole, and one that touches the outline at a point.
+    // A hole, and another that touches the outline at a point.
     let mut hole = square(200, 200, 100);
     hole.iter_mut().for_each(|(_, sign)| *sign = -1);
     assert_eq!(areas(both(hole)), [-10_000, 1_000_000]);
@@ -71,19 +70,19 @@ fn squares_that_overlap_touch_or_nest_have_the_area_of_their_union() {
 
 #[test]
 fn narrow_gaps_are_closed() {
-    // Two halves with a gap of a micrometer between them: it is open at both ends, so it stays.
+    // Two halves with a gap of one micrometer: it is open at both ends, so it stays.
     let halves = [
         polygon(&[[0, 0], [500, 0], [500, 1000], [0, 1000]]),
         polygon(&[[501, 0], [1000, 0], [1000, 1000], [501, 1000]]),
     ];
     assert_eq!(areas(halves.concat()).len(), 2);
-    // The same gap within a plate.
+    // The same gap inside a plate.
     let mut gap = polygon(&[[500, 100], [501, 100], [501, 900], [500, 900]]);
     gap.iter_mut().for_each(|(_, sign)| *sign = -1);
     assert_eq!(areas([square(0, 0, 1000), gap].concat()), [1_000_000]);
 }
 
-/// A sequence of numbers by a linear congruential generator.
+/// Pseudorandom numbers from a linear congruential generator.
 struct Numbers(u64);
 
 impl Numbers {
@@ -98,7 +97,7 @@ impl Numbers {
 fn random_triangles_are_covered_where_their_outline_winds() {
     let mut numbers = Numbers(7);
     for round in 0..60 {
-        // Small grids have many coincidences, large ones long sides.
+        // Small grids have many coincidences, large ones have long sides.
         let limit = [12, 200, 4000, 1_000_000][round % 4] * 20;
         let mut triangles = Vec::new();
         for _ in 0..3 + numbers.below(30) {
@@ -125,7 +124,7 @@ fn random_triangles_are_covered_where_their_outline_winds() {
                 (0..3).map(|k| distance([wide[k], wide[(k + 1) % 3]])).fold(f64::INFINITY, f64::min)
             };
             let depth = triangles.iter().map(within).fold(f64::NEG_INFINITY, f64::max);
-            // Points near a side may change sides by rounding.
+            // Rounding may move points near a side to its other side.
             if depth.abs() < 3.0 {
                 continue;
             }
@@ -148,12 +147,12 @@ fn random_triangles_are_covered_where_their_outline_winds() {
 
 #[test]
 fn what_crosses_too_often_is_traced_on_the_grid() {
-    // Sticks across each other, a thousand each way: a million crossings in a square of 20 mm.
+    // A thousand sticks in each direction: a million crossings in a square of 20 mm.
     let stick = |at: i32| [[at, 0], [at + 10, 0], [at + 10, 20_000], [at, 20_000]];
     let sticks = (0..1000).map(|k| stick(20 * k));
     let sides = sticks.flat_map(|upright| {
         let lying = upright.map(|[x, y]| [y, x]);
-        // Turned over: their orientation is negative.
+        // Reversed: their orientation is negative.
         let lying = [lying[3], lying[2], lying[1], lying[0]];
         [polygon(&upright), polygon(&lying)].concat()
     });
@@ -161,10 +160,10 @@ fn what_crosses_too_often_is_traced_on_the_grid() {
     assert!(is_traced(sides.iter().copied()));
     let loops = outline_loops(sides.into_iter());
     let area: i64 = loops.iter().map(|line| doubled_area(line) / 2).sum();
-    // Sticks and gaps are finer than the grid: what its samples see counts.
+    // Sticks and gaps are finer than the grid, so only its samples count.
     assert!(area > 200_000_000 && area <= 441_000_000, "{area}");
     assert!(loops.iter().all(|line| line.closed && line.points.len() >= 4));
-    // A square between two steps of the grid keeps its size within a cell.
+    // A square between two steps of the grid keeps its size to within a cell.
     let square = square(130, 70, 7000);
     let border = traced_border(&merge_sides(
         square.iter().map(|(ends, sign)| (ends.map(|end| end.map(i64::from)), *sign)).collect(),

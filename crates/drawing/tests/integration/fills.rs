@@ -1,4 +1,4 @@
-//! Fills of faces: grays of materials, and hatchings of shade and of parts.
+//! Face fills: material grays, and hatching of shade and of parts.
 
 use super::stage::*;
 use drawing::{Drawing, FaceFill, FillOptions, LineStyle, Page, draw};
@@ -9,7 +9,7 @@ use model::{Material, Model, Primitive};
 use page::{MILLIMETERS_PER_PIXEL, Polyline, to_millimeters};
 use std::collections::BTreeMap;
 
-/// A model in which each primitive has a material of its own, of these colors.
+/// A model in which each primitive has its own material, in these colors.
 fn colored_model(parts: Vec<(Primitive, [f32; 3])>) -> Model {
     let material = |(_, [r, g, b]): &(Primitive, [f32; 3])| Material {
         base_color: [*r, *g, *b, 1.0],
@@ -45,7 +45,7 @@ fn area(fills: &[Polyline]) -> f64 {
 #[test]
 fn grays_fill_what_is_visible_of_each_material() {
     let cube = cuboid_mesh([-1.0; 3], [1.0; 3]);
-    // Before the lower left corner of the front of the cube, of which it hides a quarter unit.
+    // In front of the lower left corner of the cube's front, hiding a quarter unit of it.
     let plate = quad_mesh([[-0.5, -0.5, 3.0], [0.5, -0.5, 3.0], [0.5, 0.5, 3.0], [-0.5, 0.5, 3.0]]);
     let model = colored_model(vec![(cube, [0.8; 3]), (plate, [0.0, 0.0, 0.1])]);
     let page = page(&drawing_scene(model, oblique_view()), FaceFill::Gray);
@@ -58,7 +58,7 @@ fn grays_fill_what_is_visible_of_each_material() {
         let actual = area(&layer.groups[0].fills);
         assert!((actual - expected).abs() < 0.01 * expected, "{}: {actual}", layer.id);
     }
-    // Above the fills, the lines of the same drawing without them.
+    // Above the fills are the same lines as without fills.
     assert!(page.layers[2..].iter().all(|layer| layer.id.starts_with("visible-")));
     assert!(page.layers.len() > 2);
 }
@@ -70,7 +70,7 @@ fn cuts_stay_blank_under_grays() {
     let scene = TestScene { sections: vec![cut], ..drawing_scene(model, oblique_view()) };
     let page = page(&scene, FaceFill::Gray);
     let gray = page.layers.iter().find(|layer| layer.id.starts_with("gray-")).unwrap();
-    // Right and upper side of the half that is left; the cut has 4 units.
+    // Right and upper sides of the half that remains; the cut has 4 units.
     let actual = area(&gray.groups[0].fills);
     assert!((actual - 2.0).abs() < 0.02, "{actual}");
 }
@@ -87,7 +87,7 @@ fn shade_is_hatched_whatever_the_color() {
     assert!(hatched([0.0; 3], FaceFill::Hatching) > white);
 }
 
-/// The directions of the hatch lines of each object, in degrees, and how many they are.
+/// The direction of each object's hatch lines, in degrees, and their number.
 fn hatch_lines(drawing: &Drawing) -> BTreeMap<u32, (i64, usize)> {
     let mut lines = BTreeMap::new();
     for line in drawing.segments.iter().filter(|line| line.class == Hatching) {
@@ -106,11 +106,11 @@ fn neighbors_are_hatched_differently() {
     let mut scene = drawing_scene(build_model(boxes.to_vec()), oblique_view());
     let lines = hatch_lines(&filled(&scene, FaceFill::PartHatching));
     let angles: Vec<i64> = lines.values().map(|(angle, _)| *angle).collect();
-    // The outer ones do not touch.
+    // The outer boxes do not touch.
     assert_eq!(angles, [45, -45, 45]);
-    // The side of the last box is visible, those of the others are not.
+    // The side of the last box is visible; the others' are not.
     assert!(lines[&2].1 > lines[&0].1, "{lines:?}");
-    // Beside cuts nothing else is hatched.
+    // With cuts, nothing else is hatched.
     scene.sections = vec![Plane::through(Point::new(0.0, 0.0, 0.0), Normal::new(0.0, 0.0, -1.0))];
     let options = DrawOptions::default();
     let of = |fill| {

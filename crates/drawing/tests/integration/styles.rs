@@ -1,4 +1,4 @@
-//! What styles draw: edges between materials, outlines, and no lines too short to be seen.
+//! Line styles: edges between materials, outlines, and no lines too short to be seen.
 
 use super::stage::*;
 use drawing::{Drawing, LineStyle, draw};
@@ -13,8 +13,8 @@ fn draw_front(model: Model, style: &LineStyle) -> Drawing {
     draw(&scene.drawing_subject(), &options, &fill, 1).unwrap()
 }
 
-/// A ball with a rough surface and the normals that its vertices share, open at its poles, where
-/// triangles would be needles.
+/// A ball with a rough surface and shared vertex normals, open at its poles, where triangles would
+/// be needles.
 fn rough_ball(rings: u32, roughness: f64) -> Primitive {
     let sectors = 2 * rings;
     let mut seed = 1_u32;
@@ -64,7 +64,7 @@ fn scanned_surfaces_have_no_speckles() {
         let [width, _] = style.line_widths.wide_and_narrow();
         for layer in &page.layers {
             for line in layer.groups.iter().flat_map(|group| &group.strokes) {
-                // Alone, or with others that it is connected with.
+                // Alone, or together with connected lines.
                 let ends = [line.points[0], line.points[line.points.len() - 1]];
                 let meets = |other: &page::Polyline| {
                     other != line && ends.iter().any(|end| other.points.contains(end))
@@ -77,7 +77,7 @@ fn scanned_surfaces_have_no_speckles() {
     }
 }
 
-/// Two squares in one plane, of two materials.
+/// Two squares in one plane, with different materials.
 fn two_materials() -> Model {
     let square = |x: f32| {
         quad_mesh([[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x + 1.0, 1.0, 0.0], [x, 1.0, 0.0]])
@@ -99,7 +99,7 @@ fn edges_between_materials_are_drawn_in_all_styles_with_features() {
             .flat_map(|group| &group.strokes)
             .map(page::Polyline::length)
             .collect();
-        // 100 pixels at 96 to the inch.
+        // 100 pixels at 96 per inch.
         assert_eq!(lines.len(), 1);
         assert!((lines[0] - 100.0 * page::MILLIMETERS_PER_PIXEL).abs() < 2e-3, "{lines:?}");
     }
@@ -107,7 +107,7 @@ fn edges_between_materials_are_drawn_in_all_styles_with_features() {
 
 #[test]
 fn the_silhouette_style_draws_the_outline_alone() {
-    // A small box before a large one, and one that juts out beside it.
+    // A small box in front of a large one, and one that juts out beside it.
     let boxes = || {
         vec![
             cuboid_mesh([-2.0, -2.0, -1.0], [2.0, 2.0, 0.0]),
@@ -125,7 +125,7 @@ fn the_silhouette_style_draws_the_outline_alone() {
     // The square of side 4, of which the third box covers 2 on the right and adds 1 + 2 + 1.
     let expected = (16.0 - 2.0 + 4.0) * 100.0 * page::MILLIMETERS_PER_PIXEL;
     assert!((length - expected).abs() < 0.01, "{length} {expected}");
-    // The small box, and the sides of the third before the large one.
+    // The small box, and the sides of the third in front of the large one.
     let within = length_in(LineStyle::CONTOURS) - expected;
     assert!((within - 8.0 * 100.0 * page::MILLIMETERS_PER_PIXEL).abs() < 0.01, "{within}");
 }

@@ -8,9 +8,8 @@
 //!          │ m
 //! ```
 //!
-//! The test for silhouettes is the sign of n·v in object space, which is exact for perspective and
-//! parallel projection alike; on the screen it would be the sign of a difference of rounded
-//! products.
+//! The test for silhouettes is the sign of n·v in object space, which is exact for both perspective
+//! and parallel projection. On the screen it would be the sign of a difference of rounded products.
 
 use super::half_edges::HalfEdge;
 use super::world_mesh::{Face, WorldMesh};
@@ -19,7 +18,7 @@ use crate::{DrawOptions, EdgeClass};
 use glam::DVec3;
 use model::EdgeVisibility;
 
-/// The unit normal of each face, and whether the face is front-facing.
+/// The unit normal of each face, and whether it is front-facing.
 #[derive(Clone, Debug)]
 struct FaceNormals {
     normals: Vec<DVec3>,
@@ -27,7 +26,7 @@ struct FaceNormals {
 }
 
 impl FaceNormals {
-    /// Computes normals, and their signs towards the viewer, for all faces.
+    /// Computes normals, and their signs toward the viewer, for all faces.
     fn new(mesh: &WorldMesh, projector: &Projector) -> Self {
         let corners = |face: &Face| face.vertices.map(|vertex| mesh.points[vertex as usize]);
         let unit_normal = |face: &Face| {
@@ -42,10 +41,10 @@ impl FaceNormals {
         Self { normals, is_front }
     }
 
-    /// The normal and facing of the face at a half-edge, flipped where the half-edge runs backward.
+    /// The normal and facing of the face at a half-edge, flipped if the half-edge runs backward.
     ///
-    /// Seen along the edge from its lower to its higher end, the faces at both sides then need no
-    /// common orientation: meshes with inconsistent winding classify like others.
+    /// Seen along the edge from its lower to its higher end, the faces on both sides then need no
+    /// common orientation, so meshes with inconsistent winding classify like others.
     fn normal_along(&self, side: HalfEdge) -> (DVec3, bool) {
         let face = side.face() as usize;
         let (normal, is_front) = (self.normals[face], self.is_front[face]);
@@ -53,26 +52,26 @@ impl FaceNormals {
     }
 }
 
-/// Names the class of each edge for one viewer.
+/// Classifies edges for one viewer.
 pub(super) struct EdgeClassifier<'a> {
     faces: &'a [Face],
-    /// The edges that section planes made, sorted.
+    /// The edges made by section planes, sorted.
     section_edges: &'a [[u32; 2]],
     normals: FaceNormals,
     /// The cosine of the crease angle.
     crease_cosine: f64,
-    /// The cosine of the angle above which faces make a tangent edge, if any does.
+    /// The cosine of the angle above which faces form a tangent edge, if set.
     tangent_cosine: Option<f64>,
     /// Whether vertex normals that agree on both sides make an edge smooth.
     asks_normals: bool,
 }
 
-/// The cosine of the greatest angle between faces that vertex normals make smooth: 85°. Sharper
-/// edges show the form, whatever the normals: those of a box are shared by a slip of its exporter.
+/// The cosine of the largest angle between faces that vertex normals can make smooth: 85°. Sharper
+/// edges always show the shape, because exporters sometimes wrongly share the normals of a box.
 const MIN_SMOOTH_COSINE: f64 = 0.0872;
 
 impl<'a> EdgeClassifier<'a> {
-    /// A classifier of a mesh's edges for a viewer and its crease angle.
+    /// Creates a classifier of a mesh's edges for a viewer and a crease angle.
     pub(super) fn new(mesh: &'a WorldMesh, projector: &Projector, options: &DrawOptions) -> Self {
         let normals = FaceNormals::new(mesh, projector);
         Self {
@@ -90,13 +89,13 @@ impl<'a> EdgeClassifier<'a> {
         &self.faces[side.face() as usize]
     }
 
-    /// The lowest index of the objects that meet at an edge: the edge is drawn as a part of that
-    /// one.
+    /// Returns the lowest index of the objects that meet at an edge; the edge is drawn as part of
+    /// that object.
     pub(super) fn lowest_object(&self, sides: &[HalfEdge]) -> u32 {
         sides.iter().map(|&side| self.face_of_half_edge(side).object).min().unwrap_or(0)
     }
 
-    /// The class of an edge: section, then what the file says, then the geometry.
+    /// Returns the class of an edge: section first, then marks in the file, then the geometry.
     pub(super) fn classify_edge(&self, ends: [u32; 2], sides: &[HalfEdge]) -> EdgeClass {
         if self.section_edges.binary_search(&ends).is_ok() {
             return EdgeClass::Section;
@@ -113,12 +112,12 @@ impl<'a> EdgeClassifier<'a> {
         }
     }
 
-    /// The class by the faces alone: the strongest that any object has at the edge.
+    /// The class from the faces only: the strongest one that any object has at the edge.
     ///
-    /// With two half-edges it is the class between their faces. With more, each object is judged
-    /// for itself: two of its faces make a pair, three or more a crease, one is unpaired. Two
-    /// unpaired faces of different objects are a pair as well, so that a body modeled in several
-    /// objects has no boundaries inside.
+    /// With two half-edges it is the class between their faces. With more, each object is
+    /// considered separately: two of its faces form a pair, three or more a crease, one is
+    /// unpaired. Two unpaired faces of different objects also form a pair, so that a body modeled
+    /// as several objects has no boundaries inside.
     fn class_by_geometry(&self, sides: &[HalfEdge]) -> EdgeClass {
         if let &[one, other] = sides {
             return self.class_between(one, other);
@@ -147,15 +146,15 @@ impl<'a> EdgeClassifier<'a> {
         }
     }
 
-    /// Whether the vertex normals of the file are the same on both sides of an edge of one object.
+    /// Whether the vertex normals in the file are the same on both sides of an edge of one object.
     ///
-    /// `cosine` is that of the angle between the faces.
+    /// `cosine` is the cosine of the angle between the faces.
     fn is_smooth_by_normals(&self, one: HalfEdge, other: HalfEdge, cosine: f64) -> bool {
         let faces = [one, other].map(|side| self.face_of_half_edge(side));
         if !self.asks_normals || cosine < MIN_SMOOTH_COSINE || faces[0].object != faces[1].object {
             return false;
         }
-        // The ends of each side, the lower vertex first: those of parts of an edge may differ.
+        // The ends of each side, the lower vertex first; they can differ for parts of an edge.
         let ends = |face: &Face, side: HalfEdge| {
             let (from, to) = (usize::from(side.side()), usize::from(side.side() + 1) % 3);
             let ends = [from, to].map(|k| (face.vertices[k], face.normals[k]));
@@ -165,12 +164,12 @@ impl<'a> EdgeClassifier<'a> {
         pairs.into_iter().all(|((a, n), (b, m))| a == b && n.agrees_with(m))
     }
 
-    /// Whether faces that meet at an angle with this cosine have a crease between them.
+    /// Whether faces that meet at an angle with this cosine form a crease.
     fn is_crease(&self, one: HalfEdge, other: HalfEdge, cosine: f64) -> bool {
         cosine < self.crease_cosine && !self.is_smooth_by_normals(one, other, cosine)
     }
 
-    /// Whether two faces of one object and one orientation meet without a crease.
+    /// Whether two faces of one object, with the same orientation, meet without a crease.
     pub(super) fn is_smooth_between(&self, one: HalfEdge, other: HalfEdge) -> bool {
         let [n, m] = [one, other].map(|side| self.normals.normal_along(side).0);
         let objects = [one, other].map(|side| self.face_of_half_edge(side).object);
@@ -187,9 +186,9 @@ impl<'a> EdgeClassifier<'a> {
     }
 
     /// The class of the edge between two faces: silhouette, crease, tangent (materials differ, or
-    /// the angle is more than that of tangent edges) or facet.
+    /// the angle exceeds the tangent angle) or facet.
     ///
-    /// With both normals taken along the edge, those of a smooth surface are opposite: n·(−m) is
+    /// Both normals are taken along the edge, so on a smooth surface they are opposite: n·(−m) is
     /// the cosine of the dihedral angle, and facing flags that *agree* mark a silhouette.
     fn class_between(&self, one: HalfEdge, other: HalfEdge) -> EdgeClass {
         let ((n, is_front), (m, other_is_front)) =

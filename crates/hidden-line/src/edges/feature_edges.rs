@@ -1,26 +1,26 @@
 //! Feature edges that do not depend on the viewer: creases and boundaries, object by object, joined
-//! to smooth chains.
+//! into smooth chains.
 //!
-//! Rims of holes and shafts are such chains; circles are recognized in them.
+//! The rims of holes and shafts are such chains; circles are recognized in them.
 
 use super::half_edges::HalfEdge;
 use super::welded_surface::WeldedSurface;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// A chain goes on where it turns by less than this: the cosine of 30 degrees, at which a corner of
-/// a polygon is one of its corners and not a part of a circle.
+/// The cosine of the largest turn within a chain, 30 degrees: a sharper corner is a corner of a
+/// polygon, not a part of a circle.
 const CHAIN_COSINE: f64 = 0.866;
 
-/// A crease or boundary of one object.
+/// A crease or boundary of an object.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct FeatureEdge {
-    /// Indices of vertices.
+    /// Vertex indices.
     pub(crate) ends: [u32; 2],
     pub(crate) object: u32,
 }
 
-/// Edges of one object that go on into each other, and whether the last one leads to the first.
+/// Consecutive edges of one object, and whether the last one leads to the first.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct FeatureChain {
     pub(crate) points: Vec<DVec3>,
@@ -29,9 +29,9 @@ pub(crate) struct FeatureChain {
 }
 
 impl WeldedSurface {
-    /// The creases sharper than an angle in radians, and the boundaries, by object.
+    /// Returns the creases sharper than an angle in radians, and the boundaries, by object.
     ///
-    /// An edge where objects touch belongs to each of them.
+    /// An edge where objects touch belongs to each of these objects.
     pub(crate) fn feature_edges(&self, crease_angle: f64) -> Vec<FeatureEdge> {
         let mesh = self.mesh();
         let normals: Vec<DVec3> = mesh
@@ -70,16 +70,16 @@ impl WeldedSurface {
         features
     }
 
-    /// The feature edges as smooth chains.
+    /// Joins the feature edges into smooth chains.
     pub(crate) fn feature_chains(&self, edges: &[FeatureEdge]) -> Vec<FeatureChain> {
         let of_objects = edges.chunk_by(|a, b| a.object == b.object);
         of_objects.flat_map(|edges| chains_of_object(edges, &self.mesh().points)).collect()
     }
 }
 
-/// The chains of one object's edges.
+/// Joins the edges of one object into chains.
 ///
-/// At a vertex two edges are joined if each is the straightest continuation of the other.
+/// Two edges at a vertex are joined if each is the straightest continuation of the other.
 fn chains_of_object(edges: &[FeatureEdge], points: &[DVec3]) -> Vec<FeatureChain> {
     let mut at_vertex: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (index, edge) in edges.iter().enumerate() {

@@ -6,19 +6,19 @@
 
 use super::world_mesh::Face;
 
-/// One side of one face, in eight bytes: a mesh has three times as many as faces.
+/// One side of a face, in eight bytes: a mesh has three times as many sides as faces.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) struct HalfEdge {
-    /// The end with the higher index; the table knows the lower one.
+    /// The end with the higher index; the table stores the lower one.
     pub(super) high_vertex: u32,
     /// The face, two bits for the side and one for the direction.
     packed: u32,
 }
 
 impl HalfEdge {
-    /// A side of a face: 0 from its first vertex to the second, and so on. Half-edges run forward
-    /// if the face runs from the lower end to the higher: on an oriented manifold the two of an
-    /// edge differ in it.
+    /// Creates a side of a face: 0 from its first vertex to the second, and so on. Half-edges run
+    /// forward if the face runs from the lower end to the higher. On an oriented manifold, the two
+    /// half-edges of an edge run in opposite directions.
     pub(super) fn new(high_vertex: u32, face: u32, side: u8, is_forward: bool) -> Self {
         Self { high_vertex, packed: face << 3 | u32::from(side) << 1 | u32::from(is_forward) }
     }
@@ -28,7 +28,7 @@ impl HalfEdge {
         self.packed >> 3
     }
 
-    /// Which side of the face.
+    /// The side of the face, from 0 to 2.
     pub(super) const fn side(self) -> u8 {
         (self.packed >> 1 & 3) as u8
     }
@@ -42,17 +42,17 @@ impl HalfEdge {
 /// The half-edges of all faces, sorted by their ends.
 #[derive(Clone, Debug, Default)]
 pub(super) struct HalfEdges {
-    /// For each vertex, where in `half_edges` the half-edges begin that have it as their lower end.
+    /// For each vertex, the start in `half_edges` of the half-edges with this lower end.
     starts: Vec<u32>,
     /// Sorted by lower end, higher end, face and side.
     half_edges: Vec<HalfEdge>,
 }
 
 impl HalfEdges {
-    /// Builds the table of faces whose vertex indices are below `points`.
+    /// Builds the table for faces whose vertex indices are below `points`.
     ///
-    /// A counting sort: count the half-edges of each lower end, sum up to starts, place each
-    /// half-edge, then sort the run of each vertex.
+    /// A counting sort: count the half-edges of each lower end, sum the counts to starts, place
+    /// each half-edge, then sort the run of each vertex.
     pub(super) fn new(faces: &[Face], points: usize) -> Self {
         let mut starts = vec![0_u32; points + 2];
         let low = |[a, b]: [u32; 2]| a.min(b) as usize;
@@ -78,7 +78,7 @@ impl HalfEdges {
         Self { starts, half_edges }
     }
 
-    /// The edges in the order of their ends, each with its half-edges.
+    /// Returns the edges in the order of their ends, each with its half-edges.
     pub(super) fn edges(&self) -> impl Iterator<Item = ([u32; 2], &[HalfEdge])> {
         self.starts.windows(2).zip(0..).flat_map(|(range, low)| {
             let here = &self.half_edges[range[0] as usize..range[1] as usize];

@@ -8,17 +8,17 @@
 //!      − ───── −
 //! ```
 //!
-//! After Hertzmann and Zorin, *Illustrating smooth surfaces* (2000). The sides of triangles, which
-//! are the silhouette of the mesh, run in zigzag near that of the surface which the mesh stands for.
-//! Vertex normals are averages over the faces around a vertex, as far as edges between them are
-//! smooth. Points are lifted from the triangles towards the curved surface by Phong tessellation
-//! (Boubekeur and Alexa 2008) where it is convex, or faces of the mesh would hide them.
+//! After Hertzmann and Zorin, *Illustrating smooth surfaces* (2000). The silhouette of the mesh
+//! consists of triangle sides and zigzags near the silhouette of the surface that the mesh
+//! approximates. Vertex normals are averages over the faces around a vertex, across smooth edges.
+//! Points are lifted from the triangles toward the curved surface by Phong tessellation (Boubekeur
+//! and Alexa 2008) where it is convex; otherwise faces of the mesh would hide them.
 //!
-//! This is an approximation, and fails in known ways. A contour can have gaps or loose ends at
-//! cusps, where the surface turns along the line of sight, since visibility is that of the mesh. It
-//! is not the border of what the mesh covers: where triangles are large, it lies beside it. At a
-//! crease it ends a little off the crease, by the height of the lift. Edges a little blunter than
-//! creases are rounded off by the averaged normals, so their silhouettes can be missing.
+//! This is an approximation that fails in known ways. A contour can have gaps or loose ends at
+//! cusps, where the surface turns along the line of sight, because visibility is computed from the
+//! mesh. It is not the border of the area that the mesh covers: with large triangles it is beside
+//! it. At a crease it ends a little off the crease, by the height of the lift. Averaged normals
+//! round off edges a little blunter than creases, so their silhouettes can be missing.
 
 use super::classify::EdgeClassifier;
 use super::half_edges::{HalfEdge, HalfEdges};
@@ -26,11 +26,11 @@ use super::world_mesh::{Face, WorldMesh};
 use crate::projector::Projector;
 use glam::DVec3;
 
-/// The part of Phong tessellation in the lift: the value of its authors, which raises the middle of
-/// an arc a little over the circle.
+/// The weight of Phong tessellation in the lift: its authors' value, which raises the middle of an
+/// arc slightly above the circle.
 const LIFT: f64 = 0.75;
 
-/// The contours of all smooth faces for one viewer, face by face, with their objects.
+/// Returns the contours of all smooth faces for one viewer, face by face, with their objects.
 pub(super) fn interpolated_contours(
     mesh: &WorldMesh,
     half_edges: &HalfEdges,
@@ -52,7 +52,7 @@ pub(super) fn interpolated_contours(
     contours
 }
 
-/// A corner of a face, with its part of n·v.
+/// A corner of a face, with its value of n·v.
 #[derive(Clone, Copy)]
 struct Corner {
     vertex: u32,
@@ -61,9 +61,9 @@ struct Corner {
     facing: f64,
 }
 
-/// The lifted point of a side at which n·v is zero; `None` if it has one sign.
+/// The lifted point of a side where n·v is zero; `None` if it has the same sign at both ends.
 ///
-/// It is computed from the lower vertex to the higher one, so that both faces get the same bits.
+/// It is computed from the lower vertex to the higher one, so both faces get the same bits.
 fn crossing(one: Corner, other: Corner) -> Option<DVec3> {
     let [a, b] = if one.vertex < other.vertex { [one, other] } else { [other, one] };
     if (a.facing > 0.0) == (b.facing > 0.0) {
@@ -71,7 +71,7 @@ fn crossing(one: Corner, other: Corner) -> Option<DVec3> {
     }
     let t = a.facing / (a.facing - b.facing);
     let flat = a.position.lerp(b.position, t);
-    // Where the surface is concave along the side, the side is before it already.
+    // Where the surface is concave along the side, the side is already in front of it.
     let onto_plane = |corner: Corner| {
         let height = (flat - corner.position).dot(corner.normal);
         flat - corner.normal * height.min(0.0)
@@ -79,11 +79,11 @@ fn crossing(one: Corner, other: Corner) -> Option<DVec3> {
     Some(flat.lerp(onto_plane(a).lerp(onto_plane(b), t), LIFT))
 }
 
-/// A unit normal for each corner of each face, shared by corners that smooth edges join.
+/// A unit normal for each corner of each face, shared by corners joined across smooth edges.
 struct SmoothNormals {
     /// By corner, three for each face: the first corner of its fan.
     fans: Vec<u32>,
-    /// By corner; those of first corners are normals.
+    /// By corner; the entries of first corners are normals.
     normals: Vec<DVec3>,
 }
 
@@ -113,7 +113,7 @@ impl SmoothNormals {
         Self { fans, normals }
     }
 
-    /// A corner of a face as this viewer sees it.
+    /// A corner of a face, for this viewer.
     fn corner(
         &self,
         mesh: &WorldMesh,
@@ -129,7 +129,7 @@ impl SmoothNormals {
     }
 }
 
-/// The corner of a half-edge's face at a vertex.
+/// The corner at a vertex in the face of a half-edge.
 fn corner_at(mesh: &WorldMesh, side: HalfEdge, vertex: u32) -> u32 {
     let vertices = mesh.faces[side.face() as usize].vertices;
     let k = vertices.iter().position(|&other| other == vertex).unwrap_or(0);
@@ -144,7 +144,7 @@ fn first_of_fan(fans: &[u32], mut corner: u32) -> u32 {
     corner
 }
 
-/// Makes one fan of those of two corners; paths become shorter on the way.
+/// Merges the fans of two corners; paths are shortened on the way.
 fn join_fans(fans: &mut [u32], corners: [u32; 2]) {
     let [a, b] = corners.map(|corner| first_of_fan(fans, corner));
     fans[a.max(b) as usize] = a.min(b);

@@ -1,8 +1,8 @@
-//! Intersection edges: the segments in which faces cross each other.
+//! Intersection edges: the segments where faces cross each other.
 //!
-//! The test is that of Möller, *A fast triangle-triangle intersection test* (1997). Each triangle
-//! cuts the plane of the other in a segment; both segments lie on the line in which the planes
-//! meet, and their overlap is the intersection.
+//! Uses the test of Möller, *A fast triangle-triangle intersection test* (1997). Each triangle cuts
+//! the plane of the other in a segment. Both segments are on the line where the planes meet, and
+//! their overlap is the intersection.
 //!
 //! ```text
 //!         ╱│           c ├─────────┤ d          this triangle's segment on the common line
@@ -10,8 +10,9 @@
 //!       ╱  │                   ├───┤            the intersection: max(a, c) to min(b, d)
 //! ```
 //!
-//! Triangles that are coplanar, or only touch, do not intersect. Nor do triangles so nearly
-//! coplanar that the segment would be an effect of rounding: decals, and copies of a surface.
+//! Triangles that are coplanar, or only touch, do not intersect. Neither do triangles that are
+//! nearly coplanar, such as decals or copies of a surface: the segment would be a rounding
+//! artifact.
 
 use super::seams::{BorderEdge, WeldRadii};
 use super::world_mesh::{Face, WorldMesh};
@@ -22,14 +23,14 @@ use raster::Workers;
 use std::cell::OnceCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Triangles nowhere farther from each other's planes than this many touching distances are
-/// coplanar.
+/// Triangles are coplanar if they are nowhere farther from each other's planes than this many
+/// touching distances.
 const COPLANAR_FACTOR: f64 = 512.0;
 
-/// The least sine of the angle between planes that intersect: about one degree.
+/// The minimum sine of the angle between planes that intersect: about one degree.
 const MIN_PLANE_SINE: f64 = 1.0 / 64.0;
 
-/// An intersection edge: its ends in the world, and the lower index of the two objects.
+/// An intersection edge: its ends in the world and the lower index of the two objects.
 pub(super) type IntersectionSegment = ([DVec3; 2], u32);
 
 /// The intersection edges of a mesh.
@@ -41,32 +42,32 @@ pub(super) struct Intersections {
     pub(super) is_cut_off: bool,
 }
 
-/// About the greatest number of intersections that are found, however many faces there are.
+/// The approximate maximum number of intersections, however many faces there are.
 const MAX_INTERSECTIONS: usize = 1 << 22;
-/// About the greatest number for each face, on average: a model has few, a soup of triangles as many
-/// as it has pairs.
+/// The approximate maximum number of intersections per face, on average: a model has few, but a
+/// soup of triangles has as many as pairs.
 const INTERSECTIONS_PER_FACE: usize = 64;
 
-/// What a search for intersections leaves out.
+/// The limits of a search for intersections.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SearchBounds<'a> {
-    /// Faces nearer than this only touch.
+    /// Faces closer than this only touch.
     pub(super) touching: f64,
-    /// Intersections that it hides are left out.
+    /// The cover of a view; intersections that it hides are skipped.
     pub(super) cover: Option<&'a DepthCover>,
-    /// Whether there may be any number of intersections.
+    /// Whether to allow any number of intersections.
     pub(super) is_unlimited: bool,
 }
 
-/// A pair of faces that intersect, the one that asks first, and the segment.
+/// A pair of intersecting faces, the searching one first, and the segment.
 type IntersectingPair = ([u32; 2], IntersectionSegment);
 
 /// Finds all intersection edges of a mesh's faces, with up to `threads` threads.
 ///
-/// `bvh` has the faces as its first items. Intersections along boundaries of both faces are left
-/// out, for the boundaries are drawn. Leaves of the hierarchy are compared with each other, each
-/// pair of them once. Unless it is unlimited, the work is bounded by [`Bvh::query_budget`] and
-/// [`MAX_INTERSECTIONS`]; whether a bound was met is in the result.
+/// `bvh` has the faces as its first items. Intersections along boundaries of both faces are
+/// skipped, because the boundaries are drawn. Each pair of leaves in the hierarchy is compared
+/// once. Unless unlimited, the work is bounded by [`Bvh::query_budget`] and [`MAX_INTERSECTIONS`];
+/// the result tells whether a bound was reached.
 pub(super) fn intersect_faces(
     mesh: &WorldMesh,
     bvh: &Bvh,
@@ -75,7 +76,7 @@ pub(super) fn intersect_faces(
     SearchBounds { touching, cover, is_unlimited }: SearchBounds<'_>,
     workers: Workers<'_>,
 ) -> Intersections {
-    // Without what is out of sight there is less to compare.
+    // Skipping hidden faces leaves less to compare.
     let in_sight = cover.map(|cover| FacesInSight::new(mesh, cover));
     let of_view = in_sight.as_ref().map(|in_sight| {
         let items = in_sight.items.iter();
@@ -88,7 +89,7 @@ pub(super) fn intersect_faces(
         true => [usize::MAX; 2],
         false => [most, Bvh::query_budget(leaves.len())],
     };
-    // Parts of two faces find their segment several times, but only what is seen counts.
+    // Parts of two faces find their segment several times, but only visible parts count.
     let least = if in_sight.is_some() { 1024 } else { 256 };
     let search = IntersectionSearch {
         mesh,
@@ -121,13 +122,13 @@ pub(super) fn intersect_faces(
             }
         });
     pairs.sort_by_key(|(faces, _)| *faces);
-    // Several parts of two faces may meet in their one segment.
+    // Several parts of two faces may meet in the same segment.
     pairs.dedup_by_key(|(faces, _)| *faces);
     let segments = pairs.into_iter().map(|(_, segment)| segment).collect();
     Intersections { segments, is_cut_off: is_cut_off.into_inner() }
 }
 
-/// Whether two faces share two vertices: neighbors meet in an edge and do not intersect.
+/// Whether two faces share two vertices: neighbors meet at an edge and do not intersect.
 fn shares_edge([one, other]: [&Face; 2]) -> bool {
     one.vertices.iter().filter(|vertex| other.vertices.contains(vertex)).count() > 1
 }
@@ -135,35 +136,35 @@ fn shares_edge([one, other]: [&Face; 2]) -> bool {
 /// Memory of the search from one leaf, reused for the next.
 #[derive(Default)]
 struct LeafMemory {
-    /// Nodes of the hierarchy that are still to be visited.
+    /// Hierarchy nodes still to visit.
     stack: Vec<u32>,
-    /// The triangles of the leaf, and the box around them.
+    /// The triangles of the leaf, and their bounding box.
     own: Vec<IntersectionTriangle>,
     bounds: Option<Aabb>,
 }
 
-/// A search for intersections, with all that it depends on.
+/// A search for intersections, with its inputs.
 struct IntersectionSearch<'a> {
     mesh: &'a WorldMesh,
     borders: FaceBorders,
     touching: f64,
-    /// About the greatest number of intersections of the faces of a leaf with later ones.
+    /// The approximate maximum number of intersections of a leaf's faces with later ones.
     most_per_leaf: usize,
-    /// The faces that the one viewer can see, if there is only one: those of the hierarchy.
+    /// The faces visible to the viewer, if there is only one; the hierarchy holds them.
     in_sight: Option<FacesInSight<'a>>,
 }
 
-/// A face by its index, and the index of the part of it that is compared; `None` for all of it.
+/// A face index, and the index of the compared part; `None` for the whole face.
 #[derive(Clone, Copy, Debug)]
 struct FacePart {
     face: u32,
     part: Option<u32>,
 }
 
-/// The faces of a mesh that one viewer may see, and where they are long, those of their parts.
+/// The faces of a mesh that one viewer may see; long faces are divided into parts.
 struct FacesInSight<'a> {
     cover: &'a DepthCover,
-    /// The face of each item, or its part.
+    /// The face, or part of a face, of each item.
     items: Vec<FacePart>,
     parts: Vec<[DVec3; 3]>,
 }
@@ -185,13 +186,13 @@ impl<'a> FacesInSight<'a> {
         in_sight
     }
 
-    /// The corners of what is visible of a face.
+    /// The corners of the visible part of a face.
     fn corners(&self, mesh: &WorldMesh, visible: FacePart) -> [DVec3; 3] {
         let FacePart { face, part } = visible;
         part.map_or_else(|| mesh.triangle(face), |part| self.parts[part as usize])
     }
 
-    /// Whether what two triangles have in common is hidden.
+    /// Whether the common part of two triangles is hidden.
     fn hide_pair(&self, pair: [&IntersectionTriangle; 2]) -> bool {
         let image = |triangle: &IntersectionTriangle| {
             let part = triangle.part.map(|part| &self.parts[part as usize]);
@@ -204,8 +205,7 @@ impl<'a> FacesInSight<'a> {
 }
 
 impl IntersectionSearch<'_> {
-    /// The faces among the items of a leaf whose boxes overlap another, if there is one; other items
-    /// are fillings.
+    /// The faces in a leaf whose boxes overlap another box, if given; other items are fillings.
     fn leaf_triangles(
         &self,
         items: &[u32],
@@ -233,7 +233,7 @@ impl IntersectionSearch<'_> {
         }
     }
 
-    /// Intersects the triangles of a leaf, within a box, with those of another.
+    /// Intersects the triangles of a leaf, within a box, with the triangles of another leaf.
     fn intersect_other(
         &self,
         own: &[IntersectionTriangle],
@@ -246,7 +246,7 @@ impl IntersectionSearch<'_> {
         }
     }
 
-    /// The intersection of two triangles: the one with the smaller box comes first.
+    /// Intersects two triangles; the one with the smaller box comes first.
     fn intersect_pair(
         &self,
         a: &IntersectionTriangle,
@@ -264,14 +264,14 @@ impl IntersectionSearch<'_> {
         if shares_edge(faces) {
             return None;
         }
-        // By their faces, so that parts of them find the same segment.
+        // Measured by their faces, so that parts of them find the same segment.
         let size = |triangle: &IntersectionTriangle| {
             let around = Aabb::around_triangle(triangle.vertices);
             (around.half_surface_area(), triangle.face)
         };
         let (one, other) = if size(a) < size(b) { (a, b) } else { (b, a) };
         let ends = one.intersect_triangle(other, self.touching)?;
-        // Of the pairs of a soup most meet where it cannot be seen: they are not to be counted.
+        // Most pairs in a soup meet in hidden places; these do not count.
         if self.in_sight.as_ref().is_some_and(|in_sight| in_sight.cover.hides_segment(ends)) {
             return None;
         }
@@ -289,12 +289,12 @@ struct FaceBorders(Vec<FaceBorder>);
 struct FaceBorder {
     face: u32,
     side: u8,
-    /// A point nearer than this to the side is on it.
+    /// The maximum distance of points on the side.
     distance: f64,
 }
 
 impl FaceBorders {
-    /// The sides with a part among these boundary edges.
+    /// Collects the sides that have a part among these boundary edges.
     fn new(borders: &[BorderEdge], weld_radii: &WeldRadii) -> Self {
         let border = |(ends, side): &BorderEdge| FaceBorder {
             face: side.face(),
@@ -306,12 +306,12 @@ impl FaceBorders {
         Self(sides)
     }
 
-    /// Whether both ends of a segment are on one boundary side of a triangle.
+    /// Whether both ends of a segment are on the same boundary side of a triangle.
     fn have_segment(&self, triangle: &IntersectionTriangle, ends: [DVec3; 2]) -> bool {
         let first = self.0.partition_point(|border| border.face < triangle.face);
         let here = &self.0[first..];
         let count = here.iter().take_while(|border| border.face == triangle.face).count();
-        // One distance for all sides, that of the last part.
+        // One distance for all sides, taken from the last part.
         let distance = here[..count].last().map_or(0.0, |border| border.distance);
         here[..count].iter().any(|border| {
             let k = usize::from(border.side);
@@ -322,18 +322,18 @@ impl FaceBorders {
     }
 }
 
-/// A triangle with what the intersection test needs of it.
+/// A triangle with the data for the intersection test.
 #[derive(Clone, Debug)]
 struct IntersectionTriangle {
     face: u32,
-    /// The index of the part of it that is compared; `None` for all of it.
+    /// The index of the compared part; `None` for the whole face.
     part: Option<u32>,
     vertices: [DVec3; 3],
-    /// The box around the part.
+    /// The bounding box of the part.
     bounds: Aabb,
     /// The unit normal.
     normal: DVec3,
-    /// The image of the part, once it was asked for; `None` if it has none.
+    /// The image of the part, computed on demand; `None` if it has none.
     image: OnceCell<Option<ScreenBox>>,
 }
 
@@ -345,9 +345,9 @@ impl IntersectionTriangle {
         Self { face, part, vertices, bounds, normal, image: OnceCell::new() }
     }
 
-    /// Whether no vertex is farther than `touching` on one side of another triangle's plane.
+    /// Whether all vertices are on one side of another triangle's plane, up to `touching`.
     ///
-    /// This is what ends most comparisons.
+    /// Most comparisons end here.
     fn is_beside_plane(&self, other: &Self, touching: f64) -> bool {
         let heights = self.vertices.map(|vertex| other.normal.dot(vertex - other.vertices[0]));
         let [p, q, r] = heights.map(|height| height >= -touching);
@@ -355,7 +355,7 @@ impl IntersectionTriangle {
         p && q && r || u && v && w
     }
 
-    /// The segment in which two triangles intersect; `None` if they do not, touch, or are coplanar.
+    /// The segment where two triangles intersect; `None` if they do not, touch, or are coplanar.
     fn intersect_triangle(&self, other: &Self, touching: f64) -> Option<[DVec3; 2]> {
         let our_heights = self.distances_to_plane(other, touching);
         let ours = self.cut_at_zero(our_heights)?;
@@ -379,8 +379,8 @@ impl IntersectionTriangle {
         is_long.then_some([from.1, to.1])
     }
 
-    /// The signed distances of the vertices from another triangle's plane, with those below
-    /// `touching` made zero.
+    /// The signed distances of the vertices from another triangle's plane, set to zero below
+    /// `touching`.
     fn distances_to_plane(&self, other: &Self, touching: f64) -> [f64; 3] {
         self.vertices.map(|vertex| {
             let height = other.normal.dot(vertex - other.vertices[0]);
@@ -389,7 +389,7 @@ impl IntersectionTriangle {
     }
 
     /// The segment of the triangle where a linear function with these vertex values is zero; `None`
-    /// if it has one sign.
+    /// if its sign does not change.
     fn cut_at_zero(&self, heights: [f64; 3]) -> Option<[DVec3; 2]> {
         if heights.iter().all(|height| *height >= 0.0)
             || heights.iter().all(|height| *height <= 0.0)

@@ -5,9 +5,9 @@
 //!   ●────●─────●────●     is a side of the lower ones until both are cut at the T-junctions
 //! ```
 //!
-//! Only boundary edges are examined, so a closed surface stays as it is, however fine its
-//! triangles. A boundary that finds its partner here is classified like any other edge; one that
-//! does not is drawn.
+//! Only boundary edges are examined, so a closed surface stays unchanged, however fine its
+//! triangles. A boundary that finds its partner here is classified like any other edge; one without
+//! a partner is drawn.
 
 use super::half_edges::{HalfEdge, HalfEdges};
 use super::weld::remap_vertices;
@@ -15,26 +15,26 @@ use super::world_mesh::{Face, WorldMesh};
 use crate::visibility::{Aabb, Bvh};
 use glam::DVec3;
 
-/// The weld radius in diagonals of an object: 1/4096, the step of positions quantized to 12 bits.
+/// The weld radius as a fraction of an object's diagonal: 1/4096, the step of positions quantized
+/// to 12 bits.
 pub(super) const WELD_FRACTION: f64 = 1.0 / 4096.0;
 
-/// Boundary edges are cut at most this often for each of their vertices.
+/// The maximum number of cuts of boundary edges per boundary vertex.
 const CUTS_PER_VERTEX: usize = 4;
 
 /// A boundary edge, or a part of one between T-junctions: its ends, the lower index first, and its
 /// half-edge.
 pub(super) type BorderEdge = ([u32; 2], HalfEdge);
 
-/// The weld radius of each vertex: within this distance another boundary vertex may be the same
-/// one.
+/// The weld radius of each vertex: another boundary vertex within this distance may be the same.
 ///
-/// The radius is relative to the object, since each is quantized in its own bounding box; where
-/// objects share a vertex the smaller counts.
+/// The radius is relative to the object, since each one is quantized in its own bounding box; if
+/// objects share a vertex, the smaller radius counts.
 #[derive(Clone, Debug)]
 pub(super) struct WeldRadii(Vec<f64>);
 
 impl WeldRadii {
-    /// The radii of all vertices of a mesh; infinite for vertices without a face.
+    /// Computes the radii of all vertices of a mesh; infinite for vertices without a face.
     pub(super) fn from_mesh(mesh: &WorldMesh) -> Self {
         let mut boxes = vec![Aabb::EMPTY; mesh.objects.len()];
         let vertices =
@@ -51,7 +51,7 @@ impl WeldRadii {
         Self(radii)
     }
 
-    /// The lesser radius of the two ends of an edge.
+    /// The smaller radius of the two ends of an edge.
     pub(super) fn edge_radius(&self, [a, b]: [u32; 2]) -> f64 {
         self.0[a as usize].min(self.0[b as usize])
     }
@@ -63,11 +63,11 @@ pub(super) fn border_edges(sides: &HalfEdges) -> Vec<BorderEdge> {
     alone.map(|(ends, sides)| (ends, sides[0])).collect()
 }
 
-/// Welds boundary vertices that are within each other's weld radius; `true` if there were any.
+/// Welds boundary vertices within each other's weld radius; returns `true` if there were any.
 ///
-/// Vertices are visited by index, and each one takes in its unwelded neighbors, found by a BVH over
-/// the points. A chain of near vertices does not collapse into one, because a vertex that was taken
-/// in does not search again.
+/// Vertices are visited by index. Each one absorbs its unwelded neighbors, found with a BVH over
+/// the points. A chain of near vertices does not collapse into one, because an absorbed vertex does
+/// not search again.
 pub(super) fn weld_near_borders(
     mesh: &mut WorldMesh,
     borders: &[BorderEdge],
@@ -105,8 +105,8 @@ pub(super) fn weld_near_borders(
     has_welded
 }
 
-/// Cuts boundary edges at the boundary vertices that lie on them, and returns the parts and the
-/// sliver triangles in between.
+/// Cuts boundary edges at the boundary vertices on them, and returns the parts and the sliver
+/// triangles in between.
 ///
 /// ```text
 ///       a ●─────────────● b
@@ -115,10 +115,9 @@ pub(super) fn weld_near_borders(
 /// ```
 ///
 /// The edge a–b passes within the weld radius of p: its parts are a–p and p–b. The sliver a, p, b
-/// closes the gap, which is as wide as rounding made it; it hides and is cut by sections, but is
-/// never drawn.
+/// closes the gap caused by rounding. It hides lines and is cut by sections, but is never drawn.
 ///
-/// Parts are sorted by their ends, so that coincident ones of both sides of a seam are neighbors.
+/// Parts are sorted by their ends, so coincident parts of both sides of a seam are neighbors.
 pub(super) fn split_at_t_junctions(
     mesh: &WorldMesh,
     borders: &[BorderEdge],
@@ -131,7 +130,7 @@ pub(super) fn split_at_t_junctions(
     let bvh = Bvh::new(boxes.iter().copied());
     let (mut stack, mut cuts) = (Vec::new(), Vec::new());
     let budget = Bvh::query_budget(borders.len());
-    // A vertex lies on one side of a face or two, unless the mesh has lost its shape.
+    // A vertex is on at most two sides of faces, unless the mesh has lost its shape.
     let mut cuts_left = CUTS_PER_VERTEX * points.len();
     let (mut parts, mut fillings) = (Vec::with_capacity(borders.len()), Vec::new());
     for &([a, b], side) in borders {
@@ -150,7 +149,7 @@ pub(super) fn split_at_t_junctions(
         });
         cuts.sort_unstable_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
         let stops = || cuts.iter().map(|&(_, vertex)| vertex).chain([b]);
-        // A fan of slivers about `a`: one between each cut and the next stop.
+        // A fan of slivers around `a`: one between each cut and the next stop.
         let face = mesh.faces[side.face() as usize];
         let sliver = |(from, to)| Face { vertices: [a, from, to], ..face };
         fillings.extend(stops().zip(stops().skip(1)).map(sliver));
@@ -161,14 +160,14 @@ pub(super) fn split_at_t_junctions(
     (parts, fillings)
 }
 
-/// A part of a boundary edge as an edge of its own, with the orientation of the original.
+/// Returns a part of a boundary edge as a separate edge, with the orientation of the original.
 fn border_part([from, to]: [u32; 2], side: HalfEdge) -> BorderEdge {
     let (low, high) = (from.min(to), from.max(to));
     let is_forward = side.is_forward() == (from < to);
     ([low, high], HalfEdge::new(high, side.face(), side.side(), is_forward))
 }
 
-/// The vertices of boundary edges, sorted, each once.
+/// The vertices of boundary edges, sorted, without duplicates.
 fn border_vertices(borders: &[BorderEdge]) -> Vec<u32> {
     let mut points: Vec<u32> = borders.iter().flat_map(|(ends, _)| *ends).collect();
     points.sort_unstable();

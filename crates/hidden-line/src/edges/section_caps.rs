@@ -12,9 +12,9 @@
 //! ```
 //!
 //! Loops of a consistently oriented surface run counterclockwise around matter and clockwise around
-//! holes. Each outline is capped by itself: bodies of one
-//! object that overlap, as in many game models, are capped one over the other, and no part of one
-//! makes a hole in the other. An even-odd rule over all loops would do that.
+//! holes. Each outline is capped separately. Overlapping bodies of one object, common in game
+//! models, are capped one over the other, and no part of one makes a hole in the other. An even-odd
+//! rule over all loops would make such holes.
 
 use clip::Outline;
 use homog::{Plane, Point, World};
@@ -22,11 +22,11 @@ use homog::{Plane, Point, World};
 /// A closed loop in the section plane; the last point is joined to the first.
 pub(super) type SectionLoop = Vec<Point<World>>;
 
-/// The most points of a cap: triangulation takes time quadratic in them.
+/// The maximum number of points in a cap: triangulation time is quadratic in it.
 const MAX_CAP_POINTS: usize = 1 << 14;
 
-/// The triangles of the caps of one object's loops; `None` if there are more than
-/// [`MAX_CAP_POINTS`] points.
+/// Triangulates the caps of one object's loops; `None` if there are more than [`MAX_CAP_POINTS`]
+/// points.
 pub(super) fn triangulate_caps(
     loops: Vec<SectionLoop>,
     plane: Plane<World>,
@@ -41,9 +41,9 @@ pub(super) fn triangulate_caps(
 
 /// Groups loops by region: an outline first, then its holes.
 ///
-/// The sign of the total area tells the orientation of the surface; an object that a negative scale
-/// has turned inside out is handled alike. A hole without an outline around it is matter that was
-/// modeled inside out, and becomes an outline.
+/// The sign of the total area gives the orientation of the surface, so an object turned inside out
+/// by a negative scale works too. A hole without an outline around it is matter modeled inside out,
+/// and becomes an outline.
 fn group_holes_with_outlines(
     loops: Vec<SectionLoop>,
     plane: Plane<World>,
@@ -52,7 +52,7 @@ fn group_holes_with_outlines(
     let mut outer: Vec<(f64, Vec<SectionLoop>)> = Vec::new();
     let mut holes: Vec<SectionLoop> = Vec::new();
     let areas: Vec<f64> = loops.iter().map(|points| axes.doubled_area(points)).collect();
-    // A negative total area: the surface is inside out, by a reflection for example.
+    // A negative total area: the surface is inside out, for example because of a reflection.
     let sign = if areas.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
     for (points, area) in loops.into_iter().zip(areas) {
         if area * sign < 0.0 {
@@ -74,17 +74,17 @@ fn group_holes_with_outlines(
     outer.into_iter().map(|(_, region)| region).collect()
 }
 
-/// Two-dimensional coordinates of a plane: the two axes along which it extends most.
+/// Two-dimensional coordinates of a plane: the two axes along which it extends the most.
 ///
-/// The axis nearest to the normal is dropped, and the others are ordered so that areas are positive
-/// as seen from the side to which the normal points. Dropping an axis instead of rotating keeps the
+/// The axis nearest to the normal is dropped. The others are ordered so that areas are positive
+/// when seen from the side that the normal points to. Unlike a rotation, dropping an axis keeps the
 /// coordinates' bits.
 struct PlaneAxes {
     axes: [usize; 2],
 }
 
 impl PlaneAxes {
-    /// The axes for a plane: all but the dominant component of its normal.
+    /// Chooses the axes for a plane: all except the dominant component of its normal.
     fn dominant(plane: Plane<World>) -> Self {
         let normal = plane.normal().raw().to_array();
         let size = normal.map(f64::abs);
@@ -158,7 +158,7 @@ mod tests {
 
     #[test]
     fn bodies_that_overlap_are_both_filled() {
-        // Crossing each other, and one within the other.
+        // Crossing each other, and one inside the other.
         assert_eq!(cap_area(vec![square_loop(0.0, 2.0, true), square_loop(3.0, 2.0, true)]), 32.0);
         assert_eq!(cap_area(vec![square_loop(0.0, 2.0, true), square_loop(0.0, 1.0, true)]), 20.0);
     }

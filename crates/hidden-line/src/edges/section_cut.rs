@@ -6,13 +6,13 @@
 //!  ╱──────╲     └────┘ hatched
 //! ```
 //!
-//! Each triangle is cut by itself. The edges that the plane leaves in it join to loops without a
-//! tolerance, since neighbors are cut at the same bits. Loops are capped, and what is behind a cap
-//! is hidden as behind any face.
+//! Each triangle is cut separately. The cut edges are joined into loops without a tolerance,
+//! because neighbors are cut at the same bits. Loops are capped, and a cap hides everything behind
+//! it, like any face.
 //!
-//! The slivers that close the gaps at T-junctions are cut like faces, so that boundaries which only
+//! The slivers that close the gaps at T-junctions are cut like faces, so that boundaries that only
 //! nearly meet give closed loops too. A curve that does not close belongs to a surface that is
-//! itself open; it is drawn without a cap, and reported.
+//! itself open; it is drawn without a cap and reported.
 
 use super::section_caps::{SectionLoop, triangulate_caps};
 use super::vertex_normal::VertexNormal;
@@ -24,19 +24,19 @@ use homog::{Plane, Point, World};
 use model::EdgeVisibility;
 use std::collections::BTreeMap;
 
-/// An edge that the plane leaves in a face, and the object of the face.
+/// The edge that the plane cuts in a face, and the object of the face.
 type CutEdge = ([Point<World>; 2], u32);
 
-/// Cuts a mesh by a plane, retains its positive side, and caps what the cut opens.
+/// Cuts a mesh by a plane, retains its positive side, and caps the openings.
 ///
 /// 1. Each face is clipped by the plane; the edge on the plane becomes a cut edge.
-/// 2. So are the slivers of T-junctions (`fillings`), for the sake of closed loops; what is left of
-///    them is dropped.
+/// 2. The slivers of T-junctions (`fillings`) are clipped too, so that loops close; their remains
+///    are dropped.
 /// 3. Lines are clipped.
-/// 4. Cut edges are joined to loops, loops are nested and triangulated, and the triangles become
+/// 4. Cut edges are joined into loops, loops are nested and triangulated, and the triangles become
 ///    faces with a `cap_section`.
 ///
-/// New points are appended and not welded; the caller welds. Open and too complex sections are
+/// New points are appended without welding; the caller welds. Open and overly complex sections are
 /// added to `warnings`.
 pub(super) fn cut_mesh(
     mesh: &mut WorldMesh,
@@ -72,9 +72,9 @@ pub(super) fn cut_mesh(
     add_caps(mesh, &openings, plane, section, warnings);
 }
 
-/// Closes a cut: the loops of its edges become faces with a material of their own.
+/// Closes a cut: the loops of its edges become faces with a separate material.
 ///
-/// Cap materials count down from `u32::MAX`, one for each section, so they equal no other.
+/// Cap materials count down from `u32::MAX`, one for each section, so they differ from all others.
 fn add_caps(
     mesh: &mut WorldMesh,
     openings: &[CutEdge],
@@ -110,10 +110,10 @@ fn add_point(mesh: &mut WorldMesh, point: Point<World>) -> u32 {
     mesh.points.len() as u32 - 1
 }
 
-/// Cuts one face: pushes what is left as a fan of triangles, and the edge on the plane if there is
-/// one.
+/// Cuts one face: pushes the remaining part as a fan of triangles, and the edge on the plane, if
+/// any.
 ///
-/// A vertex that the plane leaves keeps its index, so that uncut neighbors still share it.
+/// A vertex that is kept keeps its index, so that uncut neighbors still share it.
 fn cut_face(
     mesh: &mut WorldMesh,
     face: &Face,
@@ -144,7 +144,7 @@ fn cut_face(
     }
 }
 
-/// The normal at a point of a face by its barycentric weights.
+/// Interpolates the normal at a point of a face by barycentric weights.
 fn cut_normal(face: &Face, weights: [f64; 3]) -> VertexNormal {
     if let Some(corner) = weights.iter().position(|weight| *weight == 1.0) {
         return face.normals[corner];
@@ -157,11 +157,11 @@ fn cut_normal(face: &Face, weights: [f64; 3]) -> VertexNormal {
     VertexNormal::pack(normals.iter().zip(weights).map(|(normal, weight)| *normal * weight).sum())
 }
 
-/// The visibility of a side of a part: that of the side of the face it lies on, or hidden if the
-/// cut made it.
+/// The visibility of a side of a part: taken from the side of the face that contains it, or hidden
+/// if the cut made it.
 ///
-/// Barycentric weights tell the side: on a side of a triangle the weight of the opposite vertex is
-/// zero, exactly.
+/// Barycentric weights identify the side: on a side of a triangle, the weight of the opposite
+/// vertex is exactly zero.
 fn part_edge_visibility(
     ends: [usize; 2],
     cut: &CutTriangle<World>,
@@ -172,7 +172,7 @@ fn part_edge_visibility(
     side.map_or(EdgeVisibility::Hidden, |k| visibility[k])
 }
 
-/// Cuts the lines that are edges by themselves, and retains their part on the positive side.
+/// Cuts the lines that are not sides of faces, and retains the parts on the positive side.
 fn cut_line_edges(mesh: &mut WorldMesh, plane: Plane<World>) {
     let lines = std::mem::take(&mut mesh.line_edges);
     for line in lines {
@@ -200,7 +200,8 @@ fn remove_dots(mesh: &mut WorldMesh, plane: Plane<World>) {
     mesh.dots = dots.into_iter().filter(is_retained).collect();
 }
 
-/// Joins cut edges to loops: first within each object, then what remains open across objects.
+/// Joins cut edges into loops: first within each object, then the remaining open ones across
+/// objects.
 ///
 /// ```text
 ///   object 1  ┌───────        object 2  ───────┐        together  ┌──────────────┐
@@ -208,8 +209,9 @@ fn remove_dots(mesh: &mut WorldMesh, plane: Plane<World>) {
 ///             └───────                  ───────┘                  └──────────────┘
 /// ```
 ///
-/// A body modeled in several objects closes only with all of them. A loop of several objects goes
-/// to the first one that contributed. Each object with a curve that stays open adds a warning.
+/// A body modeled as several objects closes only with all of them. A loop across several objects
+/// belongs to the first one that contributed. Each object with a curve that stays open adds a
+/// warning.
 fn close_loops(
     mesh: &WorldMesh,
     openings: &[CutEdge],
@@ -275,8 +277,8 @@ mod tests {
     use homog::Normal;
     use std::f64::consts::TAU;
 
-    /// A solid by rings of points, as radius and height, from one pole to the other; poles have
-    /// radius 0.
+    /// A solid of revolution from rings of points, as radius and height, from pole to pole; poles
+    /// have radius 0.
     fn solid_of_revolution(rings: &[(f64, f64)], sides: u32) -> WorldMesh {
         let mut mesh = WorldMesh { objects: vec!["body".to_owned()], ..WorldMesh::default() };
         for (radius, height) in rings {
@@ -305,7 +307,7 @@ mod tests {
         mesh
     }
 
-    /// The area of the cap that a plane leaves, which must close.
+    /// The area of the cap left by a plane, which must close.
     fn closed_cap_area(mut mesh: WorldMesh, point: [f64; 3], normal: [f64; 3]) -> f64 {
         let [x, y, z] = normal;
         let normal = Normal::new(x, y, z).normalized().expect("a direction");
@@ -330,13 +332,13 @@ mod tests {
         let cylinder = || solid_of_revolution(&CYLINDER, 60);
         let round = closed_cap_area(cylinder(), [0.0, 1.3, 0.0], [0.0, -1.0, 0.0]);
         assert!((round - regular_polygon_area(2.0, 60)).abs() < 1e-12, "{round}");
-        // Along the axis through two edges, then off the axis: the chord of the polygon there.
+        // Along the axis through two edges, then off the axis, across a chord of the polygon.
         let along = closed_cap_area(cylinder(), [0.0; 3], [0.0, 0.0, 1.0]);
         assert!((along - 12.0).abs() < 1e-12, "{along}");
         let (sine, cosine) = libm::sincos(TAU / 60.0 * 5.0);
         let beside = closed_cap_area(cylinder(), [0.0, 0.0, 2.0 * sine], [0.0, 0.0, -1.0]);
         assert!((beside - 3.0 * 4.0 * cosine).abs() < 1e-9, "{beside}");
-        // Tilted by 45° and within both ends, it is √2 times as large as from above.
+        // Tilted by 45° and inside both ends, it is √2 times as large as from above.
         let tilted = solid_of_revolution(&[(0.0, -9.0), (2.0, -9.0), (2.0, 9.0), (0.0, 9.0)], 60);
         let tilted = closed_cap_area(tilted, [0.1, 0.2, 0.3], [1.0, 1.0, 0.0]);
         let expected = regular_polygon_area(2.0, 60) * std::f64::consts::SQRT_2;

@@ -1,30 +1,30 @@
-//! Vertex normals of a file, packed: what a mesh says about which of its edges are smooth.
+//! Vertex normals of a file, packed: they tell which edges of a mesh are smooth.
 //!
-//! A scanned or sculpted surface has facets that meet at any angle, and shared normals that make it
-//! smooth; a machined part has an edge where its normals differ on both sides. The angle between
-//! faces alone cannot tell them apart.
+//! A scanned or sculpted surface has facets that meet at any angle, with shared normals that make
+//! it smooth. A machined part has an edge wherever its normals differ on the two sides. The angle
+//! between faces cannot tell the two apart.
 //!
-//! A normal is stored as a point of an octahedron whose lower half is folded out to a square,
-//! 16 bits for each side: 0.004° at most from the original (Meyer et al., *On Floating-Point Normal
+//! A normal is stored as a point of an octahedron whose lower half is folded out to a square, 16
+//! bits per side, at most 0.004° from the original (Meyer et al., *On Floating-Point Normal
 //! Vectors*, 2010).
 
 use glam::{DVec2, DVec3};
 
-/// A unit vector in the space of its primitive, or none.
+/// A unit vector in the space of its primitive, or nothing.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(crate) struct VertexNormal(u32);
 
-/// Normals whose angle has a greater cosine agree: 2.5°, for files store them in few bits.
+/// Normals agree if the cosine of their angle is greater: 2.5°, because files store few bits.
 const AGREEMENT_COSINE: f64 = 0.999;
 
-/// The greatest number of 16 bits; 0 is left for no normal.
+/// The largest 16-bit value that encodes a normal; 0 means no normal.
 const STEPS: f64 = 65_534.0;
 
 impl VertexNormal {
     /// No normal.
     pub(crate) const NONE: Self = Self(0);
 
-    /// The direction of a vector; none if it has no direction.
+    /// Packs the direction of a vector; `NONE` if it has no direction.
     pub(crate) fn pack(vector: DVec3) -> Self {
         let size = vector.abs().element_sum();
         if !(size > 0.0 && size.is_finite()) {
@@ -41,7 +41,7 @@ impl VertexNormal {
         Self(step(folded.x) << 16 | step(folded.y))
     }
 
-    /// The unit vector, `None` if there is none.
+    /// Unpacks the unit vector; `None` if there is none.
     pub(crate) fn unpack(self) -> Option<DVec3> {
         let value = |step: u32| (f64::from(step) - 1.0) / STEPS * 2.0 - 1.0;
         let (x, y) = (value(self.0 >> 16), value(self.0 & 0xffff));
@@ -51,7 +51,7 @@ impl VertexNormal {
         (self != Self::NONE).then(|| DVec3::new(unfold(x), unfold(y), z).normalize_or_zero())
     }
 
-    /// Whether both are there and have nearly one direction.
+    /// Whether both exist and have nearly the same direction.
     pub(crate) fn agrees_with(self, other: Self) -> bool {
         let pair = self.unpack().zip(other.unpack());
         pair.is_some_and(|(a, b)| a.dot(b) > AGREEMENT_COSINE)

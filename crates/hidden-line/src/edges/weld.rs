@@ -1,32 +1,31 @@
 //! Vertex welding: vertices at the same position become one.
 //!
 //! Files split the vertices of a surface where texture coordinates, normals or materials change,
-//! and give each side of the seam a copy. To find the two faces at an edge the copies must share an
-//! index. Exact copies are found by sorting numbers that are mixed from the coordinates, in
-//! O(n log n): equal points have equal numbers, and points with equal numbers are compared, so the
-//! result depends on nothing but the coordinates. Copies that differ by quantization are left to
-//! [`seams`](super::seams).
+//! and give each side of the seam a copy. To find the two faces at an edge, the copies must share
+//! an index. Exact copies are found in O(n log n) by sorting hashes of the coordinates. Points with
+//! equal hashes are compared, so the result depends only on the coordinates. Copies that differ by
+//! quantization are left to [`seams`](super::seams).
 
 use super::world_mesh::{Face, WorldMesh};
 use glam::DVec3;
 
-/// Gives all points with equal coordinates one index, that of the first of them.
+/// Gives all points with equal coordinates the index of the first such point.
 ///
 /// ```text
 ///   points   0 A   1 B   2 A   3 C   4 B         representative  0  1  0  3  1
 /// ```
 ///
-/// Faces that lose a vertex by it, and duplicates of other faces, are removed. Negative and
+/// Faces that lose a vertex in this way, and duplicates of other faces, are removed. Negative and
 /// positive zero are equal.
 pub(super) fn weld_equal_vertices(mesh: &mut WorldMesh) {
     let representative = equal_points(&mesh.points);
     remap_vertices(mesh, &representative);
 }
 
-/// Runs of points with one number that are longer are sorted, not compared with each other.
+/// Longer runs of points with the same hash are sorted instead of compared pairwise.
 const MAX_COMPARED_RUN: usize = 16;
 
-/// For each point the first one with the same coordinates.
+/// For each point, the first point with the same coordinates.
 fn equal_points(points: &[DVec3]) -> Vec<u32> {
     let key = |(point, at): (&DVec3, u32)| u64::from(mix_coordinates(*point)) << 32 | u64::from(at);
     let mut keyed: Vec<u64> = points.iter().zip(0..).map(key).collect();
@@ -60,9 +59,9 @@ fn equal_points(points: &[DVec3]) -> Vec<u32> {
     representative
 }
 
-/// A number that equal points share, and others seldom.
+/// A hash that equal points share, and others seldom do.
 fn mix_coordinates(point: DVec3) -> u32 {
-    // Zero is added for its sign.
+    // Adding zero removes negative zeros.
     let bits = (point + DVec3::ZERO).to_array().map(f64::to_bits);
     let mixed = bits.into_iter().fold(0_u64, |mixed, bits| {
         (mixed.rotate_left(23) ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15)
@@ -70,7 +69,7 @@ fn mix_coordinates(point: DVec3) -> u32 {
     ((mixed ^ mixed >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 32) as u32
 }
 
-/// Replaces each vertex index `v` by `same[v]`, and removes faces and lines that degenerate by it.
+/// Replaces each vertex index `v` by `same[v]`, and removes faces and lines that become degenerate.
 pub(super) fn remap_vertices(mesh: &mut WorldMesh, same: &[u32]) {
     for face in &mut mesh.faces {
         face.vertices = face.vertices.map(|vertex| same[vertex as usize]);
@@ -94,11 +93,10 @@ pub(super) fn remap_vertices(mesh: &mut WorldMesh, same: &[u32]) {
     drop_duplicate_faces(&mut mesh.faces, mesh.points.len(), mesh.keeps_duplicates);
 }
 
-/// Removes all but the first of faces with the same three vertices, whatever their orientation.
+/// Removes all but the first of the faces with the same three vertices, in any orientation.
 ///
-/// Two-sided surfaces are often modeled as two coincident faces; drawn as two they would have
-/// creases and no boundaries. With `by_object` faces of different objects are not duplicates of
-/// each other.
+/// Two-sided surfaces are often modeled as two coincident faces; drawn as two, they would have
+/// creases instead of boundaries. With `by_object`, faces of different objects are not duplicates.
 fn drop_duplicate_faces(faces: &mut Vec<Face>, points: usize, by_object: bool) {
     let mut is_copy = vec![false; faces.len()];
     // A counting sort by the lowest vertex: only the few faces of one vertex are compared.

@@ -1,13 +1,13 @@
-//! Welded surface: the mesh that is drawn and that hides, and the search for its feature edges.
+//! Welded surface: the mesh that is drawn and hides lines, and the search for its feature edges.
 //!
 //! ```text
 //!   gather ─► weld equal ─► weld near borders ─► split T-junctions ─┐
 //!                 ┌── for each section: cut, cap, weld equal ◄──────┘
 //! ```
 //!
-//! Welding depends on the models and the section planes and not on the viewer, so one surface
-//! serves every view of a drawing sheet. Edges with several half-edges are classified at once;
-//! boundary edges only after they are split, by the runs of their coincident parts.
+//! Welding depends on the models and the section planes, not on the viewer, so one surface serves
+//! every view of a drawing sheet. Edges with several half-edges are classified immediately.
+//! Boundary edges are classified after splitting, by runs of coincident parts.
 
 use super::classify::EdgeClassifier;
 use super::half_edges::{HalfEdge, HalfEdges};
@@ -27,29 +27,29 @@ use raster::Workers;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-/// An edge that will be drawn as far as it is visible.
+/// An edge to draw wherever it is visible.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct CandidateEdge {
     /// In world space.
     pub(crate) ends: [DVec3; 2],
-    /// Why it is drawn.
+    /// The reason why it is drawn.
     pub(crate) class: EdgeClass,
     /// The object it belongs to.
     pub(crate) object: u32,
 }
 
-/// The faces that close one object where one plane cuts it.
+/// The faces that close one object where a plane cuts it.
 #[derive(Clone, Debug)]
 pub(crate) struct SectionCap {
     pub(crate) object: u32,
-    /// Its normal points to what is retained.
+    /// Its normal points to the retained side.
     pub(crate) plane: Plane<World>,
     pub(crate) triangles: Vec<[DVec3; 3]>,
 }
 
 impl SectionCap {
-    /// Whether the viewer is at the side that was removed: such a cap is seen as a whole, for
-    /// nothing is left in front of it.
+    /// Whether the viewer is on the removed side: such a cap is fully visible, because nothing
+    /// remains in front of it.
     pub(crate) fn faces_viewer(&self, projector: &Projector) -> bool {
         let normal = self.plane.normal().raw();
         let point = self.triangles.first().map_or(DVec3::ZERO, |[point, ..]| *point);
@@ -61,41 +61,41 @@ impl SectionCap {
 #[derive(Clone, Debug)]
 pub struct WeldedSurface {
     mesh: WorldMesh,
-    /// Of all faces of `mesh`.
+    /// The half-edges of all faces of `mesh`.
     half_edges: HalfEdges,
-    /// Boundary edges, cut at T-junctions; parts with equal ends are neighbors and count as one
+    /// Boundary edges, cut at T-junctions; parts with the same ends are neighbors and count as one
     /// edge.
     border_edges: Vec<BorderEdge>,
     /// The sliver triangles at T-junctions: they hide, but are not drawn.
     fillings: Vec<Face>,
-    /// Of each point of `mesh`.
+    /// The weld radius of each point of `mesh`.
     weld_radii: WeldRadii,
     /// The diagonal of the models' bounding box before sections, so that tolerances do not depend
     /// on them.
     diagonal: f64,
-    /// The planes that cut it.
+    /// The planes that cut the surface.
     sections: Vec<Plane<World>>,
     /// Sections that could not be capped.
     warnings: Vec<Warning>,
-    /// Where faces intersect: found at the first request, for wireframes do not ask.
+    /// The intersections of faces, found on demand, because wireframes do not need them.
     intersections: OnceLock<Intersections>,
-    /// The boxes around the faces and fillings: made at the first request.
+    /// The hierarchy of the faces and fillings, built on demand.
     face_bvh: OnceLock<Bvh>,
-    /// The boxes by which objects are neighbors, if they are not where they belong.
+    /// The boxes that determine which objects are neighbors, if the objects have moved.
     assembled_boxes: Option<BTreeMap<u32, Aabb>>,
 }
 
 impl WeldedSurface {
-    /// Gathers and welds models, and cuts them open by section planes, but for the objects that are
+    /// Gathers and welds models, and cuts them open by section planes, except for the objects in
     /// `uncut`, in ascending order.
     ///
-    /// While bodies are being cut, coincident faces of different objects are both retained, since
-    /// each body must be closed by itself; the last welding removes them.
+    /// While bodies are being cut, coincident faces of different objects are all retained, because
+    /// each body must be closed by its own faces; the last welding removes them.
     pub fn new(models: &[ModelInstance], sections: &[Plane<World>], uncut: &[u32]) -> Self {
         Self::from_mesh(WorldMesh::from_models(models), sections, uncut)
     }
 
-    /// The surface of a mesh that is not welded yet; the rest is as for [`new`](Self::new).
+    /// Creates the surface of a mesh that is not welded yet; the rest is as for [`new`](Self::new).
     pub(crate) fn from_mesh(mut mesh: WorldMesh, sections: &[Plane<World>], uncut: &[u32]) -> Self {
         mesh.uncut = uncut.to_vec();
         mesh.keeps_duplicates = !sections.is_empty();
@@ -124,7 +124,8 @@ impl WeldedSurface {
         for (index, &plane) in sections.iter().enumerate() {
             surface.cut_by_plane(plane, index as u16);
         }
-        // Caps of several objects may coincide: duplicates go only when all bodies are closed.
+        // Caps of several objects may coincide, so duplicates are removed only when all bodies are
+        // closed.
         if surface.mesh.keeps_duplicates {
             surface.mesh.keeps_duplicates = false;
             surface.reweld();
@@ -132,13 +133,13 @@ impl WeldedSurface {
         surface
     }
 
-    /// The surface of parts that have moved from these boxes, one for each of the first objects:
-    /// their hatchings remain those of the assembly.
+    /// Marks parts as moved from these boxes, one for each of the first objects: their hatching
+    /// stays the same as in the assembly.
     pub fn exploded_from(self, boxes: impl Iterator<Item = Aabb>) -> Self {
         Self { assembled_boxes: Some((0..).zip(boxes).collect()), ..self }
     }
 
-    /// The box around the faces of each object, where it belongs.
+    /// The box around the faces of each object, in its original position.
     pub(crate) fn part_boxes(&self) -> BTreeMap<u32, Aabb> {
         if let Some(boxes) = &self.assembled_boxes {
             return boxes.clone();
@@ -158,7 +159,7 @@ impl WeldedSurface {
         self.reweld();
     }
 
-    /// Welds equal vertices, and finds half-edges and boundaries anew. Near welding is not
+    /// Welds equal vertices, and finds half-edges and boundaries again. Near welding is not
     /// repeated.
     fn reweld(&mut self) {
         weld_equal_vertices(&mut self.mesh);
@@ -184,12 +185,12 @@ impl WeldedSurface {
         .collect()
     }
 
-    /// Whether section planes cut it.
+    /// Whether section planes cut the surface.
     pub(crate) const fn is_cut(&self) -> bool {
         !self.sections.is_empty()
     }
 
-    /// The tolerances of hidden-line removal for the size of this scene.
+    /// Returns the tolerances of hidden-line removal for the size of this scene.
     pub fn touch_tolerance(&self) -> Tolerance {
         Tolerance::for_scene(self.diagonal)
     }
@@ -215,19 +216,19 @@ impl WeldedSurface {
         }
     }
 
-    /// The names of the objects.
+    /// Returns the object names.
     pub fn object_names(&self) -> &[String] {
         &self.mesh.objects
     }
 
-    /// All triangles that hide, slivers included, in world space.
+    /// Returns all triangles that hide lines, including slivers, in world space.
     pub fn occluder_triangles(&self) -> impl Iterator<Item = [Point<World>; 3]> {
         let position = |vertex: u32| Point::from_raw(self.mesh.points[vertex as usize]);
         let faces = self.mesh.faces.iter().chain(&self.fillings);
         faces.map(move |face| face.vertices.map(position))
     }
 
-    /// Each face with its object and the linear color of its material; caps are white like paper.
+    /// Each face with its object and the linear color of its material; caps are white, like paper.
     pub(crate) fn colored_faces(&self) -> impl Iterator<Item = ([DVec3; 3], u32, [f32; 3])> {
         let mesh = &self.mesh;
         mesh.faces.iter().map(|face| {
@@ -237,7 +238,7 @@ impl WeldedSurface {
         })
     }
 
-    /// Each face with the linear color of its material; `None` for section caps.
+    /// Returns each face with the linear color of its material; `None` for section caps.
     pub fn faces_with_colors(&self) -> impl Iterator<Item = ([DVec3; 3], Option<[f32; 3]>)> {
         let faces = self.colored_faces().zip(&self.mesh.faces);
         faces.map(|((vertices, _, color), face)| {
@@ -245,7 +246,7 @@ impl WeldedSurface {
         })
     }
 
-    /// The faces without section caps, which have a hatching of their own.
+    /// The faces without section caps, which have their own hatching.
     pub(crate) fn colored_faces_without_caps(
         &self,
     ) -> impl Iterator<Item = ([DVec3; 3], u32, [f32; 3])> {
@@ -258,11 +259,10 @@ impl WeldedSurface {
         self.half_edges = HalfEdges::default();
     }
 
-    /// The edges of the wanted classes for one viewer that are sides of faces, or lines by
-    /// themselves.
+    /// Returns the edges of the requested classes for one viewer that are sides of faces or
+    /// separate lines.
     ///
-    /// The viewer matters for silhouettes only, but their test runs over all faces: O(faces +
-    /// edges).
+    /// The viewer affects only silhouettes, but their test runs over all faces: O(faces + edges).
     pub(crate) fn mesh_edges(
         &self,
         projector: &Projector,
@@ -287,7 +287,7 @@ impl WeldedSurface {
                 classify(ends, sides);
             }
         });
-        // Without faces, lines and points are all that any selection of edges could show.
+        // Without faces, a selection of edges can show only lines and points.
         let is_bare = mesh.faces.is_empty();
         let classes = if is_bare { EdgeClasses::ALL } else { options.classes };
         for line in &mesh.line_edges {
@@ -309,11 +309,11 @@ impl WeldedSurface {
         candidates
     }
 
-    /// Adds the edges in which faces intersect, if they are wanted; `true` if some are missing
+    /// Adds the edges where faces intersect, if requested; returns `true` if some are missing
     /// because there were too many.
     ///
-    /// With the cover of a view only those that it does not hide are found: where there is one view
-    /// only, and hidden lines are removed, the others make no difference.
+    /// With the cover of a view, only intersections that it does not hide are found. With a single
+    /// view and hidden lines removed, the others make no difference.
     pub(crate) fn add_intersections(
         &self,
         candidates: &mut Vec<CandidateEdge>,
@@ -342,7 +342,7 @@ impl WeldedSurface {
         *is_cut_off
     }
 
-    /// Where faces intersect; the number of threads does not change them.
+    /// Finds the intersections of faces; the number of threads does not change them.
     fn find_intersections(
         &self,
         cover: Option<&DepthCover>,
@@ -355,14 +355,14 @@ impl WeldedSurface {
         intersect_faces(&self.mesh, self.face_bvh(), borders, weld_radii, bounds, workers)
     }
 
-    /// The depths behind which nothing of the surface is visible.
+    /// Computes the depths behind which nothing of the surface is visible.
     pub(crate) fn depth_cover(&self, projector: Projector, size: [u32; 2]) -> DepthCover {
         let faces = self.occluder_triangles().map(|corners| corners.map(Point::raw));
         DepthCover::new(faces, projector, size, &self.touch_tolerance())
     }
 
-    /// The depths behind which nothing of a crowd of faces is visible, up to gaps of some pixels;
-    /// `None` if they are no crowd.
+    /// Computes the depths behind which nothing of a crowd of faces is visible, up to gaps of a few
+    /// pixels; `None` if the faces are not a crowd.
     pub(crate) fn crowd_cover(&self, projector: Projector, size: [u32; 2]) -> Option<DepthCover> {
         DepthCover::of_crowd(
             || self.occluder_triangles().map(|corners| corners.map(Point::raw)),
@@ -371,8 +371,8 @@ impl WeldedSurface {
         )
     }
 
-    /// The parts of the triangles that hide, without those that a cover hides, each with the index
-    /// of its triangle.
+    /// The parts of the occluding triangles that a cover does not hide, each with the index of its
+    /// triangle.
     pub(crate) fn visible_parts(&self, cover: &DepthCover) -> (Vec<[DVec3; 3]>, Vec<u32>) {
         let (mut parts, mut triangles) = (Vec::new(), Vec::new());
         for (triangle, corners) in (0..).zip(self.occluder_triangles()) {
@@ -382,19 +382,19 @@ impl WeldedSurface {
         (parts, triangles)
     }
 
-    /// A triangle that hides, by its index among the faces, which come first, and the fillings.
+    /// An occluding triangle, by its index among the faces, which come first, and the fillings.
     fn face_or_filling(&self, triangle: u32) -> &Face {
         let (triangle, count) = (triangle as usize, self.mesh.faces.len());
         self.mesh.faces.get(triangle).unwrap_or_else(|| &self.fillings[triangle - count])
     }
 
-    /// The hierarchy of the triangles that hide: the faces, then the fillings.
+    /// The hierarchy of the occluding triangles: the faces, then the fillings.
     pub(crate) fn face_bvh(&self) -> &Bvh {
         self.face_bvh.get_or_init(|| mesh_bvh(self))
     }
 }
 
-/// The strokes that stand for points: of two pixels, level in the picture.
+/// The strokes that represent points: two pixels long, horizontal in the picture.
 fn dot_edges(mesh: &WorldMesh, projector: &Projector) -> Vec<CandidateEdge> {
     let screen_to_world = projector.world_to_screen().inverse();
     let stroke = |dot: &Dot| {
@@ -408,7 +408,7 @@ fn dot_edges(mesh: &WorldMesh, projector: &Projector) -> Vec<CandidateEdge> {
     mesh.dots.iter().filter_map(stroke).collect()
 }
 
-/// All triangles that hide: the faces, then the slivers at T-junctions.
+/// All occluding triangles: the faces, then the slivers at T-junctions.
 impl TriangleMesh for WeldedSurface {
     fn triangle_count(&self) -> u32 {
         (self.mesh.faces.len() + self.fillings.len()) as u32

@@ -1,7 +1,7 @@
 //! The primitives of all models as one indexed mesh in world space.
 //!
 //! Skinning, morph targets and node transforms are applied here. Every node with a mesh becomes one
-//! *object*: the unit in which drawings are grouped and hatched.
+//! *object*, the unit for grouping and hatching.
 
 use super::vertex_normal::VertexNormal;
 use glam::DVec3;
@@ -18,19 +18,19 @@ pub(crate) struct Face {
     pub(crate) vertices: [u32; 3],
     /// The object it belongs to, an index into [`WorldMesh::objects`].
     pub(crate) object: u32,
-    /// An index that faces of one material share, unique over all models: an index into
+    /// An index shared by the faces of one material, unique over all models: an index into
     /// [`WorldMesh::colors`], or one counted down from `u32::MAX` for the caps of section planes.
     pub(crate) material: u32,
-    /// The normals that the file gives its three vertices, in the space of the primitive.
+    /// The vertex normals given in the file, in the space of the primitive.
     pub(crate) normals: [VertexNormal; 3],
     /// The index of the section plane it closes, if it is part of a section cap.
     pub(crate) cap_section: Option<u16>,
-    /// The visibility of its three sides in the file (`EXT_mesh_primitive_edge_visibility`), from
-    /// the first vertex to the second and so on; `None` if the file has none.
+    /// The visibility of its three sides in the file (`EXT_mesh_primitive_edge_visibility`),
+    /// starting with the side from the first vertex to the second; `None` if the file has none.
     pub(crate) edge_visibility: Option<[EdgeVisibility; 3]>,
 }
 
-/// An edge that is a line by itself, not the side of a face.
+/// A separate line, not the side of a face.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct LineEdge {
     /// Indices into [`WorldMesh::points`].
@@ -50,28 +50,28 @@ pub(crate) struct Dot {
     pub(crate) point: u32,
 }
 
-/// Everything of a scene that has edges or hides them, as an indexed mesh in world space.
+/// The parts of a scene that have edges or hide them, as an indexed mesh in world space.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WorldMesh {
     /// Positions in world space.
     pub(crate) points: Vec<DVec3>,
-    /// Triangles; both of their sides hide.
+    /// Triangles; both of their sides hide lines.
     pub(crate) faces: Vec<Face>,
     /// Line primitives and lines that the file marks as edges.
     pub(crate) line_edges: Vec<LineEdge>,
     /// Point primitives.
     pub(crate) dots: Vec<Dot>,
-    /// The edges that section planes made; once welded each from the lower index to the higher,
+    /// The edges made by section planes; once welded, each runs from the lower index to the higher,
     /// sorted.
     pub(crate) section_edges: Vec<[u32; 2]>,
     /// Base colors of the materials by index, linear RGB.
     pub(crate) colors: Vec<[f32; 3]>,
-    /// Whether the textures of the materials cut out parts of their faces, by index.
+    /// Whether the textures of the materials have cut-outs, by index.
     pub(crate) cut_outs: Vec<bool>,
     /// Whether coincident faces of several objects are all retained: until the sections are made,
-    /// since each body must be closed by itself.
+    /// because each body must be closed by its own faces.
     pub(crate) keeps_duplicates: bool,
-    /// The names of the objects.
+    /// The object names.
     pub(crate) objects: Vec<String>,
     /// The objects that section planes leave whole, in ascending order.
     pub(crate) uncut: Vec<u32>,
@@ -83,7 +83,7 @@ impl WorldMesh {
         self.faces[face as usize].vertices.map(|vertex| self.points[vertex as usize])
     }
 
-    /// Gathers all visible primitives of the models in their current pose.
+    /// Gathers all visible primitives of the models in their current poses.
     pub(crate) fn from_models(models: &[ModelInstance]) -> Self {
         let mut mesh = Self::default();
         let mut first_material = 0;
@@ -111,10 +111,10 @@ impl WorldMesh {
         mesh
     }
 
-    /// Appends a primitive whose vertices are transformed to world space.
+    /// Appends a primitive, with its vertices transformed to world space.
     ///
-    /// Faces and lines with a vertex that is not finite are left out. A file that lists the edges
-    /// of a primitive lists all of them: other sides are drawn only where they are silhouettes.
+    /// Faces and lines with a vertex that is not finite are skipped. If a file lists edges of a
+    /// primitive, the list is complete: other sides are drawn only as silhouettes.
     fn add_primitive(
         &mut self,
         primitive: &Primitive,
@@ -156,7 +156,7 @@ impl WorldMesh {
     fn add_faces(&mut self, primitive: &Primitive, first: u32, object: u32, material: u32) {
         let edges = primitive.edges.as_deref();
         let listed = |face: usize| Some(*edges?.visibility.as_ref()?.get(face)?);
-        // A file that lists visible edges draws no others but silhouettes.
+        // If a file lists visible edges, other edges are drawn only as silhouettes.
         let unlisted = edges.map(|_| [EdgeVisibility::Silhouette; 3]);
         let normal = |vertex: u32| {
             let given = primitive.normals.as_ref().and_then(|list| list.get(vertex as usize));
@@ -174,12 +174,12 @@ impl WorldMesh {
         self.faces.extend(faces.filter(|face| are_finite(&self.points, &face.vertices)));
     }
 
-    /// Whether the texture of a face's material cuts out parts of it.
+    /// Whether the texture of a face's material has cut-outs.
     pub(crate) fn is_cut_out(&self, face: &Face) -> bool {
         self.cut_outs.get(face.material as usize).copied().unwrap_or_default()
     }
 
-    /// Removes the faces whose textures cut out parts of them.
+    /// Removes the faces whose textures have cut-outs.
     pub(crate) fn remove_cut_outs(&mut self) {
         let faces = std::mem::take(&mut self.faces);
         self.faces = faces.into_iter().filter(|face| !self.is_cut_out(face)).collect();
@@ -206,8 +206,8 @@ fn are_finite(points: &[DVec3], vertices: &[u32]) -> bool {
     vertices.iter().all(|&vertex| points[vertex as usize].is_finite())
 }
 
-/// Whether the base color texture of a material cuts out parts of its faces, as that of leaves on
-/// rectangles does. Without the decoded image, masks are assumed to.
+/// Whether the base color texture of a material cuts out parts of its faces, such as leaves on
+/// rectangles. Masks without a decoded image are assumed to do so.
 fn has_holes(model: &Model, material: &Material) -> bool {
     let Some(used) = material.base_color_texture else { return false };
     let texture = model.textures.get(used.texture);
@@ -220,7 +220,7 @@ fn has_holes(model: &Model, material: &Material) -> bool {
     }
 }
 
-/// The name of an object: of its node, else of its mesh, else `node N`.
+/// The name of an object: from its node or mesh, otherwise `node N`.
 fn object_name(model: &Model, instance: MeshInstance) -> String {
     let node = &model.nodes[instance.node];
     let mesh = || node.mesh.and_then(|mesh| model.meshes[mesh].name.clone());

@@ -1,4 +1,4 @@
-//! Boxes of the hierarchy in single precision, rounded outward.
+//! Hierarchy boxes in single precision, rounded outward.
 
 use super::bvh::Aabb;
 use glam::DVec3;
@@ -13,7 +13,7 @@ pub(super) struct Bounds {
 impl Bounds {
     pub(super) const EMPTY: Self = Self { min: [f32::INFINITY; 3], max: [f32::NEG_INFINITY; 3] };
 
-    /// A box relative to an origin, rounded outward.
+    /// Returns a box relative to an origin, rounded outward.
     pub(super) fn around(area: &Aabb, origin: DVec3) -> Self {
         Self {
             min: (area.min - origin).to_array().map(round_down),
@@ -21,7 +21,7 @@ impl Bounds {
         }
     }
 
-    /// Grows to hold another box.
+    /// Extends the box to contain another box.
     pub(super) fn extend(&mut self, other: &Self) {
         for k in 0..3 {
             self.min[k] = least(self.min[k], other.min[k]);
@@ -29,12 +29,12 @@ impl Bounds {
         }
     }
 
-    /// Grows to hold a point.
+    /// Extends the box to contain a point.
     pub(super) fn extend_to(&mut self, point: [f32; 3]) {
         self.extend(&Self { min: point, max: point });
     }
 
-    /// The midpoint, by which items are sorted into bins.
+    /// The midpoint, used to sort items into bins.
     pub(super) fn box_center(&self) -> [f32; 3] {
         [0, 1, 2].map(|k| (self.min[k] + self.max[k]) * 0.5)
     }
@@ -51,8 +51,8 @@ impl Bounds {
 }
 
 impl Bounds {
-    /// Whether a segment meets the box, made larger by a radius on all sides: the interval of the
-    /// segment between each pair of sides, cut with the others.
+    /// Whether a segment meets the box, enlarged by a radius on all sides: intersects the intervals
+    /// of the segment between each pair of sides.
     pub(super) fn is_near_segment(&self, [from, to]: [DVec3; 2], radius: f64) -> bool {
         let (from, along) = (from.to_array(), (to - from).to_array());
         let mut interval = [0.0_f64, 1.0];
@@ -72,23 +72,23 @@ impl Bounds {
     }
 }
 
-/// The lesser number: without the cases of `f32::min` for what is not a number, one instruction.
+/// The smaller number: without the NaN cases of `f32::min`, a single instruction.
 pub(super) fn least(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-/// The greater number, as [`least`].
+/// The larger number, like [`least`].
 pub(super) fn greatest(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// The nearest number of single precision that is not above.
+/// The nearest single-precision number that is not above.
 pub(super) fn round_down(x: f64) -> f32 {
     let rounded = x as f32;
     if f64::from(rounded) > x { rounded.next_down() } else { rounded }
 }
 
-/// The nearest number of single precision that is not below.
+/// The nearest single-precision number that is not below.
 pub(super) fn round_up(x: f64) -> f32 {
     let rounded = x as f32;
     if f64::from(rounded) < x { rounded.next_up() } else { rounded }

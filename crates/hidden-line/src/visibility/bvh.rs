@@ -1,9 +1,9 @@
 //! Bounding-volume hierarchy over axis-aligned boxes, built by the binned surface-area heuristic.
 //!
 //! After Wald, *On fast construction of SAH-based bounding volume hierarchies* (2007): each node is
-//! split where the expected cost of its children is least, among some bins along its longest axis.
-//! One hierarchy in the world serves everything: the search for intersections, and each view, which
-//! takes its nodes and finds their boxes on the screen anew (`screen_bvh`).
+//! split where the expected cost of its children is lowest, among several bins along its longest
+//! axis. One hierarchy in the world serves both the search for intersections and each view, which
+//! takes its nodes and finds their boxes on the screen (`screen_bvh`).
 //!
 //! ```text
 //!   nodes   0 ─┬─ 1 ─┬─ 2 leaf        depth first: the first child follows its parent,
@@ -12,8 +12,8 @@
 //!   order   [ items of 2 │ of 3 │ of 4 ]
 //! ```
 //!
-//! Boxes are stored in single precision, relative to the middle of all and rounded outward: a query
-//! may meet a box that it just misses, never the other way round.
+//! Boxes are stored in single precision, relative to the overall center and rounded outward: a
+//! query may report a box that it just misses, but never the reverse.
 
 use super::bounds::Bounds;
 use glam::DVec3;
@@ -22,24 +22,24 @@ use std::ops::Range;
 /// An axis-aligned bounding box.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Aabb {
-    /// The least coordinates.
+    /// The minimum coordinates.
     pub(crate) min: DVec3,
-    /// The greatest coordinates; less than `min` for the empty box.
+    /// The maximum coordinates; less than `min` for the empty box.
     pub(crate) max: DVec3,
 }
 
 impl Aabb {
-    /// The box around nothing: the identity of [`Self::union`].
+    /// The empty box: the identity of [`Self::union`].
     pub(crate) const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
-    /// The smallest box around some points.
+    /// Returns the smallest box around some points.
     pub fn from_points(points: impl IntoIterator<Item = DVec3>) -> Self {
         let grow =
             |grown: Self, point| Self { min: grown.min.min(point), max: grown.max.max(point) };
         points.into_iter().fold(Self::EMPTY, grow)
     }
 
-    /// The smallest box around three points, whose coordinates are numbers.
+    /// The smallest box around three points, without NaN coordinates.
     pub(crate) fn around_triangle([a, b, c]: [DVec3; 3]) -> Self {
         let least = |a: f64, b: f64| if a < b { a } else { b };
         let greatest = |a: f64, b: f64| if a > b { a } else { b };
@@ -70,7 +70,7 @@ impl Aabb {
             && other.min.z <= self.max.z
     }
 
-    /// Half the surface area: in proportion to it a box is met in space.
+    /// Half the surface area: the probability of meeting a box is proportional to it.
     pub(crate) fn half_surface_area(&self) -> f64 {
         let size = self.max - self.min;
         size.x * size.y + size.y * size.z + size.z * size.x
@@ -82,7 +82,7 @@ impl Aabb {
 struct Node {
     /// The box around everything below the node.
     bounds: Bounds,
-    /// In a leaf the first item, an index into [`Bvh::order`]; otherwise the second child. The
+    /// The first item in a leaf, an index into [`Bvh::order`]; otherwise the second child. The
     /// first child is the next node.
     first: u32,
     /// The number of items of a leaf; 0 marks an inner node.
@@ -116,19 +116,19 @@ pub(crate) struct Bvh {
     origin: DVec3,
 }
 
-/// A node with no more items than this becomes a leaf.
+/// The maximum number of items in a leaf.
 const MAX_LEAF_ITEMS: usize = 6;
 /// The number of bins of the surface-area heuristic.
 const BIN_COUNT: usize = 16;
 /// The number of bins of nodes with few items.
 const FEW_BINS: usize = 6;
-/// Nodes with no more items have few bins.
+/// The maximum number of items for which nodes have few bins.
 const FEW_ITEMS: usize = 48;
-/// Below this depth nodes are split at the median, which bounds the depth whatever the boxes.
+/// Below this depth nodes are split at the median, which bounds the depth for any boxes.
 const MAX_BINNED_DEPTH: u32 = 48;
 
 impl Bvh {
-    /// Builds the hierarchy of some boxes, which are asked for twice.
+    /// Builds the hierarchy of some boxes; the iterator is used twice.
     pub(crate) fn new(boxes: impl Iterator<Item = Aabb> + Clone) -> Self {
         let all = boxes.clone().fold(Aabb::EMPTY, Aabb::union);
         let middle = (all.min + all.max) * 0.5;
@@ -146,7 +146,7 @@ impl Bvh {
             }
             tree.build_node(&mut items, 0, &BoundsOfItems { bounds, centers, count: 0 }, 0);
         }
-        // A new vector: collected in place, the numbers would keep the memory of the items.
+        // A new vector: collected in place, the indices would keep the memory of the items.
         tree.order.reserve_exact(items.len());
         tree.order.extend(items.iter().map(|item| item.index));
         tree
@@ -157,7 +157,7 @@ impl Bvh {
         (!self.nodes.is_empty()).then_some(0)
     }
 
-    /// The number of nodes. Children have greater indices than their parents.
+    /// The number of nodes. Children have higher indices than their parents.
     pub(crate) fn node_count(&self) -> usize {
         self.nodes.len()
     }
@@ -174,7 +174,7 @@ impl Bvh {
     /// Calls `visit` with every item whose box may overlap `area`; stops and returns `false` after
     /// `most` items.
     ///
-    /// `open` is the stack of the traversal, given by the caller so that its memory is reused.
+    /// `open` is the stack of the traversal, provided by the caller so that its memory is reused.
     /// Items are visited by leaf: their own boxes are not tested.
     pub(crate) fn for_each_overlapping(
         &self,
@@ -187,8 +187,8 @@ impl Bvh {
         self.for_each_item(|bounds| bounds.intersects(&area), most, open, visit)
     }
 
-    /// Calls `visit` with every item of the leaves whose boxes, and all boxes above them, `may_hold`
-    /// it; stops and returns `false` after `most` items.
+    /// Calls `visit` with every item of the leaves for which `may_hold` accepts the box and all
+    /// boxes above it; stops and returns `false` after `most` items.
     fn for_each_item(
         &self,
         may_hold: impl Fn(&Bounds) -> bool,
@@ -215,8 +215,8 @@ impl Bvh {
         true
     }
 
-    /// As [`for_each_overlapping`](Self::for_each_overlapping), with every item whose box may be
-    /// within `radius` of a segment: of a long one that is far less than its box overlaps.
+    /// Like [`for_each_overlapping`](Self::for_each_overlapping), with every item whose box may be
+    /// within `radius` of a segment: for a long segment, far fewer items than its box overlaps.
     pub(crate) fn for_each_near_segment(
         &self,
         [from, to]: [DVec3; 2],
@@ -229,16 +229,16 @@ impl Bvh {
         self.for_each_item(|bounds| bounds.is_near_segment(segment, radius), most, open, visit)
     }
 
-    /// The leaves, by their nodes.
+    /// The leaves, by node index.
     pub(crate) fn leaf_nodes(&self) -> Vec<u32> {
         let nodes = (0..).zip(&self.nodes);
         nodes.filter(|(_, node)| node.count > 0).map(|(index, _)| index).collect()
     }
 
-    /// Calls `visit` with the items of a leaf, and `true`, and then with those of each later leaf
+    /// Calls `visit` with the items of a leaf and `true`, then with the items of each later leaf
     /// whose box overlaps its box; stops and returns `false` after `most` items.
     ///
-    /// Called for every leaf, it meets each pair of overlapping leaves once.
+    /// Calling it for every leaf visits each pair of overlapping leaves once.
     pub(crate) fn for_each_later_leaf(
         &self,
         leaf: u32,
@@ -256,7 +256,8 @@ impl Bvh {
                 continue;
             }
             if node.count == 0 {
-                // All nodes below the first child come before the second; the leaf itself comes first.
+                // All nodes below the first child come before the second; the leaf itself comes
+                // first.
                 open.push(node.first);
                 if leaf < node.first {
                     open.push(index + 1);
@@ -277,17 +278,17 @@ impl Bvh {
     /// The number of items that each of `queries` queries may visit.
     ///
     /// It bounds the time on degenerate input, such as a million triangles in one box, where every
-    /// query meets every item: all together stay below 2²⁶ visits, or 1024 for each where there are
-    /// many. Scenes with a few thousand items are never limited.
+    /// query meets every item. All queries together stay below 2²⁶ visits, or 1024 per query if
+    /// there are many. Scenes with a few thousand items are never limited.
     pub(crate) fn query_budget(queries: usize) -> usize {
         const ALL: usize = 1 << 26;
         (ALL / queries.max(1)).max(1024)
     }
 
-    /// Builds the subtree over some items, which begin at `first` in the order, and appends its
+    /// Builds the subtree over some items, which start at `first` in the order, and appends its
     /// nodes depth first.
     ///
-    /// A node is pushed as a leaf first and turned into an inner node when the index of its second
+    /// A node is pushed as a leaf first and turned into an inner node once the index of its second
     /// child is known.
     fn build_node(&mut self, items: &mut [Item], first: u32, extents: &BoundsOfItems, depth: u32) {
         let node = self.nodes.len();
@@ -311,7 +312,7 @@ impl Bvh {
     }
 }
 
-/// The boxes around some items and around their centers, and their number.
+/// The boxes around some items and their centers, and the number of items.
 #[derive(Clone, Copy)]
 struct BoundsOfItems {
     bounds: Bounds,
@@ -346,12 +347,12 @@ impl BoundsOfItems {
     }
 }
 
-/// Partitions items where the sum of the children's costs times their counts is least; returns the
+/// Partitions items where the sum of the children's costs times their counts is lowest; returns the
 /// extents of both parts.
 ///
-/// Items are binned by their centers along the longest axis of the centers' box, not of the items'
-/// box, so that one large item does not waste bins. `None` if all centers coincide, if the boxes
-/// have no area to compare, or if the best split leaves a side empty.
+/// Items are binned by their centers along the longest axis of the centers' box instead of the
+/// items' box, so that one large item does not waste bins. `None` if all centers coincide, if the
+/// boxes have no area to compare, or if the best split leaves one side empty.
 fn partition_by_sah<const BINS: usize>(
     items: &mut [Item],
     centers: &Bounds,
@@ -383,8 +384,8 @@ fn partition_by_sah<const BINS: usize>(
     (left > 0 && left < items.len()).then_some(split)
 }
 
-/// The last bin of the left side at the cheapest split: one sweep from the right for the costs
-/// there, one from the left. `None` if no box has an area.
+/// The last bin on the left side of the cheapest split: one sweep from the right for the costs
+/// there, and one from the left. `None` if no box has an area.
 fn cheapest_bin_split<const BINS: usize>(bins: &[BoundsOfItems; BINS]) -> Option<usize> {
     let mut right = [0.0; BINS];
     let mut extents = BoundsOfItems::EMPTY;

@@ -7,7 +7,8 @@
 //! ```
 //!
 //! Visibility asks only whether the number is zero. Drawings of assemblies ask for more: dashed
-//! lines are legible behind one wall, whose two sides are two faces, and a black cloud behind all.
+//! lines are legible behind one wall, whose two sides are two faces, but a black cloud behind all
+//! of them.
 
 use super::occluder::Occlusion;
 use super::occluders::{MeshOccluders, OcclusionScratch, Tolerance};
@@ -15,7 +16,7 @@ use super::occlusion_intervals::OcclusionIntervals;
 use super::projected_edge::ProjectedEdge;
 use super::screen_bvh::{ScreenEdge, TriangleMesh};
 
-/// The places along an edge where the number of faces in front of it changes.
+/// The positions along an edge where the number of faces in front of it changes.
 ///
 /// Changes are counted in half faces: an edge that runs exactly behind a side is hidden by the
 /// faces on its left and on its right together.
@@ -25,19 +26,19 @@ struct FaceCount {
 }
 
 impl FaceCount {
-    /// Counts what one face hides.
+    /// Counts the occlusion by one face.
     fn insert(&mut self, occlusion: Occlusion) {
         let (interval, halves) = match occlusion {
             Occlusion::Interior(interval) => (interval, 2),
             Occlusion::Along(side) => (side.interval, 1),
-            // The tolerance leaves no cracks: a face that is only near would count beside the one
-            // that hides.
+            // The tolerance leaves no cracks: a face that is only near would count in addition to
+            // the one that hides.
             Occlusion::Beside(_) => return,
         };
         self.changes.extend([(interval[0], halves), (interval[1], -halves)]);
     }
 
-    /// The intervals in which more than `most` faces are in front.
+    /// The intervals with more than `most` faces in front.
     fn intervals_above(&mut self, most: u32) -> OcclusionIntervals {
         self.changes.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut intervals = OcclusionIntervals::default();
@@ -59,7 +60,7 @@ impl FaceCount {
 }
 
 impl<M: TriangleMesh> MeshOccluders<M> {
-    /// The intervals of s in which more than `most` faces are in front of an edge; slivers shorter
+    /// Returns the intervals of s with more than `most` faces in front of an edge; slivers shorter
     /// than the tolerance are removed. Incomplete if no work is left in `scratch`.
     pub(crate) fn intervals_behind_faces(
         &self,

@@ -1,4 +1,4 @@
-//! Edges behind the sides of faces: which of them are hidden by the faces on both sides together.
+//! Edges behind the sides of faces, and which of them the faces on both sides hide together.
 //!
 //! ```text
 //!    ███████ │ ▓▓▓▓▓▓▓      A face on the left and one on the right hide what runs exactly behind
@@ -10,7 +10,7 @@
 use super::occluder::SideInterval;
 use super::occlusion_intervals::OcclusionIntervals;
 
-/// Where an edge runs behind the sides of faces on its left, and of those on its right.
+/// The parts of an edge behind the sides of faces, for faces on its left and on its right.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SideIntervals {
     pub(super) left: OcclusionIntervals,
@@ -24,14 +24,14 @@ impl SideIntervals {
         side.insert_interval(part.interval);
     }
 
-    /// Removes all and keeps the memory.
+    /// Clears the intervals and keeps the memory.
     pub(super) fn clear(&mut self) {
         self.left.clear();
         self.right.clear();
     }
 }
 
-/// Where an edge runs near the sides of faces, by the object of the face.
+/// The parts of an edge near the sides of faces, by the object of the face.
 #[derive(Clone, Debug, Default)]
 pub(super) struct CrackIntervals(Vec<SideInterval>);
 
@@ -41,15 +41,15 @@ impl CrackIntervals {
         self.0.push(part);
     }
 
-    /// Removes all and keeps the memory.
+    /// Clears the intervals and keeps the memory.
     pub(super) fn clear(&mut self) {
         self.0.clear();
     }
 
-    /// Adds to a set where there is one object on the left and another on the right.
+    /// Adds to a set the parts with one object on the left and another on the right.
     ///
-    /// A sweep over the ends of all intervals: time grows with n log n, however many objects there
-    /// are. In an assembly of equal rows an edge runs behind the sides of hundreds.
+    /// Sweeps over the ends of all intervals in O(n log n), however many objects there are. In an
+    /// assembly of equal rows, an edge runs behind the sides of hundreds of objects.
     pub(super) fn insert_into(&mut self, hidden: &mut OcclusionIntervals) {
         self.0.sort_by_key(|part| part.object);
         let objects = self.0.chunk_by(|one, next| one.object == next.object);
@@ -82,20 +82,20 @@ impl CrackIntervals {
 #[derive(Clone, Copy, Debug)]
 struct SweepEnd {
     at: f64,
-    /// The number of the object among those of the edge.
+    /// The index of the object among the objects at the edge.
     object: usize,
     is_left: bool,
     opens: bool,
 }
 
-/// The faces beside the edge at the place that a sweep has reached.
+/// The faces beside the edge at the current position of a sweep.
 #[derive(Debug, Default)]
 struct Sweep {
     /// The number of faces of each object, on the right and on the left.
     open: Vec<[u32; 2]>,
     /// The number of objects that have any, on the right and on the left.
     sides: [u32; 2],
-    /// The number of objects that have any.
+    /// The number of objects that have any face.
     objects: u32,
 }
 

@@ -5,15 +5,15 @@
 //!         │     │■■■■■│■■■■■│■■■■■│     │              what is behind that face is hidden there
 //!         │  ╱▒▒│▒▒▒▒▒│▒▒▒▒▒│▒▒▒▒▒│▒╲   │           ▒  the face
 //! ```
-//! It is the hierarchical z-buffer of Greene, Kass and Miller (*Hierarchical Z-buffer visibility*,
-//! 1993), made conservative: a cell counts for a face only if the face covers all of it, with the
-//! farthest depth that it has there. So what it calls hidden is hidden; what it does not may be
-//! either, and is left to the exact tests. Where surfaces overlap many times, as in a soup of random
-//! triangles, most faces are out of the way before any pair of them is compared.
+//! This is the hierarchical z-buffer of Greene, Kass and Miller (*Hierarchical Z-buffer
+//! visibility*, 1993), made conservative. A cell counts for a face only if the face covers all of
+//! it, with its farthest depth there. Anything reported as hidden is hidden; the rest may be either
+//! and is left to the exact tests. Where surfaces overlap many times, as in a soup of random
+//! triangles, most faces are eliminated before any pair is compared.
 //!
-//! Of small faces none covers a cell. Where they are a crowd, the cover is that of all faces
-//! together, sampled at the centers of cells as a z-buffer samples them: a gap of some pixels counts
-//! as closed, and the work is bounded by what can be seen.
+//! Small faces cover no cell. If they form a crowd, the cover is computed from all faces together,
+//! sampled at the centers of cells like a z-buffer. Gaps of a few pixels count as closed, and the
+//! work is bounded by the visible parts.
 
 use super::depth_level::{DepthPlane, Level};
 use super::occluders::Tolerance;
@@ -25,35 +25,36 @@ use glam::{DVec2, DVec3};
 const CELLS: f64 = 256.0;
 /// A face shrinks by this many pixels on all sides, more than any tolerance of the exact tests.
 const MARGIN: f64 = 1.0 / 64.0;
-/// A face is moved back by this many touching distances: what touches it must not count as hidden.
+/// A face is moved back by this many touching distances, so that what touches it does not count as
+/// hidden.
 const SETBACK: f64 = 32.0;
-/// Faces seen at a smaller sine than this hide nothing here: moved back, they would still be
-/// nearer to what touches them than the touching distance.
+/// Faces seen at a smaller sine hide nothing here: even moved back, they would still be closer than
+/// the touching distance to anything that touches them.
 const LEAST_SINE: f64 = 0.125;
 
-/// Faces are a crowd if there are more of them at each pixel of the box around them, on average.
+/// Faces are a crowd if there are more of them at each pixel of their bounding box, on average.
 /// Models have fewer than six.
 const CROWD: f64 = 32.0;
-/// The most samples of all faces together in the cover of a crowd.
+/// The maximum number of samples of all faces together in the cover of a crowd.
 const MAX_SAMPLES: f64 = 134_217_728.0;
-/// The most cells along the longer side of the screen in the cover of a crowd.
+/// The maximum number of cells along the longer side of the screen in the cover of a crowd.
 const MAX_CROWD_CELLS: f64 = 1024.0;
-/// How often a segment or a triangle is divided before it counts as visible.
+/// The number of times a segment or a triangle is divided before it counts as visible.
 const DIVISIONS: u32 = 6;
-/// How often a triangle is divided to leave out those of its parts that are hidden.
+/// The number of times a triangle is divided to skip its hidden parts.
 const PART_DIVISIONS: u32 = 4;
-/// Parts of fewer cells than this along both sides are not divided.
+/// Parts with fewer cells along both sides are not divided.
 const SMALL_PART: f64 = 16.0;
 
 /// The depths behind which nothing is visible, as a pyramid of grids.
 ///
-/// Depths are those of the screen: 0 at the far plane, 1 at the near plane.
+/// Depths are screen depths: 0 at the far plane, 1 at the near plane.
 #[derive(Clone, Debug)]
 pub(crate) struct DepthCover {
     projector: Projector,
     /// Cells per pixel.
     scale: f64,
-    /// The finest level first; each further one has the least of four depths.
+    /// The finest level first; each coarser one has the minimum of four depths.
     levels: Vec<Level>,
 }
 
@@ -66,7 +67,7 @@ pub(crate) struct ScreenBox {
 }
 
 impl ScreenBox {
-    /// The box around points in front of the viewer; `None` if one of them has no image.
+    /// The box around points in front of the viewer; `None` if a point has no image.
     fn around(points: &[DVec3], projector: &Projector) -> Option<Self> {
         let mut all = Self::around_images(&[]);
         for point in points {
@@ -90,7 +91,7 @@ impl ScreenBox {
         self.nearest = self.nearest.max(image.z);
     }
 
-    /// The box of what is in both images.
+    /// The box around the intersection of both images.
     pub(crate) fn intersection(&self, other: &Self) -> Self {
         Self {
             min: self.min.max(other.min),
@@ -101,7 +102,7 @@ impl ScreenBox {
 }
 
 impl DepthCover {
-    /// The cover by some faces on a screen of this size in pixels.
+    /// Creates the cover by some faces on a screen of this size in pixels.
     pub(crate) fn new(
         faces: impl Iterator<Item = [DVec3; 3]>,
         projector: Projector,
@@ -119,7 +120,7 @@ impl DepthCover {
         cover
     }
 
-    /// The cover by a crowd of faces together; `None` if they are no crowd.
+    /// Creates the cover by a crowd of faces together; `None` if they are not a crowd.
     pub(crate) fn of_crowd<I: Iterator<Item = [DVec3; 3]>>(
         faces: impl Fn() -> I,
         projector: Projector,
@@ -156,7 +157,7 @@ impl DepthCover {
         }
     }
 
-    /// Whether all that has its image in a box is hidden.
+    /// Whether everything with its image in a box is hidden.
     pub(crate) fn hides(&self, image: &ScreenBox) -> bool {
         let [low, high] = [image.min, image.max].map(|corner| corner * self.scale);
         let size = DVec2::from(self.levels[0].size.map(|side| side as f64));
@@ -188,7 +189,7 @@ impl DepthCover {
         self.divide_hidden(ends, [0.0, 1.0], DIVISIONS, parts);
     }
 
-    /// Adds the hidden parts of a segment of the screen, which is an interval of a longer one.
+    /// Adds the hidden parts of a screen segment, which is an interval of a longer one.
     fn divide_hidden(
         &self,
         [a, b]: [DVec3; 2],
@@ -211,13 +212,13 @@ impl DepthCover {
         }
     }
 
-    /// Adds the parts of a triangle of the world that are not hidden: quarters, quarters of
-    /// quarters, or all of it.
+    /// Adds the visible parts of a world-space triangle: quarters, quarters of quarters, or all of
+    /// it.
     pub(crate) fn add_visible_parts(&self, corners: [DVec3; 3], parts: &mut Vec<[DVec3; 3]>) {
         self.divide_visible(corners, PART_DIVISIONS, parts);
     }
 
-    /// Adds the parts that are not hidden; whether that is all of the triangle.
+    /// Adds the parts that are not hidden; returns whether that is the whole triangle.
     fn divide_visible(
         &self,
         corners: [DVec3; 3],
@@ -228,7 +229,7 @@ impl DepthCover {
         if image.is_some_and(|image| self.hides(&image)) {
             return false;
         }
-        // What crosses the eye's plane has no box to be judged by.
+        // A part that crosses the eye's plane has no box to test.
         let size = image.map_or(0.0, |image| ((image.max - image.min) * self.scale).max_element());
         let first = parts.len();
         let mut is_whole = true;
@@ -244,7 +245,7 @@ impl DepthCover {
         is_whole
     }
 
-    /// Whether a segment of the screen is hidden: by its box, or else by those of its halves.
+    /// Whether a segment of the screen is hidden: by its box, or by the boxes of its halves.
     fn hides_image(&self, [a, b]: [DVec3; 2], divisions: u32) -> bool {
         if self.hides(&ScreenBox::around_images(&[a, b])) {
             return true;
@@ -257,7 +258,7 @@ impl DepthCover {
         [[a, middle], [middle, b]].into_iter().all(|half| self.hides_image(half, divisions - 1))
     }
 
-    /// The box around the images of points; `None` if one of them has no image.
+    /// The box around the images of points; `None` if a point has no image.
     pub(crate) fn image_of(&self, points: &[DVec3]) -> Option<ScreenBox> {
         ScreenBox::around(points, &self.projector)
     }
@@ -315,7 +316,7 @@ fn images_of<const N: usize>(points: &[DVec3; N], projector: &Projector) -> Opti
     Some(images)
 }
 
-/// The area in pixels that a triangle may have on a screen of some size.
+/// The area in pixels that a triangle covers on a screen of a given size.
 fn area_within(images: [DVec3; 3], size: DVec2) -> f64 {
     let around = ScreenBox::around_images(&images);
     let visible = (around.max.min(size) - around.min.max(DVec2::ZERO)).max(DVec2::ZERO);
@@ -363,7 +364,8 @@ mod tests {
                 cover.image_of(&triangle(z, size)).is_some_and(|image| cover.hides(&image))
             };
             assert!(hides(-0.01, 0.3) && hides(-2.0, 0.3), "behind: {is_parallel}");
-            // The face itself, what touches it, what is before it, what is larger.
+            // The face itself, anything that touches it, anything in front of it, and anything
+            // larger.
             assert!(!hides(0.0, 0.3) && !hides(-tolerance.world, 0.3) && !hides(0.5, 0.3));
             assert!(!hides(-0.01, 1.6), "larger: {is_parallel}");
             let along = |z| [[-0.2, 0.0, z], [0.2, 0.1, z]].map(DVec3::from);
@@ -401,7 +403,7 @@ mod tests {
             assert!(parts_of(triangle(-1.0, 0.5)).is_empty(), "behind: {is_parallel}");
             let before = triangle(0.5, 1.9);
             assert_eq!(parts_of(before), [before], "before: {is_parallel}");
-            // It sticks out on all sides of the face that hides the middle of it.
+            // It extends beyond all sides of the face that hides its middle.
             let larger = triangle(-0.5, 1.9);
             let area = |[a, b, c]: [DVec3; 3]| 0.5 * (b - a).cross(c - a).length();
             let parts = parts_of(larger);

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-/// What is in a surface is nearer than the samples of the surface less this.
+/// A depth tolerance: points in a surface are nearer than its samples minus this.
 const ROUNDING: f64 = 1e-9;
 
 /// One level of the pyramid.
@@ -13,8 +13,8 @@ pub(super) struct Level {
     pub(super) depths: Vec<f64>,
 }
 
-/// Depth as a linear function of the position on the screen, in cells: z / w is one in perspective
-/// as well.
+/// Depth as a linear function of the position on the screen, in cells: z / w is linear in
+/// perspective too.
 pub(super) struct DepthPlane {
     slope: DVec2,
     at_origin: f64,
@@ -31,7 +31,7 @@ impl DepthPlane {
         (slope.is_finite() && at_origin.is_finite()).then_some(Self { slope, at_origin, least })
     }
 
-    /// The least depth in a cell; the plane's, where that is more than the face's.
+    /// The minimum depth in a cell: the plane's, or the face's if that is less.
     fn least_in_cell(&self, cell: DVec2) -> f64 {
         let corner = cell + DVec2::from(self.slope.to_array().map(|s| f64::from(s < 0.0)));
         (self.at_origin + self.slope.dot(corner)).max(self.least)
@@ -43,8 +43,8 @@ impl Level {
         Self { size, depths: vec![0.0; size[0] * size[1]] }
     }
 
-    /// The level of half as many cells; `None` after a single cell. Cells beyond the border hide
-    /// nothing, and nothing is there.
+    /// Returns the level with half as many cells; `None` after a single cell. Cells beyond the
+    /// border hide nothing, and nothing is there.
     pub(super) fn halved(&self) -> Option<Self> {
         let [width, height] = self.size;
         if width.max(height) <= 1 {
@@ -84,8 +84,8 @@ impl Level {
         }
     }
 
-    /// The least depths of each cell and its neighbors: what is in the surface that a cell samples
-    /// is between their centers.
+    /// The minimum depths of each cell and its neighbors: parts of the surface that a cell samples
+    /// are between their centers.
     pub(super) fn eroded(&self) -> Self {
         let [width, height] = self.size;
         // Nothing is between the outermost centers and the border of the screen.
@@ -115,8 +115,8 @@ impl Level {
             [f64::min, f64::max].map(|pick| pick(pick(corners[0].y, corners[1].y), corners[2].y));
         let rows = whole_cells([low + margin, high - margin], self.size[1]);
         for row in rows {
-            // A triangle is convex: what its sides leave at both borders of a row they leave
-            // between them.
+            // A triangle is convex: the cells between its sides on both borders of a row are
+            // covered.
             let [above, below] = [0, 1].map(|side| span_at(corners, (row + side) as f64));
             let span = [above[0].max(below[0]) + margin, above[1].min(below[1]) - margin];
             let columns = whole_cells(span, self.size[0]);
@@ -129,9 +129,9 @@ impl Level {
     }
 }
 
-/// The cells that an interval covers from side to side.
+/// The cells that an interval covers completely.
 fn whole_cells([from, to]: [f64; 2], count: usize) -> std::ops::Range<usize> {
-    // Casts saturate: beyond the border and where there is no interval.
+    // Casts saturate beyond the border and where there is no interval.
     let first = from.max(0.0).ceil();
     let last = to.min(count as f64).floor();
     if first < last { first as usize..last as usize } else { 0..0 }
@@ -139,13 +139,13 @@ fn whole_cells([from, to]: [f64; 2], count: usize) -> std::ops::Range<usize> {
 
 /// The cells whose centers are in an interval.
 fn centers([from, to]: [f64; 2], count: usize) -> std::ops::Range<usize> {
-    // Casts saturate: beyond the border and where there is no interval.
+    // Casts saturate beyond the border and where there is no interval.
     let first = (from - 0.5).max(0.0).ceil();
     let last = (to + 0.5).min(count as f64).floor();
     if first < last { first as usize..last as usize } else { 0..0 }
 }
 
-/// The interval of x in which a triangle meets a horizontal line; reversed if it does not.
+/// The interval of x where a triangle meets a horizontal line; reversed if it does not.
 fn span_at(corners: [DVec2; 3], y: f64) -> [f64; 2] {
     let mut span = [f64::INFINITY, f64::NEG_INFINITY];
     for k in 0..3 {

@@ -7,19 +7,18 @@
 //!           ╱──────╲
 //! ```
 //!
-//! Sides are measured in pixels and heights in lengths of the world. In these units a tolerance has
-//! a meaning that neither the projection nor the slope of the face changes: an edge a thousandth of
-//! a pixel inside a side runs along it, and an edge a millionth of the model behind a plane lies in
-//! it.
+//! Sides are measured in pixels, heights in world units. In these units a tolerance has a meaning
+//! that neither the projection nor the slope of the face changes. An edge a thousandth of a pixel
+//! inside a side runs along it, and an edge a millionth of the model behind a plane is in it.
 //!
 //! [`Occluder::overlap`] finds where both overlap on the screen, and
-//! [`OccluderInWorld::interval_behind`] the part of it in which the edge is behind.
+//! [`OccluderInWorld::interval_behind`] finds the part of the overlap where the edge is behind.
 
 use super::{ProjectedEdge, Tolerance};
 use crate::projector::Projector;
 use glam::{DVec2, DVec3};
 
-/// A face on the screen, or a triangle of what clipping to the view volume left of it.
+/// A face on the screen, or a triangle that remains of it after clipping to the view volume.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Occluder {
     /// The vertices in pixels, ordered so that `(b − a) × (c − a)` is positive.
@@ -29,57 +28,57 @@ pub(super) struct Occluder {
 /// The plane of a face in the world; its points have `normal · p = offset`.
 #[derive(Clone, Copy, Debug)]
 struct OrientedPlane {
-    /// The unit normal on the side of the viewer.
+    /// The unit normal toward the viewer.
     normal: DVec3,
     /// The distance from the origin along it.
     offset: f64,
 }
 
-/// The interval of s in which a face hides an edge, and how.
+/// The interval of s where a face hides an edge, and how.
 ///
-/// An edge behind a side is hidden only if another face continues on the other side of it; a single
-/// face would only touch it.
+/// An edge behind a side is hidden only if another face continues on the other side; a single face
+/// would only touch it.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Occlusion {
-    /// The edge passes behind the interior of the face: the interval is hidden without a condition.
+    /// The edge passes behind the interior of the face: the interval is hidden unconditionally.
     Interior([f64; 2]),
     /// The edge runs exactly behind a side of the face.
     Along(SideInterval),
-    /// The edge runs outside a side of the face, no farther than the width of a crack.
+    /// The edge runs outside a side of the face, no farther away than the width of a crack.
     Beside(SideInterval),
 }
 
-/// Where an edge runs behind a side of a face.
+/// The part of an edge behind a side of a face.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct SideInterval {
     /// The interval of s.
     pub(super) interval: [f64; 2],
-    /// Whether the face is on the left of one who follows the edge on a screen with y up.
+    /// Whether the face is on the left when following the edge on a screen with y up.
     pub(super) is_left: bool,
-    /// Whether the face is wider than a crack, measured from the side: a narrower one leaves to be
-    /// seen what is beyond it.
+    /// Whether the face is wider than a crack, measured from the side: behind a narrower one, lines
+    /// beyond it stay visible.
     pub(super) is_wide: bool,
     /// The object of the face.
     pub(super) object: u32,
 }
 
-/// The overlap of a face and an edge on the screen, whichever is in front.
+/// The overlap of a face and an edge on the screen, regardless of depth.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct ScreenOverlap {
-    /// Where the edge passes over the interior.
+    /// The part where the edge passes over the interior.
     pub(super) interior: Option<[f64; 2]>,
-    /// Where it runs along a side, or beside it.
+    /// The part where it runs along a side, or beside it.
     pub(super) side: Option<SideOverlap>,
 }
 
-/// Where an edge runs along or beside a side of a face on the screen.
+/// The part of an edge along or beside a side of a face, on the screen.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct SideOverlap {
     /// The side: from this vertex to the next.
     pub(super) side: usize,
     /// The interval of s.
     pub(super) interval: [f64; 2],
-    /// Whether it is exactly the side, rather than a place near it on the outside.
+    /// Whether it is exactly on the side, not just near it on the outside.
     pub(super) is_along: bool,
     /// Whether the face is on the left of the edge.
     pub(super) is_left: bool,
@@ -99,8 +98,8 @@ impl Occluder {
     /// The parts of an edge that pass over this face or beside it; `None` if there are none.
     ///
     /// The cheapest rejection comes first: a side with the whole edge outside. A side that the edge
-    /// runs along does not bound the interval inside, because rounding decides on which side of it
-    /// the edge lies.
+    /// runs along does not bound the interval inside, because rounding decides on which side the
+    /// edge is.
     pub(super) fn overlap(
         &self,
         edge: &ProjectedEdge,
@@ -128,8 +127,8 @@ impl Occluder {
         (interior.is_some() || side.is_some()).then_some(ScreenOverlap { interior, side })
     }
 
-    /// The sides against an edge, and whether all of the edge is outside one of them; `None` if it
-    /// is so by more than the width of a crack.
+    /// The sides against an edge, and whether the whole edge is outside one of them; `None` if it
+    /// is outside by more than the width of a crack.
     fn sides_near(
         &self,
         edge: &ProjectedEdge,
@@ -147,7 +146,7 @@ impl Occluder {
             values[k] = [start, end];
             let most = if start > end { start } else { end };
             if most < 0.0 {
-                // Squares spare the root.
+                // Comparing squares avoids the root.
                 let (area, length) = (most * most, vectors[k].length_squared());
                 if area > farthest * length {
                     return None;
@@ -159,18 +158,18 @@ impl Occluder {
     }
 }
 
-/// The triangle of an occluder in the world, as far as it says what is behind it.
+/// The triangle of an occluder in the world, with the data needed to find the parts behind it.
 pub(super) struct OccluderInWorld<'a> {
-    /// For sides in the order of the vertices on the screen.
+    /// The vertices, in the order of the vertices on the screen.
     pub(super) vertices: [DVec3; 3],
     /// The viewer.
     pub(super) projector: &'a Projector,
 }
 
 impl OccluderInWorld<'_> {
-    /// The part of an interval of an edge that is behind the plane of the triangle.
+    /// Returns the part of an interval of an edge behind the plane of the triangle.
     ///
-    /// It is `None` as well if the triangle is seen edge-on.
+    /// Also `None` if the triangle is seen edge-on.
     pub(super) fn interval_behind(
         &self,
         edge: &ProjectedEdge,
@@ -182,10 +181,10 @@ impl OccluderInWorld<'_> {
         interval_behind_plane(plane, edge, interval, tolerance)
     }
 
-    /// The part of an interval of an edge beside a side that is behind the side.
+    /// Returns the part of an interval of an edge beside a side that is behind the side.
     ///
-    /// The plane of the triangle says nothing about what is outside of it, the less the more it is
-    /// tilted. Among the planes through the side this takes the one that faces the viewer most.
+    /// The plane of the triangle says nothing about points outside it, and less the more it is
+    /// tilted. Of the planes through the side, this uses the one that faces the viewer most.
     pub(super) fn interval_behind_side(
         &self,
         side: usize,
@@ -211,22 +210,22 @@ impl OccluderInWorld<'_> {
 
 /// The sides of a triangle against an edge.
 struct TriangleSides {
-    /// The signed distances of the edge from each side, times the length of the side: that spares a
-    /// division, and tolerances are times the length instead.
+    /// The signed distances of the edge from each side, times the length of the side: this saves a
+    /// division, and tolerances are multiplied by the length instead.
     values: [LinearFunction; 3],
     /// From the start of each side to its end, in pixels.
     vectors: [DVec2; 3],
 }
 
 impl TriangleSides {
-    /// Whether the vertex opposite of a side is farther from it than some pixels.
+    /// Whether the vertex opposite a side is farther from it than a distance in pixels.
     fn is_wider_than(&self, pixels: f64, side: usize) -> bool {
         let doubled_area = self.vectors[2].perp_dot(self.vectors[0]);
         doubled_area > pixels * self.vectors[side].length()
     }
 
-    /// Whether the edge runs along each side at an angle whose sine is less than a quarter: no other
-    /// edge is near a side for long enough.
+    /// Whether the edge is nearly parallel to each side, at an angle whose sine is less than a
+    /// quarter: no other edge is near a side for long enough.
     fn parallel_sides(&self, edge: &ProjectedEdge) -> [bool; 3] {
         let length = (edge.screen[1] - edge.screen[0]).length_squared();
         [0, 1, 2].map(|k| {
@@ -236,8 +235,8 @@ impl TriangleSides {
         })
     }
 
-    /// The first side that the edge runs along: within `distance` in pixels as long as it is inside
-    /// the two others.
+    /// The first side that the edge runs along: within `distance` in pixels while it is inside the
+    /// two others.
     ///
     /// The stretch must be longer than eight times the distance; shorter ones occur where the edge
     /// crosses a vertex, and say nothing about its direction.
@@ -250,7 +249,7 @@ impl TriangleSides {
         (0..3).filter(|&k| parallel[k]).find(|&k| {
             let [start, end] = self.values[k];
             let vector = self.vectors[k].abs();
-            // The sum of both components is not less than the length: few sides need the root.
+            // The sum of both components is at least the length, so few sides need the root.
             let widest = distance * (vector.x + vector.y);
             let (least, most) = if start < end { (start, end) } else { (end, start) };
             if least > widest || most < -widest {
@@ -268,10 +267,11 @@ impl TriangleSides {
         })
     }
 
-    /// The first side that the edge runs beside on the outside, no farther than the width of a
-    /// crack, and the interval of s in which it does.
+    /// The first side that the edge runs beside on the outside, no farther away than the width of a
+    /// crack, and the interval of s where it does.
     ///
-    /// It must be longer than four times that width, and so the angle between both is small.
+    /// The interval must be longer than four times that width, so the angle between the two is
+    /// small.
     fn interval_beside(
         &self,
         edge: &ProjectedEdge,
@@ -299,13 +299,13 @@ impl TriangleSides {
         })
     }
 
-    /// The open interval of s in which the edge is inside all sides but one.
+    /// The open interval of s where the edge is inside all sides except one.
     fn interval_inside(&self, but: Option<usize>) -> Option<[f64; 2]> {
         positive_interval((0..3).filter(|&k| Some(k) != but).map(|k| self.values[k]))
     }
 }
 
-/// The part of an interval of s in which the edge is behind the plane of the face.
+/// The part of an interval of s where the edge is behind the plane of the face.
 ///
 /// ```text
 ///    height over the plane
@@ -315,9 +315,9 @@ impl TriangleSides {
 ///        └──────────── u
 /// ```
 ///
-/// The height is linear in u, not in s: its zero is found in the world and mapped to the screen
-/// by IN-1. An edge that nowhere gets farther behind the plane than `tolerance.world` lies in
-/// it and is not hidden at all.
+/// The height is linear in u, not in s: its zero is found in the world and mapped to the screen by
+/// IN-1. An edge that is nowhere farther behind the plane than `tolerance.world` is in the plane
+/// and is not hidden at all.
 fn interval_behind_plane(
     plane: OrientedPlane,
     edge: &ProjectedEdge,
@@ -340,11 +340,11 @@ fn interval_behind_plane(
     (interval[0] < interval[1]).then_some(interval)
 }
 
-/// Twice the signed area between a side and each end of the edge; positive where the edge is left
-/// of the side.
+/// Twice the signed area between a side and each end of the edge; positive where the edge is to the
+/// left of the side.
 ///
-/// It is computed from the same end of the side whichever way the side runs, so that the two faces
-/// at a side find the same bits with opposite signs: no gap and no overlap between what they hide.
+/// It is always computed from the same end of the side. The two faces at a side therefore get the
+/// same bits with opposite signs, without a gap or overlap between the parts they hide.
 fn side_function([from, to]: [DVec2; 2], edge: &ProjectedEdge) -> LinearFunction {
     let is_reversed = (to.x, to.y) < (from.x, from.y);
     let [p, q] = if is_reversed { [to, from] } else { [from, to] };

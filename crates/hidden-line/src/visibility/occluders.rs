@@ -1,10 +1,10 @@
 //! All occluders of a scene in a bounding-volume hierarchy, and the query for the hidden parts of
 //! an edge.
 //!
-//! [`MeshOccluders::hidden_intervals`] is where hidden lines are cut. It descends the hierarchy of
-//! screen boxes, nearest first, and skips each box that the edge does not pass behind and each
-//! whose part of the edge is hidden already. With n faces and evenly spread edges a query visits
-//! O(log n + k) of them, k being those it crosses on the screen.
+//! [`MeshOccluders::hidden_intervals`] cuts hidden lines. It descends the hierarchy of screen
+//! boxes, nearest first. It skips boxes that the edge does not pass behind and boxes whose part of
+//! the edge is already hidden. With n faces and evenly spread edges, a query visits O(log n + k)
+//! faces, where k is the number that it crosses on the screen.
 
 use super::bvh::{Aabb, Bvh};
 use super::crack_intervals::{CrackIntervals, SideIntervals};
@@ -19,26 +19,27 @@ use homog::{Point, World};
 /// The distances below which an edge touches a face. Touching does not hide (HL-1).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Tolerance {
-    /// Distance from a side of a face, in pixels: an edge that stays nearer runs along the side.
+    /// The distance from a side of a face, in pixels: an edge that stays closer runs along the
+    /// side.
     pub screen: f64,
-    /// Distance behind the plane of a face, in world units: an edge that nowhere gets farther
-    /// behind lies in the plane.
+    /// The distance behind the plane of a face, in world units: an edge that is nowhere farther
+    /// behind is in the plane.
     pub world: f64,
-    /// The least length of a visible or hidden part, in pixels; shorter ones are merged with their
-    /// neighbors.
+    /// The minimum length of a visible or hidden part, in pixels; shorter ones are merged with
+    /// their neighbors.
     pub min_part: f64,
-    /// The width of cracks between objects through which nothing is seen, in pixels. An edge that
-    /// runs behind a crack has faces on both sides that are no farther, of two objects.
+    /// The width of cracks between objects through which nothing is visible, in pixels. An edge
+    /// behind a crack has faces of two objects on both sides, no farther away than this.
     pub crack: f64,
 }
 
 impl Tolerance {
-    /// Tolerances for a scene whose bounding box has this diagonal.
+    /// Returns tolerances for a scene whose bounding box has this diagonal.
     ///
     /// `world` is diagonal / 2²¹: a few units in the last place of coordinates stored in single
     /// precision. `screen` is 1/4096 pixel and `min_part` 1/1024 pixel, far below what any output
-    /// resolves. `crack` is 3/16 pixel, 0.05 mm on paper: less than any pen is wide, so that lines
-    /// behind a crack could not be told from its sides.
+    /// resolves. `crack` is 3/16 pixel, 0.05 mm on paper: narrower than any pen, so lines behind a
+    /// crack could not be distinguished from its sides.
     #[must_use]
     pub fn for_scene(diagonal: f64) -> Self {
         Self {
@@ -53,9 +54,9 @@ impl Tolerance {
 /// The visible and the hidden parts of an edge, as fractions of its length in the world.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct EdgeParts {
-    /// Parts with no face in front of them, in rising order.
+    /// Parts with no face in front of them, in ascending order.
     pub visible: Vec<[f64; 2]>,
-    /// Parts behind a face, in rising order. Parts outside the view volume are in neither list.
+    /// Parts behind a face, in ascending order. Parts outside the view volume are in neither list.
     pub hidden: Vec<[f64; 2]>,
 }
 
@@ -116,8 +117,8 @@ impl TriangleMesh for TriangleList {
 impl Occluders {
     /// Projects triangles and builds the hierarchy: O(n log n).
     ///
-    /// Both sides of a face hide. A face that is seen edge-on, or is thinner than the tolerance on
-    /// the screen, hides nothing.
+    /// Both sides of a face hide lines. A face that is seen edge-on, or is thinner than the
+    /// tolerance on the screen, hides nothing.
     pub fn new(
         triangles: impl IntoIterator<Item = [Point<World>; 3]>,
         projector: Projector,
@@ -129,14 +130,14 @@ impl Occluders {
         Self(MeshOccluders::new(mesh, &bvh, projector, tolerance))
     }
 
-    /// The occluders as if each face hid all of the screen that it covers, at any depth: what they
-    /// do not hide is the outline.
+    /// Returns the occluders as if each face hid everything that it covers on the screen, at any
+    /// depth: only the outline stays visible.
     #[must_use]
     pub fn at_any_depth(self) -> Self {
         Self(self.0.at_any_depth())
     }
 
-    /// The visible and the hidden parts of a segment of the world.
+    /// Returns the visible and hidden parts of a world-space segment.
     #[must_use]
     pub fn edge_parts(&self, ends: [Point<World>; 2]) -> EdgeParts {
         let mut parts = EdgeParts::default();
@@ -167,7 +168,7 @@ pub(crate) struct MeshOccluders<M> {
     projector: Projector,
     pub(super) tolerance: Tolerance,
     pub(super) screen: ScreenBvh,
-    /// Whether a face hides what is behind it only.
+    /// Whether a face hides only parts behind it.
     pub(super) respects_depth: bool,
 }
 
@@ -176,18 +177,19 @@ pub(crate) struct MeshOccluders<M> {
 pub(crate) struct OcclusionScratch {
     /// The result.
     hidden: OcclusionIntervals,
-    /// Where the edge runs exactly behind a side.
+    /// The parts exactly behind a side.
     along: SideIntervals,
-    /// Where it runs behind a side or beside it.
+    /// The parts behind a side or beside it.
     cracks: CrackIntervals,
-    /// Nodes of the hierarchy that are still to be visited.
+    /// Hierarchy nodes still to visit.
     node_stack: Vec<u32>,
-    /// How many boxes and triangles may still be compared with edges; `None` for any number.
+    /// The number of boxes and triangles that may still be compared with edges; `None` for any
+    /// number.
     pub(crate) work_left: Option<u64>,
 }
 
 impl OcclusionScratch {
-    /// Takes some work from what is left; `false` if that is less.
+    /// Takes some work from the rest; `false` if not enough is left.
     pub(super) fn take_work(&mut self, count: usize) -> bool {
         let Some(left) = &mut self.work_left else { return true };
         let is_left = *left >= count as u64;
@@ -209,13 +211,13 @@ impl OcclusionScratch {
         &self.hidden
     }
 
-    /// The result where there is no face.
+    /// Returns the result without any face.
     pub(crate) fn nothing_hidden(&mut self) -> &OcclusionIntervals {
         self.restart(None);
         &self.hidden
     }
 
-    /// Adds what one face hides to the set that its kind belongs to.
+    /// Adds the occlusion by one face to the set for its kind.
     fn insert(&mut self, occlusion: Occlusion) {
         match occlusion {
             Occlusion::Interior(interval) => self.hidden.insert_interval(interval),
@@ -229,8 +231,8 @@ impl OcclusionScratch {
         }
     }
 
-    /// Adds what faces hide together: those that meet at a side behind which the edge runs, and
-    /// those of two objects with a crack between them.
+    /// Adds the parts that faces hide together: faces that meet at a side in front of the edge, and
+    /// faces of two objects with a crack between them.
     fn join_sides(&mut self) {
         self.hidden.insert_intersection(&self.along.left, &self.along.right);
         self.cracks.insert_into(&mut self.hidden);
@@ -245,12 +247,12 @@ impl<M: TriangleMesh> MeshOccluders<M> {
         Self { mesh, projector, tolerance, screen, respects_depth: true }
     }
 
-    /// The occluders as if each face hid all of the screen that it covers, at any depth.
+    /// The occluders as if each face hid everything that it covers on the screen, at any depth.
     pub(crate) fn at_any_depth(self) -> Self {
         Self { respects_depth: false, ..self }
     }
 
-    /// The intervals of s in which an edge is hidden: the union over all faces in front of it.
+    /// The intervals of s where an edge is hidden: the union over all faces in front of it.
     ///
     /// This is the inner loop of hidden-line removal. Children are visited front to back, because a
     /// near face is more likely to hide the whole interval and so end the descent. The result is
@@ -263,8 +265,8 @@ impl<M: TriangleMesh> MeshOccluders<M> {
         self.hidden_intervals_but(edge, &[], scratch)
     }
 
-    /// As [`hidden_intervals`](Self::hidden_intervals), of an edge with parts that are known to be
-    /// hidden: nothing is compared with them.
+    /// Like [`hidden_intervals`](Self::hidden_intervals), for an edge with parts known to be
+    /// hidden: these are not compared with anything.
     pub(crate) fn hidden_intervals_but<'a>(
         &self,
         edge: &ProjectedEdge,
@@ -309,7 +311,7 @@ impl<M: TriangleMesh> MeshOccluders<M> {
         &scratch.hidden
     }
 
-    /// Finds what a triangle of the hierarchy hides of an edge.
+    /// Finds the parts of an edge hidden by a triangle of the hierarchy.
     pub(super) fn occlude_edge(
         &self,
         leaf: &LeafTriangle,
@@ -325,7 +327,7 @@ impl<M: TriangleMesh> MeshOccluders<M> {
         let Some(overlap) = (Occluder { vertices }).overlap(edge, tolerance) else { return };
         let object = self.mesh.object(triangle);
         let in_world = |vertices| OccluderInWorld { vertices, projector: &self.projector };
-        // The plane is that of the triangle before clipping, which must not tilt it.
+        // The plane belongs to the triangle before clipping, which must not tilt it.
         let whole = || in_world(self.mesh.positions(triangle));
         let clipped = || in_world(self.screen.world_vertices(leaf, &self.mesh));
         let interior = overlap.interior.and_then(|interval| match self.respects_depth {

@@ -4,11 +4,11 @@
 //!  s   0 ├───────████████───────────██────┤ 1     two intervals; what is between them is visible
 //! ```
 //!
-//! Faces are met in no particular order, so insertion merges: the set always holds the union of
-//! what was inserted, in rising order. An insertion costs a binary search and moves the intervals
-//! behind it; edges rarely have more than a handful.
+//! Faces are met in no particular order, so insertion merges: the set always holds the union of the
+//! inserted intervals, in ascending order. An insertion costs a binary search and moves the
+//! intervals after it; edges rarely have more than a handful.
 
-/// Disjoint closed intervals in rising order; intervals that touch are merged.
+/// Disjoint closed intervals in ascending order; intervals that touch are merged.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub(crate) struct OcclusionIntervals(Vec<[f64; 2]>);
 
@@ -18,7 +18,7 @@ impl OcclusionIntervals {
         self.0.clear();
     }
 
-    /// The intervals in rising order.
+    /// Returns the intervals in ascending order.
     #[cfg(test)]
     pub(crate) fn as_slice(&self) -> &[[f64; 2]] {
         &self.0
@@ -45,19 +45,19 @@ impl OcclusionIntervals {
         self.0.drain(first + 1..after);
     }
 
-    /// Whether an interval lies within one interval of the set.
+    /// Whether an interval is inside one interval of the set.
     ///
-    /// The traversal of the BVH skips a subtree whose part of the edge is hidden already.
+    /// The traversal of the BVH skips a subtree whose part of the edge is already hidden.
     pub(crate) fn contains_interval(&self, [start, end]: [f64; 2]) -> bool {
         let at = self.0.partition_point(|interval| interval[1] < end);
         self.0.get(at).is_some_and(|interval| interval[0] <= start && end <= interval[1])
     }
 
-    /// Inserts the intersection of two other sets: a merge over both in rising order, linear in
+    /// Inserts the intersection of two other sets: a merge over both in ascending order, linear in
     /// their sizes.
     ///
-    /// It implements the rule for shared sides: an edge that runs exactly behind a side is hidden
-    /// where there is a face on its left *and* one on its right.
+    /// It implements the rule for shared sides: an edge exactly behind a side is hidden where there
+    /// is a face on its left *and* one on its right.
     pub(crate) fn insert_intersection(&mut self, one: &Self, other: &Self) {
         let (mut i, mut j) = (0, 0);
         while let (Some(a), Some(b)) = (one.0.get(i), other.0.get(j)) {
@@ -73,12 +73,12 @@ impl OcclusionIntervals {
         }
     }
 
-    /// Closes gaps shorter than `least`, then removes intervals that are shorter; also at the ends
-    /// 0 and 1.
+    /// Closes gaps shorter than `least`, then removes shorter intervals, including at the ends 0
+    /// and 1.
     ///
-    /// Rounding leaves such slivers where faces meet. Gaps go first, or a hidden part that many
-    /// small faces make together would vanish. What takes half of an edge remains, however short
-    /// the edge is.
+    /// Rounding leaves such slivers where faces meet. Gaps are closed first, so that a hidden part
+    /// made by many small faces together does not vanish. A part longer than half of an edge
+    /// remains, however short the edge is.
     pub(crate) fn remove_slivers(&mut self, least: f64) {
         self.0.dedup_by(|next, last| {
             let closes = next[0] - last[1] < least;
@@ -97,7 +97,7 @@ impl OcclusionIntervals {
         }
     }
 
-    /// The parts of an interval outside of the set, in rising order.
+    /// The parts of an interval outside the set, in ascending order.
     pub(crate) fn parts_outside(&self, [start, end]: [f64; 2]) -> Vec<[f64; 2]> {
         let (mut parts, mut from) = (Vec::new(), start);
         for &[low, high] in &self.0 {
@@ -112,10 +112,10 @@ impl OcclusionIntervals {
         parts
     }
 
-    /// Divides [0, 1] at the ends of the intervals: each part in rising order, with `true` for
-    /// hidden.
+    /// Divides [0, 1] at the ends of the intervals, in ascending order, with `true` for hidden
+    /// parts.
     ///
-    /// Parts without length are left out, so a set that begins at 0 yields no empty visible part
+    /// Parts without length are skipped, so a set that begins at 0 yields no empty visible part
     /// before it.
     pub(crate) fn divide_unit_interval(&self) -> impl Iterator<Item = ([f64; 2], bool)> + '_ {
         let starts = std::iter::once(0.0).chain(self.0.iter().map(|interval| interval[1]));
@@ -172,7 +172,7 @@ mod tests {
             interval_set(&[[0.001, 0.2], [0.201, 0.4], [0.6, 0.601], [0.8, 0.9999]]);
         intervals.remove_slivers(0.01);
         assert_eq!(intervals.as_slice(), [[0.0, 0.4], [0.8, 1.0]]);
-        // An edge far shorter than the least part keeps what hides most of it.
+        // An edge far shorter than the minimum part keeps the interval that hides most of it.
         let mut intervals = interval_set(&[[0.1, 1.0]]);
         intervals.remove_slivers(40.0);
         assert_eq!(intervals.as_slice(), [[0.0, 1.0]]);

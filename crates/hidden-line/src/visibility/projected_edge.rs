@@ -1,6 +1,6 @@
 //! An edge clipped to the view volume, on the screen and in the world.
 //!
-//! Positions on the edge are named by s, the fraction of its length on the *screen*. The fraction
+//! Positions on the edge are given by s, the fraction of its length on the *screen*. The fraction
 //! of its length in the *world*, u, follows from the perspective interpolation rule IN-1, because a
 //! projective map takes lines to lines:
 //!
@@ -15,9 +15,9 @@
 use crate::projector::Projector;
 use glam::{DVec2, DVec3};
 
-/// An edge within the view volume, with the map between screen and world fractions.
+/// An edge inside the view volume, with the map between screen and world fractions.
 ///
-/// Both ends have a positive w: clipping removes what is at or behind the eye before the divide.
+/// Both ends have a positive w: clipping removes points at or behind the eye before the divide.
 #[derive(Clone, Debug)]
 pub(crate) struct ProjectedEdge {
     /// The ends on the screen, in pixels, y down.
@@ -28,14 +28,15 @@ pub(crate) struct ProjectedEdge {
     pub(crate) world: [DVec3; 2],
     /// The clip-space w of the ends: the divisors of the perspective divide.
     w: [f64; 2],
-    /// The part of the original edge that clipping left, as fractions of its length in the world.
+    /// The part of the original edge that remains after clipping, as fractions of its length in the
+    /// world.
     clip_range: [f64; 2],
 }
 
 impl ProjectedEdge {
     /// Clips an edge of the world to the view volume, divides, and maps it to the screen.
     ///
-    /// `None` if nothing of the edge is within the volume, or an end has no finite image. An end
+    /// `None` if no part of the edge is inside the volume, or if an end has no finite image. An end
     /// that was not clipped keeps the bits of the vertex, so that edges with a common vertex meet
     /// exactly.
     pub(crate) fn clip_and_project(ends: [DVec3; 2], projector: &Projector) -> Option<Self> {

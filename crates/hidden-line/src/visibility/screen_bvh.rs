@@ -1,4 +1,4 @@
-//! Screen hierarchy: a hierarchy of boxes in the world as one viewer sees it.
+//! Screen hierarchy: a hierarchy of world boxes as seen by one viewer.
 //!
 //! ```text
 //!   world      nodes ──────────────────► the same nodes, with boxes on the screen
@@ -6,13 +6,13 @@
 //!                                        from the view volume, clipped where they cross it
 //! ```
 //!
-//! The tree is built once for all views of a sheet; a view only finds the boxes anew, from the
-//! leaves up. What is near in space is near on the screen, so such boxes are as good as those of a
-//! tree that is built on the screen, and those of different depth are apart.
+//! The tree is built once for all views of a sheet; a view only finds the new boxes, from the
+//! leaves up. Points close in space are close on the screen, so such boxes are as good as in a tree
+//! built on the screen, and boxes at different depths are separate.
 //!
-//! A triangle is an index and a box here, and its vertices are those of the mesh. Most triangles of a
-//! leaf that an edge meets are beside the edge or behind it: their boxes say so in the order of
-//! memory, and their vertices are not looked for.
+//! A triangle is stored here as an index and a box; its vertices are in the mesh. Most triangles of
+//! a leaf that an edge meets are beside or behind the edge. Their boxes show this in memory order,
+//! without a lookup of the vertices.
 
 use super::bounds::{greatest, least, round_down, round_up};
 use super::bvh::{Bvh, NodeContents};
@@ -40,14 +40,14 @@ pub(crate) trait TriangleMesh: Sync {
     }
 }
 
-/// A triangle on the screen, or one that clipping to the view volume left of it.
+/// A triangle on the screen, or a piece that remains after clipping to the view volume.
 #[derive(Clone, Copy, Debug)]
 enum ScreenTriangle {
-    /// All of a triangle of the mesh.
+    /// A whole triangle of the mesh.
     Whole {
         /// Its index.
         triangle: u32,
-        /// Whether its last two vertices are exchanged.
+        /// Whether its last two vertices are swapped.
         is_reversed: bool,
     },
     /// A piece, by its index.
@@ -55,7 +55,7 @@ enum ScreenTriangle {
 }
 
 impl ScreenTriangle {
-    /// Two bits and an index, in one number.
+    /// Packs the variant, in two bits, and an index into one number.
     fn pack(self) -> u32 {
         match self {
             Self::Whole { triangle, is_reversed } => triangle << 2 | u32::from(is_reversed) << 1,
@@ -71,12 +71,12 @@ impl ScreenTriangle {
     }
 }
 
-/// A part of a triangle that clipping to the view volume left.
+/// A part of a triangle that remains after clipping to the view volume.
 #[derive(Clone, Copy, Debug)]
 struct ClippedPiece {
     triangle: u32,
     vertices: [DVec2; 3],
-    /// How much of each vertex of the triangle is in each of these vertices.
+    /// The weight of each triangle vertex in each of these vertices.
     weights: [[f64; 3]; 3],
 }
 
@@ -85,7 +85,7 @@ struct ClippedPiece {
 struct DepthBox {
     min: [f32; 2],
     max: [f32; 2],
-    /// The greatest depth, with 1 nearest.
+    /// The largest depth, where 1 is nearest.
     nearest: f32,
 }
 
@@ -115,13 +115,13 @@ pub(super) struct LeafTriangle {
 #[derive(Clone, Copy, Debug)]
 struct ScreenNode {
     bounds: DepthBox,
-    /// As in [`Bvh`]: the second child, or the first triangle of a leaf.
+    /// Like in [`Bvh`]: the second child, or the first triangle of a leaf.
     first: u32,
     /// The number of triangles of a leaf, or [`INNER_NODE`].
     count: u32,
 }
 
-/// The count of nodes that are no leaves.
+/// The count of nodes that are not leaves.
 const INNER_NODE: u32 = u32::MAX;
 
 /// The boxes and the triangles of a mesh on the screen of one viewer.
@@ -131,14 +131,14 @@ pub(super) struct ScreenBvh {
     /// The triangles in the order of the leaves.
     triangles: Vec<LeafTriangle>,
     pieces: Vec<ClippedPiece>,
-    /// The vertices on the screen in pixels, where they have an image.
+    /// The vertices on the screen in pixels, if they have an image.
     vertices: Vec<DVec2>,
 }
 
 /// The vertices of a mesh on their way to the screen.
 struct ProjectedVertices {
     screen: Vec<DVec2>,
-    /// Rounded towards the viewer.
+    /// Rounded toward the viewer.
     depths: Vec<f32>,
     outcodes: Vec<Outcode>,
 }
@@ -159,11 +159,11 @@ impl ProjectedVertices {
     }
 }
 
-/// What the triangles of leaves are made with.
+/// The inputs for the triangles of leaves.
 struct LeafView<'a> {
     projector: &'a Projector,
     projected: &'a ProjectedVertices,
-    /// The height in pixels up to which a triangle hides nothing.
+    /// The maximum height in pixels of a triangle that hides nothing.
     thinnest: f64,
     /// The margin of boxes in pixels.
     margin: f64,
@@ -172,8 +172,8 @@ struct LeafView<'a> {
 impl ScreenBvh {
     /// Projects a mesh, and finds the boxes of its hierarchy on the screen: O(n).
     ///
-    /// `thinnest` is the height in pixels up to which a triangle hides nothing, `margin` that of
-    /// the boxes.
+    /// `thinnest` is the maximum height in pixels of a triangle that hides nothing; `margin` is the
+    /// margin of the boxes.
     pub(super) fn new(
         mesh: &impl TriangleMesh,
         bvh: &Bvh,
@@ -189,7 +189,7 @@ impl ScreenBvh {
             pieces: Vec::new(),
             vertices: Vec::new(),
         };
-        // Children come after their parents: from the last node on they are there first.
+        // Children come after their parents, so in reverse order they are ready first.
         for index in (0..bvh.node_count()).rev() {
             tree.nodes[index] = match bvh.contents(index as u32) {
                 NodeContents::Nodes(children) => tree.join_nodes(children),
@@ -209,13 +209,13 @@ impl ScreenBvh {
         tree
     }
 
-    /// The node above two others, of which the first follows it.
+    /// The parent of two nodes; the first child directly follows it.
     fn join_nodes(&self, [first, second]: [u32; 2]) -> ScreenNode {
         let [a, b] = [first, second].map(|node| &self.nodes[node as usize].bounds);
         ScreenNode { bounds: a.union(b), first: second, count: INNER_NODE }
     }
 
-    /// Adds a triangle, or its pieces within the view volume, to the leaf that is being made.
+    /// Adds a triangle, or its pieces inside the view volume, to the current leaf.
     fn push_triangle(&mut self, triangle: u32, mesh: &impl TriangleMesh, view: &LeafView<'_>) {
         let LeafView { projector, projected, thinnest, margin } = *view;
         let indices = mesh.vertex_indices(triangle).map(|vertex| vertex as usize);
@@ -236,7 +236,7 @@ impl ScreenBvh {
         }
     }
 
-    /// Adds a piece of a triangle to the leaf that is being made.
+    /// Adds a piece of a triangle to the current leaf.
     fn push_piece(
         &mut self,
         triangle: u32,
@@ -293,13 +293,13 @@ impl ScreenBvh {
         }
     }
 
-    /// The interval of s in which an edge passes over the box of a node and is not wholly in front
+    /// The interval of s where an edge passes over the box of a node and is not completely in front
     /// of it.
     pub(super) fn interval_behind(&self, node: u32, edge: &ScreenEdge<'_>) -> Option<[f64; 2]> {
         edge.interval_behind(&self.nodes[node as usize].bounds)
     }
 
-    /// The root; `None` if there is nothing.
+    /// The root; `None` if the hierarchy is empty.
     pub(super) fn root_node(&self) -> Option<u32> {
         (!self.nodes.is_empty()).then_some(0)
     }
@@ -326,17 +326,17 @@ fn box_around([a, b, c]: [DVec2; 3], depths: [f32; 3], margin: f64) -> DepthBox 
     }
 }
 
-/// Vertices with the last two exchanged, if they are in reverse.
+/// Swaps the last two vertices if they are reversed.
 fn reverse_if<T>(is_reversed: bool, [a, b, c]: [T; 3]) -> [T; 3] {
     if is_reversed { [a, c, b] } else { [a, b, c] }
 }
 
-/// Whether two vertices have to be exchanged so that the signed area of a triangle is positive;
-/// `None` if the triangle is thinner than `thinnest` pixels, or has no image.
+/// Whether two vertices must be swapped so that the signed area of a triangle is positive; `None`
+/// if the triangle is thinner than `thinnest` pixels, or has no image.
 fn orientation([a, b, c]: [DVec2; 3], thinnest: f64) -> Option<bool> {
     let area = (b - a).perp_dot(c - a);
     let sides = [b - a, c - b, a - c];
-    // The sum of both components is not less than the length: most triangles need no root.
+    // The sum of both components is at least the length, so most triangles need no root.
     let longest = sides.iter().fold(0.0_f64, |most, side| most.max(side.x.abs() + side.y.abs()));
     if area.abs() > thinnest * longest {
         return Some(area < 0.0);
@@ -345,19 +345,19 @@ fn orientation([a, b, c]: [DVec2; 3], thinnest: f64) -> Option<bool> {
     (area.abs() > thinnest * longest).then_some(area < 0.0)
 }
 
-/// An edge as it is compared with boxes.
+/// An edge, prepared for comparison with boxes.
 pub(super) struct ScreenEdge<'a> {
     edge: &'a ProjectedEdge,
     /// The box around it.
     low: DVec2,
     high: DVec2,
-    /// The change of s for a pixel along x and y; 0 where the edge does not change.
+    /// The change of s per pixel along x and y; 0 if the edge does not change.
     slope: DVec2,
-    /// Whether a box hides what is behind it only.
+    /// Whether a box hides only parts behind it.
     respects_depth: bool,
 }
 
-/// Edges that change by less along an axis, in pixels, are taken as parallel to the other one.
+/// Edges that change by less along an axis, in pixels, count as parallel to the other axis.
 const LEAST_CHANGE: f64 = 1e-9;
 
 impl<'a> ScreenEdge<'a> {
@@ -368,7 +368,7 @@ impl<'a> ScreenEdge<'a> {
         Self { edge, low: a.min(b), high: a.max(b), slope, respects_depth }
     }
 
-    /// Whether a triangle is beside the box around the edge, by more than a margin in pixels.
+    /// Whether a triangle is outside the box around the edge, by more than a margin in pixels.
     pub(super) fn is_beside(&self, [a, b, c]: [DVec2; 3], margin: f64) -> bool {
         let (low, high) = (self.low - margin, self.high + margin);
         (a.x < low.x && b.x < low.x && c.x < low.x)
@@ -377,7 +377,7 @@ impl<'a> ScreenEdge<'a> {
             || (a.y > high.y && b.y > high.y && c.y > high.y)
     }
 
-    /// The interval of s in which the edge passes over a box on the screen and is not wholly in
+    /// The interval of s where the edge passes over a box on the screen and is not completely in
     /// front of it.
     ///
     /// ```text
@@ -387,10 +387,10 @@ impl<'a> ScreenEdge<'a> {
     ///          s₀    s₁
     /// ```
     ///
-    /// A slab test in x and y (Kay and Kajiya 1986), then one comparison of depth: where even the
+    /// A slab test in x and y (Kay and Kajiya 1986), then one comparison of depth: if even the
     /// farthest point of the edge is nearer than the nearest point of the box, nothing in the box
     /// can hide it. Depth is linear in s, so its extremes are at the ends. Boxes have a margin far
-    /// greater than what is rounded here.
+    /// larger than the rounding errors here.
     fn interval_behind(&self, bounds: &DepthBox) -> Option<[f64; 2]> {
         let (min, max) = (bounds.min.map(f64::from), bounds.max.map(f64::from));
         let is_apart = self.high.x < min[0]
@@ -410,13 +410,13 @@ impl<'a> ScreenEdge<'a> {
         (farthest <= f64::from(bounds.nearest)).then_some([enter, leave])
     }
 
-    /// The interval of s in which the edge passes over the box around a triangle.
+    /// The interval of s where the edge passes over the box around a triangle.
     pub(super) fn interval_over_triangle(&self, leaf: &LeafTriangle) -> Option<[f64; 2]> {
         self.interval_over_box(leaf.bounds.min.map(f64::from), leaf.bounds.max.map(f64::from))
     }
 
-    /// The slab test: the interval of s in which the edge passes over a box that is not beside it
-    /// along an axis to which it is parallel.
+    /// The slab test: the interval of s where the edge passes over a box. The box must not be
+    /// beside the edge along an axis parallel to it.
     fn interval_over_box(&self, min: [f64; 2], max: [f64; 2]) -> Option<[f64; 2]> {
         let from = self.edge.screen[0];
         let (mut enter, mut leave) = (0.0, 1.0);

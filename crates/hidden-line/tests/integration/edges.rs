@@ -4,7 +4,7 @@ use super::stage::*;
 use hidden_line::{DrawOptions, EdgeClass, EdgeClasses, HiddenEdges, draw};
 use model::{EdgeList, EdgeVisibility, Primitive, PrimitiveEdges};
 
-/// The classes of all edges, facets too, in order.
+/// The classes of all edges, including facets, in order.
 fn edge_classes(primitives: Vec<Primitive>) -> Vec<EdgeClass> {
     let options = DrawOptions {
         classes: EdgeClasses::ALL,
@@ -27,8 +27,8 @@ fn count_class(classes: &[EdgeClass], class: EdgeClass) -> usize {
     classes.iter().filter(|other| **other == class).count()
 }
 
-/// Two squares side by side, of which the second begins `gap` to the right of the first and is bent
-/// back by `fall`.
+/// Two squares side by side; the second one begins `gap` to the right of the first and is bent back
+/// by `fall`.
 fn two_squares(gap: f32, fall: f32) -> Primitive {
     let (x, right) = (gap, 1.0 + gap);
     triangle_mesh(
@@ -78,7 +78,7 @@ fn tangent_edges_are_between_the_tangent_angle_and_that_of_creases() {
 
 #[test]
 fn split_vertices_make_no_boundary() {
-    // Exactly together, and as far apart as quantisation to 12 bits may move them.
+    // Exactly together, and as far apart as 12-bit quantization may move them.
     for gap in [0.0, 2e-4] {
         let found = edge_classes(vec![two_squares(gap, 0.0)]);
         assert_eq!(count_class(&found, EdgeClass::Boundary), 6, "{found:?}");
@@ -89,7 +89,7 @@ fn split_vertices_make_no_boundary() {
 
 #[test]
 fn a_dihedral_angle_beyond_the_limit_is_a_crease() {
-    // The second square falls by 0.5 on 1: 26.6 degrees; by 0.6: 31 degrees.
+    // The second square falls by 0.5 per unit: 26.6 degrees; by 0.6: 31 degrees.
     assert_eq!(count_class(&edge_classes(vec![two_squares(0.0, 0.5)]), EdgeClass::Crease), 0);
     assert_eq!(count_class(&edge_classes(vec![two_squares(0.0, 0.6)]), EdgeClass::Crease), 1);
 }
@@ -132,9 +132,9 @@ fn a_t_junction_makes_no_boundary() {
         &[0, 1, 2, 0, 2, 3, 4, 6, 7, 4, 7, 5, 5, 7, 8, 5, 8, 2],
     );
     let found = edge_classes(vec![tee]);
-    // The rim: three sides of the left, two below and above, two on the right.
+    // The rim: three sides on the left, two below and above, two on the right.
     assert_eq!(count_class(&found, EdgeClass::Boundary), 7, "{found:?}");
-    // Three diagonals, the line between the right squares, the two halves of the middle.
+    // Three diagonals, the line between the right squares, and the two halves of the middle.
     assert_eq!(count_class(&found, EdgeClass::Facet), 6);
 }
 

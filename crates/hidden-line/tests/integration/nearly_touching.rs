@@ -1,4 +1,4 @@
-//! Random assemblies of parts that nearly touch: their drawings against the z-buffer.
+//! Random assemblies of parts that nearly touch: their drawings compared with the z-buffer.
 //!
 //! ```text
 //!   ┌──────┐┌───────┐     gaps of no width, of a fraction of the touching distance, of some of
@@ -6,9 +6,9 @@
 //!   └──────┘└───┴───┘
 //! ```
 //!
-//! Boxes, plates and prisms stand face to face along the axes of an assembly, which is rotated,
-//! scaled and moved, and is seen in perspective and parallel projection, from any side and straight
-//! from the front. All of it follows from a scene's number.
+//! Boxes, plates and prisms are placed face to face along the axes of an assembly, which is
+//! rotated, scaled and moved. It is seen in perspective and parallel projection, from any direction
+//! and straight from the front. Everything follows from the number of the scene.
 
 use super::stage::*;
 use camera::{Basis, Slopes, ViewProjection, frame_oblique, frame_perspective};
@@ -22,10 +22,10 @@ use std::sync::Arc;
 /// The fraction of the visible length that the z-buffer may hide.
 const MAX_DISAGREEMENT: f64 = 0.002;
 
-/// The scenes of the test.
+/// The scenes in the test.
 const SCENES: Range<u64> = 0..60;
 
-/// Scenes that a search among many found to be the worst.
+/// The worst scenes found in a search among many.
 const WORST_SCENES: [u64; 6] = [241, 252, 890, 929, 1010, 1153];
 
 /// The gaps between parts, in touching distances: 1 / 2²¹ of the assembly's diagonal.
@@ -42,7 +42,7 @@ impl Random {
         (z ^ (z >> 31)) % end
     }
 
-    /// A number of an interval, in 2²⁰ steps.
+    /// A random number in an interval, in 2²⁰ steps.
     fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.below(1 << 20) as f64 / f64::from(1 << 20)
     }
@@ -81,11 +81,11 @@ fn unit_part(random: &mut Random) -> Primitive {
     triangle_mesh(&positions, &indices)
 }
 
-/// The parts of a scene as boxes from a corner to the opposite one: each new one is put against a
-/// face of an earlier one, with a gap.
+/// The parts of a scene as boxes, given by opposite corners: each new one is placed against a face
+/// of an earlier one, with a gap.
 fn stack_boxes(random: &mut Random) -> Vec<[[f64; 3]; 2]> {
     let mut boxes = vec![[[0.0; 3], [0; 3].map(|_| random.between(0.1, 1.0))]];
-    // About the diagonal of what will be there.
+    // About the diagonal of the result.
     let touching = 3.0 / f64::from(1 << 21);
     for _ in 0..random.below(5) + 1 {
         let [min, max] = boxes[random.below(boxes.len() as u64) as usize];
@@ -115,8 +115,8 @@ fn stack_boxes(random: &mut Random) -> Vec<[[f64; 3]; 2]> {
     boxes
 }
 
-/// The parts of a scene, placed by matrices in f64 or, every other scene, with the vertices rounded
-/// to single precision.
+/// The parts of a scene, placed by matrices in f64 or, in every other scene, with the vertices
+/// rounded to single precision.
 fn assembly(random: &mut Random) -> Vec<ModelInstance> {
     let scale = random.choose(&[1e-3, 1.0, 1.0, 25.4, 1e3]);
     let shift = random.choose(&[0.0, 0.0, 1.0, 30.0]) * scale;
@@ -143,7 +143,7 @@ fn assembly(random: &mut Random) -> Vec<ModelInstance> {
     stack_boxes(random).into_iter().map(|corners| part(corners, unit_part(random))).collect()
 }
 
-/// A view of all models that fills the picture: from any side, or along one of the axes.
+/// A view of all models that fills the picture: from any direction, or along one of the axes.
 fn random_view(models: &[ModelInstance], random: &mut Random) -> ViewProjection {
     let points = model::world_points(models);
     let along = [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [-1.0, -1.0, -1.0]];
@@ -168,7 +168,7 @@ fn random_view(models: &[ModelInstance], random: &mut Random) -> ViewProjection 
     ViewProjection { camera: f.camera, view_to_clip }
 }
 
-/// The scene of a number.
+/// Builds the scene with a given number.
 fn nearly_touching_scene(number: u64) -> TestScene {
     let random = &mut Random(number.wrapping_mul(0xd134_2543_de82_ef95));
     let models = assembly(random);
@@ -176,7 +176,7 @@ fn nearly_touching_scene(number: u64) -> TestScene {
     TestScene { models, view_projection, sections: Vec::new(), uncut: Vec::new() }
 }
 
-/// The drawing of a scene and what the z-buffer says of it.
+/// The drawing of a scene, and its agreement with the z-buffer.
 fn measure(number: u64) -> (LineDrawing, Agreement) {
     let scene = nearly_touching_scene(number);
     let subject = scene.drawing_subject();
@@ -185,7 +185,7 @@ fn measure(number: u64) -> (LineDrawing, Agreement) {
     (drawing, agreement)
 }
 
-/// The worst of some scenes with the length that the z-buffer denies, and the segments.
+/// The worst of some scenes, with the length that the z-buffer denies and the segments.
 fn worst_scene(scenes: impl Iterator<Item = u64>) -> (f64, String) {
     let ratio = |number| (measure(number).1.disagreement_ratio(), number);
     let worst = scenes.map(ratio).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
@@ -200,7 +200,7 @@ fn worst_scene(scenes: impl Iterator<Item = u64>) -> (f64, String) {
 #[test]
 fn assemblies_that_nearly_touch_agree_with_the_z_buffer() {
     let scenes = match std::env::var("NEARLY_TOUCHING_SCENES") {
-        // A search among others, such as 1000..3000.
+        // A search among other scenes, such as 1000..3000.
         Ok(range) => {
             let (first, end) = range.split_once("..").unwrap();
             first.parse().unwrap()..end.parse().unwrap()

@@ -10,7 +10,7 @@ use homog::{Normal, Plane, Point, World};
 use model::{Model, Primitive};
 use std::collections::BTreeMap;
 
-/// The plane x = 0, of which the side with the lesser x stays.
+/// The plane at this x; the side with lower x is retained.
 fn plane_x(at: f64) -> Plane<World> {
     Plane::through(Point::new(at, 0.0, 0.0), Normal::new(-1.0, 0.0, 0.0))
 }
@@ -19,14 +19,14 @@ fn cut_scene(model: Model, planes: &[Plane<World>]) -> TestScene {
     TestScene { sections: planes.to_vec(), ..drawing_scene(model, oblique_view()) }
 }
 
-/// A box with its faces turned inwards.
+/// A box with its faces turned inward.
 fn box_with_hole(min: [f32; 3], max: [f32; 3]) -> Primitive {
     let mut primitive = cuboid_mesh(min, max);
     primitive.indices.as_chunks_mut::<3>().0.iter_mut().for_each(|face| face.swap(1, 2));
     primitive
 }
 
-/// One object of two boxes.
+/// Merges two boxes into one object.
 fn merge_primitives(mut one: Primitive, other: &Primitive) -> Primitive {
     let first = one.positions.len() as u32;
     one.positions.extend(&other.positions);
@@ -34,7 +34,7 @@ fn merge_primitives(mut one: Primitive, other: &Primitive) -> Primitive {
     one
 }
 
-/// The point (z, y) of the plane x = 0 whose oblique image is this one.
+/// The point (z, y) of the plane x = 0 with this oblique image.
 fn project_to_plane([x, y]: [f64; 2]) -> [f64; 2] {
     [-2.0 * x, y - x]
 }
@@ -55,15 +55,15 @@ fn a_cube_cut_in_half_shows_its_cap() {
     ];
     assert_segments_cover(&segments_where(&drawing, is_visible_class(Section)), &cap);
     assert_eq!(segments_where(&drawing, |line| line.class == Section && !line.visible).len(), 0);
-    // Three edges of what is left are behind it.
+    // Three edges of the remaining half are behind it.
     let hidden =
         [[[-0.5, -0.5], [-0.5, 1.5]], [[-0.5, -0.5], [0.5, -0.5]], [[-0.5, -0.5], [-1.5, -1.5]]];
     assert_segments_cover(&segments_where(&drawing, |line| !line.visible), &hidden);
     assert!(drawing.warnings.is_empty());
 }
 
-/// Lines of hatching lie in the matter and nowhere else, at equal distances and under 45°; as there
-/// are many of them, they measure its area.
+/// Hatch lines are inside the matter and nowhere else, equally spaced and at 45°. They are dense
+/// enough to measure its area.
 #[test]
 fn hatching_fills_caps_and_spares_holes() {
     let tube = merge_primitives(
@@ -91,7 +91,7 @@ fn hatching_fills_caps_and_spares_holes() {
         }
         area += segment_length(line) * 0.02;
     }
-    // The picture halves depths: of 4 − 1.44 square units.
+    // The picture halves depths: half of 4 − 1.44 square units.
     assert!((area - 1.28).abs() < 0.01, "{area}");
 }
 
@@ -122,7 +122,7 @@ fn two_section_planes_cut_a_corner_out() {
         edge([-1.0, 1.0, 0.0], [-1.0, -1.0, 0.0]),
     ];
     assert_segments_cover(&segments_where(&drawing, is_visible_class(Section)), &sections);
-    // Both caps are hatched, and nothing of the hatching is hidden.
+    // Both caps are hatched, and none of the hatching is hidden.
     let options = DrawOptions { hatch_spacing: 5.0, ..DrawOptions::hidden_edges_retained() };
     let drawing = draw(&scene.drawing_subject(), &options, 1).unwrap();
     let area: f64 = segments_where(&drawing, is_visible_class(Hatching))
@@ -135,7 +135,7 @@ fn two_section_planes_cut_a_corner_out() {
 
 #[test]
 fn an_open_section_adds_a_warning() {
-    // Five sides of a box: the one on the left is missing.
+    // Five sides of a box: the left one is missing.
     let mut open = cuboid_mesh([-1.0; 3], [1.0; 3]);
     open.indices.drain(24..30);
     let whole = cut_scene(build_model(vec![open.clone()]), &[plane_x(0.0)]);
@@ -171,7 +171,7 @@ fn adjacent_parts_have_different_hatching() {
         cuboid_mesh([-1.0, y, -1.0], [1.0, y + 0.5, 1.0])
     });
     let drawing = draw_scene_lines(&cut_scene(build_model(boxes.collect()), &[plane_x(0.0)]));
-    // Of each object the direction, and the distance in hundredths of a unit.
+    // For each object, the direction and the distance in hundredths of a unit.
     let mut hatch_lines: BTreeMap<u32, Vec<(bool, f64)>> = BTreeMap::new();
     for line in drawing.segments.iter().filter(|line| line.class == Hatching) {
         let [a, b] = line.ends;
@@ -191,8 +191,7 @@ fn adjacent_parts_have_different_hatching() {
     }
 }
 
-/// Whatever the view, what is visible and what is hidden make up the whole, and the z-buffer
-/// agrees.
+/// In any view, visible and hidden parts make up the whole, and the z-buffer agrees.
 #[test]
 fn cut_drawings_agree_with_their_z_buffer_images() {
     let frustum = projection::Frustum::new(-0.5, 0.5, -0.5, 0.5, 1.0, 20.0).unwrap();
@@ -227,7 +226,8 @@ fn cut_drawings_agree_with_their_z_buffer_images() {
     }
 }
 
-/// The pieces of each edge that is not hatching follow each other without gap or overlap.
+/// Asserts that the pieces of each edge that is not hatching follow each other without gap or
+/// overlap.
 fn assert_closed_outlines(drawing: &LineDrawing) {
     let lines: Vec<_> = drawing.segments.iter().filter(|line| line.class != Hatching).collect();
     for pieces in lines.chunk_by(|a, b| a.edge == b.edge) {
@@ -237,12 +237,12 @@ fn assert_closed_outlines(drawing: &LineDrawing) {
     }
 }
 
-/// Spheres, say, whose vertices lie on the plane but for rounding.
+/// For example, spheres whose vertices are on the plane up to rounding.
 #[test]
 fn a_section_through_vertices_nearly_on_the_plane_closes() {
     for nudge in [0.0_f32, 1e-7, -1e-7, 3e-8] {
         let mut cube = cuboid_mesh([-1.0; 3], [1.0; 3]);
-        // The middle of the top and of the bottom as corners, a little beside the plane.
+        // The middle of the top and of the bottom as corners, slightly off the plane.
         let first = cube.positions.len() as u32;
         let rim = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
         cube.indices.drain(12..24);

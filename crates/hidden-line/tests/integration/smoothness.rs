@@ -1,4 +1,4 @@
-//! Edges that vertex normals decide about.
+//! Edges whose class depends on vertex normals.
 
 use super::stage::*;
 use hidden_line::{DrawOptions, EdgeClass, LineDrawing, SilhouetteMethod, draw};
@@ -15,8 +15,8 @@ fn count(drawing: &LineDrawing, class: EdgeClass) -> usize {
     drawing.segments.iter().filter(|segment| segment.class == class).count()
 }
 
-/// The side of an upright column of eight sides about the y axis. With `is_smooth` its normals are
-/// those of a cylinder, else those of its faces.
+/// The side of a vertical column with eight sides around the y axis. With `is_smooth` it has the
+/// normals of a cylinder, otherwise the normals of its faces.
 fn column(is_smooth: bool) -> Primitive {
     let (mut positions, mut normals, mut indices) = (Vec::new(), Vec::new(), Vec::new());
     for side in 0..8 {
@@ -40,13 +40,13 @@ fn normals_that_agree_make_an_edge_smooth() {
         let options = DrawOptions { asks_normals, ..DrawOptions::hidden_edges_removed() };
         count(&draw_front(build_model(vec![column(is_smooth)]), &options), EdgeClass::Crease)
     };
-    // Its faces meet at 45°, and three edges are seen within the outline.
+    // Its faces meet at 45°, and three edges are visible inside the outline.
     assert_eq!(creases(false, true), 3);
     assert_eq!(creases(true, true), 0);
     assert_eq!(creases(true, false), 3);
 }
 
-/// A ball of radius 2 whose poles lie obliquely, from shared vertices.
+/// A ball of radius 2 with tilted poles and shared vertices.
 fn ball(rings: u32) -> Primitive {
     let sectors = 2 * rings;
     let (mut positions, mut indices) = (Vec::new(), Vec::new());

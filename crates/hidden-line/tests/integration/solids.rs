@@ -4,7 +4,7 @@ use super::stage::*;
 use hidden_line::EdgeClass::{Boundary, Crease, Intersection, Line, Silhouette};
 use hidden_line::{DrawOptions, HiddenEdges, draw};
 
-/// The outline of the cube [−1, 1]³ in the oblique picture, and the three edges within it.
+/// The outline of the cube [−1, 1]³ in the oblique picture, and the three edges inside it.
 const OUTLINE: [Segment; 6] = [
     [[-1.5, -1.5], [0.5, -1.5]],
     [[0.5, -1.5], [1.5, -0.5]],
@@ -62,7 +62,8 @@ fn of_the_first_layer_are_lines_behind_one_wall_alone() {
         &segments_where(&drawing, |line| line.class == Line && !line.visible),
         &[[[-2.0, 0.25], [0.25, 0.25]]],
     );
-    // The edges of the second wall are behind the first one, and its rear ones behind three faces.
+    // The edges of the second wall are behind the first one, and its rear edges are behind three
+    // faces.
     let of_second = segments_where(&drawing, |line| line.object == 1 && !line.visible);
     assert!(!of_second.is_empty());
 }
@@ -76,8 +77,8 @@ fn of_the_first_layer_are_lines_behind_one_wall_alone() {
 ///        ╲    │ │    │
 /// ```
 ///
-/// The intersection is a square, of which two sides are visible. The bar hides a part of the cube's
-/// lower right edge and of its rear right edge.
+/// The intersection is a square with two visible sides. The bar hides a part of the cube's lower
+/// right edge and of its rear right edge.
 #[test]
 fn a_bar_through_the_side_of_a_cube() {
     let solids =
@@ -110,8 +111,8 @@ fn a_bar_through_the_side_of_a_cube() {
     assert_segments_cover(&segments_where(&drawing, |line| line.visible && line.object == 1), &bar);
 }
 
-/// A column in front of the cube's left: its outline is where x − z/2 of its corners is least and
-/// greatest.
+/// A column in front of the cube's left: its outline is where x − z/2 of its corners is smallest
+/// and largest.
 #[test]
 fn a_cylinder_before_a_box() {
     let sides = 48;
@@ -134,7 +135,7 @@ fn a_cylinder_before_a_box() {
     let right = positions.iter().map(|[x, _, z]| f64::from(*x) - 0.5 * f64::from(*z));
     let right = right.fold(f64::NEG_INFINITY, f64::max);
     assert!(right > -1.0 && right < -0.8, "{right}");
-    // The column hides the left of what is lower than its top, at Y = 3 − z/2 for z from 3 to 5.
+    // The column hides the left part below its top, at Y = 3 − z/2 for z from 3 to 5.
     let at_bottom = segments_where(&drawing, |line| {
         line.visible && line.object == 0 && line.ends.iter().all(|end| end.y == 550.0)
     });
@@ -155,7 +156,7 @@ fn a_cylinder_before_a_box() {
     }
 }
 
-/// Three strips, each over the next: no order of them paints the picture.
+/// Three strips, each over the next: no painting order gives the correct picture.
 #[test]
 fn a_cycle_of_three() {
     let strip = |corners: [[f32; 2]; 4], z: fn([f32; 2]) -> f32| {
@@ -166,7 +167,7 @@ fn a_cycle_of_three() {
         strip([[-2.0, -0.25], [3.0, -0.25], [3.0, 0.25], [-2.0, 0.25]], |[x, _]| (x - 1.0) / 2.0),
         // Along x + y = 2, rising to the upper left.
         strip([[3.5, -2.0], [4.0, -1.5], [-1.5, 4.0], [-2.0, 3.5]], |[_, y]| (y - 1.0) / 2.0),
-        // Along the y axis, falling upwards.
+        // Along the y axis, falling upward.
         strip([[-0.25, -2.0], [0.25, -2.0], [0.25, 3.0], [-0.25, 3.0]], |[_, y]| (1.0 - y) / 2.0),
     ];
     let drawing =
@@ -208,14 +209,14 @@ fn a_cycle_of_three() {
     );
 }
 
-/// A floor that begins behind the eye, at height −1, and a line below it at height −2: where the
-/// near plane has cut the floor away, the line is visible.
+/// A floor that begins behind the eye, at height −1, and a line below it at height −2: the line is
+/// visible where the near plane cuts the floor away.
 #[test]
 fn a_floor_cut_by_the_near_plane() {
     let floor =
         quad_mesh([[-1.0, -1.0, 5.0], [1.0, -1.0, 5.0], [1.0, -1.0, -10.0], [-1.0, -1.0, -10.0]]);
     let line = line_mesh(&[[0.0, -2.0, -1.5], [0.0, -2.0, -15.0]]);
-    // The picture's half is 4 units, and 2 at distance 1: X = 2 x/−z.
+    // Half the picture is 4 units, and 2 at distance 1: X = 2 x/−z.
     let lens = projection::Frustum::new(-2.0, 2.0, -2.0, 2.0, 1.0, 100.0).unwrap();
     let lens = lens.view_to_clip(projection::Convention::CHAPTER);
     let drawing =
@@ -233,8 +234,8 @@ fn a_floor_cut_by_the_near_plane() {
     assert_segments_cover(&hidden, &[[[0.0, -2.0], [0.0, -4.0 / 15.0]]]);
 }
 
-/// Where two faces meet, seen from the front, a line runs exactly behind their common edge:
-/// together they hide it. Behind the border of one it touches, and stays.
+/// Two faces meet, seen from the front, and a line runs exactly behind their common edge: together
+/// they hide it. Behind the border of a single face it only touches, and stays visible.
 #[test]
 fn a_line_exactly_behind_a_shared_edge_is_hidden() {
     let roof = triangle_mesh(

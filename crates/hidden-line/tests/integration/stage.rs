@@ -25,7 +25,7 @@ pub fn build_model(primitives: Vec<Primitive>) -> Model {
     }
 }
 
-/// A scene that owns what a [`Subject`] borrows.
+/// A scene that owns the data that a [`Subject`] borrows.
 pub struct TestScene {
     pub models: Vec<ModelInstance>,
     pub view_projection: ViewProjection,
@@ -85,7 +85,7 @@ pub fn quad_mesh(corners: [[f32; 3]; 4]) -> Primitive {
     triangle_mesh(&corners, &[0, 1, 2, 0, 2, 3])
 }
 
-/// A box; each face has corners of its own, as files have them.
+/// A box; each face has its own corners, as in files.
 pub fn cuboid_mesh(min: [f32; 3], max: [f32; 3]) -> Primitive {
     let corner = |n: usize| [0, 1, 2].map(|axis| if n >> axis & 1 == 0 { min } else { max }[axis]);
     let faces =
@@ -95,10 +95,10 @@ pub fn cuboid_mesh(min: [f32; 3], max: [f32; 3]) -> Primitive {
     triangle_mesh(&positions, &indices)
 }
 
-/// A segment of the picture by its ends.
+/// A segment of the picture, given by its ends.
 pub type Segment = [[f64; 2]; 2];
 
-/// The drawing with the hidden segments retained; the same from two threads.
+/// The drawing with hidden segments retained; the same with two threads.
 pub fn draw_scene_lines(scene: &TestScene) -> LineDrawing {
     let drawing = draw(&scene.drawing_subject(), &DrawOptions::hidden_edges_retained(), 1).unwrap();
     assert_eq!(
@@ -108,7 +108,7 @@ pub fn draw_scene_lines(scene: &TestScene) -> LineDrawing {
     drawing
 }
 
-/// The lines that a predicate chooses, as segments in units of the picture.
+/// The lines chosen by a predicate, as segments in units of the picture.
 pub fn segments_where(
     drawing: &LineDrawing,
     choose: impl Fn(&EdgeSegment) -> bool,
@@ -121,7 +121,7 @@ pub fn is_visible_class(class: EdgeClass) -> impl Fn(&EdgeSegment) -> bool {
     move |line| line.visible && line.class == class
 }
 
-/// The lines must lie on the expected segments, and fill them exactly once.
+/// Asserts that the lines are on the expected segments and cover them exactly once.
 #[track_caller]
 pub fn assert_segments_cover(lines: &[Segment], expected: &[Segment]) {
     const NEAR: f64 = 1e-9;

@@ -1,4 +1,4 @@
-//! The bounds on the work of hidden-line removal, and crowds of faces.
+//! Work limits of hidden-line removal, and crowds of faces.
 
 use super::stage::*;
 use hidden_line::{DrawOptions, LineDrawing, Warning, draw};
@@ -6,8 +6,8 @@ use homog::Affine;
 use model::{Model, ModelInstance};
 use std::sync::Arc;
 
-/// Sheets behind each other, each a little larger than the one before it: all borders are visible,
-/// and each of them passes over the boxes of all sheets nearer than its own.
+/// Sheets behind each other, each a little larger than the previous one: all borders are visible,
+/// and each one passes over the boxes of all nearer sheets.
 fn stack_of_sheets(count: u16) -> Model {
     let sheet = |at: u16| {
         let (size, z) = (2.0 + f32::from(at) / f32::from(count), -f32::from(at) / 1024.0);
@@ -17,7 +17,7 @@ fn stack_of_sheets(count: u16) -> Model {
 }
 
 fn draw_stack(count: u16, max_comparisons: u64, threads: usize) -> LineDrawing {
-    // The stack is a crowd, and this is about the bound on the exact comparisons.
+    // The stack is a crowd, and this test is about the limit on exact comparisons.
     let options =
         DrawOptions { max_comparisons, is_unlimited: true, ..DrawOptions::hidden_edges_removed() };
     draw_model(stack_of_sheets(count), &options, threads)
@@ -36,7 +36,7 @@ fn draw_model(model: Model, options: &DrawOptions, threads: usize) -> LineDrawin
     draw(&scene.drawing_subject(), options, threads).unwrap()
 }
 
-/// Triangles of all sizes at random places before each other, the same at each call.
+/// Triangles of all sizes at random positions in front of each other, the same in each call.
 fn soup(count: usize) -> Model {
     let mut state = 1_u32;
     let mut random = || {
@@ -52,7 +52,7 @@ fn soup(count: usize) -> Model {
     build_model((0..count).map(|_| triangle()).collect())
 }
 
-/// The lengths of the visible and of the hidden segments in pixels.
+/// The total lengths of the visible and hidden segments in pixels.
 fn lengths(drawing: &LineDrawing) -> [f64; 2] {
     [true, false].map(|visible| {
         let segments = drawing.segments.iter().filter(|segment| segment.visible == visible);
@@ -70,7 +70,7 @@ fn a_crowd_is_drawn_nearly_as_exactly_as_without_limits() {
     assert_eq!(crowd, draw_model(soup(2000), &options, 3));
     let ([seen, _], [all, _]) = (lengths(&crowd), lengths(&exact));
     assert!(seen > 0.95 * all && seen < 1.001 * all, "{seen} of {all} pixels are visible");
-    // A tenth of them are fewer faces, and no crowd.
+    // A tenth of them is fewer faces, and not a crowd.
     let few = draw_model(soup(200), &options, 1);
     assert!(!few.warnings.contains(&Warning::CrowdApproximated));
 }
@@ -82,6 +82,6 @@ fn too_much_work_is_reported_and_the_same_from_any_number_of_threads() {
     let cut_off = draw_stack(3000, 0, 1);
     assert_eq!(cut_off.warnings, [Warning::VisibilityIncomplete]);
     assert_eq!(cut_off, draw_stack(3000, 0, 3));
-    // Few faces stay below the least work whatever the bound.
+    // Few faces stay below the minimum work at any limit.
     assert_eq!(draw_stack(50, 0, 1).warnings, []);
 }

@@ -1,4 +1,4 @@
-//! AutoCAD color index: the 255 colors of R2000, and the one that is nearest to an ink.
+//! AutoCAD color index: the 255 colors of R2000, and the one nearest to an ink.
 //!
 //! ```text
 //!   1 … 6      red, yellow, green, cyan, blue, magenta
@@ -13,13 +13,13 @@ use crate::page::Ink;
 /// The color that contrasts with the screen.
 const CONTRAST: u8 = 7;
 
-/// Inks whose channels differ by less, and that are darker or lighter than these, are black or
+/// Inks whose channels differ by less, and that are darker or lighter than these, become black or
 /// white.
 const MAX_GRAY_SPREAD: u8 = 32;
 const MAX_BLACK: u8 = 64;
 const MIN_WHITE: u8 = 224;
 
-/// The index of the color that is nearest to an ink; grays are grays, for a brown that is as bright
+/// The index of the color nearest to an ink. Grays stay gray, although a brown of equal brightness
 /// may be nearer.
 pub(super) fn color_index(ink: Ink) -> u8 {
     let [least, most] = ink.iter().fold([255, 0], |[low, high], &c| [c.min(low), c.max(high)]);
@@ -56,7 +56,7 @@ fn index_color(index: u8) -> Ink {
     }
 }
 
-/// The color of a hue: 15 degrees for each ten indices, five values, each in two saturations.
+/// The color of a hue: 15 degrees per ten indices, with five values in two saturations each.
 fn hue_color(number: u32) -> Ink {
     let value = [255, 189, 129, 104, 79][(number % 10 / 2) as usize];
     let (sector, quarter) = (number / 10 / 4, number / 10 % 4);

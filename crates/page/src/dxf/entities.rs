@@ -8,13 +8,13 @@ use crate::page::{Group, GroupContent, HatchArea, PagePoint, Polyline, TextLine}
 use arcs::{ArcVertex, Circle, LineShape, recognize_arcs};
 use glam::DVec2;
 
-/// Millimeters in a micrometer.
+/// Millimeters per micrometer.
 const MICROMETER: f64 = 1e-3;
 
 /// A rectangle: its lower left and its upper right corner.
 pub(super) type Extents = [DVec2; 2];
 
-/// The least rectangle around points.
+/// The smallest rectangle around points.
 pub(super) fn bounds_of(points: impl IntoIterator<Item = DVec2>) -> Extents {
     let far = DVec2::splat(f64::INFINITY);
     points.into_iter().fold([far, -far], |[low, high], point| [low.min(point), high.max(point)])
@@ -26,15 +26,15 @@ pub(super) struct EntityWriter {
     tags: TagWriter,
     /// The handle of the next entity.
     handle: u32,
-    /// The factor of the line type of entities.
+    /// The scale factor of the entities' line type.
     line_type_scale: f64,
-    /// Around all points so far.
+    /// The bounds of all points so far.
     bounds: Extents,
     options: DxfOptions,
 }
 
 impl EntityWriter {
-    /// A writer without entities.
+    /// Creates a writer without entities.
     pub(super) fn new(options: &DxfOptions) -> Self {
         let bounds = bounds_of([]);
         Self {
@@ -46,7 +46,7 @@ impl EntityWriter {
         }
     }
 
-    /// The entities, and the first handle that none of them has.
+    /// Returns the entities and the first unused handle.
     pub(super) fn finish(self) -> (TagWriter, u32) {
         (self.tags, self.handle)
     }
@@ -56,22 +56,22 @@ impl EntityWriter {
         (self.bounds[0].x <= self.bounds[1].x).then_some(self.bounds)
     }
 
-    /// A point of the page in the drawing.
+    /// Converts a page point to drawing coordinates.
     pub(super) fn place(&self, point: PagePoint) -> DVec2 {
         self.place_exactly(DVec2::new(f64::from(point[0]), f64::from(point[1])))
     }
 
-    /// A point of the page in micrometers, not on its grid, in the drawing.
+    /// Converts a point in micrometers, not on the page's grid, to drawing coordinates.
     ///
-    /// Thousandths are divided and not multiplied, so that coordinates on paper are the decimals of
-    /// the other formats.
+    /// Thousandths are divided, not multiplied, so that coordinates on paper have the same decimals
+    /// as in the other formats.
     fn place_exactly(&self, micrometers: DVec2) -> DVec2 {
         let origin = self.options.origin * 1000.0;
         let up = DVec2::new(micrometers.x - origin.x, origin.y - micrometers.y) / 1000.0;
         up * self.options.units_per_millimeter
     }
 
-    /// A length in micrometers in the drawing.
+    /// Converts a length in micrometers to drawing units.
     fn length(&self, micrometers: f64) -> f64 {
         micrometers / 1000.0 * self.options.units_per_millimeter
     }
@@ -96,8 +96,8 @@ impl EntityWriter {
         self.bounds = [self.bounds[0].min(low), self.bounds[1].max(high)];
     }
 
-    /// Writes a group of the page, whose line type is scaled by a factor: its text or hatching
-    /// instead of the strokes, if it is one.
+    /// Writes a group of the page, with its line type scaled by a factor. A text or a hatching
+    /// replaces the strokes.
     pub(super) fn write_group(&mut self, layer: &str, line_type_scale: f64, group: &Group) {
         self.line_type_scale = line_type_scale;
         match &group.content {
@@ -142,7 +142,7 @@ impl EntityWriter {
         }
     }
 
-    /// Writes center and radius.
+    /// Writes the center and the radius.
     fn write_circle(&mut self, circle: Circle) {
         let (center, radius) = (self.place_exactly(circle.center), self.length(circle.radius));
         self.tags.point_in_space(10, center);
@@ -150,7 +150,7 @@ impl EntityWriter {
         self.include([center - radius, center + radius]);
     }
 
-    /// Writes a polyline, or a line if it is a single one.
+    /// Writes a polyline, or a line if there is only one.
     fn write_path(&mut self, layer: &str, vertices: &[ArcVertex], closed: bool) {
         let placed: Vec<DVec2> =
             vertices.iter().map(|vertex| self.place_exactly(vertex.point)).collect();
@@ -163,25 +163,26 @@ impl EntityWriter {
         } else {
             self.begin("LWPOLYLINE", layer, "AcDbPolyline");
             self.tags.tag(90, vertices.len());
-            // 128: line types run around the vertices.
+            // 128: line types continue around the vertices.
             self.tags.tag(70, 128 + u8::from(closed));
             self.write_vertices(vertices, &placed, false);
         }
         self.include(placed);
     }
 
-    /// Writes the vertices of a polyline with their bulges, where there are any or always.
+    /// Writes the vertices of a polyline with their bulges, always, or only if there are any.
     fn write_vertices(&mut self, vertices: &[ArcVertex], placed: &[DVec2], always: bool) {
         for (vertex, point) in vertices.iter().zip(placed) {
             self.tags.point(10, *point);
             if always || vertex.bulge != 0.0 {
-                // With y up, arcs turn the other way round.
+                // With y up, arcs turn the opposite way.
                 self.tags.number(42, -vertex.bulge);
             }
         }
     }
 
-    /// Writes a text, fitted between the ends of its baseline, so that it is as wide in every font.
+    /// Writes a text, fitted between the ends of its baseline, so that it has the same width in
+    /// every font.
     fn write_text(&mut self, layer: &str, line: &TextLine) {
         if line.text.trim().is_empty() {
             return;
@@ -194,7 +195,7 @@ impl EntityWriter {
         self.tags.number(40, height);
         self.tags.tag(1, escape_text(&line.text));
         self.tags.number(50, libm::atan2(along.y, along.x).to_degrees());
-        // A single narrow letter has no width to be fitted to.
+        // A single narrow character has no width to fit.
         let is_fitted = along.length() > 0.05 * height;
         self.tags.tag(72, if is_fitted { 5 } else { 0 });
         if is_fitted {
@@ -226,7 +227,7 @@ impl EntityWriter {
         self.tags.tag(98, 0);
     }
 
-    /// Writes a loop around a hatch, the first of which is external.
+    /// Writes a boundary loop of a hatch; the first one is external.
     fn write_hatch_loop(&mut self, line: &Polyline, is_first: bool) {
         let vertices: Vec<ArcVertex> = match recognize_arcs(&line.points, line.closed, 0.0) {
             LineShape::Path(vertices, _) => vertices,
@@ -245,10 +246,12 @@ impl EntityWriter {
     /// Writes the pattern of a hatch: one family of continuous lines.
     fn write_pattern(&mut self, area: &HatchArea) {
         let along = DVec2::new(area.direction.x, -area.direction.y);
-        // Rounded, for the scales of a view differ in x and y by the rounding of its size in pixels.
+        // Rounded, because the scales of a view in x and y differ by the rounding of its size in
+        // pixels.
         let angle = degrees_within(libm::atan2(along.y, along.x), 180.0, 1e5);
         let spacing = area.spacing * self.options.units_per_millimeter;
-        // A predefined pattern, turned and scaled: its lines rise by 45° at distances of 3.175 mm.
+        // A predefined pattern, turned and scaled: its lines rise by 45° with a spacing of 3.175
+        // mm.
         self.tags.tag(76, 1);
         self.tags.number(52, if angle < 45.0 { angle + 135.0 } else { angle - 45.0 });
         self.tags.number(41, spacing / 3.175);
@@ -264,13 +267,13 @@ impl EntityWriter {
     }
 }
 
-/// An angle in degrees, rounded to one part of so many, from 0 to less than a period.
+/// An angle in degrees, rounded to 1/`parts` of a degree, from 0 to less than a period.
 fn degrees_within(radians: f64, period: f64, parts: f64) -> f64 {
     let degrees = libm::round(radians.to_degrees() * parts) / parts;
     degrees - period * libm::floor(degrees / period)
 }
 
-/// A text without what readers take for codes: `%%` and `^` begin some.
+/// Escapes the sequences that readers take for codes: some begin with `%%` or `^`.
 fn escape_text(text: &str) -> String {
     let text = if text.contains("%%") { text.replace('%', "%%%") } else { text.to_owned() };
     escape_unicode(&text.replace('^', "^ "))

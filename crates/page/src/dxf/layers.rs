@@ -1,4 +1,4 @@
-//! Layers and line types of a DXF file: one layer for each layer of the page and object.
+//! Layers and line types of a DXF file: one for each layer of the page and object.
 //!
 //! ```text
 //!   layer of the page   object        layer of the file
@@ -7,20 +7,20 @@
 //!   dimensions                        dimensions
 //! ```
 //!
-//! Names of layers ignore the case and exclude some characters; those become underscores.
+//! Layer names ignore case and exclude some characters, which become underscores.
 
 use super::color_index::color_index;
 use super::tags::TagWriter;
 use crate::page::{PageContent, Pen};
 use std::collections::BTreeMap;
 
-/// The line widths that the format knows, in hundredths of a millimeter.
+/// The line widths that the format supports, in hundredths of a millimeter.
 const LINE_WEIGHTS: [u16; 24] = [
     0, 5, 9, 13, 15, 18, 20, 25, 30, 35, 40, 50, 53, 60, 70, 80, 90, 100, 106, 120, 140, 158, 200,
     211,
 ];
 
-/// The most characters of a name.
+/// The maximum number of characters in a name.
 const MAX_NAME: usize = 200;
 
 /// The line type of continuous lines.
@@ -38,7 +38,7 @@ const ISO_LINE_TYPES: [(&str, &[f64]); 3] = [
 struct FileLayer {
     name: String,
     color: u8,
-    /// The index of the line type and the factor of its lengths; `None` for continuous lines.
+    /// The index of the line type and the factor for its lengths; `None` for continuous lines.
     line_type: Option<(usize, f64)>,
     /// In hundredths of a millimeter.
     weight: u16,
@@ -56,12 +56,12 @@ struct DashedType {
 pub(super) struct LayerTable {
     layers: Vec<FileLayer>,
     dashed: Vec<DashedType>,
-    /// For each layer of the page, and each of its groups, the index of the layer.
+    /// The index of the file layer for each layer of the page and each of its groups.
     of_groups: Vec<Vec<usize>>,
 }
 
 impl LayerTable {
-    /// The layers and line types of a page.
+    /// Collects the layers and line types of a page.
     pub(super) fn new(page: PageContent<'_>, units_per_millimeter: f64) -> Self {
         let mut table = Self { layers: Vec::new(), dashed: Vec::new(), of_groups: Vec::new() };
         let mut indices = BTreeMap::new();
@@ -83,23 +83,23 @@ impl LayerTable {
         table
     }
 
-    /// The name of the layer of a group of a layer of the page.
+    /// The name of the file layer for a group in a layer of the page.
     pub(super) fn name(&self, layer: usize, group: usize) -> &str {
         &self.layers[self.of_groups[layer][group]].name
     }
 
-    /// The factor of the line type of the layer of a group.
+    /// The line type factor of the layer that contains a group.
     pub(super) fn line_type_scale(&self, layer: usize, group: usize) -> f64 {
         self.layers[self.of_groups[layer][group]].line_type.map_or(1.0, |(_, factor)| factor)
     }
 
-    /// The number of layers, and of line types with dashes.
+    /// The number of layers and of dashed line types.
     pub(super) fn counts(&self) -> [usize; 2] {
         [self.layers.len(), self.dashed.len()]
     }
 
-    /// The index of the line type of a pen, which is added if it is new, and the factor of its
-    /// lengths; `None` for continuous lines.
+    /// The index of a pen's line type and the factor for its lengths; `None` for continuous lines.
+    /// A new line type is added.
     fn line_type_of(&mut self, pen: &Pen) -> Option<(usize, f64)> {
         let first = *pen.dashes.first()?;
         let fits = |pattern: &[f64]| {
@@ -119,7 +119,7 @@ impl LayerTable {
         Some((index, factor))
     }
 
-    /// Writes the records of the dashed line types, with handles from `first` on.
+    /// Writes the records of the dashed line types, with handles starting at `first`.
     pub(super) fn write_line_types(&self, tags: &mut TagWriter, owner: u32, first: u32) {
         for (handle, line_type) in (first..).zip(&self.dashed) {
             tags.tag(0, "LTYPE");
@@ -137,7 +137,7 @@ impl LayerTable {
         }
     }
 
-    /// Writes the records of the layers, with handles from `first` on.
+    /// Writes the records of the layers, with handles starting at `first`.
     pub(super) fn write_layers(&self, tags: &mut TagWriter, owner: u32, first: u32) {
         for (handle, layer) in (first..).zip(&self.layers) {
             tags.tag(0, "LAYER");
@@ -155,7 +155,7 @@ impl LayerTable {
     }
 }
 
-/// The name of a layer for a layer of the page and the name of an object.
+/// The file layer name for a layer of the page and an object's name.
 fn layer_name(id: &str, object: &str) -> String {
     let whole = if object.is_empty() { id.to_owned() } else { format!("{id}.{object}") };
     let allowed = |c: char| match c {
@@ -167,8 +167,8 @@ fn layer_name(id: &str, object: &str) -> String {
     escape_unicode(name.trim_end())
 }
 
-/// A text in ASCII, with other characters by their code, Ø as `\U+00D8`; those beyond four digits,
-/// and controls, become `?`.
+/// Escapes a text to ASCII: other characters are written by code, Ø as `\U+00D8`. Codes beyond four
+/// digits, and controls, become `?`.
 pub(super) fn escape_unicode(text: &str) -> String {
     let escaped = |c: char| match u32::from(c) {
         0x20..=0x7e => c.to_string(),
@@ -178,7 +178,7 @@ pub(super) fn escape_unicode(text: &str) -> String {
     text.chars().map(escaped).collect()
 }
 
-/// The line width of the format that is nearest to one in millimeters.
+/// The supported line width nearest to a width in millimeters.
 fn line_weight(millimeters: f64) -> u16 {
     let hundredths = millimeters * 100.0;
     let nearer = |a: &u16, b: &u16| {

@@ -1,4 +1,4 @@
-//! Tags: pairs of a group code and a value, one to a line, of which DXF files consist.
+//! Tags, of which DXF files consist: pairs of a group code and a value, each on its own line.
 
 use glam::DVec2;
 use std::fmt::{Display, Write};
@@ -12,7 +12,7 @@ pub(super) struct TagWriter {
 impl TagWriter {
     /// Appends a tag.
     pub(super) fn tag(&mut self, code: u16, value: impl Display) {
-        // Writing to a text cannot fail.
+        // Writing to a string cannot fail.
         let _ = writeln!(self.out, "{code}\n{value}");
     }
 
@@ -21,10 +21,10 @@ impl TagWriter {
         self.tag(code, format_args!("{handle:X}"));
     }
 
-    /// Appends a tag with a number: the shortest decimal that is read as the same number, with a
+    /// Appends a tag with a number: the shortest decimal that reads back as the same number, with a
     /// point and without an exponent.
     pub(super) fn number(&mut self, code: u16, number: f64) {
-        // Adding 0 makes −0 to 0.
+        // Adding 0 turns −0 into 0.
         let number = number + 0.0;
         if number == libm::trunc(number) {
             self.tag(code, format_args!("{number}.0"));
@@ -39,13 +39,13 @@ impl TagWriter {
         self.number(code + 10, point.y);
     }
 
-    /// Appends x, y and a z of 0.
+    /// Appends x, y and z = 0.
     pub(super) fn point_in_space(&mut self, code: u16, point: DVec2) {
         self.point(code, point);
         self.number(code + 20, 0.0);
     }
 
-    /// Appends tags from a text in which they are separated by `|`, and code and value by `=`.
+    /// Appends tags from a text that separates tags by `|`, and code and value by `=`.
     pub(super) fn tags(&mut self, text: &str) {
         for pair in text.split('|').map(str::trim).filter(|pair| !pair.is_empty()) {
             let (code, value) = pair.split_once('=').unwrap_or((pair, ""));
@@ -53,7 +53,7 @@ impl TagWriter {
         }
     }
 
-    /// Appends what another writer has.
+    /// Appends the tags of another writer.
     pub(super) fn append(&mut self, other: &Self) {
         self.out += &other.out;
     }

@@ -1,4 +1,4 @@
-//! Files read back tag by tag.
+//! DXF files read back tag by tag.
 
 use super::*;
 use crate::page::{Group, GroupContent, HatchArea, Layer, Pen, Polyline};
@@ -14,7 +14,7 @@ fn read_tags(file: &[u8]) -> Vec<(u16, String)> {
     lines.chunks(2).map(pair).collect()
 }
 
-/// The entities of a kind, each as its tags.
+/// The entities of a kind, each as a list of tags.
 fn entities_of<'a>(tags: &'a [(u16, String)], kind: &str) -> Vec<&'a [(u16, String)]> {
     let starts = tags.iter().enumerate().filter(|(_, (code, _))| *code == 0).map(|(at, _)| at);
     let ends = starts.clone().skip(1).chain([tags.len()]);
@@ -26,7 +26,7 @@ fn value(entity: &[(u16, String)], code: u16) -> &str {
     entity.iter().find(|(other, _)| *other == code).map_or("", |(_, value)| value)
 }
 
-/// A page with a line, a dashed polyline, a circle, a text and a hatching.
+/// A page with a line, a dashed polyline, a circle, a text and hatching.
 fn page() -> Page {
     let mut page: Page = Page::new(DVec2::new(100.0, 50.0), "parts", None);
     let mut lines = Layer::new("lines", "lines", Pen::solid(0.5, [255, 0, 0]));
@@ -75,7 +75,7 @@ fn a_page_on_paper_has_its_coordinates_from_the_lower_left_corner() {
     assert_eq!([1, 40, 72].map(|code| value(text, code)), ["\\U+00D8 12^ 3", "3.5", "5"]);
     let hatch = entities_of(&tags, "HATCH")[0];
     let number = |code| value(hatch, code).parse::<f64>().expect("a number");
-    // Lines that rise to the right by 45°, two millimeters apart.
+    // Lines that rise to the right at 45°, two millimeters apart.
     assert!(number(53) == 45.0 && (libm::hypot(number(45), number(46)) - 2.0).abs() < 1e-12);
     assert_eq!(value(hatch, 91), "1");
 }

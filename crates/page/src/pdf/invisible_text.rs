@@ -1,14 +1,14 @@
-//! Texts of PDF pages that can be found, selected and copied: invisible glyphs over the strokes.
+//! Searchable text in PDF pages: invisible glyphs over the strokes, to find, select and copy.
 //!
 //! ```text
 //!   Group with content Text ─► its strokes, drawn       what is seen
 //!                           └► BT /F0 1 Tf … Tm <0A0B> Tj ET      what is searched
 //! ```
 //!
-//! The fonts are of Type 3 (ISO 32000-1, 9.6.5), whose glyphs are content streams: here empty ones,
-//! so that nothing is drawn in any viewer and no font file is needed. Their widths are those of the
-//! stroke font, so a selection covers the letters. ToUnicode says which characters they are, also
-//! those that the stroke font lacks.
+//! The fonts are Type 3 fonts (ISO 32000-1, 9.6.5), whose glyphs are content streams. Empty streams
+//! draw nothing in any viewer and need no font file. Widths match the stroke font, so a selection
+//! covers the characters. ToUnicode maps the codes to characters, including those that the stroke
+//! font lacks.
 
 use crate::page::{GroupContent, PageContent, TextLine};
 use crate::stroke_font::advance_width;
@@ -19,23 +19,23 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The characters of a font: codes 1 to 255.
 const FONT_CHARACTERS: usize = 255;
 
-/// The glyphs' units in a unit of text: the height of capitals is 1.
+/// The glyph unit, in units of text in which the height of capitals is 1.
 const UNIT: f32 = 0.1;
 
-/// The name of a glyph by its width in thousandths; glyphs are equal but for it.
+/// The name of a glyph, from its width in thousandths; glyphs differ only in width.
 fn glyph_name(width: i32) -> String {
     format!("w{width}")
 }
 
-/// The characters of the texts of pages, divided among fonts.
+/// The characters of the pages' texts, divided among fonts.
 pub(super) struct TextFonts {
-    /// In the order of their codes.
+    /// The characters in the order of their codes.
     characters: Vec<char>,
-    /// The widths in thousandths that the characters have.
+    /// The widths of the characters, in thousandths.
     widths: BTreeSet<i32>,
 }
 
-/// The character that stands for another one: a blank for white space, nothing for a control.
+/// The character to search for: a blank for white space, `None` for a control.
 fn searched(character: char) -> Option<char> {
     match character {
         c if c.is_whitespace() => Some(' '),
@@ -44,12 +44,12 @@ fn searched(character: char) -> Option<char> {
     }
 }
 
-/// The advance width of a character in thousandths of a unit of the stroke font.
+/// The advance width of a character in thousandths of a stroke-font unit.
 fn width_of(character: char) -> i32 {
     libm::round(advance_width(character) * 1000.0) as i32
 }
 
-/// The texts of a page's layer groups.
+/// The texts in a page's layer groups.
 fn texts_of(page: PageContent<'_>) -> impl Iterator<Item = &TextLine> {
     let groups = page.layers.iter().flat_map(|layer| &layer.groups);
     groups.filter_map(|group| match &group.content {
@@ -59,7 +59,7 @@ fn texts_of(page: PageContent<'_>) -> impl Iterator<Item = &TextLine> {
 }
 
 impl TextFonts {
-    /// The fonts for the texts of pages.
+    /// Creates the fonts for the texts of the pages.
     pub(super) fn new(pages: &[PageContent<'_>]) -> Self {
         let lines = pages.iter().copied().flat_map(texts_of);
         let characters: BTreeSet<char> =
@@ -78,12 +78,12 @@ impl TextFonts {
         format!("F{font}")
     }
 
-    /// The id of a font object, if ids from `first` on are for fonts.
+    /// The id of a font object if font ids start at `first`.
     pub(super) fn font_id(first: usize, font: usize) -> Ref {
         Ref::new((first + 2 * font) as i32)
     }
 
-    /// Writes the fonts, their tables of characters and their glyphs, as objects from `first` on.
+    /// Writes the fonts, their character tables and their glyphs, as objects starting at `first`.
     pub(super) fn write(&self, pdf: &mut Pdf, first: usize) {
         let procedures = first + 2 * self.count();
         let numbered = self.widths.iter().zip(procedures..);
@@ -100,13 +100,13 @@ impl TextFonts {
             pdf.cmap(table, &cmap.finish());
         }
         for (width, id) in procedures {
-            // A glyph of this width without a mark.
+            // An empty glyph of this width.
             let width = f64::from(width) / 1000.0;
             pdf.stream(id, format!("{width} 0 d0").as_bytes());
         }
     }
 
-    /// The operators that show a text, between the millimeters of the page.
+    /// Returns the operators that show a text, in page millimeters.
     pub(super) fn show(&self, line: &TextLine) -> Vec<u8> {
         let mut out = Vec::new();
         let [[x, y], [end_x, end_y]] = line.baseline;
@@ -118,7 +118,7 @@ impl TextFonts {
         if codes.is_empty() {
             return out;
         }
-        // Text runs along the baseline, its y axis up from it; that of the page is down.
+        // Text runs along the baseline with its y axis up; the y axis of the page points down.
         let [a, b] = along.to_array().map(|part| libm::round(part) as i64);
         let matrix = [a, b, b, -a, i64::from(x), i64::from(y)];
         out.extend_from_slice(b"BT\n");
@@ -140,7 +140,7 @@ impl TextFonts {
         out
     }
 
-    /// The font and the code of a character.
+    /// The font and code of a character.
     fn code(&self, character: char) -> Option<(usize, u8)> {
         let at = self.characters.binary_search(&character).ok()?;
         Some((at / FONT_CHARACTERS, u8::try_from(at % FONT_CHARACTERS + 1).ok()?))
@@ -181,7 +181,7 @@ mod tests {
     use crate::{Label, Layer, Pen};
     use glam::DVec2;
 
-    /// A page with these texts.
+    /// A page with the given texts.
     fn page_of(texts: &[&str]) -> Page {
         let mut page: Page = Page::new(DVec2::splat(100.0), "texts", None);
         let mut layer = Layer::new("text", "text", Pen::solid(0.25, [0; 3]));
@@ -207,7 +207,7 @@ mod tests {
     fn more_than_255_characters_need_a_second_font() {
         let all: String = ('\u{4e00}'..'\u{4f00}').collect();
         let fonts = TextFonts::new(&[page_of(&[&all, "\u{7}\t"]).content()]);
-        // 256 and the blank that the tab became; no control.
+        // 256, plus the blank that replaces the tab; the control is dropped.
         assert_eq!((fonts.characters.len(), fonts.count()), (257, 2));
         assert_eq!(fonts.code('\u{4eff}'), Some((1, 2)));
         assert_eq!(TextFonts::new(&[page_of(&["\u{7}", ""]).content()]).count(), 0);

@@ -1,14 +1,14 @@
-//! Accented letters of the stroke font: a base letter, and a mark over, under or beside it.
+//! Accented letters of the stroke font: a base letter with a mark above, below or beside it.
 //!
-//! Marks are composed with letters at run time, so the table of glyphs holds 95 shapes instead of
-//! several hundred. A mark is drawn about x = 0 and moved to the middle of its letter; its y counts
-//! from the top of the letter, that of a cedilla from the baseline.
+//! Marks are composed with letters at run time, so the glyph table holds 95 shapes instead of
+//! several hundred. A mark is drawn around x = 0 and moved to the middle of its letter. Its y
+//! starts at the top of the letter, or at the baseline for a cedilla.
 
 use super::{Glyph, glyph_for_char, parse_strokes};
 use glam::DVec2;
 
-/// The marks as paths about x = 0, with y from the top of the letter; those under it, with y from
-/// the baseline.
+/// The marks as paths around x = 0, with y from the top of the letter, or from the baseline for
+/// marks below.
 const ACUTE: &str = "m -0.7,1.2 l 0.9,2.9";
 const GRAVE: &str = "m 0.7,1.2 l -0.9,2.9";
 const CIRCUMFLEX: &str = "m -1.5,1.2 l 0,2.8 l 1.5,1.2";
@@ -39,13 +39,13 @@ const MARKED_LETTERS: &[(&str, &str)] = &[
     (CEDILLA, "ÇCŞSŢTçcşsţt"),
 ];
 
-/// Letters whose caron is written as an apostrophe at their side, each with its base letter (Czech
+/// Letters whose caron is written as an apostrophe beside them, each with its base letter (Czech
 /// and Slovak usage).
 const APOSTROPHE_CARON_LETTERS: &str = "ďdťtľlĽL";
 
-/// The glyph of an accented letter; `None` if the character is none of these.
+/// The glyph of an accented letter; `None` for any other character.
 ///
-/// A caron at d, t, l and L is an apostrophe at the upper right corner, and widens the letter.
+/// The caron of d, t, l and L is an apostrophe at the upper right corner, and widens the letter.
 pub(super) fn accented_glyph(character: char) -> Option<Glyph> {
     for (mark, letters) in MARKED_LETTERS {
         if let Some(letter) = base_letter(letters, character) {
@@ -60,7 +60,7 @@ pub(super) fn accented_glyph(character: char) -> Option<Glyph> {
     Some(glyph)
 }
 
-/// The base letter of an accented one, in a list of pairs.
+/// Finds the base letter of an accented one in a list of pairs.
 fn base_letter(letters: &str, character: char) -> Option<char> {
     let mut pairs = letters.chars();
     while let (Some(marked), Some(letter)) = (pairs.next(), pairs.next()) {
@@ -71,16 +71,16 @@ fn base_letter(letters: &str, character: char) -> Option<char> {
     None
 }
 
-/// A letter with a mark over its middle, or a cedilla under it.
+/// Composes a letter with a mark above its middle, or a cedilla below it.
 ///
-/// A letter without width, such as the dotless i, is widened, so that its mark does not reach into
-/// its neighbors.
+/// A letter without width, such as the dotless i, is widened so that its mark does not reach its
+/// neighbors.
 fn glyph_with_mark(letter: char, mark: &str) -> Glyph {
     let mut glyph = glyph_for_char(letter);
     let is_below = mark == CEDILLA;
     let top = glyph.strokes.iter().flatten().fold(0.0, |top: f64, point| point.y.max(top));
     let middle = glyph.width * 0.5;
-    // A letter that is no wider than its stroke is moved aside to center its mark.
+    // A letter as narrow as its stroke is moved aside to center its mark.
     if middle == 0.0 {
         glyph.strokes.iter_mut().flatten().for_each(|point| point.x += 0.8);
         glyph.width = 1.6;

@@ -1,10 +1,10 @@
-//! Glyph table of the stroke font: character, advance width, and path.
+//! Glyph table of the stroke font: character, advance width and path.
 //!
-//! Capitals are 10 units high, small letters 7; paths use the commands described in the parent
-//! module. Accented letters are composed in `accents`. Shapes follow the upright letters of ISO
-//! 3098-2 as far as two or three strokes allow.
+//! Capitals are 10 units high, small letters 7. The parent module describes the path commands.
+//! Accented letters are composed in `accents`. Shapes follow the vertical letters of ISO 3098-2 as
+//! closely as two or three strokes allow.
 
-/// The box that is drawn for characters that the font lacks.
+/// The box drawn for characters that the font lacks.
 pub(super) const MISSING_GLYPH: &str = "m 0,0 l 5,0 l 5,10 l 0,10 l 0,0";
 
 /// The unaccented characters; searched linearly, since labels are short.

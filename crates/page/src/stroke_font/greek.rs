@@ -1,6 +1,6 @@
-//! Greek letters, arrows and signs of mathematics: for angles, vectors and tolerances.
+//! Greek letters, arrows and mathematical symbols, for angles, vectors and tolerances.
 
-/// Letters that look like Latin ones of the font.
+/// Letters that look like Latin letters of the font.
 #[rustfmt::skip]
 const SAME: &[(char, char)] = &[
     ('Α', 'A'), ('Β', 'B'), ('Ε', 'E'), ('Ζ', 'Z'), ('Η', 'H'), ('Ι', 'I'), ('Κ', 'K'), ('Μ', 'M'),
@@ -59,7 +59,7 @@ pub(super) const GLYPHS: &[(char, f64, &str)] = &[
     ('″', 2.4, "m 0.8,10.4 l 0,7.6 m 2.4,10.4 l 1.6,7.6"),
 ];
 
-/// The character of the font that a letter looks like, itself if there is no other.
+/// The character of the font that a letter looks like, or the letter itself.
 pub(super) fn look_alike(character: char) -> char {
     SAME.iter().find(|(letter, _)| *letter == character).map_or(character, |(_, same)| *same)
 }

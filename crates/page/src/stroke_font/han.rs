@@ -1,7 +1,6 @@
-//! Chinese characters of the stroke font: those of the title block's field names, in the simplified
-//! forms of the mainland.
+//! Chinese characters of the stroke font, for title block field names, in simplified form.
 //!
-//! Each fills a square of ten units on the baseline.
+//! Each one fills a square of ten units on the baseline.
 
 /// The width of a character.
 pub(super) const WIDTH: f64 = 10.0;

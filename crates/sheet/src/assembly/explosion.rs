@@ -1,4 +1,4 @@
-//! Exploded views: how far each part moves along an axis until it is apart from all others.
+//! Exploded views: how far each part moves along an axis to be clear of all others.
 //!
 //! ```text
 //!   ┌──┐                      the largest part stays; every other one leaves on the side where its
@@ -10,27 +10,28 @@
 //!  └────┘  base
 //! ```
 //!
-//! The box of a moved part does not meet the parts that were placed before it, and so no two parts
-//! intersect. There is no iteration that might not end.
+//! The box of a moved part does not meet the parts placed before it, so no two parts intersect. The
+//! computation always ends.
 
 use super::part_shapes::{Column, Corners, PartShapes, PlacedPart};
 use super::removal::removal_sides;
 use glam::DVec3;
 
-/// More parts than these stay in their places: each is compared with all before it.
+/// The maximum number of parts to explode: each is compared with all earlier ones.
 pub(crate) const MAX_EXPLODED_PARTS: usize = 5000;
 
-/// The distance between two parts, as a fraction of the diagonal of the assembly.
+/// The distance between parts, as a fraction of the diagonal of the assembly.
 const DEFAULT_DISTANCE: f64 = 0.08;
 
-/// Parts whose centers are no farther from a line, as a fraction of that diagonal, are in line.
+/// The maximum distance of the center of an aligned part from a line, as a fraction of that
+/// diagonal.
 const IN_LINE: f64 = 0.01;
 
 /// The direction in which the parts of an exploded view move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum ExplosionAxis {
-    /// Along the axis on which most parts are in line with the largest one; among equal ones that on
-    /// which parts move least.
+    /// Along the axis on which most parts are aligned with the largest one; if equal, the one along
+    /// which parts move the least.
     #[default]
     Auto,
     /// To the left and to the right.
@@ -39,29 +40,29 @@ pub enum ExplosionAxis {
     Y,
     /// To the front and to the back.
     Z,
-    /// Each part away from the largest one, along the axis on which it is farthest from it.
+    /// Each part away from the largest one, along the axis on which it is farthest from that part.
     All,
 }
 
-/// How the parts of an exploded view move.
+/// Settings for moving the parts of an exploded view.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct ExplosionSettings {
     /// The direction.
     pub axis: ExplosionAxis,
-    /// The least distance of two parts along it, in units of the scene, not negative; `None` for
-    /// 0.08 of the diagonal of the assembly.
+    /// The minimum distance between parts in this direction, in scene units, not negative; `None`
+    /// for 0.08 of the diagonal of the assembly.
     pub distance: Option<f64>,
 }
 
 impl ExplosionSettings {
-    /// The move of each part: 0 for the largest.
+    /// Returns the move of each part: 0 for the largest.
     pub(crate) fn moves(&self, shapes: &PartShapes) -> Vec<DVec3> {
         let boxes = &shapes.boxes;
         let whole = boxes.iter().copied().reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
         let Some([low, high]) = whole else { return Vec::new() };
         let size = high - low;
         let gap = self.distance.unwrap_or(size.length() * DEFAULT_DISTANCE).max(0.0);
-        // Parts that touch would be one for rounding.
+        // Rounding could make touching parts overlap.
         let gap = gap.max(size.length() * 1e-6);
         let base = largest(boxes);
         let axis = match self.axis {
@@ -75,7 +76,7 @@ impl ExplosionSettings {
     }
 }
 
-/// The moves of all parts away from the base, along an axis or each along its own.
+/// The moves of all parts away from the base, along one axis or each along its own axis.
 fn moves_along(shapes: &PartShapes, base: usize, axis: Option<usize>, gap: f64) -> Vec<DVec3> {
     let boxes = &shapes.boxes;
     let directions: Vec<Direction> =
@@ -103,7 +104,7 @@ fn moves_along(shapes: &PartShapes, base: usize, axis: Option<usize>, gap: f64) 
     moves
 }
 
-/// A direction along an axis of the world, and where the center of the base is on it.
+/// A direction along a world axis, and the position of the base's center on it.
 #[derive(Clone, Copy, Debug)]
 struct Direction {
     axis: usize,
@@ -112,10 +113,10 @@ struct Direction {
 }
 
 impl Direction {
-    /// The direction of a part away from the base: on its axis, or on that on which it is farthest
-    /// from the base, measured by the size of the base.
+    /// The direction of a part away from the base: along its axis, or along the axis on which it is
+    /// farthest from the base, relative to the size of the base.
     ///
-    /// On that side a part ends farther out of the base than on the other.
+    /// On that side a part extends farther beyond the base than on the other.
     fn away_from_base(part: Corners, base: Corners, axis: Option<usize>) -> Self {
         let away = (part[0] + part[1] - base[0] - base[1]) * 0.5;
         let half = (base[1] - base[0]) * 0.5;
@@ -133,15 +134,16 @@ impl Direction {
         DVec3::AXES[self.axis] * self.sign
     }
 
-    /// How far the farther end of a part is from the center of the base: a part that ends beyond
-    /// another one is in its way, as a bolt with its head is in the way of what it holds.
+    /// The distance from the center of the base to the farther end of a part. A part that extends
+    /// beyond another one is in its way, like the head of a bolt for the parts it holds.
     fn distance(self, part: Corners) -> f64 {
         (part[usize::from(self.sign > 0.0)][self.axis] - self.base) * self.sign
     }
 
-    /// The way that the box of a part has to go beyond all parts in its column, 0 or more.
+    /// The distance that the box of a part has to move to be beyond all parts in its column, at
+    /// least 0.
     fn clearance(self, part: Corners, shapes: &PartShapes, placed: &[PlacedPart], gap: f64) -> f64 {
-        // Where a column ends, rounding must not decide.
+        // At the border of a column, rounding must not decide.
         let column = Column::new(part, self.axis, gap * 1e-3);
         let near = part[usize::from(self.sign < 0.0)][self.axis] * self.sign;
         let reaches = placed.iter().filter_map(|other| shapes.reach(*other, &column, self.sign));
@@ -149,7 +151,7 @@ impl Direction {
     }
 }
 
-/// The part with the greatest box; the first of equal ones.
+/// The part with the largest box; the first one if equal.
 fn largest(boxes: &[Corners]) -> usize {
     let size = |[low, high]: Corners| {
         let sides = high - low;
@@ -163,8 +165,8 @@ fn largest(boxes: &[Corners]) -> usize {
     (0..boxes.len()).reduce(greater).unwrap_or(0)
 }
 
-/// The axis on which most parts are in line with the base; among equal ones that on which parts move
-/// least, y before x before z.
+/// The axis on which most parts are aligned with the base; if equal, the one along which parts move
+/// the least, y before x before z.
 fn axis_of_assembly(shapes: &PartShapes, base: usize, size: DVec3, gap: f64) -> usize {
     let boxes = &shapes.boxes;
     let center = |[low, high]: Corners| (low + high) * 0.5;
@@ -215,7 +217,7 @@ mod tests {
         ];
         let settings = ExplosionSettings { axis: ExplosionAxis::Y, distance: Some(1.0) };
         let heights: Vec<f64> = moves_of(settings, &boxes).iter().map(|by| by.y).collect();
-        // The pin ends beyond the ring: the ring goes first, to 3, then the pin to 5.
+        // The pin extends beyond the ring, so the ring moves first, to 3, then the pin to 5.
         assert_eq!(heights, [1.0, 0.0, 6.0, -1.0]);
     }
 
@@ -224,7 +226,7 @@ mod tests {
         let bolt = |x: f64| boxed([x - 1.0, 1.0, -0.5], [x + 1.0, 4.0, 0.5]);
         let boxes = [boxed([-9.0, 0.0, -9.0], [9.0, 2.0, 9.0]), bolt(-5.0), bolt(0.0), bolt(5.0)];
         let settings = ExplosionSettings { axis: ExplosionAxis::Auto, distance: Some(0.5) };
-        // One bolt is in line with the plate along y; they move by the same way.
+        // One bolt is aligned with the plate along y; all move by the same distance.
         assert_eq!(moves_of(settings, &boxes)[1..], [DVec3::Y * 1.5; 3]);
         let settings = ExplosionSettings { axis: ExplosionAxis::Y, distance: Some(0.5) };
         assert_eq!(moves_of(settings, &boxes)[1..], [DVec3::Y * 1.5; 3]);

@@ -1,8 +1,8 @@
-//! Equal parts: the same triangles, lines and materials at the same size, wherever they are.
+//! Equal parts: parts with the same triangles, lines and materials at the same size, in any place.
 //!
-//! Meshes are compared by their content, so that copies in a file count as one part. A mirror image
-//! is another part. Meshes of one shape whose vertices a file gives at several places are different
-//! here: positions are compared as they are.
+//! Meshes are compared by content, so copies in a file count as one part. A mirror image is a
+//! different part. Meshes with the same shape but different vertex positions in the file are
+//! different here, because positions are compared as they are.
 
 use super::part::{Part, drawn_primitives};
 use glam::DMat3;
@@ -10,21 +10,21 @@ use model::{MeshInstance, Model, ModelInstance, Primitive};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Lengths and angles of equal parts differ by no more than this fraction, from rounding.
+/// The maximum relative difference between lengths and angles of equal parts, due to rounding.
 const SHAPE_TOLERANCE: f64 = 1e-5;
 
-/// Sizes of one mesh beyond this number are not compared: each is a part of its own.
+/// The maximum number of sizes of a mesh that are compared: beyond that, each is a separate part.
 const MAX_SIZES: usize = 1000;
 
-/// A size of a content: its linear map, whether it is mirrored, and the number of its class.
+/// A size of a mesh content: its linear map, whether it is mirrored, and its class number.
 type SizeClass = (DMat3, bool, usize);
 
 /// Finds equal parts: two parts have the same number if they are equal.
 pub(super) struct PartClasses<'a> {
     models: &'a [ModelInstance],
-    /// Contents by their digests: a part that has it, and its number.
+    /// Contents by digest: a part with this content, and the content's number.
     contents: BTreeMap<u64, Vec<(usize, MeshInstance)>>,
-    /// The digests of meshes that nothing deforms, by the first model that has them.
+    /// The digests of undeformed meshes, by the first model that has them.
     rigid: BTreeMap<(usize, usize), (u64, usize)>,
     /// The sizes of a content, and the number of each class.
     sizes: BTreeMap<(u64, usize), Vec<SizeClass>>,
@@ -32,7 +32,7 @@ pub(super) struct PartClasses<'a> {
 }
 
 impl<'a> PartClasses<'a> {
-    /// No classes yet.
+    /// Starts without classes.
     pub(super) fn new(models: &'a [ModelInstance]) -> Self {
         Self {
             models,
@@ -43,7 +43,7 @@ impl<'a> PartClasses<'a> {
         }
     }
 
-    /// The class of a part.
+    /// Returns the class of a part.
     pub(super) fn class_of(&mut self, part: &Part) -> usize {
         let content = self.content_of(part);
         let (shape, mirrored) = part.shape(self.models);
@@ -60,7 +60,7 @@ impl<'a> PartClasses<'a> {
         class
     }
 
-    /// The digest of a part's mesh, and which of those with this digest it is.
+    /// The digest of a part's mesh, and its number among the contents with this digest.
     fn content_of(&mut self, part: &Part) -> (u64, usize) {
         let model = &self.models[part.model].model;
         let is_same = |other: &ModelInstance| Arc::ptr_eq(&other.model, model);
@@ -89,20 +89,20 @@ impl<'a> PartClasses<'a> {
     }
 }
 
-/// Whether two Gram matrices are equal but for rounding.
+/// Whether two Gram matrices are equal up to rounding.
 fn are_close(a: DMat3, b: DMat3) -> bool {
     let size = a.x_axis.x + a.y_axis.y + a.z_axis.z;
     (a - b).to_cols_array().iter().all(|difference| difference.abs() <= SHAPE_TOLERANCE * size)
 }
 
-/// The material of a primitive as far as a list tells it apart: its name and base color.
+/// The material of a primitive as distinguished in a list: its name and base color.
 fn material_key<'a>(model: &'a Model, primitive: &Primitive) -> (Option<&'a str>, [u32; 4]) {
     let material = primitive.material.and_then(|index| model.materials.get(index));
     let color = material.map_or([1.0; 4], |material| material.base_color);
     (material.and_then(|material| material.name.as_deref()), color.map(f32::to_bits))
 }
 
-/// A number that equal meshes have in common (Fowler, Noll and Vo, by words).
+/// A digest shared by equal meshes (Fowler, Noll and Vo, by words).
 fn digest_of_mesh(model: &Model, instance: MeshInstance) -> u64 {
     let mut digest = 0xcbf2_9ce4_8422_2325_u64;
     let mut add = |word: u32| {

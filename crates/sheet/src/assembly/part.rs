@@ -1,4 +1,4 @@
-//! Parts: the nodes of models that carry a mesh, with their names, places and bounding boxes.
+//! Parts: the nodes of models that have a mesh, with their names, places and bounding boxes.
 
 use glam::{DMat3, DVec3};
 use homog::{Affine, Bounds, Model as ModelSpace, Point, World};
@@ -7,19 +7,19 @@ use model::{MeshInstance, Model, ModelInstance, Primitive, SkinnedPrimitive, Top
 /// A node with a mesh that has lines or triangles, once for each instance of the mesh.
 #[derive(Clone, Debug)]
 pub(crate) struct Part {
-    /// The name in one line: see [`part_name`].
+    /// The name on one line: see [`part_name`].
     pub(crate) name: String,
-    /// The number of its object in drawings of the same models.
+    /// The index of its object in drawings of the same models.
     pub(crate) object: u32,
-    /// The number of its model.
+    /// The index of its model.
     pub(crate) model: usize,
     /// The node and its place in the model.
     pub(crate) instance: MeshInstance,
-    /// The least and the greatest corner of its bounding box in the world.
+    /// Its bounding box in the world.
     pub(crate) bounds: Bounds<World>,
 }
 
-/// The parts of models, in the order of their nodes: parents before children.
+/// Returns the parts of models, in the order of their nodes: parents before children.
 pub(crate) fn gather_parts(models: &[ModelInstance]) -> Vec<Part> {
     let mut parts = Vec::new();
     let mut object = 0;
@@ -47,7 +47,7 @@ pub(crate) fn drawn_primitives(
     primitives.filter(|one| one.topology != Topology::Points && one.item_count() > 0)
 }
 
-/// The bounding box of the vertices that lines and triangles use; `None` without any.
+/// The bounding box of the vertices used by lines and triangles; `None` without any.
 fn part_bounds(placed: &ModelInstance, instance: MeshInstance) -> Option<Bounds<World>> {
     let mut extent: Option<[DVec3; 2]> = None;
     for primitive in drawn_primitives(&placed.model, instance) {
@@ -68,7 +68,7 @@ fn part_bounds(placed: &ModelInstance, instance: MeshInstance) -> Option<Bounds<
 }
 
 impl Part {
-    /// The map from the positions of its vertices, once they are skinned, to the world.
+    /// The map from its vertex positions, after skinning, to the world.
     pub(crate) fn to_world(
         &self,
         models: &[ModelInstance],
@@ -77,15 +77,15 @@ impl Part {
         skinned.to_model.then(models[self.model].model_to_world)
     }
 
-    /// The lengths and angles of the part's axes in the world: the Gram matrix of the linear part,
-    /// and whether the part is a mirror image.
+    /// The lengths and angles of the part's axes in the world (the Gram matrix of the linear part),
+    /// and whether the part is mirrored.
     pub(crate) fn shape(&self, models: &[ModelInstance]) -> (DMat3, bool) {
         let to_world = self.instance.node_to_model.then(models[self.model].model_to_world).raw();
         let linear = DMat3::from_mat4(to_world);
         (linear.transpose() * linear, linear.determinant() < 0.0)
     }
 
-    /// Whether some of it are lines.
+    /// Whether it contains lines.
     pub(crate) fn has_lines(&self, models: &[ModelInstance]) -> bool {
         let mut primitives = drawn_primitives(&models[self.model].model, self.instance);
         primitives.any(|primitive| primitive.topology != Topology::Triangles)
@@ -114,8 +114,8 @@ impl Part {
     }
 }
 
-/// The name of a part: of its node, its mesh, or the nearest node above it that has one; else of
-/// the model if that has no other part; else `part`.
+/// The name of a part: from its node, its mesh, or the nearest named ancestor; otherwise from the
+/// model if it has no other part; otherwise `part`.
 fn part_name(model: &Model, node: usize, is_alone: bool) -> String {
     let own = model.nodes[node].name.as_deref();
     let mesh = || model.nodes[node].mesh.and_then(|mesh| model.meshes[mesh].name.as_deref());
@@ -123,7 +123,7 @@ fn part_name(model: &Model, node: usize, is_alone: bool) -> String {
     if let Some(name) = candidates.map(one_line).find(|name| !name.is_empty()) {
         return name;
     }
-    // The importer refuses cycles; the count is a bound all the same.
+    // The importer rejects cycles; the count is a bound all the same.
     let mut above = model.nodes[node].parent;
     for _ in 0..model.nodes.len() {
         let Some(parent) = above.and_then(|parent| model.nodes.get(parent)) else { break };
@@ -137,7 +137,8 @@ fn part_name(model: &Model, node: usize, is_alone: bool) -> String {
     if is_alone && !name.is_empty() { name } else { "part".to_owned() }
 }
 
-/// A text without control characters and marks of direction, its words one space apart.
+/// Removes control characters and direction marks from a text and separates its words by single
+/// spaces.
 pub(crate) fn one_line(text: &str) -> String {
     let is_mark = |c: char| matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}');
     let plain = |c: char| if c.is_control() || is_mark(c) { ' ' } else { c };

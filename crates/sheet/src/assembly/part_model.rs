@@ -1,4 +1,4 @@
-//! Models of parts: one part by itself, and all parts moved apart with their paths.
+//! Models of parts: a single part, or all parts moved apart, with their paths.
 
 use super::explosion::ExplosionSettings;
 use super::part::{Part, drawn_primitives, gather_parts};
@@ -8,19 +8,19 @@ use homog::{Affine, Model as ModelSpace, Vector, World};
 use model::{Material, Mesh, Model, ModelInstance, Node, Primitive, Topology};
 use std::sync::Arc;
 
-/// The name of the object that holds the paths of the parts of an exploded view.
+/// The name of the object with the paths of an exploded view.
 pub(crate) const PATHS: &str = "paths";
 
-/// A part of models by itself, about the origin: in its own coordinates, its axes turned to those
-/// of the world that they are nearest to.
+/// Builds a model of a single part, around the origin: in its own coordinates, with its axes turned
+/// to the nearest world axes.
 ///
-/// A part that stands askew in the assembly is drawn straight.
+/// A part that is oblique in the assembly is drawn straight.
 pub(crate) fn part_model(part: &Part, models: &[ModelInstance]) -> ModelInstance {
     let to_world = part.instance.node_to_model.then(models[part.model].model_to_world).raw();
     let (axes, scale) = orthonormal_axes(DMat3::from_mat4(to_world));
     let turned = nearest_axes(axes) * scale;
     let own = models[part.model].model.nodes[part.instance.node].skin;
-    // Skinned positions are in the world's axes, whatever the node's are.
+    // Skinned positions are in world axes, not in the axes of the node.
     let linear = if own.is_some() { DMat3::IDENTITY } else { turned };
     let to_world = Affine::from_raw(DMat4::from_mat3(linear));
     let mesh = part_mesh(part, models);
@@ -29,11 +29,11 @@ pub(crate) fn part_model(part: &Part, models: &[ModelInstance]) -> ModelInstance
     ModelInstance { model: Arc::new(model), model_to_world }
 }
 
-/// Models with their parts moved apart, as an exploded view shows them: an object for each part, and
-/// one more, the last, for the straight paths of the parts that moved.
+/// Moves the parts of models apart for an exploded view: one object for each part, and a last one
+/// for the straight paths of the moved parts.
 ///
-/// The largest part stays. Each other one leaves on the side where the fewest parts are in its way;
-/// afterwards no two parts intersect.
+/// The largest part stays. Every other part leaves on the side where the fewest parts are in its
+/// way; afterward no two parts intersect.
 #[must_use]
 pub fn explode_models(
     models: &[ModelInstance],
@@ -43,8 +43,8 @@ pub fn explode_models(
     exploded_models(models, &parts, &settings.moves(&PartShapes::new(&parts, models)))
 }
 
-/// Models with every part moved, in the order of the parts, and the straight paths of those that
-/// moved as lines of one more object, the last.
+/// Moves every part, in the order of the parts, and adds the straight paths of the moved parts as
+/// lines of a last object.
 pub(crate) fn exploded_models(
     models: &[ModelInstance],
     parts: &[Part],
@@ -85,9 +85,9 @@ pub(crate) fn exploded_models(
     exploded
 }
 
-/// The paths of the centers of moved parts as lines; `None` if nothing moved.
+/// The paths of the centers of moved parts, as lines; `None` if nothing moved.
 fn path_model(parts: &[Part], moves: &[DVec3]) -> Option<ModelInstance> {
-    // Positions are f32: about a point of the scene they keep their digits.
+    // Positions are f32: relative to a point of the scene they keep their precision.
     let about = parts.first()?.bounds.center().raw();
     let moved = parts.iter().zip(moves).filter(|(_, by)| by.length() > 0.0);
     let ends = moved.flat_map(|(part, by)| {
@@ -106,8 +106,8 @@ fn path_model(parts: &[Part], moves: &[DVec3]) -> Option<ModelInstance> {
     Some(ModelInstance { model, model_to_world: Affine::translation(Vector::from_raw(about)) })
 }
 
-/// A mesh of the lines and triangles of a part, skinned and morphed; what a skin deforms is in
-/// model space.
+/// A mesh of the lines and triangles of a part, skinned and morphed; parts deformed by a skin are
+/// in model space.
 fn part_mesh(part: &Part, models: &[ModelInstance]) -> Mesh {
     let model = &models[part.model].model;
     let has_skin = model.nodes[part.instance.node].skin.is_some();
@@ -134,7 +134,7 @@ fn part_mesh(part: &Part, models: &[ModelInstance]) -> Mesh {
     Mesh { primitives, ..Mesh::default() }
 }
 
-/// A model with a node for each mesh, and the materials of another model.
+/// A model with one node per mesh and the materials of another model.
 fn model_of_meshes(meshes: Vec<Mesh>, name: &str, source: &Model) -> Model {
     let count = meshes.len();
     let mut model = Model {
@@ -150,14 +150,14 @@ fn model_of_meshes(meshes: Vec<Mesh>, name: &str, source: &Model) -> Model {
 
 /// Appends a root node.
 fn push_node(model: &mut Model, name: &str, mesh: Option<usize>, to_model: DMat4) {
-    // A matrix that is not finite is left out as a vertex that is not: the part is not seen.
+    // A matrix that is not finite is skipped, like a vertex that is not: the part is not visible.
     let to_model = Affine::<ModelSpace, ModelSpace>::from_raw(to_model).unwrap_or(Affine::IDENTITY);
     model.roots.push(model.nodes.len());
     let (name, to_parent) = (Some(name.to_owned()), to_model);
     model.nodes.push(Node { name, mesh, to_parent, to_model, trs: None, ..Node::default() });
 }
 
-/// The materials of a model as far as drawings show them: names and colors.
+/// The material properties that drawings show: names and colors.
 fn plain_materials(source: &Model) -> Vec<Material> {
     let plain = |material: &Material| Material {
         name: material.name.clone(),
@@ -169,7 +169,7 @@ fn plain_materials(source: &Model) -> Vec<Material> {
 
 /// Orthonormal axes along the columns of a matrix (Gram and Schmidt), and the matrix in these axes.
 ///
-/// Columns without a direction of their own get one that is perpendicular to the others.
+/// Columns without a direction get one perpendicular to the others.
 fn orthonormal_axes(linear: DMat3) -> (DMat3, DMat3) {
     let x = linear.x_axis.normalize_or(DVec3::X);
     let across = linear.y_axis - x * x.dot(linear.y_axis);
@@ -179,8 +179,7 @@ fn orthonormal_axes(linear: DMat3) -> (DMat3, DMat3) {
     (axes, axes.transpose() * linear)
 }
 
-/// The axes along those of the world that are nearest to these: each the direction of one of them,
-/// the clearest first.
+/// The nearest axes parallel to world axes, assigned in order of how clear the choice is.
 fn nearest_axes(axes: DMat3) -> DMat3 {
     let mut pairs: Vec<(f64, usize, usize)> = (0..3)
         .flat_map(|column| (0..3).map(move |row| (axes.col(column)[row], column, row)))

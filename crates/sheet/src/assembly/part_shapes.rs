@@ -1,5 +1,5 @@
-//! Shapes of parts along an axis: how far they reach in a column, and how high they are above the
-//! cells of a grid.
+//! Shapes of parts along an axis: their extent within a column, and their heights above the cells
+//! of a grid.
 //!
 //! ```text
 //!        ┆ column ┆              a column is the cross-section of a box, without ends;
@@ -13,36 +13,36 @@ use glam::DVec3;
 use model::ModelInstance;
 use std::cell::Cell;
 
-/// A box by its least and its greatest corner.
+/// A box, as its minimum and maximum corners.
 pub(super) type Corners = [DVec3; 2];
 
-/// A part by its index, and how far it has moved from its place.
+/// A part index, and how far the part has moved from its place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlacedPart {
     pub(super) part: usize,
     pub(super) by: DVec3,
 }
 
-/// Parts beyond this number of triangles are taken for their boxes: 72 bytes each.
+/// The maximum number of stored triangles, 72 bytes each; further parts are represented by boxes.
 const MAX_TRIANGLES: usize = 4_000_000;
 
-/// Triangles that may be compared with columns; after these, boxes stand for parts.
+/// The maximum number of triangles compared with columns; after that, boxes represent parts.
 const MAX_VISITS: u64 = 1 << 30;
 
 /// The cells of a grid along each side of a column.
 const CELLS: usize = 16;
 
-/// The boxes of parts and their triangles in the world.
+/// The boxes and world-space triangles of parts.
 #[derive(Debug)]
 pub(crate) struct PartShapes {
     pub(super) boxes: Vec<Corners>,
-    /// None for parts with lines, and for those beyond [`MAX_TRIANGLES`]: solid as their boxes.
+    /// Empty for parts with lines and beyond [`MAX_TRIANGLES`]: these are solid boxes.
     triangles: Vec<Vec<[DVec3; 3]>>,
     visits_left: Cell<u64>,
 }
 
 impl PartShapes {
-    /// The shapes of parts.
+    /// Collects the shapes of parts.
     pub(crate) fn new(parts: &[Part], models: &[ModelInstance]) -> Self {
         let mut left = MAX_TRIANGLES;
         let triangles_of = |part: &Part| {
@@ -65,20 +65,20 @@ impl PartShapes {
         Self::from_raw(parts.iter().map(corners).collect(), triangles)
     }
 
-    /// The shapes of parts with these boxes and triangles.
+    /// Creates shapes from boxes and triangles.
     pub(super) fn from_raw(boxes: Vec<Corners>, triangles: Vec<Vec<[DVec3; 3]>>) -> Self {
         Self { boxes, triangles, visits_left: Cell::new(MAX_VISITS) }
     }
 
-    /// Takes visits from those that are left; `false` if these are fewer.
+    /// Takes visits from the rest; `false` if there are not enough.
     pub(super) fn take_visits(&self, count: usize) -> bool {
         let left = self.visits_left.get();
         self.visits_left.set(left.saturating_sub(count as u64));
         count as u64 <= left
     }
 
-    /// How far a placed part reaches within a column, along the direction of `sign`; `None` if it
-    /// is beside the column.
+    /// The farthest extent of a placed part within a column, in the direction of `sign`; `None` if
+    /// it is outside the column.
     pub(super) fn reach(&self, placed: PlacedPart, column: &Column, sign: f64) -> Option<f64> {
         let PlacedPart { part, by } = placed;
         let corners = self.boxes[part].map(|corner| corner + by);
@@ -101,7 +101,7 @@ impl PartShapes {
         reach
     }
 
-    /// The lowest and the highest points of a part in the cells of a column.
+    /// The lowest and highest points of a part in the cells of a column.
     pub(super) fn heights(&self, part: usize, column: &Column) -> CellHeights {
         let mut heights = CellHeights::default();
         for triangle in &self.triangles[part] {
@@ -119,7 +119,7 @@ impl PartShapes {
     }
 }
 
-/// The cross-section of a box, without ends along an axis.
+/// The cross-section of a box, unbounded along an axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Column {
     pub(super) axis: usize,
@@ -129,7 +129,7 @@ pub(super) struct Column {
 }
 
 impl Column {
-    /// The column of a box along an axis, with a margin around it.
+    /// Creates the column of a box along an axis, with a margin around it.
     pub(super) fn new(corners: Corners, axis: usize, margin: f64) -> Self {
         let across = [(axis + 1) % 3, (axis + 2) % 3];
         let low = across.map(|axis| corners[0][axis] - margin);
@@ -145,8 +145,8 @@ impl Column {
         })
     }
 
-    /// How far the part of a triangle within the column reaches; clipped side by side (Sutherland
-    /// and Hodgman).
+    /// The farthest extent of a triangle within the column; clipped side by side (Sutherland and
+    /// Hodgman).
     fn reach_of_triangle(&self, corners: [DVec3; 3], sign: f64) -> Option<f64> {
         let outside = |k: usize| {
             let along = corners.map(|corner| corner[self.across[k]]);
@@ -164,7 +164,7 @@ impl Column {
         polygon.into_iter().map(|corner| corner[self.axis] * sign).reduce(f64::max)
     }
 
-    /// The middle of a cell.
+    /// The center of a cell.
     fn cell_center(&self, cell: [usize; 2]) -> [f64; 2] {
         [0, 1].map(|k| {
             let part = (cell[k] as f64 + 0.5) / CELLS as f64;
@@ -172,7 +172,7 @@ impl Column {
         })
     }
 
-    /// The cells whose middles may be between two coordinates across.
+    /// The cells whose centers may be between two coordinates across the column.
     fn cells_between(&self, k: usize, low: f64, high: f64) -> std::ops::Range<usize> {
         let size = (self.high[k] - self.low[k]) / CELLS as f64;
         if size <= 0.0 {
@@ -201,7 +201,7 @@ fn clip_polygon(polygon: &mut Vec<DVec3>, inside: impl Fn(DVec3) -> f64) {
     *polygon = clipped;
 }
 
-/// The lowest and the highest point in the middle of each cell; empty intervals beside a part.
+/// The lowest and highest points at the center of each cell; empty intervals outside the part.
 #[derive(Clone, Debug)]
 pub(super) struct CellHeights(pub(super) [[f64; 2]; CELLS * CELLS]);
 
@@ -212,7 +212,7 @@ impl Default for CellHeights {
 }
 
 impl CellHeights {
-    /// The number of cells in which there is anything.
+    /// The number of occupied cells.
     pub(super) fn count(&self) -> usize {
         self.0.iter().filter(|[low, high]| low <= high).count()
     }
@@ -237,7 +237,7 @@ impl CellHeights {
         }
     }
 
-    /// Adds the heights of a triangle over the middles of cells; none if it is seen edge-on.
+    /// Adds the heights of a triangle at cell centers; none if it is seen edge-on.
     fn add_triangle(&mut self, corners: &[DVec3; 3], column: &Column) {
         let flat = corners.map(|corner| column.across.map(|axis| corner[axis]));
         let extent = |k: usize| {
@@ -300,7 +300,7 @@ mod tests {
         let shapes = PartShapes::from_raw(vec![corners], vec![Vec::new()]);
         let column = Column::new([DVec3::splat(0.5), DVec3::splat(2.0)], 2, 0.0);
         assert_eq!(shapes.reach(PlacedPart { part: 0, by: DVec3::Z }, &column, 1.0), Some(2.0));
-        // The column is from 0.5 to 2: a third of its cells on each side are over the box.
+        // The column is from 0.5 to 2: a third of its cells in each direction are over the box.
         assert_eq!(shapes.heights(0, &column).count(), 25);
     }
 }

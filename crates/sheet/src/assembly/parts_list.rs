@@ -1,4 +1,4 @@
-//! Parts lists: equal parts counted, with names, materials and masses (ISO 7573).
+//! Parts lists: counts of equal parts, with names, materials and masses (ISO 7573).
 
 use super::geometry::PartClasses;
 use super::part::{Part, drawn_primitives, gather_parts, one_line};
@@ -7,59 +7,58 @@ use crate::{AssemblyWarning, SheetWarning};
 use model::ModelInstance;
 use std::collections::BTreeMap;
 
-/// The density of a material, or of parts of one name.
+/// The density of a material, or of the parts with a given name.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PartDensity {
-    /// The name of a material or of a part, or `*` for all that have no density of their own.
+    /// The name of a material or of a part, or `*` for everything without its own density.
     pub of: String,
-    /// Grams in a cubic centimeter, which are tons in a cubic meter: about 7.85 for steel.
+    /// Grams per cubic centimeter, equal to tons per cubic meter: about 7.85 for steel.
     pub grams_per_cubic_centimeter: f64,
 }
 
 /// A list of the parts of models.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct PartsList {
-    /// The items, numbered from 1, in the order in which the nodes of the models first have them.
+    /// The items, numbered from 1, in the order of their first nodes in the models.
     pub items: Vec<PartsListItem>,
-    /// Whether densities were given, so that items may have masses.
+    /// Whether densities were given, so items may have masses.
     pub has_masses: bool,
-    /// Items without the mass that their density asks for.
+    /// Warnings about items without the mass that their density should give.
     pub warnings: Vec<SheetWarning>,
 }
 
-/// An item of a parts list: a part, and how often the models have it.
+/// An item of a parts list: a part and its quantity.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PartsListItem {
     /// The number, from 1.
     pub number: usize,
-    /// How many parts are equal.
+    /// The number of equal parts.
     pub quantity: usize,
-    /// The name, in one line.
+    /// The name, on one line.
     pub name: String,
-    /// The names of its materials, joined by commas; empty without any.
+    /// Its material names, joined by commas; empty without any.
     pub material: String,
-    /// The mass of one of them in grams.
+    /// The mass of a single part in grams.
     pub mass: Option<f64>,
-    /// The numbers of their objects in drawings of the models.
+    /// The indices of their objects in drawings of the models.
     pub objects: Vec<u32>,
-    /// Where they are in the models, in the order of `objects`.
+    /// Their places in the models, in the order of `objects`.
     pub places: Vec<PartPlace>,
 }
 
-/// The place of a part in the scene graph of its model.
+/// A part's place in the scene graph of its model.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct PartPlace {
-    /// The number of the model, from 0.
+    /// The index of the model, from 0.
     pub model: usize,
-    /// The number of the node in the model, from 0. Instances of one node share it.
+    /// The index of the node in the model, from 0. Instances of one node share it.
     pub node: usize,
-    /// The names of the nodes from the root to this one; `node 3` for the fourth node if it has
-    /// none.
+    /// The node names from the root to this node; `node 3` for the fourth node if it has no name.
     pub path: Vec<String>,
 }
 
 impl PartPlace {
-    /// The place of a part of these models.
+    /// The place of a part in these models.
     fn from_part(part: &Part, models: &[ModelInstance]) -> Self {
         let nodes = &models[part.model].model.nodes;
         let name = |node: usize| {
@@ -67,7 +66,7 @@ impl PartPlace {
             own.map_or_else(|| format!("node {node}"), str::to_owned)
         };
         let above = |node: &usize| nodes[*node].parent.filter(|parent| *parent < nodes.len());
-        // The importer refuses cycles; the count is a bound all the same.
+        // The importer rejects cycles; the count is a bound all the same.
         let chain = core::iter::successors(Some(part.instance.node), above).take(nodes.len());
         let mut path: Vec<String> = chain.map(name).collect();
         path.reverse();
@@ -76,11 +75,11 @@ impl PartPlace {
 }
 
 impl PartsList {
-    /// The list of the parts of models, of which a unit has so many millimeters.
+    /// Lists the parts of models, given the number of millimeters per unit.
     ///
     /// Parts are one item if their meshes have the same positions, indices and materials at the
-    /// same size, and their names are equal but for a number at the end: `bolt.001` and `bolt.002`
-    /// are two bolts.
+    /// same size, and if their names are equal except for a number at the end: `bolt.001` and
+    /// `bolt.002` are two bolts.
     #[must_use]
     pub fn new(
         models: &[ModelInstance],
@@ -91,7 +90,7 @@ impl PartsList {
         Self::from_parts(models, &parts, densities, millimeters_per_unit)
     }
 
-    /// The list of these parts of the models.
+    /// Lists these parts of the models.
     pub(crate) fn from_parts(
         models: &[ModelInstance],
         parts: &[Part],
@@ -136,8 +135,8 @@ impl PartsList {
         Self { items, has_masses: !densities.is_empty(), warnings }
     }
 
-    /// The list as comma-separated values (RFC 4180) with a header: item, quantity, name, material
-    /// and, with densities, the mass of one in grams.
+    /// Returns the list as comma-separated values (RFC 4180) with a header: item, quantity, name,
+    /// material and, with densities, the mass of one part in grams.
     #[must_use]
     pub fn to_csv(&self) -> String {
         let mut text = String::from("item,quantity,name,material");
@@ -155,10 +154,10 @@ impl PartsList {
     }
 }
 
-/// A field of a CSV file, in quotation marks where it needs them.
+/// A field of a CSV file, in quotation marks if needed.
 ///
-/// Spreadsheets run what begins as a formula, wherever the file comes from: an apostrophe before it
-/// makes it a text.
+/// Spreadsheets run text that begins like a formula, even from untrusted files; a leading
+/// apostrophe marks it as text.
 fn csv_field(text: &str) -> String {
     if text.starts_with(['=', '+', '-', '@', '\t', '\r']) {
         return format!("\"'{}\"", text.replace('"', "\"\""));
@@ -167,7 +166,7 @@ fn csv_field(text: &str) -> String {
     if needs_quotes { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
-/// The density of a part: that of its name, of its one material, or of all parts.
+/// The density of a part: by its name, by its only material, or the default for all parts.
 fn find_density<'a>(
     densities: &'a [PartDensity],
     name: &str,
@@ -178,7 +177,7 @@ fn find_density<'a>(
     of(name).or_else(of_material).or_else(|| of("*"))
 }
 
-/// The names of the materials of a part, each once.
+/// A part's material names, without duplicates.
 fn material_names(part: &Part, models: &[ModelInstance]) -> Vec<String> {
     let model = &models[part.model].model;
     let mut names: Vec<String> = Vec::new();
@@ -192,19 +191,19 @@ fn material_names(part: &Part, models: &[ModelInstance]) -> Vec<String> {
     names
 }
 
-/// Whether a character stands between a name and the number of a copy.
+/// Whether a character separates a name from the number of a copy.
 fn is_separator(character: char) -> bool {
     matches!(character, ' ' | '.' | '_' | '-' | ':' | '#')
 }
 
-/// A name without the number of a copy at its end, such as `bolt` of `bolt.001`.
+/// Removes the number of a copy from the end of a name: `bolt.001` becomes `bolt`.
 fn without_number(name: &str) -> &str {
     let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
     if stem.len() == name.len() { name } else { stem.trim_end_matches(is_separator) }
 }
 
-/// The name that parts have in common: their own if they agree, else what it begins with, without
-/// numbers of copies.
+/// The common name of parts: their name if they agree, otherwise their common prefix, without copy
+/// numbers.
 fn common_name(parts: &[&Part]) -> String {
     let first = parts[0].name.as_str();
     if parts.iter().all(|part| part.name == first) {

@@ -1,4 +1,4 @@
-//! Order of removal: on which side parts leave an assembly without running into others.
+//! Order of removal: the sides on which parts can leave an assembly without collisions.
 //!
 //! ```text
 //!     ┌─┐ bolt          upward nothing is above the bolt; downward the plate is in the way of its
@@ -8,17 +8,17 @@
 //! ```
 //!
 //! A part is in the way of another if it is ahead of it in more than a few cells of a grid across
-//! the axis. Parts are taken away one by one, each as soon as nothing is in its way: on the side
-//! that is preferred if possible. Where none can leave, the one that is hindered least goes first.
+//! the axis. Parts are removed one by one, as soon as nothing is in their way, on the preferred
+//! side if possible. If no part can leave, the least hindered one leaves first.
 
 use super::part_shapes::{CellHeights, Column, PartShapes};
 use std::collections::VecDeque;
 
-/// A part that covers no more than this part of another one's cells is not in its way: that is how
-/// the facets of round parts differ.
+/// A part that covers at most this fraction of another part's cells is not in its way: the facets
+/// of round parts cause such differences.
 const LEAST_COVER: f64 = 0.05;
 
-/// The cost of a comparison of two parts beside their triangles, in visits.
+/// The cost of comparing two parts, in addition to their triangles, in visits.
 const PAIR_VISITS: usize = 300;
 
 /// A side of an axis: 0 toward negative coordinates, 1 toward positive ones.
@@ -27,15 +27,16 @@ type AxisSide = usize;
 /// The parts that hinder others from leaving.
 #[derive(Debug)]
 struct Hindrances {
-    /// For each part the parts in whose way it is, on which side, and the cells that it covers.
+    /// For each part, the parts that it hinders, on which side, and the fraction of cells it
+    /// covers.
     hinders: Vec<Vec<(usize, AxisSide, f64)>>,
     /// The number of parts in the way of each part on each side.
     counts: Vec<[u32; 2]>,
-    /// The part of its cells that they cover, one upon the other.
+    /// The summed fraction of each part's cells that hindering parts cover.
     covers: Vec<[f64; 2]>,
 }
 
-/// The sides on which parts leave along their axes, all but the base, which stays.
+/// The sides on which parts leave along their axes, for all parts except the base, which stays.
 pub(super) fn removal_sides(
     shapes: &PartShapes,
     base: usize,
@@ -47,7 +48,7 @@ pub(super) fn removal_sides(
     };
     let mut sides: Vec<Option<AxisSide>> = vec![None; preferred.len()];
     sides[base] = Some(preferred[base]);
-    // Parts that are free: on the side that is preferred, and on the other.
+    // Free parts: on the preferred side, and on the other.
     let mut queues = [VecDeque::new(), VecDeque::new()];
     for part in 0..preferred.len() {
         for side in 0..2 {
@@ -72,7 +73,7 @@ pub(super) fn removal_sides(
 }
 
 impl Hindrances {
-    /// Compares all parts; `None` if that takes too long.
+    /// Compares all parts; `None` if that would take too long.
     fn find(shapes: &PartShapes, base: usize, axes: &[usize]) -> Option<Self> {
         let count = shapes.boxes.len();
         let mut found = Self {
@@ -87,7 +88,7 @@ impl Hindrances {
             if own.count() == 0 {
                 own.add_box(corners, &column);
             }
-            // Where parts touch, rounding must not decide.
+            // If parts touch, rounding must not decide.
             let touch = (corners[1] - corners[0]).length() * 1e-3;
             for other in (0..count).filter(|&other| other != part) {
                 if !column.meets(shapes.boxes[other]) {
@@ -109,7 +110,8 @@ impl Hindrances {
         Some(found)
     }
 
-    /// Takes a part away: those that it alone was in the way of, with the sides that are free now.
+    /// Removes a part and returns the parts that only it hindered, with the sides that are now
+    /// free.
     fn take_away(&mut self, part: usize) -> Vec<(usize, AxisSide)> {
         let mut freed = Vec::new();
         for (other, side, cover) in std::mem::take(&mut self.hinders[part]) {
@@ -122,7 +124,7 @@ impl Hindrances {
         freed
     }
 
-    /// Of the parts that are left, the one that is hindered least, and the side.
+    /// The least hindered remaining part, and the side.
     fn least_hindered(
         &self,
         sides: &[Option<AxisSide>],
@@ -132,7 +134,7 @@ impl Hindrances {
         for part in (0..sides.len()).filter(|&part| sides[part].is_none()) {
             for side in [preferred[part], 1 - preferred[part]] {
                 let cover = self.covers[part][side];
-                // What was added in another order must not decide either.
+                // The order of summation must not decide either.
                 if least.is_none_or(|(most, ..)| cover < most - 1e-9) {
                     least = Some((cover, part, side));
                 }
@@ -142,7 +144,7 @@ impl Hindrances {
     }
 }
 
-/// The part of the cells of a part in which another one is below its top, and above its foot.
+/// The fraction of a part's cells where another part is below its top, and above its bottom.
 fn covered_cells(own: &CellHeights, other: &CellHeights, touch: f64) -> [f64; 2] {
     let mut covered = [0_u32; 2];
     for ([low, high], [other_low, other_high]) in own.0.iter().zip(&other.0) {
@@ -159,7 +161,7 @@ mod tests {
     use super::*;
     use glam::DVec3;
 
-    /// The sides of boxes, by their least and their greatest corner, along y.
+    /// The sides of boxes along y, given by their minimum and maximum corners.
     fn sides_of(boxes: &[([f64; 3], [f64; 3])], preferred: &[AxisSide]) -> Vec<AxisSide> {
         let corners = |(low, high): &([f64; 3], [f64; 3])| [DVec3::from(*low), DVec3::from(*high)];
         let boxes: Vec<_> = boxes.iter().map(corners).collect();
@@ -170,7 +172,7 @@ mod tests {
 
     #[test]
     fn parts_leave_where_nothing_is_in_the_way() {
-        // A plate, a washer on it and a screw on that; and a foot below.
+        // A plate, a washer on it and a screw on top, with a foot below.
         let boxes = [
             ([-5.0, 0.0, -5.0], [5.0, 1.0, 5.0]),
             ([-1.0, 1.0, -1.0], [1.0, 1.2, 1.0]),
@@ -184,7 +186,8 @@ mod tests {
 
     #[test]
     fn parts_that_are_free_leave_on_the_preferred_side() {
-        // Three plates beside the base: the lowest is free below, and above once the others left.
+        // Three plates beside the base: the lowest is free below, and free above once the others
+        // have left.
         let plate = |y: f64| ([9.0, y, 9.0], [10.0, y + 1.0, 10.0]);
         let boxes = [([-5.0; 3], [5.0; 3]), plate(0.0), plate(1.0), plate(2.0)];
         for side in 0..2 {

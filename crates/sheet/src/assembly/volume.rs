@@ -5,14 +5,14 @@
 //!                              with their tips at one point
 //! ```
 //!
-//! A mesh is closed if each of its sides is passed as often in one direction as in the other.
-//! Pieces that overlap count twice.
+//! A mesh is closed if each of its sides runs equally often in both directions. Overlapping pieces
+//! count twice.
 
 use super::part::{Part, drawn_primitives};
 use glam::{DMat3, DVec3};
 use model::{ModelInstance, Topology};
 
-/// The volume of a part in cubic units of the world; `None` if its mesh is open or has no
+/// Returns the volume of a part in cubic world units; `None` if its mesh is open or has no
 /// triangles.
 pub(super) fn part_volume(part: &Part, models: &[ModelInstance]) -> Option<f64> {
     let model = &models[part.model].model;
@@ -24,7 +24,7 @@ pub(super) fn part_volume(part: &Part, models: &[ModelInstance]) -> Option<f64> 
         }
         let skinned = model.skin_primitive(part.instance, primitive);
         scale = DMat3::from_mat4(part.to_world(models, &skinned).raw()).determinant().abs();
-        // Adding 0 makes a negative zero positive: the two are one place.
+        // Adding 0 turns −0 into 0, so both are the same position.
         let corner = |&index: &u32| skinned.positions[index as usize].map(|c| c + 0.0);
         corners.extend(primitive.indices.iter().map(corner));
     }
@@ -42,7 +42,7 @@ pub(super) fn part_volume(part: &Part, models: &[ModelInstance]) -> Option<f64> 
     volume.is_finite().then_some(volume)
 }
 
-/// Whether every side of the triangles is passed as often forward as backward.
+/// Whether every side of the triangles runs equally often forward and backward.
 fn is_closed(triangles: &[[[f32; 3]; 3]]) -> bool {
     let mut order: Vec<([u32; 3], u32)> =
         triangles.as_flattened().iter().zip(0..).map(|(c, at)| (c.map(f32::to_bits), at)).collect();

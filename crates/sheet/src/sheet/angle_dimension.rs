@@ -1,5 +1,5 @@
 //! Angular dimensions: an arc between the sides of an angle, or between their extensions beyond the
-//! vertex, and the degrees beside it (ISO 129-1).
+//! vertex, with the degrees beside it (ISO 129-1).
 //!
 //! ```text
 //!        ╲  60°  ╱
@@ -15,10 +15,10 @@ use super::measure::{ViewDimension, ViewMeasure};
 use glam::DVec2;
 use page::{Label, TextAlign};
 
-/// The least radius of the arc in heights of letters, the step to the next, and their number.
+/// The minimum radius of the arc in character heights, the step to the next one, and their number.
 const RADII: (f64, f64, u32) = (4.0, 1.1, 60);
 
-/// The greatest angle of one of the lines that make an arc, in radians: 2.5 degrees.
+/// The maximum angle of one line segment of an arc, in radians: 2.5 degrees.
 const ARC_STEP: f64 = core::f64::consts::PI / 72.0;
 
 /// The decimal places of degrees.
@@ -27,10 +27,10 @@ const DEGREE_DECIMALS: u32 = 2;
 /// An arc between two directions from a vertex.
 struct AngleArc<'a> {
     vertex: DVec2,
-    /// The unit vectors along its sides, the second less than a half turn from x to y from the
-    /// first.
+    /// The unit vectors along its sides; from the first to the second is less than a half turn from
+    /// x to y.
     sides: [DVec2; 2],
-    /// The length of the sides that the part has.
+    /// The lengths of the sides on the part.
     lengths: [f64; 2],
     /// The angle in radians.
     sweep: f64,
@@ -40,7 +40,7 @@ struct AngleArc<'a> {
 }
 
 impl DimensionBoard {
-    /// The free place of an angle nearest to its vertex.
+    /// The free position of an angle nearest to its vertex.
     pub(super) fn angle_candidate(&self, dimension: &ViewDimension) -> Option<Candidate> {
         let ViewMeasure::Angle { vertex, ends } = &dimension.measure else { return None };
         let ratio = self.settings.scale.ratio();
@@ -58,7 +58,7 @@ impl DimensionBoard {
         for number in 0..count {
             let radius = (least + step * f64::from(number)) * letters;
             for sense in [1.0, -1.0] {
-                // Beyond the vertex there is nothing of the part.
+                // Beyond the vertex there are no sides of the part.
                 let lengths = arms.map(|arm| if sense > 0.0 { arm.length() } else { 0.0 });
                 let sides = arms.map(|arm| arm.normalize_or(DVec2::X) * sense);
                 let (text, vertex) = (text.as_str(), vertex);
@@ -74,7 +74,7 @@ impl DimensionBoard {
 }
 
 impl AngleArc<'_> {
-    /// The point of the arc at an angle from the first side, and the unit vector onward.
+    /// The point of the arc at an angle from the first side, and the unit vector along the arc.
     fn at(&self, angle: f64) -> (DVec2, DVec2) {
         let (sine, cosine) = libm::sincos(angle);
         let arm = DVec2::new(cosine, sine).rotate(self.sides[0]);
@@ -111,14 +111,14 @@ impl AngleArc<'_> {
         candidate
     }
 
-    /// The degrees, level, on the outer side of the arc.
+    /// The degrees, horizontal, on the outer side of the arc.
     fn label(&self) -> AnnotationText {
         let (middle, _) = self.at(0.5 * self.sweep);
         let out = (middle - self.vertex).normalize_or(DVec2::NEG_Y);
         let width = Label::new(self.text, DVec2::ZERO, self.letters).width();
         let margin = 2.0 * TEXT_GAP * self.letters;
         let half = DVec2::new(0.5 * width, 0.5 * self.letters);
-        // So far out that no corner of the text is within the arc.
+        // Far enough out that no corner of the text is inside the arc.
         let mut distance = self.radius + margin;
         let is_inside = |distance: f64| {
             let center = out * distance;

@@ -9,16 +9,16 @@
 //!   └ ─ ─ ─ ─ ─ ─ ─ ┘
 //! ```
 //!
-//! They are made before the view has a place, since the place depends on their extent.
+//! They are created before the view is placed, because its position depends on their extent.
 
 use crate::SheetLabelFault;
 use glam::DVec2;
 use page::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign, to_millimeters};
 
-/// The least distance of lines from texts, in millimeters.
+/// The minimum distance of lines from texts, in millimeters.
 const LINE_CLEARANCE: f64 = 0.7;
 
-/// An axis-aligned rectangle: its least and its greatest corner.
+/// An axis-aligned rectangle: its minimum and maximum corners.
 pub(super) type Extent = [DVec2; 2];
 
 /// The layers that annotations are drawn on, in drawing order.
@@ -32,23 +32,23 @@ pub(super) enum AnnotationLayer {
     DimensionTexts,
     /// The chain lines of sections.
     CutLines,
-    /// Their wide ends.
+    /// The wide ends of those lines.
     CutEnds,
-    /// Their arrows.
+    /// The arrows of those lines.
     CutArrows,
-    /// Letters of sections and the names of sectional views.
+    /// Section letters and sectional view names.
     CutNames,
-    /// The scales of views that have another than the sheet.
+    /// The scales of views that differ from the sheet's.
     ScaleNotes,
-    /// Lines of symmetry, also between the halves of half sections.
+    /// Lines of symmetry, including those between the halves of half sections.
     SymmetryLines,
-    /// Circles around details, and the lines from them to their letters.
+    /// Circles around details, and their leader lines to letters.
     ViewMarks,
-    /// Letters of details and of viewing directions, and the names of views.
+    /// Letters of details and viewing directions, and view names.
     ViewNames,
-    /// Axes of the world, and leader lines of the labels of points.
+    /// World axes, and leader lines of point labels.
     OverlayLines,
-    /// The names of axes, and the labels.
+    /// Axis names, and labels.
     OverlayTexts,
 }
 
@@ -83,16 +83,16 @@ pub(super) enum AnnotationShape {
 #[derive(Clone, PartialEq, Debug, Default)]
 pub(super) struct ViewAnnotations {
     items: Vec<PlacedShape>,
-    /// The dimensions that were asked for, each a group of its own.
+    /// The requested dimensions, each as a separate group.
     dimensions: Vec<PlacedDimension>,
-    /// The names of dimensions without a place.
+    /// The dimensions without room, by name.
     pub(super) left_out: Vec<String>,
-    /// The texts of overlays that are not there, and why.
+    /// The texts of missing overlays, with the reason.
     pub(super) labels_left_out: Vec<(String, SheetLabelFault)>,
 }
 
-/// A shape of a layer, with the rectangle around it: each position of a text is compared with every
-/// shape, and the rectangle of a text takes all strokes of its letters.
+/// A shape of a layer, with its bounding rectangle. Each text position is compared with every
+/// shape, and the rectangle of a text needs all its strokes.
 #[derive(Clone, PartialEq, Debug)]
 struct PlacedShape {
     layer: AnnotationLayer,
@@ -100,7 +100,7 @@ struct PlacedShape {
     extent: Option<Extent>,
 }
 
-/// A dimension with its place.
+/// A dimension with its position.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct PlacedDimension {
     /// Its number on the sheet, from 1.
@@ -109,7 +109,7 @@ pub(super) struct PlacedDimension {
 }
 
 impl AnnotationText {
-    /// A text whose middle is at a point.
+    /// A text centered on a point.
     pub(super) fn centered(text: impl Into<String>, middle: DVec2, height: f64) -> Self {
         let anchor = middle + DVec2::Y * (0.5 * height);
         let align = TextAlign::Middle;
@@ -139,7 +139,7 @@ impl AnnotationShape {
         }
     }
 
-    /// Whether the shape, which lies in `extent`, comes into a rectangle.
+    /// Whether the shape, with bounds `extent`, enters a rectangle.
     fn touches(&self, extent: Option<Extent>, area: Extent) -> bool {
         match self {
             Self::Line(ends) => segment_crosses(*ends, area),
@@ -184,8 +184,8 @@ impl ViewAnnotations {
         self.push(layer, AnnotationShape::Line(ends));
     }
 
-    /// Adds the first of these texts that touches neither another annotation nor the object; the
-    /// first of all if there is none.
+    /// Adds the first of these texts that touches neither another annotation nor the object; if
+    /// there is none, the first.
     pub(super) fn push_first_free_text(
         &mut self,
         layer: AnnotationLayer,
@@ -210,13 +210,13 @@ impl ViewAnnotations {
         })
     }
 
-    /// Whether neither the object nor an annotation comes into a rectangle.
+    /// Whether neither the object nor an annotation enters a rectangle.
     pub(super) fn is_empty_area(&self, area: Extent, object: Extent) -> bool {
         !overlap(object, area)
             && !self.shapes_with_extents().any(|(other, extent)| other.touches(extent, area))
     }
 
-    /// Whether a line touches no text and no arrowhead.
+    /// Whether a line touches neither text nor arrowheads.
     pub(super) fn is_clear(&self, line: [DVec2; 2]) -> bool {
         let lies_across = |(shape, extent): (&AnnotationShape, Option<Extent>)| {
             matches!(shape, AnnotationShape::Text(_) | AnnotationShape::Head(_))
@@ -233,25 +233,25 @@ impl ViewAnnotations {
         extents.fold(object, |[low, high], other| [low.min(other[0]), high.max(other[1])])
     }
 
-    /// The rectangle around the object and the dimensions that were asked for.
+    /// The rectangle around the object and the requested dimensions.
     pub(super) fn extent_of_dimensions(&self, object: Extent) -> Extent {
         let shapes = self.dimensions.iter().flat_map(|dimension| &dimension.shapes);
         let extents = shapes.filter_map(|(_, shape)| shape.extent());
         extents.fold(object, |[low, high], other| [low.min(other[0]), high.max(other[1])])
     }
 
-    /// Adds a dimension that was asked for.
+    /// Adds a requested dimension.
     pub(super) fn push_dimension(&mut self, dimension: PlacedDimension) {
         self.dimensions.push(dimension);
     }
 
-    /// All shapes, those of dimensions last.
+    /// All shapes, with dimensions last.
     pub(super) fn shapes(&self) -> impl Iterator<Item = &AnnotationShape> {
         let of_dimensions = self.dimensions.iter().flat_map(|dimension| &dimension.shapes);
         self.items.iter().map(|placed| &placed.shape).chain(of_dimensions.map(|(_, shape)| shape))
     }
 
-    /// All shapes and the rectangles around them, those of dimensions last.
+    /// All shapes with their bounding rectangles, with dimensions last.
     fn shapes_with_extents(&self) -> impl Iterator<Item = (&AnnotationShape, Option<Extent>)> {
         let of_dimensions = self.dimensions.iter().flat_map(|dimension| &dimension.shapes);
         let of_dimensions = of_dimensions.map(|(_, shape)| (shape, shape.extent()));
@@ -271,7 +271,7 @@ impl ViewAnnotations {
 }
 
 impl PlacedDimension {
-    /// The shapes of one layer: the lines as one group, each text as one.
+    /// The shapes of one layer: the lines as one group, each text as its own group.
     ///
     /// Their ids are the number of the dimension, with the number of the text if there are several.
     fn groups(&self, layer: AnnotationLayer, origin: DVec2) -> Vec<Group> {
@@ -317,7 +317,7 @@ impl AnnotationLayer {
         Self::OverlayTexts,
     ];
 
-    /// The empty layer, with the pens of a line group and letters of a height.
+    /// Creates an empty layer, with the pens of a line group and a character height.
     pub(super) fn to_layer(self, group: page::IsoLineGroup, letters: f64, ink: Ink) -> Layer {
         let butt = |width| Pen { cap: page::Cap::Butt, ..Pen::solid(width, ink) };
         let chain = || {
@@ -359,12 +359,12 @@ fn extent_of_points(points: impl Iterator<Item = DVec2>) -> Option<Extent> {
     })
 }
 
-/// Whether two rectangles have more than a side in common.
+/// Whether two rectangles overlap by more than a side.
 pub(super) fn overlap(a: Extent, b: Extent) -> bool {
     a[0].x < b[1].x && b[0].x < a[1].x && a[0].y < b[1].y && b[0].y < a[1].y
 }
 
-/// Whether a straight line comes into a rectangle (Liang and Barsky's slab test).
+/// Whether a straight line enters a rectangle (Liang and Barsky's slab test).
 fn segment_crosses([a, b]: [DVec2; 2], [low, high]: Extent) -> bool {
     let mut span = [0.0_f64, 1.0_f64];
     for axis in 0..2 {

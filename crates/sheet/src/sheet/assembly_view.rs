@@ -1,5 +1,5 @@
-//! The page of an assembly: one view of all parts, in their places or exploded, with balloons
-//! around it and the parts list above the title block.
+//! The assembly page: one view of all parts, in place or exploded, with balloons around it and the
+//! parts list above the title block.
 //!
 //! ```text
 //!   ┌──────────────────────────────┐
@@ -21,34 +21,35 @@ use glam::DVec2;
 use page::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign};
 use viewport::{DrawingScale, Rectangle};
 
-/// From the view or its balloons to the frame, in millimeters: beyond the centering marks.
+/// The distance from the view or its balloons to the frame, in millimeters: beyond the centering
+/// marks.
 const BORDER_GAP: f64 = 6.0;
 
-/// From the view to the balloons, in millimeters.
+/// The distance from the view to the balloons, in millimeters.
 const VIEW_GAP: f64 = 5.0;
 
-/// The least distance of two balloons, and of a leader from a balloon of another item.
+/// The minimum distance between balloons, and from a leader to the balloon of another item.
 const BALLOON_GAP: f64 = 2.5;
 
-/// The number of rings that are tried, from the view to the border.
+/// The number of rings to try, from the view to the border.
 const RING_STEPS: u32 = 5;
 
-/// The distances of balloons that are tried on each ring, as multiples of the least: where they
-/// stand farther apart, leaders pass between them at flatter angles.
+/// The balloon distances to try on each ring, as multiples of the minimum: farther apart, leaders
+/// pass between balloons at flatter angles.
 const SPREADS: [f64; 3] = [1.0, 1.4, 2.0];
 
-/// The radius of the dot at the end of a leader as a multiple of the height of letters.
+/// The radius of the dot at the end of a leader, in character heights.
 const DOT_RADIUS: f64 = 0.15;
 
 /// The number of corners of balloons and dots.
 const CIRCLE_CORNERS: u32 = 48;
 
-/// The place of a view on its page.
+/// The position of a view on its page.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AssemblyLayout {
     pub(super) center: DVec2,
     pub(super) scale: DrawingScale,
-    /// The part of the sheet that view and balloons may take.
+    /// The part of the sheet available to view and balloons.
     region: Extent,
     /// Half the size of the view on the page.
     half: DVec2,
@@ -57,7 +58,7 @@ pub(super) struct AssemblyLayout {
     letters: f64,
 }
 
-/// An item, and the spot to which its leader goes, in millimeters of the page.
+/// An item, and the spot where its leader ends, in millimeters on the page.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BalloonTarget<'a> {
     pub(super) item: &'a PartsListItem,
@@ -65,10 +66,10 @@ pub(super) struct BalloonTarget<'a> {
 }
 
 impl AssemblyLayout {
-    /// The layout with the greatest scale beside title block and parts list; `None` if the view
-    /// fits at no standard scale.
+    /// Returns the layout with the largest scale next to the title block and parts list; `None` if
+    /// the view fits at no standard scale.
     ///
-    /// `count` is the number of items that may have balloons, 0 without any.
+    /// `count` is the maximum number of balloons, 0 for none.
     pub(super) fn arrange(
         sheet: &Sheet,
         view: &SheetView,
@@ -96,12 +97,12 @@ impl AssemblyLayout {
         free_regions(sheet, list).into_iter().filter_map(fitting).reduce(better)
     }
 
-    /// How many balloons find a place around the view.
+    /// The number of balloons that fit around the view.
     pub(super) fn capacity(&self) -> usize {
         ring_places(self.ring(1.0), self.pitch()).len()
     }
 
-    /// The distance of neighboring balloons.
+    /// The distance between neighboring balloons.
     fn pitch(&self) -> f64 {
         2.0 * self.radius + BALLOON_GAP
     }
@@ -115,15 +116,15 @@ impl AssemblyLayout {
         [inner[0].lerp(outer[0], part), inner[1].lerp(outer[1], part)]
     }
 
-    /// A spot of the view on the page.
+    /// Converts a spot of the view to the page.
     pub(super) fn on_page(&self, spot: &VisibleSpot, view: &SheetView) -> DVec2 {
         self.center + spot.at * (view.millimeters_per_unit * self.scale.ratio())
     }
 
-    /// The centers of the balloons of spots; `None` for those that find no place.
+    /// Chooses the centers of the balloons for spots; `None` for those that do not fit.
     ///
-    /// The ring that is nearest to the view and has a place for all of them is taken, if there is
-    /// one; else the one with most places whose leaders pass other balloons at a distance.
+    /// Uses the ring nearest to the view that has room for all of them, if there is one; otherwise
+    /// the ring with the most positions whose leaders stay clear of other balloons.
     fn choose_places(&self, spots: &[DVec2]) -> Vec<Option<DVec2>> {
         let clearance = self.radius + 0.5 * BALLOON_GAP;
         let rings = (0..=RING_STEPS).map(|step| self.ring(f64::from(step) / f64::from(RING_STEPS)));
@@ -146,7 +147,7 @@ impl AssemblyLayout {
         best
     }
 
-    /// The layers of balloons and of their numbers, and the items that found no place.
+    /// The layers of balloons and their numbers, and the items that could not be placed.
     pub(super) fn balloon_layers<'a>(
         &self,
         targets: &[BalloonTarget<'a>],
@@ -174,7 +175,7 @@ impl AssemblyLayout {
         ([lines, numbers], left_out)
     }
 
-    /// The circle of an item, its leader and the dot at the end of it.
+    /// The circle of an item, its leader and the dot at its end.
     fn balloon_group(&self, target: &BalloonTarget<'_>, center: DVec2) -> Group {
         let away = (target.spot - center).normalize_or(DVec2::Y);
         let leader = [center + away * self.radius, target.spot];
@@ -190,7 +191,7 @@ impl AssemblyLayout {
     }
 }
 
-/// The radius of balloons for numbers up to `count`: the widest number is well within.
+/// The radius of balloons for numbers up to `count`: the widest number fits well inside.
 fn balloon_radius(count: usize, letters: f64) -> f64 {
     let digits = count.to_string().len();
     let widest = "0".repeat(digits);
@@ -208,8 +209,8 @@ fn circle(center: DVec2, radius: f64) -> Option<Polyline> {
     Polyline::through_points(&corners, true)
 }
 
-/// The parts of the drawing area beside the title block and a list above it: the one above both,
-/// and the one beside them.
+/// The parts of the drawing area not taken by the title block and a list above it: above both, and
+/// beside them.
 fn free_regions(sheet: &Sheet, list: Option<Rectangle>) -> Vec<Extent> {
     let (frame, block) = (sheet.drawing_area(), sheet.title_block_area());
     let top = list.map_or(block.y(), |list| list.y());

@@ -1,5 +1,5 @@
-//! Places of balloons on a rectangle around a view, and the assignment of spots to them with the
-//! shortest leaders.
+//! Balloon positions on a rectangle around a view, and their assignment to spots with the shortest
+//! leaders.
 //!
 //! ```text
 //!   ○  ○  ○  ○        places are a fixed distance apart; the sum of the lengths of the leaders
@@ -12,10 +12,10 @@
 use super::annotation::Extent;
 use glam::DVec2;
 
-/// The cost of a leader that would pass over another place.
+/// The cost of a leader that would pass over another position.
 const FORBIDDEN: f64 = 1e9;
 
-/// The places on the sides of a rectangle, at least `pitch` apart, in even distances.
+/// Evenly spaced positions on the sides of a rectangle, at least `pitch` apart.
 pub(super) fn ring_places([low, high]: Extent, pitch: f64) -> Vec<DVec2> {
     let size = high - low;
     if size.min_element() < 0.0 {
@@ -42,8 +42,9 @@ pub(super) fn ring_places([low, high]: Extent, pitch: f64) -> Vec<DVec2> {
     places
 }
 
-/// The place of each spot, none used twice, with the shortest leaders: they do not cross. `None` if
-/// there are too few places, or a leader comes nearer than `clearance` to the place of another.
+/// Assigns a distinct position to each spot with the shortest leaders, which do not cross. `None`
+/// if there are too few positions, or if a leader comes closer than `clearance` to another one's
+/// position.
 pub(super) fn shortest_places(
     spots: &[DVec2],
     places: &[DVec2],
@@ -63,10 +64,10 @@ pub(super) fn shortest_places(
     (!spots.iter().zip(&assigned).any(passes)).then_some(assigned)
 }
 
-/// The place of each spot, none used twice, with the shortest leaders of those that come no nearer
-/// than `clearance` to any other place; `None` for a spot without such a leader.
+/// Assigns a distinct position to each spot with the shortest leaders among those that stay at
+/// least `clearance` away from any other position; `None` for a spot without such a leader.
 ///
-/// Where some places are ruled out, leaders may cross.
+/// If some positions are ruled out, leaders may cross.
 pub(super) fn clear_places(
     spots: &[DVec2],
     places: &[DVec2],
@@ -101,13 +102,13 @@ fn distance_to_segment(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
     (point - a - along * t).length()
 }
 
-/// A column for each row such that the sum of the costs is least; no column is used twice.
+/// Assigns a distinct column to each row so that the sum of the costs is minimal.
 ///
-/// Shortest augmenting paths with potentials: O(rows² · columns). There are at least as many
+/// Shortest augmenting paths with potentials: O(rows² · columns). There must be at least as many
 /// columns as rows.
 fn least_assignment(costs: &[Vec<f64>]) -> Vec<usize> {
     let columns = costs.first().map_or(0, Vec::len);
-    // Index 0 stands for no row and no column.
+    // Index 0 represents no row and no column.
     let mut row_potential = vec![0.0; costs.len() + 1];
     let mut column_potential = vec![0.0; columns + 1];
     let mut row_of_column = vec![0_usize; columns + 1];
@@ -193,7 +194,7 @@ mod tests {
 
     #[test]
     fn leaders_pass_other_places_at_a_distance() {
-        // All spots near one corner: most of the places beside it are seen at a flat angle.
+        // All spots near one corner: most of the positions near it are seen at a flat angle.
         let places = ring_places([DVec2::ZERO, DVec2::splat(100.0)], 11.0);
         let spots: Vec<DVec2> =
             (0..20).map(|k| DVec2::new(8.0 + f64::from(k % 5), 8.0 + f64::from(k / 5))).collect();

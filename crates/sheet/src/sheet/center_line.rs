@@ -1,5 +1,5 @@
-//! Center lines: a cross in each circle, and the axis of circles that are seen from the side
-//! (ISO 128-2, chain lines 04.1).
+//! Center lines: a cross in each circle, and the axis of circles seen from the side (ISO 128-2,
+//! chain lines 04.1).
 //!
 //! ```text
 //!        │
@@ -9,9 +9,9 @@
 //!        │
 //! ```
 //!
-//! Circles of one axis have one line along it, and in a view along the axis one cross, as large as
-//! the largest of them needs. A circle has a cross if it is at least half there; an axis has a line
-//! if two circles are on it, which is what a cylinder or a cone has.
+//! Circles on one axis share one line along it. In a view along the axis they share one cross,
+//! large enough for the largest of them. A circle has a cross if at least half of it exists; an
+//! axis has a line if it has two circles, as in a cylinder or a cone.
 
 use super::annotation::{AnnotationLayer, ViewAnnotations};
 use super::sheet_view::SheetView;
@@ -20,37 +20,37 @@ use glam::DVec2;
 use hidden_line::WorldCircle;
 use viewport::DrawingScale;
 
-/// How far center lines reach beyond circle or part, in millimeters of paper.
+/// The overhang of center lines beyond circle or part, in millimeters of paper.
 pub(super) const CENTER_LINE_OVERHANG: f64 = 2.5;
 
-/// Smaller circles, by their radius in millimeters of paper, have no cross: it would hide them.
+/// Circles with a smaller radius, in millimeters of paper, have no cross: it would hide them.
 const LEAST_RADIUS: f64 = 0.75;
 
-/// Circles of which less is there are roundings, not holes or shafts.
+/// Circles with a smaller arc are roundings, not holes or shafts.
 const LEAST_SWEEP: f64 = PI - 1e-6;
 
-/// Axes and centers nearer than this part of the size of the view are one.
+/// Axes and centers closer than this fraction of the view size are the same.
 const SAME: f64 = 1e-4;
 
-/// The most crosses, and the most axes, of a view: more would be a pattern and not a help.
+/// The maximum number of crosses, and of axes, in a view: more would be a pattern, not a help.
 const MAX_LINES: usize = 300;
 
-/// The center lines of a view, in millimeters of the object from its center, y down.
+/// The center lines of a view, in object millimeters from its center, y down.
 #[derive(Clone, Debug, Default)]
 pub(super) struct CenterLines {
-    /// Circles that are seen as such: centers and radii.
+    /// Circles seen face-on: centers and radii.
     crosses: Vec<(DVec2, f64)>,
-    /// Axes that are seen from the side, from end to end.
+    /// Axes seen from the side, from end to end.
     axes: Vec<[DVec2; 2]>,
-    /// Lines of symmetry, which take the place of those on them: a point, and the number of the axis
-    /// of the paper along which they run.
+    /// Lines of symmetry, which replace the center lines on them: a point, and the index of the
+    /// paper axis along which they run.
     symmetry: Vec<(DVec2, usize)>,
-    /// Lines no farther apart are one.
+    /// The maximum distance of lines that count as one.
     same: f64,
 }
 
 impl CenterLines {
-    /// The center lines of circles in a view.
+    /// Finds the center lines of circles in a view.
     pub(super) fn in_view(view: &SheetView, circles: &[WorldCircle]) -> Self {
         let same = SAME * view.size.max_element();
         let large = circles.iter().filter(|circle| circle.sweep >= LEAST_SWEEP);
@@ -75,12 +75,12 @@ impl CenterLines {
         Self { crosses, axes, symmetry: Vec::new(), same }
     }
 
-    /// Without those that lie on lines of symmetry.
+    /// Removes the lines that coincide with lines of symmetry.
     pub(super) fn beside(self, symmetry: Vec<(DVec2, usize)>) -> Self {
         Self { symmetry, ..self }
     }
 
-    /// Whether a line lies on a line of symmetry.
+    /// Whether a line coincides with a line of symmetry.
     fn is_covered(&self, line: [DVec2; 2]) -> bool {
         self.symmetry.iter().any(|(through, axis)| {
             line.iter().all(|end| (end[1 - axis] - through[1 - axis]).abs() <= self.same)
@@ -92,7 +92,7 @@ impl CenterLines {
         self.crosses.is_empty() && self.axes.is_empty()
     }
 
-    /// Adds the lines at a scale.
+    /// Adds the lines at a given scale.
     pub(super) fn annotate(&self, annotations: &mut ViewAnnotations, scale: DrawingScale) {
         let ratio = scale.ratio();
         let layer = AnnotationLayer::CenterLines;
@@ -108,7 +108,7 @@ impl CenterLines {
     }
 }
 
-/// The largest circle at each center, the largest of all first.
+/// The largest circle at each center, the largest overall first.
 fn merge_crosses(mut crosses: Vec<(DVec2, f64)>, same: f64) -> Vec<(DVec2, f64)> {
     crosses.sort_by(|(a, r), (b, s)| {
         s.total_cmp(r).then(a.x.total_cmp(&b.x)).then(a.y.total_cmp(&b.y))
@@ -124,7 +124,8 @@ fn merge_crosses(mut crosses: Vec<(DVec2, f64)>, same: f64) -> Vec<(DVec2, f64)>
     merged
 }
 
-/// The axes by points on them and their directions: from the first to the last point of each line.
+/// Merges axes, given by points on them and directions, from the first to the last point of each
+/// line.
 fn merge_axes(sides: Vec<(DVec2, DVec2)>, same: f64) -> Vec<[DVec2; 2]> {
     let mut lines: Vec<(DVec2, DVec2, [f64; 2])> = Vec::new();
     for (center, along) in sides {

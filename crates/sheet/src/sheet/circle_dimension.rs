@@ -1,5 +1,5 @@
-//! Diameters and radii: an arrow onto the circle, along a line through its center, and the number
-//! on a shelf outside of the part (ISO 129-1).
+//! Diameters and radii: an arrow onto the circle, along a line through its center, with the number
+//! on a shelf outside the part (ISO 129-1).
 //!
 //! ```text
 //!            __Ø20__
@@ -16,18 +16,18 @@ use super::measure::{ViewDimension, ViewMeasure};
 use glam::DVec2;
 use page::{Label, TextAlign};
 
-/// The directions that are tried, in degrees from the right, upward: none of them along an axis,
-/// where center lines are.
+/// The directions to try, in degrees from the right, upward. None is along an axis, because center
+/// lines are there.
 const DIRECTIONS: [f64; 20] = [
     45.0, 135.0, -45.0, -135.0, 60.0, 120.0, -60.0, -120.0, 30.0, 150.0, -30.0, -150.0, 75.0,
     105.0, -75.0, -105.0, 15.0, 165.0, -15.0, -165.0,
 ];
 
-/// The number of lengths that are tried for each direction.
+/// The number of lengths to try for each direction.
 const LENGTHS: u32 = 40;
 
 impl DimensionBoard {
-    /// The free place of a diameter or radius with the shortest leader.
+    /// The free position of a diameter or radius with the shortest leader.
     pub(super) fn leader_candidate(&self, dimension: &ViewDimension) -> Option<Candidate> {
         let ViewMeasure::Round { center, radius, prefix, radii } = &dimension.measure else {
             return None;
@@ -57,7 +57,7 @@ impl DimensionBoard {
         best.map(|(_, candidate)| candidate)
     }
 
-    /// How far a ray from a point is within the hull of the part.
+    /// The length of a ray from a point inside the hull of the part.
     fn exit_distance(&self, from: DVec2, along: DVec2) -> f64 {
         let hull = &self.hull;
         let crossings = hull.iter().enumerate().filter_map(|(at, &a)| {

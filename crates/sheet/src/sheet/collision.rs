@@ -1,13 +1,13 @@
-//! Collisions of annotations: convex outlines, separated by an axis or not.
+//! Collisions of annotations: convex outlines, tested for a separating axis.
 //!
-//! Texts, arrowheads and lines are convex, so the separating axis theorem decides: two of them are
-//! apart if along the normal of one of their sides they are (Gottschalk 1996).
+//! Texts, arrowheads and lines are convex, so the separating axis theorem applies: two of them are
+//! apart if they are apart along the normal of one of their sides (Gottschalk 1996).
 
 use super::annotation::{AnnotationShape, AnnotationText};
 use glam::DVec2;
 use page::Label;
 
-/// Overlaps up to this, in millimeters, are contacts.
+/// Overlaps up to this, in millimeters, count as contacts.
 const CONTACT: f64 = 1e-6;
 
 /// The corners of a text, with a margin around it.
@@ -24,7 +24,7 @@ pub(super) fn text_outline(text: &AnnotationText, margin: f64) -> [DVec2; 4] {
     [start, start + across, start + across + height, start + height]
 }
 
-/// The convex parts of a shape; texts have this margin.
+/// The convex parts of a shape; texts get this margin.
 pub(super) fn convex_parts(shape: &AnnotationShape, margin: f64) -> Vec<Vec<DVec2>> {
     match shape {
         AnnotationShape::Line(ends) => vec![ends.to_vec()],
@@ -38,7 +38,7 @@ pub(super) fn convex_parts(shape: &AnnotationShape, margin: f64) -> Vec<Vec<DVec
     }
 }
 
-/// Whether two convex outlines have more than a contact in common. Two points are a line.
+/// Whether two convex outlines overlap by more than a contact. Two points form a line.
 pub(super) fn convex_overlap(a: &[DVec2], b: &[DVec2]) -> bool {
     let axes = sides(a).chain(sides(b)).chain([DVec2::X, DVec2::Y]);
     let along = |points: &[DVec2], axis: DVec2| {
@@ -59,7 +59,7 @@ fn sides(points: &[DVec2]) -> impl Iterator<Item = DVec2> {
     next.filter_map(|side| side.perp().try_normalize())
 }
 
-/// The convex hull of points, counter-clockwise in a system with y up (Andrew's monotone chain).
+/// The convex hull of points, counterclockwise with y up (Andrew's monotone chain).
 pub(super) fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.retain(|point| point.is_finite());
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -85,8 +85,8 @@ pub(super) fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     hull
 }
 
-/// How far the part of a convex outline between two values along an axis reaches in a direction
-/// perpendicular to it; `None` if it has no such part.
+/// The farthest extent, in a direction perpendicular to an axis, of the part of a convex outline
+/// between two values along that axis; `None` if there is no such part.
 pub(super) fn reach_between(
     hull: &[DVec2],
     along: DVec2,

@@ -1,5 +1,4 @@
-//! Composition of a view: drawings of the object cut in different ways, each in its part of the
-//! view.
+//! Composition of a view: drawings of the object with different cuts, each in its part of the view.
 //!
 //! ```text
 //!    stepped        half section     local section      broken        detail
@@ -8,9 +7,9 @@
 //!   └───┴───┴──┘    └────┴╱╱╱╱┘     └──╰╱╱╱╯────┘    └───╯╰───┘       ╰──╯
 //! ```
 //!
-//! Views are parallel projections, so what is seen in a strip of the paper lies in the slab of space
-//! behind it: a section along a stepped plane is, strip by strip, a section along one plane. No line
-//! is drawn where two parts meet.
+//! Views are parallel projections, so a strip of the paper shows exactly the slab of space behind
+//! it. A section along a stepped plane is therefore, strip by strip, a section along one plane. No
+//! line is drawn where two parts meet.
 
 use super::SheetError;
 use super::freehand::{freehand_circle, freehand_line};
@@ -26,17 +25,17 @@ use viewport::DrawingScale;
 /// Half the width of the gap of a broken view, in millimeters of the paper.
 const HALF_BREAK: f64 = 1.5;
 
-/// The greatest deviation of the line of a break, in millimeters of the paper.
+/// The maximum deviation of a break line, in millimeters of the paper.
 const BREAK_WAVER: f64 = 1.2;
 
-/// The greatest deviation of the line around a local section, as a part of its radius.
+/// The maximum deviation of the line around a local section, as a fraction of its radius.
 const LOCAL_WAVER: f64 = 0.08;
 
-/// Lines that lie this near to the center line of a half section, in pixels of the drawing, are
-/// left to it.
+/// Lines this close to the center line of a half section, in pixels of the drawing, are omitted in
+/// its favor.
 const CENTER_LINE_CLEARANCE: f64 = 1e-3;
 
-/// How the drawing of a view is put together.
+/// The composition of a view's drawing.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub(super) enum Composition {
     /// From one drawing.
@@ -45,21 +44,21 @@ pub(super) enum Composition {
     /// From strips, each cut by a plane.
     Stepped {
         planes: Vec<Plane<World>>,
-        /// A point of each border, one fewer than the planes.
+        /// A point on each border, one fewer than the planes.
         borders: Vec<Point<World>>,
         /// The direction in which the strips follow each other.
         along: Vector<World>,
     },
-    /// From a half that is cut and one that is not.
+    /// From a half that is cut and a half that is not.
     Half { plane: Plane<World>, point: Point<World>, side: ViewSide },
-    /// From a part around a point that is cut, and the rest that is not.
+    /// From a part around a point that is cut, and the rest, which is not.
     Local { plane: Plane<World>, center: Point<World>, radius: f64 },
     /// From the two ends of a long object.
     Broken(Break),
 }
 
-/// The part of a view that is left out, as millimeters of the object from the center of the whole
-/// view, to the right and down.
+/// The omitted part of a view, in object millimeters from the center of the whole view, to the
+/// right and down.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Break {
     /// The axis of the paper along which the view is shortened.
@@ -74,7 +73,7 @@ pub(super) struct ComposedDrawing {
     pub(super) break_lines: Vec<Vec<DVec2>>,
 }
 
-/// The surfaces, style and view with which the parts of a view are drawn.
+/// The surfaces, style and view used to draw the parts of a view.
 pub(super) struct PartDrawing<'a, 'm> {
     pub(super) view: &'a SheetView,
     pub(super) surfaces: &'a mut SurfaceCache<'m>,
@@ -84,12 +83,12 @@ pub(super) struct PartDrawing<'a, 'm> {
 }
 
 impl Break {
-    /// The length that is left out, as a vector.
+    /// The omitted length, as a vector.
     pub(super) fn length(&self) -> DVec2 {
         DVec2::AXES[self.axis] * (self.to - self.from)
     }
 
-    /// Where a point of the whole view is in the shortened one; `None` if it is left out.
+    /// Maps a point of the whole view to the shortened one; `None` if it is omitted.
     pub(super) fn shortened(&self, point: DVec2) -> Option<DVec2> {
         let half = self.length() * 0.5;
         match point[self.axis] {
@@ -101,12 +100,12 @@ impl Break {
 }
 
 impl Composition {
-    /// Whether a part of the view is cut open, so that hidden lines are left out of all of it.
+    /// Whether a part of the view is cut open, so that all its hidden lines are omitted.
     pub(super) const fn is_section(&self) -> bool {
         matches!(self, Self::Stepped { .. } | Self::Half { .. })
     }
 
-    /// The drawing of a view.
+    /// Draws a view.
     pub(super) fn draw(
         &self,
         with: &mut PartDrawing<'_, '_>,
@@ -171,7 +170,7 @@ impl ViewSide {
 }
 
 impl PartDrawing<'_, '_> {
-    /// The drawing of the object cut by these planes.
+    /// Draws the object cut by these planes.
     fn part(&mut self, sections: &[Plane<World>]) -> Result<Drawing, SheetError> {
         let surface = self.surfaces.cut_by(sections);
         let is_uncut = sections.is_empty();
@@ -180,7 +179,7 @@ impl PartDrawing<'_, '_> {
         self.view.draw(surface, &style, self.scale, self.threads)
     }
 
-    /// Strips between borders, each cut by its plane.
+    /// Draws strips between borders, each cut by its plane.
     fn stepped(
         &mut self,
         planes: &[Plane<World>],
@@ -208,7 +207,7 @@ impl PartDrawing<'_, '_> {
         composed.map(Into::into).ok_or(SheetError::Empty)
     }
 
-    /// A half that is cut, and the other one.
+    /// Draws a half that is cut, and the other one.
     fn half(
         &mut self,
         plane: Plane<World>,
@@ -222,7 +221,7 @@ impl PartDrawing<'_, '_> {
         Ok(drawing.into())
     }
 
-    /// A cut part within a freehand line, and the rest.
+    /// Draws a cut part within a freehand line, and the rest.
     fn local(
         &mut self,
         plane: Plane<World>,
@@ -239,7 +238,7 @@ impl PartDrawing<'_, '_> {
         Ok(ComposedDrawing { drawing, break_lines })
     }
 
-    /// The two ends, moved together.
+    /// Draws the two ends, moved together.
     fn broken(&mut self, part: &Break) -> Result<ComposedDrawing, SheetError> {
         let sections = self.view.sections.clone();
         let whole = self.part(&sections)?;
@@ -267,7 +266,7 @@ impl PartDrawing<'_, '_> {
         Ok(ComposedDrawing { drawing, break_lines })
     }
 
-    /// The parts of a line that lie before the object, uncut.
+    /// The parts of a line in front of the uncut object.
     fn within_outline(&mut self, line: &[DVec2]) -> Result<Vec<Vec<DVec2>>, SheetError> {
         let (view_projection, size) = self.view.view_projection()?;
         let surface: &WeldedSurface = self.surfaces.cut_by(&[]);
@@ -279,7 +278,7 @@ impl PartDrawing<'_, '_> {
     }
 }
 
-/// The area beyond a line that runs across the drawing, towards `outward`.
+/// The area beyond a line that runs across the drawing, toward `outward`.
 fn end_area(line: &[DVec2], outward: DVec2) -> ClipArea {
     const FAR: f64 = 1e6;
     let ends = [line[0], line[line.len() - 1]];
@@ -294,7 +293,7 @@ fn end_area(line: &[DVec2], outward: DVec2) -> ClipArea {
     ClipArea::Star { center, corners: corners.collect() }
 }
 
-/// The parts of a line that lie in the area of some directed sides.
+/// The parts of a line inside the area of directed sides.
 fn parts_within(line: &[DVec2], edges: &[RegionEdge]) -> Vec<Vec<DVec2>> {
     let mut parts: Vec<Vec<DVec2>> = Vec::new();
     let mut is_open = false;
@@ -328,7 +327,7 @@ fn parts_within(line: &[DVec2], edges: &[RegionEdge]) -> Vec<Vec<DVec2>> {
     parts
 }
 
-/// The winding number of directed sides about a point, along a ray to the right.
+/// The winding number of directed sides around a point, along a ray to the right.
 fn winding_number(point: DVec2, edges: &[RegionEdge]) -> i32 {
     let crossing = |edge: &RegionEdge| {
         let [a, b] = edge.ends;

@@ -8,10 +8,10 @@
 //!      ┌───────────────────┐      the outline of the object
 //! ```
 //!
-//! Extension lines begin a little beside the outline and end a little beyond the dimension line.
+//! Extension lines begin a little away from the outline and end a little beyond the dimension line.
 //! Arrows that do not fit between them are placed outside.
 //!
-//! All distances are multiples of the height of letters.
+//! All distances are multiples of the character height.
 
 use super::annotation::{AnnotationLayer, AnnotationShape, AnnotationText, ViewAnnotations};
 use super::length_format::LengthFormat;
@@ -19,10 +19,10 @@ use glam::DVec2;
 use page::{Label, TextAlign};
 use viewport::DrawingScale;
 
-/// From the outline to the dimension line.
+/// The distance from the outline to the dimension line.
 pub(super) const LINE_DISTANCE: f64 = 2.4;
 
-/// From the outline to the start of the extension line.
+/// The distance from the outline to the start of the extension line.
 pub(super) const EXTENSION_GAP: f64 = 0.25;
 
 /// The length of an extension line beyond the dimension line.
@@ -31,10 +31,10 @@ pub(super) const EXTENSION_OVERHANG: f64 = 0.5;
 /// The length of an arrowhead; it is a third as wide.
 pub(super) const ARROW_LENGTH: f64 = 0.9;
 
-/// From the dimension line to the text above it.
+/// The distance from the dimension line to the text above it.
 pub(super) const TEXT_GAP: f64 = 0.35;
 
-/// The side of a view on which a dimension of its whole extent stands.
+/// The side of a view that has a dimension of its whole extent.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum OverallSide {
     Above,
@@ -42,20 +42,20 @@ pub(super) enum OverallSide {
     Left,
 }
 
-/// A length between two points of an outline, dimensioned on the side `outward` of it.
+/// A length between two points of an outline, dimensioned on the side `outward`.
 struct LinearDimension {
     ends: [DVec2; 2],
     /// The unit vector from the outline to the dimension line.
     outward: DVec2,
-    /// From the outline to the dimension line, in millimeters.
+    /// The distance from the outline to the dimension line, in millimeters.
     distance: f64,
     /// The length of the object in millimeters.
     length: f64,
 }
 
-/// Adds the overall dimensions of a view whose object takes `half` to each side of its center.
+/// Adds the overall dimensions of a view whose object extends by `half` to each side of its center.
 ///
-/// Where the object has no extent there is no dimension.
+/// An object without extent gets no dimension.
 pub(super) fn add_overall_dimensions(
     annotations: &mut ViewAnnotations,
     sides: &[OverallSide],
@@ -70,23 +70,23 @@ pub(super) fn add_overall_dimensions(
     }
 }
 
-/// Settings that the dimensions of a sheet have in common.
+/// Settings shared by the dimensions of a sheet.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct DimensionSettings {
-    /// The height of letters in millimeters.
+    /// The character height in millimeters.
     pub(super) letters: f64,
     /// The scale of the view.
     pub(super) scale: DrawingScale,
-    /// The form of the lengths.
+    /// The format of the lengths.
     pub(super) format: LengthFormat,
-    /// The room that cut lines and their letters take around the outline, in millimeters: 0 without any.
+    /// The space around the outline for cut lines and their letters, in millimeters: 0 without any.
     pub(super) reserved: f64,
-    /// The length that a broken view leaves out along each axis of the paper, in millimeters of the object.
+    /// The length that a broken view omits along each axis of the paper, in object millimeters.
     pub(super) left_out: DVec2,
 }
 
 impl DimensionSettings {
-    /// The settings of an overall dimension beyond the dimensions that stand on its side.
+    /// The settings of an overall dimension placed beyond the other dimensions on its side.
     fn beyond(&self, annotations: &ViewAnnotations, side: OverallSide, half: DVec2) -> Self {
         let [low, high] = annotations.extent_of_dimensions([-half, half]);
         let taken = match side {
@@ -123,7 +123,7 @@ fn overall_dimension(
         OverallSide::Below => ([corner(-1.0, 1.0), corner(1.0, 1.0)], DVec2::Y),
         OverallSide::Left => ([corner(-1.0, 1.0), corner(-1.0, -1.0)], -DVec2::X),
     };
-    // A text above the line is between it and an outline that is above.
+    // A text above the line is between the line and an outline above it.
     let text = if side == OverallSide::Below { 1.0 + TEXT_GAP } else { 0.0 };
     let distance = (LINE_DISTANCE * letters).max(reserved + (text + 0.5) * letters);
     let axis = usize::from(side == OverallSide::Left);
@@ -132,8 +132,8 @@ fn overall_dimension(
 }
 
 impl LinearDimension {
-    /// The direction of the dimension line; its text reads along it from the bottom or from the
-    /// right of the sheet.
+    /// The direction of the dimension line; its text reads along it, from the bottom or the right
+    /// of the sheet.
     fn line_direction(&self) -> DVec2 {
         (self.ends[1] - self.ends[0]).normalize_or(DVec2::X)
     }
@@ -148,10 +148,10 @@ impl LinearDimension {
         (self.ends[1] - self.ends[0]).length() > 3.5 * ARROW_LENGTH * height
     }
 
-    /// Adds extension lines, dimension line, arrowheads and text.
+    /// Adds extension lines, a dimension line, arrowheads and text.
     ///
-    /// Arrows that do not fit between the extension lines point inward from outside, and the
-    /// dimension line is extended to them, and on to a text that stands beside it.
+    /// Arrows that do not fit between the extension lines point inward from outside. The dimension
+    /// line is extended to them, and further to a text beside it.
     fn annotate(&self, annotations: &mut ViewAnnotations, settings: &DimensionSettings) {
         let height = settings.letters;
         let text = settings.format.text(self.length);
@@ -172,7 +172,7 @@ impl LinearDimension {
         for (tip, into) in [(start, along * inwards), (end, -along * inwards)] {
             annotations.push(layer, AnnotationShape::Head(arrowhead(tip, into, arrow)));
         }
-        // Above the line in reading direction is to the left of it.
+        // Above the line in reading direction means to its left.
         let above = DVec2::new(along.y, -along.x) * (TEXT_GAP * height);
         let (anchor, align) = if is_outside {
             // Beyond the extension line, which rises above the dimension line.

@@ -1,5 +1,5 @@
-//! Dimension board: the free room around a view, in which dimensions find their places one after
-//! the other.
+//! Dimension board: the free space around a view, in which dimensions are placed one after the
+//! other.
 //!
 //! ```text
 //!        │◄── 80 ──►│          a number touches neither the part (its convex hull), nor a line, nor
@@ -14,19 +14,19 @@ use super::dimension::DimensionSettings;
 use super::measure::{ViewDimension, ViewMeasure};
 use glam::DVec2;
 
-/// The margin around texts, in heights of letters.
+/// The margin around texts, in character heights.
 const TEXT_MARGIN: f64 = 0.2;
 
-/// The margin around texts towards the lines of their own dimension, in heights of letters.
+/// The margin between texts and the lines of the same dimension, in character heights.
 const OWN_MARGIN: f64 = 0.15;
 
-/// Dimension lines that run beside each other are at least so far apart, in heights of letters.
+/// The minimum distance between parallel dimension lines, in character heights.
 const LINE_SPACING: f64 = 1.8;
 
 /// A shape with its layer.
 pub(super) type LayeredShape = (AnnotationLayer, AnnotationShape);
 
-/// A dimension at a place that may be free.
+/// A dimension at a candidate position.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Candidate {
     pub(super) shapes: Vec<LayeredShape>,
@@ -34,7 +34,7 @@ pub(super) struct Candidate {
     pub(super) span: Option<[DVec2; 2]>,
 }
 
-/// The room around a view, in millimeters of paper from its center.
+/// The space around a view, in millimeters of paper from its center.
 #[derive(Clone, Debug)]
 pub(super) struct DimensionBoard {
     /// The convex hull of the object.
@@ -42,14 +42,14 @@ pub(super) struct DimensionBoard {
     pub(super) settings: DimensionSettings,
     /// The convex parts of lines and arrowheads.
     lines: Vec<Vec<DVec2>>,
-    /// Those of texts, with their margin.
+    /// The convex parts of texts, with their margin.
     texts: Vec<Vec<DVec2>>,
     /// The dimension lines.
     spans: Vec<[DVec2; 2]>,
 }
 
 impl Candidate {
-    /// Whether its texts are clear of its own lines and of each other.
+    /// Whether its texts are clear of its lines and of each other.
     fn is_legible(&self, margin: f64) -> bool {
         let parts: Vec<(bool, Vec<DVec2>)> = self
             .shapes
@@ -80,7 +80,7 @@ impl Candidate {
 }
 
 impl DimensionBoard {
-    /// The room that annotations and the lines of others, which are yet to come, leave.
+    /// Creates the space left by annotations and by the lines of others, which will follow.
     pub(super) fn new(
         annotations: &ViewAnnotations,
         hull: Vec<DVec2>,
@@ -98,7 +98,7 @@ impl DimensionBoard {
         TEXT_MARGIN * self.settings.letters
     }
 
-    /// Takes the room of a shape.
+    /// Occupies the space of a shape.
     fn add_shape(&mut self, shape: &AnnotationShape) {
         let parts = convex_parts(shape, self.text_margin());
         match shape {
@@ -107,12 +107,12 @@ impl DimensionBoard {
         }
     }
 
-    /// Keeps texts off a line that is yet to come.
+    /// Keeps texts off a line that will follow.
     pub(super) fn reserve_line(&mut self, line: [DVec2; 2]) {
         self.lines.push(line.to_vec());
     }
 
-    /// Whether a candidate touches nothing that it must not touch.
+    /// Whether a candidate touches nothing that it must avoid.
     pub(super) fn is_free(&self, candidate: &Candidate) -> bool {
         let margin = self.text_margin();
         let is_shape_free = |shape: &AnnotationShape| {
@@ -134,7 +134,7 @@ impl DimensionBoard {
             && candidate.shapes.iter().all(|(_, shape)| is_shape_free(shape))
     }
 
-    /// Whether two dimension lines run so near to each other that they could be taken for one.
+    /// Whether two dimension lines are so close that they could be mistaken for one.
     fn run_beside(&self, a: [DVec2; 2], b: [DVec2; 2]) -> bool {
         let along = (a[1] - a[0]).normalize_or(DVec2::X);
         let other = (b[1] - b[0]).normalize_or(DVec2::X);
@@ -150,13 +150,13 @@ impl DimensionBoard {
             && other_low < high
     }
 
-    /// Takes the room of a candidate.
+    /// Occupies the space of a candidate.
     pub(super) fn take(&mut self, candidate: &Candidate) {
         candidate.shapes.iter().for_each(|(_, shape)| self.add_shape(shape));
         self.spans.extend(candidate.span);
     }
 
-    /// Places dimensions: the shorter lengths next to the part, then angles, then circles.
+    /// Places dimensions: shorter lengths next to the part first, then angles, then circles.
     pub(super) fn place_all(
         &mut self,
         dimensions: &[ViewDimension],
@@ -181,7 +181,7 @@ impl DimensionBoard {
         }
     }
 
-    /// The free places of the parts of a dimension: one, or as many as a baseline has lengths.
+    /// The free positions of the parts of a dimension: one, or one for each baseline length.
     fn candidates(&self, dimension: &ViewDimension) -> Vec<Option<Candidate>> {
         match &dimension.measure {
             ViewMeasure::Lengths { .. } => self.length_candidates(dimension),
@@ -190,7 +190,7 @@ impl DimensionBoard {
         }
     }
 
-    /// The number of a length in millimeters of the object, in the unit of the sheet.
+    /// Formats a length, given in object millimeters, in the unit of the sheet.
     pub(super) fn length_text(&self, dimension: &ViewDimension, millimeters: f64) -> String {
         self.settings.format.with_decimals(dimension.decimals).text(millimeters)
     }
@@ -211,7 +211,7 @@ fn rank(dimension: &ViewDimension) -> (u8, f64) {
     }
 }
 
-/// Whether the boxes around points overlap: cheap, and mostly not.
+/// Whether the boxes around points overlap: a cheap test that usually fails.
 fn boxes_overlap(a: &[DVec2], b: &[DVec2]) -> bool {
     let around = |points: &[DVec2]| {
         let far = DVec2::splat(f64::INFINITY);

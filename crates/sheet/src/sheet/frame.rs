@@ -17,15 +17,14 @@ const MARGIN: f64 = 10.0;
 /// The width of the frame's line in millimeters.
 const FRAME_LINE_WIDTH: f64 = 0.7;
 
-/// The distance of centering marks from the edge of the paper, and their length within the drawing
+/// The distance of centering marks from the edge of the paper, and their length inside the drawing
 /// area.
 const CENTERING_MARK: [f64; 2] = [5.0, 5.0];
 
-/// The least distance from the part of a centering mark within the frame to anything else, in
-/// millimeters.
+/// The minimum distance from the inner part of a centering mark to anything else, in millimeters.
 const MARK_CLEARANCE: f64 = 1.0;
 
-/// The drawing area within the frame; on paper too small for the margins they are a tenth of its
+/// The drawing area inside the frame. On paper too small for the margins, they are a tenth of its
 /// side.
 pub(super) fn area_within_frame(paper: Paper) -> Rectangle {
     let margin = |margin: f64, side: f64| margin.min(side * 0.1);
@@ -34,7 +33,7 @@ pub(super) fn area_within_frame(paper: Paper) -> Rectangle {
     rectangle_from_size(left, edge, paper.width() - left - right, paper.height() - 2.0 * edge)
 }
 
-/// The frame and its centering marks, which stop at the frame where something is in their way.
+/// The frame and its centering marks, which stop at the frame if something is in their way.
 pub(super) fn frame_layer(paper: Paper, style: SheetFrame, contents: &[Extent], ink: Ink) -> Layer {
     let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(FRAME_LINE_WIDTH, ink) };
     let mut layer = Layer::new("frame", "frame", pen);
@@ -53,7 +52,7 @@ pub(super) fn rectangle_outline(area: Rectangle) -> Polyline {
         .unwrap_or(Polyline { points: vec![[0, 0], [1, 0]], closed: false })
 }
 
-/// Marks at the middles of the sides, by which a sheet is aligned in a copier.
+/// Marks at the middles of the sides, for aligning a sheet in a copier.
 fn centering_marks(paper: Paper, style: SheetFrame, contents: &[Extent]) -> Vec<Polyline> {
     let size = DVec2::new(paper.width(), paper.height());
     let (middle, area) = (size * 0.5, area_within_frame(paper));
@@ -64,7 +63,7 @@ fn centering_marks(paper: Paper, style: SheetFrame, contents: &[Extent]) -> Vec<
         SheetFrame::Plain => inset,
         SheetFrame::Zones => left - ZONE_BORDER,
     };
-    // The outer end of each, its point on the frame, and its direction.
+    // The outer end of each mark, its point on the frame, and its direction.
     let marks = [
         [DVec2::new(start, middle.y), DVec2::new(left, middle.y), DVec2::X],
         [DVec2::new(size.x - inset, middle.y), DVec2::new(right, middle.y), -DVec2::X],

@@ -1,5 +1,5 @@
-//! Zones of a sheet (ISO 5457): letters and numbers in a border around the frame, by which a place
-//! on the sheet is named, and trimming marks.
+//! Sheet zones (ISO 5457): letters and numbers in a border around the frame, which identify
+//! positions on the sheet, and trimming marks.
 //!
 //! ```text
 //!      │  1  │  2  │  3  │  4  │
@@ -21,7 +21,7 @@ pub enum SheetFrame {
     /// A line, with marks at the middles of its sides.
     #[default]
     Plain,
-    /// Also letters and numbers of zones, and trimming marks at the corners of the paper.
+    /// Zones with letters and numbers too, and trimming marks at the corners of the paper.
     Zones,
 }
 
@@ -40,14 +40,15 @@ const LINE_WIDTH: f64 = 0.35;
 /// The sides of the two rectangles of a trimming mark in millimeters.
 const TRIMMING_MARK: [f64; 2] = [10.0, 5.0];
 
-/// Up to this length of its longer side, paper has letters and numbers above and on the right only.
+/// Paper whose longer side is at most this long has letters and numbers only above and on the
+/// right.
 const SMALL_PAPER: f64 = 300.0;
 
-/// The letters of rows: without I and O, which look like digits.
+/// The row letters: without I and O, which look like digits.
 const ROW_LETTERS: &[u8] = b"ABCDEFGHJKLMNPQRSTUVWXYZ";
 
-/// The borders of the zones along a side: those of the frame, and multiples of 50 mm from the
-/// middle of the paper.
+/// The borders of the zones along a side: the frame, and multiples of 50 mm from the middle of the
+/// paper.
 fn zone_borders(side: f64, [from, to]: [f64; 2]) -> Vec<f64> {
     let count = libm::round(0.5 * side / ZONE_LENGTH).max(1.0) as u32;
     let inner =
@@ -56,13 +57,13 @@ fn zone_borders(side: f64, [from, to]: [f64; 2]) -> Vec<f64> {
     core::iter::once(from).chain(inner).chain(core::iter::once(to)).collect()
 }
 
-/// The name of a zone's row: A to Z without I and O, then AA and on.
+/// The name of a zone's row: A to Z without I and O, then AA and so on.
 fn row_letter(index: usize) -> String {
     let letter = char::from(ROW_LETTERS[index % ROW_LETTERS.len()]);
     letter.to_string().repeat(1 + index / ROW_LETTERS.len())
 }
 
-/// The border of zones with its lines, their names, and the trimming marks.
+/// The zone border with its lines and names, and the trimming marks.
 pub(super) fn zone_layers(paper: Paper, ink: Ink) -> Vec<Layer> {
     let frame = area_within_frame(paper);
     let butt = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(LINE_WIDTH, ink) };
@@ -114,7 +115,7 @@ fn side_of(frame: Rectangle, paper: Paper, axis: usize) -> (DVec2, DVec2, f64) {
     (low, high, [paper.width(), paper.height()][axis])
 }
 
-/// Two rectangles in each corner of the paper, to which it is cut.
+/// Two rectangles in each corner of the paper, where it is to be cut.
 fn trimming_marks(paper: Paper, pen: Pen) -> Layer {
     let size = DVec2::new(paper.width(), paper.height());
     let [long, short] = TRIMMING_MARK;
@@ -122,7 +123,7 @@ fn trimming_marks(paper: Paper, pen: Pen) -> Layer {
     for corner in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(DVec2::from) {
         let inward = DVec2::ONE - corner * 2.0;
         let at = |x: f64, y: f64| size * corner + inward * DVec2::new(x, y);
-        // Both rectangles as one outline, since overlapping areas of one path are not filled.
+        // Both rectangles as one outline, since overlapping areas in one path are not filled.
         let outline = [
             at(0.0, 0.0),
             at(long, 0.0),
@@ -158,7 +159,7 @@ mod tests {
             let across = zone_borders(paper.width(), [low.x, high.x]).len() - 1;
             assert_eq!([along, across], counts, "{paper:?}");
         }
-        // From the middle of the paper in steps of 50 mm.
+        // From the middle of the paper, in steps of 50 mm.
         let borders = zone_borders(297.0, [20.0, 287.0]);
         assert_eq!(borders, [20.0, 48.5, 98.5, 148.5, 198.5, 248.5, 287.0]);
         assert_eq!([0, 7, 8, 13, 24].map(row_letter), ["A", "H", "J", "P", "AA"]);

@@ -1,4 +1,4 @@
-//! Free areas of a sheet: rectangles in which a view without a fixed place can stand.
+//! Free areas of a sheet: rectangles with room for a view without a fixed position.
 //!
 //! ```text
 //!   ┌───────┬──────┐
@@ -11,7 +11,7 @@
 use super::annotation::{Extent, overlap};
 use glam::DVec2;
 
-/// All free rectangles of an area whose sides are sides of obstacles or of the area.
+/// All free rectangles of an area with sides taken from obstacles or from the area.
 pub(super) fn free_rectangles(area: Extent, obstacles: &[Extent]) -> Vec<Extent> {
     let borders = |axis: usize| {
         let sides = obstacles.iter().flatten().chain(&area).map(|corner| corner[axis]);
@@ -38,11 +38,10 @@ pub(super) fn free_rectangles(area: Extent, obstacles: &[Extent]) -> Vec<Extent>
     free
 }
 
-/// Beyond this multiple of what a view needs, more room does not make a place better.
+/// Beyond this multiple of what a view needs, more space is not better.
 const AMPLE: f64 = 1.3;
 
-/// The best of the rectangles that hold a view of this size: ample, then around `wanted`, then
-/// large.
+/// The best rectangle for a view of this size: preferably ample, then around `wanted`, then large.
 pub(super) fn best_rectangle(free: &[Extent], size: DVec2, wanted: DVec2) -> Option<Extent> {
     let holds = |[low, high]: &&Extent| (*high - *low).cmpge(size).all();
     let score = |[low, high]: &Extent| {

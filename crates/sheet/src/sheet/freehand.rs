@@ -1,7 +1,7 @@
 //! Freehand lines: borders of local sections and of broken views (ISO 128-2, line 01.1.18).
 //!
-//! A freehand line wavers about its course. The waves are sums of sines with a fixed seed, so every
-//! drawing of a part has the same ones.
+//! A freehand line wavers around its course. The waves are sums of sines with a fixed seed, so they
+//! are the same in every drawing of a part.
 
 use drawing::circle_points;
 use glam::DVec2;
@@ -10,7 +10,8 @@ use std::f64::consts::TAU;
 /// The number of points of a freehand line.
 const POINTS: u32 = 96;
 
-/// Waves as their number along the line, their part of the amplitude, and their phase in turns.
+/// Waves, given by their number along the line, their fraction of the amplitude, and their phase in
+/// turns.
 const WAVES: [(f64, f64, f64); 4] =
     [(3.0, 0.5, 0.11), (5.0, 0.3, 0.63), (8.0, 0.14, 0.37), (13.0, 0.06, 0.81)];
 
@@ -19,7 +20,7 @@ fn waver(t: f64) -> f64 {
     WAVES.iter().map(|(count, part, phase)| part * libm::sin(TAU * (count * t + phase))).sum()
 }
 
-/// A closed freehand line around a center: a circle that wavers by a part of its radius.
+/// A closed freehand line around a center: a circle that wavers by a fraction of its radius.
 pub(super) fn freehand_circle(center: DVec2, radius: f64, part: f64) -> Vec<DVec2> {
     let circle = circle_points(DVec2::ZERO, radius, POINTS).into_iter().zip(0..POINTS);
     let at = |(point, k): (DVec2, u32)| {
@@ -28,7 +29,7 @@ pub(super) fn freehand_circle(center: DVec2, radius: f64, part: f64) -> Vec<DVec
     circle.map(at).collect()
 }
 
-/// A freehand line from one point to another, with deviations up to `amplitude`.
+/// A freehand line between two points, with deviations up to `amplitude`.
 pub(super) fn freehand_line([from, to]: [DVec2; 2], amplitude: f64) -> Vec<DVec2> {
     let aside = (to - from).normalize_or_zero().perp() * amplitude;
     let at = |k: u32| {

@@ -1,4 +1,4 @@
-//! Length dimensions beside a view: single ones, chains on one line, and parallel ones from a
+//! Length dimensions beside a view: single lengths, chains on one line, and parallel lengths from a
 //! baseline (ISO 129-1).
 //!
 //! ```text
@@ -8,8 +8,8 @@
 //!       ┌──────┬────────┐          ┌──────┬─────────┐
 //! ```
 //!
-//! Where two arrowheads do not fit between extension lines, those inside of a chain are oblique
-//! strokes, and numbers stand beyond the end or above, with a leader.
+//! If two arrowheads do not fit between extension lines, oblique strokes replace those inside a
+//! chain, and numbers are placed beyond the end, or above with a leader.
 
 use super::annotation::{AnnotationLayer, AnnotationShape, AnnotationText};
 use super::collision::{convex_overlap, reach_between, text_outline};
@@ -21,19 +21,19 @@ use super::measure::{ViewDimension, ViewMeasure};
 use glam::DVec2;
 use page::{Label, TextAlign};
 
-/// From one dimension line to the next, in heights of letters.
+/// The distance between dimension lines, in character heights.
 const ROW_DISTANCE: f64 = 2.2;
 
-/// The number of rows that are tried on each side.
+/// The number of rows to try on each side.
 const MAX_ROWS: u32 = 30;
 
-/// The least length between arrowheads, in their lengths.
+/// The minimum length between arrowheads, in arrowhead lengths.
 const LEAST_BETWEEN_ARROWS: f64 = 3.5;
 
-/// Half of the side of the square whose diagonal an oblique stroke is, in heights of letters.
+/// Half the side of the square whose diagonal is an oblique stroke, in character heights.
 const STROKE: f64 = 0.3;
 
-/// How far extension lines that are yet to come may reach, in heights of letters.
+/// The maximum length of extension lines that will follow, in character heights.
 const FAR: f64 = 200.0;
 
 /// The number of levels for numbers above the line.
@@ -41,23 +41,23 @@ const TEXT_LEVELS: u32 = 6;
 
 /// Lengths on one dimension line.
 struct LengthRow<'a> {
-    /// The points that are measured, by their place along the line, in millimeters of paper.
+    /// The measured points, by position along the line, in millimeters of paper.
     feet: &'a [DVec2],
     /// The unit vector of the line; numbers read along it.
     along: DVec2,
     /// The unit vector from the part to the line.
     outward: DVec2,
-    /// The place of the line in this direction.
+    /// The position of the line in this direction.
     level: f64,
     /// The numbers between neighboring points.
     texts: &'a [String],
     letters: f64,
-    /// Whether a single number that does not fit stands before the line instead of behind it.
+    /// Whether a single number that does not fit is placed before the line instead of after it.
     is_text_first: bool,
 }
 
 impl DimensionBoard {
-    /// The free places of lengths: one for a chain, one for each length from a baseline.
+    /// The free positions of lengths: one for a chain, one for each length from a baseline.
     pub(super) fn length_candidates(&self, dimension: &ViewDimension) -> Vec<Option<Candidate>> {
         let ViewMeasure::Lengths { feet, along, is_baseline, .. } = &dimension.measure else {
             return Vec::new();
@@ -85,7 +85,8 @@ impl DimensionBoard {
         }
     }
 
-    /// The free places of the lengths from a baseline on one side, the shortest next to the part.
+    /// The free positions of the lengths from a baseline on one side, the shortest next to the
+    /// part.
     fn baseline_rows(
         &self,
         dimension: &ViewDimension,
@@ -110,8 +111,8 @@ impl DimensionBoard {
         rows
     }
 
-    /// The sides on which a dimension line may stand: the one that was asked for, else that with
-    /// the shorter extension lines first.
+    /// The possible sides of a dimension line: the requested one, or both, first the one with the
+    /// shorter extension lines.
     fn sides(&self, dimension: &ViewDimension, feet: &[DVec2], along: DVec2) -> Vec<DVec2> {
         let above = DVec2::new(along.y, -along.x);
         let wanted = dimension.side.map(|side| side.outward().dot(above));
@@ -131,21 +132,21 @@ impl DimensionBoard {
         }
     }
 
-    /// How far the part reaches beside a length.
+    /// The extent of the part beside a length.
     fn level_beside(&self, feet: &[DVec2], along: DVec2, outward: DVec2) -> f64 {
         let is_upright = along.x.abs() < 1e-9 || along.y.abs() < 1e-9;
         let places = feet.iter().map(|foot| foot.dot(along));
         let [low, high] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| {
             [low.min(at), high.max(at)]
         });
-        // Beside slanted lengths the part counts as far as they go.
+        // Beside slanted lengths, the part counts only along their extent.
         let room = if is_upright { f64::INFINITY } else { 3.0 * self.settings.letters };
         let hull = reach_between(&self.hull, along, [low - room, high + room], outward);
         let of_feet = feet.iter().map(|foot| foot.dot(outward));
         of_feet.fold(hull.unwrap_or(f64::NEG_INFINITY), f64::max)
     }
 
-    /// The free place of lengths on one line that is nearest to the part.
+    /// The free position of lengths on one line nearest to the part.
     fn row_candidate(
         &self,
         dimension: &ViewDimension,
@@ -185,7 +186,7 @@ impl DimensionBoard {
 }
 
 impl LengthRow<'_> {
-    /// The points of the dimension line.
+    /// A point on the dimension line.
     fn line_point(&self, at: usize) -> DVec2 {
         let foot = self.feet[at];
         foot + self.outward * (self.level - foot.dot(self.outward))
@@ -196,7 +197,7 @@ impl LengthRow<'_> {
         ARROW_LENGTH * self.letters
     }
 
-    /// The unit vector that is upward for whoever reads the numbers.
+    /// The unit vector that is upward when reading the numbers.
     fn above(&self) -> DVec2 {
         DVec2::new(self.along.y, -self.along.x)
     }
@@ -217,7 +218,7 @@ impl LengthRow<'_> {
         is_inside && (self.is_narrow(at - 1) || self.is_narrow(at))
     }
 
-    /// All lines and texts; `None` if numbers above the line find no level.
+    /// All lines and texts; `None` if there is no level for numbers above the line.
     fn candidate(&self) -> Option<Candidate> {
         let mut candidate = Candidate::default();
         self.add_extension_lines(&mut candidate);
@@ -256,7 +257,7 @@ impl LengthRow<'_> {
         Some(candidate)
     }
 
-    /// Adds the extension lines, from a little beside the points to a little beyond the line.
+    /// Adds the extension lines, from a little away from the points to a little beyond the line.
     fn add_extension_lines(&self, candidate: &mut Candidate) {
         for (at, foot) in self.feet.iter().enumerate() {
             let gap = EXTENSION_GAP * self.letters;
@@ -267,7 +268,7 @@ impl LengthRow<'_> {
         }
     }
 
-    /// Adds arrowheads: inside, outside at narrow ends, and strokes at narrow places of a chain.
+    /// Adds arrowheads: inside, outside at narrow ends, and strokes at narrow positions of a chain.
     fn add_terminators(&self, candidate: &mut Candidate) {
         let last = self.feet.len() - 1;
         for at in 0..=last {
@@ -288,7 +289,7 @@ impl LengthRow<'_> {
         }
     }
 
-    /// Adds a number above the line at a point of it.
+    /// Adds a number above a point of the line.
     fn add_text(&self, candidate: &mut Candidate, text: &str, at: DVec2, align: TextAlign) {
         let anchor = at + self.above() * (TEXT_GAP * self.letters);
         let text = self.text(text, anchor, align);
@@ -301,10 +302,10 @@ impl LengthRow<'_> {
         AnnotationText { text: text.to_owned(), anchor, height, direction, align }
     }
 
-    /// Adds a number that is wider than its place: farther out, at the end of a leader.
+    /// Adds a number that is wider than its space: farther out, at the end of a leader.
     fn add_raised_text(&self, candidate: &mut Candidate, at: usize, text: &str) -> Option<()> {
         let middle = (self.line_point(at) + self.line_point(at + 1)) * 0.5;
-        // The baseline is at the side of the part if the number reads away from it.
+        // The baseline is on the side of the part if the number reads away from it.
         let own_height = if self.outward.dot(self.above()) > 0.0 { 0.0 } else { 1.0 };
         for level in 0..TEXT_LEVELS {
             let raised = 0.9 + 1.5 * f64::from(level);

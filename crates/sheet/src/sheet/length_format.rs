@@ -2,13 +2,13 @@
 //!
 //! | unit | 1234.5 mm | decimals |
 //! | --- | --- | --- |
-//! | millimeters | 1235, and 234.5 below a meter | at most 2, from one meter on none |
+//! | millimeters | 1235, and 234.5 below a meter | at most 2, none from one meter on |
 //! | inches | 48.602 | at most 3 |
 //! | feet and inches | 4'-0 5/8" | sixteenths of an inch |
 
 use viewport::MILLIMETERS_PER_INCH;
 
-/// The unit in which lengths are written on a sheet; the paper is measured in millimeters always.
+/// The unit of lengths on a sheet; the paper is always measured in millimeters.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum DimensionUnit {
     /// Millimeters.
@@ -20,31 +20,31 @@ pub enum DimensionUnit {
     FootInch,
 }
 
-/// The sign before the decimals of a number.
+/// The decimal separator.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum DecimalMark {
     /// 12.5, as in English.
     #[default]
     Point,
-    /// 12,5, as ISO 129 and most languages have it.
+    /// 12,5, as in ISO 129 and most languages.
     Comma,
 }
 
-/// The form of the numbers of a sheet.
+/// The number format of a sheet.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct NumberFormat {
-    /// The most decimals, up to [`MAX_DECIMALS`](Self::MAX_DECIMALS); zeros at the end are left
-    /// out. `None` for what is usual for the unit; feet and inches then have fractions.
+    /// The maximum number of decimals, up to [`MAX_DECIMALS`](Self::MAX_DECIMALS); trailing zeros
+    /// are omitted. `None` for the default of the unit; feet and inches then have fractions.
     pub decimals: Option<u8>,
-    /// The sign before the decimals.
+    /// The decimal separator.
     pub decimal_mark: DecimalMark,
 }
 
 impl NumberFormat {
-    /// The most decimals that are written: a micrometer has six in meters.
+    /// The maximum number of decimals: a micrometer needs six in meters.
     pub const MAX_DECIMALS: u8 = 6;
 
-    /// A number with at most so many decimals, without zeros at the end.
+    /// Formats a number with at most `most` decimals, without trailing zeros.
     pub(super) fn decimal(self, number: f64, most: usize) -> String {
         let text = format!("{number:.most$}");
         let short = if text.contains('.') {
@@ -61,7 +61,7 @@ impl NumberFormat {
 }
 
 impl DimensionUnit {
-    /// The length of the unit in millimeters: that of an inch for feet and inches.
+    /// Returns the length of the unit in millimeters; for feet and inches, the length of an inch.
     #[must_use]
     pub const fn in_millimeters(self) -> f64 {
         match self {
@@ -70,7 +70,7 @@ impl DimensionUnit {
         }
     }
 
-    /// The symbol of the unit.
+    /// Returns the symbol of the unit.
     #[must_use]
     pub const fn symbol(self) -> &'static str {
         match self {
@@ -81,7 +81,7 @@ impl DimensionUnit {
     }
 }
 
-/// The form of the lengths of a sheet.
+/// The length format of a sheet.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(super) struct LengthFormat {
     pub(super) unit: DimensionUnit,
@@ -89,14 +89,14 @@ pub(super) struct LengthFormat {
 }
 
 impl LengthFormat {
-    /// The form with so many decimals at most, if a number is given.
+    /// Sets the maximum number of decimals, if given.
     pub(super) fn with_decimals(self, decimals: Option<u32>) -> Self {
         let Some(decimals) = decimals else { return self };
         let most = u8::try_from(decimals).unwrap_or(NumberFormat::MAX_DECIMALS);
         Self { numbers: NumberFormat { decimals: Some(most), ..self.numbers }, ..self }
     }
 
-    /// A length, given in millimeters, as on a dimension line: without a unit, except for feet and
+    /// A length, given in millimeters, for a dimension line: without a unit, except for feet and
     /// inches.
     pub(super) fn text(self, millimeters: f64) -> String {
         let length = millimeters / self.unit.in_millimeters();
@@ -114,7 +114,7 @@ impl LengthFormat {
         }
     }
 
-    /// A length with its unit, as on the scale bar: long ones in meters or kilometers.
+    /// A length with its unit, for the scale bar: long ones in meters or kilometers.
     pub(super) fn text_with_unit(self, length: f64) -> String {
         let number = |length: f64| {
             let text = length.to_string();
@@ -131,7 +131,7 @@ impl LengthFormat {
         }
     }
 
-    /// Feet, and inches with decimals: rounded first, so that 12 inches are a foot.
+    /// Feet, and inches with decimals: rounded first, so that 12 inches become a foot.
     fn feet_and_decimals(self, inches: f64, most: usize) -> String {
         let step = libm::pow(10.0, -(most as f64));
         let rounded = libm::round(inches / step) * step;
@@ -197,7 +197,7 @@ mod tests {
             let comma = format(Some(decimals), DecimalMark::Comma).text(1234.5678);
             assert_eq!((point.as_str(), comma), (text, text.replace('.', ",")));
         }
-        // More than are written, and zeros at the end.
+        // Too many decimals, and trailing zeros.
         assert_eq!(format(Some(9), DecimalMark::Comma).text(0.25), "0,25");
         assert_eq!(format(None, DecimalMark::Comma).text_with_unit(500.0), "500 mm");
         assert_eq!(format(None, DecimalMark::Comma).text_with_unit(2500.0), "2,5 m");

@@ -1,14 +1,14 @@
-//! Dimensions that are asked for: lengths, circles and angles of the world, and the view that shows
-//! each of them true.
+//! Requested dimensions: lengths, circles and angles in the world, and the view that shows each at
+//! true size.
 //!
 //! ```text
 //!   Measure (world) ─► the first view with a true image ─► ViewMeasure (millimeters of the object
 //!                                                          from the center of the view, y down)
 //! ```
 //!
-//! A length is true where it is perpendicular to the view direction, a circle where its axis is
-//! parallel to it, an angle where its plane is perpendicular to it. Nothing else is dimensioned:
-//! a number that cannot be measured on the paper would be wrong for whoever works by it.
+//! A length is true if it is perpendicular to the view direction, a circle if its axis is parallel
+//! to it, an angle if its plane is perpendicular to it. Nothing else is dimensioned: a number that
+//! cannot be measured on the paper would mislead anyone who works from the drawing.
 
 use super::sheet_view::{SheetView, ViewName};
 use crate::DimensionFault;
@@ -17,21 +17,21 @@ use glam::{DVec2, DVec3};
 use hidden_line::WorldCircle;
 use homog::{Plane, Point, World};
 
-/// Directions that differ by no more than this sine are parallel: a length that far out of the plane
-/// of a view is true to 5·10⁻⁹ of itself.
+/// The maximum sine between parallel directions: a length that far out of the plane of a view has a
+/// relative error of 5·10⁻⁹.
 const TRUE_SINE: f64 = 1e-4;
 
-/// A dimension that a sheet is to have.
+/// A dimension requested for a sheet.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Dimension {
     /// The lengths, the angle or the circle that it measures.
     pub measure: Measure,
-    /// The view that shows it; `None` for the first that shows it true.
+    /// The view that shows it; `None` for the first view that shows it at true size.
     pub view: Option<NamedView>,
-    /// The side of the part on which the dimension line stands; `None` for the one with shorter
-    /// extension lines. It matters for lengths only.
+    /// The side of the part for the dimension line; `None` for the side with shorter extension
+    /// lines. It matters only for lengths.
     pub side: Option<DimensionSide>,
-    /// The most decimal places of the number; `None` for those of the sheet.
+    /// The maximum number of decimal places; `None` for the default of the sheet.
     pub decimals: Option<u32>,
     /// The name in warnings, such as `dimension 3`.
     pub name: String,
@@ -77,16 +77,15 @@ pub enum DimensionSide {
     Right,
 }
 
-/// The image of a measure in a view, in millimeters of the object from the center of the view, y
-/// down.
+/// The image of a measure in a view, in object millimeters from the center of the view, y down.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum ViewMeasure {
-    /// Lengths along a unit vector, which points to the right or upward, between the images of
-    /// points; `prefix` stands before the number.
+    /// Lengths between the images of points along a unit vector, which points to the right or
+    /// upward; `prefix` precedes the number.
     Lengths { feet: Vec<DVec2>, along: DVec2, is_baseline: bool, prefix: &'static str },
-    /// A circle that is seen as one, with its prefix and the number of radii that it measures.
+    /// A circle seen face-on, with its prefix and the number of radii that it measures.
     Round { center: DVec2, radius: f64, prefix: &'static str, radii: f64 },
-    /// An angle by its vertex and the ends of its sides.
+    /// An angle, by its vertex and the ends of its sides.
     Angle { vertex: DVec2, ends: [DVec2; 2] },
 }
 
@@ -114,13 +113,13 @@ impl DimensionSide {
 }
 
 impl SheetView {
-    /// The image of a point, in millimeters of the object from the center of the view, y down.
+    /// The image of a point, in object millimeters from the center of the view, y down.
     pub(super) fn image_of(&self, point: Point<World>) -> DVec2 {
         let seen = self.camera.world_to_view().transform_point(point).raw();
         DVec2::new(seen.x, -seen.y) * self.millimeters_per_unit
     }
 
-    /// The name, if it is one of a named view.
+    /// The name, if it is a named view.
     pub(super) fn named_view(&self) -> Option<NamedView> {
         match self.name {
             ViewName::Named(name) => Some(name),
@@ -133,7 +132,7 @@ impl SheetView {
         self.camera.gaze().raw()
     }
 
-    /// Whether a vector lies in the plane of the view.
+    /// Whether a vector is in the plane of the view.
     pub(super) fn shows_true(&self, vector: DVec3) -> bool {
         vector.dot(self.gaze_vector()).abs() <= TRUE_SINE * vector.length()
     }
@@ -143,7 +142,7 @@ impl SheetView {
         unit.cross(self.gaze_vector()).length() <= TRUE_SINE
     }
 
-    /// Whether the sections of the view leave a point.
+    /// Whether the sections of the view retain a point.
     fn retains(&self, point: Point<World>) -> bool {
         let slack = 1e-6 * self.size.max_element() / self.millimeters_per_unit;
         self.sections.iter().all(|plane: &Plane<World>| plane.evaluate(point) >= -slack)
@@ -151,7 +150,7 @@ impl SheetView {
 }
 
 impl Measure {
-    /// The points that it measures.
+    /// The measured points.
     fn points(&self) -> Vec<Point<World>> {
         match self {
             Self::Chain(points, _) | Self::Baseline(points, _) => points.clone(),
@@ -160,7 +159,7 @@ impl Measure {
         }
     }
 
-    /// The image in a view, if that is true, with its rank: a lesser one is better.
+    /// The image in a view, if it is true, with its rank: a lower rank is better.
     pub(super) fn image_in(&self, view: &SheetView) -> Result<(ViewMeasure, u8), DimensionFault> {
         if !self.points().iter().all(|&point| view.retains(point)) {
             return Err(DimensionFault::CutAway);
@@ -177,7 +176,7 @@ impl Measure {
 
 /// The image of lengths between points.
 ///
-/// Along the paper every length is true in itself, but the view in which it is the distance of the
+/// Along the paper every length is true in itself, but the view where it equals the distance of the
 /// points comes first.
 fn lengths_in(
     view: &SheetView,
@@ -208,7 +207,7 @@ fn lengths_in(
     Ok((ViewMeasure::Lengths { feet, along, is_baseline, prefix: "" }, rank))
 }
 
-/// The image of a circle: the circle itself, or its diameter where it is seen from the side.
+/// The image of a circle: the circle itself, or its diameter if seen from the side.
 fn circle_in(
     view: &SheetView,
     circle: &WorldCircle,
@@ -247,7 +246,7 @@ fn angle_in(
     Ok((ViewMeasure::Angle { vertex, ends: [from, to] }, 0))
 }
 
-/// The unit vector of a line that reads to the right, or upward.
+/// The unit vector of a line that reads to the right or upward.
 fn reading_direction(line: DVec2) -> DVec2 {
     let unit = line.normalize_or(DVec2::X);
     let is_upright = unit.x.abs() < 1e-9;
@@ -256,10 +255,10 @@ fn reading_direction(line: DVec2) -> DVec2 {
 }
 
 impl Dimension {
-    /// The view that shows the dimension, as an index into `views`, and the image in it.
+    /// Chooses the view that shows the dimension, as an index into `views`, and the image in it.
     ///
     /// # Errors
-    /// If none of them does, or the one that was asked for does not.
+    /// If no view shows it, or the requested one does not.
     pub(super) fn choose_view(
         &self,
         views: &[&SheetView],

@@ -1,4 +1,4 @@
-//! Overlays of a scene in the views of a sheet: points with their labels, and the axes of the world.
+//! Scene overlays in the views of a sheet: points with labels, and the world axes.
 //!
 //! ```text
 //!        ridge              a label stands beside the object, as near to its point as it finds a
@@ -8,8 +8,8 @@
 //!     └───────────┘
 //! ```
 //!
-//! Every parallel view shows every point, also those that the object hides. Overlays come last: they
-//! give way to dimensions, and a label without a place is left out with a warning.
+//! Every parallel view shows every point, even points that the object hides. Overlays come last:
+//! dimensions have priority, and a label without room is omitted with a warning.
 
 use super::Sheet;
 use super::annotation::{
@@ -26,32 +26,32 @@ use glam::DVec2;
 use homog::{Bounds, Point, World};
 use model::{ModelInstance, world_points};
 
-/// The most labels of a view: more would hide the object, and take long to place.
+/// The maximum number of labels in a view: more would hide the object and take long to place.
 const MAX_LABELS: usize = 100;
 
-/// The number of rings around the object on which places of labels are tried.
+/// The number of rings around the object on which label positions are tried.
 const RINGS: u32 = 6;
 
-/// The distance of rings, and of the places on a ring, in heights of letters.
+/// The distance between rings, and between positions on a ring, in character heights.
 const STEP: f64 = 1.7;
 
-/// From the end of a leader line to the text, in heights of letters.
+/// The distance from the end of a leader line to the text, in character heights.
 const LEADER_GAP: f64 = 0.35;
 
-/// The radius of the dot at a point, and the length of arrowheads, in heights of letters.
+/// The radius of the dot at a point, and the length of arrowheads, in character heights.
 const DOT_RADIUS: f64 = 0.1;
 const HEAD_LENGTH: f64 = 0.9;
 
 /// The number of corners of dots.
 const DOT_CORNERS: u32 = 12;
 
-/// Points farther from the object than this part of its longer side have no label.
+/// Points farther from the object than this fraction of its longer side have no label.
 const FARTHEST: f64 = 0.25;
 
-/// An axis is this part of the diagonal of the models, as in pictures.
+/// The length of an axis as a fraction of the models' diagonal, as in pictures.
 const AXIS_LENGTH: f64 = 0.6;
 
-/// The overlays of a view, in millimeters of the object from its center, y down.
+/// The overlays of a view, in object millimeters from its center, y down.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ViewOverlays {
     /// Points and their texts.
@@ -61,7 +61,7 @@ pub(super) struct ViewOverlays {
 }
 
 impl ViewPlan {
-    /// Gives labels and axes to all views but details and broken ones, and warns of the overlays
+    /// Adds labels and axes to all views except details and broken ones, and warns about overlays
     /// that sheets do not show.
     pub(super) fn add_overlays(&mut self, sheet: &Sheet, models: &[ModelInstance]) {
         if sheet.overlays.is_empty() {
@@ -85,7 +85,7 @@ impl ViewPlan {
     }
 }
 
-/// The warning about an overlay that sheets do not show, or do not show whole.
+/// The warning about an overlay that sheets do not show, or not completely.
 fn overlay_warning(overlay: &Overlay) -> Option<SheetWarning> {
     let overlay = match overlay {
         Overlay::Grid(_) => "grid",
@@ -102,7 +102,7 @@ fn overlay_warning(overlay: &Overlay) -> Option<SheetWarning> {
 }
 
 impl ViewOverlays {
-    /// The labels and axes of a view of models with this diagonal.
+    /// The labels and axes of a view, for models with this diagonal.
     fn in_view(view: &SheetView, overlays: &[Overlay], diagonal: f64) -> Self {
         let mut own = Self::default();
         for overlay in overlays {
@@ -119,7 +119,7 @@ impl ViewOverlays {
         own
     }
 
-    /// Adds the axes that the view does not look along.
+    /// Adds the axes that are not along the view direction.
     fn add_axes(&mut self, view: &SheetView, length: f64) {
         for (direction, name, _) in AXES {
             let tip: Point<World> = Point::ORIGIN + direction * length;
@@ -130,7 +130,7 @@ impl ViewOverlays {
         }
     }
 
-    /// Adds the overlays at a scale, clear of what is there.
+    /// Adds the overlays at a scale, clear of everything already there.
     pub(super) fn annotate(&self, annotations: &mut ViewAnnotations, settings: &MarkSettings) {
         let MarkSettings { ratio, object, letters } = *settings;
         let board = LabelBoard { object, letters };
@@ -153,21 +153,21 @@ impl ViewOverlays {
     }
 }
 
-/// The room for labels around an object.
+/// The space for labels around an object.
 struct LabelBoard {
     object: Extent,
     letters: f64,
 }
 
 impl LabelBoard {
-    /// Whether a point is on the object or near it.
+    /// Whether a point is on or near the object.
     fn reaches(&self, point: DVec2) -> bool {
         let [low, high] = self.object;
         let far = FARTHEST * (high - low).max_element();
         point.cmpge(low - far).all() && point.cmple(high + far).all()
     }
 
-    /// Adds an axis with its arrowhead and its name; it ends where it would come too far from the
+    /// Adds an axis with its arrowhead and name; it ends where it would get too far from the
     /// object, or run through a text.
     fn add_axis(&self, annotations: &mut ViewAnnotations, [from, to]: [DVec2; 2], name: &str) {
         const PARTS: i32 = 40;
@@ -184,7 +184,7 @@ impl LabelBoard {
         let head = along * (HEAD_LENGTH * self.letters);
         let across = head.perp() / 6.0;
         annotations.push_line(AnnotationLayer::OverlayLines, [from, tip]);
-        // The name comes first: its leader line begins at the arrowhead.
+        // The name is placed first: its leader line begins at the arrowhead.
         if !self.add_label(annotations, tip, name, false) {
             annotations.labels_left_out.push((name.to_owned(), SheetLabelFault::NoRoom));
         }
@@ -192,8 +192,8 @@ impl LabelBoard {
         annotations.push(AnnotationLayer::OverlayLines, head);
     }
 
-    /// Adds the text at the nearest place to a point where it touches nothing, with a leader line
-    /// unless it stands at the point; `false` if there is none.
+    /// Adds the text at the nearest position to a point where it touches nothing, with a leader
+    /// line unless it is at the point; `false` if there is none.
     fn add_label(
         &self,
         annotations: &mut ViewAnnotations,
@@ -218,8 +218,8 @@ impl LabelBoard {
         false
     }
 
-    /// The places of a text on rings around the object, the one nearest to the point first, each
-    /// with its leader line if it needs one.
+    /// The positions of a text on rings around the object, nearest to the point first, each with
+    /// its leader line if needed.
     fn candidates(
         &self,
         point: DVec2,
@@ -233,11 +233,11 @@ impl LabelBoard {
             let away = half + 0.5 * self.letters + step * f64::from(ring);
             let (low, high) = (self.object[0] - away, self.object[1] + away);
             middles.extend(ring_places([low, high], step));
-            // Straight away from the point.
+            // Directly away from the point.
             let [x, y] = point.clamp(low, high).to_array();
             middles.extend([[low.x, y], [high.x, y], [x, low.y], [x, high.y]].map(DVec2::from));
         }
-        // Beside the point, if that is not on the object.
+        // Beside the point, if it is not on the object.
         let beside = half + 0.5 * self.letters;
         let around = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]].map(DVec2::from);
         let corners = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].map(DVec2::from);
@@ -257,7 +257,7 @@ impl LabelBoard {
         })
     }
 
-    /// The border of a dot at a point: about as wide as a line.
+    /// The outline of a dot at a point: about as wide as a line.
     fn dot(&self, point: DVec2) -> Vec<DVec2> {
         circle_points(point, DOT_RADIUS * self.letters, DOT_CORNERS)
     }

@@ -31,34 +31,34 @@ use page::palette::{BLACK, WHITE};
 use page::{Cap, Ink, Join, Layer, LineType, PlacedImage, missing_glyphs};
 use viewport::DrawingScale;
 
-/// The parts list stands on the page of the assembly if it takes no more than this part of the
-/// height above the title block.
+/// The parts list is placed on the assembly page if it takes at most this fraction of the height
+/// above the title block.
 const LIST_PART: f64 = 0.4;
 
-/// Pages of balloons beyond this number are left out, with a warning.
+/// The maximum number of balloon pages; more are omitted, with a warning.
 const MAX_BALLOON_PAGES: usize = 20;
 
-/// Sheets of parts beyond this number are left out, with a warning.
+/// The maximum number of part sheets; more are omitted, with a warning.
 const MAX_PART_SHEETS: usize = 500;
 
-/// The assembly as it is drawn: its parts, their list and their moves.
+/// The drawn assembly: its parts, parts list and moves.
 struct DrawnAssembly<'a> {
     sheet: &'a Sheet,
     models: &'a [ModelInstance],
     parts: Vec<Part>,
     list: PartsList,
-    /// One for each part; `None` if all stay in their places.
+    /// One move for each part; `None` if all stay in place.
     moves: Option<Vec<DVec3>>,
     warnings: Vec<SheetWarning>,
     ink: Ink,
     title: String,
 }
 
-/// The page of the assembly before it is numbered: its lines, and where it stands.
+/// The assembly page before it is numbered: its lines and their position.
 struct DrawnView {
     images: Vec<PlacedImage>,
     layers: Vec<Layer>,
-    /// The layers of balloons of each page; none without balloons.
+    /// The balloon layers of each page; empty without balloons.
     balloons: Vec<[Layer; 2]>,
     scale: DrawingScale,
     warnings: Vec<SheetWarning>,
@@ -68,11 +68,11 @@ impl Sheet {
     /// Draws the sheet with the pages of the [assembly](Self::assembly), with up to `threads`
     /// threads; their number does not change the pages.
     ///
-    /// The first page is that of [`draw`](Self::draw). Where there are several, each has its number
-    /// and their count in the title block.
+    /// The first page is the one from [`draw`](Self::draw). If there are several, the title block
+    /// has the page number and the page count.
     ///
     /// # Errors
-    /// As for [`draw`](Self::draw); also if the assembly or a part is larger than the paper at all
+    /// See [`draw`](Self::draw); also if the assembly or a part is larger than the paper at all
     /// standard scales.
     pub fn draw_pages(
         &self,
@@ -139,10 +139,10 @@ impl Sheet {
         sheet
     }
 
-    /// Adds frame and title block; without a scale for a page that has no view.
+    /// Adds a frame and a title block; without a scale on a page that has no view.
     fn add_border(&self, page: &mut SheetPage, scale: Option<DrawingScale>, ink: Ink) {
         let block = self.title_block_area();
-        // Tables and views reach up to the frame, so the centering marks stop there.
+        // Tables and views extend to the frame, so the centering marks stop there.
         let contents = [extent_of_rectangle(self.drawing_area())];
         page.layers.extend(self.frame_layers(&contents, ink));
         let title = page.title.clone();
@@ -151,7 +151,7 @@ impl Sheet {
 }
 
 impl<'a> DrawnAssembly<'a> {
-    /// The parts of models, their list and their moves.
+    /// Collects the parts of models, their list and their moves.
     fn new(sheet: &'a Sheet, models: &'a [ModelInstance]) -> Self {
         let AssemblyPages { densities, explosion, part_sheets, .. } = &sheet.assembly;
         let parts = gather_parts(models);
@@ -179,13 +179,13 @@ impl<'a> DrawnAssembly<'a> {
         Self { sheet, models, parts, list, moves, warnings, ink, title }
     }
 
-    /// A page without anything on it.
+    /// An empty page.
     fn empty_page(&self) -> SheetPage {
         let (paper, color) = (self.sheet.paper, self.sheet.style.paper.unwrap_or(WHITE));
         SheetPage::new(DVec2::new(paper.width(), paper.height()), self.title.clone(), Some(color))
     }
 
-    /// Draws the view of all parts, and arranges it on its page.
+    /// Draws the view of all parts and arranges it on its page.
     fn draw_view(
         &self,
         table: &PartsTable<'_>,
@@ -226,7 +226,7 @@ impl<'a> DrawnAssembly<'a> {
             let moves = self.moves.clone().unwrap_or_else(|| vec![DVec3::ZERO; self.parts.len()]);
             let moved = MovedParts { parts: &self.parts, models: self.models, moves: &moves };
             let mut spots = find_visible_spots(&moved, &view);
-            // Objects of an exploded view are the parts.
+            // The objects of an exploded view are the parts.
             let object = |part: usize| match exploded {
                 Some(_) => part as u32,
                 None => self.parts[part].object,
@@ -252,8 +252,8 @@ impl<'a> DrawnAssembly<'a> {
         layers
     }
 
-    /// The items with the spots of their leaders, each the best of its parts; warns of those that
-    /// are not to be seen.
+    /// The items with the spots for their leaders, each the best among its parts; warns about items
+    /// that are not visible.
     fn balloon_targets(
         &self,
         spots: &[Option<VisibleSpot>],
@@ -284,7 +284,8 @@ impl<'a> DrawnAssembly<'a> {
         targets
     }
 
-    /// The balloons of all pages, as many on each as find a place; warns of those that find none.
+    /// Places the balloons of all pages, as many per page as fit; warns about those that do not
+    /// fit.
     fn place_balloons(
         &self,
         layout: &AssemblyLayout,
@@ -292,7 +293,7 @@ impl<'a> DrawnAssembly<'a> {
         warnings: &mut Vec<SheetWarning>,
     ) -> Vec<[Layer; 2]> {
         let width = self.sheet.line_width_group().narrow_width();
-        // Some places are in the way of leaders to others.
+        // Some positions are in the way of leaders to others.
         let capacity = (layout.capacity() * 2 / 3).max(1);
         let page_count = targets.len().div_ceil(capacity).max(1);
         let each = targets.len().div_ceil(page_count).max(1);
@@ -315,7 +316,7 @@ impl<'a> DrawnAssembly<'a> {
         pages
     }
 
-    /// A page of the assembly: its view, the balloons of this page, and the list if it is here.
+    /// An assembly page: its view, its balloons, and the list if it is on this page.
     fn view_page(
         &self,
         sheet: &Sheet,
@@ -335,7 +336,7 @@ impl<'a> DrawnAssembly<'a> {
         page
     }
 
-    /// The sheet of one item: its principal views, with its name as the title.
+    /// Draws the sheet of one item: its principal views, with its name as the title.
     fn draw_part_sheet(
         &self,
         mut sheet: Sheet,
@@ -354,7 +355,7 @@ impl<'a> DrawnAssembly<'a> {
             number => format!("{number}-{}", item.number),
         };
         sheet.scale = None;
-        // They are views, overlays and dimensions of the whole.
+        // These are views, overlays and dimensions of the whole.
         sheet.views.clear();
         sheet.overlays.clear();
         sheet.measures.clear();
@@ -363,7 +364,7 @@ impl<'a> DrawnAssembly<'a> {
 }
 
 impl Sheet {
-    /// The error of an assembly that fits at no standard scale.
+    /// The error for an assembly that fits at no standard scale.
     fn assembly_too_large(&self, view: &SheetView) -> SheetError {
         let scale = DrawingScale::STANDARD[DrawingScale::STANDARD.len() - 1];
         let area = self.drawing_area();
@@ -377,8 +378,8 @@ impl Sheet {
     }
 }
 
-/// The spot of equal parts to which the leader goes: of those that are about as clear as the
-/// clearest, the one nearest to the border of the view.
+/// The spot of equal parts where the leader ends: of those about as clear as the clearest, the one
+/// nearest to the border of the view.
 fn outermost_clear_spot(spots: &[VisibleSpot], view: &SheetView) -> Option<VisibleSpot> {
     let clearest = spots.iter().map(|spot| spot.clearance).fold(0.0, f64::max);
     let clear = spots.iter().filter(|spot| spot.clearance >= 0.6 * clearest).copied();
@@ -389,7 +390,7 @@ fn outermost_clear_spot(spots: &[VisibleSpot], view: &SheetView) -> Option<Visib
     clear.reduce(farther)
 }
 
-/// Takes the paths of the parts out of a drawing; they belong to its last object.
+/// Removes the paths of the parts from a drawing and returns them; they belong to its last object.
 fn take_paths(drawing: &mut Drawing, is_exploded: bool) -> Drawing {
     let last = drawing.objects.len().wrapping_sub(1) as u32;
     let has_paths = is_exploded && drawing.objects.last().is_some_and(|name| name == PATHS);
@@ -404,7 +405,7 @@ fn take_paths(drawing: &mut Drawing, is_exploded: bool) -> Drawing {
     }
 }
 
-/// The warning about names of a list that the font lacks letters for; `None` if it has all.
+/// The warning about list names with characters that the font lacks; `None` if it has all of them.
 fn unreadable_names(list: &PartsList) -> Option<SheetWarning> {
     let is_unreadable = |text: &str| !missing_glyphs(text).is_empty();
     let mut names = list

@@ -1,4 +1,4 @@
-//! Choice of paper: its orientation, and the smallest size that is large enough.
+//! Paper choice: its orientation, and the smallest sufficient size.
 //!
 //! ```text
 //!   scale     A4 upright   A4 on its side
@@ -15,8 +15,8 @@ use model::ModelInstance;
 use viewport::DrawingScale;
 
 impl Sheet {
-    /// The sheet with its paper upright or on its long side: in the orientation in which models are
-    /// larger or more of the views fit, or as it is if both are equal.
+    /// Turns the paper to portrait or landscape, to make models larger or fit more views; unchanged
+    /// if both are equal.
     #[must_use]
     pub fn with_best_orientation(
         self,
@@ -27,16 +27,15 @@ impl Sheet {
         self.turned_for(&plan)
     }
 
-    /// The first of these sheets, given from the smallest paper to the largest, that is large
-    /// enough:
+    /// Returns the first sufficient sheet, given sheets from the smallest paper to the largest:
     ///
-    /// - with a scale of its own, the first that holds all views at this scale;
-    /// - else the first that holds all views at 1:1 or larger;
-    /// - where not even the largest paper holds them so, the first of which the next larger one
-    ///   gives no larger scale.
+    /// - with a given scale, the first sheet that fits all views at that scale;
+    /// - otherwise the first sheet that fits all views at 1:1 or larger;
+    /// - if not even the largest paper fits them at that scale, the first sheet for which the next
+    ///   larger one gives no larger scale.
     ///
-    /// With `turns`, each is taken in its best orientation. Without models it is the first.
-    /// `None` without sheets. They are to differ in paper and line widths alone.
+    /// With `turns`, each sheet is taken in its best orientation. Without models, the first sheet
+    /// is returned. `None` without sheets. The sheets must differ only in paper and line widths.
     #[must_use]
     pub fn smallest_of(
         sheets: Vec<Self>,
@@ -64,13 +63,13 @@ impl Sheet {
         sheets.into_iter().nth(chosen)
     }
 
-    /// The sheet in its best orientation for these views.
+    /// Turns the sheet to its best orientation for these views.
     fn turned_for(self, plan: &ViewPlan) -> Self {
         let rotated = Self { paper: self.paper.rotated(), ..self.clone() };
         let both = [&self, &rotated];
         let at_own_scale = ViewLayout::arrange_on_best(&both, plan);
         let is_rotated = at_own_scale.map(|(at, _)| at == 1).unwrap_or_else(|| {
-            // A given scale that fits in neither: the orientation that comes nearest to it.
+            // The given scale fits in neither orientation: the one that comes closest to it.
             let any = both.map(|sheet| Self { scale: None, ..sheet.clone() });
             let best = ViewLayout::arrange_on_best(&any.each_ref(), plan);
             best.is_some_and(|(at, _)| at == 1)
@@ -79,7 +78,7 @@ impl Sheet {
     }
 }
 
-/// The scales that are tried on sheets, the largest first.
+/// The scales to try on sheets, largest first.
 pub(super) fn scales_of(sheet: &Sheet) -> Vec<DrawingScale> {
     sheet.scale.map_or(DrawingScale::STANDARD.to_vec(), |scale| vec![scale])
 }

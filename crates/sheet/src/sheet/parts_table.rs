@@ -1,4 +1,4 @@
-//! Parts lists on paper (ISO 7573): a table above the title block, or on pages of its own.
+//! Parts lists on paper (ISO 7573): a table above the title block, or on separate pages.
 //!
 //! ```text
 //!   │ 2 │ 8 │ bolt M8  │ steel │ 12.3 │      above the title block the list is read upward,
@@ -9,7 +9,7 @@
 //!   │ title block                     │
 //! ```
 //!
-//! On a page of its own it is read downward, column by column.
+//! On a separate page it is read downward, column by column.
 
 use super::frame::rectangle_outline;
 use super::{Sheet, rectangle_from_size};
@@ -19,18 +19,17 @@ use glam::DVec2;
 use page::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline, TextAlign};
 use viewport::Rectangle;
 
-/// The height of rows as a multiple of that of letters.
+/// The row height, in character heights.
 const ROW_HEIGHT: f64 = 2.3;
 
-/// From the border of a cell to its text, in millimeters.
+/// The distance from the border of a cell to its text, in millimeters.
 const INSET: f64 = 1.2;
 
-/// A text that is wider than its cell is reduced to no less than this part of its height; then it
-/// is cut off.
+/// A text wider than its cell is reduced to at most this fraction of its height, then truncated.
 const LEAST_REDUCTION: f64 = 0.7;
 
-/// From a table on a page of its own to the frame and to the title block, in millimeters: beyond
-/// the centering marks.
+/// The distance from a table on a separate page to the frame and to the title block, in
+/// millimeters: beyond the centering marks.
 const GAP: f64 = 6.0;
 
 /// The layout of a parts list on the paper of a sheet.
@@ -49,12 +48,12 @@ pub(super) struct TableColumn {
     /// The upper left corner.
     corner: DVec2,
     width: f64,
-    /// Whether the heading is below, and the list is read upward.
+    /// Whether the heading is at the bottom and the list is read upward.
     is_upward: bool,
 }
 
 impl<'a> PartsTable<'a> {
-    /// The table of a list on a sheet.
+    /// Creates the table of a list on a sheet.
     pub(super) fn new(sheet: &'a Sheet, list: &'a PartsList) -> Self {
         let letters = (sheet.lettering_height() * 0.7).max(2.5);
         Self { sheet, list, letters }
@@ -64,12 +63,12 @@ impl<'a> PartsTable<'a> {
         self.letters * ROW_HEIGHT
     }
 
-    /// The height of so many rows and the heading, in millimeters.
+    /// The height of this many rows and the heading, in millimeters.
     fn height(&self, rows: usize) -> f64 {
         self.row_height() * (rows + 1) as f64
     }
 
-    /// The whole list above the title block, if it takes no more than `most` millimeters.
+    /// The whole list above the title block, if it takes at most `most` millimeters.
     pub(super) fn above_title_block(&self, most: f64) -> Option<TableColumn> {
         let (block, rows) = (self.sheet.title_block_area(), self.list.items.len());
         let corner = DVec2::new(block.x(), block.y() - self.height(rows));
@@ -86,7 +85,7 @@ impl<'a> PartsTable<'a> {
 
     /// The columns of each page that the list takes by itself; at least one page.
     ///
-    /// On wide paper there are columns beside the one above the title block.
+    /// Wide paper has more columns beside the one above the title block.
     pub(super) fn pages(&self) -> Vec<Vec<TableColumn>> {
         let (frame, block) = (self.sheet.drawing_area(), self.sheet.title_block_area());
         let beside = ((block.x() - frame.x()) / block.width() + 1e-9).floor() as usize;
@@ -120,7 +119,7 @@ impl<'a> PartsTable<'a> {
         rectangle_from_size(x, y, column.width, self.height(column.rows.len()))
     }
 
-    /// The borders of the cells, and the texts in them.
+    /// The cell borders, and the texts in the cells.
     pub(super) fn layers(&self, columns: &[TableColumn], ink: Ink) -> [Layer; 2] {
         let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(0.18, ink) };
         let mut borders = Layer::new("parts-list", "parts list", pen);
@@ -172,7 +171,7 @@ impl<'a> PartsTable<'a> {
         parts.iter().map(cell).collect()
     }
 
-    /// The names of the cells.
+    /// The cell names.
     fn headings(&self) -> Vec<String> {
         let mut names = ["Item", "Qty", "Name", "Material"].map(str::to_owned).to_vec();
         if self.list.has_masses {
@@ -181,13 +180,13 @@ impl<'a> PartsTable<'a> {
         names
     }
 
-    /// The unit of masses, and its grams: kilograms if a part has one or more.
+    /// The mass unit and its value in grams: kilograms if a part has one kilogram or more.
     fn mass_unit(&self) -> (&'static str, f64) {
         let masses = self.list.items.iter().filter_map(|item| item.mass);
         if masses.fold(0.0, f64::max) >= 1000.0 { ("kg", 1000.0) } else { ("g", 1.0) }
     }
 
-    /// The texts of an item; a mass that is not known is left out.
+    /// The texts of an item; an unknown mass is left blank.
     fn texts_of_item(&self, item: &PartsListItem) -> Vec<String> {
         let mut texts = vec![
             item.number.to_string(),
@@ -202,7 +201,7 @@ impl<'a> PartsTable<'a> {
         texts
     }
 
-    /// Adds the texts of a row: counts in the middle of their cells, masses to the right.
+    /// Adds the texts of a row: counts are centered, masses are right-aligned.
     fn add_row(&self, layer: &mut Layer, column: &TableColumn, row: usize, texts: &[String]) {
         let foot = (ROW_HEIGHT - 1.0) * 0.5 * self.letters;
         let y = column.corner.y + self.row_height() * (row + 1) as f64 - foot;
@@ -225,10 +224,11 @@ impl<'a> PartsTable<'a> {
     }
 }
 
-/// A text that is no wider than `room` in letters of a height; what is cut off leaves three points.
+/// Truncates a text to the width `room` at a character height; an ellipsis of three dots marks the
+/// cut.
 fn cut_to_width(text: &str, height: f64, room: f64) -> String {
     let fits = |text: &str| Label::new(text, DVec2::ZERO, height).width() <= room;
-    // A letter is more than a tenth of its height wide with the distance to the next.
+    // A character, including spacing, is wider than a tenth of its height.
     let most = (room / (0.1 * height)).max(0.0) as usize;
     let characters: Vec<char> = text.chars().take(most.saturating_add(1)).collect();
     if characters.len() <= most && fits(text) {
@@ -238,7 +238,7 @@ fn cut_to_width(text: &str, height: f64, room: f64) -> String {
         let start: String = characters[..count].iter().collect();
         format!("{}...", start.trim_end())
     };
-    // The longest start that fits, by bisection: a longer text is wider.
+    // The longest prefix that fits, by bisection: a longer text is wider.
     let (mut low, mut high) = (0, characters.len());
     while low + 1 < high {
         let middle = usize::midpoint(low, high);
@@ -247,7 +247,7 @@ fn cut_to_width(text: &str, height: f64, room: f64) -> String {
     cut(low)
 }
 
-/// A mass with four significant digits, or whole, without zeros at its end.
+/// A mass with four significant digits, or as an integer, without trailing zeros.
 fn format_mass(mass: f64) -> String {
     let decimals = match mass {
         mass if mass >= 999.95 => 0,

@@ -1,4 +1,4 @@
-//! Projection symbol (ISO 5456-2): a truncated cone from the side and from its narrow end.
+//! Projection symbol (ISO 5456-2): a truncated cone, from the side and from its narrow end.
 //!
 //! ```text
 //!   first angle      ╱│          third angle       │╲
@@ -14,14 +14,14 @@ use projection::SheetAngle;
 /// The number of sides of the polygon that approximates a circle.
 const CIRCLE_SIDES: u32 = 48;
 
-/// The symbol of a projection angle about a center. The cone is as long as it is high, and half as
+/// The symbol of a projection angle around a center. The cone is as long as it is high, and half as
 /// high at its narrow end.
 ///
-/// The second view shows the narrow end as two circles: in first angle it is drawn on the right of
-/// the cone, in third angle on the left.
+/// The second view shows the narrow end as two circles: in first angle it is to the right of the
+/// cone, in third angle to the left.
 pub(super) fn projection_symbol(angle: SheetAngle, middle: DVec2, height: f64) -> Vec<Polyline> {
     let half = height * 0.5;
-    // In first angle the view from the left, which shows the narrow end, is right of the cone.
+    // In first angle the left view, which shows the narrow end, is to the right of the cone.
     let side = match angle {
         SheetAngle::First => 1.0,
         SheetAngle::Third => -1.0,
@@ -29,7 +29,7 @@ pub(super) fn projection_symbol(angle: SheetAngle, middle: DVec2, height: f64) -
     let cone = middle - DVec2::new(side * height * 0.8, 0.0);
     let eye = middle + DVec2::new(side * height * 0.8, 0.0);
     let cone_point = |x: f64, y: f64| cone + DVec2::new(x, y) * half;
-    // The narrow end of the cone is on its left in both.
+    // In both angles, the narrow end of the cone is on its left.
     let corners = [
         cone_point(-1.0, -0.5),
         cone_point(1.0, -1.0),

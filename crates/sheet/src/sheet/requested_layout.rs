@@ -1,4 +1,5 @@
-//! Layout of requested views: at their places, in the grid about the front view, or in free room.
+//! Layout of requested views: at given positions, in the grid around the front view, or in free
+//! space.
 //!
 //! ```text
 //!   1. views with a place of their own stand there
@@ -6,7 +7,7 @@
 //!   3. all others go to free rectangles, one after the other
 //! ```
 //!
-//! As for the usual views, the largest scale at which all find a place is taken.
+//! As for the default views, the largest scale at which all of them fit is used.
 
 use super::annotation::{Extent, overlap};
 use super::free_area::{best_rectangle, free_rectangles};
@@ -23,17 +24,17 @@ use crate::SheetWarning;
 use glam::DVec2;
 use viewport::DrawingScale;
 
-/// A detail without a scale of its own is enlarged by a factor in this range.
+/// The range of enlargement factors for a detail without its own scale.
 const DETAIL_ENLARGEMENT: [f64; 2] = [1.9, 5.1];
 
-/// The views of a grid at a scale, with the column and the row of each.
+/// The views of a grid at a scale, with the column and row of each.
 struct RequestedGrid<'a> {
     cells: Vec<(ViewCell<'a>, [usize; 2])>,
-    /// For each axis and each column or row: what its views take before and after their centers.
+    /// For each axis and each column or row: the space of its views before and after their centers.
     spans: [Vec<[f64; 2]>; 2],
 }
 
-/// The cell of a view at a scale, which is noted if it is not that of the sheet.
+/// The cell of a view at a scale, which is written below it if it differs from the sheet's.
 fn cell_at<'a>(
     planned: &'a PlannedView,
     sheet: &Sheet,
@@ -49,7 +50,7 @@ fn cell_at<'a>(
 }
 
 impl<'a> RequestedGrid<'a> {
-    /// The views with a place about the front view, without empty columns and rows.
+    /// Arranges the views around the front view, without empty columns and rows.
     fn new(sheet: &Sheet, views: &'a [PlannedView], scale: DrawingScale) -> Self {
         let placed = || views.iter().filter_map(|one| Some((one, one.grid?)));
         let [columns, rows] = [0, 1].map(|axis| {
@@ -109,20 +110,21 @@ impl<'a> RequestedGrid<'a> {
     }
 }
 
-/// Why requested views cannot be arranged at the sheet's scale, or at the smallest standard scale.
+/// The reason why requested views cannot be arranged at the sheet's scale, or at the smallest
+/// standard scale.
 pub(super) fn requested_fault(sheet: &Sheet, plan: &ViewPlan) -> SheetError {
     let mut scales = scales_of_sheet(sheet).into_iter().rev();
     let fault = scales.find_map(|scale| arrange_requested(sheet, plan, scale).err());
     fault.unwrap_or(SheetError::Empty)
 }
 
-/// Warnings of views that lie over others at the places that they were given.
+/// Warnings about views that overlap others at their given positions.
 fn find_overlaps(views: &[PlacedView<'_>], blocks: [(&str, Extent); 2]) -> Vec<SheetWarning> {
     let is_placed = |view: &PlacedView<'_>| view.planned.place.at.is_some();
     let mut warnings = Vec::new();
     for (index, view) in views.iter().enumerate() {
         let others = views.iter().enumerate();
-        // Two views with places are reported once.
+        // Two views with given positions are reported once.
         let others = others.filter(|(at, other)| *at > index || *at < index && !is_placed(other));
         let others = others.map(|(_, other)| (other.planned.title(), other.extent()));
         let blocks = blocks.iter().map(|(name, area)| ((*name).to_owned(), *area));
@@ -137,8 +139,8 @@ fn find_overlaps(views: &[PlacedView<'_>], blocks: [(&str, Extent); 2]) -> Vec<S
 /// The best arrangement of requested views at one scale.
 ///
 /// # Errors
-/// [`SheetError::TooLarge`] if they do not fit, [`SheetError::Outside`] if a view reaches beyond
-/// the frame from its place.
+/// [`SheetError::TooLarge`] if they do not fit, [`SheetError::Outside`] if a view extends beyond
+/// the frame at its given position.
 pub(super) fn arrange_requested<'a>(
     sheet: &Sheet,
     plan: &'a ViewPlan,
@@ -183,7 +185,7 @@ pub(super) fn arrange_requested<'a>(
     best.ok_or_else(|| too_large(sheet, &grid, scale))
 }
 
-/// Whether a view at its place is within the frame.
+/// Checks that a view at its given position is inside the frame.
 fn check_place(sheet: &Sheet, cell: &ViewCell<'_>, at: DVec2) -> Result<(), SheetError> {
     let [low, high] = extent_of_rectangle(sheet.drawing_area());
     let half = cell.planned.view.size * cell.scale.ratio() * 0.5;
@@ -208,7 +210,7 @@ fn check_place(sheet: &Sheet, cell: &ViewCell<'_>, at: DVec2) -> Result<(), Shee
     })
 }
 
-/// Places the views without a place in the grid or of their own, each at its largest scale.
+/// Places the views without a grid cell or given position, each at its largest scale.
 fn place_others<'a>(
     layout: &mut ViewLayout<'a>,
     sheet: &Sheet,
@@ -237,7 +239,7 @@ fn place_others<'a>(
     }
 }
 
-/// The scales at which a view may be drawn, the best first.
+/// The scales at which a view may be drawn, best first.
 fn scales_of(planned: &PlannedView, sheet_scale: DrawingScale) -> Vec<DrawingScale> {
     if let Some(own) = planned.place.scale {
         return vec![own];
@@ -256,7 +258,7 @@ fn scales_of(planned: &PlannedView, sheet_scale: DrawingScale) -> Vec<DrawingSca
     core::iter::once(sheet_scale).chain(smaller).collect()
 }
 
-/// The error with needed and available size.
+/// The error with the needed and available sizes.
 fn too_large(sheet: &Sheet, grid: &RequestedGrid<'_>, scale: DrawingScale) -> SheetError {
     let need = grid.total_size().to_array();
     let [low, high] = extent_of_rectangle(sheet.drawing_area());

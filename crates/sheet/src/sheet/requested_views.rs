@@ -1,13 +1,13 @@
-//! Requested views: from the requests of a sheet to its planned views.
+//! Requested views: turns the requests of a sheet into its planned views.
 //!
-//! | request | what it makes |
+//! | request | result |
 //! | --- | --- |
-//! | named views | the views of the sheet, in the place of front, top, side and axonometric view |
+//! | named views | the views of the sheet, instead of front, top, side and axonometric view |
 //! | half section, local section, break | another composition of a view |
-//! | detail, auxiliary view, stepped section | a view of its own, and its mark in other views |
+//! | detail, auxiliary view, stepped section | a separate view, and its mark in other views |
 //!
-//! Views along the axes stand about the front view as in ISO 5456-2, unless they have a place or a
-//! scale of their own.
+//! Views along the axes are placed around the front view as in ISO 5456-2, unless they have their
+//! own position or scale.
 
 use super::SheetError;
 use super::composition::{Break, Composition};
@@ -23,10 +23,10 @@ use glam::{DVec2, DVec3};
 use homog::{Bounds, Normal, Plane, Point, Vector, World};
 use projection::SheetAngle;
 
-/// The most requests of a sheet: more are a slip, and each costs room and time.
+/// The maximum number of requests per sheet: more are a mistake, and each takes space and time.
 const MAX_REQUESTS: usize = 24;
 
-/// Requests in the making: the views so far, and the letters that are left.
+/// The state of planning requests: the views so far, and the letters that remain.
 struct RequestPlanner<'a> {
     subject: &'a PlanSubject<'a>,
     views: Vec<PlannedView>,
@@ -34,9 +34,9 @@ struct RequestPlanner<'a> {
     letters: std::ops::RangeInclusive<char>,
 }
 
-/// The column and the row of a view along an axis, the front view at (0, 0); `None` for others.
+/// The column and row of a view along an axis, with the front view at (0, 0); `None` for others.
 fn grid_place(name: NamedView, angle: SheetAngle) -> Option<[i32; 2]> {
-    // In first-angle projection a view stands opposite to the side from which it is seen.
+    // In first-angle projection a view is placed opposite the side from which it is seen.
     let across = if angle == SheetAngle::First { 1 } else { -1 };
     match name {
         NamedView::Front => Some([0, 0]),
@@ -50,10 +50,10 @@ fn grid_place(name: NamedView, angle: SheetAngle) -> Option<[i32; 2]> {
 }
 
 impl ViewPlan {
-    /// Plans the requests of a sheet; without any nothing changes.
+    /// Plans the requests of a sheet; without any, nothing changes.
     ///
     /// # Errors
-    /// [`SheetError::Request`] if one of them cannot be fulfilled.
+    /// [`SheetError::Request`] if a request cannot be fulfilled.
     pub(super) fn add_requests(&mut self, subject: &PlanSubject<'_>) -> Result<(), SheetError> {
         let requests = &subject.sheet.views;
         if requests.is_empty() {
@@ -83,7 +83,7 @@ impl ViewPlan {
         let mut planner =
             RequestPlanner { subject, views, warnings: Vec::new(), letters: first..='Z' };
         planner.assign_places();
-        // Marks stand where a composition leaves them, so those come first.
+        // Marks depend on compositions, so changes of composition come first.
         for is_change in [true, false] {
             for (request, number) in requests.iter().zip(1..) {
                 if request.place().is_none() == is_change {
@@ -98,7 +98,7 @@ impl ViewPlan {
 }
 
 impl RequestPlanner<'_> {
-    /// Gives the views along the axes their places about the front view.
+    /// Gives the views along the axes their positions around the front view.
     fn assign_places(&mut self) {
         let angle = self.subject.sheet.projection_angle;
         for one in &mut self.views {
@@ -133,18 +133,18 @@ impl RequestPlanner<'_> {
         })
     }
 
-    /// A letter that no other view has.
+    /// A letter not used by another view.
     fn next_letter(&mut self) -> Result<char, Fault> {
         self.letters.next().ok_or_else(|| fault("there are more than 26 letters to give"))
     }
 
-    /// Whether a view that was asked for is there once.
+    /// Checks that a requested view exists only once.
     fn check_named(&self, name: NamedView) -> Result<(), Fault> {
         let alike = self.views.iter().filter(|one| one.view.name == ViewName::Named(name));
         if alike.count() > 1 { Err(fault("the sheet has this view twice")) } else { Ok(()) }
     }
 
-    /// The index of a view by its name.
+    /// The index of a view, by name.
     fn index_of(&self, name: NamedView) -> Result<usize, Fault> {
         let is_it = |one: &PlannedView| one.view.name == ViewName::Named(name);
         self.views.iter().position(is_it).ok_or_else(|| {
@@ -157,7 +157,7 @@ impl RequestPlanner<'_> {
         })
     }
 
-    /// The index of a view along an axis that is not put together from parts yet.
+    /// The index of a view along an axis that is not yet composed of parts.
     fn index_of_whole(&self, name: NamedView) -> Result<usize, Fault> {
         let index = self.index_of(name)?;
         let one = &self.views[index];
@@ -255,8 +255,8 @@ impl RequestPlanner<'_> {
         Ok(())
     }
 
-    /// The plane through a point that faces a view, if it cuts the models and the view is not cut
-    /// yet.
+    /// The plane through a point that faces a view, if it cuts the models and the view is not yet
+    /// cut.
     fn cutting_plane(&self, index: usize, point: Point<World>) -> Result<Plane<World>, Fault> {
         let one = &self.views[index];
         if !one.view.sections.is_empty() {
@@ -271,7 +271,7 @@ impl RequestPlanner<'_> {
         Ok(plane)
     }
 
-    /// Leaves a part of a length out of one view, or of all along the axes that show it.
+    /// Removes a part of a length from one view, or from all views along the axes that show it.
     fn shorten(&mut self, of: Option<NamedView>, axis: usize, ends: [f64; 2]) -> Result<(), Fault> {
         let direction = Vector::from_raw(DVec3::AXES[axis.min(2)]);
         let shows = |one: &PlannedView| {
@@ -347,7 +347,7 @@ impl RequestPlanner<'_> {
     }
 }
 
-/// Marks a viewing direction in the view that sees it least shortened; says whether there is one.
+/// Marks a viewing direction in the view that foreshortens it least; returns whether there is one.
 pub(super) fn mark_direction(views: &mut [PlannedView], gaze: Vector<World>, letter: char) -> bool {
     let shortening = |one: &PlannedView| one.view.camera.gaze().dot(gaze).abs();
     let along_axes = views.iter_mut().filter(|one| one.is_along_axis());
@@ -358,7 +358,7 @@ pub(super) fn mark_direction(views: &mut [PlannedView], gaze: Vector<World>, let
     true
 }
 
-/// A radius that is a length.
+/// Checks that a radius is a valid length.
 fn check_radius(radius: f64) -> Result<(), Fault> {
     let is_length = radius.is_finite() && radius > 0.0;
     if is_length { Ok(()) } else { Err(fault("its radius must be greater than 0")) }
@@ -366,13 +366,13 @@ fn check_radius(radius: f64) -> Result<(), Fault> {
 
 /// The unit vector of a direction; `None` without one.
 pub(super) fn unit_vector(direction: Vector<World>) -> Option<Vector<World>> {
-    // Scaled first, so that no square leaves the range of numbers.
+    // Scaled first, so that squares do not overflow or underflow.
     let raw = direction.raw();
     let scaled = raw / raw.abs().max_element();
     scaled.is_finite().then(|| Vector::from_raw(scaled.normalize()))
 }
 
-/// Why a request cannot be fulfilled.
+/// The reason why a request cannot be fulfilled.
 pub(super) enum Fault {
     Request(String),
     Sheet(SheetError),
@@ -384,7 +384,7 @@ impl From<SheetError> for Fault {
     }
 }
 
-/// A fault of the request itself.
+/// A fault in the request itself.
 pub(super) fn fault(reason: impl Into<String>) -> Fault {
     Fault::Request(reason.into())
 }

@@ -1,4 +1,4 @@
-//! Scale bar: a graphic scale, which stays right when a sheet is enlarged or reduced.
+//! Scale bar: a graphic scale, which stays correct when a sheet is enlarged or reduced.
 //!
 //! ```text
 //!   ┌────┬────┬─────────┐
@@ -7,8 +7,8 @@
 //!   0              100 mm
 //! ```
 //!
-//! A scale such as 1:50 in the title block is wrong on a copy of another size; a bar that is
-//! printed along with the drawing scales with it.
+//! A scale such as 1:50 in the title block is wrong on a copy of another size; a bar printed with
+//! the drawing scales with it.
 
 use super::{Sheet, rectangle_from_size};
 use glam::DVec2;
@@ -27,8 +27,8 @@ const LABEL_HEIGHT_FACTOR: f64 = 0.7;
 /// The number of segments; every other one is filled.
 const BAR_SEGMENTS: u32 = 4;
 
-/// The places for the bar and its labels: the lower left corner of the frame, or above a title
-/// block as wide as the frame; and above the title block at the right.
+/// The possible areas for the bar and its labels: the lower left corner of the frame, or above a
+/// title block as wide as the frame; and above the title block at the right.
 pub(super) fn scale_bar_areas(sheet: &Sheet) -> [Rectangle; 2] {
     let (frame, block) = (sheet.drawing_area(), sheet.title_block_area());
     let letters = sheet.lettering_height() * LABEL_HEIGHT_FACTOR;
@@ -43,7 +43,7 @@ pub(super) fn scale_bar_areas(sheet: &Sheet) -> [Rectangle; 2] {
     ]
 }
 
-/// The bar in its area, for a scale, and the lengths below it.
+/// The bar in its area, at a scale, with lengths below it.
 pub(super) fn scale_bar_layers(
     sheet: &Sheet,
     area: Rectangle,
@@ -74,7 +74,7 @@ pub(super) fn scale_bar_layers(
     [layer, texts]
 }
 
-/// A part of the bar as a rectangle.
+/// A segment of the bar as a rectangle.
 fn bar_segment(corner: DVec2, from: f64, length: f64) -> Polyline {
     let low = corner + DVec2::new(from, 0.0);
     let corners = [
@@ -87,7 +87,7 @@ fn bar_segment(corner: DVec2, from: f64, length: f64) -> Polyline {
         .unwrap_or(Polyline { points: vec![[0, 0], [1, 0]], closed: false })
 }
 
-/// The greatest length of the form 1, 2 or 5 · 10ⁿ that is not above `most`.
+/// The largest length of the form 1, 2 or 5 · 10ⁿ that is at most `most`.
 ///
 /// Lengths below 1 mm are rounded to the quotient of 1 and an integer, so that their shortest
 /// decimal is the label.

@@ -1,5 +1,5 @@
-//! Section lines: cutting planes marked in the views that see them edge-on, and the names of
-//! sections (ISO 128-40).
+//! Section lines: cutting planes marked in the views that see them edge-on, and section names (ISO
+//! 128-40).
 //!
 //! ```text
 //!    A                 A
@@ -7,9 +7,9 @@
 //!    ▼━ ── · ── · ── ━ ▼
 //! ```
 //!
-//! The line is chain narrow with wide ends; arrows show the viewing direction, and a letter names
-//! the section. The view that faces the plane is drawn cut, with A–A below it. Letters and names
-//! stand where nothing else is: beyond their arrows, beyond the line, or farther out.
+//! The line is a narrow chain line with wide ends; arrows show the viewing direction, and a letter
+//! names the section. The view that faces the plane is drawn cut, with A–A below it. Letters and
+//! names are placed in free space: beyond their arrows, beyond the line, or farther out.
 
 use super::annotation::{
     AnnotationLayer, AnnotationShape, AnnotationText, Extent, ViewAnnotations,
@@ -22,19 +22,20 @@ use homog::{Plane, Vector, World};
 use page::TextAlign;
 use viewport::DrawingScale;
 
-/// Directions whose sine or cosine differs by no more than this are parallel or perpendicular.
+/// Directions are parallel or perpendicular if their sine or cosine is at most this far from exact.
 pub(super) const PARALLEL_TOLERANCE: f64 = 1e-6;
 
-/// The length by which the line extends beyond the view, in millimeters; its wide ends are as long.
+/// The length by which the line extends beyond the view, in millimeters; its wide ends have the
+/// same length.
 pub(super) const OVERHANG: f64 = 4.0;
 
 /// The length of arrows with their shafts, in millimeters.
 pub(super) const ARROW_LENGTH: f64 = 6.0;
 
-/// The number of places farther out that are tried for a letter or a name.
+/// The number of positions farther out to try for a letter or a name.
 const TEXT_STEPS: u32 = 40;
 
-/// The room that a section line and a letter beyond its end take beside a view, in millimeters.
+/// The space beside a view for a section line and a letter beyond its end, in millimeters.
 pub(super) fn section_line_reserve(letters: f64) -> f64 {
     OVERHANG + 1.8 * letters
 }
@@ -46,18 +47,17 @@ pub(super) struct LetteredPlane {
     pub(super) letter: char,
 }
 
-/// The line of a section in a view that sees the plane edge-on, about the center of the view.
+/// The line of a section in a view that sees the plane edge-on, relative to the center of the view.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SectionLine {
     ends: [DVec2; 2],
-    /// The unit vector on the sheet to the side that is retained: the viewing direction of the
-    /// section.
+    /// The unit vector on the sheet toward the retained side: the viewing direction of the section.
     retained_direction: DVec2,
     letter: char,
 }
 
 impl SheetView {
-    /// Whether the view looks straight onto the plane, from the side that is removed.
+    /// Whether the view looks straight onto the plane, from the removed side.
     pub(super) fn faces_section(&self, plane: Plane<World>) -> bool {
         plane.normal().dot(self.camera.gaze()) > 1.0 - PARALLEL_TOLERANCE
     }
@@ -67,8 +67,8 @@ impl SheetView {
         plane.normal().dot(self.camera.gaze()).abs() <= PARALLEL_TOLERANCE
     }
 
-    /// The trace of a plane that is seen edge-on: a point in millimeters from the center of the
-    /// view, and the unit vector to the side that is retained.
+    /// The trace of a plane seen edge-on: a point in millimeters from the center of the view, and
+    /// the unit vector toward the retained side.
     fn section_trace(&self, plane: Plane<World>, scale: DrawingScale) -> Option<(DVec2, DVec2)> {
         let normal = Vector::from_raw(plane.normal().raw());
         let direction = self.camera.rotation().transform_vector(normal).raw();
@@ -96,7 +96,7 @@ impl SectionLine {
         let (point, retained) = view.section_trace(plane, scale)?;
         let half = view.size * scale.ratio() * 0.5;
         let along = DVec2::new(-retained.y, retained.x);
-        // Slab test: the interval of the line within the area of the view.
+        // Slab test: the interval of the line inside the area of the view.
         let mut span = [f64::NEG_INFINITY, f64::INFINITY];
         for axis in 0..2 {
             let from = point[axis];
@@ -114,7 +114,7 @@ impl SectionLine {
         is_there.then_some(Self { ends, retained_direction: retained, letter })
     }
 
-    /// Adds the line with its wide ends, and an arrow at each of them, its tip on the line.
+    /// Adds the line with its wide ends, each with an arrow whose tip is on the line.
     pub(super) fn annotate(&self, annotations: &mut ViewAnnotations) {
         let [a, b] = self.ends;
         annotations.push_line(AnnotationLayer::CutLines, self.ends);
@@ -126,7 +126,7 @@ impl SectionLine {
         }
     }
 
-    /// The line in a view from which a part is left out; `None` if the line is in that part.
+    /// The line in a view with an omitted part; `None` if the line is in that part.
     pub(super) fn shortened(mut self, part: &Break, scale: DrawingScale) -> Option<Self> {
         let middle = (self.ends[0] + self.ends[1]) * 0.5;
         if self.retained_direction[part.axis].abs() < 1.0 - PARALLEL_TOLERANCE {
@@ -142,7 +142,7 @@ impl SectionLine {
         Some(self)
     }
 
-    /// Adds the letter at both ends, each at the first free place.
+    /// Adds the letter at both ends, each at the first free position.
     pub(super) fn add_letters(
         &self,
         annotations: &mut ViewAnnotations,
@@ -158,7 +158,7 @@ impl SectionLine {
     }
 }
 
-/// Adds an arrow with its tip at a point, in the direction in which a section looks.
+/// Adds an arrow with its tip at a point, in the viewing direction of a section.
 pub(super) fn add_section_arrow(annotations: &mut ViewAnnotations, tip: DVec2, gaze: DVec2) {
     annotations.push_line(AnnotationLayer::CutArrows, [tip - gaze * ARROW_LENGTH, tip - gaze]);
     let (back, side) = (tip - gaze * 3.0, gaze.perp() * 0.5);
@@ -166,7 +166,7 @@ pub(super) fn add_section_arrow(annotations: &mut ViewAnnotations, tip: DVec2, g
     annotations.push(AnnotationLayer::CutArrows, head);
 }
 
-/// Adds a text below a view, as near to it as other annotations allow.
+/// Adds a text below a view, as close to it as other annotations allow.
 pub(super) fn add_caption(
     annotations: &mut ViewAnnotations,
     layer: AnnotationLayer,

@@ -1,5 +1,5 @@
-//! Fill of a sheet: the part of the paper that its views use, and what keeps them from the next
-//! larger scale.
+//! Sheet fill: the fraction of the paper that its views use, and what prevents the next larger
+//! scale.
 //!
 //! ```text
 //!   ┌───────────────────────────────┐
@@ -10,9 +10,9 @@
 //!   └────────────────┴──────────────┘
 //! ```
 //!
-//! A rectangle goes around a view and its annotations. The standard scales (ISO 5455) are a factor
-//! of 2 or 2.5 apart, areas therefore of 4 or 6.25: a sheet whose views just miss a scale is hardly
-//! filled, and the only remedy is other paper.
+//! A rectangle encloses a view and its annotations. The standard scales (ISO 5455) are a factor of
+//! 2 or 2.5 apart, so areas differ by a factor of 4 or 6.25. A sheet whose views just miss a scale
+//! is hardly filled, and the only remedy is other paper.
 
 use super::annotation::Extent;
 use super::view_layout::ViewLayout;
@@ -23,23 +23,23 @@ use homog::{Plane, World};
 use model::ModelInstance;
 use viewport::{DrawingScale, Rectangle};
 
-/// Numbers n of scales 1:n and n:1 between those of the standard.
+/// Numbers n of scales 1:n and n:1 between the standard ones.
 const INTERMEDIATE: [u32; 14] = [3, 4, 15, 25, 30, 40, 150, 250, 300, 400, 1500, 2500, 3000, 4000];
 
-/// How much of a sheet its views use, and why they are not larger.
+/// The fraction of a sheet that its views use, and why they are not larger.
 ///
-/// Its text says both in a sentence.
+/// Its text says both in one sentence.
 #[derive(Clone, PartialEq, Debug)]
 pub struct SheetFill {
     /// The scale of the sheet.
     pub scale: DrawingScale,
-    /// The area of the views with their annotations, each as a rectangle, as a part of the area
-    /// within the frame without title block and scale bar.
+    /// The area of the views with their annotations, each as a rectangle, as a fraction of the area
+    /// inside the frame without title block and scale bar.
     pub fraction: f64,
     /// The reason why the scale is not larger.
     pub limit: ScaleLimit,
-    /// The largest scale between this one and the next standard one at which all views fit, such
-    /// as 1:3; `None` if there is none.
+    /// The largest scale between this one and the next standard one at which all views fit, such as
+    /// 1:3; `None` if there is none.
     pub between: Option<DrawingScale>,
 }
 
@@ -47,33 +47,34 @@ pub struct SheetFill {
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum ScaleLimit {
-    /// Nothing: the scale was asked for.
+    /// Nothing: the scale was given.
     Given,
     /// There is no larger standard scale.
     Largest,
-    /// Front, top and side view are larger than the room for them.
+    /// Front, top and side views are larger than the available space.
     TooLarge {
         /// The next larger scale.
         scale: DrawingScale,
-        /// Width and height of the views at this scale, in millimeters.
+        /// The width and height of the views at this scale, in millimeters.
         need: [f64; 2],
-        /// Width and height that are available to them, in millimeters.
+        /// The available width and height, in millimeters.
         available: [f64; 2],
     },
-    /// Front, top and side view leave no room for others.
+    /// Front, top and side views leave no room for others.
     NoRoom {
         /// The next larger scale.
         scale: DrawingScale,
-        /// The names of the other views, such as `isometric view`.
+        /// The other view names, such as `isometric view`.
         views: Vec<String>,
     },
 }
 
 impl Sheet {
-    /// How much of the paper the views of models, cut by section planes, use, without drawing them.
+    /// Computes how much of the paper the views of models, cut by section planes, use, without
+    /// drawing them.
     ///
     /// # Errors
-    /// As for [`draw`](Self::draw).
+    /// See [`draw`](Self::draw).
     pub fn fill(
         &self,
         models: &[ModelInstance],
@@ -100,7 +101,7 @@ impl Sheet {
         Ok(SheetFill { scale: layout.scale, fraction, limit, between })
     }
 
-    /// The largest scale up to 2.5 times as large as this one at which all views fit.
+    /// The largest scale up to 2.5 times this one at which all views fit.
     fn largest_between(&self, plan: &ViewPlan, scale: DrawingScale) -> Option<DrawingScale> {
         let reach = scale.ratio() * (1.0 + 1e-9)..scale.ratio() * 2.5 * (1.0 - 1e-9);
         let mut between: Vec<DrawingScale> = INTERMEDIATE
@@ -117,7 +118,7 @@ impl Sheet {
         between.into_iter().find(holds_all)
     }
 
-    /// The reason why the views are not at the scale after this one.
+    /// The reason why the views are not at the next larger scale.
     fn scale_limit(&self, plan: &ViewPlan, scale: DrawingScale) -> ScaleLimit {
         if self.scale.is_some() {
             return ScaleLimit::Given;

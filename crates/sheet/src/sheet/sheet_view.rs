@@ -1,4 +1,4 @@
-//! Sheet view: one orthographic view of a sheet, with its size in millimeters of the object.
+//! Sheet view: one orthographic view of a sheet, with its size in object millimeters.
 //!
 //! ```text
 //!   points of the models ─frame─► camera, depths, size      (SheetView::frame_points)
@@ -6,8 +6,8 @@
 //!   drawing, scale ─placement─► millimeters on the sheet    (placement)
 //! ```
 //!
-//! The drawing is made at a fixed resolution and scaled when it is laid out: pixels are only a
-//! unit, as coordinates are f64.
+//! The drawing is made at a fixed resolution and scaled during layout: pixels are only a unit,
+//! because coordinates are f64.
 
 use super::section_line::LetteredPlane;
 use super::{Placement, SheetError};
@@ -20,20 +20,20 @@ use homog::{Plane, Point, Vector, World};
 use projection::{Convention, Orthographic};
 use viewport::DrawingScale;
 
-/// The longer side of the drawing in pixels; only its ratio to the window counts.
+/// The longer side of the drawing in pixels; only its ratio to the window matters.
 const LONG_SIDE_PIXELS: f64 = 8192.0;
 
-/// The resolution of flat fills: 300 dots to the inch.
+/// The resolution of flat fills: 300 dots per inch.
 const FILL_DOTS_PER_MILLIMETER: f64 = 300.0 / viewport::MILLIMETERS_PER_INCH;
 
-/// The resolution at which the areas of gray fills are traced: their borders lie well under the
+/// The resolution at which the areas of gray fills are traced, so that their borders stay under the
 /// narrowest wide line.
 const GRAY_DOTS_PER_MILLIMETER: f64 = 2.0 * FILL_DOTS_PER_MILLIMETER;
 
 /// The factor by which the window is larger than the object, so that nothing touches its border.
 const WINDOW_MARGIN: f64 = 1.02;
 
-/// The content of a view of a sheet: the object from a named direction, or a section by its letter.
+/// The content of a sheet view: the object from a named direction, or a section by its letter.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum ViewName {
     Named(NamedView),
@@ -43,7 +43,7 @@ pub(super) enum ViewName {
 }
 
 impl fmt::Display for ViewName {
-    /// The name as it begins the ids of layers.
+    /// Writes the name as used at the start of layer ids.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Named(view) => view.fmt(f),
@@ -61,17 +61,16 @@ pub(super) struct SheetView {
     pub(super) camera: Camera,
     /// The section planes that cut the object in this view.
     pub(super) sections: Vec<Plane<World>>,
-    /// The nearest and the farthest depth of the object along the view direction, in units of the
-    /// scene.
+    /// The nearest and farthest depths of the object along the view direction, in scene units.
     depths: [f64; 2],
-    /// Width and height of the object in this view, in millimeters of the object.
+    /// The width and height of the object in this view, in object millimeters.
     pub(super) size: DVec2,
-    /// Millimeters in a unit of the scene.
+    /// Millimeters per scene unit.
     pub(super) millimeters_per_unit: f64,
 }
 
 impl SheetView {
-    /// The view of these points in a named direction, not cut.
+    /// Creates an uncut view of these points in a named direction.
     ///
     /// # Errors
     /// [`SheetError::Empty`] without points, [`SheetError::View`] if the points cannot be framed.
@@ -83,10 +82,10 @@ impl SheetView {
         Self::frame_from(points, ViewName::Named(name), name.basis(), unit)
     }
 
-    /// The view onto a section plane, of the points that the plane retains.
+    /// Creates the view onto a section plane, of the points that the plane retains.
     ///
     /// # Errors
-    /// As for [`frame_points`](Self::frame_points).
+    /// See [`frame_points`](Self::frame_points).
     pub(super) fn frame_section(
         points: &[Point<World>],
         section: LetteredPlane,
@@ -98,10 +97,10 @@ impl SheetView {
         Ok(view.cut_by(vec![plane]))
     }
 
-    /// The view of these points in any direction, upright.
+    /// Creates an upright view of these points in any direction.
     ///
     /// # Errors
-    /// As for [`frame_points`](Self::frame_points).
+    /// See [`frame_points`](Self::frame_points).
     pub(super) fn frame_along(
         points: &[Point<World>],
         name: ViewName,
@@ -116,7 +115,7 @@ impl SheetView {
         Self::frame_from(points, name, basis, unit)
     }
 
-    /// A part of the view: what is within a radius of a point, in units of the scene.
+    /// A part of the view: everything within a radius of a point, in scene units.
     ///
     /// # Errors
     /// [`SheetError::View`] if the camera cannot be moved there.
@@ -137,7 +136,7 @@ impl SheetView {
         Ok(Self { name, camera, size, ..self.clone() })
     }
 
-    /// A direction of the world as the view shows it: right and down, shortened.
+    /// A world direction as the view shows it: right and down, foreshortened.
     pub(super) fn direction_of(&self, direction: Vector<World>) -> DVec2 {
         let seen = self.camera.rotation().transform_vector(direction).raw();
         DVec2::new(seen.x, -seen.y)
@@ -149,12 +148,12 @@ impl SheetView {
         (window * (LONG_SIDE_PIXELS / window.max_element())).ceil().max(DVec2::ONE)
     }
 
-    /// Pixels of the drawing for a unit of the scene, along its longer side.
+    /// Pixels of the drawing per scene unit, along its longer side.
     pub(super) fn pixels_per_unit(&self) -> f64 {
         LONG_SIDE_PIXELS / self.window_size().max_element()
     }
 
-    /// Where a point of the world is in the drawing, in pixels.
+    /// The position of a world point in the drawing, in pixels.
     pub(super) fn pixel_of(&self, point: Point<World>) -> DVec2 {
         let (window, pixels) = (self.window_size(), self.pixel_size());
         (self.image_of(point) / self.millimeters_per_unit / window + 0.5) * pixels
@@ -165,7 +164,7 @@ impl SheetView {
         Self { sections, ..self }
     }
 
-    /// The view with another size, in millimeters of the object.
+    /// The view with another size, in object millimeters.
     pub(super) fn with_size(&self, size: DVec2) -> Self {
         Self { size, ..self.clone() }
     }
@@ -192,7 +191,7 @@ impl SheetView {
         Ok(Self { name, camera, sections, depths, size, millimeters_per_unit: unit })
     }
 
-    /// Width and height of the window in units of the scene; never zero, however flat the object.
+    /// The width and height of the window in scene units; never zero, however flat the object.
     fn window_size(&self) -> DVec2 {
         let size = self.size / self.millimeters_per_unit;
         let least = size.max_element().max(self.depths[1] - self.depths[0]).max(1e-9) * 0.02;
@@ -209,7 +208,7 @@ impl SheetView {
     ) -> Result<Drawing, SheetError> {
         let (view_projection, size) = self.view_projection()?;
         let window = self.window_size();
-        // Millimeters of paper for a pixel.
+        // Millimeters of paper per pixel.
         let pixel = scale.to_paper_length(window.max_element() * self.millimeters_per_unit)
             / LONG_SIDE_PIXELS;
         let dots = match style.face_fill {
@@ -242,7 +241,7 @@ impl SheetView {
         Ok((ViewProjection { camera: self.camera, view_to_clip }, size))
     }
 
-    /// The placement of the view's drawing on the sheet: at this scale, centered at `center`.
+    /// The placement of the view's drawing on the sheet, at this scale and centered at `center`.
     pub(super) fn placement(
         &self,
         drawing: &Drawing,

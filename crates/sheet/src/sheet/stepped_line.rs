@@ -1,4 +1,4 @@
-//! The line of a stepped section: its corners, checked, and its mark in the views along the steps.
+//! The line of a stepped section: its corners, checked, and its marks in the views along the steps.
 //!
 //! ```text
 //!   1 ────── 2                pieces perpendicular to the normal, from corner 1 to 2, 3 to 4 …
@@ -14,20 +14,20 @@ use super::view_plan::PlannedView;
 use glam::DVec2;
 use homog::{Point, Vector, World};
 
-/// The most corners: more are a slip, and each pair costs a drawing.
+/// The maximum number of corners: more are a mistake, and each pair costs a drawing.
 const MAX_CORNERS: usize = 32;
 
 /// The line of a stepped section in space.
 pub(super) struct SteppedLine<'a> {
     pub(super) corners: &'a [Point<World>],
     pub(super) removed: Vector<World>,
-    /// The direction of the steps' edges: along it the line is seen as a line.
+    /// The direction of the steps' edges: seen along it, the cut is a line.
     pub(super) across: Vector<World>,
     pub(super) letter: char,
 }
 
 impl SteppedLine<'_> {
-    /// Marks the line in a view that looks along the edges of the steps; says whether it does.
+    /// Marks the line in a view that looks along the edges of the steps; returns whether it does.
     pub(super) fn mark(&self, one: &mut PlannedView) -> bool {
         let sees = one.view.camera.gaze().dot(self.across).abs() > 1.0 - PARALLEL_TOLERANCE;
         if !sees || !one.is_along_axis() {
@@ -52,7 +52,7 @@ impl SteppedLine<'_> {
     }
 }
 
-/// The end of a line that begins within a rectangle about the origin, moved to its border.
+/// Moves the end of a line that begins inside a rectangle around the origin to its border.
 fn end_at_border(from: DVec2, end: DVec2, half: DVec2) -> DVec2 {
     let direction = (end - from).normalize_or_zero();
     let to_side = |axis: usize| match direction[axis] {
@@ -63,7 +63,7 @@ fn end_at_border(from: DVec2, end: DVec2, half: DVec2) -> DVec2 {
     if length > 0.0 && length.is_finite() { from + direction * length } else { end }
 }
 
-/// The direction of the pieces of a stepped section, if its corners are those of one.
+/// The direction of the pieces of a stepped section, if its corners are valid.
 pub(super) fn check_steps(
     removed: Vector<World>,
     corners: &[Point<World>],

@@ -1,7 +1,8 @@
-//! Surface cache: the welded surfaces of a sheet, one for each set of sections that its views show.
+//! Surface cache: the welded surfaces of a sheet, one for each set of sections shown in its views.
 //!
 //! Welding and the search for intersections depend on models and sections, not on the viewer. The
-//! three principal views of an uncut object share one surface; a sectional view needs its own.
+//! three principal views of an uncut object share one surface; a sectional view needs a separate
+//! one.
 
 use hidden_line::WeldedSurface;
 use homog::{Plane, World};
@@ -12,17 +13,17 @@ pub(super) struct SurfaceCache<'a> {
     models: &'a [ModelInstance],
     /// The objects that no section cuts.
     uncut: &'a [u32],
-    /// In the order of their first use; a sheet has four views, so a search is cheap.
+    /// In the order of first use; a sheet has four views, so a search is cheap.
     surfaces: Vec<(Vec<Plane<World>>, WeldedSurface)>,
 }
 
 impl<'a> SurfaceCache<'a> {
-    /// An empty cache for these models.
+    /// Creates an empty cache for these models.
     pub(super) fn new(models: &'a [ModelInstance], uncut: &'a [u32]) -> Self {
         Self { models, uncut, surfaces: Vec::new() }
     }
 
-    /// The surface cut by these planes, welded at the first request.
+    /// Returns the surface cut by these planes, welded on demand.
     pub(super) fn cut_by(&mut self, sections: &[Plane<World>]) -> &WeldedSurface {
         let cached = self.surfaces.iter().position(|(planes, _)| planes == sections);
         let index = cached.unwrap_or_else(|| {

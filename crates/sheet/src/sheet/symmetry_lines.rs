@@ -1,5 +1,5 @@
-//! Lines of symmetry: where the planes about which the models are symmetric are seen from the side
-//! (ISO 128-2, chain lines 04.1).
+//! Lines of symmetry: planes of symmetry of the models, seen from the side (ISO 128-2, chain lines
+//! 04.1).
 
 use super::Sheet;
 use super::view_mark::ViewMark;
@@ -7,7 +7,8 @@ use super::view_plan::PlannedView;
 use hidden_line::FeaturePicker;
 
 impl Sheet {
-    /// Adds the lines of symmetry to views that look along a plane of symmetry, upright or level.
+    /// Adds the lines of symmetry to views along a plane of symmetry where they are vertical or
+    /// horizontal.
     pub(super) fn add_symmetry_lines(
         &self,
         planned: &mut [&mut PlannedView],
@@ -16,7 +17,7 @@ impl Sheet {
         let mut symmetry = picker.mirror_symmetry();
         for PlannedView { view, marks, .. } in planned.iter_mut().map(|planned| &mut **planned) {
             let camera = &view.camera;
-            // An upright line is that of a plane across the direction to the right.
+            // A vertical line belongs to a plane perpendicular to the direction to the right.
             for (axis, across) in [(1, camera.right()), (0, camera.v())] {
                 let mut lines = marks.iter().filter_map(ViewMark::as_center_line);
                 if lines.any(|(_, known)| known == axis) {

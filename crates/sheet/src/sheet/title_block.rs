@@ -20,31 +20,31 @@ use glam::DVec2;
 use page::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline};
 use viewport::{DrawingScale, Rectangle};
 
-/// The width of the block where the paper is wide enough, in millimeters.
+/// The width of the block if the paper is wide enough, in millimeters.
 const BLOCK_WIDTH: f64 = 180.0;
 
-/// The height of a block with three rows and of one with four, in millimeters.
+/// The heights of a block with three rows and with four rows, in millimeters.
 const BLOCK_HEIGHTS: [f64; 2] = [32.0, 48.0];
 
-/// The most of the drawing area's height that these take.
+/// The maximum fraction of the drawing area's height that these take.
 const MOST_OF_HEIGHT: [f64; 2] = [0.3, 0.38];
 
-/// The height of letters of field names and the width of their strokes, in millimeters.
+/// The character height of field names and the width of their strokes, in millimeters.
 const NAME_HEIGHT: f64 = 1.8;
 const NAME_WIDTH: f64 = 0.18;
 /// The height of Chinese field names and the width of their strokes, in millimeters: they have
 /// more strokes than Latin letters.
 const CHINESE_NAME: [f64; 2] = [2.5, 0.13];
-/// The height of letters of field values, in millimeters.
+/// The character height of field values, in millimeters.
 const VALUE_HEIGHT: f64 = 3.5;
-/// The height of letters of the title, in millimeters.
+/// The character height of the title, in millimeters.
 const TITLE_HEIGHT: f64 = 5.0;
 
 /// The distance from the border of a field to its text, in millimeters.
 const FIELD_INSET: f64 = 1.5;
 
 impl TitleBlockField {
-    /// Width and height of the field in a block, in millimeters.
+    /// The width and height of the field in a block, in millimeters.
     fn size(&self, block: Rectangle) -> DVec2 {
         self.corner(block, 1) - self.corner(block, 0)
     }
@@ -61,7 +61,7 @@ impl TitleBlockField {
         rectangle_from_size(corner.x, corner.y, size.x, size.y)
     }
 
-    /// The heights of its value and of the second one, in a field of a height.
+    /// The heights of its first and second values, in a field of a given height.
     fn value_heights(&self, height: f64) -> [f64; 2] {
         let usual = if self.field == FieldName::Title { TITLE_HEIGHT } else { VALUE_HEIGHT };
         let share = if self.second_value.is_empty() { 0.42 } else { 0.3 };
@@ -84,7 +84,7 @@ pub(super) fn title_block_area(sheet: &Sheet, frame: Rectangle) -> Rectangle {
 /// The borders, the lettering in its three widths, and the projection symbol.
 ///
 /// Text that is too wide for its field is reduced in height. On small paper the block shrinks, and
-/// letters with it.
+/// so do its characters.
 pub(super) fn title_block_layers(
     sheet: &Sheet,
     title: &str,

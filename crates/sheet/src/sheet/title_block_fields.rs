@@ -1,4 +1,4 @@
-//! Fields of the title block: where they are, what they are called and what is written in them.
+//! Fields of the title block: their positions, names and contents.
 //!
 //! ```text
 //!   without the fields of ISO 7200                 with them
@@ -20,7 +20,7 @@ use viewport::DrawingScale;
 /// The texts of a title block (ISO 7200).
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct TitleBlockText {
-    /// The title of the drawing; empty for the names of the models.
+    /// The title of the drawing; if empty, the model names are used.
     pub title: String,
     /// The author.
     pub author: String,
@@ -38,14 +38,14 @@ pub struct TitleBlockText {
     pub approved_by: String,
     /// The revision index, such as `B`.
     pub revision: String,
-    /// The number of the sheet, from 1, and the number of sheets; `None` where there is one only.
+    /// The sheet number, from 1, and the number of sheets; `None` if there is only one.
     pub sheet: Option<[u32; 2]>,
-    /// The language of the names of the fields.
+    /// The language of the field names.
     pub language: TitleBlockLanguage,
 }
 
 impl TitleBlockText {
-    /// Whether there is a text for one of the fields that only the larger block has.
+    /// Whether there is a text for a field that only the larger block has.
     pub(super) fn has_all_fields(&self) -> bool {
         let texts = [
             &self.supplementary_title,
@@ -57,7 +57,7 @@ impl TitleBlockText {
         texts.into_iter().any(|text| !text.is_empty())
     }
 
-    /// All texts, for a search of letters that the font lacks.
+    /// All texts, to search for characters that the font lacks.
     pub(super) fn texts(&self) -> [&str; 9] {
         [
             &self.title,
@@ -72,24 +72,24 @@ impl TitleBlockText {
         ]
     }
 
-    /// The number of the sheet and that of all sheets, such as `2/5`; empty without them.
+    /// The sheet number and the sheet count, such as `2/5`; empty without them.
     pub(super) fn sheet_number(&self) -> String {
         self.sheet.map_or_else(String::new, |[number, count]| format!("{number}/{count}"))
     }
 }
 
-/// A field: its extent as fractions of the block, its name, and its value.
+/// A field: its extent as fractions of the block, its name and its value.
 pub(super) struct TitleBlockField {
     pub(super) x: [f64; 2],
     pub(super) y: [f64; 2],
     pub(super) field: FieldName,
     pub(super) name: &'static str,
     pub(super) value: String,
-    /// A second line below the value; empty for none.
+    /// A second line below the value, or empty.
     pub(super) second_value: String,
 }
 
-/// The heights of the rows as fractions of the block: with three and with four rows.
+/// The bottoms of the rows as fractions of the block, with three and with four rows.
 const THREE_ROWS: [f64; 3] = [0.31, 0.69, 1.0];
 const FOUR_ROWS: [f64; 4] = [10.0 / 48.0, 20.0 / 48.0, 38.0 / 48.0, 1.0];
 

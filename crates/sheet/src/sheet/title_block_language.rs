@@ -1,14 +1,14 @@
-//! Languages of the title block: the names of its fields.
+//! Languages of the title block: its field names.
 
-/// The language of the names of fields; what is written in them is as it was given.
+/// The language of the field names; the values stay as given.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum TitleBlockLanguage {
     /// English.
     #[default]
     English,
-    /// German, by the words of DIN EN ISO 7200.
+    /// German, with the terms of DIN EN ISO 7200.
     German,
-    /// Simplified Chinese, by the words of GB/T 10609.1.
+    /// Simplified Chinese, with the terms of GB/T 10609.1.
     Chinese,
 }
 
@@ -36,7 +36,7 @@ pub(super) enum FieldName {
 }
 
 impl TitleBlockLanguage {
-    /// The code of the language (ISO 639-1).
+    /// Returns the language code (ISO 639-1).
     #[must_use]
     pub const fn code(self) -> &'static str {
         match self {

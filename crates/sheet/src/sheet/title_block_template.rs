@@ -1,4 +1,4 @@
-//! Title blocks of one's own: SVG files with fields, such as `{title}`, in their texts.
+//! Custom title blocks: SVG files whose texts contain fields, such as `{title}`.
 //!
 //! ```text
 //!   <svg width="180mm" height="30mm" viewBox="0 0 180 30">
@@ -9,9 +9,9 @@
 //!   </svg>
 //! ```
 //!
-//! Lines, rectangles, polylines, polygons, paths of straight lines, texts and groups are read; a
-//! unit of the view box is a millimeter, whatever `width` and `height` say. What else draws
-//! something is an error that says where it is, so that no part of a block is lost unnoticed.
+//! Lines, rectangles, polylines, polygons, paths of straight lines, texts and groups are supported.
+//! A unit of the view box is always a millimeter; `width` and `height` are ignored. Any other drawn
+//! element is an error with its position, so that no part of a block is lost unnoticed.
 
 mod layers;
 mod markup;
@@ -28,10 +28,10 @@ use path_data::{parse_numbers, parse_path};
 /// The width of lines without `stroke-width`, in millimeters.
 const DEFAULT_LINE_WIDTH: f64 = 0.35;
 
-/// The height of letters without `font-size`, in millimeters.
+/// The character height without `font-size`, in millimeters.
 const DEFAULT_TEXT_HEIGHT: f64 = 3.5;
 
-/// The longest text of a file, in bytes.
+/// The maximum length of a file, in bytes.
 const MAX_LENGTH: usize = 1 << 20;
 
 /// The longest side of a block in millimeters.
@@ -72,7 +72,7 @@ pub(super) struct TemplateText {
     pub(super) anchor: DVec2,
     pub(super) height: f64,
     pub(super) align: TextAlign,
-    /// The width to which it is reduced, in millimeters.
+    /// The maximum width, to which it is reduced, in millimeters.
     pub(super) most_width: Option<f64>,
 }
 
@@ -83,7 +83,7 @@ enum TextPart {
     Field(TemplateField),
 }
 
-/// The fields by their names.
+/// The fields, by name.
 const FIELDS: [(&str, TemplateField); 16] = [
     ("title", TemplateField::Title),
     ("supplementary_title", TemplateField::SupplementaryTitle),
@@ -121,7 +121,7 @@ pub(super) enum TemplateField {
     Scale,
     Paper,
     Unit,
-    /// The projection symbol, in the place of the text.
+    /// The projection symbol, instead of text.
     Projection,
 }
 
@@ -135,7 +135,7 @@ pub(super) struct FieldValues<'a> {
     pub(super) unit: &'a str,
 }
 
-/// A mistake in a template.
+/// An error in a template.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("line {line}, column {column}: {message}")]
 pub struct TemplateError {
@@ -143,12 +143,12 @@ pub struct TemplateError {
     pub line: usize,
     /// The column in characters, from 1.
     pub column: usize,
-    /// The mistake and its remedy.
+    /// The error and its remedy.
     pub message: String,
 }
 
 impl TemplateError {
-    /// A mistake at a byte of a text.
+    /// Creates an error at a byte of a text.
     fn at(source: &str, byte: usize, message: impl Into<String>) -> Self {
         let before = source.get(..byte).unwrap_or(source);
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
@@ -158,10 +158,10 @@ impl TemplateError {
 }
 
 impl TitleBlockTemplate {
-    /// The template in the text of an SVG file.
+    /// Parses a template from the text of an SVG file.
     ///
     /// # Errors
-    /// If the file is no SVG, or has something that is not read: other shapes, transforms, styles,
+    /// If the file is not an SVG file, or contains unsupported shapes, transforms, styles or
     /// unknown fields.
     pub fn parse(svg: &str) -> Result<Self, TemplateError> {
         if svg.len() > MAX_LENGTH {
@@ -175,7 +175,7 @@ impl TitleBlockTemplate {
         };
         let size = view_box_size(svg, &root)?;
         let mut template = Self { size, lines: Vec::new(), texts: Vec::new() };
-        // The text element that is open: its start and what it says so far.
+        // The open text element: its start and its text so far.
         let mut text: Option<(Element<'_>, String)> = None;
         while let Some(event) = reader.next()? {
             match (event, &mut text) {
@@ -199,7 +199,7 @@ impl TitleBlockTemplate {
         Ok(template)
     }
 
-    /// Width and height in millimeters.
+    /// Returns the width and height in millimeters.
     #[must_use]
     pub const fn size(&self) -> [f64; 2] {
         [self.size.x, self.size.y]
@@ -263,14 +263,14 @@ impl TitleBlockTemplate {
         };
         let width = element.number(svg, "textLength", 0.0)?;
         let most_width = (width > 0.0).then_some(width);
-        // Letters have capitals of about seven tenths of the font's size.
+        // Capitals are about seven tenths of the font size.
         let height = height * CAPITALS;
         self.texts.push(TemplateText { parts, anchor, height, align, most_width });
         Ok(())
     }
 }
 
-/// The height of capitals as a part of `font-size`.
+/// The height of capitals as a fraction of `font-size`.
 const CAPITALS: f64 = 0.7;
 
 impl TemplateText {
@@ -355,7 +355,7 @@ fn text_parts(content: &str) -> Result<Vec<TextPart>, String> {
     Ok(parts)
 }
 
-/// The size in millimeters: that of the view box, whose corner is 0, 0.
+/// The size in millimeters, from the view box, whose corner is at 0, 0.
 fn view_box_size(svg: &str, root: &Element<'_>) -> Result<DVec2, TemplateError> {
     let fault = |message: &str| TemplateError::at(svg, root.at, message);
     let numbers = parse_numbers(svg, root.attribute("viewBox"))?;

@@ -1,4 +1,4 @@
-//! View grid: front, top and side view in two columns and two rows.
+//! View grid: front, top and side views in two columns and two rows.
 //!
 //! ```text
 //!   first angle             third angle
@@ -19,34 +19,34 @@ use glam::DVec2;
 use projection::SheetAngle;
 use viewport::DrawingScale;
 
-/// Distribution of the room that the views leave along an axis.
+/// Distribution of the free space along an axis.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum GridSpacing {
-    /// It is divided equally among the gaps.
+    /// Divided equally among the gaps.
     Equal,
-    /// It is left at the end.
+    /// Left at the end.
     Close,
 }
 
-/// The cells of the three views at a scale, and the columns and rows that they make.
+/// The cells of the three views at a scale, and their columns and rows.
 #[derive(Clone, Debug)]
 pub(super) struct ViewGrid<'a> {
-    /// Front, top and side view.
+    /// The front, top and side views.
     pub(super) cells: [ViewCell<'a>; 3],
-    /// The column and the row of each.
+    /// The column and row of each.
     places: [[usize; 2]; 3],
-    /// For each axis and each column or row: what its views take before and after their centers.
+    /// For each axis and each column or row: the space of its views before and after their centers.
     spans: [[[f64; 2]; 2]; 2],
 }
 
 impl<'a> ViewGrid<'a> {
-    /// The grid of a sheet's projection angle.
+    /// Creates the grid for a sheet's projection angle.
     ///
-    /// In first-angle projection a view stands opposite to the side from which it is seen, in
+    /// In first-angle projection a view is placed opposite the side from which it is seen, in
     /// third-angle projection on that side.
     pub(super) fn new(sheet: &Sheet, principal: &'a [PlannedView; 3], scale: DrawingScale) -> Self {
         let first = sheet.projection_angle == SheetAngle::First;
-        // First angle: the view from the left is drawn on the right.
+        // First angle: the left view is drawn on the right.
         let is_left_view = principal[2].view.name == ViewName::Named(NamedView::Left);
         let side_is_right = first == is_left_view;
         let (front_column, front_row) = (usize::from(!side_is_right), usize::from(!first));

@@ -9,13 +9,13 @@
 //!       └───────────┴───────────┘
 //! ```
 //!
-//! The front view and the side view share a row, the front view and the top view a column. The
-//! axonometric view and the views of sections have no fixed place: each goes to the best free
-//! rectangle, at a smaller scale if it must.
+//! The front and side views share a row, the front and top views a column. The axonometric view and
+//! the views of sections have no fixed position: each is placed in the best free rectangle, at a
+//! smaller scale if necessary.
 //!
 //! Several arrangements of the grid are tried at each scale: with equal gaps on the whole drawing
 //! area or above the title block, or moved together to leave more room beside it. The largest scale
-//! at which all views find a place wins.
+//! at which all views fit wins.
 
 use super::annotation::{Extent, ViewAnnotations, overlap};
 use super::free_area::{best_rectangle, free_rectangles};
@@ -28,31 +28,32 @@ use crate::SheetWarning;
 use glam::DVec2;
 use viewport::{DrawingScale, Rectangle};
 
-/// The distance from a cell to the frame, and half of that between objects, in millimeters.
+/// The distance from a cell to the frame, and half the distance between objects, in millimeters.
 pub(super) const HALF_GAP: f64 = 5.0;
 
-/// The distance from a cell to the frame where more would cost a scale, in millimeters.
+/// The distance from a cell to the frame if a larger one would force a smaller scale, in
+/// millimeters.
 const TIGHT_GAP: f64 = 0.5;
 
-/// The least distance from the annotations of a view to its cell's border, in millimeters.
+/// The minimum distance from the annotations of a view to its cell's border, in millimeters.
 const ANNOTATION_GAP: f64 = 1.5;
 
-/// A view without a fixed place is to have at least this part of the scale of the sheet; at a
-/// smaller scale of the sheet there may be more room.
+/// The minimum scale of a view without a fixed position, as a fraction of the sheet's scale; at a
+/// smaller sheet scale there may be more room.
 const LEAST_FREE_SCALE: f64 = 0.2;
 
-/// How many smaller scales are tried for the sake of views that do not fit.
+/// The number of smaller scales to try for views that do not fit.
 const SMALLER_SCALES: usize = 2;
 
-/// A view whose longer side is shorter, in millimeters, is left out, unless it is at the scale of
-/// the sheet.
+/// The minimum longer side of a view, in millimeters; smaller views are omitted, unless they are at
+/// the scale of the sheet.
 pub(super) const LEAST_VIEW_SIZE: f64 = 8.0;
 
 /// A view with its position and scale.
 #[derive(Clone, Debug)]
 pub(super) struct PlacedView<'a> {
     pub(super) planned: &'a PlannedView,
-    /// The center of the view on the sheet, in millimeters: a point of the grid of micrometers.
+    /// The center of the view on the sheet, in millimeters: a point on the micrometer grid.
     pub(super) center: DVec2,
     pub(super) scale: DrawingScale,
     pub(super) annotations: ViewAnnotations,
@@ -76,17 +77,17 @@ impl PlacedView<'_> {
 pub(super) struct ViewLayout<'a> {
     /// The scale of the sheet.
     pub(super) scale: DrawingScale,
-    /// Front, top and side view, then those without a fixed place.
+    /// The front, top and side views, then those without a fixed position.
     pub(super) views: Vec<PlacedView<'a>>,
-    /// The views that found no place.
+    /// The views that could not be placed.
     pub(super) left_out: Vec<&'a PlannedView>,
-    /// The place of the scale bar.
+    /// The area of the scale bar.
     pub(super) scale_bar: Rectangle,
-    /// Warnings of views that lie over others at the places that they were given.
+    /// Warnings about views that overlap others at their given positions.
     pub(super) overlaps: Vec<SheetWarning>,
 }
 
-/// A view with its annotations at a scale, and the space that it needs about its center.
+/// A view with its annotations at a scale, and the space that it needs around its center.
 #[derive(Clone, Debug)]
 pub(super) struct ViewCell<'a> {
     pub(super) planned: &'a PlannedView,
@@ -96,12 +97,12 @@ pub(super) struct ViewCell<'a> {
 }
 
 impl<'a> ViewCell<'a> {
-    /// The cell of a view; a scale that is not that of the sheet is written below it.
+    /// Creates the cell of a view; a scale that differs from the sheet's is written below it.
     pub(super) fn new(planned: &'a PlannedView, sheet: &Sheet, scale: DrawingScale) -> Self {
         Self::with_annotations(planned, scale, planned.annotate(sheet, scale))
     }
 
-    /// The cell of a view with these annotations.
+    /// Creates the cell of a view with these annotations.
     pub(super) fn with_annotations(
         planned: &'a PlannedView,
         scale: DrawingScale,
@@ -116,7 +117,7 @@ impl<'a> ViewCell<'a> {
         Self { planned, scale, annotations, extent }
     }
 
-    /// The space that the view takes about a center.
+    /// The space that the view takes around a center.
     pub(super) fn extent_at(&self, center: DVec2) -> Extent {
         self.extent.map(|corner| center + corner)
     }
@@ -131,11 +132,12 @@ impl<'a> ViewCell<'a> {
 impl<'a> ViewLayout<'a> {
     /// Arranges the views at the sheet's scale, or at the largest standard scale that fits.
     ///
-    /// Views stay clear of title block and scale bar. Without a scale of the sheet, smaller ones
-    /// are tried where a view without a fixed place finds none.
+    /// Views stay clear of the title block and the scale bar. If the sheet has no given scale,
+    /// smaller ones are tried when a view without a fixed position does not fit.
     ///
     /// # Errors
-    /// [`SheetError::TooLarge`] if they do not fit; it names a scale that would, if there is one.
+    /// [`SheetError::TooLarge`] if they do not fit; it suggests a scale that would, if there is
+    /// one.
     pub(super) fn arrange_views(sheet: &Sheet, plan: &'a ViewPlan) -> Result<Self, SheetError> {
         let best = Self::arrange_on_best(&[sheet], plan);
         best.map(|(_, layout)| layout).ok_or_else(|| match plan.requested.is_empty() {
@@ -144,8 +146,8 @@ impl<'a> ViewLayout<'a> {
         })
     }
 
-    /// As [`arrange_views`](Self::arrange_views) on the best of these sheets, which differ in
-    /// their paper alone, with its index; the first of those that are equal.
+    /// Like [`arrange_views`](Self::arrange_views), on the best of these sheets, which differ only
+    /// in their paper, with its index; the first one if equal.
     pub(super) fn arrange_on_best(sheets: &[&Sheet], plan: &'a ViewPlan) -> Option<(usize, Self)> {
         let at_scale = |scale: DrawingScale| {
             let layouts = sheets.iter().map(|sheet| Self::arrange_at_scale(sheet, plan, scale));
@@ -166,7 +168,7 @@ impl<'a> ViewLayout<'a> {
         Some(best)
     }
 
-    /// The best arrangement at one scale; `None` if front, top and side view do not fit.
+    /// The best arrangement at one scale; `None` if the front, top and side views do not fit.
     pub(super) fn arrange_at_scale(
         sheet: &Sheet,
         plan: &'a ViewPlan,
@@ -199,7 +201,7 @@ impl<'a> ViewLayout<'a> {
         best
     }
 
-    /// Places the views without a fixed place, one after the other, each at the largest scale.
+    /// Places the views without a fixed position, one after the other, each at the largest scale.
     fn place_free_views(
         &mut self,
         sheet: &Sheet,
@@ -221,37 +223,37 @@ impl<'a> ViewLayout<'a> {
         }
     }
 
-    /// Whether every view has a place and a scale that is not much smaller than that of the sheet.
+    /// Whether every view has a position and a scale not much smaller than the sheet's.
     pub(super) fn is_satisfied(&self) -> bool {
         self.cramped_views().next().is_none() && self.overlaps.is_empty()
     }
 
-    /// The views that have no place, or only one at a scale much smaller than that of the sheet.
+    /// The views without a position, or with a scale much smaller than the sheet's.
     pub(super) fn cramped_views(&self) -> impl Iterator<Item = &'a PlannedView> {
         let least = LEAST_FREE_SCALE * self.scale.ratio() * (1.0 - 1e-9);
         let small = self.views.iter().filter(move |view| view.scale.ratio() < least);
         self.left_out.iter().copied().chain(small.map(|view| view.planned))
     }
 
-    /// Width and height that front, top and side view need at a scale, in millimeters.
+    /// The width and height that front, top and side views need at a scale, in millimeters.
     pub(super) fn least_size(sheet: &Sheet, plan: &ViewPlan, scale: DrawingScale) -> DVec2 {
         ViewGrid::new(sheet, &plan.principal, scale).total_size()
     }
 
-    /// Width and height that are available to views in any case, in millimeters.
+    /// The width and height always available to views, in millimeters.
     pub(super) fn room_above_blocks(sheet: &Sheet) -> DVec2 {
         let [low, high] = area_above_blocks(sheet, TIGHT_GAP);
         (high - low).max(DVec2::ZERO)
     }
 
-    /// Whether more views have a place, or the same views at larger scales.
+    /// Whether more views are placed, or the same views at larger scales.
     pub(super) fn is_better_than(&self, other: &Self) -> bool {
         let score = |layout: &Self| {
             let scales = layout.views.iter().map(|placed| placed.scale.ratio());
             [layout.scale.ratio(), -(layout.left_out.len() as f64), scales.product::<f64>()]
         };
         let (own, others) = (score(self), score(other));
-        // A product of scales depends on the order of its factors in the last digits.
+        // The last digits of a product of scales depend on the order of its factors.
         let differs = |(a, b): &(f64, f64)| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
         own.into_iter().zip(others).find(differs).is_some_and(|(a, b)| a > b)
     }
@@ -262,7 +264,7 @@ impl<'a> ViewLayout<'a> {
         self.views.iter().map(PlacedView::extent).chain(blocks).collect()
     }
 
-    /// The error with needed and available size, and a remedy.
+    /// The error with the needed and available sizes, and a remedy.
     fn too_large(sheet: &Sheet, plan: &ViewPlan) -> SheetError {
         let fits =
             |scale: &&DrawingScale| ViewLayout::arrange_at_scale(sheet, plan, **scale).is_some();
@@ -279,8 +281,8 @@ impl<'a> ViewLayout<'a> {
     }
 }
 
-/// The cell of a view at the largest scale at which a free rectangle holds it, up to that of the
-/// sheet, and its center.
+/// The cell of a view at the largest scale at which it fits a free rectangle, up to the sheet's
+/// scale, and its center.
 fn fit_into<'a>(
     sheet: &Sheet,
     planned: &'a PlannedView,
@@ -310,16 +312,16 @@ fn fit_into<'a>(
     None
 }
 
-/// A way to set the grid of views on a sheet.
+/// A way to place the grid of views on a sheet.
 pub(super) struct Arrangement {
     pub(super) area: Extent,
     pub(super) spacing: [GridSpacing; 2],
     pub(super) scale_bar: Rectangle,
 }
 
-/// The arrangements that are tried, the most even first.
+/// The arrangements to try, most even first.
 ///
-/// The last of them leave less room between views and frame, or move the scale bar out of the way.
+/// The last ones leave less space between views and frame, or move the scale bar out of the way.
 pub(super) fn arrangements(sheet: &Sheet) -> Vec<Arrangement> {
     let [low, high] = extent_of_rectangle(sheet.drawing_area());
     let whole = |gap: f64| [low + gap, high - gap];
@@ -340,20 +342,20 @@ pub(super) fn arrangements(sheet: &Sheet) -> Vec<Arrangement> {
     ways.map(|(area, spacing, scale_bar)| Arrangement { area, spacing, scale_bar }).into()
 }
 
-/// The area above title block and scale bar, at a distance from the frame.
+/// The area above the title block and scale bar, at a distance from the frame.
 fn area_above_blocks(sheet: &Sheet, gap: f64) -> Extent {
     let [low, high] = extent_of_rectangle(sheet.drawing_area());
     let blocks = sheet.title_block_area().y().min(sheet.scale_bar_area().y());
     [low + gap, DVec2::new(high.x - gap, blocks)]
 }
 
-/// A rectangle by its corners.
+/// Converts a rectangle to its corners.
 pub(super) fn extent_of_rectangle(area: Rectangle) -> Extent {
     let low = DVec2::new(area.x(), area.y());
     [low, low + DVec2::new(area.width(), area.height())]
 }
 
-/// The nearest point of the grid of micrometers, in millimeters.
+/// The nearest point on the micrometer grid, in millimeters.
 pub(super) fn snap_to_grid(point: DVec2) -> DVec2 {
     page::to_millimeters(page::to_micrometers(point))
 }

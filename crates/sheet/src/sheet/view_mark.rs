@@ -1,4 +1,4 @@
-//! View marks: where other views of a sheet are taken from (ISO 128-3).
+//! View marks: they show where other views of a sheet are taken from (ISO 128-3).
 //!
 //! ```text
 //!     B                      ┌───┐                   A              A
@@ -7,8 +7,8 @@
 //!    ╲_╱                             direction            ┗━─·─┘      wide ends and corners
 //! ```
 //!
-//! A letter stands beside the object, where nothing else is; from a circle within the object a
-//! leader line runs to it.
+//! A letter is placed in free space beside the object; a leader line connects it to a circle inside
+//! the object.
 
 use super::annotation::{
     AnnotationLayer, AnnotationShape, AnnotationText, Extent, ViewAnnotations,
@@ -17,36 +17,36 @@ use super::section_line::{ARROW_LENGTH, OVERHANG, add_section_arrow};
 use drawing::circle_points;
 use glam::DVec2;
 
-/// The number of corners of a circle around a detail.
+/// The number of corners of the circle around a detail.
 const CIRCLE_POINTS: u32 = 120;
 
-/// The directions that are tried for the letter of a detail.
+/// The number of directions to try for the letter of a detail.
 const LETTER_DIRECTIONS: u32 = 16;
 
-/// The number of places farther out that are tried for a mark.
+/// The number of positions farther out to try for a mark.
 const STEPS: u32 = 40;
 
-/// Objects that are narrower across a center line have none, in millimeters of the paper.
+/// The minimum width of objects, across a center line, that get one, in millimeters of the paper.
 const LEAST_WIDTH: f64 = 2.0;
 
 /// The length by which a center line extends beyond the view, in millimeters.
 const CENTER_LINE_OVERHANG: f64 = 3.0;
 
-/// A mark in a view: positions are millimeters of the object from the center of the view, to the
-/// right and down.
+/// A mark in a view: positions are in object millimeters from the center of the view, to the right
+/// and down.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum ViewMark {
-    /// The circle around a detail; without a letter in the detail itself.
+    /// The circle around a detail; in the detail itself it has no letter.
     Circle { center: DVec2, radius: f64, letter: Option<char> },
-    /// The direction in which another view looks: a unit vector.
+    /// The viewing direction of another view: a unit vector.
     Direction { gaze: DVec2, letter: char },
-    /// The line of a stepped section, and the unit vector to the side that is retained.
+    /// The line of a stepped section, and the unit vector toward the retained side.
     SteppedLine { corners: Vec<DVec2>, retained: DVec2, letter: char },
     /// The center line of a half section, or a line of symmetry, through a point.
     CenterLine { through: DVec2, axis: usize },
 }
 
-/// The scale of a view, its object on the paper, and the height of letters.
+/// The scale of a view, its object on the paper, and the character height.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct MarkSettings {
     pub(super) ratio: f64,
@@ -55,7 +55,7 @@ pub(super) struct MarkSettings {
 }
 
 impl ViewMark {
-    /// A center line, by a point on it and the number of the axis of the paper along which it runs.
+    /// A center line, as a point on it and the index of the paper axis along which it runs.
     pub(super) const fn as_center_line(&self) -> Option<(DVec2, usize)> {
         match self {
             Self::CenterLine { through, axis } => Some((*through, *axis)),
@@ -63,7 +63,7 @@ impl ViewMark {
         }
     }
 
-    /// The room that the mark takes beside the object, in millimeters of the paper.
+    /// The space that the mark takes beside the object, in millimeters of the paper.
     pub(super) fn reserve(&self, settings: &MarkSettings) -> f64 {
         let MarkSettings { ratio, object, letters } = *settings;
         match self {
@@ -77,7 +77,7 @@ impl ViewMark {
         }
     }
 
-    /// Adds the lines that have one place only.
+    /// Adds the lines, whose positions are fixed.
     pub(super) fn annotate(&self, annotations: &mut ViewAnnotations, settings: &MarkSettings) {
         let MarkSettings { ratio, object, .. } = *settings;
         match self {
@@ -90,7 +90,7 @@ impl ViewMark {
                 let corners = stepped_line(corners, ratio);
                 annotate_stepped_line(annotations, &corners, *retained);
             }
-            // On what is seen as a line there is no line of symmetry: ISO 128 prefers outlines.
+            // An object seen as a line gets no line of symmetry: ISO 128 prefers outlines.
             Self::CenterLine { axis, .. }
                 if object[1][1 - *axis] - object[0][1 - *axis] < LEAST_WIDTH => {}
             Self::CenterLine { through, axis } => {
@@ -106,7 +106,7 @@ impl ViewMark {
         }
     }
 
-    /// Adds letters and arrows, each at the first free place.
+    /// Adds letters and arrows, each at the first free position.
     pub(super) fn add_letters(&self, annotations: &mut ViewAnnotations, settings: &MarkSettings) {
         match self {
             Self::Circle { letter: None, .. } | Self::CenterLine { .. } => {}
@@ -145,7 +145,7 @@ fn stepped_line(corners: &[DVec2], ratio: f64) -> Vec<DVec2> {
     corners
 }
 
-/// The line narrow, its ends and corners wide, and an arrow at each end.
+/// Adds the narrow line, its wide ends and corners, and an arrow at each end.
 fn annotate_stepped_line(annotations: &mut ViewAnnotations, corners: &[DVec2], retained: DVec2) {
     annotations.push(AnnotationLayer::CutLines, AnnotationShape::Path(corners.to_vec()));
     for pair in corners.windows(2) {
@@ -159,7 +159,7 @@ fn annotate_stepped_line(annotations: &mut ViewAnnotations, corners: &[DVec2], r
     }
 }
 
-/// A letter at the end of a line of a section, beyond its arrow or beyond the line.
+/// Adds a letter at the end of a section line, beyond its arrow or beyond the line.
 pub(super) fn add_end_letter(
     annotations: &mut ViewAnnotations,
     end: DVec2,
@@ -184,7 +184,8 @@ pub(super) fn add_end_letter(
     annotations.push_first_free_text(AnnotationLayer::CutNames, places, settings.object);
 }
 
-/// The letter of a circle: as near to it as is free, with a leader line if it is not beside it.
+/// Adds the letter of a circle, as close to it as possible, with a leader line if it is not beside
+/// it.
 fn add_circle_letter(
     annotations: &mut ViewAnnotations,
     center: DVec2,
@@ -194,7 +195,7 @@ fn add_circle_letter(
 ) {
     let MarkSettings { object, letters, .. } = *settings;
     let mut places: Vec<(f64, DVec2)> = Vec::new();
-    // From the upper right on, as the letter is looked for there.
+    // Starting at the upper right, where the letter is tried first.
     let directions = circle_points(DVec2::ZERO, 1.0, LETTER_DIRECTIONS);
     let start = directions.len() - directions.len() / 8;
     for direction in directions.iter().cycle().skip(start).take(directions.len()) {
@@ -230,7 +231,7 @@ fn is_beside(point: DVec2, object: Extent, letters: f64) -> bool {
     (point + letters).cmplt(object[0]).any() || (point - letters).cmpgt(object[1]).any()
 }
 
-/// The distance from a point to where a ray leaves a rectangle; 0 if the point is outside.
+/// The distance from a point to the exit of a ray from a rectangle; 0 if the point is outside.
 fn exit_distance(from: DVec2, direction: DVec2, [low, high]: Extent) -> f64 {
     let mut exit = f64::INFINITY;
     for axis in 0..2 {
@@ -242,7 +243,7 @@ fn exit_distance(from: DVec2, direction: DVec2, [low, high]: Extent) -> f64 {
     exit.max(0.0)
 }
 
-/// An arrow towards the object with a letter behind it, beside the object where nothing else is.
+/// Adds an arrow toward the object with a letter behind it, in free space beside the object.
 fn add_direction(
     annotations: &mut ViewAnnotations,
     gaze: DVec2,

@@ -1,4 +1,4 @@
-//! The dimensions and center lines of a view, and which view has which of them.
+//! The dimensions and center lines of views, and their assignment to views.
 
 use super::Sheet;
 use super::annotation::ViewAnnotations;
@@ -15,7 +15,7 @@ use glam::DVec2;
 use hidden_line::{FeaturePicker, WorldCircle};
 use model::{ModelInstance, world_points};
 
-/// How far extension lines of overall dimensions may reach, in heights of letters.
+/// The maximum length of extension lines of overall dimensions, in character heights.
 const FAR: f64 = 200.0;
 
 /// The dimensions and center lines of a view.
@@ -23,13 +23,13 @@ const FAR: f64 = 200.0;
 pub(super) struct ViewMeasures {
     center_lines: CenterLines,
     dimensions: Vec<ViewDimension>,
-    /// The convex hull of the object, in millimeters of it from the center of the view, y down.
+    /// The convex hull of the object, in object millimeters from the center of the view, y down.
     hull: Vec<DVec2>,
 }
 
 impl ViewPlan {
-    /// Gives each dimension to the view that shows it; those that no view shows are warned of. Center
-    /// lines are in every view but axonometric ones.
+    /// Assigns each dimension to the view that shows it, with warnings for those that no view
+    /// shows. Center lines are in every view except axonometric ones.
     pub(super) fn add_measures(&mut self, sheet: &Sheet, models: &[ModelInstance]) {
         if sheet.measures.is_empty() && !sheet.center_lines && !sheet.symmetry_lines {
             return;
@@ -73,7 +73,7 @@ impl ViewPlan {
 }
 
 impl Sheet {
-    /// Adds lines of symmetry, and center lines where none of those are.
+    /// Adds lines of symmetry, and center lines where there are none of these.
     fn add_center_lines(&self, planned: &mut [&mut PlannedView], picker: &FeaturePicker<'_>) {
         if self.symmetry_lines {
             self.add_symmetry_lines(planned, picker);
@@ -90,13 +90,13 @@ impl Sheet {
 }
 
 impl ViewMeasures {
-    /// The room that center lines may take around the object, in millimeters of paper.
+    /// The space that center lines may take around the object, in millimeters of paper.
     pub(super) fn reserve(&self) -> f64 {
         if self.center_lines.is_empty() { 0.0 } else { CENTER_LINE_OVERHANG }
     }
 
-    /// Adds the dimensions at a scale, clear of what is there and of the overall dimensions that
-    /// are yet to come.
+    /// Adds the dimensions at a scale, clear of everything already there and of the overall
+    /// dimensions that will follow.
     pub(super) fn annotate(
         &self,
         annotations: &mut ViewAnnotations,

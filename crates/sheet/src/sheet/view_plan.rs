@@ -1,15 +1,14 @@
-//! View plan: which views a sheet has, which sections cut each of them, and what is written beside
-//! it.
+//! View plan: the views of a sheet, the sections that cut each of them, and the annotations beside
+//! them.
 //!
 //! | section plane | where it is shown |
 //! | --- | --- |
-//! | faced by the front, top or side view | that view is cut, the others have its line |
-//! | edge-on in one of them | a view of its own onto the plane, and its line in the others |
-//! | oblique to all three | a view of its own, and its line in an auxiliary view, with an arrow |
+//! | faced by the front, top or side view | that view is cut; the others show its line |
+//! | edge-on in one of them | a separate view onto the plane, and its line in the others |
+//! | oblique to all three | a separate view, and its line in an auxiliary view, with an arrow |
 //! | beside the object | nowhere, with a warning |
 //!
-//! Views of their own and the axonometric view have no fixed place and stand where the sheet is
-//! free.
+//! Separate views and the axonometric view have no fixed position and are placed in free space.
 
 use super::annotation::{AnnotationLayer, ViewAnnotations};
 use super::composition::{ComposedDrawing, Composition, PartDrawing};
@@ -33,42 +32,42 @@ use model::{ModelInstance, world_points};
 use projection::SheetAngle;
 use viewport::DrawingScale;
 
-/// A view and what is written beside it.
+/// A view and the annotations beside it.
 #[derive(Clone, Debug)]
 pub(super) struct PlannedView {
     pub(super) view: SheetView,
     /// The sides with an overall dimension.
     pub(super) dimensions: Vec<OverallSide>,
-    /// The planes whose lines the view shows.
+    /// The planes whose section lines the view shows.
     pub(super) section_lines: Vec<LetteredPlane>,
     /// The letter of the section that the view shows.
     pub(super) letter: Option<char>,
-    /// The dimensions and center lines that were asked for.
+    /// The requested dimensions and center lines.
     pub(super) measures: ViewMeasures,
-    /// How the drawing is put together.
+    /// The composition of the drawing.
     pub(super) composition: Composition,
-    /// The radius of a detail, in units of the scene.
+    /// The radius of a detail, in scene units.
     pub(super) detail_radius: Option<f64>,
     /// Marks of other views.
     pub(super) marks: Vec<ViewMark>,
     /// Points and axes of the scene's overlays.
     pub(super) overlays: ViewOverlays,
-    /// Where the view is to stand.
+    /// The requested position of the view.
     pub(super) place: ViewPlace,
-    /// The column and the row about the front view, of requested views.
+    /// The column and row around the front view, for requested views.
     pub(super) grid: Option<[i32; 2]>,
 }
 
 /// The views of a sheet.
 #[derive(Clone, Debug)]
 pub(super) struct ViewPlan {
-    /// Front, top and side view.
+    /// The front, top and side views.
     pub(super) principal: [PlannedView; 3],
-    /// Views without a fixed place: of sections, then the axonometric one.
+    /// Views without a fixed position: sections, then the axonometric view.
     pub(super) free: Vec<PlannedView>,
-    /// All views in their place, if the sheet has requests.
+    /// All views in their places, if the sheet has requests.
     pub(super) requested: Vec<PlannedView>,
-    /// Sections that are not shown as was asked for.
+    /// Warnings about sections that are not shown as requested.
     pub(super) warnings: Vec<SheetWarning>,
 }
 
@@ -78,16 +77,16 @@ pub(super) struct PlanSubject<'a> {
     models: &'a [ModelInstance],
     /// All points of the models.
     pub(super) points: Vec<Point<World>>,
-    /// Points with the extents of all along the axes: the corners of the bounding box.
+    /// Points with the same extents along the axes as all points: the corners of the bounding box.
     extreme: Vec<Point<World>>,
-    /// The sections that cut something, with their numbers from 1.
+    /// The sections that cut something, numbered from 1.
     cutting: Vec<(Plane<World>, usize)>,
-    /// Warnings of the others.
+    /// Warnings about the other sections.
     idle: Vec<SheetWarning>,
 }
 
 impl ViewPlan {
-    /// The views of models cut by section planes.
+    /// Plans the views of models cut by section planes.
     ///
     /// # Errors
     /// [`SheetError::Empty`] if there is nothing to draw, [`SheetError::View`] if a view has no
@@ -122,7 +121,7 @@ impl ViewPlan {
 }
 
 impl<'a> PlanSubject<'a> {
-    /// The points of models, and the sections that cut them.
+    /// Collects the points of models, and the sections that cut them.
     fn new(sheet: &'a Sheet, models: &'a [ModelInstance], sections: &[Plane<World>]) -> Self {
         let points = world_points(models);
         let idle = |plane, number| idle_section_warning(&points, plane, number);
@@ -131,13 +130,13 @@ impl<'a> PlanSubject<'a> {
         let warnings = warnings.map(SheetWarning::from).collect();
         let cutting =
             numbered().filter(|(plane, number)| idle(*plane, *number).is_none()).collect();
-        // Along the axes the corners of the bounding box have the extents of all points.
+        // Along the axes, the corners of the bounding box have the same extents as all points.
         let corners = Bounds::from_points(points.iter().copied()).map(Bounds::corners);
         let extreme = corners.map(Vec::from).unwrap_or_default();
         Self { sheet, models, points, extreme, cutting, idle: warnings }
     }
 
-    /// Millimeters in a unit of the scene.
+    /// Millimeters per scene unit.
     pub(super) const fn unit(&self) -> f64 {
         self.sheet.millimeters_per_unit
     }
@@ -147,12 +146,12 @@ impl<'a> PlanSubject<'a> {
         self.cutting.iter().map(|(plane, _)| *plane).collect()
     }
 
-    /// The view along an axis, not cut.
+    /// The uncut view along an axis.
     fn named_view(&self, name: NamedView) -> Result<SheetView, SheetError> {
         SheetView::frame_points(&self.extreme, name, self.unit())
     }
 
-    /// The axonometric view of what all sections leave.
+    /// The axonometric view of the parts that all sections retain.
     fn cut_view(&self, name: NamedView) -> Result<SheetView, SheetError> {
         let planes = self.planes();
         let retained =
@@ -161,7 +160,7 @@ impl<'a> PlanSubject<'a> {
         Ok(SheetView::frame_points(points, name, self.unit())?.cut_by(planes))
     }
 
-    /// A view in any direction, not cut.
+    /// An uncut view in any direction.
     pub(super) fn auxiliary_view(
         &self,
         gaze: Vector<World>,
@@ -172,7 +171,7 @@ impl<'a> PlanSubject<'a> {
         Ok(PlannedView::plain(view))
     }
 
-    /// The views of these names, with sections and overall dimensions, and views of sections.
+    /// The views with these names, with sections and overall dimensions, and section views.
     pub(super) fn named_views(
         &self,
         names: &[(NamedView, &ViewPlace)],
@@ -193,7 +192,7 @@ impl<'a> PlanSubject<'a> {
     }
 
     /// Cuts the views along the axes that face a section, marks its line in the others, and returns
-    /// the views that the other sections need.
+    /// the views that the remaining sections need.
     fn assign_sections(
         &self,
         views: &mut [PlannedView],
@@ -233,8 +232,8 @@ impl<'a> PlanSubject<'a> {
         Ok((free, warnings))
     }
 
-    /// The view onto a section plane that is oblique to all views, and an auxiliary view that sees
-    /// it edge-on, with its line; `None` if no view can show where that is taken from.
+    /// The view onto a section plane oblique to all views, and an auxiliary view that sees it
+    /// edge-on, with its line; `None` if no view can show the direction.
     fn oblique_section(
         &self,
         views: &mut [PlannedView],
@@ -243,7 +242,7 @@ impl<'a> PlanSubject<'a> {
     ) -> Result<Option<[PlannedView; 2]>, SheetError> {
         let LetteredPlane { plane, letter } = section;
         let normal = Vector::from_raw(plane.normal().raw());
-        // A level gaze along the plane: the top view shows its direction in full.
+        // A horizontal gaze along the plane: the top view shows its direction at full length.
         let level = unit_vector(normal.cross(Vector::Y)).unwrap_or(Vector::X);
         if !mark_direction(views, level, auxiliary) {
             return Ok(None);
@@ -256,7 +255,8 @@ impl<'a> PlanSubject<'a> {
     }
 }
 
-/// Gives width, height and depth of the models one dimension each, in the first view that shows it.
+/// Dimensions the width, height and depth of the models once each, in the first view that shows
+/// them.
 fn add_dimensions(views: &mut [PlannedView], angle: SheetAngle) {
     let across = if angle == SheetAngle::First { OverallSide::Above } else { OverallSide::Below };
     let rank = |one: &PlannedView| match one.view.name {
@@ -280,8 +280,8 @@ fn add_dimensions(views: &mut [PlannedView], angle: SheetAngle) {
     }
 }
 
-/// The view beside the front view: the one that was asked for, else that of the projection angle,
-/// or its opposite if only that faces a section.
+/// The view beside the front view: the requested one, or the default of the projection angle, or
+/// its opposite if only that faces a section.
 fn side_view(
     sheet: &Sheet,
     planes: &[Plane<World>],
@@ -298,7 +298,7 @@ fn side_view(
 }
 
 impl PlannedView {
-    /// A view with nothing beside it.
+    /// Plans a view with nothing beside it.
     pub(super) fn plain(view: SheetView) -> Self {
         Self {
             view,
@@ -315,12 +315,12 @@ impl PlannedView {
         }
     }
 
-    /// The view as that of a section.
+    /// Plans the view as the view of a section.
     pub(super) fn with_letter(self, letter: char) -> Self {
         Self { letter: Some(letter), ..self }
     }
 
-    /// The view with the lines of all sections that others show.
+    /// Adds the lines of all sections that other views show.
     pub(super) fn with_lines_of(self, others: &[Self]) -> Self {
         let shown = others.iter().filter_map(|one| {
             Some(LetteredPlane { plane: *one.view.sections.first()?, letter: one.letter? })
@@ -333,7 +333,7 @@ impl PlannedView {
         matches!(self.view.name, ViewName::Named(name) if NamedView::PRINCIPAL.contains(&name))
     }
 
-    /// Whether the view is one of the six along the axes or onto an oblique face, not cut.
+    /// Whether the view is uncut, and along an axis or onto an oblique face.
     pub(super) fn is_outside_view(&self) -> bool {
         let is_outside = match self.view.name {
             ViewName::Named(_) => self.is_along_axis(),
@@ -343,15 +343,15 @@ impl PlannedView {
         is_outside && self.view.sections.is_empty() && !self.composition.is_section()
     }
 
-    /// Whether something is cut open in the view.
+    /// Whether anything is cut open in the view.
     pub(super) fn is_cut(&self) -> bool {
         !self.view.sections.is_empty()
             || self.composition.is_section()
             || matches!(self.composition, Composition::Local { .. })
     }
 
-    /// Whether the view can have dimensions and center lines: it is neither axonometric nor put
-    /// together from pieces that have moved, and shows the whole object.
+    /// Whether the view can have dimensions and center lines: it is not axonometric, not composed
+    /// of moved pieces, and shows the whole object.
     pub(super) fn takes_measures(&self) -> bool {
         let is_axonometric = matches!(self.view.name, ViewName::Named(_)) && !self.is_along_axis();
         let is_broken = matches!(self.composition, Composition::Broken(_));
@@ -368,12 +368,12 @@ impl PlannedView {
         }
     }
 
-    /// The view before a part of it was left out.
+    /// The view before a part of it was omitted.
     pub(super) fn drawn_view(&self) -> SheetView {
         self.view.with_size(self.view.size + self.left_out())
     }
 
-    /// The lengths across and up that are left out of the view, in millimeters of the object.
+    /// The lengths across and up omitted from the view, in object millimeters.
     fn left_out(&self) -> DVec2 {
         match &self.composition {
             Composition::Broken(part) => part.length(),
@@ -381,7 +381,7 @@ impl PlannedView {
         }
     }
 
-    /// The annotations beside the view at a scale.
+    /// The annotations beside the view, at a scale.
     pub(super) fn annotate(&self, sheet: &Sheet, scale: DrawingScale) -> ViewAnnotations {
         let letters = sheet.lettering_height();
         let half = self.view.size * scale.ratio() * 0.5;
@@ -407,7 +407,7 @@ impl PlannedView {
         for (layer, caption) in self.captions(scale) {
             add_caption(&mut annotations, layer, &caption, object, letters);
         }
-        // Where the view does not fit there is no need to find places, of which there are many then.
+        // If the view does not fit, there is no need to search for positions, which would be many.
         let paper = DVec2::new(sheet.paper.width(), sheet.paper.height());
         if (half * 2.0).cmple(paper).all() {
             self.overlays.annotate(&mut annotations, &mark_settings);
@@ -443,14 +443,14 @@ impl PlannedView {
         captions
     }
 
-    /// As [`annotate`](Self::annotate), with a note of the scale, which is not that of the sheet.
+    /// Like [`annotate`](Self::annotate), with a note of the scale if it differs from the sheet's.
     pub(super) fn annotate_with_scale(
         &self,
         sheet: &Sheet,
         scale: DrawingScale,
     ) -> ViewAnnotations {
         let (mut annotations, letters) = (self.annotate(sheet, scale), sheet.lettering_height());
-        // The name of a detail has its scale in it.
+        // The caption of a detail already contains its scale.
         if self.detail_radius.is_some() && self.place.caption.is_none() {
             return annotations;
         }
@@ -460,7 +460,7 @@ impl PlannedView {
         annotations
     }
 
-    /// The drawing of the view, put together from its parts.
+    /// Draws the view, composed of its parts.
     pub(super) fn draw(
         &self,
         surfaces: &mut SurfaceCache<'_>,

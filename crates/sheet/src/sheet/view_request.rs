@@ -1,24 +1,24 @@
-//! View requests: the views of a sheet beyond front, top, side and axonometric view, and views that
-//! are shown in another way.
+//! View requests: additional views of a sheet beyond front, top, side and axonometric views, and
+//! changes to views.
 
 use camera::NamedView;
 use glam::DVec2;
 use homog::{Point, Vector, World};
 use viewport::DrawingScale;
 
-/// Where a view stands on its sheet, at what scale, and what is written below it.
+/// The position, scale and caption of a view on its sheet.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct ViewPlace {
-    /// The center of the view in millimeters from the upper left corner of the paper; `None` for
-    /// the place of the projection angle, or for free room.
+    /// The center of the view, in millimeters from the upper left corner of the paper; `None` for
+    /// the position given by the projection angle, or for free space.
     pub at: Option<DVec2>,
-    /// The scale; `None` for that of the sheet, and smaller in free room if it must be.
+    /// The scale; `None` for the sheet's scale, or a smaller one in free space if necessary.
     pub scale: Option<DrawingScale>,
     /// The text below the view; `None` for none, or for letter and scale.
     pub caption: Option<String>,
 }
 
-/// A side of a view, as it lies on the paper.
+/// A side of a view, on the paper.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ViewSide {
     /// The half to the left.
@@ -31,10 +31,10 @@ pub enum ViewSide {
     Bottom,
 }
 
-/// A view of a sheet, or a way to show one of its views.
+/// A view of a sheet, or a change to one of its views.
 ///
-/// Without a request for a [`Named`](Self::Named) view a sheet has front, top, side and axonometric
-/// view, and the requested ones beside them.
+/// Without a request for a [`Named`](Self::Named) view, a sheet has front, top, side and
+/// axonometric views in addition to the requested ones.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum ViewRequest {
@@ -49,64 +49,64 @@ pub enum ViewRequest {
     Detail {
         /// The view that is enlarged.
         of: NamedView,
-        /// The center of the circle: a point of the world.
+        /// The center of the circle, in world space.
         center: Point<World>,
-        /// The radius of the circle, in units of the scene.
+        /// The radius of the circle, in scene units.
         radius: f64,
-        /// Its place. Without a scale it is two to five times that of the view.
+        /// Its place. By default its scale is two to five times the scale of the view.
         place: ViewPlace,
     },
-    /// A section along parallel planes that are joined by steps (ISO 128-3, 5.4).
+    /// A section along parallel planes joined by steps (ISO 128-3, 5.4).
     Stepped {
-        /// The direction of what is removed.
+        /// The direction of the removed part.
         removed: Vector<World>,
-        /// The corners of the line of the cut: pieces perpendicular to `removed` in turn with steps
-        /// along it, a piece first and a piece last.
+        /// The corners of the cut line: pieces perpendicular to `removed` alternate with steps
+        /// along it, beginning and ending with a piece.
         corners: Vec<Point<World>>,
         /// Its place.
         place: ViewPlace,
     },
-    /// A view onto a face that is oblique to the views along the axes, by an arrow with a letter.
+    /// A view onto a face oblique to the views along the axes, with an arrow and a letter.
     Auxiliary {
-        /// The direction in which the face looks: towards the viewer.
+        /// The direction that the face points in: toward the viewer.
         facing: Vector<World>,
         /// Its place.
         place: ViewPlace,
     },
-    /// A view of which one half is cut, for parts that are symmetric (ISO 128-3, 5.5).
+    /// A view with one half cut, for symmetric parts (ISO 128-3, 5.5).
     HalfSection {
         /// The view.
         of: NamedView,
-        /// A point of the center line and of the plane of the section; `None` for the center of
-        /// the models.
+        /// A point on the center line and in the section plane; `None` for the center of the
+        /// models.
         point: Option<Point<World>>,
         /// The half that is cut.
         side: ViewSide,
     },
-    /// A view that is cut around a point, up to a freehand line (ISO 128-3, 5.6).
+    /// A view cut around a point, up to a freehand line (ISO 128-3, 5.6).
     LocalSection {
         /// The view.
         of: NamedView,
-        /// The center: a point of the plane of the section.
+        /// The center: a point in the section plane.
         center: Point<World>,
-        /// The mean distance of the freehand line from the center, in units of the scene.
+        /// The mean distance of the freehand line from the center, in scene units.
         radius: f64,
     },
     /// A view without a part of its length (ISO 128-3, 4.4.7); dimensions remain true.
     Broken {
-        /// The view; `None` for all along the axes that show the length.
+        /// The view; `None` for all views along the axes that show the length.
         of: Option<NamedView>,
         /// The axis of the length: 0 for x, 1 for y, 2 for z.
         axis: usize,
-        /// Where the part that is left out begins on this axis.
+        /// The start of the omitted part on this axis.
         from: f64,
-        /// Where it ends.
+        /// Its end.
         to: f64,
     },
 }
 
 impl ViewRequest {
-    /// The place; `None` of requests that change another view.
+    /// The place; `None` for requests that change another view.
     pub(super) const fn place(&self) -> Option<&ViewPlace> {
         match self {
             Self::Named { place, .. }

@@ -1,4 +1,4 @@
-//! Visible spots of parts in a parallel view: where the leaders of balloons end.
+//! Visible spots of parts in a parallel view, where the leaders of balloons end.
 //!
 //! ```text
 //!   ┌─────────┐      a z-buffer of the parts' numbers, one sample in the middle of a pixel;
@@ -16,33 +16,33 @@ use model::ModelInstance;
 use std::collections::BTreeMap;
 use viewport::DrawingScale;
 
-/// Pixels on the longer side of the view.
+/// The number of pixels on the longer side of the view.
 const LONG_SIDE: f64 = 1200.0;
 
-/// The number of 1:1 among the standard scales.
+/// The index of 1:1 among the standard scales.
 const NATURAL_SCALE: usize = 5;
 
-/// The number of a pixel that shows no part.
+/// The value of a pixel that shows no part.
 const NO_PART: u32 = u32::MAX;
 
-/// A place of a view where one part is in front of all others.
+/// A position in a view where one part is in front of all others.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct VisibleSpot {
-    /// From the center of the view to the right and down, in units of the scene.
+    /// The position from the center of the view, to the right and down, in scene units.
     pub(super) at: DVec2,
-    /// Half the side of a square about it in which only this part is seen, in units of the scene.
+    /// Half the side of a square around it in which only this part is visible, in scene units.
     pub(super) clearance: f64,
 }
 
-/// The parts with their moves, in the world.
+/// The parts with their moves, in world space.
 pub(super) struct MovedParts<'a> {
     pub(super) parts: &'a [Part],
     pub(super) models: &'a [ModelInstance],
-    /// One for each part.
+    /// One move for each part.
     pub(super) moves: &'a [DVec3],
 }
 
-/// For each part the spot of a view that shows it best; `None` for parts that are hidden, or
+/// For each part, the spot of a view that shows it best; `None` for parts that are hidden or
 /// narrower than a pixel.
 pub(super) fn find_visible_spots(
     moved: &MovedParts<'_>,
@@ -63,8 +63,8 @@ pub(super) fn find_visible_spots(
     spots
 }
 
-/// Gives parts without a spot, which are narrower than a pixel, the middle of the longest piece of
-/// their edges that is visible. `object` is the number of a part in the drawing of the view.
+/// Gives parts without a spot, which are narrower than a pixel, the middle of their longest visible
+/// edge piece. `object` is the index of a part in the drawing of the view.
 pub(super) fn add_spots_on_edges(
     spots: &mut [Option<VisibleSpot>],
     drawing: &Drawing,
@@ -91,13 +91,13 @@ pub(super) fn add_spots_on_edges(
     }
 }
 
-/// The number of the nearest part in each pixel of a view.
+/// The index of the nearest part in each pixel of a view.
 struct PartImage {
     width: usize,
     height: usize,
     pixels_per_unit: f64,
     parts: Vec<u32>,
-    /// The view-space z of the nearest part: greater is nearer.
+    /// The view-space z of the nearest part: larger is nearer.
     depths: Vec<f64>,
 }
 
@@ -133,7 +133,7 @@ impl PartImage {
         DVec2::new(self.width as f64, self.height as f64) * 0.5
     }
 
-    /// Draws one triangle, row by row: in each the pixel centers between its sides.
+    /// Draws one triangle row by row: in each row, the pixel centers between its sides.
     fn fill_triangle(&mut self, corners: [DVec3; 3], number: u32) {
         let [a, b, c] = corners;
         let normal = (b - a).cross(c - a);
@@ -168,8 +168,8 @@ impl PartImage {
         }
     }
 
-    /// For each pixel, how many steps to a neighbor, also across a corner, lead to another part, to
-    /// paper or beyond the border: two passes, from above and from below.
+    /// For each pixel, the number of steps to a neighbor, including diagonal ones, to reach another
+    /// part, paper or the border: two passes, from above and from below.
     fn distances_to_others(&self) -> Vec<u32> {
         let (width, height) = (self.width as isize, self.height as isize);
         let mut distances = vec![u32::MAX / 2; self.parts.len()];
@@ -201,7 +201,7 @@ mod tests {
     use model::{Mesh, Model, Node, Primitive, world_points};
     use std::sync::Arc;
 
-    /// A model of triangles, each a part of its own.
+    /// A model of triangles, each a separate part.
     fn triangles(corners: &[[[f32; 3]; 3]]) -> ModelInstance {
         let mut model = Model::default();
         for (index, positions) in corners.iter().enumerate() {

@@ -1,50 +1,50 @@
-//! Warnings of assemblies: what their pages leave out.
+//! Assembly warnings: missing parts of their pages.
 
 use core::fmt;
 use files::visible_excerpt;
 
-/// Something that the pages of an assembly leave out, with the reason in its `Display` text.
+/// A part that the pages of an assembly lack, with the reason in its `Display` text.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 #[non_exhaustive]
 pub enum AssemblyWarning {
-    /// The models have no lines and triangles.
+    /// The models have no lines or triangles.
     NoParts,
-    /// The mass of a part does not follow from its density.
+    /// The mass of a part cannot be computed from its density.
     MassUnknown {
         /// The name of the part.
         part: String,
     },
-    /// Names of parts have characters that the stroke font lacks.
+    /// Part names contain characters that the stroke font lacks.
     NamesUnreadable {
-        /// The first of the names.
+        /// The first such name.
         name: String,
-        /// How many there are.
+        /// The number of such names.
         count: usize,
     },
-    /// Parts are hidden in the view of the assembly, and have no balloons.
+    /// Parts are hidden in the assembly view and have no balloons.
     NotVisible {
-        /// The number of the first in the list.
+        /// The number of the first one in the list.
         number: usize,
         /// Its name.
         part: String,
-        /// How many items there are of which no part is seen.
+        /// The number of items without a visible part.
         count: usize,
     },
-    /// Balloons find no place around the view of the assembly.
+    /// Balloons do not fit around the assembly view.
     BalloonsLeftOut {
-        /// The number of the first.
+        /// The number of the first one.
         number: usize,
-        /// How many there are.
+        /// The number of such balloons.
         count: usize,
     },
     /// There are too many parts for an exploded view.
     TooManyPartsToExplode {
-        /// How many there may be.
+        /// The maximum number of parts.
         most: usize,
     },
-    /// There are too many parts for a sheet of each.
+    /// There are too many parts to draw a sheet for each.
     PartSheetsLeftOut {
-        /// How many have none.
+        /// The number of parts without a sheet.
         count: usize,
     },
 }

@@ -1,28 +1,28 @@
-//! Why a dimension is left out.
+//! The reasons why dimensions are missing.
 
 use camera::NamedView;
 use core::fmt;
 
-/// Why a dimension is not on the sheet.
+/// The reason why a dimension is not on the sheet.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 #[non_exhaustive]
 pub enum DimensionFault {
     /// The sheet does not have the view.
     NoSuchView(NamedView),
-    /// The view that was asked for foreshortens it; another view of the sheet may show it true.
+    /// The requested view foreshortens it; another view of the sheet may show it at true size.
     Foreshortened {
-        /// The view that was asked for.
+        /// The requested view.
         view: NamedView,
-        /// A view that shows it true.
+        /// A view that shows it at true size.
         shown_in: Option<NamedView>,
     },
-    /// No view of the sheet shows it true.
+    /// No view of the sheet shows it at true size.
     NowhereTrue,
-    /// A section removes what it measures.
+    /// A section removes the measured points.
     CutAway,
     /// The points coincide in the direction of measurement, or the angle is 0 or 180 degrees.
     NoExtent,
-    /// There is no free place for its number.
+    /// There is no free space for its number.
     NoRoom,
 }
 

@@ -1,4 +1,4 @@
-//! Assemblies: parts lists, balloons, exploded views and sheets of parts.
+//! Assemblies: parts lists, balloons, exploded views and part sheets.
 
 use super::balloons::{balloon_faults, crossing_leaders, layer, texts, view_extent};
 use super::boxes::sheet;
@@ -24,7 +24,7 @@ fn assembly_sheet(paper: (Paper, &'static str)) -> Sheet {
     Sheet { assembly, ..sheet(paper, SheetAngle::First) }
 }
 
-/// The papers of most tests.
+/// The papers used in most tests.
 const PAPERS: [(Paper, &str); 2] = [(Paper::A3, "A3"), (Paper::A4, "A4")];
 
 /// All faults of pages.
@@ -89,7 +89,7 @@ fn fifty_different_parts_take_three_pages() {
     assert_eq!((pages.len(), faults_of_pages(&pages)), (3, Vec::new()));
     assert_eq!(crossing_leaders(&pages[1]), [""; 0]);
     assert_eq!(texts(&pages[1], "balloon-numbers").len(), 50, "{:?}", pages[1].warnings);
-    // Heading and 50 rows, in two columns of the third page.
+    // A heading and 50 rows, in two columns of the third page.
     assert_eq!(texts(&pages[2], "parts-list-text").len(), 2 * 4 + 50 * 4);
     assert!(layer(&pages[1], "parts-list").is_none());
 }
@@ -145,7 +145,7 @@ fn masses_are_volume_times_density() {
     };
     let densities = [density("steel", 8.0), density("bar", 2.0), density("*", 1.0)];
     let list = PartsList::new(&models, &densities, 1.0);
-    // A hexagon of corner radius r has 3/2 √3 r² of area; twice as wide by the scale.
+    // A hexagon with corner radius r has an area of 3/2 √3 r²; twice as wide because of the scale.
     let bar = 1.5 * libm::sqrt(3.0) * 100.0 * 30.0 * 2.0 / 1000.0 * 2.0;
     let expected = [Some(6.0 * 8.0), Some(bar), None, Some(0.001)];
     for (item, expected) in list.items.iter().zip(expected) {
@@ -169,10 +169,10 @@ fn copies_count_as_one_part_and_others_do_not() {
     let size = DVec3::new(3.0, 2.0, 1.0);
     let nodes: Vec<(String, usize, Affine<_, _>)> = vec![
         ("bolt.001".to_owned(), 0, placed(DVec3::X * 5.0, 0.0)),
-        // Turned, and a copy of the mesh in the file.
+        // Rotated, and a copy of the mesh in the file.
         ("bolt.002".to_owned(), 1, placed(DVec3::X * 15.0, 1.1)),
         ("bolt".to_owned(), 0, placed(DVec3::X * 25.0, 0.3)),
-        // Of another size, mirrored, of another name, of another material.
+        // With another size, mirrored, with another name, with another material.
         ("bolt.003".to_owned(), 0, Affine::scale(1.1, 1.0, 1.0)),
         ("bolt.004".to_owned(), 0, Affine::scale(-1.0, 1.0, 1.0)),
         ("screw".to_owned(), 0, placed(DVec3::Z * 20.0, 0.0)),
@@ -180,7 +180,7 @@ fn copies_count_as_one_part_and_others_do_not() {
     ];
     let shared = (box_primitive(size), "steel");
     let models = [assembly(vec![shared.clone(), shared, (box_primitive(size), "brass")], nodes)];
-    // The material of the copy has the name and the color of the first.
+    // The material of the copy has the same name and color as the first.
     let list = PartsList::new(&models, &[], 1.0);
     let found: Vec<(usize, &str, &str)> = list
         .items
@@ -206,7 +206,7 @@ fn copies_count_as_one_part_and_others_do_not() {
 #[test]
 fn exploded_parts_do_not_intersect() {
     use ExplosionAxis::{All, Auto, X, Y, Z};
-    // Pins through plates, turned, so that many parts intersect where they stand.
+    // Rotated pins through plates, so that many parts intersect in place.
     let models = [stacked_assembly(12, 4)];
     assert!(intersecting_parts(&part_triangles(&models)).len() > 10);
     for axis in [Auto, X, Y, Z, All] {
@@ -219,7 +219,7 @@ fn exploded_parts_do_not_intersect() {
 
 #[test]
 fn bolts_leave_on_the_side_that_is_free() {
-    // A hub on a flange, as one part, and bolts that lie on the flange, below the middle of it.
+    // A hub on a flange, as one part, and bolts on the flange, below its middle.
     let mut housing = box_primitive(DVec3::new(40.0, 4.0, 40.0));
     let hub = prism_primitive(10.0, 20.0, 24);
     let first = housing.positions.len() as u32;
@@ -304,7 +304,8 @@ fn every_item_has_a_sheet_at_its_own_scale() {
         assert_eq!(page.title, format!("part {}", letters(kind)));
         let values = texts(page, "title-block-text");
         assert!(values.contains(&format!("7-100-{}", kind + 1)), "{values:?}");
-        // Parts that stand askew in the assembly are drawn straight: 6 mm high, or a plate's 4 mm.
+        // Parts that are oblique in the assembly are drawn straight: 6 mm high, or 4 mm for a
+        // plate.
         let lengths = texts(page, "dimensions-text");
         let height = if kind % 5 == 0 { "4" } else { "6" };
         assert!(lengths.iter().any(|length| length == height), "{lengths:?}");

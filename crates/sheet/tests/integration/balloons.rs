@@ -1,11 +1,11 @@
-//! A lint of the pages of assemblies: balloons are apart, their numbers within, nothing over them.
+//! A lint of assembly pages: balloons are apart, contain their numbers, and nothing is over them.
 
 use super::lint::{Extent, layer_extent};
 use glam::DVec2;
 use page::{GroupContent, Layer, Polyline, to_millimeters};
 use sheet::SheetPage;
 
-/// The circle around the corners of a polygon: its center and radius.
+/// The circle through the corners of a polygon: its center and radius.
 fn circle_of(line: &Polyline) -> (DVec2, f64) {
     let corners = || line.points.iter().copied().map(to_millimeters);
     let center = corners().sum::<DVec2>() / line.points.len() as f64;
@@ -26,7 +26,7 @@ fn pieces(line: &Polyline) -> impl Iterator<Item = [DVec2; 2]> {
     (0..pieces).map(move |k| [k, (k + 1) % count].map(|at| to_millimeters(line.points[at])))
 }
 
-/// The layer of an id, if the page has it.
+/// The layer with an id, if the page has it.
 pub fn layer<'a>(page: &'a SheetPage, id: &str) -> Option<&'a Layer> {
     page.layers.iter().find(|layer| layer.id == id)
 }
@@ -41,7 +41,7 @@ pub fn texts(page: &SheetPage, id: &str) -> Vec<String> {
     groups.filter_map(|group| text(&group.content)).collect()
 }
 
-/// Faults of the balloons of a page, in words.
+/// Describes the faults of balloons on a page.
 pub fn balloon_faults(page: &SheetPage) -> Vec<String> {
     let Some(balloons) = layer(page, "balloons") else { return Vec::new() };
     let mut faults = Vec::new();
@@ -82,7 +82,7 @@ pub fn balloon_faults(page: &SheetPage) -> Vec<String> {
     faults
 }
 
-/// Leaders of a page that cross.
+/// Describes the leaders of a page that cross.
 pub fn crossing_leaders(page: &SheetPage) -> Vec<String> {
     let Some(balloons) = layer(page, "balloons") else { return Vec::new() };
     let leaders: Vec<(&str, [DVec2; 2])> = balloons
@@ -105,7 +105,7 @@ pub fn crossing_leaders(page: &SheetPage) -> Vec<String> {
     faults
 }
 
-/// The extent of the view of an assembly.
+/// The extent of the assembly view.
 pub fn view_extent(page: &SheetPage) -> Option<Extent> {
     layer_extent(page, |id| id.starts_with("assembly-") || id.starts_with("exploded-"))
 }

@@ -9,7 +9,7 @@ use sheet::{Sheet, SheetPage, SheetWarning};
 use std::sync::Arc;
 use viewport::{DrawingScale, Paper};
 
-/// The papers by their names.
+/// The papers, with their names.
 pub const PAPERS: [(Paper, &str); 8] = [
     (Paper::A0, "A0"),
     (Paper::A1, "A1"),
@@ -21,7 +21,7 @@ pub const PAPERS: [(Paper, &str); 8] = [
     (Paper::TABLOID, "Tabloid"),
 ];
 
-/// Pseudorandom numbers (SplitMix64), equal in every run.
+/// Pseudorandom numbers (SplitMix64), the same in every run.
 pub struct Random(pub u64);
 
 impl Random {
@@ -34,13 +34,13 @@ impl Random {
         ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// A number from `low` to `high`, evenly by its logarithm.
+    /// A number from `low` to `high`, uniform in its logarithm.
     pub fn by_magnitude(&mut self, low: f64, high: f64) -> f64 {
         low * libm::exp(self.fraction() * libm::log(high / low))
     }
 }
 
-/// A box of these sides about the origin.
+/// A box with these sides around the origin.
 pub fn box_model(size: DVec3) -> ModelInstance {
     let corner = |n: usize| {
         [0, 1, 2].map(|axis| (size[axis] * if n >> axis & 1 == 0 { -0.5 } else { 0.5 }) as f32)
@@ -63,7 +63,7 @@ pub fn instance_of(primitive: Primitive) -> ModelInstance {
     ModelInstance { model: Arc::new(model), model_to_world: Affine::scale(1.0, 1.0, 1.0) }
 }
 
-/// The plane through a point that retains what lies in a direction.
+/// The plane through a point that retains the side in a direction.
 pub fn plane(point: DVec3, retained: DVec3) -> Plane<World> {
     let [x, y, z] = retained.to_array();
     let normal = Normal::new(x, y, z).normalized().expect("a direction");
@@ -79,18 +79,18 @@ pub fn sheet((paper, name): (Paper, &str), angle: SheetAngle) -> Sheet {
     sheet
 }
 
-/// Whether a view of this name is on the sheet.
+/// Whether a view with this name is on the sheet.
 pub fn has_view(page: &SheetPage, name: &str) -> bool {
     layer_extent(page, |id| id.starts_with(&format!("{name}-"))).is_some()
 }
 
-/// Whether a view is on the sheet, or a warning names it.
+/// Whether a view is on the sheet, or a warning mentions it.
 fn is_there_or_named(page: &SheetPage, prefix: &str, title: &str) -> bool {
     let named = SheetWarning::ViewLeftOut { view: title.to_owned() };
     has_view(page, prefix) != page.warnings.contains(&named)
 }
 
-/// The directions that sections retain: none, those of the axes, and along one of them.
+/// The directions that sections retain: none, along the axes, and others along one of them.
 const SECTIONS: [Option<[f64; 3]>; 10] = [
     None,
     Some([-1.0, 0.0, 0.0]),
@@ -137,7 +137,7 @@ fn boxes_of_all_proportions_are_whole_and_legible_on_every_sheet() {
             found.push("the isometric view is missing".to_owned());
         }
         let has_line = page.layers.iter().any(|layer| layer.id == "cut-lines");
-        // Two letters for each line, and one name below a view that is cut.
+        // Two letters for each line, and one name below a cut view.
         let names = page.layers.iter().find(|layer| layer.id == "cut-names");
         let is_cut = names.is_some_and(|layer| layer.groups.len() % 2 == 1);
         let is_named = page.warnings.iter().any(
@@ -153,13 +153,13 @@ fn boxes_of_all_proportions_are_whole_and_legible_on_every_sheet() {
         }
     }
     assert!(messages.is_empty(), "{}: {:#?}", messages.len(), &messages[..messages.len().min(12)]);
-    // Where a smaller scale leaves room it is taken, so that hardly a view is ever left out.
+    // A smaller scale is used if it leaves room, so that views are hardly ever omitted.
     assert!(left_out <= 10, "{left_out} sheets without a view");
 }
 
 #[test]
 fn the_isometric_view_is_as_large_as_its_sheet_allows() {
-    // A flat part leaves a strip beside its top view and the whole foot of the sheet.
+    // A flat part leaves a strip beside its top view and the whole bottom of the sheet.
     let model = [box_model(DVec3::new(250.0, 30.0, 60.0))];
     let page = sheet((Paper::A3.rotated(), "A3"), SheetAngle::First).draw(&model, &[], 1).unwrap();
     let [low, high] = layer_extent(&page, |id| id.starts_with("isometric-")).expect("a view");
@@ -176,7 +176,7 @@ fn the_paper_is_turned_to_the_greater_scale() {
     let upright = sheet((Paper::A4, "A4"), SheetAngle::First);
     assert!(upright.clone().with_best_orientation(&wide, &[]).paper.width() > 290.0);
     assert_eq!(upright.clone().with_best_orientation(&tall, &[]).paper, Paper::A4);
-    // A scale of one's own is kept: the orientation is one in which it fits.
+    // A given scale is kept: the orientation is one in which it fits.
     let given = Sheet { scale: DrawingScale::new(1, 5).ok(), ..upright };
     let turned = given.with_best_orientation(&wide, &[]);
     assert!(turned.check_layout(&wide, &[]).is_ok());
@@ -192,7 +192,7 @@ fn at_a_given_scale_a_view_without_room_is_named() {
         sheet.scale = DrawingScale::new(1, 1).ok();
         let retained = [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, 2.0, 0.0]];
         let planes = retained.map(|retained| plane(DVec3::ZERO, retained.into()));
-        // Larger than the paper is an error, which names a scale.
+        // Views larger than the paper are an error, which suggests a scale.
         let Ok(page) = sheet.draw(&[box_model(size)], &planes, 1) else { continue };
         for (prefix, title) in [
             ("isometric", "isometric view"),

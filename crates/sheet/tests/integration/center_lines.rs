@@ -14,7 +14,7 @@ use std::path::Path;
 use std::sync::Arc;
 use viewport::Paper;
 
-/// A cylinder about an axis through a point, from one height to the other, with plane ends.
+/// A cylinder around an axis through a point, between two heights, with flat ends.
 pub fn cylinder(
     base: DVec3,
     axis: DVec3,
@@ -42,7 +42,7 @@ pub fn cylinder(
     instance_of(Primitive { positions, indices, ..Primitive::default() })
 }
 
-/// The bearing of the scenes.
+/// The bearing from the scenes.
 fn bearing() -> ModelInstance {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/models/bearing.glb");
     let model = Arc::new(load(&path, &ImportOptions::default()).unwrap());
@@ -65,7 +65,7 @@ fn rims_are_circles_with_center_and_radius() {
             }
         }
     }
-    // A prism of eight sides is no cylinder.
+    // A prism with eight sides is not a cylinder.
     let models = [cylinder(base, DVec3::Y, (12.5, 40.0, 8))];
     assert_eq!(FeaturePicker::new(&models, 0.5).circles(None).count(), 0);
 }
@@ -96,7 +96,7 @@ fn a_cylinder_has_a_cross_and_an_axis_that_reach_beyond_it() {
     let page = sheet.draw(&model, &[], 1).unwrap();
     assert_eq!(faults(&page), [""; 0]);
     let lines = read_svg(&page, "center-lines").lines;
-    // The axis in front and side view, a cross from above.
+    // The axis in front and side views, a cross from above.
     assert_eq!(lines.len(), 4);
     let spans: Vec<DVec2> = lines.iter().map(|line| (line[1] - line[0]).abs()).collect();
     assert_eq!(

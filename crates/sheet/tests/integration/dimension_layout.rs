@@ -1,4 +1,5 @@
-//! Many dimensions on many sheets: no number touches anything, and what finds no place is named.
+//! Many dimensions on many sheets: no number touches anything, and dimensions that do not fit are
+//! reported.
 
 use super::boxes::{PAPERS, Random, box_model, plane, sheet};
 use super::dimensions::dimension;
@@ -9,12 +10,12 @@ use homog::{Point, Vector, World};
 use projection::SheetAngle;
 use sheet::{Dimension, LengthDirection, Measure, Sheet, SheetWarning};
 
-/// A point of a box.
+/// A random point in a box.
 fn within(random: &mut Random, size: DVec3) -> Point<World> {
     Point::from_raw(size * DVec3::from([(); 3].map(|()| random.fraction() - 0.5)))
 }
 
-/// A measure of any kind in a box.
+/// A random measure in a box.
 fn measure(random: &mut Random, number: usize, size: DVec3) -> Measure {
     let direction = [
         LengthDirection::Horizontal,
@@ -24,7 +25,7 @@ fn measure(random: &mut Random, number: usize, size: DVec3) -> Measure {
     ][number % 4];
     let mut points: Vec<Point<World>> = (0..2 + number % 5).map(|_| within(random, size)).collect();
     if direction == LengthDirection::Aligned {
-        // In a plane along two axes, so that a view shows it true.
+        // In a plane along two axes, so that a view shows it at true size.
         let depth = points[0].raw()[number % 3];
         for point in &mut points {
             let mut moved = point.raw();
@@ -87,7 +88,7 @@ fn numbers_touch_nothing_on_sheets_of_random_dimensions() {
         if !found.is_empty() {
             messages.push(format!("{number} on {name} {angle:?}: {found:?}"));
         }
-        // Each dimension is drawn or named, never both.
+        // Each dimension is either drawn or reported.
         let layer = page.layers.iter().find(|layer| layer.id == "dimensions-text");
         let drawn = |k: usize| {
             let own = |id: &str| id == k.to_string() || id.starts_with(&format!("{k}-"));
@@ -106,6 +107,6 @@ fn numbers_touch_nothing_on_sheets_of_random_dimensions() {
         }
     }
     assert!(messages.is_empty(), "{}: {:#?}", messages.len(), &messages[..messages.len().min(12)]);
-    // Hidden by a section or without room: few.
+    // Few are removed by a section or do not fit.
     assert!(left_out * 20 < asked, "{left_out} of {asked}");
 }

@@ -1,4 +1,4 @@
-//! Dimensions read back from SVG, PDF and DXF: lines and numbers against the formula.
+//! Dimensions read back from SVG, PDF and DXF: lines and numbers compared with the formula.
 
 use super::boxes::{box_model, sheet};
 use super::formats::{read_dxf, read_pdf, read_svg};
@@ -18,21 +18,22 @@ use viewport::{DrawingScale, Paper};
 /// The sides of the part.
 const SIZE: DVec3 = DVec3::new(48.0, 32.0, 24.0);
 
-/// What a length on paper, divided by the scale, may differ from the formula, in millimeters.
+/// The maximum difference between a length on paper, divided by the scale, and the formula, in
+/// millimeters.
 const EXACT: f64 = 0.0005;
 
 fn point(x: f64, y: f64, z: f64) -> Point<World> {
     Point::new(x, y, z)
 }
 
-/// A dimension without wishes.
+/// A dimension with default settings.
 pub fn dimension(measure: Measure) -> Dimension {
     let (view, side, decimals) = (None, None, None);
     Dimension { measure, view, side, decimals, name: "dimension 1".to_owned() }
 }
 
-/// Twenty pairs of points by a formula, with the direction of measurement and the view: those that
-/// are aligned lie in a plane parallel to their view.
+/// Twenty pairs of points from a formula, with the direction of measurement and the view; aligned
+/// pairs are in a plane parallel to their view.
 fn pairs() -> Vec<([Point<World>; 2], LengthDirection, NamedView)> {
     let wave = |k: usize, step: f64| libm::sin(step * (k as f64 + 1.0));
     let inside = |k: usize, steps: [f64; 3]| SIZE * 0.5 * DVec3::from(steps.map(|s| wave(k, s)));
@@ -52,7 +53,7 @@ fn pairs() -> Vec<([Point<World>; 2], LengthDirection, NamedView)> {
         .collect()
 }
 
-/// The image of a point in a view: to the right and down.
+/// The image of a point in a view, to the right and down.
 fn image(view: NamedView, point: Point<World>) -> DVec2 {
     let p = point.raw();
     match view {
@@ -63,7 +64,7 @@ fn image(view: NamedView, point: Point<World>) -> DVec2 {
     }
 }
 
-/// A sheet at a scale with one dimension, and nothing else that has lines in the layer.
+/// A sheet at a scale with one dimension, and no other lines in the layer.
 fn page_of(dimension: Dimension, (scale, unit): (f64, DimensionUnit)) -> SheetPage {
     let mut sheet = sheet((Paper::A1.rotated(), "A1"), SheetAngle::First);
     sheet.dimensions = false;
@@ -121,7 +122,7 @@ fn twenty_pairs_read_back_from_every_format_are_the_formula() {
                     (length - expected).abs() < EXACT,
                     "{format} {number}: {length} {expected}"
                 );
-                // They stand on the line that the arrows touch.
+                // They end on the line that the arrows touch.
                 let line = lines.last().expect("a dimension line");
                 assert!((line[1] - line[0]).perp_dot(along).abs() < 0.002, "{format} {number}");
             }

@@ -1,4 +1,4 @@
-//! Fill of sheets: at least 45 % of the drawing area, or no larger standard scale fits in either
+//! Sheet fill: at least 45 % of the drawing area, or no larger standard scale fits in either
 //! orientation; and the choice of paper.
 
 #[path = "../../../../tests/skip.rs"]
@@ -17,7 +17,7 @@ use std::path::Path;
 use std::sync::Arc;
 use viewport::{DrawingScale, Paper};
 
-/// The least part of the drawing area that views are to fill.
+/// The minimum fraction of the drawing area that views should fill.
 const LEAST_FILL: f64 = 0.45;
 
 /// A box of random proportions.
@@ -32,7 +32,7 @@ fn next_scale(scale: DrawingScale) -> Option<DrawingScale> {
     DrawingScale::STANDARD.into_iter().rev().find(|s| s.ratio() > scale.ratio())
 }
 
-/// The sheet in both orientations at a scale of its own.
+/// The sheet in both orientations at a given scale.
 fn both_at(sheet: &Sheet, scale: DrawingScale) -> [Sheet; 2] {
     [sheet.paper, sheet.paper.rotated()].map(|paper| Sheet {
         paper,
@@ -41,7 +41,7 @@ fn both_at(sheet: &Sheet, scale: DrawingScale) -> [Sheet; 2] {
     })
 }
 
-/// What is wrong with a sheet that is to be full; empty if nothing is.
+/// Describes the fault of a sheet that should be full; empty if there is none.
 fn fault_of_fill(sheet: &Sheet, models: &[ModelInstance], fill: &SheetFill) -> String {
     if fill.fraction >= LEAST_FILL || fill.limit == ScaleLimit::Largest {
         return String::new();
@@ -72,7 +72,7 @@ fn views_fill_their_sheet_or_the_next_standard_scale_does_not_fit() {
         if !fault.is_empty() {
             faulty.push(format!("{size:.0} on {} {angle:?}: {fault}", sheet.paper_name));
         }
-        // By formula: the bare objects and 45 mm for distances and dimensions.
+        // By formula: the bare objects plus 45 mm for distances and dimensions.
         let ScaleLimit::TooLarge { scale, .. } = fill.limit else { continue };
         let bare = DVec2::new(size.x + size.z, size.y + size.z) * scale.ratio() + 45.0;
         for paper in [sheet.paper, sheet.paper.rotated()] {
@@ -88,7 +88,7 @@ fn views_fill_their_sheet_or_the_next_standard_scale_does_not_fit() {
 
 #[test]
 fn the_fill_is_the_area_of_the_views() {
-    // Without annotations and at a scale of its own: by formula.
+    // Without annotations and at a given scale: by formula.
     let model = [box_model(DVec3::new(80.0, 40.0, 20.0))];
     let mut sheet = sheet((Paper::A4.rotated(), "A4"), SheetAngle::First);
     sheet.scale = DrawingScale::new(1, 1).ok();
@@ -115,7 +115,7 @@ fn no_orientation_gives_a_larger_scale_than_the_one_that_is_chosen() {
         let chosen = upright.clone().with_best_orientation(&model, &[]);
         let best = scale(&upright).max(scale(&rotated));
         let has_all = |sheet: &Sheet| sheet.draw(&model, &[], 1).unwrap().warnings.is_empty();
-        // A smaller scale only where the larger one leaves out a view.
+        // A smaller scale only if the larger one omits a view.
         let larger = if scale(&upright) == best { &upright } else { &rotated };
         assert!(scale(&chosen) == best || has_all(&chosen) && !has_all(larger), "{size}");
     }
@@ -168,7 +168,7 @@ fn the_smallest_paper_for_a_given_scale_holds_all_views() {
     }
 }
 
-/// Models of many proportions, the last a scan of 130,000 triangles.
+/// Models with many proportions; the last is a scan with 130,000 triangles.
 const SHARED_MODELS: [(&str, f64); 8] = [
     ("models/cesium-milk-truck/CesiumMilkTruck.gltf", 1000.0),
     ("models/low-poly-tree/low-poly-tree.glb", 1000.0),
@@ -205,7 +205,7 @@ fn shared_models_fill_their_sheets() {
         let model_to_world = Affine::scale(1.0, 1.0, 1.0);
         models.push((name.to_owned(), unit, ModelInstance { model, model_to_world }));
     }
-    // An engine 743 mm long, of all proportions that one may have.
+    // An engine 743 mm long, with various proportions.
     for [y, z] in [[200.0, 300.0], [350.0, 350.0], [500.0, 300.0], [600.0, 450.0]] {
         models.push((format!("engine {y} {z}"), 1.0, box_model(DVec3::new(743.0, y, z))));
     }
@@ -226,7 +226,7 @@ fn shared_models_fill_their_sheets() {
 
 #[test]
 fn tight_sheets_are_legible() {
-    // Views that just fit: found by growing a box until the scale falls.
+    // Views that just fit: found by growing a box until the scale decreases.
     for (paper, angle) in [(PAPERS[4], SheetAngle::First), (PAPERS[3], SheetAngle::Third)] {
         let at = |side: f64| {
             let model = [box_model(DVec3::new(side, side * 0.7, side * 0.5))];

@@ -1,4 +1,4 @@
-//! Readers of what sheets are written as: the lines and texts of one layer in SVG, PDF and DXF.
+//! Readers for written sheets: the lines and texts of one layer in SVG, PDF and DXF.
 
 use glam::DVec2;
 use page::{DxfOptions, to_pdf};
@@ -11,7 +11,7 @@ pub struct ReadLayer {
     pub texts: Vec<String>,
 }
 
-/// The lines and texts of a layer in an SVG file. Areas that are filled are left out.
+/// Reads the lines and texts of a layer in an SVG file. Filled areas are skipped.
 pub fn read_svg(page: &SheetPage, layer: &str) -> ReadLayer {
     let svg = page.to_svg();
     let mut read = ReadLayer::default();
@@ -33,7 +33,7 @@ pub fn read_svg(page: &SheetPage, layer: &str) -> ReadLayer {
             read.lines.extend(path_lines(rest.split('"').next().expect("a path")));
         }
     }
-    // The first title is that of the layer.
+    // The first title belongs to the layer.
     read.texts.remove(0);
     read
 }
@@ -71,13 +71,14 @@ fn path_lines(data: &str) -> Vec<Vec<DVec2>> {
     lines
 }
 
-/// Numbers that are separated by spaces or by their minus signs.
+/// Numbers separated by spaces or by their minus signs.
 fn svg_numbers(text: &str) -> Vec<f64> {
     let spaced = text.replace('-', " -");
     spaced.split_whitespace().map(|number| number.parse().expect("a number")).collect()
 }
 
-/// The lines of a layer in a PDF file, without its areas: the operators `m` and `l` up to each `S`.
+/// Reads the lines of a layer in a PDF file, without its areas: the operators `m` and `l` up to
+/// each `S`.
 pub fn read_pdf(page: &SheetPage, layer: &str) -> Vec<Vec<DVec2>> {
     let index = page.layers.iter().position(|other| other.id == layer).expect("a layer");
     let bytes = to_pdf(std::slice::from_ref(page));
@@ -116,7 +117,7 @@ fn pdf_streams(bytes: &[u8]) -> Vec<String> {
     streams
 }
 
-/// The lines and texts of a layer in a DXF file on paper; y is turned down again.
+/// Reads the lines and texts of a layer in a DXF file on paper; y is turned down again.
 pub fn read_dxf(page: &SheetPage, layer: &str) -> ReadLayer {
     let bytes = page.to_dxf(&DxfOptions::on_paper(page));
     let text = String::from_utf8(bytes).expect("ASCII");
@@ -140,7 +141,7 @@ pub fn read_dxf(page: &SheetPage, layer: &str) -> ReadLayer {
     read
 }
 
-/// The kinds of the entities between the tags of code 0; the first part has none.
+/// The kinds of the entities between tags with code 0; the first part has none.
 fn kinds<'a>(tags: &[(&'a str, &'a str)]) -> Vec<&'a str> {
     let kinds = tags.iter().filter(|(code, _)| *code == "0").map(|(_, kind)| *kind);
     core::iter::once("").chain(kinds).collect()

@@ -1,10 +1,10 @@
-//! A lint of sheets: no text touches another text or a line, and all of it lies within the frame.
+//! A lint of sheets: no text touches another text or a line, and everything is inside the frame.
 
 use glam::DVec2;
 use page::{Group, GroupContent, Polyline, to_millimeters};
 use sheet::SheetPage;
 
-/// A rectangle by its least and its greatest corner.
+/// A rectangle, as its minimum and maximum corners.
 pub type Extent = [DVec2; 2];
 
 /// The layers whose groups are texts.
@@ -26,7 +26,7 @@ fn is_text_layer(id: &str) -> bool {
     TEXTS.contains(&id) || id.starts_with("title-block-text-")
 }
 
-/// The rectangle around lines, `None` without any.
+/// The rectangle around lines; `None` without any.
 pub fn extent<'a>(lines: impl Iterator<Item = &'a Polyline>) -> Option<Extent> {
     let points = lines.flat_map(|line| &line.points).copied().map(to_millimeters);
     points.fold(None, |extent: Option<Extent>, p| {
@@ -47,7 +47,7 @@ fn sides(line: &Polyline) -> impl Iterator<Item = [DVec2; 2]> {
     (0..sides).map(move |k| [k, (k + 1) % count].map(|at| to_millimeters(line.points[at])))
 }
 
-/// Whether two convex outlines are apart: along the normal of one of their sides.
+/// Whether two convex outlines are apart, along the normal of one of their sides.
 fn are_apart(a: &[DVec2], b: &[DVec2]) -> bool {
     let normals = |points: &[DVec2]| -> Vec<DVec2> {
         let sides = (0..points.len()).map(|k| points[(k + 1) % points.len()] - points[k]);
@@ -82,7 +82,7 @@ fn text_outline(group: &Group, margin: f64) -> Option<Vec<DVec2>> {
     Some(vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)])
 }
 
-/// Faults of a sheet, in words; empty if nothing is.
+/// Describes the faults of a sheet; empty if there are none.
 pub fn faults(page: &SheetPage) -> Vec<String> {
     let mut faults = Vec::new();
     let mut texts: Vec<(&str, Vec<DVec2>)> = Vec::new();

@@ -1,4 +1,4 @@
-//! Drawing sheets: every view has a place or is named, and nothing is written over anything.
+//! Drawing sheets: every view is placed or reported, and nothing is written over anything.
 
 #![allow(unreachable_pub, reason = "in a test `pub` means: used by another file")]
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail by a panic")]

@@ -1,4 +1,4 @@
-//! Overlays of scenes on sheets: labels of points and axes, clear of everything else.
+//! Scene overlays on sheets: labels of points and axes, clear of everything else.
 
 use super::boxes::{Random, box_model, sheet};
 use super::lint::faults;
@@ -21,7 +21,7 @@ fn label(text: &str, at: DVec3) -> Overlay {
     })
 }
 
-/// The texts of labels and names of axes, in the order of the views.
+/// The texts of labels and axis names, in the order of the views.
 fn texts(page: &SheetPage) -> Vec<&str> {
     let layer = page.layers.iter().find(|layer| layer.id == "overlay-text").expect("labels");
     layer.groups.iter().filter_map(text_of).collect()
@@ -83,7 +83,7 @@ fn overlays_that_sheets_do_not_show_are_named() {
 
 #[test]
 fn labels_of_large_models_are_placed_on_paper_and_not_beyond() {
-    // At 50:1 the model is 50 km of paper, around which no place is looked for.
+    // At 50:1 the model covers 50 km of paper; no positions are searched around it.
     let model = [box_model(DVec3::new(1e6, 4e5, 6e5))];
     let overlays = vec![label("roof", DVec3::new(0.0, 2e5, 0.0))];
     let sheet = Sheet { overlays, ..sheet((Paper::A3.rotated(), "A3"), SheetAngle::First) };

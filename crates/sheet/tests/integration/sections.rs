@@ -45,7 +45,7 @@ fn planes_that_no_view_faces_get_a_view_of_their_own() {
         assert!(page.layers.iter().any(|layer| layer.id == "cut-lines"), "{retained}");
         assert_eq!(faults(&page), [""; 0], "{retained}");
     }
-    // Two planes with one viewing direction: a view can be cut by one of them only.
+    // Two planes with the same viewing direction: a view can be cut by only one of them.
     let planes = [5.0, -5.0].map(|z| plane(DVec3::Z * z, -DVec3::Z));
     let page = a3(SheetAngle::First).draw(&model, &planes, 1).unwrap();
     assert!(has_view(&page, "front") && has_view(&page, "section-b"));
@@ -62,7 +62,7 @@ fn a_plane_oblique_to_all_views_has_its_line_in_an_auxiliary_view() {
         assert!(has_view(&page, name), "{name}");
     }
     assert!(page.layers.iter().any(|layer| layer.id == "isometric-visible-section"));
-    // The line is in the auxiliary view: the plane is seen from the side there, through its middle.
+    // The line is in the auxiliary view, which sees the plane from the side, through its middle.
     let [low, high] = layer_extent(&page, |id| id == "cut-lines").expect("a line");
     let view = layer_extent(&page, |id| id.starts_with("auxiliary-b-")).expect("a view");
     let middle = |[low, high]: [DVec2; 2]| (low + high) * 0.5;
@@ -93,7 +93,7 @@ fn the_axonometric_view_frames_what_a_section_leaves() {
         let [low, high] = layer_extent(&page, |id| id.starts_with("isometric-")).expect("a view");
         high.y - low.y
     };
-    // A tenth of the length: at the scale of the sheet it is shorter, and never cut off.
+    // A tenth of the length: at the scale of the sheet it is shorter, and never truncated.
     let cut = plane(DVec3::X * -800.0, -DVec3::X);
     assert!(scale(&[cut]) < 0.5 * scale(&[]), "{} {}", scale(&[cut]), scale(&[]));
 }
@@ -134,7 +134,7 @@ fn shafts_and_bolts_are_neither_cut_nor_hatched() {
     let parts = ["housing", "bush", "ring", "shaft", "bolt 1", "bolt 2"];
     assert_eq!(hatched(&[]), parts);
     assert_eq!(hatched(&[3, 4, 5, 6, 7]), parts[..3]);
-    // What is whole stands out of what is cut: all of the shaft is seen from the front.
+    // Uncut parts extend out of cut ones: all of the shaft is visible from the front.
     let sheet = Sheet { uncut: vec![3], ..a3(SheetAngle::First) };
     let page = sheet.draw(&models, &[cut], 1).unwrap();
     let shaft = |layer: &page::Layer| -> f64 {

@@ -1,9 +1,9 @@
-//! Whether parts intersect, by their triangles.
+//! Tests whether parts intersect, by their triangles.
 
 use glam::DVec3;
 use model::{ModelInstance, Topology};
 
-/// The triangles of each object in the world; none of those that are lines.
+/// The world-space triangles of each object; none for objects made of lines.
 pub fn part_triangles(models: &[ModelInstance]) -> Vec<Vec<[DVec3; 3]>> {
     let mut parts = Vec::new();
     for placed in models {
@@ -22,7 +22,7 @@ pub fn part_triangles(models: &[ModelInstance]) -> Vec<Vec<[DVec3; 3]>> {
                     to_world.transform_point(position.into()).raw()
                 };
                 let corners: Vec<DVec3> = primitive.indices.iter().map(point).collect();
-                // Corners on one line have no normal, and the triangles beside them cover it.
+                // Collinear corners have no normal, and the neighboring triangles cover them.
                 let has_area = |[a, b, c]: &[DVec3; 3]| {
                     let (one, other) = (*b - *a, *c - *a);
                     one.cross(other).length() > 1e-9 * one.length() * other.length()
@@ -35,7 +35,7 @@ pub fn part_triangles(models: &[ModelInstance]) -> Vec<Vec<[DVec3; 3]>> {
     parts
 }
 
-/// A box by its least and its greatest corner.
+/// A box, as its minimum and maximum corners.
 type Corners = [DVec3; 2];
 
 fn corners_of(triangles: &[[DVec3; 3]]) -> Corners {
@@ -49,8 +49,8 @@ fn boxes_meet(a: &Corners, b: &Corners) -> bool {
     a[0].cmple(b[1]).all() && b[0].cmple(a[1]).all()
 }
 
-/// The pairs of parts that have triangles that intersect; triangles are compared where the boxes of
-/// the parts meet.
+/// The pairs of parts with triangles that intersect; triangles are compared if the boxes of the
+/// parts meet.
 pub fn intersecting_parts(parts: &[Vec<[DVec3; 3]>]) -> Vec<[usize; 2]> {
     let boxes: Vec<Corners> = parts.iter().map(|part| corners_of(part)).collect();
     let mut found = Vec::new();
@@ -64,7 +64,7 @@ pub fn intersecting_parts(parts: &[Vec<[DVec3; 3]>]) -> Vec<[usize; 2]> {
     found
 }
 
-/// Whether a triangle of one part intersects one of another.
+/// Whether a triangle of one part intersects a triangle of another.
 fn triangles_intersect(a: &[[DVec3; 3]], b: &[[DVec3; 3]]) -> bool {
     let near = |triangles: &[[DVec3; 3]], area: Corners| -> Vec<[DVec3; 3]> {
         let is_near = |one: &&[DVec3; 3]| boxes_meet(&corners_of(&[**one]), &area);
@@ -78,8 +78,8 @@ fn triangles_intersect(a: &[[DVec3; 3]], b: &[[DVec3; 3]]) -> bool {
     })
 }
 
-/// Whether an axis separates two triangles: their normals, the products of their sides, and, for
-/// triangles in one plane, the normals of their sides in it.
+/// Whether an axis separates two triangles: their normals, the products of their sides and, for
+/// coplanar triangles, the normals of their sides in the plane.
 fn are_separate(a: [DVec3; 3], b: [DVec3; 3]) -> bool {
     let sides = |[p, q, r]: [DVec3; 3]| [q - p, r - q, p - r];
     let (a_sides, b_sides) = (sides(a), sides(b));

@@ -1,4 +1,4 @@
-//! Units, letters and styles of sheets.
+//! Units, characters and styles of sheets.
 
 use super::boxes::{box_model, sheet};
 use super::lint::faults;
@@ -66,7 +66,7 @@ fn grays_are_areas_under_every_view() {
     assert_eq!(faults(&page), [""; 0]);
 }
 
-/// In an exploded view no parts touch; they are hatched as where they belong.
+/// In an exploded view no parts touch; they keep the hatching of their original positions.
 #[test]
 fn exploded_parts_keep_their_hatchings() {
     let model = [super::parts_models::stacked_assembly(3, 1)];

@@ -1,4 +1,4 @@
-//! Lines of symmetry: in the views that look along a plane of symmetry, and nowhere else.
+//! Lines of symmetry: in the views along a plane of symmetry, and nowhere else.
 
 use super::boxes::{box_model, instance_of, sheet};
 use super::center_lines::cylinder;
@@ -11,13 +11,13 @@ use projection::SheetAngle;
 use sheet::Sheet;
 use viewport::{DrawingScale, Paper};
 
-/// A sheet at full scale with lines of symmetry.
+/// A full-scale sheet with lines of symmetry.
 fn symmetric_sheet() -> Sheet {
     let sheet = sheet((Paper::A3.rotated(), "A3"), SheetAngle::First);
     Sheet { symmetry_lines: true, scale: DrawingScale::new(1, 1).ok(), ..sheet }
 }
 
-/// The lines of symmetry of a sheet on which nothing overlaps.
+/// The lines of symmetry on a sheet where nothing overlaps.
 fn symmetry_lines(sheet: &Sheet, models: &[ModelInstance]) -> Vec<[DVec2; 2]> {
     let page = sheet.draw(models, &[], 1).unwrap();
     assert_eq!(faults(&page), [""; 0]);
@@ -28,7 +28,7 @@ fn symmetry_lines(sheet: &Sheet, models: &[ModelInstance]) -> Vec<[DVec2; 2]> {
     lines.iter().map(|line| [line[0], line[1]]).collect()
 }
 
-/// The lengths of upright lines and those of level ones.
+/// The lengths of vertical and of horizontal lines.
 fn lengths(lines: &[[DVec2; 2]]) -> [Vec<f64>; 2] {
     [1, 0].map(|axis| {
         let spans = lines.iter().map(|[a, b]| (*b - *a).abs());
@@ -39,8 +39,8 @@ fn lengths(lines: &[[DVec2; 2]]) -> [Vec<f64>; 2] {
     })
 }
 
-/// A prism over a polygon in the plane of x and y, from z = 0 to a depth. The faces at its ends are
-/// fans from a corner, so their triangles are not symmetric.
+/// A prism over a polygon in the xy plane, from z = 0 to a depth. Its end faces are fans from a
+/// corner, so their triangles are not symmetric.
 fn prism(outline: &[[f32; 2]], depth: f32) -> ModelInstance {
     let count = outline.len() as u32;
     let level = |z: f32| outline.iter().map(move |[x, y]| [*x, *y, z]);
@@ -70,7 +70,7 @@ fn a_box_has_two_lines_in_each_view_that_reach_beyond_it() {
 
 #[test]
 fn a_part_that_is_symmetric_about_one_plane_has_its_line_in_two_views() {
-    // A T: left and right are alike, and front and back.
+    // A T: left and right are alike, and so are front and back.
     let t: [[f32; 2]; 8] = [
         [-10.0, 30.0],
         [-10.0, 0.0],
@@ -82,9 +82,9 @@ fn a_part_that_is_symmetric_about_one_plane_has_its_line_in_two_views() {
         [-30.0, 32.0],
     ];
     let lines = symmetry_lines(&symmetric_sheet(), &[prism(&t, 25.0)]);
-    // Upright in front, from the side and from above; level from above only.
+    // Vertical in front, from the side and from above; horizontal only from above.
     assert_eq!(lengths(&lines), [vec![31.0, 56.0, 56.0], vec![66.0]]);
-    // One corner cut off by 0.1 mm: front and back are alike still.
+    // One corner cut off by 0.1 mm: front and back are still alike.
     let mut cut = t.to_vec();
     cut[5] = [29.9, 50.0];
     let lines = symmetry_lines(&symmetric_sheet(), &[prism(&cut, 25.0)]);
@@ -94,7 +94,7 @@ fn a_part_that_is_symmetric_about_one_plane_has_its_line_in_two_views() {
 #[test]
 fn what_is_seen_as_a_line_has_no_line_of_symmetry_on_it() {
     let lines = symmetry_lines(&symmetric_sheet(), &[box_model(DVec3::new(60.0, 40.0, 0.001))]);
-    // From the side and from above only the short lines across are there.
+    // From the side and from above, only the short lines across remain.
     assert_eq!(lengths(&lines), [vec![6.0, 46.0], vec![6.0, 66.0]]);
 }
 
@@ -119,8 +119,9 @@ fn center_lines_give_way_to_lines_of_symmetry() {
     let at = |x: f64| cylinder(DVec3::new(x, 0.0, 0.0), DVec3::Y, (10.0, 30.0, 36));
     let pair = [at(-20.0), at(20.0)];
     let sheet = Sheet { center_lines: true, ..symmetric_sheet() };
-    // The pair is symmetric about three planes. Left are the axes in front, and from above the arms
-    // of the crosses that are upright; from the side the axes lie on the line of symmetry.
+    // The pair is symmetric about three planes. The remaining lines are the axes in front, and the
+    // vertical arms of the crosses from above; from the side, the axes coincide with the line of
+    // symmetry.
     assert_eq!(lengths(&symmetry_lines(&sheet, &pair))[0], [26.0, 36.0, 36.0]);
     let page = sheet.draw(&pair, &[], 1).unwrap();
     let lines = read_svg(&page, "center-lines").lines;

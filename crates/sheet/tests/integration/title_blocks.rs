@@ -1,4 +1,4 @@
-//! Title blocks, zones and forms of numbers: every text is there and touches nothing.
+//! Title blocks, zones and number formats: every text is there and touches nothing.
 
 use super::boxes::{PAPERS, box_model, sheet};
 use super::lint::{faults, layer_extent};
@@ -111,7 +111,7 @@ fn a_block_of_ones_own_stands_in_the_corner_with_its_fields() {
         );
         assert_eq!(faults(&page), [""; 0], "{}", paper.1);
     }
-    // On narrow paper it is made smaller; letters that the font lacks are named.
+    // On narrow paper it shrinks; characters that the font lacks are reported.
     let own = sheet((Paper::new(100.0, 140.0).unwrap(), "own"), SheetAngle::First);
     let mut own = Sheet { title_block_template: Some(template), ..own };
     own.title_block.title = "轴承".to_owned();

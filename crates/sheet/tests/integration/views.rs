@@ -1,5 +1,5 @@
 //! Requested views: details, stepped, half and local sections, auxiliary and broken views, and
-//! views at places of their own.
+//! views at given positions.
 
 use super::boxes::{Random, box_model, has_view, plane, sheet};
 use super::lint::{Extent, faults, layer_extent};
@@ -13,7 +13,7 @@ use projection::SheetAngle;
 use sheet::{Sheet, SheetError, SheetPage, SheetWarning, ViewPlace, ViewRequest, ViewSide};
 use viewport::{DrawingScale, Paper};
 
-/// The step of the grid of a page, in millimeters, twice: two ends are rounded.
+/// Twice the grid step of a page, in millimeters: two ends are rounded.
 const GRID: f64 = 0.002;
 
 /// An A3 sheet in landscape with these requests.
@@ -26,23 +26,23 @@ fn scale(paper: u32, object: u32) -> Option<DrawingScale> {
     DrawingScale::new(paper, object).ok()
 }
 
-/// A point of the world.
+/// A world point.
 fn point(x: f64, y: f64, z: f64) -> Point<World> {
     Point::new(x, y, z)
 }
 
-/// A box of these sides about a center.
+/// A box with these sides around a center.
 fn box_at(size: DVec3, center: DVec3) -> ModelInstance {
     let model_to_world = Affine::translation(Vector::from_raw(center));
     ModelInstance { model_to_world, ..box_model(size) }
 }
 
-/// A named view in its usual place.
+/// A named view in its default place.
 fn named(view: NamedView) -> ViewRequest {
     ViewRequest::Named { view, place: ViewPlace::default() }
 }
 
-/// A detail of the front view in its usual place.
+/// A detail of the front view in its default place.
 fn detail(center: Point<World>, radius: f64) -> ViewRequest {
     ViewRequest::Detail { of: NamedView::Front, center, radius, place: ViewPlace::default() }
 }
@@ -70,7 +70,7 @@ fn view_extent(page: &SheetPage, name: &str) -> Extent {
     layer_extent(page, |id| id.starts_with(&prefix)).expect("a view")
 }
 
-/// The front view at the left and the top of a sheet's views at 1:1.
+/// The front view at the top left of a sheet's views, at 1:1.
 fn at_one_to_one(views: Vec<ViewRequest>) -> Sheet {
     Sheet { scale: scale(1, 1), ..a3(views) }
 }
@@ -82,7 +82,7 @@ fn a_detail_is_the_part_within_its_circle() {
     sheet.dimensions = false;
     let page = sheet.draw(&model, &[], 1).unwrap();
     assert_eq!((page.warnings.as_slice(), faults(&page)), (&[][..], Vec::new()));
-    // The largest enlargement up to five times.
+    // The largest enlargement, up to five times.
     assert!(texts(&page).contains(&"A (5:1)"), "{:?}", texts(&page));
     let circles: Vec<Extent> = strokes(&page, "view-marks")
         .iter()
@@ -95,7 +95,7 @@ fn a_detail_is_the_part_within_its_circle() {
     assert!(((mother[0] + mother[1]) * 0.5 - corner).length() < GRID);
     assert!((mother[1] - mother[0] - 10.0).length() < GRID, "{mother:?}");
     assert!((border[1] - border[0] - 50.0).length() < GRID, "{border:?}");
-    // Two edges meet in the center: each 5 mm, at 5:1, up to the circle.
+    // Two edges meet at the center: 5 mm each, at 5:1, up to the circle.
     let center = (border[0] + border[1]) * 0.5;
     let lines: Vec<&Polyline> = page
         .layers
@@ -124,7 +124,7 @@ fn a_detail_of_a_cut_view_has_its_hatching() {
     assert!((high - low).min_element() > 20.0, "{low} {high}");
 }
 
-/// Two boxes side by side, the right one nearer to the viewer of the front view.
+/// Two boxes side by side, the right one closer to the viewer of the front view.
 fn two_depths() -> [ModelInstance; 2] {
     [
         box_at(DVec3::new(50.0, 40.0, 20.0), DVec3::new(-25.0, 0.0, 0.0)),
@@ -145,10 +145,10 @@ fn a_stepped_section_cuts_each_strip_by_its_plane() {
     let page = page.draw(&two_depths(), &[], 1).unwrap();
     assert_eq!((page.warnings.as_slice(), faults(&page)), (&[][..], Vec::new()));
     assert!(texts(&page).contains(&"A-A"));
-    // Both boxes are hatched over all of their 50 mm.
+    // Both boxes are hatched over their whole 50 mm.
     let [low, high] = layer_extent(&page, |id| id == "front-visible-hatching").expect("hatching");
     assert!(high.x - low.x > 97.0 && high.x - low.x < 100.0 + GRID, "{low} {high}");
-    // The line in the top view: across both boxes with the step, and 4 mm beyond at both ends.
+    // The line in the top view: across both boxes with the step, plus 4 mm at both ends.
     let lines = strokes(&page, "cut-lines");
     let [line] = lines.as_slice() else { panic!("{lines:?}") };
     assert_eq!((line.points.len(), line.closed), (4, false));
@@ -159,7 +159,7 @@ fn a_stepped_section_cuts_each_strip_by_its_plane() {
     let middle = (top[0] + top[1]) * 0.5;
     let step = [line.points[1], line.points[2]].map(to_millimeters);
     assert!(step.iter().all(|point| (point.x - middle.x).abs() < GRID));
-    // In the top view z runs down the sheet: the second plane is 20 mm nearer to the viewer.
+    // In the top view z points down the sheet: the second plane is 20 mm closer to the viewer.
     assert!((step[1].y - step[0].y - 20.0).abs() < GRID, "{step:?}");
 }
 
@@ -228,7 +228,7 @@ fn a_local_section_is_cut_within_its_freehand_line() {
     // The same line in every drawing.
     let again = at_one_to_one(vec![local(point(10.0, 5.0, 0.0))]).draw(&model, &[], 2).unwrap();
     assert!(page == again);
-    // At the border the freehand line ends at the outline.
+    // At the border, the freehand line ends at the outline.
     let page = at_one_to_one(vec![local(point(50.0, 0.0, 0.0))]).draw(&model, &[], 1).unwrap();
     let front = layer_extent(&page, |id| {
         id.starts_with("front-visible-crease") || id.starts_with("front-visible-silhouette")
@@ -288,7 +288,7 @@ fn sections_and_details_know_what_a_broken_view_leaves_out() {
 
 #[test]
 fn an_auxiliary_view_shows_an_oblique_face_in_its_true_size() {
-    // A plate of 80 by 30 that stands at 30° to the front.
+    // A plate of 80 by 30 at 30° to the front.
     let turn = Affine::rotation_y(30.0_f64.to_radians());
     let plate = box_model(DVec3::new(80.0, 30.0, 4.0));
     let plate = [ModelInstance { model_to_world: turn, ..plate }];

@@ -1,4 +1,4 @@
-//! A title block by its template, on the sheet.
+//! A title block drawn on a sheet from its template.
 
 use super::{FieldValues, TitleBlockTemplate};
 use crate::sheet::projection_symbol::projection_symbol;
@@ -8,14 +8,14 @@ use page::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline, TextAlign};
 use std::collections::BTreeMap;
 use viewport::{DrawingScale, Rectangle};
 
-/// The most of the drawing area's height that a block takes.
+/// The maximum fraction of the drawing area's height that a block takes.
 const MOST_OF_HEIGHT: f64 = 0.5;
 
 /// The width of the projection symbol as a multiple of its height.
 const SYMBOL_WIDTH: f64 = 3.0;
 
 impl TitleBlockTemplate {
-    /// The factor by which the block is made smaller on narrow paper.
+    /// The factor that shrinks the block on narrow paper.
     fn scale_within(&self, frame: Rectangle) -> f64 {
         let most = DVec2::new(frame.width(), frame.height() * MOST_OF_HEIGHT);
         (most / self.size).min_element().min(1.0)
@@ -28,12 +28,12 @@ impl TitleBlockTemplate {
         rectangle_from_size(high.x - size.x, high.y - size.y, size.x, size.y)
     }
 
-    /// All texts with their fields, for a search of letters that the font lacks.
+    /// All texts with their fields filled in, to search for characters that the font lacks.
     pub(in crate::sheet) fn contents(&self, values: &FieldValues<'_>) -> Vec<String> {
         self.texts.iter().map(|text| text.content(values)).collect()
     }
 
-    /// The lines and texts of the block, one layer for each width of line.
+    /// The lines and texts of the block, one layer for each line width.
     pub(in crate::sheet) fn layers(
         &self,
         sheet: &Sheet,
@@ -47,7 +47,7 @@ impl TitleBlockTemplate {
         let factor = self.scale_within(sheet.drawing_area());
         let corner = DVec2::new(area.x(), area.y());
         let on_sheet = |point: DVec2| corner + point * factor;
-        // Widths in micrometers, so that they have an order.
+        // Widths in micrometers, so that they can be ordered.
         let mut lines: BTreeMap<u32, Vec<Polyline>> = BTreeMap::new();
         let mut texts: BTreeMap<u32, Vec<Group>> = BTreeMap::new();
         let key = |width: f64| libm::round(width.max(0.0) * 1000.0) as u32;
@@ -97,7 +97,7 @@ fn pen_of_width(width: u32, ink: Ink) -> Pen {
     Pen::solid(f64::from(width) / 1000.0, ink)
 }
 
-/// The id of a layer: its name, and from the second layer on a number.
+/// The id of a layer: its name, with a number from the second layer on.
 fn layer_id(name: &str, index: usize) -> String {
     if index == 0 { name.to_owned() } else { format!("{name}-{}", index + 1) }
 }

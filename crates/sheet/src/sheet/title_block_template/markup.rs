@@ -1,12 +1,12 @@
-//! A reader of the XML that templates are made of: elements, attributes in quotes, texts.
+//! A reader for the XML of templates: elements, quoted attributes and texts.
 //!
-//! It reads what drawing programs write; a document type, with which entities could be defined, is
-//! an error.
+//! It reads the output of drawing programs. A document type, which could define entities, is an
+//! error.
 
 use super::TemplateError;
 use super::path_data::parse_number;
 
-/// The deepest nesting of elements.
+/// The maximum nesting of elements.
 const MAX_DEPTH: usize = 64;
 
 /// An event of the document.
@@ -20,20 +20,20 @@ pub(super) enum Event<'a> {
     End(&'a str),
 }
 
-/// An element by its start tag.
+/// An element, by its start tag.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Element<'a> {
     pub(super) name: &'a str,
     /// The byte of its `<`.
     pub(super) at: usize,
-    /// Names, values and the bytes at which values begin.
+    /// Names, values and the bytes where the values begin.
     attributes: Vec<(&'a str, &'a str, usize)>,
 }
 
 /// Elements whose contents do not draw anything.
 const SILENT: [&str; 4] = ["metadata", "title", "desc", "defs"];
 
-/// Attributes that change nothing, since sheets have one ink and one font.
+/// Attributes that change nothing, because sheets have one ink and one font.
 const NEUTRAL: [&str; 14] = [
     "id",
     "class",
@@ -51,7 +51,7 @@ const NEUTRAL: [&str; 14] = [
     "vector-effect",
 ];
 
-/// Attributes that are read.
+/// Supported attributes.
 const READ: [&str; 20] = [
     "x",
     "y",
@@ -76,13 +76,13 @@ const READ: [&str; 20] = [
 ];
 
 impl<'a> Element<'a> {
-    /// The value of an attribute and the byte at which it begins.
+    /// The value of an attribute and the byte where it begins.
     pub(super) fn attribute(&self, name: &str) -> Option<(&'a str, usize)> {
         let found = self.attributes.iter().find(|(own, ..)| *own == name);
         found.map(|(_, value, at)| (*value, *at))
     }
 
-    /// The number of an attribute: in units of the view box, also with `mm` or `px`.
+    /// The number in an attribute: in units of the view box, optionally with `mm` or `px`.
     pub(super) fn number(
         &self,
         source: &str,
@@ -97,7 +97,7 @@ impl<'a> Element<'a> {
         })
     }
 
-    /// The number of an attribute that is to be greater than 0.
+    /// The number in an attribute that must be greater than 0.
     pub(super) fn size(
         &self,
         source: &str,
@@ -112,7 +112,7 @@ impl<'a> Element<'a> {
         Err(TemplateError::at(source, at, format!("`{name}` is greater than 0")))
     }
 
-    /// Whether there is nothing that changes the drawing and is not read, such as a transform.
+    /// Checks for unsupported attributes that would change the drawing, such as a transform.
     pub(super) fn check_attributes(&self, source: &str) -> Result<(), TemplateError> {
         let is_known =
             |name: &str| name.contains(':') || NEUTRAL.contains(&name) || READ.contains(&name);
@@ -131,12 +131,12 @@ impl<'a> Element<'a> {
     }
 }
 
-/// A reader of events, one after the other.
+/// Reads events one after the other.
 pub(super) struct MarkupReader<'a> {
     source: &'a str,
     at: usize,
     open: Vec<&'a str>,
-    /// The end of an empty element, which is still to be told.
+    /// The end of an empty element, not yet reported.
     pending_end: bool,
 }
 
@@ -145,7 +145,7 @@ impl<'a> MarkupReader<'a> {
         Self { source, at: 0, open: Vec::new(), pending_end: false }
     }
 
-    /// The next event; `None` at the end of the document.
+    /// Returns the next event; `None` at the end of the document.
     pub(super) fn next(&mut self) -> Result<Option<Event<'a>>, TemplateError> {
         loop {
             if core::mem::take(&mut self.pending_end) {
@@ -179,19 +179,19 @@ impl<'a> MarkupReader<'a> {
         }
     }
 
-    /// A mistake where the reader is.
+    /// An error at the current position.
     fn fault(&self, message: impl Into<String>) -> TemplateError {
         TemplateError::at(self.source, self.at, message)
     }
 
-    /// Goes past the end of a comment or an instruction.
+    /// Skips past the end of a comment or an instruction.
     fn skip_past(&mut self, rest: &str, end: &str, begun: usize) -> Result<(), TemplateError> {
         let length = rest.find(end).ok_or_else(|| self.fault(format!("`{end}` is missing")))?;
         self.at += begun + length + end.len();
         Ok(())
     }
 
-    /// Goes past the end of an element that has just begun.
+    /// Skips past the end of an element that has just begun.
     fn skip_element(&mut self, name: &str) -> Result<(), TemplateError> {
         let depth = self.open.len();
         loop {
@@ -203,7 +203,7 @@ impl<'a> MarkupReader<'a> {
         }
     }
 
-    /// The end tag after `</`.
+    /// Reads the end tag after `</`.
     fn end_tag(&mut self, after: &'a str) -> Result<Event<'a>, TemplateError> {
         let end = after.find('>').ok_or_else(|| self.fault("`>` is missing"))?;
         let name = after[..end].trim();
@@ -215,7 +215,7 @@ impl<'a> MarkupReader<'a> {
         Ok(Event::End(name))
     }
 
-    /// The start tag at `<`.
+    /// Reads the start tag at `<`.
     fn start_tag(&mut self) -> Result<Element<'a>, TemplateError> {
         let at = self.at;
         self.at += 1;
@@ -248,7 +248,7 @@ impl<'a> MarkupReader<'a> {
         Ok(Element { name, at, attributes })
     }
 
-    /// A name of an element or an attribute.
+    /// Reads the name of an element or an attribute.
     fn name(&mut self) -> Result<&'a str, TemplateError> {
         let rest = &self.source[self.at..];
         let is_name = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | ':' | '.');
@@ -273,7 +273,7 @@ impl<'a> MarkupReader<'a> {
         Ok(())
     }
 
-    /// The text up to the next tag, white space as single blanks.
+    /// Reads the text up to the next tag, with white space as single blanks.
     fn text(&mut self) -> Result<Event<'a>, TemplateError> {
         let rest = &self.source[self.at..];
         let own = &rest[..rest.find('<').unwrap_or(rest.len())];

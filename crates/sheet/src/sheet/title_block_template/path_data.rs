@@ -1,4 +1,4 @@
-//! Paths of straight lines: the commands M, L, H, V and Z of SVG, absolute and relative.
+//! Paths of straight lines: the SVG commands M, L, H, V and Z, absolute and relative.
 
 use super::TemplateError;
 use glam::DVec2;
@@ -6,19 +6,19 @@ use glam::DVec2;
 /// The largest coordinate, in millimeters: far beyond any paper.
 const MAX_COORDINATE: f64 = 1e5;
 
-/// Points and whether the line through them is closed.
+/// Points, and whether the line through them is closed.
 pub(super) type Line = (Vec<DVec2>, bool);
 
-/// A finite number of a size that paper can have.
+/// Parses a finite number in the range of paper sizes.
 pub(super) fn parse_number(text: &str) -> Option<f64> {
     let number: f64 = text.trim().parse().ok()?;
     (number.abs() <= MAX_COORDINATE).then_some(number)
 }
 
-/// The words of a list: numbers and letters of commands, with the bytes at which they begin.
+/// The words of a list: numbers and command letters, with the bytes where they begin.
 ///
-/// Numbers may be parted by blanks, commas, a sign or a second decimal point, as drawing programs
-/// write them.
+/// Numbers may be separated by blanks, commas, a sign or a second decimal point, as drawing
+/// programs write them.
 fn words(text: &str, start: usize) -> Vec<(&str, usize)> {
     let mut words = Vec::new();
     let bytes = text.as_bytes();
@@ -51,7 +51,7 @@ fn words(text: &str, start: usize) -> Vec<(&str, usize)> {
     words
 }
 
-/// The numbers of an attribute; none without it.
+/// Parses the numbers in an attribute; empty without it.
 pub(super) fn parse_numbers(
     source: &str,
     attribute: Option<(&str, usize)>,
@@ -64,7 +64,7 @@ pub(super) fn parse_numbers(
     words(text, start).into_iter().map(number).collect()
 }
 
-/// The lines of the path in an attribute.
+/// Parses the lines of the path in an attribute.
 pub(super) fn parse_path(
     source: &str,
     attribute: Option<(&str, usize)>,
@@ -112,7 +112,7 @@ pub(super) fn parse_path(
         } else {
             match lines.last_mut() {
                 None => return Err(fault("a path begins with M".to_owned())),
-                // After Z the next line begins where the last one did.
+                // After Z, the next line begins where the last one began.
                 Some((_, true)) => lines.push((vec![pen, to], false)),
                 Some((points, false)) => points.push(to),
             }

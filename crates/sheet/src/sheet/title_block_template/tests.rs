@@ -1,4 +1,4 @@
-//! Templates that are read, and the places of mistakes in others.
+//! Valid templates, and the positions of errors in others.
 
 use super::*;
 
