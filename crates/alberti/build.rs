@@ -1,14 +1,14 @@
-//! Packs the relocations of the program, and embeds the explorer.
+//! Packs the program's relocations and embeds the explorer.
 //!
-//! The relocations: a quarter of a megabyte of addresses, mostly of texts, takes some kilobytes
-//! (`DT_RELR`).
+//! Packed relocations (`DT_RELR`) shrink a quarter of a megabyte of addresses, mostly of strings,
+//! to a few kilobytes.
 //!
-//! The dynamic linker must know the format: glibc does from 2.36 on. A program that is built on a
-//! machine with an older one, or for another machine, stays as it is.
+//! The dynamic linker must know the format: glibc does since 2.36. A program built on a machine
+//! with an older version, or for another machine, is left unchanged.
 //!
-//! The explorer: its page and the models of its lessons. With `ALBERTI_WEB=FOLDER cargo build`,
-//! where FOLDER is what `cargo xtask web` has written, its engine in WebAssembly as well; without it
-//! the program computes what the page shows.
+//! The explorer consists of its page and its lesson models. `ALBERTI_WEB=FOLDER cargo build`, where
+//! FOLDER is the output of `cargo xtask web`, adds the WebAssembly engine; without it the program
+//! computes everything the page shows.
 
 use std::io::{Error, Result};
 use std::path::{Path, PathBuf};
@@ -28,14 +28,14 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// The models of the explorer's lessons.
+/// The explorer's lesson models.
 const LESSON_MODELS: [&str; 5] =
     ["crate.glb", "floor.glb", "house.glb", "mexican_hat.glb", "mexican_hat_lines.glb"];
 
-/// Writes `explorer_files.rs`: the explorer's page, the models of its lessons, and its engine, each
+/// Writes `explorer_files.rs`: the explorer's page, its lesson models and its engine, each
 /// compressed (zlib).
 ///
-/// `embedded` has links to page and models, so that the package contains them.
+/// `embedded` links to the page and the models, so that the package contains them.
 fn embed_explorer(engine: Option<&Path>) -> Result<()> {
     let folder_of = |name: &str| PathBuf::from(std::env::var_os(name).unwrap_or_default());
     let (root, out) = (folder_of("CARGO_MANIFEST_DIR"), folder_of("OUT_DIR"));

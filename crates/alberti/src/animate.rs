@@ -4,8 +4,8 @@
 //!  scene ─► motion, times, frame count ─► frames in order ─► PNG files, APNG, GIF, raw bytes
 //! ```
 //! The scene is loaded and resolved once; each frame poses its models and renders them anew. Frames
-//! are rendered in parallel, one by each thread, and written in order; memory is that of a few
-//! frames per thread.
+//! are rendered in parallel, one per thread, and written in order; only a few frames per thread are
+//! in memory.
 
 mod frame_sink;
 
@@ -65,14 +65,14 @@ pub(crate) struct AnimateArgs {
     load_options: LoadArgs,
 }
 
-/// Renders the frames and writes each as soon as it is there.
+/// Renders the frames and writes each as soon as it is ready.
 ///
 /// The warnings of the models are printed first: they apply to every frame, and a missing texture
 /// should be known before hundreds of frames are rendered without it.
 ///
 /// # Errors
-/// If the input is invalid, a frame cannot be rendered, or the output cannot be written. A file of
-/// several frames does not exist then; of PNG files, those of the finished frames do.
+/// If the input is invalid, a frame cannot be rendered, or the output cannot be written. Then no
+/// animation file exists; PNG files of finished frames remain.
 pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
     let (origin, file, scene) = args.overrides.open_scene(&args.input, &args.load_options)?;
     let unused = find_unused_overrides(&args.overrides, &scene, false);
@@ -99,26 +99,26 @@ pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
     }
 }
 
-/// The delays of a GIF are whole hundredths of a second, and viewers take one of less than two for
-/// a mistake.
+/// GIF delays are whole hundredths of a second, and viewers treat a delay below two as a mistake.
 const MAX_GIF_FPS: f64 = 50.0;
 
 impl AnimateArgs {
     /// The sequence that the flags and the scene describe.
     ///
     /// A turntable rotates the models; otherwise their animations play, and the camera follows its
-    /// keyframes, if it has any. Start, end and number of frames default to those of the animation.
+    /// keyframes, if it has any. Start, end and number of frames default to the animation's.
     ///
     /// | flags and scene | motion | default number of frames |
     /// | --- | --- | --- |
     /// | `--turntable` | models rotate by the angle | 120 |
-    /// | an animation | its time goes from start to end | length × frames per second |
+    /// | an animation | its time runs from start to end | length × frames per second |
     /// | camera keyframes only | the camera moves | length × frames per second |
     /// | none of these | models rotate by 360° | 120 |
     ///
     /// The end is the time of the frame after the last, so that a loop does not show its first
-    /// picture twice. A start after the end plays the animation backwards. Camera keyframes go with
-    /// any of these motions; they then give the default times, and with them the number of frames.
+    /// picture twice. If the start is after the end, the animation plays backward. Camera keyframes
+    /// combine with any of these motions; they then give the default times, and with them the
+    /// number of frames.
     ///
     /// # Errors
     /// If the scene chooses an animation that the model does not have, or its keyframes are
@@ -163,7 +163,7 @@ impl AnimateArgs {
 }
 
 impl AnimateArgs {
-    /// Warns where `--from` and `--to` have no meaning, or lead behind the end.
+    /// Warns if `--from` and `--to` have no meaning, or extend past the end.
     fn warn_of_times(&self, motion: &Motion, has_path: bool, end: f64) {
         let is_timeless = matches!(motion, Motion::Turntable { .. }) && !has_path;
         if self.overrides.model_state.time.is_some() {
@@ -187,11 +187,11 @@ impl AnimateArgs {
 
 /// The animation of each model instance: the one that the scene chooses, or the model's first.
 ///
-/// Instances are in the order of the scene file; a model with several instances has one
-/// entry, with the choice of its file, for each. `None` stands for a model that does not move.
+/// Instances are in the order of the scene file; a model with several instances has one entry for
+/// each, with the choice made in the scene file. `None` means that the model does not move.
 ///
 /// # Errors
-/// If a choice matches no animation; the message lists those that the model has.
+/// If a choice matches no animation; the message lists the model's animations.
 fn choose_animations(
     models: &[ModelInstance],
     file: &SceneFile,

@@ -1,7 +1,7 @@
 //! The command line: commands, their flags, and the help text (clap derive).
 //!
-//! The doc comments of these structs are what users read in `--help`, in the manual pages and in
-//! `alberti reference`: the first paragraph is the short help, the rest is for the long one.
+//! Users read the doc comments of these structs in `--help`, in the manual pages and in `alberti
+//! reference`. The first paragraph is the short help; the long help adds the rest.
 
 use super::animate::AnimateArgs;
 use super::batch::{BatchArgs, WorkerArgs};

@@ -1,8 +1,7 @@
 //! `alberti batch` and its worker: arguments, messages, exit codes, and the pictures themselves.
 //!
-//! Which jobs there are, which are done, and what came of them is the business of the crate
-//! [`batch`](../batch/index.html). A worker is this program again, which renders what the
-//! coordinator asks for.
+//! The crate [`batch`](../batch/index.html) manages the jobs, their progress and their results. A
+//! worker is another process of this program; it renders what the coordinator requests.
 
 mod render_flags;
 mod worker;
@@ -91,18 +90,18 @@ pub(crate) struct BatchArgs {
     flags: GivenFlags,
 }
 
-/// The exit code of a run in which jobs have failed.
+/// The exit code of a run in which jobs failed.
 const SOME_FAILED: u8 = 1;
-/// The exit code of wrong usage: inputs that cannot be listed.
+/// The exit code for wrong usage: inputs that cannot be listed.
 const WRONG_USAGE: u8 = 2;
-/// The exit code of a run that could not go on.
+/// The exit code of a run that had to stop.
 const STOPPED: u8 = 3;
 
 /// Runs the jobs of this shard; returns the exit code.
 ///
-/// A job that fails is not an error of the run: it is a record of the report, and changes the exit
-/// code only. What is wrong with the inputs or with the output folder is printed here, as each has
-/// an exit code of its own.
+/// A failed job is not an error of the run: it is a record in the report and changes only the exit
+/// code. Problems with the inputs or the output folder are printed here, since each has its own
+/// exit code.
 ///
 /// # Errors
 /// If the standard output cannot be written.
@@ -157,14 +156,14 @@ fn print_fault(error: &CliError, code: u8) -> u8 {
     code
 }
 
-/// Merges the reports; the exit code says whether one of the jobs has failed.
+/// Merges the reports; the exit code says whether any job failed.
 fn merge_to_code(options: &BatchOptions) -> Result<u8, CliError> {
     let counts = merge_reports(&options.out_dir)?;
     print_statistics(&counts)?;
     Ok(if counts.failed == 0 { 0 } else { SOME_FAILED })
 }
 
-/// Prints what a merged report says of all pictures.
+/// Prints a summary of a merged report.
 ///
 /// ```text
 /// 990 pictures of 20.5 MB in all, 10 failed
@@ -182,7 +181,7 @@ fn print_statistics(counts: &MergeCounts) -> Result<(), CliError> {
     print_text(&text)
 }
 
-/// Runs the jobs, and prints what came of them; returns the exit code.
+/// Runs the jobs and prints a summary; returns the exit code.
 fn run_to_code(options: &BatchOptions, jobs: ShardJobs) -> Result<u8, CliError> {
     let stream = std::io::stderr();
     let display = ProgressDisplay { is_terminal: stream.is_terminal(), stream: Box::new(stream) };
@@ -219,7 +218,7 @@ fn print_summary(counts: RunCounts) -> Result<u8, CliError> {
     Ok(if failed == 0 { 0 } else { SOME_FAILED })
 }
 
-/// Parses the memory of a job, which only Linux can hold it to.
+/// Parses a job's memory limit, which only Linux can enforce.
 fn parse_job_memory(text: &str) -> Result<u64, String> {
     if cfg!(target_os = "linux") {
         parse_memory_size(text)

@@ -1,4 +1,4 @@
-//! Flags of calibrated cameras: intrinsic parameters, and rotation and translation or a pose.
+//! Flags for calibrated cameras: intrinsics, and rotation and translation or a pose.
 
 use super::number_list::parse_number_list;
 use super::options::option_parser;
@@ -52,7 +52,7 @@ pub(crate) struct CalibratedCameraArgs {
     camera_axes: Option<CameraAxes>,
 }
 
-/// Three rows of a rotation, and a column beside them.
+/// Three rows of a rotation, and a column next to them.
 #[derive(Clone, Copy, Debug)]
 struct CameraFrame {
     rotation: [[f64; 3]; 3],
@@ -73,12 +73,12 @@ impl CalibratedCameraArgs {
         self.extrinsics.is_some() || self.pose.is_some()
     }
 
-    /// Whether the axes of a camera were given without its place.
+    /// Whether the axes of a camera were given without its position.
     pub(crate) const fn has_axes_alone(&self) -> bool {
         self.camera_axes.is_some() && !self.places_camera()
     }
 
-    /// Replaces view and projection of the scene by the flags that were given.
+    /// Replaces the scene's view and projection with the given flags.
     pub(crate) fn apply_to(&self, file: &mut CameraFile) {
         if let Some(frame) = self.extrinsics {
             let (rotation, translation) = (frame.to_rotation_file(), Triple(frame.column));
@@ -130,7 +130,7 @@ fn parse_intrinsics(text: &str) -> Result<ProjectionFile, String> {
     })
 }
 
-/// Parses the 12 numbers of three rows of four; 16, whose last row is 0,0,0,1, will do as well.
+/// Parses three rows of four numbers; a fourth row 0,0,0,1 may follow.
 fn parse_frame(text: &str) -> Result<CameraFrame, String> {
     let numbers = parse_number_list(text)?;
     let rows = match numbers.as_slice() {

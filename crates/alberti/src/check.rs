@@ -1,12 +1,12 @@
 //! `alberti check` and `alberti scene check`: validation of scenes and models.
 //!
 //! A scene gets its errors, lints for values that are probably unintended, and the validation of
-//! each model it refers to. A glTF file is validated against the glTF 2.0
-//! specification; of other formats, the report has what reading them says.
+//! each model it refers to. A glTF file is validated against the glTF 2.0 specification; for other
+//! formats, the report has the importer's diagnostics.
 //!
-//! The standard output has the report, also when it is full of errors: they are the result, not a
-//! failure. Only what keeps the check itself from running, such as a missing scene, is printed as
-//! `error:`. Either gives exit code 1.
+//! The report goes to the standard output even if it is full of errors: they are the result, not a
+//! failure. Only a problem that keeps the check from running, such as a missing scene, is printed
+//! as `error:`. Both give exit code 1.
 
 mod json;
 
@@ -39,13 +39,13 @@ pub(crate) struct CheckScenesArgs {
 
 /// The results for one input: a scene with its models, or a bare model.
 ///
-/// Text and JSON are both made from it, so that they cannot disagree.
+/// Text and JSON are both derived from it, so they cannot disagree.
 struct CheckResult {
     /// The path of the input.
     file: PathBuf,
-    /// The errors of a scene; `None` if the input is a model.
+    /// The scene's errors; `None` if the input is a model.
     scene: Option<Vec<SceneError>>,
-    /// Lints: values of the scene that are valid but probably unintended.
+    /// Lints: scene values that are valid but probably unintended.
     advice: Vec<Lint>,
     /// The reports of the models.
     models: Vec<CheckReport>,
@@ -54,7 +54,7 @@ struct CheckResult {
 /// Validates a scene or a model; the exit code is 1 if there are errors.
 ///
 /// # Errors
-/// If a scene file cannot be read. A model that cannot be read is an error of its report instead,
+/// If a scene file cannot be read. A model that cannot be read is instead an error in its report,
 /// so that a scene with a missing model is checked to the end.
 pub(crate) fn run(args: &CheckArgs) -> Result<ExitCode, CliError> {
     let options = args.load_options.import_options();
@@ -95,11 +95,11 @@ fn exit_code(errors: usize) -> ExitCode {
 
 /// Validates a scene and its models.
 ///
-/// A file that cannot be parsed has its syntax errors only. Most lints need a resolved scene, so
-/// they are looked for only where there is no error.
+/// A file that cannot be parsed has only its syntax errors. Most lints need a resolved scene, so
+/// they run only if there are no errors.
 ///
-/// The order is: parse, resolve as `render` would, look for lints, check the models. The models are checked even if the scene has errors, unless it cannot be
-/// parsed.
+/// The order is: parse, resolve as `render` would, lint, check the models. The models are checked
+/// even if the scene has errors, unless it cannot be parsed.
 fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, CliError> {
     let name = if input.as_os_str() == "-" { Path::new("<stdin>") } else { input };
     let found = |scene, advice, models| CheckResult {
@@ -133,8 +133,8 @@ fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, Cli
 
 /// Validates each model file of a scene once, except those the scene may not read.
 ///
-/// A path that is not allowed is an error of the scene already; reading it here would reveal
-/// whether it exists. Models are reported in the order in which they first appear.
+/// A path that is not allowed is already a scene error; reading it here would reveal whether it
+/// exists. Models are reported in the order in which they first appear.
 fn check_models(origin: &Origin, file: &SceneFile, options: &ImportOptions) -> Vec<CheckReport> {
     let mut paths: Vec<&str> = Vec::new();
     for entry in &file.models {
@@ -147,7 +147,7 @@ fn check_models(origin: &Origin, file: &SceneFile, options: &ImportOptions) -> V
 }
 
 impl CheckResult {
-    /// The number of errors of the scene and of its models.
+    /// The number of errors in the scene and its models.
     ///
     /// Warnings, notes and lints do not count: they do not change the exit code.
     fn error_count(&self) -> usize {

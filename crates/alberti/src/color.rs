@@ -1,4 +1,4 @@
-//! Color of messages: when to use ANSI escapes, and which ones.
+//! Message colors: when to use ANSI escapes, and which ones.
 //!
 //! The choice is global to the process, because messages are printed from everywhere: `--color`
 //! sets it once, before the first message.
@@ -22,7 +22,7 @@ pub(crate) enum ColorChoice {
 /// Unset in unit tests, where it counts as `auto`.
 static COLOR_CHOICE: OnceLock<ColorChoice> = OnceLock::new();
 
-/// Sets the choice of the process; only the first call has an effect.
+/// Sets the choice for the process; only the first call has an effect.
 pub(super) fn set_color_choice(arg: ColorChoice) {
     COLOR_CHOICE.get_or_init(|| arg);
 }
@@ -45,8 +45,8 @@ pub(super) fn stdout_has_color() -> bool {
 
 /// Whether a stream gets colors, given that it is a `terminal` or not.
 ///
-/// With `auto`, dumb terminals get none, and neither does anyone who sets `NO_COLOR` to a
-/// non-empty value (<https://no-color.org>).
+/// With `auto`, there are none on dumb terminals or if `NO_COLOR` is set to a non-empty value
+/// (<https://no-color.org>).
 fn should_use_color(chosen: Option<ColorChoice>, terminal: bool) -> bool {
     match chosen.unwrap_or(ColorChoice::Auto) {
         ColorChoice::Always => true,
@@ -60,9 +60,8 @@ fn should_use_color(chosen: Option<ColorChoice>, terminal: bool) -> bool {
 
 /// The severity at the start of a message: bold red for errors, bold yellow for anything else.
 ///
-/// The word may have a code behind it, such as that of a lint, `warning[CODE]`, which gets the
-/// color as well. The reset is part of the word, so that the text after it has the color of the
-/// terminal.
+/// A code may follow the word, such as a lint's in `warning[CODE]`; it is colored as well. The
+/// result ends with a reset, so that the text after it has the terminal's color.
 pub(super) fn style_level(word: &str, colors: bool) -> String {
     match colors {
         false => word.to_owned(),

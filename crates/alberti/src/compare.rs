@@ -1,7 +1,7 @@
 //! `--compare`: image comparison of the rendered picture with a reference.
 //!
 //! Output is bit-exact on every machine, so the default tolerance is 0. A tolerance is meant for
-//! references from other programs or of older versions.
+//! references from other programs or older versions.
 //!
 //! The rendered picture and `NAME.compare.png` are written whether the pictures agree or not; the
 //! verdict is the exit code.
@@ -30,7 +30,7 @@ pub(crate) struct CompareArgs {
     tolerance: u8,
 }
 
-/// The result of a comparison of two pictures of the same size.
+/// The result of comparing two pictures that have the same size.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct PictureComparison {
     /// The largest difference of a channel in any pixel, 0 to 255.
@@ -39,15 +39,15 @@ pub(super) struct PictureComparison {
     pub(super) differing_pixels: usize,
     /// The number of pixels of the picture.
     pub(super) total_pixels: usize,
-    /// The difference of a channel that counts as equal.
+    /// The largest channel difference that counts as equal.
     pub(super) tolerance: u8,
 }
 
 impl PictureComparison {
-    /// Compares two pictures of the same size, pixel by pixel.
+    /// Compares two equally large pictures, pixel by pixel.
     ///
-    /// The caller guarantees equal sizes: a reference of another size is rejected before anything
-    /// is rendered.
+    /// The caller guarantees equal sizes: a reference with another size is rejected before
+    /// rendering.
     fn new(expected: &Picture, actual: &Picture, tolerance: u8) -> Self {
         let mut comparison = Self {
             max_difference: 0,
@@ -68,7 +68,7 @@ impl PictureComparison {
         self.differing_pixels == 0
     }
 
-    /// The fraction of pixels that differ, 0 to 1.
+    /// The fraction of pixels that differ, from 0 to 1.
     ///
     /// An empty picture does not differ.
     pub(super) fn differing_fraction(&self) -> f64 {
@@ -91,11 +91,11 @@ impl fmt::Display for PictureComparison {
     }
 }
 
-/// The maximum difference over the channels of two pixels. Two transparent pixels are equal,
-/// whatever their color.
+/// The maximum difference over the channels of two pixels. Fully transparent pixels are equal even
+/// if their colors differ.
 ///
-/// Codes are compared, not light: the difference is in units of the file, 0 to 255. Alpha is a
-/// channel like the others.
+/// Codes are compared, not light: the difference is in the file's units, 0 to 255. Alpha counts
+/// like any other channel.
 fn pixel_difference(expected: [u8; 4], actual: [u8; 4]) -> u8 {
     if expected[3] == 0 && actual[3] == 0 {
         return 0;
@@ -111,10 +111,10 @@ impl CompareArgs {
 
     /// Reads the reference picture, if `--compare` was given.
     ///
-    /// It is called before rendering, so that a wrong path costs no time.
+    /// Called before rendering, so that a wrong path wastes no time.
     ///
     /// # Errors
-    /// If it cannot be read, or its size is not that of the rendered region.
+    /// If it cannot be read, or its size differs from the rendered region.
     pub(super) fn load_reference(&self, region: PixelRect) -> Result<Option<Picture>, CliError> {
         let Some(path) = &self.compare else { return Ok(None) };
         let fault = |why: String| {
@@ -129,7 +129,7 @@ impl CompareArgs {
 
     /// Compares the pictures and writes both and their difference to a temporary file.
     ///
-    /// The file is returned with the path it is to be renamed to.
+    /// The file is returned with its final path.
     ///
     /// # Errors
     /// If the temporary file cannot be created or written.
@@ -148,14 +148,14 @@ impl CompareArgs {
     }
 }
 
-/// Reads a PNG of the size of the region as RGBA; 16-bit channels are rounded to 8 bits.
+/// Reads a PNG that has the region's size as RGBA; 16-bit channels are rounded to 8 bits.
 ///
-/// Palettes, gray and low bit depths are expanded, and an alpha channel is added where there is
-/// none. The size is checked before the pixels are decoded. 16-bit codes `c` become `(c + 128) /
-/// 257`, the nearest 8-bit code.
+/// Palettes, gray and low bit depths are expanded, and a missing alpha channel is added. The size
+/// is checked before the pixels are decoded. 16-bit codes `c` become `(c + 128) / 257`, the nearest
+/// 8-bit code.
 ///
 /// # Errors
-/// If the file cannot be read or is not a PNG, or has another size.
+/// If the file cannot be read, is not a PNG, or has another size.
 fn read_reference(path: &Path, region: PixelRect) -> Result<Picture, String> {
     let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
     let mut decoder = png::Decoder::new(std::io::BufReader::new(file));
@@ -192,12 +192,12 @@ fn read_reference(path: &Path, region: PixelRect) -> Result<Picture, String> {
     Ok(Picture { width, height, pixels })
 }
 
-/// Expected, difference and actual side by side.
+/// Returns the expected picture, the difference and the actual picture side by side.
 ///
-/// The difference is white where the pictures are equal, and goes from pink to dark red with the
-/// difference.
+/// The difference image is white where the pictures are equal, and ranges from pink to dark red as
+/// they differ more.
 ///
-/// The output is three times as wide as the pictures. The difference is opaque even where the
+/// The output is three times as wide as the pictures. The difference image is opaque even where the
 /// pictures are transparent.
 fn side_by_side(expected: &Picture, actual: &Picture) -> Picture {
     let width = actual.width as usize;

@@ -80,9 +80,9 @@ impl From<AxisArg> for Spacing {
 /// Formats a depth table as text.
 type TableFormatter = fn(&DepthTable, &[DepthRow]) -> String;
 
-/// The file extensions of a table without its plot, with their formatters.
+/// The file extensions for a table without a plot, with their formatters.
 ///
-/// Any other extension is that of a plot.
+/// Any other extension belongs to a plot.
 const TABLE_FORMATS: [(&str, TableFormatter); 4] = [
     ("txt", DepthTable::to_text),
     ("md", DepthTable::to_markdown),
@@ -93,7 +93,8 @@ const TABLE_FORMATS: [(&str, TableFormatter); 4] = [
 /// Plots a function, or prints its table.
 ///
 /// # Errors
-/// If the planes make no projection, a distance is invalid, or the output cannot be written.
+/// If the planes do not define a projection, a distance is invalid, or the output cannot be
+/// written.
 pub(crate) fn run(args: &CurveArgs) -> Result<(), CliError> {
     let CurveSubject::Depth(args) = &args.subject;
     let convention = match args.range {
@@ -117,9 +118,9 @@ pub(crate) fn run(args: &CurveArgs) -> Result<(), CliError> {
     }
 }
 
-/// Writes the table or the plot, by the extension of the output.
+/// Writes the table or the plot, depending on the output's extension.
 ///
-/// An unknown extension is reported with the list of all seven, instead of that of plots alone.
+/// An unknown extension is reported with the list of all seven, not only the plot formats.
 fn write_output(
     output: &Path,
     table: &DepthTable,
@@ -139,7 +140,7 @@ fn write_output(
     write_page(output, &table.to_page(rows, distances))
 }
 
-/// Planes that make no projection, such as a near plane behind the eye, are wrong usage.
+/// Planes that do not define a projection, such as a near plane behind the eye, are wrong usage.
 fn projection_error(error: projection::ProjectionError) -> CliError {
     CliError::Usage(error.to_string())
 }

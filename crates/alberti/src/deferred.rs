@@ -1,7 +1,7 @@
-//! Deferred arguments: the flags of a command are declared when that command is asked for.
+//! Deferred arguments: a command's flags are declared only when that command is used.
 //!
-//! Every start of the program would otherwise build the flags of all commands, which is most of
-//! what a short command costs.
+//! Otherwise every start of the program would build the flags of all commands, which is most of the
+//! cost of a short command.
 
 use clap::{ArgMatches, Args, Command, Error, FromArgMatches, Id};
 
@@ -20,10 +20,10 @@ impl<T: Args> Args for Deferred<T> {
     }
 }
 
-/// Adds the arguments to a command. Values may be written in capitals, as in `--view Front`.
+/// Adds the arguments to a command. Values are case-insensitive, as in `--view Front`.
 ///
-/// The command keeps its own description, where that of the type would take its place, and the
-/// global flags that it has already come last.
+/// The command keeps its own description, which the type's would otherwise replace; existing global
+/// flags are moved to the end.
 fn declare_arguments<T: Args>(command: Command) -> Command {
     let about = command.get_about().cloned().unwrap_or_default();
     let long_about = command.get_long_about().cloned();

@@ -1,4 +1,4 @@
-//! `alberti demo`: the artifacts that appear when a stage of the pipeline is omitted.
+//! `alberti demo`: the artifacts that appear when a pipeline stage is skipped.
 //!
 //! A demonstration draws a constant scene twice, with and without the stage, in panels with
 //! captions. It needs no input, so its output can be compared byte by byte.

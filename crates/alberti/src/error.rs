@@ -1,11 +1,11 @@
-//! Errors of the program: those of the libraries, and wrong combinations of flags.
+//! Program errors: errors from the libraries, and wrong combinations of flags.
 //!
-//! Usage errors that clap detects while it parses do not get here: they exit with code 2. A
+//! Usage errors that clap detects while parsing do not get here: they exit with code 2. A
 //! combination that depends on the input or on several flags is a [`CliError::Usage`] and exits
 //! with code 1 like any failure.
 //!
 //! A message may have several lines. Further ones begin with `  = help:` and name a flag or a value
-//! that solves the problem, as in rustc.
+//! that fixes the problem, as in rustc.
 
 use super::color;
 use batch::BatchError;
@@ -16,9 +16,8 @@ use sheet::SheetError;
 
 /// A failed run. `main` prints the message after `error: ` and exits with code 1.
 ///
-/// No variant adds words of its own to the errors of the libraries: those already name the file and
-/// the field. An exception is the standard output, whose input/output errors say nothing about
-/// where they happened.
+/// No variant adds text to library errors: they already name the file and the field. The exception
+/// is the standard output, whose I/O errors do not say where they happened.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum CliError {
     /// A scene could not be read or resolved.
@@ -39,7 +38,7 @@ pub(crate) enum CliError {
     /// A page of panels could not be drawn.
     #[error(transparent)]
     Demonstration(#[from] DemonstrationError),
-    /// A batch could not go on.
+    /// A batch had to stop.
     #[error(transparent)]
     Batch(BatchError),
     /// An output file could not be written.
@@ -48,7 +47,7 @@ pub(crate) enum CliError {
     /// The standard output could not be written.
     #[error("cannot write to the standard output: {0}")]
     Stdout(#[from] std::io::Error),
-    /// Arguments that make no sense together, or a file that they name is unusable.
+    /// The arguments contradict each other, or a file they name is unusable.
     #[error("{0}")]
     Usage(String),
 }
@@ -65,9 +64,8 @@ impl From<BatchError> for CliError {
 impl CliError {
     /// The message for the standard error stream, with colors if it has them.
     ///
-    /// Only errors of scene files have colors: they quote the line with a caret below the mistake.
-    /// They may be wrapped in an error of a demonstration or not, since demonstrations resolve
-    /// scenes themselves.
+    /// Only scene file errors have colors: they quote the line with a caret below the mistake. A
+    /// demonstration error may wrap one, since demonstrations resolve scenes themselves.
     pub(crate) fn to_message(&self) -> String {
         match self {
             Self::Resolve(ResolveError::Scene(mistake))

@@ -1,7 +1,7 @@
-//! `alberti exercise`: exercises on viewing, and what is wrong with an answer.
+//! `alberti exercise`: exercises on viewing, with answers checked and mistakes named.
 //!
-//! The exercises are those of `explorer::exercise`; here they are printed. Questions are said in
-//! English or Chinese, JSON has both.
+//! Prints the exercises of `explorer::exercise`. Questions are in English or Chinese; JSON has
+//! both.
 
 use super::reference::wrap_paragraphs;
 use super::{CliError, print_stdout};
@@ -66,8 +66,8 @@ impl From<TextLanguage> for Language {
     }
 }
 
-/// Prints the exercises, one of them, its hints, or the verdict on an answer, whose exit code is 1
-/// if it is wrong.
+/// Prints the exercises, one of them, its hints, or the verdict on an answer; the exit code is 1 if
+/// the answer is wrong.
 ///
 /// # Errors
 /// If there is no such exercise, or the answer cannot be read.
@@ -99,7 +99,7 @@ pub(crate) fn run(args: &ExerciseArgs) -> Result<ExitCode, CliError> {
     Ok(if is_wrong { ExitCode::FAILURE } else { ExitCode::SUCCESS })
 }
 
-/// Chinese, if the environment asks for it: the first variable that is set counts.
+/// Returns Chinese if the environment asks for it: the first variable that is set counts.
 fn language_of_environment() -> Language {
     let values = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().filter_map(std::env::var_os);
     let first = values.into_iter().find(|value| !value.is_empty());
@@ -166,7 +166,7 @@ fn format_hints(exercise: &Exercise, language: Language) -> String {
     page
 }
 
-/// The document of `--json`: exercises, and the verdict on an answer if one was given.
+/// The `--json` document: exercises, and the verdict on an answer if one was given.
 fn document(shown: &[&Exercise], verdict: Option<&Verdict>) -> Json {
     json!({
         "schema": {"name": "alberti-exercise", "version": VERSION},

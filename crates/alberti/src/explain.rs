@@ -1,8 +1,8 @@
 //! `alberti explain`: every intermediate value of the viewing pipeline for one primitive or pixel.
 //!
-//! The chain of transforms is that of the renderer for the chosen picture, so the last coordinates
-//! are those of real pixels. `--conventions` shows the chain as another API would compute it, with
-//! its handedness, depth range and origin of pixels.
+//! The transforms are the ones the renderer uses for the chosen picture, so the last coordinates
+//! are real pixel coordinates. `--conventions` shows the chain as another API would compute it,
+//! with its handedness, depth range and pixel origin.
 
 use super::load_options::LoadArgs;
 use super::number_list::{parse_number_list, parse_numbers};
@@ -23,7 +23,7 @@ use std::path::PathBuf;
 
 /// The longer side of the picture embedded in an HTML page, in pixels.
 ///
-/// The picture only shows where the subject is, and it is embedded in base64.
+/// The picture only shows where the subject is, and is embedded in base64.
 const MAX_PAGE_SIDE: f64 = 960.0;
 
 /// Arguments of `alberti explain`.
@@ -167,7 +167,7 @@ fn eye_chain(eye: &Inset, conventions: ApiConventions) -> Result<TransformChain,
     Ok(chain.map_err(pipeline::RenderError::from)?)
 }
 
-/// Writes an explanation as JSON or in the form of `format`, to a file or the standard output.
+/// Writes an explanation as JSON or in `format`, to a file or the standard output.
 fn write_explanation(
     args: &ExplainArgs,
     explanation: &Explanation,
@@ -185,7 +185,8 @@ fn write_explanation(
 
 /// Renders the scene, scaled down to at most [`MAX_PAGE_SIDE`].
 ///
-/// A picture that is smaller already keeps its size. The aspect ratio is preserved to a pixel.
+/// A picture that is already smaller keeps its size. The aspect ratio is preserved to within a
+/// pixel.
 fn render_page_picture(mut scene: Scene) -> Result<Picture, CliError> {
     let image = &mut scene.image;
     let most = f64::from(image.width.max(image.height));
@@ -198,7 +199,7 @@ fn render_page_picture(mut scene: Scene) -> Result<Picture, CliError> {
 impl ExplainSubjectArgs {
     /// Explains the subject that the flags name.
     ///
-    /// clap has rejected combinations, so the first subject that is set is the only one.
+    /// clap rejects combinations, so the first subject that is set is the only one.
     ///
     /// # Errors
     /// If the scene has no such model, node, primitive, vertex, triangle or pixel.
@@ -229,7 +230,7 @@ impl ExplainSubjectArgs {
         self.explain_part(chain, placed, find_node(&placed.model, node)?)
     }
 
-    /// The points of the flags for a map without a scene: one, the ends of a segment, or none.
+    /// The points from the flags for a map without a scene: one, the ends of a segment, or none.
     fn bare_points<S: homog::Space>(&self) -> Vec<HPoint<S>> {
         let point = self.point.map(SubjectPoint::numbers).into_iter();
         let ends = self
@@ -263,9 +264,9 @@ impl ExplainSubjectArgs {
     }
 }
 
-/// The index of a node, from its index or its name; an index is tried first.
+/// Finds the index of a node from an index or a name; an index is tried first.
 ///
-/// A node whose name is a number is found by name only if there is no node of that index.
+/// A node whose name is a number is found by name only if no node has that index.
 ///
 /// # Errors
 /// If there is no such node; the message lists up to twelve names.
@@ -283,7 +284,7 @@ fn find_node(model: &Model, node: &str) -> Result<usize, String> {
     })
 }
 
-/// A point of the command line: three coordinates, or four homogeneous ones.
+/// A point from the command line: three coordinates, or four homogeneous ones.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum SubjectPoint {
     /// x, y, z.
@@ -306,7 +307,7 @@ impl BareMapArgs {
     /// The map that the flags name; `None` without them.
     ///
     /// # Errors
-    /// If the planes make no matrix P.
+    /// If the planes do not define a matrix P.
     fn build_map(&self) -> Result<Option<BareMap>, CliError> {
         if let Some(entries) = &self.matrix {
             let [a, b, c, d] = [0, 4, 8, 12].map(|at| std::array::from_fn(|j| entries[at + j]));
@@ -331,7 +332,7 @@ fn parse_matrix(text: &str) -> Result<Box<[f64; 16]>, String> {
 /// Parses a point of three or four numbers.
 ///
 /// # Errors
-/// If there are more or fewer numbers, one is not finite, or all four are 0.
+/// If the count is wrong, a number is not finite, or all four are 0.
 pub(super) fn parse_point(text: &str) -> Result<SubjectPoint, String> {
     let numbers = parse_number_list(text)?;
     match numbers[..] {
@@ -354,7 +355,7 @@ fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
     Ok([side(x)?, side(y)?])
 }
 
-/// Parses conventions by the name that the `pipeline` crate has for them.
+/// Parses conventions by their name in the `pipeline` crate.
 pub(super) fn conventions_parser() -> impl clap::builder::TypedValueParser<Value = ApiConventions> {
     use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser as _};
     let value = |known: ApiConventions| PossibleValue::new(known.name()).help(known.summary());

@@ -1,13 +1,13 @@
-//! `alberti explore`: the explorer in a browser, served to this machine alone.
+//! `alberti explore`: the explorer in a browser, served only to this machine.
 //!
 //! ```text
 //!  browser ─► connections ─► request ─► site: page, models of the lessons, the model given
 //!             few at once    checked     └──► lanes: the explorer's answers
 //! ```
-//! The server listens on the loopback address. Other pages of the same browser can reach it too:
-//! requests that another page has caused are refused. So can other users of the machine: paths begin
-//! with a token, which only the printed address has. No request names a file of the disk; all that
-//! is served is in memory before the first request.
+//! The server listens on the loopback address. Other pages in the same browser can reach it too:
+//! requests caused by another page are refused. Other users of the machine can also reach it: paths
+//! begin with a token, which only the printed address contains. No request names a file on disk;
+//! everything that is served is in memory before the first request.
 
 mod companions;
 mod connections;
@@ -67,7 +67,7 @@ pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
     connections::serve(&listener, port, site)
 }
 
-/// Listens on the loopback address; returns the port, which the system chooses for 0.
+/// Listens on the loopback address; returns the port, which the system chooses if it is 0.
 fn listen(port: u16) -> Result<(TcpListener, u16), CliError> {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))
         .and_then(|listener| listener.local_addr().map(|address| (listener, address.port())));
@@ -79,7 +79,7 @@ fn listen(port: u16) -> Result<(TcpListener, u16), CliError> {
     })
 }
 
-/// Opens an address in the default browser; a note says if there is none.
+/// Opens an address in the default browser; prints a note if there is none.
 fn open_browser(address: &str) {
     let opener = if cfg!(target_os = "macos") {
         "open"

@@ -1,7 +1,7 @@
 //! Output formats and their file extensions.
 //!
 //! Commands with a plot or panels accept further extensions, such as `.html` or `.csv`, which they
-//! look for before they ask for an [`OutputFormat`].
+//! check before they ask for an [`OutputFormat`].
 
 mod dxf;
 mod raster;
@@ -40,7 +40,7 @@ impl OutputFormat {
     /// otherwise produce a file that no program opens.
     ///
     /// # Errors
-    /// If the extension is none of those above.
+    /// If the extension is not one of the above.
     pub(super) fn from_path(output: &Path) -> Result<Self, CliError> {
         if let Some(error) = prefix_error(&visible_path(output).to_string()) {
             return Err(error);
@@ -57,7 +57,7 @@ impl OutputFormat {
         }
     }
 
-    /// Whether a file is a picture or a film by its extension, of a format that is written or not.
+    /// Whether a file is a picture or video by its extension, in a supported format or not.
     pub(super) fn is_known(output: &Path) -> bool {
         let ending = output.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         let known = [
@@ -67,7 +67,7 @@ impl OutputFormat {
         ending.is_some_and(|ending| known.contains(&ending.as_str()))
     }
 
-    /// The error of an extension that is not written, with the way to such a file if there is one.
+    /// The error for an unsupported extension, with a way to get such a file if there is one.
     fn unknown_extension_error(output: &Path, ending: &str) -> CliError {
         let name = visible_path(output);
         let unwritten = |format: &str, help: String| {
@@ -139,10 +139,10 @@ impl OutputFormat {
         }
     }
 
-    /// Encodes pages in a vector format; an SVG or a DXF holds the first one only.
+    /// Encodes pages in a vector format; an SVG or a DXF holds only the first.
     ///
-    /// A PDF has one page for each; their sizes may differ. A DXF is in millimeters on paper. Raster
-    /// formats are treated as SVG here: callers rasterize the page before they come to this
+    /// A PDF has one page for each; their sizes may differ. A DXF is in millimeters on paper.
+    /// Raster formats are treated as SVG here: callers rasterize the page before they call this
     /// function.
     pub(super) fn encode_pages<W>(self, pages: &[Page<W>]) -> Vec<u8> {
         match self {
@@ -158,7 +158,7 @@ impl OutputFormat {
     }
 }
 
-/// The error of a film as the output of a command that writes stills.
+/// The error for a video as the output of a command that writes stills.
 fn moving_picture_error(output: &Path, ending: &str) -> CliError {
     let (name, gif) = (visible_path(output), output.with_extension("gif"));
     let gif = visible_path(&gif);
@@ -172,8 +172,8 @@ fn moving_picture_error(output: &Path, ending: &str) -> CliError {
     CliError::Usage(format!("{name}: this command writes still pictures\n  = help: {help}"))
 }
 
-/// Refuses `//out/render_`, which begins at the folder of the scene in Blender and at the root of
-/// the disk everywhere else.
+/// Refuses `//out/render_`, which starts at the scene's folder in Blender and at the root of the
+/// disk everywhere else.
 ///
 /// # Errors
 /// If the path begins with two slashes.
@@ -187,7 +187,7 @@ pub(crate) fn refuse_blender_path(output: &Path) -> Result<(), CliError> {
     }
 }
 
-/// The error of ImageMagick's `png:-` and `png:out.png`, if a name is one.
+/// The error for ImageMagick's `png:-` and `png:out.png`, if a name is one.
 fn prefix_error(name: &str) -> Option<CliError> {
     let (format, rest) = name.split_once(':')?;
     let format = format.trim_end_matches(|c: char| c.is_ascii_digit());

@@ -1,8 +1,8 @@
-//! The help of the program: its commands in groups, by what people want to do.
+//! The program's help, with commands grouped by task.
 
 use clap::Command;
 
-/// The groups of commands, in the order of the help.
+/// The groups of commands, in help order.
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Pictures", &["render", "animate", "batch", "thumbnailer"]),
     ("Drawings on paper", &["sheet", "compare-projections", "sweep", "curve"]),
@@ -12,10 +12,10 @@ const GROUPS: [(&str, &[&str]); 5] = [
 ];
 /// The column in which descriptions begin.
 const DESCRIPTION_COLUMN: usize = 22;
-/// The longest line.
+/// The maximum line length.
 const MAX_COLUMNS: usize = 100;
 
-/// The program with a help that has its commands in groups.
+/// Returns the program with its commands grouped in the help.
 pub(crate) fn group_commands(program: Command) -> Command {
     let mut text = String::from("{about-with-newline}\n{usage-heading} {usage}\n\n");
     for (title, names) in GROUPS {
@@ -35,7 +35,7 @@ pub(crate) fn group_commands(program: Command) -> Command {
 /// The description of the command `help`.
 const HELP_OF_HELP: &str = "Print the help of a command";
 
-/// The lines of a command: its name, and its description in lines that fit.
+/// The help lines of a command: its name, and its wrapped description.
 fn command_lines(name: &str, about: &str) -> String {
     let (mut text, mut column) = (format!("  {name:<20}"), DESCRIPTION_COLUMN);
     for word in about.split_whitespace() {

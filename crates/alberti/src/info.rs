@@ -1,8 +1,8 @@
 //! `alberti info`: prints what a model contains.
 //!
-//! The model is imported like for rendering, so that a model that cannot be drawn has no
-//! description either; `check` says why. Image files are opened for their headers only: size and
-//! format are known without decoding megabytes of pixels.
+//! The model is imported as for rendering, so a model that cannot be drawn cannot be described
+//! either; `check` says why. Only the headers of image files are read: they give size and format
+//! without decoding megabytes of pixels.
 
 mod json;
 mod materials;
@@ -23,7 +23,7 @@ use std::fmt::Write as _;
 /// Prints the contents of a model as text or JSON.
 ///
 /// # Errors
-/// If the model cannot be loaded, or has no animation of the chosen name.
+/// If the model cannot be loaded, or has no animation with the chosen name.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
     let model = load_model(args)?;
     if args.json {
@@ -35,8 +35,8 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
 
 /// Loads the model in the state that the flags choose. Only the headers of its images are read.
 ///
-/// Either of `--animation` and `--time` poses the model; the other has its default then, the first
-/// animation and 0 seconds. Without both the model is in the pose of its nodes, as in the file.
+/// Either of `--animation` and `--time` poses the model; the other then has its default, the first
+/// animation or 0 seconds. Without both, the model is in the pose of its nodes, as in the file.
 fn load_model(args: &InfoArgs) -> Result<Model, CliError> {
     let ModelStateArgs { scene, variant, animation, time } = &args.model_state;
     let options = ImportOptions {
@@ -59,13 +59,13 @@ fn load_model(args: &InfoArgs) -> Result<Model, CliError> {
     Ok(model)
 }
 
-/// The most nodes whose names are listed.
+/// The maximum number of nodes listed by name.
 const LISTED_NODES: usize = 20;
 
 /// The report as text, one line per subject. Writing to a `String` cannot fail.
 ///
-/// Lines about things that most models lack (scenes, lights, variants) are omitted if there are
-/// none; the others are always there, so that two models can be compared line by line:
+/// Lines about scenes, lights and variants, which most models lack, are omitted if there are none.
+/// The others are always present, so that two models can be compared line by line:
 ///
 /// ```text
 /// fox.glb
@@ -106,7 +106,7 @@ fn describe_model(model: &Model) -> String {
         line("scalars", list_or_none(&model.scalar_attributes));
     }
     line("extensions", extensions_line(model));
-    // Warnings about extensions are in the line of the extensions already.
+    // The extensions line already contains warnings about extensions.
     let is_about_file = |warning: &&Diagnostic| !warning.location.starts_with("/extensions");
     for warning in model.warnings.iter().filter(is_about_file) {
         line(warning.severity.name(), warning.sentence());
@@ -114,19 +114,19 @@ fn describe_model(model: &Model) -> String {
     text
 }
 
-/// The materials by index and name: what overrides in scene files and `--material` choose by.
+/// The materials by index and name, which overrides in scene files and `--material` use.
 fn material_names(model: &Model) -> String {
     let names = model.materials.iter().map(|material| material.name.as_deref());
     named_items(names, usize::MAX)
 }
 
-/// The first nodes that have names, by index and name; `--json` lists all.
+/// The first named nodes, by index and name; `--json` lists all.
 fn node_names(model: &Model) -> String {
     named_items(model.nodes.iter().map(|node| node.name.as_deref()), LISTED_NODES)
 }
 
-/// The items that have names, each with its index, and how many have none: exporters leave hundreds
-/// without.
+/// The named items, each with its index, and the number without a name: exporters leave hundreds
+/// unnamed.
 fn named_items<'a>(names: impl Iterator<Item = Option<&'a str>>, most: usize) -> String {
     let (mut listed, mut unlisted, mut unnamed) = (Vec::new(), 0, 0);
     for (index, name) in names.enumerate() {
@@ -143,8 +143,8 @@ fn named_items<'a>(names: impl Iterator<Item = Option<&'a str>>, most: usize) ->
 
 /// The number of meshes, primitives and vertices in the file.
 ///
-/// Each mesh counts once, however often it is instanced; vertices are those of the file, before any
-/// welding.
+/// Each mesh counts once, however often it is instanced; vertices are counted as in the file,
+/// before any welding.
 fn meshes_line(model: &Model) -> String {
     let primitives: usize = model.meshes.iter().map(|mesh| mesh.primitives.len()).sum();
     let vertices: usize =
@@ -154,8 +154,8 @@ fn meshes_line(model: &Model) -> String {
 
 /// The primitives that the scene draws, counting every instance.
 ///
-/// Instances of a mesh, by several nodes or by EXT_mesh_gpu_instancing, count each time: it is the
-/// work of a renderer, whereas the line above is the size of the file.
+/// Every instance of a mesh, from several nodes or from EXT_mesh_gpu_instancing, counts: this line
+/// measures rendering work, the line above the file size.
 fn shown_line(model: &Model) -> String {
     let mut counts = [0_usize; 3];
     for (_, primitive) in model.scene_primitives() {
@@ -180,9 +180,9 @@ fn bounds_line(model: &Model) -> String {
     format!("{} to {}", triple(min), triple(max))
 }
 
-/// The number of materials, and of those that need special treatment.
+/// The number of materials, and how many need special treatment.
 ///
-/// Masked and blended materials cost more to draw, because their texels decide about visibility;
+/// Masked and blended materials cost more to draw, because their texels decide visibility;
 /// double-sided ones are not culled.
 fn materials_line(model: &Model) -> String {
     let count = |wanted: fn(&AlphaMode) -> bool| {
@@ -197,12 +197,12 @@ fn materials_line(model: &Model) -> String {
 
 /// The cameras by index and name, with their projections.
 ///
-/// Angles are the vertical field of view in degrees, heights are those of the whole window in scene
-/// units, and the last two numbers are the near and far distance.
+/// Angles are the vertical field of view in degrees, heights are window heights in scene units, and
+/// the last two numbers are the near and far distance.
 fn cameras_line(model: &Model) -> String {
     let describe = |(number, lens): (usize, &model::ModelCamera)| {
         let name = lens.name.as_deref().unwrap_or("unnamed");
-        // As people write them: many exporters turn 0.05 into 0.04999999701976776.
+        // Rounded for people: many exporters turn 0.05 into 0.04999999701976776.
         let short = |distance: f64| distance as f32;
         match lens.projection {
             CameraProjection::Perspective { fov_y, near, far, .. } => {
@@ -233,7 +233,7 @@ fn animations_line(model: &Model) -> String {
     list_or_none(&model.animations.iter().map(describe).collect::<Vec<_>>())
 }
 
-/// The scenes of the file by name, with a mark at the one that is drawn.
+/// The scenes of the file by name, with the drawn one marked.
 fn scenes_line(model: &Model) -> String {
     let describe = |(number, scene): (usize, &SceneRoots)| {
         let shown = if model.active_scene == Some(number) { " (shown)" } else { "" };
@@ -255,7 +255,7 @@ fn lights_line(model: &Model) -> String {
     list_or_none(&model.lights.iter().map(describe).collect::<Vec<_>>())
 }
 
-/// The extensions of the file, with a note at those that are not fully supported.
+/// The extensions of the file; those not fully supported have a note.
 ///
 /// `(not drawn)` means that the model is shown without the effect, `(not read)` that the extension
 /// is unknown or that a model that requires it is rejected.

@@ -1,12 +1,12 @@
 //! The program `alberti`: renders, draws, validates and explains 3D models.
 //!
-//! [`run`] is the program as a function, for `main.rs` and for the package for Python, whose
-//! command `alberti` is the same code.
+//! [`run`] is the program as a function, for `main.rs` and for the Python package, whose `alberti`
+//! command is the same code.
 //!
 //! Each command is a module with an arguments struct and a `run` function. Only this crate prints:
-//! results go to the standard output, messages to the standard error stream. The crates below it:
+//! results go to the standard output, messages to the standard error stream. It uses these crates:
 //!
-//! | crate | what it owns |
+//! | crate | contents |
 //! | --- | --- |
 //! | [`homog`] | typed points, vectors, homogeneous points, affine and projective maps |
 //! | [`camera`] | the camera transform: look-at, named views, framing, stereo, rays |
@@ -84,10 +84,10 @@ use messages::{print_json, print_message, print_note, print_stdout, print_text, 
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-/// Runs the program with its arguments, of which the first is its name, and returns its exit code.
+/// Runs the program with its arguments, of which the first is its name; returns the exit code.
 ///
 /// Exit codes: 0 success, 1 failure or errors found by a check, 2 wrong usage (set by clap), 3 a
-/// batch that could not go on, 128 and more one that a signal has interrupted.
+/// batch that had to stop, 128 and more a program that a signal interrupted.
 ///
 /// A failure is printed as `error: MESSAGE` on the standard error stream. Commands whose result is a
 /// verdict return 1 without one.
@@ -106,10 +106,10 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     })
 }
 
-/// Runs the command of the arguments.
+/// Runs the command given by the arguments.
 ///
 /// # Errors
-/// If the input is invalid or the work fails; nothing has been printed about it then.
+/// If the input is invalid or the work fails; the error has not been printed yet.
 pub(crate) fn run_command(args: Args) -> Result<u8, CliError> {
     let verdict = |code: ExitCode| u8::from(code != ExitCode::SUCCESS);
     color::set_color_choice(args.color);

@@ -1,4 +1,4 @@
-//! Flags about light: environment, exposure, tone mapping, shadows, ground, ambient occlusion.
+//! Lighting flags: environment, exposure, tone mapping, shadows, ground, ambient occlusion.
 //!
 //! They change the parsed scene file, not the resolved scene, so that a flag and the field of the
 //! scene file have one meaning and one set of checks.
@@ -52,7 +52,7 @@ pub(crate) struct LightArgs {
 /// The value of `--environment`.
 #[derive(Clone, Debug)]
 enum EnvironmentArg {
-    /// Soft boxes, also the light of a bare model without lights.
+    /// Soft boxes, also used for a bare model without lights.
     Studio,
     /// A clear sky over gray ground, without the sun itself.
     Sky,
@@ -81,20 +81,20 @@ enum GroundArg {
 }
 
 impl LightArgs {
-    /// Replaces the light of a scene by the flags that were given.
+    /// Replaces the lighting of a scene with the given flags.
     ///
-    /// Fields without a flag stay as the scene has them. `--ambient-occlusion` keeps the radius of
-    /// a scene that has one.
+    /// Fields without a flag keep the scene's values. `--ambient-occlusion` keeps the scene's
+    /// radius, if it has one.
     ///
     /// # Errors
-    /// If there is no environment for `--environment-rotation`.
+    /// If there is no environment for `--environment-rotation` to turn.
     pub(super) fn apply_to(&self, origin: &Origin, file: &mut SceneFile) -> Result<(), CliError> {
         if let Some(environment) = &self.environment {
             environment.check_file()?;
             file.environment = Some(environment.to_environment_file());
         }
         if let Some(angle) = self.environment_rotation {
-            // A model without a scene file stands in the studio.
+            // A model without a scene file is lit by the studio.
             if file.environment.is_none() && origin.text.is_empty() {
                 file.environment = Some(EnvironmentFile::STUDIO);
             }
@@ -127,8 +127,8 @@ impl LightArgs {
         Ok(())
     }
 
-    /// The flags that were given and change the light on surfaces. Where the environment is seen
-    /// behind the models, those that change its look are left out.
+    /// The given flags that change the light on surfaces. If the environment is visible behind the
+    /// models, flags that change its look are omitted.
     pub(super) fn light_flags(&self, shows_environment: bool) -> Vec<&'static str> {
         let lights = self.environment.as_ref().is_some_and(EnvironmentArg::is_light);
         let flags = [
@@ -141,7 +141,7 @@ impl LightArgs {
         given_flags(&flags)
     }
 
-    /// The flags that were given and darken surfaces; shadows may fall on a ground too.
+    /// The given flags that darken surfaces; shadows may also fall on a ground.
     pub(super) fn shadow_flags(&self, has_ground: bool) -> Vec<&'static str> {
         let shadows = matches!(self.shadows, Some(SwitchArg::On)) && !has_ground;
         given_flags(&[("--shadows", shadows), ("--ambient-occlusion", self.ambient_occlusion)])
@@ -152,10 +152,10 @@ impl LightArgs {
         given_flags(&[("--ground", matches!(self.ground, Some(GroundArg::Shadow)))])
     }
 
-    /// The environment map, if a file was given: it may be read wherever it is.
+    /// The environment map, if a file was given; it may be in any folder.
     ///
-    /// A path in a scene file may come from elsewhere and is confined to the scene's folder; a
-    /// path on the command line comes from the user, who may read any file.
+    /// A path in a scene file may come from elsewhere and is confined to the scene's folder. A path
+    /// on the command line comes from the user, who may read any file.
     pub(super) fn environment_file(&self) -> Option<PathBuf> {
         match &self.environment {
             Some(EnvironmentArg::File(path)) => Some(path.clone()),
@@ -164,14 +164,14 @@ impl LightArgs {
     }
 }
 
-/// The names of the flags that were given.
+/// Selects the given flags.
 fn given_flags(flags: &[(&'static str, bool)]) -> Vec<&'static str> {
     flags.iter().filter(|(_, is_given)| *is_given).map(|(name, _)| *name).collect()
 }
 
-/// Turns an environment about the y axis, counterclockwise seen from above.
+/// Turns an environment about the y axis, counterclockwise as seen from above.
 ///
-/// A uniform one looks the same from everywhere.
+/// A uniform one looks the same in every direction.
 ///
 /// # Errors
 /// If there is none.
@@ -199,11 +199,11 @@ fn turn_environment(file: &mut Option<EnvironmentFile>, degrees: f64) -> Result<
     Ok(())
 }
 
-/// Enables or disables the shadows of all lights; settings of the scene are kept.
+/// Enables or disables the shadows of all lights; the scene's settings are kept.
 ///
 /// `off` disables them for the scene and for every light that overrides the scene. `on` keeps the
-/// parameters of lights that have shadows, and gives default ones to others. Lights that only
-/// inherit the setting keep inheriting it.
+/// parameters of lights that have shadows, and gives others the defaults. Lights that only inherit
+/// the setting keep inheriting it.
 fn switch_shadows(file: &mut SceneFile, switch: SwitchArg) {
     let switched_shadows = |known: Option<ShadowsFile>| match (switch, known) {
         (SwitchArg::Off, _) => Some(ShadowsFile::Off),
@@ -222,12 +222,12 @@ fn switch_shadows(file: &mut SceneFile, switch: SwitchArg) {
 }
 
 impl EnvironmentArg {
-    /// Whether there is light in it.
+    /// Whether the environment emits light.
     const fn is_light(&self) -> bool {
         !matches!(self, Self::None)
     }
 
-    /// Whether the file of an environment is there.
+    /// Checks that the file of an environment exists.
     fn check_file(&self) -> Result<(), CliError> {
         match self {
             Self::File(path) if !path.is_file() => {
@@ -258,7 +258,7 @@ impl EnvironmentArg {
 /// Parses a preset, or the path of a `.hdr` file relative to the current folder.
 ///
 /// The path is made absolute, because paths in a scene are relative to the scene's folder, not to
-/// the current one. A preset takes precedence over a file of that name; `./sky.hdr` is always a
+/// the current one. A preset takes precedence over a file with that name; `./sky.hdr` is always a
 /// file.
 ///
 /// # Errors
@@ -293,7 +293,7 @@ fn parse_light_intensity(text: &str) -> Result<NonNegative, String> {
 
 /// Parses a number of stops from −30 to 30.
 ///
-/// Thirty stops are a factor of about 10⁹, more than any scene needs and less than would overflow
+/// Thirty stops are a factor of about 10⁹: more than any scene needs, and too small to overflow
 /// 32-bit floats.
 fn parse_exposure(text: &str) -> Result<Finite, String> {
     let fault = || "expected a number of stops from -30 to 30, such as 1.5".to_owned();

@@ -1,8 +1,8 @@
-//! Flags about loading models: leniency, allowed folders, what a file does not say of its axes,
-//! unit and normals, and limits on the size of the input.
+//! Model loading flags: leniency, allowed folders, axes, unit and normals that a file leaves open,
+//! and limits on input size.
 //!
-//! Models come from anywhere and are not trusted: without limits, a file of a few kilobytes could
-//! demand terabytes. Every command that loads a model has these flags.
+//! Models are not trusted: without limits, a file of a few kilobytes could demand terabytes. Every
+//! command that loads a model has these flags.
 
 use super::options::option_parser;
 use import::{ImportOptions, Limits};
@@ -97,8 +97,7 @@ impl LoadArgs {
 impl LoadArgs {
     /// Gives the angle of `--crease` to the edges of a line drawing.
     ///
-    /// A vector file shows lines whatever the style of surfaces is, so `draws_lines` makes that
-    /// style one of lines.
+    /// A vector file always shows lines, so `draws_lines` changes a surface style to a line style.
     pub(crate) fn apply_crease_to(&self, file: &mut SceneFile, draws_lines: bool) {
         let Some(angle) = self.crease else { return };
         if draws_lines && !matches!(file.style, StyleFile::Lines(_) | StyleFile::Wireframe) {
@@ -113,7 +112,7 @@ impl LoadArgs {
 impl LimitArgs {
     /// The limits of the `model` crate: the flags that were given, defaults for the others.
     ///
-    /// A number that does not fit the type of its limit counts as the largest value, that is as no
+    /// A number that does not fit its limit's type counts as the largest value, that is, as no
     /// limit.
     fn to_limits(&self) -> Limits {
         let defaults = Limits::default();
@@ -149,11 +148,11 @@ fn parse_crease_angle(text: &str) -> Result<f64, String> {
 /// ```text
 /// 4096    64k = 64,000    64Ki = 65,536    512MiB    5 MB    1_000
 /// ```
-/// Units are case-insensitive, and a `B` may follow or not. Fractions are rejected: `1500M` instead
-/// of `1.5G`.
+/// Units are case-insensitive, and the `B` is optional. Fractions are rejected: write `1500M`
+/// instead of `1.5G`.
 ///
 /// # Errors
-/// If the text is no such number, or exceeds 64 bits.
+/// If the text is not such a number, or exceeds 64 bits.
 pub(crate) fn parse_byte_size(text: &str) -> Result<u64, String> {
     let fault = || "expected an integer such as 4096, 64k, 200M, 512MiB or 1GiB".to_owned();
     let start = text.find(|c: char| !c.is_ascii_digit() && c != '_').unwrap_or(text.len());

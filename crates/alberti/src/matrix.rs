@@ -1,8 +1,8 @@
-//! `alberti matrix`: the meaning of a 4x4 or 3x3 matrix, and matrices from parameters.
+//! `alberti matrix`: identifies 4x4 and 3x3 matrices, and builds matrices from parameters.
 //!
 //! The numbers come from other programs, logs or books, so any brackets and separators are
-//! accepted, and the report names the convention (handedness, depth range, row or column vectors)
-//! that makes sense of them. With a flag such as `--perspective` the matrix is built instead.
+//! accepted. The report names the convention (handedness, depth range, row or column vectors) that
+//! makes sense of them. With a flag such as `--perspective`, the matrix is built instead.
 
 mod build;
 mod builders;
@@ -100,7 +100,7 @@ pub(crate) struct MatrixArgs {
 /// Prints the meaning of a matrix, or the matrix that the parameters describe.
 ///
 /// # Errors
-/// If there are neither sixteen nor nine numbers, one of them is not finite, or a parameter is
+/// If there are neither sixteen nor nine numbers, a number is not finite, or a parameter is
 /// refused.
 pub(crate) fn run(args: &MatrixArgs) -> Result<(), CliError> {
     match flags_after_numbers(&args.numbers) {
@@ -109,9 +109,9 @@ pub(crate) fn run(args: &MatrixArgs) -> Result<(), CliError> {
     }
 }
 
-/// The arguments again with the flags first, if one stands behind a number.
+/// Returns the arguments with the flags moved to the front, if a flag follows a number.
 ///
-/// Numbers may begin with a minus sign, so everything behind the first one is taken for a number.
+/// Numbers may begin with a minus sign, so everything after the first one is taken for a number.
 fn flags_after_numbers(words: &[String]) -> Option<MatrixArgs> {
     let first = words.iter().position(|word| word.starts_with("--"))?;
     let (numbers, flags) = words.split_at(first);
@@ -167,7 +167,7 @@ fn run_ordered(args: &MatrixArgs) -> Result<(), CliError> {
     print_explanation(&Explanation { subject, ..found }, args.json)
 }
 
-/// The explanation with the image of `--point`.
+/// Adds the image of `--point` to the explanation.
 fn map_point(
     found: Explanation,
     rows: [[f64; 4]; 4],
@@ -189,7 +189,7 @@ fn rows_of(matrix: DMat4) -> [[f64; 4]; 4] {
     matrix.transpose().to_cols_array_2d()
 }
 
-/// The matrix, its factors in the order a point passes them, and its inverse.
+/// Explains the matrix, its factors in the order a point passes them, and its inverse.
 fn explain_built(built: &BuiltMatrix) -> Explanation {
     let entry = |id: &str, name: &str, value: ItemValue| ExplanationEntry {
         id: id.to_owned(),

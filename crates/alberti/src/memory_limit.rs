@@ -1,18 +1,18 @@
-//! Limits of memory: those of the importer for a program of so much memory, and that of the system.
+//! Memory limits: the importer's, derived from a total, and the system's.
 
 use import::Limits;
 
-/// The limits of the importer for a program of this much memory.
+/// The importer's limits for a program with this much memory.
 ///
-/// | part | what it is for |
+/// | part | purpose |
 /// | --- | --- |
-/// | 1/4 | files, as they are |
-/// | 1/2 | arrays: vertices, indices, what 3MF archives hold |
+/// | 1/4 | files, as stored |
+/// | 1/2 | arrays: vertices, indices, contents of 3MF archives |
 /// | 1/3 | texels of 4 bytes; their mip levels, at a third more, take the next 1/9 |
 ///
-/// The numbers of nodes, JSON values and triangles follow by what one of each takes at most:
-/// 2,048, 256 and 64 bytes. All together are more than the whole, as no model needs the most of
-/// everything; one that is made to is stopped by the system.
+/// The limits on nodes, JSON values and triangles follow from their maximum sizes: 2,048, 256 and
+/// 64 bytes each. The parts add up to more than the total, because no model needs the maximum of
+/// everything; one made to do so is stopped by the system.
 pub(crate) fn import_limits(usual: &Limits, memory: u64) -> Limits {
     let count = |usual: usize, bytes: u64| {
         usize::try_from(memory / bytes).map_or(usual, |most| usual.min(most))
@@ -30,25 +30,25 @@ pub(crate) fn import_limits(usual: &Limits, memory: u64) -> Limits {
     }
 }
 
-/// Holds the process to this much memory of its own (heap, stacks; not the program itself): what
-/// asks for more is ended by an abort.
+/// Limits the process to this much private memory (heap and stacks, not the program itself); a
+/// larger allocation aborts.
 #[cfg(target_os = "linux")]
 pub(crate) fn limit_process_memory(memory: u64) {
     use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
     let maximum = getrlimit(Resource::Data).maximum;
     let current = Some(maximum.map_or(memory, |most| most.min(memory)));
-    // Where it is forbidden, the limits of the importer hold all the same.
+    // If this is forbidden, the importer's limits still apply.
     let _ = setrlimit(Resource::Data, Rlimit { current, maximum });
 }
 
-/// Other systems have no such limit: that of the importer has to do.
+/// Other systems have no such limit: the importer's must suffice.
 #[cfg(not(target_os = "linux"))]
 pub(crate) fn limit_process_memory(_memory: u64) {}
 
-/// Parses the memory of a program, which needs some for itself.
+/// Parses the memory limit of a program, which needs some for itself.
 ///
 /// # Errors
-/// If the text is no size, or less than 64 MiB.
+/// If the text is not a size, or is less than 64 MiB.
 pub(crate) fn parse_memory_size(text: &str) -> Result<u64, String> {
     let size = crate::load_options::parse_byte_size(text)?;
     if size >= 64 << 20 { Ok(size) } else { Err("the program needs at least 64MiB".to_owned()) }

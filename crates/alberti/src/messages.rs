@@ -1,15 +1,15 @@
 //! Printing: results on the standard output, messages on the standard error stream.
 //!
-//! A closed pipe, as in `alberti info model.glb | head`, ends neither with an error.
+//! A closed pipe, as in `alberti info model.glb | head`, is not an error for either stream.
 //!
 //! The order on the standard error stream is: progress (removed before anything else is printed),
 //! notes such as `--verify` and `--timings`, then warnings, then the error, if there is one.
 //! Nothing on the standard output depends on whether messages are printed, so results can be piped
 //! safely.
 //!
-//! Texts for people show controls by their codes, whatever file a name comes from: [`print_text`],
-//! [`print_json`], and all that is printed on the standard error stream. Names in a line of a message
-//! are written by [`files::visible_text`], which shows line ends as well.
+//! Text for people shows control characters as codes, no matter which file a name comes from. This
+//! holds for [`print_text`], [`print_json`], and everything on the standard error stream. Names
+//! within a message line are written by [`files::visible_text`], which shows line ends as well.
 
 use super::CliError;
 use super::color;
@@ -20,7 +20,7 @@ use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{ErrorKind, Write};
 
-/// The number of warnings of one model that are printed; the others are only counted.
+/// The maximum number of warnings printed per model; the others are only counted.
 ///
 /// A broken exporter can cause one warning per vertex accessor; a screen full of them would hide
 /// the line that matters. `check` and the JSON reports have all of them.
@@ -32,7 +32,7 @@ const MAX_WARNINGS: usize = 8;
 /// Results are therefore printed as a whole, not piece by piece.
 ///
 /// # Errors
-/// If it cannot be written for another reason than a closed pipe.
+/// If writing fails for a reason other than a closed pipe.
 pub(crate) fn print_stdout(bytes: &[u8]) -> Result<(), CliError> {
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
@@ -41,7 +41,7 @@ pub(crate) fn print_stdout(bytes: &[u8]) -> Result<(), CliError> {
     }
 }
 
-/// Writes text for people to the standard output: controls from names are shown by their codes.
+/// Writes text for people to the standard output: control characters in names are shown as codes.
 ///
 /// # Errors
 /// As [`print_stdout`].
@@ -49,8 +49,8 @@ pub(crate) fn print_text(text: &str) -> Result<(), CliError> {
     print_stdout(without_controls(text, color::stdout_has_color()).as_bytes())
 }
 
-/// Writes a JSON document to the standard output: controls in its strings are escaped, which changes
-/// none of its values.
+/// Writes a JSON document to the standard output: control characters in its strings are escaped,
+/// which changes none of its values.
 ///
 /// # Errors
 /// As [`print_stdout`].
@@ -61,7 +61,7 @@ pub(crate) fn print_json(json: &str) -> Result<(), CliError> {
     let mut escaped = String::with_capacity(json.len() + 8);
     for character in json.chars() {
         if must_be_escaped(character) {
-            // JSON itself allows no others than these in a string: none is beyond four digits.
+            // JSON allows only these in a string: none has more than four digits.
             escaped.push_str(&format!("\\u{:04x}", u32::from(character)));
         } else {
             escaped.push(character);
@@ -70,13 +70,13 @@ pub(crate) fn print_json(json: &str) -> Result<(), CliError> {
     print_stdout(escaped.as_bytes())
 }
 
-/// Whether a character is a control other than the end of a line.
+/// Whether a character is a control character other than a line end.
 fn must_be_escaped(character: char) -> bool {
     character != '\n' && is_terminal_control(character)
 }
 
-/// A text of several lines in which controls are written by their codes, but for the colors of the
-/// program's own messages where they are `colored`.
+/// Writes control characters in a multi-line text as codes, except for the colors of the program's
+/// own messages if they are `colored`.
 fn without_controls(text: &str, colored: bool) -> Cow<'_, str> {
     if !text.contains(must_be_escaped) {
         return Cow::Borrowed(text);
@@ -103,7 +103,7 @@ fn without_controls(text: &str, colored: bool) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// The bytes of a color at the start of a text, such as those of `ESC [1;31m`.
+/// The length in bytes of a color at the start of a text, such as `ESC [1;31m`.
 fn color_length(text: &str) -> Option<usize> {
     let numbers = text.strip_prefix("\x1b[")?;
     let end = numbers.find(|c: char| !c.is_ascii_digit() && c != ';')?;
@@ -113,8 +113,8 @@ fn color_length(text: &str) -> Option<usize> {
 /// Prints `LEVEL: MESSAGE` on the standard error stream.
 ///
 /// The level is `error`, `warning` or a word of the command, such as `failed` in `batch`; it is
-/// colored as [`color::style_level`] says, the message never, but for those of scene files. Any
-/// further line of the message is printed as it is.
+/// colored as [`color::style_level`] says. Messages are never colored, except those about scene
+/// files. Any further line of the message is printed unchanged.
 pub(crate) fn print_message(level: &str, message: &str) {
     let colored = color::stderr_has_color();
     let level = color::style_level(level, colored);
@@ -123,10 +123,10 @@ pub(crate) fn print_message(level: &str, message: &str) {
     let _ = writeln!(std::io::stderr(), "{level}: {message}");
 }
 
-/// Prints what clap says about wrong usage, or the help that was asked for.
+/// Prints clap's message about wrong usage, or the requested help.
 pub(crate) fn print_usage(usage: &clap::Error) {
     if !usage.use_stderr() {
-        // Nothing can be said about a stream that takes no text.
+        // A stream that accepts no text leaves nothing to report to.
         let _ = usage.print();
         return;
     }
@@ -145,15 +145,15 @@ pub(crate) fn print_note(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
-/// Prints the warnings of a drawing, then those of each model of the scene.
+/// Prints the warnings of a drawing, then each model's.
 ///
 /// Several instances of a model have the same warnings, which are printed once.
 ///
-/// Two files of one name count as one model here; `check` reports both. The order is that of the
+/// Two files with one name count as one model here; `check` reports both. The order follows the
 /// scene, so the output is deterministic.
 ///
-/// Warnings about what the picture would not show anyway are left out. `is_vector` is whether it is
-/// a line drawing whatever its style is.
+/// Warnings about things the picture would not show anyway are omitted. `is_vector` says whether it
+/// is a line drawing regardless of style.
 pub(crate) fn print_warnings<W: Display>(scene: &Scene, drawing: &[W], is_vector: bool) {
     drawing.iter().for_each(|warning| print_message("warning", &warning.to_string()));
     let mut printed: Vec<&str> = Vec::new();
@@ -168,9 +168,9 @@ pub(crate) fn print_warnings<W: Display>(scene: &Scene, drawing: &[W], is_vector
     }
 }
 
-/// Whether a picture would show what a warning says that it lacks.
+/// Whether a picture would show the feature that a warning says is missing.
 ///
-/// Only some styles show materials, and only line drawings the edges that a file gives.
+/// Only some styles show materials, and only line drawings show the edges declared in a file.
 fn concerns_picture(scene: &Scene, is_vector: bool, warning: &Diagnostic) -> bool {
     let scenes = || std::iter::once(scene).chain(scene.insets.iter().map(|inset| &inset.scene));
     let draws_lines = |scene: &Scene| is_vector || !scene.style.draws_surfaces();

@@ -29,10 +29,10 @@ pub(crate) struct ModelStateArgs {
 }
 
 impl ModelStateArgs {
-    /// Replaces the fields of all models of a scene.
+    /// Replaces the fields of all models in a scene.
     ///
-    /// `--time` alone does not pose the models of a scene with a camera path, which may have no
-    /// animation: it is then the time of the path.
+    /// In a scene with a camera path, `--time` without `--animation` is the time of the path; it
+    /// poses only models whose animation or time the scene sets.
     pub(crate) fn apply_to_scene(&self, file: &mut SceneFile) {
         let moves_camera = file.camera_path.is_some();
         for model in &mut file.models {
@@ -43,13 +43,12 @@ impl ModelStateArgs {
         }
     }
 
-    /// Moves the camera of a scene to its place on the camera path at `--time`, if it has both.
+    /// Moves the camera of a scene to its position on the camera path at `--time`, if both exist.
     ///
-    /// Only the camera moves, as in a sequence: lights stand where the scene's own camera puts
-    /// them.
+    /// Only the camera moves, as in a sequence: lights stay where the scene's own camera puts them.
     ///
     /// # Errors
-    /// If the keyframes of the camera path make no sense, or there is no view at that time.
+    /// If the keyframes of the camera path are invalid, or there is no view at that time.
     pub(crate) fn place_camera(
         &self,
         origin: &Origin,
@@ -78,9 +77,9 @@ impl ModelStateArgs {
         Ok(())
     }
 
-    /// Replaces the fields of a scene's model by the flags that were given.
+    /// Replaces the fields of a scene's model with the given flags.
     ///
-    /// A choice that a model does not have is an error when it is loaded.
+    /// A choice that a model lacks is an error when it is loaded.
     pub(crate) fn apply_to(&self, model: &mut ModelFile) {
         let replace = |flag: &Option<Choice>, field: &mut Option<Choice>| {
             if flag.is_some() {
@@ -94,7 +93,7 @@ impl ModelStateArgs {
     }
 }
 
-/// Warns of a time after the end of every animation.
+/// Warns about a time after the end of every animation.
 fn warn_of_late_time(time: f64, scene: &Scene) {
     let animations = scene.models.iter().flat_map(|placed| &placed.model.animations);
     let end = animations.map(|animation| animation.duration_seconds).fold(0.0, f64::max);
@@ -108,7 +107,7 @@ fn warn_of_late_time(time: f64, scene: &Scene) {
 
 /// Parses an index if the text is a whole number, and a name otherwise.
 ///
-/// A name that is a whole number can only be chosen in a scene file, as `Name("3")`.
+/// A name that is a whole number can be chosen only in a scene file, as `Name("3")`.
 fn parse_choice(text: &str) -> Result<Choice, String> {
     Ok(text.parse().map_or_else(|_| Choice::Name(text.to_owned()), Choice::Index))
 }

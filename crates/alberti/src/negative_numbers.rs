@@ -1,17 +1,17 @@
 //! Negative numbers as values of flags: `--from -1`, `--section -.5,0,0`, `--scale -2`.
 //!
-//! A word that begins with a hyphen looks like a flag. Behind a flag that takes a value, one that
-//! goes on as a number is that value, so that the flag itself says what is wrong with it. The two
-//! are joined to `--from=-1` before the command line is parsed; words of no number, such as a flag
-//! behind one whose value was forgotten, are left alone.
+//! A word that begins with a hyphen looks like a flag. After a flag that takes a value, a word that
+//! continues as a number is its value, so that the flag itself can report an invalid one. The two
+//! are joined to `--from=-1` before the command line is parsed. Words that are not numbers, such as
+//! a flag after one whose value was forgotten, stay unchanged.
 
 use clap::{Arg, ArgAction, Command};
 use std::ffi::OsString;
 
 /// The words of a command line, with negative numbers joined to the flags before them.
 ///
-/// The flags are built only if there is such a number: declaring all of them is most of what a
-/// short command costs.
+/// The flags are built only if there is such a number: declaring all of them is most of the cost of
+/// a short command.
 pub(crate) fn join_negative_numbers(
     words: impl IntoIterator<Item = OsString>,
     program: impl FnOnce() -> Command,
@@ -40,13 +40,13 @@ pub(crate) fn join_negative_numbers(
     joined
 }
 
-/// Whether a word goes on as a number behind its hyphen: `-1`, `-.5`.
+/// Whether a word continues as a number after its hyphen: `-1`, `-.5`.
 fn is_negative_number(word: &OsString) -> bool {
     let Some(digits) = word.to_str().and_then(|word| word.strip_prefix('-')) else { return false };
     digits.strip_prefix('.').unwrap_or(digits).starts_with(|c: char| c.is_ascii_digit())
 }
 
-/// The innermost command that the words call.
+/// The innermost command that the words name.
 pub(crate) fn called_command<'a>(program: &'a Command, words: &[OsString]) -> &'a Command {
     words.iter().skip(1).fold(program, |command, word| {
         let name = word.to_str().unwrap_or_default();
@@ -89,7 +89,7 @@ mod tests {
                 words.extend([format!("--{long}"), number.to_owned()]);
                 let words: Vec<&str> = words.iter().map(String::as_str).collect();
                 let error = Args::command().try_get_matches_from(join(&words)).err();
-                // The number reached the flag: it is taken, or this flag refuses it.
+                // The number reached the flag: the flag accepts or refuses it.
                 let is_value = error.as_ref().is_none_or(|error| {
                     error.kind() != ErrorKind::UnknownArgument
                         && error.kind() != ErrorKind::InvalidSubcommand

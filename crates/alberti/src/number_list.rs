@@ -1,5 +1,4 @@
-//! Numbers of flags as textbooks write them: decimals and fractions, between commas, blanks or
-//! brackets.
+//! Flag values as textbooks write them: decimals and fractions between commas, blanks or brackets.
 
 /// Parses a list of numbers such as `1, -2/3, 0.5` or `[1 0 0 4] [0 1 0 2]`.
 ///
@@ -13,7 +12,7 @@ pub(crate) fn parse_number_list(text: &str) -> Result<Vec<f64>, String> {
 /// Parses a list of exactly `N` numbers.
 ///
 /// # Errors
-/// If there are more or fewer numbers, or one is not finite.
+/// If the count is not `N`, or a number is not finite.
 pub(crate) fn parse_numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     let numbers = parse_number_list(text)?;
     let count = numbers.len();

@@ -1,4 +1,4 @@
-//! Values of flags, parsed from the lists of the library.
+//! Flag values, parsed from the library's lists.
 //!
 //! The library declares every option once, as a [`NamedOption`] with its names and descriptions;
 //! scene files, flags, help and reference all read that declaration.
@@ -6,7 +6,7 @@
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use scene_file::options::NamedOption;
 
-/// Names of values that are shorter in flags than in scene files.
+/// Value names that are shorter in flags than in scene files.
 ///
 /// The first name of a pair is [`NamedOption::flag_name`], in kebab case; the second is the only
 /// one that flags accept. Scene files keep the long name, because it is read more often than typed.
@@ -23,9 +23,9 @@ const SHORT_NAMES: [(&str, &str); 10] = [
     ("foot-inch", "ft-in"),
 ];
 
-/// The name of a value in flags.
+/// The flag name of a value.
 ///
-/// Lower case with hyphens between words, as the library makes it, or the short name of
+/// Lower case with hyphens between words, as the library makes it, or the short name from
 /// [`SHORT_NAMES`]: `LengthUnit::Centimeter` is `cm`.
 fn flag_name<T: NamedOption>(value: T) -> String {
     let name = value.flag_name();
@@ -33,11 +33,11 @@ fn flag_name<T: NamedOption>(value: T) -> String {
     short.map_or(name, |(_, short)| (*short).to_owned())
 }
 
-/// Parses a value of an option by its name in flags; help and completions list all values.
+/// Parses an option's value by its flag name; help and completions list all values.
 ///
-/// A wrong value is rejected by clap before the command runs, with the list of possible values and
-/// exit code 2. The final period of a summary is removed: help lines are phrases, reference entries
-/// are sentences.
+/// clap rejects a wrong value before the command runs, with the list of possible values and exit
+/// code 2. The final period of a summary is removed: help lines are phrases, reference entries are
+/// sentences.
 ///
 /// ```text
 /// --unit <UNIT>   [possible values: um, mm, cm, m, in, ft]
@@ -48,7 +48,7 @@ where
 {
     let value = |value: &T| {
         let name = flag_name(*value);
-        // As drawings print it: A4, MM.
+        // As printed on drawings: A4, MM.
         let capitals = name.to_uppercase();
         PossibleValue::new(name).alias(capitals).help(value.summary().trim_end_matches('.'))
     };

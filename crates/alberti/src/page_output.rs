@@ -1,7 +1,7 @@
-//! Output of pages and panels as SVG, PDF, DXF, PNG or HTML, by the extension of the output.
+//! Output of pages and panels as SVG, PDF, DXF, PNG or HTML, depending on the output's extension.
 //!
 //! HTML holds the panels as inline SVG in a page that refers to no other file. The other formats
-//! have all panels on one page.
+//! put all panels on one page.
 
 use super::CliError;
 use super::format::{DEFAULT_QUALITY, OutputFormat};
@@ -18,7 +18,7 @@ use std::path::Path;
 /// The progress line is removed before the first warning.
 ///
 /// # Errors
-/// If the output cannot be written; warnings are not printed then.
+/// If the output cannot be written; then no warnings are printed.
 pub(super) fn finish_panels(
     output: &Path,
     panels: &Panels,
@@ -53,7 +53,7 @@ pub(super) fn write_page(output: &Path, page: &Page) -> Result<(), CliError> {
     Ok(pipeline::write_file(output, &bytes)?)
 }
 
-/// Rejects an output with another extension before any work is done for it.
+/// Rejects an output with another extension before any work is done.
 ///
 /// Drawing may take a minute, and a misspelled extension should not cost that.
 pub(super) fn check_panel_output(output: &Path) -> Result<(), CliError> {

@@ -1,4 +1,4 @@
-//! Flags about the subject of a page of panels: the scene or model, and how it is drawn.
+//! Flags for the subject of a panel page: the scene or model, and how it is drawn.
 
 use super::CliError;
 use super::args::{OverlayArg, StyleArg};
@@ -39,7 +39,7 @@ pub(super) struct PanelSubjectArgs {
 
 /// The largest width and height of a panel in pixels.
 ///
-/// A page has up to dozens of panels, so the limit is far below that of a picture.
+/// A page may have dozens of panels, so the limit is far below a picture's.
 const MAX_PANEL_SIDE: u32 = 4096;
 
 /// Parses `WIDTHxHEIGHT` with both at most [`MAX_PANEL_SIDE`].
@@ -51,11 +51,11 @@ fn parse_panel_size(text: &str) -> Result<(u32, u32), String> {
 }
 
 impl PanelSubjectArgs {
-    /// Opens the scene file, or makes one for a bare model, and applies the flags to it.
+    /// Opens the scene file, or creates one for a bare model, and applies the flags to it.
     ///
     /// The scene is not resolved, because each panel changes its camera first. Size and style
-    /// always replace those of the scene, as panels have defaults of their own; viewports, a stereo
-    /// pair and a caption are left out, as panels show one camera and have titles.
+    /// always replace the scene's, because panels have their own defaults. Viewports, a stereo pair
+    /// and a caption are omitted, because panels show one camera and have titles.
     pub(super) fn open_scene(&self) -> Result<(Origin, SceneFile), CliError> {
         let (origin, mut file) = open_input(&self.input, &self.load_options.import_options())?;
         (file.viewports, file.stereo, file.caption) = (Vec::new(), None, None);

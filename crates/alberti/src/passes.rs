@@ -1,7 +1,7 @@
-//! Render passes: their flags, and the files they are written to.
+//! Render passes: their flags and output files.
 //!
-//! A pass holds data for compositing, masks or machine learning. The picture `fox.png` with
-//! `--passes depth,normal` has `fox.depth.png` and `fox.normal.png` beside it.
+//! A pass holds data for compositing, masks or machine learning. With `--passes depth,normal`, the
+//! files `fox.depth.png` and `fox.normal.png` are written next to `fox.png`.
 
 use super::CliError;
 use super::options::option_parser;
@@ -36,10 +36,10 @@ pub(crate) struct PassArgs {
 }
 
 impl PassArgs {
-    /// Replaces the passes of the scene by the flags that were given.
+    /// Replaces the passes of the scene with the given flags.
     ///
-    /// `--passes` replaces the list of the scene as a whole, so that one pass can be written
-    /// without the others.
+    /// `--passes` replaces the scene's whole list, so that one pass can be written without the
+    /// others.
     pub(crate) fn apply_to(&self, file: &mut SceneFile) {
         if !self.passes.is_empty() {
             file.passes.write.clone_from(&self.passes);
@@ -50,10 +50,10 @@ impl PassArgs {
     }
 }
 
-/// Writes passes to temporary files beside a picture, to be renamed when all are complete.
+/// Writes passes to temporary files next to a picture, to be renamed when all are complete.
 ///
 /// # Errors
-/// If a file cannot be created or written; those created so far are removed then.
+/// If a file cannot be created or written; those created so far are then removed.
 pub(super) fn create_pass_files(
     output: &Path,
     buffers: &[PassBuffer],

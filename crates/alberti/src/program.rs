@@ -1,4 +1,4 @@
-//! How this program is started again: for the workers of a batch, and where its memory is limited.
+//! The command line that starts this program again: for batch workers, and if memory is limited.
 
 #[cfg(target_os = "linux")]
 mod supervisor;
@@ -8,13 +8,13 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::OnceLock;
 
-/// The words that start this program again, where it runs within another one.
+/// The words that start this program again if it runs within another one.
 static PROGRAM_WORDS: OnceLock<Vec<OsString>> = OnceLock::new();
 
 /// Runs the program within another one, as [`run`](crate::run) does.
 ///
-/// `program` are the words that start it again, such as `python -m alberti`: `batch` starts workers
-/// with them.
+/// `program` contains the words that start it again, such as `python -m alberti`: `batch` uses them
+/// to start workers.
 pub fn run_within(
     program: impl IntoIterator<Item = OsString>,
     arguments: impl IntoIterator<Item = OsString>,
@@ -23,10 +23,10 @@ pub fn run_within(
     crate::run(arguments)
 }
 
-/// Runs the program as [`run`](crate::run) does; if its memory is limited, in a second process, so
+/// Runs the program as [`run`](crate::run) does. If memory is limited, it uses a second process, so
 /// that a command that needs more ends with a message.
 ///
-/// Only for the program itself, which may be started again.
+/// Use it only in the program itself, which may be started again.
 pub fn run_program(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<OsString> = arguments.into_iter().collect();
     #[cfg(target_os = "linux")]
@@ -39,14 +39,14 @@ pub fn run_program(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 /// A command that starts this program again.
 ///
 /// # Errors
-/// If the system does not say where the program is.
+/// If the system does not report where the program is.
 pub(super) fn program_command() -> std::io::Result<Command> {
     if let Some([program, rest @ ..]) = PROGRAM_WORDS.get().map(Vec::as_slice) {
         let mut command = Command::new(program);
         command.args(rest);
         return Ok(command);
     }
-    // The very file that runs, even if another version has taken its place since.
+    // The file that is running, even if another version has since replaced it.
     let running = Path::new("/proc/self/exe");
     if cfg!(target_os = "linux") && running.exists() {
         return Ok(Command::new(running));

@@ -1,11 +1,11 @@
-//! Progress display on a terminal: the current stage and elapsed time, or jobs done and left.
+//! Progress display on a terminal: current stage and elapsed time, or jobs done and remaining.
 //!
-//! It is shown on the standard error stream only if that is a terminal, and only for work that
-//! takes longer than [`DISPLAY_DELAY`].
+//! It is shown only if the standard error stream is a terminal, and only for work that takes longer
+//! than [`DISPLAY_DELAY`].
 //!
-//! The line is redrawn in place: `\r` returns to its first column and `\x1b[K` erases it. Errors of
-//! the stream are ignored, because a display that cannot be drawn is no reason to fail. The display
-//! must be dropped before a message is printed, which would otherwise be appended to the line.
+//! The line is redrawn in place: `\r` returns to its first column and `\x1b[K` erases it. Stream
+//! errors are ignored, because a display that cannot be drawn should not make a run fail. Drop the
+//! display before printing a message, which would otherwise be appended to the line.
 
 use pipeline::Monitor;
 use std::fmt::{Display, Formatter};
@@ -16,23 +16,23 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// Work that is done within this time shows no progress.
+/// Work that finishes within this time shows no progress.
 ///
-/// Most renderings finish sooner, and a line that flashes up is distracting.
+/// Most renderings finish sooner, and a line that only flashes is distracting.
 const DISPLAY_DELAY: Duration = Duration::from_millis(400);
 /// The interval between two updates of the elapsed time.
 const REFRESH_INTERVAL: Duration = Duration::from_millis(100);
 
-/// A terminal line with the current stage, the elapsed time and what is done, removed on drop.
+/// A terminal line with the current stage, its percentage and the elapsed time, removed on drop.
 #[derive(Debug)]
 pub(crate) struct Progress {
     /// The channel to the thread that draws the line, and its handle; `None` without a terminal.
     stages: Option<(Sender<&'static str>, JoinHandle<()>)>,
-    /// How much of the stage is done.
+    /// The finished percentage of the stage.
     done: Arc<Percentage>,
 }
 
-/// The percentage that is done of a stage; 0 while nobody counts.
+/// The finished percentage of a stage; 0 while nothing is counted.
 #[derive(Debug, Default)]
 struct Percentage(AtomicU64);
 
@@ -54,7 +54,7 @@ impl Display for Percentage {
 impl Progress {
     /// Starts the display, if the standard error stream is a terminal.
     ///
-    /// Without a terminal nothing is ever written, so that log files stay clean.
+    /// Without a terminal nothing is written, so that log files stay clean.
     ///
     /// ```text
     /// rendering … 2.4 s
@@ -88,7 +88,7 @@ impl Progress {
         Self { stages: Some((sender, watcher)), done }
     }
 
-    /// Shows another stage from now on.
+    /// Switches the display to another stage.
     pub(crate) fn enter_stage(&self, stage: &'static str) {
         self.done.0.store(0, Ordering::Relaxed);
         if let Some((sender, _)) = &self.stages {
@@ -127,16 +127,16 @@ pub(crate) struct ProgressCounter {
 }
 
 impl ProgressCounter {
-    /// Starts to count; the line is shown if the standard error stream is a terminal.
+    /// Starts counting; the line is shown if the standard error stream is a terminal.
     pub(crate) fn start(total: usize) -> Self {
         let is_visible = std::io::stderr().is_terminal();
         Self { total, done: AtomicUsize::new(0), begin: Instant::now(), is_visible }
     }
 
-    /// Counts one finished job; may be called from any thread.
+    /// Counts one finished job; can be called from any thread.
     ///
-    /// The last job erases the line. Two threads may write at a time; each write is one call, so
-    /// lines replace each other whole, and at worst an older count stays for one job.
+    /// The last job erases the line. Two threads may write at once; each write is one call, so
+    /// lines replace each other completely, and at worst an outdated count remains for one job.
     pub(crate) fn increment(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         if !self.is_visible {

@@ -6,9 +6,9 @@
 //!  scene::reference ─► fields ┴─► sections ─► search by a word ─► text, Markdown, HTML
 //! ```
 //!
-//! Flags and fields are both reduced to sections with entries, the only form that search and output
-//! formats know. Descriptions come from doc comments and help texts, so that there is one text for
-//! each.
+//! Flags and fields are both reduced to sections with entries, the only form that the search and
+//! the output formats handle. Descriptions come from doc comments and help texts, so each text
+//! exists only once.
 
 mod fields;
 mod flags;
@@ -64,7 +64,7 @@ enum ReferenceFormat {
     Html,
 }
 
-/// A section of the reference: a command, or a type of scene files.
+/// A section of the reference: a command, or a scene file type.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 struct ReferenceSection {
     /// The command, or the name of the type.
@@ -78,7 +78,7 @@ struct ReferenceSection {
 /// An entry of the reference: a flag, a field, a variant or a possible value.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 struct ReferenceEntry {
-    /// The name, as it is written.
+    /// The name as written.
     term: String,
     /// The type or value name.
     value: String,
@@ -93,7 +93,7 @@ struct ReferenceEntry {
 /// Prints the reference of the flags and of scene files, a formula, or a schema.
 ///
 /// # Errors
-/// If nothing has the name that is looked up.
+/// If nothing has the requested name.
 pub(crate) fn run(args: &FullReferenceArgs, program: Command) -> Result<(), CliError> {
     if let Some(schema) = args.schema {
         return print_stdout(schema.schema_text().as_bytes());
@@ -113,7 +113,8 @@ pub(crate) fn run(args: &FullReferenceArgs, program: Command) -> Result<(), CliE
     let found = match &args.word {
         Some(word) => match (search::find_sections(&sections, word), find_formulas(word)) {
             (Ok(found), formulas) => {
-                // Where flags and fields only speak of the word, formulas that do are as good.
+                // If flags and fields only mention the word, formulas that mention it are equally
+                // good.
                 let spoken = search::is_only_mentioned(&found, word);
                 let titled = formulas.into_iter().filter(|(_, in_name)| *in_name || spoken);
                 found.into_iter().chain(formula::list_section(titled)).collect()
@@ -131,7 +132,7 @@ pub(crate) fn run(args: &FullReferenceArgs, program: Command) -> Result<(), CliE
     print_sections(args, "Reference of Alberti", &found)
 }
 
-/// The message for a word that nothing has: what it may have meant.
+/// The hint for a word that matches nothing.
 const FORMULAS_HINT: &str =
     "\n  = help: `alberti reference formulas` lists the formulas, with their ids";
 
@@ -148,7 +149,7 @@ fn formulas_with(word: &str) -> impl Iterator<Item = (Formula, bool)> {
     entries().filter(has).map(|entry| (entry, true))
 }
 
-/// Prints the reference of scene files.
+/// Prints the scene file reference.
 pub(crate) fn run_fields(args: &ReferenceArgs) -> Result<(), CliError> {
     let sections = fields::type_sections();
     let sections = match &args.word {
@@ -158,7 +159,7 @@ pub(crate) fn run_fields(args: &ReferenceArgs) -> Result<(), CliError> {
     print_sections(args, "Reference of scene files", &sections)
 }
 
-/// Prints sections in the format of the flags.
+/// Prints sections in the format that the flags choose.
 fn print_sections(
     args: &ReferenceArgs,
     title: &str,

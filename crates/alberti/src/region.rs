@@ -1,4 +1,4 @@
-//! Flags that render a part of the picture, and its bit depth.
+//! Flags for rendering part of the picture, and for its bit depth.
 
 use super::CliError;
 use homog::PixelRect;
@@ -26,19 +26,19 @@ pub(crate) struct RegionArgs {
     band: Option<[u32; 2]>,
 }
 
-/// Parses the number of bits of a channel.
+/// Parses the number of bits per channel.
 fn parse_bits(text: &str) -> Result<u32, String> {
     let bits = text.parse().ok().filter(|bits| matches!(bits, 8 | 16));
     bits.ok_or_else(|| "expected 8 or 16".to_owned())
 }
 
 impl RegionArgs {
-    /// Whether 16 bits a channel were asked for.
+    /// Whether 16 bits per channel were requested.
     pub(super) fn asks_sixteen_bits(&self) -> bool {
         self.bits == Some(16)
     }
 
-    /// Replaces the bit depth of the scene.
+    /// Replaces the scene's bit depth.
     pub(crate) fn apply_to(&self, file: &mut SceneFile) {
         if let Some(bits) = self.bits {
             file.image.bits = bits;
@@ -50,13 +50,13 @@ impl RegionArgs {
         self.crop.is_some() || self.band.is_some()
     }
 
-    /// The rectangle to render of a picture: the crop, and of it the band.
+    /// The rectangle of the picture to render: the crop, or its band.
     ///
-    /// `--band` divides the crop if both are given. `nth_band` counts from 0, the flag from 1.
-    /// Heights of bands differ by at most one row, and together they have every row exactly once.
+    /// `--band` divides the crop if both are given. `nth_band` counts from 0, the flag from 1. Band
+    /// heights differ by at most one row, and together the bands contain every row exactly once.
     ///
     /// # Errors
-    /// If the crop is not inside the picture, or the band has no row.
+    /// If the crop is not inside the picture, or the band has no rows.
     pub(super) fn resolve_region(&self, image: ImageSpec) -> Result<PixelRect, CliError> {
         let whole = image.pixel_rect();
         let crop = self.crop.unwrap_or(whole);
@@ -81,7 +81,7 @@ impl RegionArgs {
 
 /// Parses `X,Y,WIDTH,HEIGHT` with a width and a height above 0.
 ///
-/// Whether the rectangle is inside the picture is not known before the scene is read.
+/// Whether the rectangle is inside the picture is known only after the scene is read.
 fn parse_region(text: &str) -> Result<PixelRect, String> {
     let fault =
         || "expected column, row, width and height in pixels, such as 100,50,640,480".to_owned();

@@ -35,8 +35,8 @@ use tasks::RenderTask;
 /// Renders all pictures. With several, a failure or a difference does not stop the others.
 ///
 /// The exit code is 1 if any picture failed or differs from its reference. A single failure is
-/// returned and printed by `main`; with several pictures it is printed at once, with the input's
-/// name before it, since `main` could report only one:
+/// returned and printed by `main`. With several pictures, each failure is printed at once after the
+/// input's name, since `main` could report only one:
 ///
 /// ```text
 /// error: broken.glb: not a glTF file: …
@@ -53,7 +53,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, CliError> {
 /// Renders all pictures once.
 fn render_all(args: &RenderArgs) -> Result<ExitCode, CliError> {
     let tasks = tasks::plan_tasks(args)?;
-    // A log is not meant for the picture, and `> picture.png` is.
+    // A log is not meant to receive the picture, but `> picture.png` is.
     let redirected = std::fs::read_link("/proc/self/fd/1").unwrap_or_default();
     if args.output.is_none() && OutputFormat::is_known(&redirected) {
         let output =
@@ -70,7 +70,7 @@ fn render_all(args: &RenderArgs) -> Result<ExitCode, CliError> {
             Err(failure) if tasks.len() > 1 => {
                 let (name, message) = (visible_path(&task.input), failure.to_message());
                 let prefix = format!("{name}: ");
-                // Most messages begin with the file that they are about.
+                // Most messages begin with the file they are about.
                 let rest = message.strip_prefix(&prefix).unwrap_or(&message);
                 let message = format!("{prefix}{rest}");
                 if told.insert(message.clone()) {
@@ -90,18 +90,18 @@ fn render_all(args: &RenderArgs) -> Result<ExitCode, CliError> {
 /// Renders one picture; returns whether it agrees with its reference, if it has one.
 ///
 /// The overrides, the region and the passes are applied to the scene file in this order; then the
-/// scene is resolved and everything is rendered from it.
+/// scene is resolved and rendered.
 ///
-/// Messages come in a fixed order after the progress line is removed: the result of `--verify`, the
-/// times of `--timings`, the picture of `--show`, then either the JSON report or the warnings, and
-/// the result of `--compare` last. With `--json` warnings and comparison are part of the report and
-/// are not repeated.
+/// After the progress line is removed, messages come in a fixed order: the results of `--verify`,
+/// `--timings` and `--show`, then the JSON report or the warnings, and the result of `--compare`
+/// last. With `--json`, warnings and comparison are part of the report and are not repeated.
 ///
 /// Times are measured only if they will be printed: the stopwatch is cheap, but not free.
 ///
 /// # Errors
-/// If the input is invalid, flags contradict each other, or a file cannot be written. No output
-/// file has been changed then, except if `--verify` or `--show` fails, which come after the files.
+/// If the input is invalid, flags contradict each other, or a file cannot be written. Then no
+/// output file has changed, unless `--verify` or `--show` fails, which run after the files are
+/// written.
 fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     let progress = Progress::start("loading");
     let is_measured = args.timings || args.json;
@@ -116,7 +116,7 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     args.region.apply_to(&mut file);
     args.passes.apply_to(&mut file);
     let outputs = Outputs::from_scene_file(&origin, &file)?;
-    // Lines have no textures.
+    // Line drawings have no textures.
     let is_drawing = !job.format.is_raster() && outputs.passes.is_empty();
     let images = if is_drawing { ImageLoading::Headers } else { import.images };
     let options = job.overrides.resolve_options(ImportOptions { images, ..import });
@@ -151,14 +151,14 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     Ok(output.matches_reference(args.json))
 }
 
-/// Compares the scene's line drawing with its z-buffer image, with hidden lines removed (they are
-/// cut in `hidden-line/src/visibility`).
+/// Compares the scene's line drawing, with hidden lines removed (in `hidden-line/src/visibility`),
+/// with its z-buffer image.
 ///
-/// The drawing is made again, because dashed or drawn hidden lines would count as visible.
+/// The drawing is made again, because hidden lines drawn solid or dashed would count as visible.
 ///
-/// The two have nothing in common after clip space: visibility in the drawing comes from
-/// intersections of lines, in the image from coverage and depth of pixels. An error in one is
-/// therefore unlikely to be in the other.
+/// The two have nothing in common after clip space: visibility comes from line intersections in the
+/// drawing, but from pixel coverage and depth in the image. An error in one is therefore unlikely
+/// to occur in the other.
 fn verify_drawing(scene: &Scene, threads: usize) -> Result<Agreement, CliError> {
     let style = scene.style.line_style();
     let options = DrawOptions { hidden_edges: HiddenEdges::Removed, ..style.to_draw_options() };
@@ -171,9 +171,9 @@ fn verify_drawing(scene: &Scene, threads: usize) -> Result<Agreement, CliError> 
 
 /// The message of `--verify`.
 ///
-/// The length is that of all visible lines, in pixels; the percentage is the part of it that lies
-/// behind the z-buffer's surface. Up to about 0.2 % is normal, because the image resolves a quarter
-/// of a pixel and the drawing is exact.
+/// The length is the total of all visible lines, in pixels; the percentage is the part behind the
+/// z-buffer's surface. Up to about 0.2 % is normal, because the image resolves a quarter of a pixel
+/// and the drawing is exact.
 fn agreement_message(agreement: &Agreement) -> String {
     let percent = 100.0 * agreement.disagreement_ratio();
     let length = agreement.visible_length;
@@ -184,8 +184,8 @@ fn agreement_message(agreement: &Agreement) -> String {
 
 /// Prints the time of each stage and their sum on the standard error stream.
 ///
-/// A stage that ran several times has one row, with the sum. The last row, `all`, is the sum of the
-/// rows above, not the time of the command; it is omitted if nothing was measured.
+/// A stage that ran several times has one row with the total. The last row, `all`, is the sum of
+/// the rows above, not the time of the command; it is omitted if nothing was measured.
 ///
 /// ```text
 /// load            12.31 ms
@@ -202,7 +202,7 @@ fn print_timings(timings: &Timings) {
     }
 }
 
-/// Opens a scene file with its includes, or makes a scene for a bare model.
+/// Opens a scene file with its includes, or creates a scene for a bare model.
 ///
 /// `-` reads either from the standard input. Models are not loaded yet.
 ///
@@ -210,7 +210,7 @@ fn print_timings(timings: &Timings) {
 /// no lights. It is an ordinary scene file in memory, so all flags work on both.
 ///
 /// # Errors
-/// If the scene or an include cannot be read or parsed, or lies outside the allowed folders.
+/// If the scene or an include cannot be read or parsed, or is outside the allowed folders.
 pub(super) fn open_input(
     input: &Path,
     options: &ImportOptions,
@@ -232,9 +232,9 @@ pub(super) fn open_input(
     }
 }
 
-/// Refuses a folder, and names the file that was probably meant where there is none of this name.
+/// Refuses a folder, and suggests the file that was probably meant if none has this name.
 ///
-/// Other reasons for which a file cannot be read are found, and explained, where it is read.
+/// Other reasons why a file cannot be read are detected and explained where it is read.
 fn check_is_file(input: &Path) -> Result<(), CliError> {
     let name = visible_path(input);
     if input.is_dir() {
@@ -294,8 +294,8 @@ pub(super) fn missing_input_help(input: &Path) -> Option<String> {
 /// A model is recognized by its content. Paths of a scene are relative to the
 /// current folder.
 ///
-/// A scene is a RON struct and begins as no model does, so the two cannot be confused. A model must
-/// be complete in itself: its buffers and images have no folder to be found in.
+/// A scene is a RON struct, and no model begins like one, so the two cannot be confused. A model
+/// must be self-contained: there is no folder in which to find its buffers and images.
 fn open_stdin(options: &ImportOptions) -> Result<(Origin, SceneFile), CliError> {
     let bytes = read_stdin(options)?;
     if FileFormat::from_content(&bytes).is_some() {
@@ -307,10 +307,10 @@ fn open_stdin(options: &ImportOptions) -> Result<(Origin, SceneFile), CliError> 
     Ok(origin.parse_with_includes(&options.allow_outside)?)
 }
 
-/// The bytes of the standard input.
+/// Reads the bytes of the standard input.
 ///
-/// At most `--max-file-bytes` are read, plus one byte that shows that there are more; an endless
-/// stream therefore ends with an error instead of filling the memory.
+/// At most `--max-file-bytes` are read, plus one byte to detect that there are more; an endless
+/// stream therefore gives an error instead of filling the memory.
 pub(super) fn read_stdin(options: &ImportOptions) -> Result<Vec<u8>, CliError> {
     let limit = options.limits.file_bytes;
     let mut bytes = Vec::new();
@@ -323,7 +323,7 @@ pub(super) fn read_stdin(options: &ImportOptions) -> Result<Vec<u8>, CliError> {
     Ok(bytes)
 }
 
-/// The error of an unreadable standard input.
+/// The error for an unreadable standard input.
 fn stdin_error(why: &str) -> CliError {
     CliError::Usage(format!("cannot read the standard input: {why}"))
 }

@@ -1,15 +1,15 @@
-//! Writes the files of a picture: the picture, its passes and its comparison, all of them or none.
+//! Writes a picture with its passes and its comparison: all files or none.
 //!
-//! A raster image is rendered and encoded band by band, so that its size is not bounded by memory.
+//! A raster image is rendered and encoded band by band, so that memory does not limit its size.
 //! Every file is written under a temporary name and renamed once all are complete.
 //!
 //! ```text
 //!  scene ─► bands of rows ─► encoder ─► .part file ──┐
 //!        └► passes, comparison ─► .part files ───────┴─► renamed, the picture first
 //! ```
-//! A run that fails before the renaming leaves every existing file as it was and removes its
-//! temporary ones. Only the renaming itself can be interrupted between two files; each file is
-//! whole even then.
+//! A run that fails before renaming leaves every existing file unchanged and removes its temporary
+//! ones. Only the renaming itself can be interrupted between two files; even then each file is
+//! complete.
 
 use super::CliError;
 use super::args::RenderArgs;
@@ -30,10 +30,10 @@ use scene::Outputs;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// A resolved scene with everything else that its files depend on.
+/// A resolved scene, with everything else that its output files depend on.
 ///
 /// It borrows everything, because several pictures share the flags, and the report needs the scene
-/// after the files are written.
+/// once the files are written.
 pub(super) struct RenderJob<'a> {
     /// The flags of the command.
     pub(super) args: &'a RenderArgs,
@@ -49,13 +49,13 @@ pub(super) struct RenderJob<'a> {
     pub(super) timings: &'a Timings,
 }
 
-/// The files that were written, and their contents as far as something else needs them.
+/// The files that were written, and the contents that are needed later.
 ///
 /// It exists only after all files are in place, so a report can read them back.
 pub(super) struct RenderOutput {
-    /// The rectangle of the picture that was rendered.
+    /// The rendered rectangle of the picture.
     pub(super) region: PixelRect,
-    /// The files, the picture first.
+    /// The files, beginning with the picture.
     pub(super) files: Vec<PathBuf>,
     /// The picture, if it is compared or shown in the terminal.
     pub(super) picture: Option<Picture>,
@@ -67,7 +67,7 @@ pub(super) struct RenderOutput {
 
 impl RenderOutput {
     /// Whether the picture agrees with its reference, if it has one. Prints the comparison unless
-    /// `silent`, as with a JSON report that holds it.
+    /// `silent`, which is used if a JSON report contains it.
     pub(super) fn matches_reference(&self, silent: bool) -> bool {
         let Some(comparison) = &self.comparison else { return true };
         if !silent {
@@ -77,7 +77,7 @@ impl RenderOutput {
     }
 }
 
-/// An encoded picture that has not been published yet, with its pixels if they are needed.
+/// An encoded picture that is not yet in place, with its pixels if they are needed.
 struct EncodedPicture {
     /// The encoded bytes.
     sink: PictureSink,
@@ -89,8 +89,7 @@ struct EncodedPicture {
 
 /// The destination of a picture: a temporary file, or memory for the standard output.
 ///
-/// The standard output gets the bytes only when all of them are there, so that a failed run writes
-/// none.
+/// The standard output gets the bytes only when all are ready, so that a failed run writes none.
 enum PictureSink {
     /// The target's name, for error messages, and its temporary file.
     File(PathBuf, BufWriter<AtomicFile>),
@@ -117,12 +116,12 @@ impl Write for PictureSink {
 impl RenderJob<'_> {
     /// Writes all files, and renames them into place once all are complete.
     ///
-    /// Everything that can fail without work comes first: region, combination of flags, size of the
-    /// reference. Then the picture is rendered and encoded, then its passes and comparison; all of
-    /// them exist under temporary names before the first is renamed.
+    /// Cheap checks that can fail come first: region, flag combination, reference size. Then the
+    /// picture is rendered and encoded, then its passes and comparison; all of them exist under
+    /// temporary names before the first is renamed.
     ///
-    /// The standard output has no passes and no comparison, because there is no name to derive
-    /// theirs from; [`check_combination`](Self::check_combination) has rejected these flags.
+    /// The standard output has no passes and no comparison, because there is no name from which to
+    /// derive theirs; [`check_combination`](Self::check_combination) has rejected these flags.
     ///
     /// # Errors
     /// If flags contradict each other, the reference cannot be read, rendering fails, or a file
@@ -161,15 +160,15 @@ impl RenderJob<'_> {
         Ok(RenderOutput { region, files, picture, warnings, comparison })
     }
 
-    /// Whether the pixels are needed beside the file.
+    /// Whether the pixels are needed in addition to the file.
     ///
-    /// The pixels of a PNG are normally dropped band by band; `--compare` and `--show` are the only
-    /// reasons to hold the whole picture in memory, at four bytes a pixel.
+    /// The pixels of a PNG are normally dropped band by band; only `--compare` and `--show` keep
+    /// the whole picture in memory, at four bytes per pixel.
     fn needs_picture(&self) -> bool {
         self.args.show || self.args.compare.is_requested()
     }
 
-    /// Rejects combinations of flags that make no sense with the output format or destination.
+    /// Rejects flag combinations that make no sense with the output format or destination.
     ///
     /// clap cannot check these, because the format may follow from the extension of the output, and
     /// passes may be requested by the scene instead of a flag.
@@ -190,8 +189,8 @@ impl RenderJob<'_> {
 
     /// Opens the destination of the picture.
     ///
-    /// The temporary file is created only when there is something to write: errors of the scene
-    /// leave no trace in the folder.
+    /// The temporary file is created only when there is something to write: scene errors leave no
+    /// trace in the folder.
     fn open_sink(&self) -> Result<PictureSink, CliError> {
         Ok(match &self.task.output {
             Some(path) => {
@@ -201,7 +200,7 @@ impl RenderJob<'_> {
         })
     }
 
-    /// An input/output error as an error about the destination.
+    /// Converts an input/output error to an error about the destination.
     ///
     /// Encoders report errors without a path; the message must name the file, or the standard
     /// output.
@@ -213,13 +212,13 @@ impl RenderJob<'_> {
     }
 
     /// Renders and encodes the region: as a PNG of 8 or 16 bits per channel, band by band; in other
-    /// formats as a whole.
+    /// formats, as a whole.
     ///
-    /// The memory needed is that of one band and the encoder, whatever the height of the picture;
-    /// bands have the same pixels as the whole. `--compare` and `--show` work on a copy of 8 bits.
+    /// The memory needed is one band plus the encoder, whatever the height of the picture; bands
+    /// have the same pixels as the whole. `--compare` and `--show` work on an 8-bit copy.
     ///
-    /// Errors of rendering and of writing arrive as one type and are separated here, so that a full
-    /// disk is reported with the name of the file.
+    /// Rendering and writing errors arrive as one type and are separated here, so that a full disk
+    /// is reported with the file name.
     fn encode_picture(
         &self,
         region: PixelRect,
@@ -278,11 +277,11 @@ impl RenderJob<'_> {
         Ok(EncodedPicture { sink, picture: None, warnings })
     }
 
-    /// Renders the passes and writes them to temporary files beside the picture.
+    /// Renders the passes and writes them to temporary files next to the picture.
     ///
-    /// Passes are a rendering of their own: they have one property per pixel center and neither
-    /// overlays nor background. Nothing is rendered if none is requested. An error drops the files
-    /// that were created, which removes them.
+    /// Passes are rendered separately: they have one property per pixel center and neither overlays
+    /// nor background. Nothing is rendered if no pass is requested. An error drops the created
+    /// files, which removes them.
     fn create_pass_files(
         &self,
         output: &Path,

@@ -1,4 +1,4 @@
-//! Flags that override fields of a scene: size, camera, style, overlays, state of the models.
+//! Flags that override scene fields: size, camera, style, overlays, model state.
 //!
 //! They are applied to the parsed scene file before it is resolved, so that a flag and a field have
 //! the same meaning and the same errors. A bare model is a scene in which every field is default.
@@ -6,8 +6,8 @@
 //! ```text
 //!  scene file ─► flags replace or extend its fields ─► Scene::resolve ─► scene
 //! ```
-//! A flag that is not given changes nothing. Lists (`--section`, `--overlay`) are appended to those
-//! of the scene; everything else is replaced.
+//! A flag that is not given changes nothing. Lists (`--section`, `--overlay`) are appended to the
+//! scene's lists; everything else is replaced.
 
 mod colormap_flags;
 
@@ -89,13 +89,13 @@ pub(crate) struct SceneOverrideArgs {
 }
 
 impl SceneOverrideArgs {
-    /// Replaces the fields of a scene by the flags that were given.
+    /// Replaces the fields of a scene with the given flags.
     ///
     /// The order matters in one case: `--scale` multiplies the size of `--size`, if both are given.
     /// A size is at least one pixel; one that is too large is rejected when the scene is resolved.
     ///
     /// # Errors
-    /// If a flag does not go with the scene, such as `--fov` with a parallel projection.
+    /// If a flag does not fit the scene, such as `--fov` with a parallel projection.
     pub(crate) fn apply_to(&self, origin: &Origin, file: &mut SceneFile) -> Result<(), CliError> {
         if let Some(size) = self.size {
             file.image.size = size;
@@ -135,11 +135,11 @@ impl SceneOverrideArgs {
         self.apply_to_camera(&mut file.camera)
     }
 
-    /// Moves the camera of the resolved scene to its place on the camera path at `--time`, unless
-    /// another flag chooses the view.
+    /// Moves the camera of the resolved scene to its position on the camera path at `--time`,
+    /// unless another flag chooses the view.
     ///
     /// # Errors
-    /// If the keyframes of the camera path make no sense, or there is no view at that time.
+    /// If the keyframes of the camera path are invalid, or there is no view at that time.
     pub(crate) fn place_camera(
         &self,
         origin: &Origin,
@@ -155,7 +155,7 @@ impl SceneOverrideArgs {
 
     /// The import options, with permission to read the files that these flags name.
     ///
-    /// Only a file of `--environment` is named by a flag; it becomes an allowed path by itself, its
+    /// Only the `--environment` file is named by a flag; the file becomes an allowed path, its
     /// folder does not.
     pub(crate) fn import_options(&self, load: &LoadArgs) -> ImportOptions {
         let mut options = load.import_options();
@@ -165,7 +165,7 @@ impl SceneOverrideArgs {
 
     /// Opens a scene or a model, applies the flags to it, and resolves it.
     ///
-    /// The scene file is returned too, for commands that resolve it again or look things up in it.
+    /// The scene file is returned too, for commands that resolve it again or query it.
     ///
     /// # Errors
     /// If the input or a file it refers to cannot be read or is invalid.
@@ -183,7 +183,7 @@ impl SceneOverrideArgs {
         Ok((origin, file, scene))
     }
 
-    /// How scenes are resolved: a size of the command line may be any that there is.
+    /// The options for resolving scenes: a size on the command line may be any valid size.
     pub(crate) const fn resolve_options(&self, import: ImportOptions) -> ResolveOptions {
         ResolveOptions {
             import,
@@ -192,18 +192,18 @@ impl SceneOverrideArgs {
         }
     }
 
-    /// Frames the models from a direction, with the padding of a scene that frames them already.
+    /// Frames the models from a direction, keeping the padding of a scene that already frames them.
     pub(crate) fn aim_from(file: &mut CameraFile, view: NamedView) {
         let padding_percent = frame_padding(file);
         file.view = ViewFile::Frame { from: Some(view.into()), padding_percent };
     }
 
-    /// Replaces view and projection of the scene by the flags that were given.
+    /// Replaces the scene's view and projection with the given flags.
     ///
     /// `--view` keeps the padding of a scene that frames its models.
     ///
     /// `--camera` takes a whole number as an index and anything else as a name. `--view` replaces
-    /// the view of the scene, also one with a fixed eye and target, but not its projection.
+    /// the view of the scene, even one with a fixed eye and target, but not its projection.
     fn apply_to_camera(&self, file: &mut CameraFile) -> Result<(), CliError> {
         if let Some(camera) = &self.camera {
             let by_name = || CameraChoice::Name(camera.clone());
@@ -229,8 +229,7 @@ pub(super) const fn frame_padding(file: &CameraFile) -> NonNegative {
     }
 }
 
-/// Styles of line drawings have parameters in scene files; flags have those with default
-/// parameters.
+/// Line drawing styles have parameters in scene files; flags use the defaults.
 impl From<StyleArg> for StyleFile {
     fn from(style: StyleArg) -> Self {
         match style {
@@ -259,8 +258,7 @@ impl From<StyleArg> for StyleFile {
     }
 }
 
-/// Each projection has default parameters here, such as the field of view; scene files can set
-/// them.
+/// Projections have default parameters here, such as the field of view; scene files can set them.
 impl From<ProjectionArg> for ProjectionFile {
     fn from(projection: ProjectionArg) -> Self {
         match projection {
@@ -292,7 +290,7 @@ impl From<OverlayArg> for OverlayFile {
     }
 }
 
-/// Parses a view by its name in the `camera` crate; `iso` is short for `isometric`.
+/// Parses a view by its `camera` crate name; `iso` is short for `isometric`.
 ///
 /// Help, completions and errors list the names; an alias is accepted, but not listed.
 pub(super) fn named_view_parser() -> impl TypedValueParser<Value = NamedView> {
@@ -303,7 +301,7 @@ pub(super) fn named_view_parser() -> impl TypedValueParser<Value = NamedView> {
     PossibleValuesParser::new(NamedView::ALL.map(value)).try_map(|name| name.parse::<NamedView>())
 }
 
-/// Parses the size of points.
+/// Parses a point size.
 fn parse_point_size(text: &str) -> Result<PointSize, String> {
     let size = text.parse().ok().and_then(PointSize::new);
     size.ok_or_else(|| "expected a number of pixels from 1 to 256, such as 5".to_owned())
@@ -317,7 +315,7 @@ fn parse_scale_factor(text: &str) -> Result<f64, String> {
 
 /// Parses `transparent`, `environment`, or a color as in scene files: `#rgb`, `#rrggbb` or a CSS name.
 ///
-/// Names of colors are case-insensitive, as in CSS.
+/// Color names are case-insensitive, as in CSS.
 fn parse_background(text: &str) -> Result<BackgroundFile, String> {
     if text.eq_ignore_ascii_case("transparent") {
         return Ok(BackgroundFile::Transparent);
@@ -326,7 +324,7 @@ fn parse_background(text: &str) -> Result<BackgroundFile, String> {
         return Ok(BackgroundFile::Environment { blur: None });
     }
     let color = Color::parse(text).map(BackgroundFile::Color);
-    // A shell takes what begins with # for a comment.
+    // A shell treats a word that begins with # as a comment.
     let with_hash = format!("#{text}");
     color.ok_or_else(|| match Color::parse(&with_hash) {
         Some(_) => format!("write '{with_hash}', with quotation marks around it"),
@@ -336,7 +334,7 @@ fn parse_background(text: &str) -> Result<BackgroundFile, String> {
     })
 }
 
-/// Parses a number of samples that the rasterizer has a pattern for.
+/// Parses a number of samples for which the rasterizer has a pattern.
 ///
 /// # Errors
 /// For any other number, such as 2, which has no pattern.
@@ -370,7 +368,7 @@ mod tests {
     use super::*;
     use clap::ValueEnum as _;
 
-    /// The names that other programs of the workspace have for styles are those of the flag.
+    /// Other programs in the workspace use the flag's names for styles.
     #[test]
     fn styles_of_flags_are_those_of_the_library() {
         let names = StyleArg::value_variants().iter().map(|style| {

@@ -20,7 +20,7 @@ pub(crate) struct SectionArgs {
 }
 
 impl SectionArgs {
-    /// Appends the planes of the flags to those of the scene.
+    /// Appends the planes from the flags to the scene's.
     pub(crate) fn append_to(&self, file: &mut SceneFile) {
         file.sections.extend(self.sections.iter().cloned());
     }

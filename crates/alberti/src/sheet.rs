@@ -1,7 +1,7 @@
 //! `alberti sheet`: orthographic views of a scene or a model on paper, to scale.
 //!
-//! The sheet is one page in vector format; PNG is a rasterization of the same page. Without a sheet
-//! in the scene file, and for a bare model, all of its fields have defaults.
+//! The sheet is one page in a vector format; PNG is a rasterization of the same page. Without a
+//! sheet in the scene file, and for a bare model, all fields have their defaults.
 
 mod assembly;
 mod page_files;
@@ -29,9 +29,9 @@ use sheet::{DecimalMark, DimensionUnit, SheetFrame, SheetPage, SheetWarning, Tit
 use std::path::PathBuf;
 use viewport::{Paper, Resolution};
 
-/// The resolution of pages written as PNG, in dots to the inch.
+/// The resolution of pages written as PNG, in dots per inch.
 ///
-/// An A4 page has 1240 × 1754 pixels then: legible on a screen, and a few hundred kilobytes.
+/// An A4 page then has 1240 × 1754 pixels: legible on a screen, and a few hundred kilobytes.
 pub(super) const DEFAULT_DPI: u32 = 150;
 
 /// Arguments of `alberti sheet`; each flag replaces the field of the scene's `sheet`.
@@ -135,11 +135,11 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     let (origin, mut file) = open_input(&args.input, &args.load_options.import_options())?;
     file.models.iter_mut().for_each(|model| args.model_state.apply_to(model));
     args.section.append_to(&mut file);
-    // The sheet has views of its own: the scene's camera must not matter, not even if it is wrong.
+    // The sheet has its own views: the scene's camera must not matter, even if it is invalid.
     file.camera = scene_file::file::CameraFile::default();
     let mut sheet_file = file.sheet.take().unwrap_or_default();
     apply_overrides(&mut sheet_file, args);
-    // Lines have no textures.
+    // Line drawings have no textures.
     let import =
         ImportOptions { images: ImageLoading::Headers, ..args.load_options.import_options() };
     let options = ResolveOptions::with_import(import);
@@ -185,7 +185,7 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Warns of a resolution for an output without pixels.
+/// Warns about a resolution for an output without pixels.
 fn warn_of_unused_dpi(args: &SheetArgs, format: OutputFormat) {
     if args.dpi.is_some() && !format.is_raster() {
         let message = "--dpi does nothing here: it applies only to pixels; write a .png to use it";
@@ -193,7 +193,7 @@ fn warn_of_unused_dpi(args: &SheetArgs, format: OutputFormat) {
     }
 }
 
-/// The error of a sheet that cannot be drawn: at its place in the scene file, if it has one there.
+/// The error for a sheet that cannot be drawn, with its position in the scene file if known.
 fn sheet_error(origin: &Origin, error: sheet::SheetError) -> CliError {
     match scene::sheet_view_error(origin, &error) {
         Some(mistake) => CliError::Scene(mistake),
@@ -201,7 +201,7 @@ fn sheet_error(origin: &Origin, error: sheet::SheetError) -> CliError {
     }
 }
 
-/// The warnings of all pages, each once.
+/// The warnings of all pages, without duplicates.
 fn warnings_of_pages(pages: &[SheetPage]) -> Vec<SheetWarning> {
     let all = pages.iter().flat_map(|page| &page.warnings);
     let mut warnings: Vec<SheetWarning> = all.cloned().collect();
@@ -220,7 +220,7 @@ fn default_output(args: &SheetArgs) -> Result<PathBuf, CliError> {
     Ok(PathBuf::from(stem).with_extension("pdf"))
 }
 
-/// Rasterizes a page at so many dots to the inch.
+/// Rasterizes a page at the given dots per inch.
 ///
 /// Other commands with pages use it with [`DEFAULT_DPI`]. The resolution must not depend on the
 /// display: output is the same on every machine.
@@ -236,10 +236,10 @@ pub(super) fn rasterize_page<W>(page: &Page<W>, dpi: u32) -> Result<Picture, Cli
     })
 }
 
-/// Replaces the fields of the scene's sheet by the flags that were given.
+/// Replaces the fields of the scene's sheet with the given flags.
 ///
-/// `--no-dimensions` can only switch dimensions off; there is no flag to switch on those that a
-/// scene has switched off.
+/// `--no-dimensions` can only turn dimensions off; no flag turns them on if the scene has turned
+/// them off.
 fn apply_overrides(sheet: &mut SheetFile, args: &SheetArgs) {
     args.paper.into_iter().for_each(|paper| sheet.paper = paper);
     args.orientation.into_iter().for_each(|orientation| sheet.orientation = Some(orientation));

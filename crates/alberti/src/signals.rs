@@ -1,10 +1,10 @@
-//! Signals that ask the program to end: what it was writing is removed first.
+//! Termination signals: unfinished files are removed before the program ends.
 
-/// Lets SIGINT, SIGTERM and SIGHUP remove the temporary files of the program before they end it.
+/// Makes SIGINT, SIGTERM and SIGHUP remove the program's temporary files before they end it.
 ///
-/// Only for the program itself: within another one, such as Python, signals belong to that one.
-/// Signals that were ignored at the start, as `nohup` does, stay so. Without a thread for them they
-/// end the program at once.
+/// Only for the program itself: within another one, such as Python, signals belong to that program.
+/// Signals ignored at the start, as with `nohup`, stay ignored. If no thread can be created for
+/// them, they end the program at once.
 #[cfg(unix)]
 pub fn clean_up_on_signals() {
     use files::remove_partial_files;
@@ -15,7 +15,8 @@ pub fn clean_up_on_signals() {
     let wait = move || {
         if let Some(signal) = signals.forever().next() {
             remove_partial_files(|| {
-                // As without a handler: the exit status names the signal. It does not return.
+                // This acts as if there were no handler: the exit status names the signal. It does
+                // not return.
                 let _ = signal_hook::low_level::emulate_default_handler(signal);
             });
         }
@@ -29,8 +30,8 @@ pub fn clean_up_on_signals() {
 #[cfg(not(unix))]
 pub const fn clean_up_on_signals() {}
 
-/// Whether the process was started with a signal ignored. Only Linux tells it without a call that
-/// changes it: elsewhere no signal counts as ignored.
+/// Whether the process was started with a signal ignored. Only Linux reports this without changing
+/// it: elsewhere no signal counts as ignored.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -1,4 +1,4 @@
-//! `alberti sweep`: a series of panels that differ in one parameter of the camera.
+//! `alberti sweep`: a series of panels that vary one camera parameter.
 
 use super::CliError;
 use super::args::ProjectionArg;
@@ -75,11 +75,11 @@ enum VaryArg {
 
 /// Draws the page of panels.
 ///
-/// The initial camera is that of the scene, with `--view` and `--projection` applied; each panel
-/// then changes one parameter of it. Models are loaded once for all panels.
+/// The initial camera is the scene's, with `--view` and `--projection` applied; each panel then
+/// changes one of its parameters. Models are loaded once for all panels.
 ///
 /// # Errors
-/// If the input is invalid, or the parameter makes no sense for the projection or leaves its range.
+/// If the input is invalid, or the parameter does not apply to the projection or leaves its range.
 pub(crate) fn run(args: &SweepArgs) -> Result<(), CliError> {
     check_panel_output(&args.output)?;
     let progress = Progress::start("loading");

@@ -1,9 +1,9 @@
 //! `--show`: prints the picture in the terminal.
 //!
 //! Terminals with kitty's graphics protocol get the picture as a PNG. Others get half blocks, two
-//! pixels per cell in 24-bit color, or, with NO_COLOR set, ASCII art by luminance.
+//! pixels per cell in 24-bit color, or, if NO_COLOR is set, ASCII art by luminance.
 //!
-//! The result goes to the standard output as text, so it can also be piped into a pager that passes
+//! The result is text on the standard output, so it can also be piped into a pager that passes
 //! escapes through.
 
 use super::CliError;
@@ -15,25 +15,25 @@ use std::io::Write as _;
 
 /// The width assumed for a terminal that does not report it.
 const DEFAULT_COLUMNS: u32 = 80;
-/// The largest width of a picture sent by kitty's protocol, in pixels.
+/// The maximum width of a picture sent with kitty's protocol, in pixels.
 ///
 /// A larger picture would be scaled down by the terminal anyway, and base64 of megabytes is slow
 /// over a remote connection.
 const MAX_KITTY_WIDTH: u32 = 1280;
-/// The largest payload of one command of kitty's protocol, in bytes of base64.
+/// The maximum payload of one command of kitty's protocol, in bytes of base64.
 ///
 /// The protocol allows no more in one command.
 const KITTY_CHUNK_LENGTH: usize = 4096;
 /// ASCII characters from dark to light.
 ///
-/// The order suits a dark terminal, where a denser character is brighter.
+/// The order suits a dark terminal, where denser characters are brighter.
 const ASCII_RAMP: &[u8; 10] = b" .:-=+*#%@";
 
-/// Prints the picture by the best means of the terminal, by its environment variables.
+/// Prints the picture in the best way the terminal supports, judging by environment variables.
 ///
-/// `NO_COLOR` takes precedence over everything. Support for kitty's protocol is concluded from
-/// `KITTY_WINDOW_ID` and `TERM`, because asking the terminal means reading its answer from the
-/// keyboard input.
+/// `NO_COLOR` takes precedence over everything. Support for kitty's protocol is inferred from
+/// `KITTY_WINDOW_ID` and `TERM`, because querying the terminal would mean reading its answer from
+/// the keyboard input.
 ///
 /// # Errors
 /// If the standard output cannot be written.
@@ -58,10 +58,10 @@ pub(super) fn print_image(painted: &RenderOutput) -> Result<(), CliError> {
 
 /// Box-filters a picture over black down to `columns` × `rows`.
 ///
-/// Squares of the codes stand in for linear light: a gamma of 2 is close enough to sRGB here.
+/// Squared codes approximate linear light: a gamma of 2 is close enough to sRGB here.
 ///
 /// Transparent pixels are black in proportion to their transparency. A cell smaller than a pixel
-/// shows the nearest one; `range` is never empty.
+/// shows the nearest pixel; `range` is never empty.
 fn downsample(picture: &Picture, columns: u32, rows: u32) -> Vec<[u8; 3]> {
     let range = |at: u32, of: u32, side: u32| {
         let bound = |at: u32| (u64::from(at) * u64::from(side) / u64::from(of)) as u32;
@@ -86,7 +86,8 @@ fn downsample(picture: &Picture, columns: u32, rows: u32) -> Vec<[u8; 3]> {
     shrunk
 }
 
-/// The columns and rows that fit; `cells` is the width of a column in rows (0.5 for characters).
+/// The number of columns and rows that fit; `cells` is the width of a column in rows (0.5 for
+/// characters).
 ///
 /// At most 400 of each, and no more columns than the picture has pixels.
 fn fit_columns(picture: &Picture, columns: u32, cells: f64) -> (u32, u32) {
@@ -95,9 +96,9 @@ fn fit_columns(picture: &Picture, columns: u32, cells: f64) -> (u32, u32) {
     (columns, ((f64::from(columns) * ratio * cells + 0.5) as u32).clamp(1, 400))
 }
 
-/// The picture as upper half blocks: foreground and background color are two pixels of a cell.
+/// The picture as upper half blocks: foreground and background colors are the two pixels of a cell.
 ///
-/// A cell of a terminal is about twice as high as wide, so the pixels are square.
+/// A terminal cell is about twice as high as it is wide, so the pixels are square.
 ///
 /// Each cell sets both colors (`38;2` foreground, `48;2` background); each line ends with a reset,
 /// so that the background does not extend to the edge of the terminal.
@@ -119,8 +120,8 @@ fn half_blocks(picture: &Picture, columns: u32) -> String {
 
 /// The picture as characters of [`ASCII_RAMP`], by luminance.
 ///
-/// The weights are those of Rec. 709: 0.2126 red, 0.7152 green, 0.0722 blue. They are applied to
-/// codes (luma), which is close to perceived lightness.
+/// The weights are from Rec. 709: 0.2126 red, 0.7152 green, 0.0722 blue. They are applied to codes
+/// (luma), which is close to perceived lightness.
 fn ascii_art(picture: &Picture, columns: u32) -> String {
     let (columns, rows) = fit_columns(picture, columns, 0.5);
     let mut text = String::new();
@@ -138,8 +139,8 @@ fn ascii_art(picture: &Picture, columns: u32) -> String {
 
 /// Commands of kitty's graphics protocol that transmit and display a PNG, in chunks.
 ///
-/// `a=T` transmits and displays, `f=100` is PNG, and `c` scales the picture to so many columns.
-/// `m=1` announces a further chunk; only the first has the other keys.
+/// `a=T` transmits and displays, `f=100` is PNG, and `c` scales the picture to that many columns.
+/// `m=1` announces another chunk; only the first has the other keys.
 fn kitty_graphics(picture: &Picture, columns: u32) -> String {
     let (cells, _) = fit_columns(picture, columns, 0.5);
     let small;

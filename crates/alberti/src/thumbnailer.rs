@@ -1,11 +1,11 @@
-//! `alberti thumbnailer`: thumbnails for file managers, by the conventions of freedesktop.org.
+//! `alberti thumbnailer`: thumbnails for file managers, following freedesktop.org conventions.
 //!
 //! ```text
 //!  file manager ─► thumbnail service ─► alberti.thumbnailer ─► alberti thumbnailer INPUT OUTPUT
 //!                   MIME type of the file: alberti.xml              within time and memory
 //! ```
-//! A thumbnail service runs the program on whatever lies in a folder. Any input ends in a picture
-//! or in an exit code other than 0, within the limits, and never in part of a picture.
+//! A thumbnail service runs the program on any file in a folder. Within the limits, any input gives
+//! a picture or a nonzero exit code, never part of a picture.
 
 mod deadline;
 mod installation;
@@ -79,7 +79,7 @@ enum InstalledFile {
     Mime,
 }
 
-/// Renders one thumbnail, or installs, removes or prints the files of the thumbnailer.
+/// Renders one thumbnail, or installs, removes or prints the thumbnailer files.
 ///
 /// # Errors
 /// If the input cannot be shown within the limits, or a file cannot be written.
@@ -101,10 +101,10 @@ pub(crate) fn run(args: &ThumbnailerArgs) -> Result<(), CliError> {
     }
 }
 
-/// Threads of a thumbnail at most: each takes memory, and thumbnails are small.
+/// Maximum number of threads for a thumbnail: each takes memory, and thumbnails are small.
 const MAX_THREADS: usize = 8;
 
-/// Renders a square picture and writes it, if there is time and memory for it.
+/// Renders and writes a square picture, if time and memory suffice.
 fn render_thumbnail(args: &ThumbnailerArgs, input: &Path, output: &Path) -> Result<(), CliError> {
     limit_process_memory(args.max_memory_bytes);
     let deadline = Deadline::start(args.max_seconds)?;
@@ -116,7 +116,7 @@ fn render_thumbnail(args: &ThumbnailerArgs, input: &Path, output: &Path) -> Resu
     let (origin, mut file) = open_input(input, &import)?;
     let (width, height) = std::mem::replace(&mut file.image.size, (args.size, args.size));
     let mut scene = Scene::resolve(&origin, &file, &ResolveOptions::with_import(import))?;
-    // Lines of the whole drawing's width would be blots.
+    // Lines as wide as in a full drawing would be blots.
     let factor = f64::from(args.size) / f64::from(width.max(height));
     let insets = scene.insets.iter_mut().map(|inset| &mut inset.scene.style);
     for style in insets.chain([&mut scene.style]) {
@@ -137,24 +137,24 @@ fn render_thumbnail(args: &ThumbnailerArgs, input: &Path, output: &Path) -> Resu
     }
 }
 
-/// Writes a picture whole or not at all.
+/// Writes a picture completely or not at all.
 ///
-/// A new file takes its place under the name, unless the old one is empty: tumbler makes an empty
-/// file, keeps it open, and reads from it afterwards.
+/// A new file replaces the old one, unless that is empty: tumbler creates an empty file, keeps it
+/// open, and reads from it afterward.
 fn write_thumbnail(path: &Path, png: &[u8]) -> Result<(), OutputError> {
     if path.metadata().map_or(true, |old| !old.is_file() || old.len() > 0) {
         return write_file(path, png);
     }
     let written = OpenOptions::new().write(true).open(path).and_then(|mut file| {
         file.write_all(png).inspect_err(|_| {
-            // Best effort: an error is on its way already.
+            // Best effort: an error is already being reported.
             let _ = file.set_len(0);
         })
     });
     written.map_err(|cause| OutputError { path: path.to_owned(), cause })
 }
 
-/// Names the flags of this command in the error of a limit, which are not those of the others.
+/// Names this command's flags in a limit error, since they differ from other commands' flags.
 fn with_memory_help(error: CliError) -> CliError {
     match error {
         CliError::Resolve(ResolveError::Model(ImportError { file, diagnostic, .. }))

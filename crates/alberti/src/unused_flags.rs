@@ -1,7 +1,7 @@
-//! Flags that do nothing in a picture: a line drawing has no exposure, a PNG no arcs.
+//! Flags without effect on a picture: a line drawing has no exposure, a PNG no arcs.
 //!
-//! They are warnings and not errors: one command line often renders many pictures, some of which
-//! have no use for one of its flags.
+//! They give warnings, not errors: one command line often renders many pictures, and a flag may not
+//! apply to all of them.
 
 use super::args::{RenderArgs, StyleArg};
 use super::format::OutputFormat;
@@ -13,7 +13,7 @@ use pipeline::Scene;
 use scene::Style;
 use scene_file::file::{BackgroundFile, StyleFile};
 
-/// The warnings about the flags of a picture that `render` makes.
+/// The warnings about unused flags for a picture that `render` makes.
 pub(super) fn find_unused_flags(
     args: &RenderArgs,
     task: &RenderTask,
@@ -55,8 +55,8 @@ pub(super) fn find_unused_flags(
     warnings
 }
 
-/// The warnings about flags that change a scene. `is_vector` is whether the output has lines
-/// whatever the style is.
+/// The warnings about unused flags that change a scene. `is_vector` says whether the output has
+/// lines regardless of style.
 pub(super) fn find_unused_overrides(
     flags: &SceneOverrideArgs,
     scene: &Scene,
@@ -101,7 +101,7 @@ pub(super) fn find_unused_overrides(
     warnings
 }
 
-/// The warning that a style of surfaces was asked for and lines are drawn.
+/// The warning that a surface style was requested but lines are drawn.
 fn undrawn_style(task: &RenderTask) -> Option<String> {
     let style = task.overrides.style.filter(|style| is_surface_style(*style))?;
     let name = style.to_possible_value()?.get_name().to_owned();
@@ -111,12 +111,12 @@ fn undrawn_style(task: &RenderTask) -> Option<String> {
     ))
 }
 
-/// Whether a style is one of surfaces.
+/// Whether a style shows surfaces.
 fn is_surface_style(style: StyleArg) -> bool {
     !matches!(StyleFile::from(style), StyleFile::Lines(_) | StyleFile::Wireframe)
 }
 
-/// Whether the lights of a scene shine on the surfaces of a style.
+/// Whether surfaces of a style are lit by the scene's lights.
 const fn has_light(style: Style) -> bool {
     matches!(style, Style::Shaded | Style::Flat | Style::Gouraud | Style::Clay | Style::Toon)
 }
@@ -126,7 +126,7 @@ const fn has_shadows(style: Style) -> bool {
     matches!(style, Style::Shaded | Style::Flat)
 }
 
-/// The name that the flag has for a style of surfaces.
+/// The flag's name for a surface style.
 const fn style_name(style: Style) -> &'static str {
     match style {
         Style::Shaded => "shaded",
@@ -145,7 +145,7 @@ const fn style_name(style: Style) -> &'static str {
     }
 }
 
-/// The names of flags in a sentence.
+/// Lists flag names for use in a sentence.
 fn list_flags(flags: &[&str]) -> String {
     match flags {
         [rest @ .., last] if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),

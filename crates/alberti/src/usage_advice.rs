@@ -1,8 +1,9 @@
-//! Advice on wrong command lines: flags and values of other programs lead to those of this one.
+//! Advice on wrong command lines: flags and values from other programs lead to their counterparts
+//! here.
 //!
-//! clap compares the letters of words, which finds misspellings and otherwise misleads:
-//! `--resolution` is not like `--size`. What people bring from other programs is in the tables of
-//! `foreign_words`, and is looked up first.
+//! clap compares words letter by letter, which finds misspellings but misleads otherwise:
+//! `--resolution` does not resemble `--size`. Words from other programs are in the tables of
+//! `foreign_words`, which are searched first.
 
 mod foreign_words;
 mod given_value;
@@ -29,7 +30,7 @@ use wrong_value::advise_on_value;
 /// Parses the command line.
 ///
 /// # Errors
-/// What is wrong with it, with advice.
+/// The mistake, with advice.
 pub(crate) fn parse_args(words: &[OsString]) -> Result<Args, Error> {
     let program = help_groups::group_commands(Args::command());
     let parsed = program.try_get_matches_from(words).and_then(|matches| {
@@ -43,9 +44,9 @@ pub(crate) fn parse_args(words: &[OsString]) -> Result<Args, Error> {
     })
 }
 
-/// The error of clap with a tip that helps, or an error in its place.
+/// Adds a helpful tip to a clap error, or replaces the error.
 ///
-/// `program` has all its flags declared; `words` are those of the command line.
+/// `program` has all its flags declared; `words` is the command line.
 fn advise(mut error: Error, words: &[OsString], program: &Command) -> Error {
     // `to pass '--zoom' as a value, use '-- --zoom'` is never what was meant.
     error.remove(ContextKind::Suggested);
@@ -76,7 +77,7 @@ fn advise(mut error: Error, words: &[OsString], program: &Command) -> Error {
     }
 }
 
-/// The message with the model that was named in the place of the example's.
+/// The message with the user's model instead of the example's.
 fn with_given_model(message: &str, words: &[OsString]) -> String {
     let is_model = |word: &&str| FileFormat::from_extension(Path::new(word)).is_some();
     let words: Vec<&str> = words.iter().filter_map(|word| word.to_str()).collect();
@@ -88,7 +89,7 @@ fn with_given_model(message: &str, words: &[OsString]) -> String {
     }
 }
 
-/// What to do about `-hide_banner`, which clap takes for `-h`.
+/// Advice on `-hide_banner`, which clap takes for `-h`.
 fn advise_on_help(error: &Error, words: &[OsString], program: &Command) -> Option<String> {
     let is_long = |word: &&str| {
         word.starts_with("-h")
@@ -116,7 +117,7 @@ fn advise_on_help(error: &Error, words: &[OsString], program: &Command) -> Optio
     })
 }
 
-/// The string of a context of an error.
+/// The string in an error's context.
 fn context(error: &Error, kind: ContextKind) -> Option<&str> {
     match error.get(kind) {
         Some(ContextValue::String(text)) => Some(text),
@@ -124,14 +125,14 @@ fn context(error: &Error, kind: ContextKind) -> Option<&str> {
     }
 }
 
-/// What to do about a flag that takes no value and has one, as in `--ambient-occlusion=true`.
+/// Advice on a value for a flag that takes none, as in `--ambient-occlusion=true`.
 fn advise_on_switch(error: &Error) -> Option<String> {
     let flag = context(error, ContextKind::InvalidArg)?;
     let value = context(error, ContextKind::InvalidValue)?;
     Some(format!("`{flag}` takes no value: leave out `={value}`"))
 }
 
-/// A name as the tables have it: single letters keep their case.
+/// A name in the form used by the tables: single letters keep their case.
 fn with_hyphens(word: &str) -> String {
     match word.chars().count() {
         1 => word.to_owned(),
@@ -139,8 +140,8 @@ fn with_hyphens(word: &str) -> String {
     }
 }
 
-/// Whether two names are too different for one to be a misspelling of the other: more than a third
-/// of the letters of the longer one are missing in the other, wherever they stand.
+/// Whether two names are too different for a misspelling: more than a third of the longer name's
+/// letters are missing in the other, in any position.
 fn differs_widely(word: &str, name: &str) -> bool {
     let mut rest: Vec<char> = name.chars().collect();
     let shared = word.chars().filter(|letter| {
@@ -151,17 +152,17 @@ fn differs_widely(word: &str, name: &str) -> bool {
     3 * shared.count() < 2 * longest
 }
 
-/// Whether a word is probably a misspelling of a name: similar, and beginning alike.
+/// Whether a word is probably a misspelling of a name: similar, with the same first letter.
 fn is_misspelling(word: &str, name: &str) -> bool {
     !differs_widely(word, name) && word.chars().next() == name.chars().next()
 }
 
-/// The name of a command with those before it, such as `alberti scene init`.
+/// The full name of a command, such as `alberti scene init`.
 fn full_name(command: &Command) -> String {
     command.get_bin_name().unwrap_or(command.get_name()).to_owned()
 }
 
-/// Whether a command has a flag of this long name.
+/// Whether a command has a flag with this long name.
 fn has_flag(command: &Command, name: &str) -> bool {
     command.get_arguments().any(|flag| flag.get_long() == Some(name))
 }
@@ -172,7 +173,7 @@ fn takes_value(command: &Command, name: &str) -> bool {
     flag.is_some_and(|flag| flag.get_action().takes_values())
 }
 
-/// What to do with a file, a folder or another program's command in the place of a command.
+/// Advice on a file, a folder or another program's command where a command belongs.
 fn advise_on_command(error: &Error, words: &[OsString], program: &Command) -> Option<String> {
     let word = context(error, ContextKind::InvalidSubcommand)?;
     let command = match called_command(program, words) {
@@ -210,7 +211,7 @@ fn advise_on_command(error: &Error, words: &[OsString], program: &Command) -> Op
     ))
 }
 
-/// Says what an input may be where none was given.
+/// Adds advice on possible inputs if none was given.
 fn advise_on_input(error: &mut Error) {
     let is_input = match error.get(ContextKind::InvalidArg) {
         Some(ContextValue::Strings(missing)) => {
@@ -225,7 +226,7 @@ fn advise_on_input(error: &mut Error) {
     }
 }
 
-/// Says what to do about two flags that exclude each other.
+/// Adds advice on two conflicting flags.
 fn advise_on_conflict(error: &mut Error) {
     let is_repeated = error.get(ContextKind::InvalidArg) == error.get(ContextKind::PriorArg);
     let tip = if is_repeated { "give it once" } else { "keep one of them" };
@@ -247,8 +248,8 @@ mod tests {
         program
     }
 
-    /// Each piece of advice parses as it is printed, on a command that has the flag; no name in the
-    /// table is a flag that the command has.
+    /// Each piece of advice parses as printed, on a command that has the flag; no name in the table
+    /// is a flag of the command.
     #[test]
     fn advice_is_accepted_by_the_commands_that_get_it() {
         let program = built_program();
@@ -297,8 +298,8 @@ mod tests {
         }
     }
 
-    /// What habits are answered with exists: each command between backquotes parses, and each flag
-    /// is one of a command.
+    /// The advice on habits is valid: each command between backquotes parses, and each flag belongs
+    /// to a command.
     #[test]
     fn what_habits_lead_to_exists() {
         let program = built_program();
@@ -313,7 +314,7 @@ mod tests {
             for quoted in help.split('`').skip(1).step_by(2) {
                 let command = quoted.split(" > ").next().unwrap_or(quoted);
                 let words: Vec<&str> = command.split(' ').collect();
-                // Flags of the program itself end it with what they print.
+                // Flags of the program itself end it after printing.
                 if words.iter().any(|word| ["--help", "--version"].contains(word)) {
                     continue;
                 }

@@ -1,4 +1,4 @@
-//! Flags of the camera: a direction around the models or a place, the field of view, the zoom.
+//! Camera flags: a direction around the models or a position, the field of view, the zoom.
 
 use super::CliError;
 use super::messages::print_message;
@@ -55,7 +55,7 @@ pub(crate) struct ViewpointArgs {
     )]
     target: Option<Triple>,
     /// Direction that points up in the picture, with --eye [default: 0,1,0]
-    // Its own name: `up` is the axis of models that points up.
+    // It has its own name because `up` is the axis of models that points up.
     #[arg(
         help_heading = "Camera",
         long = "view-up",
@@ -79,10 +79,10 @@ impl ViewpointArgs {
         self.azimuth.is_some() || self.elevation.is_some() || self.eye.is_some()
     }
 
-    /// Replaces the fields of the camera by the flags that were given.
+    /// Replaces the camera fields with the given flags.
     ///
     /// # Errors
-    /// If `--fov` meets a projection that has no field of view.
+    /// If `--fov` is given for a projection without a field of view.
     pub(crate) fn apply_to(&self, file: &mut CameraFile) -> Result<(), CliError> {
         if self.azimuth.is_some() || self.elevation.is_some() {
             let [azimuth, elevation] =
@@ -103,7 +103,7 @@ impl ViewpointArgs {
     }
 }
 
-/// Gives a perspective a vertical field of view, in the place of any other.
+/// Gives a perspective a vertical field of view, replacing any other.
 fn set_field_of_view(file: &mut CameraFile, angle: FieldOfView) -> Result<(), CliError> {
     match file.projection.get_or_insert(ProjectionFile::PERSPECTIVE) {
         ProjectionFile::Perspective {
@@ -120,7 +120,7 @@ fn set_field_of_view(file: &mut CameraFile, angle: FieldOfView) -> Result<(), Cl
     }
 }
 
-/// Warns of an angle in degrees that would be a usual one in radians: below π.
+/// Warns about an angle in degrees below π, which may be meant in radians.
 fn warn_of_radians(degrees: f64) {
     if degrees < core::f64::consts::PI {
         let meant = libm::round(degrees.to_degrees() * 10.0) / 10.0;
@@ -131,7 +131,7 @@ fn warn_of_radians(degrees: f64) {
     }
 }
 
-/// The direction from the models to the eye, by angles in degrees.
+/// The direction from the models to the eye, from angles in degrees.
 ///
 /// Quarter turns are exact, so that they give the same picture as the named views.
 fn direction_of(azimuth: f64, elevation: f64) -> [f64; 3] {

@@ -1,7 +1,7 @@
 //! The contact sheet: HTML pages with all pictures and the failures.
 //!
-//! The pages are static and need no script; pictures are loaded when they are scrolled into view.
-//! A page has 500 of them, so that a browser can open it however many there are:
+//! The pages are static and need no script; pictures load when scrolled into view. A page holds up
+//! to 500, so that a browser can open it however many there are in total:
 //!
 //! ```text
 //! index.html  index-2.html  index-3.html …
@@ -16,13 +16,13 @@ use page::escape_markup;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// The number of pictures and failures of a page.
+/// The number of pictures and failures per page.
 const PAGE_RECORDS: u64 = 500;
 
-/// Writes the contact sheet of a merged report, of which these are the counts.
+/// Writes the contact sheet for a merged report with these counts.
 ///
 /// Pictures come first, in the order of the report, then the failures with their messages. Pages
-/// that are left from a longer one are removed.
+/// left over from a longer sheet are removed.
 ///
 /// # Errors
 /// If the report cannot be read or a page cannot be written.
@@ -37,7 +37,7 @@ pub(super) fn write_contact_sheet(out_dir: &Path, counts: &MergeCounts) -> Resul
     sheet.finish()
 }
 
-/// A contact sheet while it is written, page by page.
+/// A contact sheet that is being written, page by page.
 struct ContactSheet<'a> {
     out_dir: &'a Path,
     counts: &'a MergeCounts,
@@ -45,9 +45,9 @@ struct ContactSheet<'a> {
     page: u64,
     /// The number of records on this page.
     records: u64,
-    /// The pictures of this page.
+    /// The pictures on this page.
     figures: String,
-    /// The failures of this page.
+    /// The failures on this page.
     failures: String,
 }
 
@@ -57,7 +57,7 @@ impl<'a> ContactSheet<'a> {
         Self { out_dir, counts, page: 1, records: 0, figures, failures }
     }
 
-    /// Adds a record; writes the page before it, if that is full.
+    /// Adds a record; first writes the current page, if it is full.
     fn add_record(&mut self, record: &RecordLine<'_>) -> Result<(), BatchError> {
         if self.records == PAGE_RECORDS {
             self.write_page()?;
@@ -74,9 +74,9 @@ impl<'a> ContactSheet<'a> {
         Ok(())
     }
 
-    /// Adds a picture. One in a tar file is named only, as a browser cannot show it.
+    /// Adds a picture. A picture in a tar file is only named, because a browser cannot show it.
     ///
-    /// Names of files are untrusted text and are escaped everywhere.
+    /// File names are untrusted text and are escaped everywhere.
     fn add_figure(&mut self, record: &RecordLine<'_>) {
         let (title, name) = (escape_markup(&record.input), escape_markup(&record.output));
         let page = &mut self.figures;
@@ -106,7 +106,7 @@ impl<'a> ContactSheet<'a> {
         Ok(())
     }
 
-    /// Writes this page, unless it is there already, and empties it.
+    /// Writes this page, unless it already exists, and empties it.
     fn write_page(&mut self) -> Result<(), BatchError> {
         let mut page = String::from(PAGE_HEAD);
         let _ =
@@ -123,14 +123,14 @@ impl<'a> ContactSheet<'a> {
         if std::fs::read(&path).is_ok_and(|old| old == page.as_bytes()) {
             return Ok(());
         }
-        // A page can be made again at any time and need not outlive a power failure.
+        // A page can be regenerated at any time and need not survive a power failure.
         let partial = path.with_extension(format!("html.{}.part", std::process::id()));
         std::fs::write(&partial, page)
             .and_then(|()| std::fs::rename(&partial, &path))
             .map_err(|cause| write_error(&path, &cause))
     }
 
-    /// The links to the pages before and after this one; none if there is only one page.
+    /// The links to the previous and next pages; none if there is only one page.
     fn page_links(&self) -> String {
         let pages = (self.counts.done + self.counts.failed).div_ceil(PAGE_RECORDS).max(1);
         if pages == 1 {
@@ -171,9 +171,9 @@ img { width: 100%; background: #fff; border: 1px solid #ccc } pre { white-space:
 </style>
 ";
 
-/// A relative URL of a path, percent-encoded.
+/// Converts a path to a relative URL, percent-encoded.
 ///
-/// The `./` in front marks it as relative, whatever the name begins with.
+/// The leading `./` marks it as relative even if the name looks absolute.
 ///
 /// ```text
 /// a b/c#d.png  ─►  ./a%20b/c%23d.png
@@ -188,7 +188,7 @@ mod tests {
     use crate::merge::merge_reports;
     use crate::test_records::{ReportFolder, done_record, failed_record};
 
-    /// The names of the pages of a report with this many pictures and failures.
+    /// The page names for a report with this many pictures and failures.
     fn write_sheet(folder: &ReportFolder, done: usize, failed: usize) -> Vec<String> {
         let records: Vec<_> = (0..done)
             .map(|at| done_record(&format!("{at:04}.png"), "k"))

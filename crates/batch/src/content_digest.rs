@@ -1,13 +1,13 @@
-//! Size and SHA-256 of a file's content, and hashes in hexadecimal.
+//! File content sizes and SHA-256 hashes, in hexadecimal.
 
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::io::Read;
 
-/// The size of the pieces in which content is hashed.
+/// The size of the blocks in which content is hashed.
 const PIECE_BYTES: usize = 1 << 16;
 
-/// Size and SHA-256 of a content.
+/// The size and SHA-256 of some content.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct ContentDigest {
     /// The number of bytes.
@@ -17,7 +17,7 @@ pub struct ContentDigest {
 }
 
 impl ContentDigest {
-    /// Hashes all that a reader gives, in pieces of 64 KiB.
+    /// Hashes everything from a reader, in blocks of 64 KiB.
     ///
     /// # Errors
     /// If the reader fails.
@@ -34,13 +34,13 @@ impl ContentDigest {
     }
 }
 
-/// The SHA-256 of bytes in hexadecimal.
+/// Returns the SHA-256 of bytes in hexadecimal.
 #[must_use]
 pub fn hexadecimal_sha256(bytes: &[u8]) -> String {
     to_hexadecimal(&Sha256::digest(bytes))
 }
 
-/// Bytes in hexadecimal, two digits each.
+/// Formats bytes in hexadecimal, two digits each.
 #[must_use]
 pub fn to_hexadecimal(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(2 * bytes.len());

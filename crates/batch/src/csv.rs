@@ -1,11 +1,11 @@
 //! Comma-separated values (RFC 4180), record by record.
 
-/// A reader of one record, which is fed line by line: a quoted field may have several.
+/// A reader for one record, fed line by line: a quoted field may span several lines.
 #[derive(Debug, Default)]
 pub(super) struct CsvRecord {
-    /// The fields that are complete, and the one that is being read.
+    /// The complete fields, and the one being read.
     fields: Vec<String>,
-    /// Whether the end of the last line was inside of quotes.
+    /// Whether the last line ended inside quotes.
     is_open: bool,
 }
 
@@ -13,7 +13,7 @@ impl CsvRecord {
     /// Adds a line, with or without its line break; returns whether the record is complete.
     ///
     /// # Errors
-    /// If a quote stands where none can be.
+    /// If a quote is misplaced.
     pub(super) fn add_line(&mut self, line: &str) -> Result<bool, String> {
         let is_quoted_before = std::mem::take(&mut self.is_open);
         let mut state = if is_quoted_before {
@@ -29,7 +29,7 @@ impl CsvRecord {
         Ok(!self.is_open)
     }
 
-    /// Adds a character to the field that is being read; a comma begins the next one.
+    /// Adds a character to the field being read; a comma begins the next one.
     fn add_character(&mut self, state: FieldState, c: char) -> Result<FieldState, String> {
         let field = self.fields.last_mut();
         match (state, c) {
@@ -39,7 +39,7 @@ impl CsvRecord {
                 return Ok(FieldState::Start);
             }
             (FieldState::Quoted, '"') => return Ok(FieldState::AfterQuote),
-            // The line break is part of a field within quotes only.
+            // A line break is part of a field only within quotes.
             (FieldState::Start | FieldState::Plain | FieldState::AfterQuote, '\r' | '\n') => {
                 return Ok(state);
             }
@@ -64,7 +64,7 @@ impl CsvRecord {
     }
 }
 
-/// Where in a field a character stands.
+/// The position of a character within a field.
 #[derive(Clone, Copy)]
 enum FieldState {
     /// At its beginning.

@@ -5,13 +5,13 @@ use crate::BatchError;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The number of tar files of which it is remembered whether they are there.
+/// The maximum number of tar files whose existence is remembered.
 const MAX_TARS: usize = 1 << 16;
 
 /// The result of a job in an earlier run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum EarlierRecord {
-    /// Its picture was made.
+    /// Its picture was rendered.
     Done {
         /// The size of the picture.
         bytes: u64,
@@ -24,13 +24,13 @@ pub(super) enum EarlierRecord {
 
 /// The records of earlier runs, by output and key.
 ///
-/// A picture is a file of its own or in a tar file. The file of an output has the picture of the
-/// last record, whatever its key: an older record with another key, such as that of other flags, is
+/// A picture is a separate file or in a tar file. An output file holds the picture of the last
+/// record, whatever its key. An older record with another key, for example from other flags, is
 /// superseded and no longer counts, even if both pictures have the same size. Tar files are never
-/// written again, and each picture in them counts.
+/// rewritten, and each picture in them counts.
 ///
-/// Records are found by hashes of 64 bits. Two outputs of ten million have the same with a
-/// probability of 1 to 400,000; they would be rendered again.
+/// Records are found by 64-bit hashes. Among ten million outputs, two share a hash with a
+/// probability of 1 in 400,000; they would be rendered again.
 pub(super) struct EarlierRecords {
     /// Sorted by output, then by run; see [`remove_superseded`](Self::remove_superseded).
     entries: Vec<PackedRecord>,
@@ -41,13 +41,13 @@ pub(super) struct EarlierRecords {
 struct PackedRecord {
     /// The hash of the output.
     output: u64,
-    /// The number of the report, the kind, and the size of the picture.
+    /// The report number, the record kind, and the picture size.
     bits: u64,
     /// The hash of the key.
     key: u64,
 }
 
-/// The kind of a record. Of records of one run, pictures come last.
+/// The kind of a record. Among records of one run, pictures come last.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum RecordKind {
     Failed = 0,
@@ -56,11 +56,11 @@ enum RecordKind {
 }
 
 impl PackedRecord {
-    /// The bits of the size; that of a larger picture is recorded as the largest.
+    /// The number of bits for the size; larger sizes are recorded as the maximum.
     const SIZE_BITS: u32 = 40;
-    /// The bits of size and kind; those of the report are above.
+    /// The number of bits for size and kind; the report number is above them.
     const KIND_BITS: u32 = Self::SIZE_BITS + 2;
-    /// The largest number of a report; all that come after it have it as well.
+    /// The largest report number; all later reports share it.
     const LAST_REPORT: u64 = (1 << (u64::BITS - Self::KIND_BITS)) - 1;
 
     fn of_line(record: &RecordLine<'_>, report: u64) -> Self {
@@ -96,7 +96,7 @@ impl PackedRecord {
 impl EarlierRecords {
     /// Reads all reports of an output folder.
     ///
-    /// Records of pictures in tar files that are gone are left out.
+    /// Records of pictures in tar files that no longer exist are skipped.
     ///
     /// # Errors
     /// If a report cannot be read.
@@ -123,7 +123,7 @@ impl EarlierRecords {
         Ok(records)
     }
 
-    /// The record of a job with this output and key; a picture counts more than a failure.
+    /// The record of a job with this output and key; a picture takes precedence over a failure.
     pub(super) fn find(&self, output: &str, key: &str) -> Option<EarlierRecord> {
         let (output, key) = (text_hash(output), text_hash(key));
         let begin = self.entries.partition_point(|entry| entry.output < output);
@@ -132,8 +132,8 @@ impl EarlierRecords {
         of_key.max_by_key(|entry| entry.kind() as u8).map(|entry| entry.unpack())
     }
 
-    /// Adds a record. Before the memory grows, it is tidied up: a merged report has all records of
-    /// the others once more.
+    /// Adds a record. Superseded records are removed before the memory grows: a merged report
+    /// repeats all records of the others.
     fn add_entry(&mut self, entry: PackedRecord) {
         if self.entries.len() == self.entries.capacity() {
             self.remove_superseded();
@@ -147,8 +147,8 @@ impl EarlierRecords {
 
     /// Sorts the records and removes those that no longer count.
     ///
-    /// Of an output these stay: the last file; all pictures in tar files; of each key without any
-    /// picture, a failure.
+    /// For each output, these stay: the last file, all pictures in tar files, and one failure for
+    /// each key without a picture.
     fn remove_superseded(&mut self) {
         self.entries.sort_unstable();
         let (mut kept, mut begin, mut group) = (0, 0, Vec::new());
@@ -167,7 +167,7 @@ impl EarlierRecords {
     }
 }
 
-/// Whether a record counts among all records of its output, which are in the order of the runs.
+/// Whether a record counts among all records of its output, which are in run order.
 fn still_counts(group: &[PackedRecord], at: usize) -> bool {
     let (entry, before) = (group[at], &group[..at]);
     let is_of_key = |other: &&PackedRecord| other.key == entry.key;
@@ -193,7 +193,7 @@ fn text_hash(text: &str) -> u64 {
     bytes_hash(text.bytes())
 }
 
-/// FNV-1a, mixed once more so that all of its bits are good.
+/// FNV-1a, mixed once more so that all its bits are well distributed.
 fn bytes_hash(bytes: impl Iterator<Item = u8>) -> u64 {
     let hash = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)

@@ -1,4 +1,4 @@
-//! Why a batch cannot go on. What is wrong with a single job is a record of its report instead.
+//! The reason why a batch cannot continue. Errors of single jobs are records in its report instead.
 
 use files::OutputError;
 
@@ -12,7 +12,7 @@ pub enum BatchError {
     /// The rest of the merged report could not be written.
     #[error(transparent)]
     Flush(#[from] std::io::Error),
-    /// A list, a folder or a report is unusable, or no worker can be started; in words.
+    /// A list, a folder or a report is unusable, or no worker can be started; the text says why.
     #[error("{0}")]
     Unusable(String),
 }

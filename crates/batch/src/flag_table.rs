@@ -1,5 +1,5 @@
-//! The flags of a picture by their names, and which exclude each other: those of a line take the
-//! place of those of the command.
+//! The flags of a picture by name, and which of them conflict: flags in a list line replace the
+//! command's.
 
 use scene_file::is_scene_file;
 use std::collections::BTreeMap;
@@ -10,16 +10,16 @@ pub fn is_scene_name(value: &str) -> bool {
     is_scene_file(value.as_ref())
 }
 
-/// A flag as one word of a command line.
+/// A flag as one word on a command line.
 #[must_use]
 pub fn flag_word(name: &str, value: Option<&str>) -> String {
     value.map_or_else(|| format!("--{name}"), |value| format!("--{name}={value}"))
 }
 
-/// The names of the flags, and which exclude each other.
+/// The flag names, and which flags conflict.
 #[derive(Clone, Debug, Default)]
 pub struct FlagTable {
-    /// For each flag the others that it cannot be combined with.
+    /// For each flag, the flags with which it cannot be combined.
     conflicts: BTreeMap<String, Vec<String>>,
 }
 
@@ -29,24 +29,24 @@ impl FlagTable {
         self.conflicts.entry(name.to_owned()).or_default();
     }
 
-    /// Adds that two flags exclude each other.
+    /// Records that two flags conflict.
     pub fn add_conflict(&mut self, name: &str, other: &str) {
         self.conflicts.entry(name.to_owned()).or_default().push(other.to_owned());
         self.conflicts.entry(other.to_owned()).or_default().push(name.to_owned());
     }
 
-    /// Whether there is such a flag.
+    /// Whether a flag with this name exists.
     #[must_use]
     pub fn has_flag(&self, name: &str) -> bool {
         self.conflicts.contains_key(name)
     }
 
-    /// The names of all flags.
+    /// All flag names.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.conflicts.keys().map(String::as_str)
     }
 
-    /// The words of `over` on top of those of `base`, which lose what `over` gives itself or
+    /// Merges the words of `over` into `base`, removing flags from `base` that `over` sets or
     /// excludes.
     #[must_use]
     pub fn merge(&self, base: &[String], over: &[String]) -> Vec<String> {
@@ -60,7 +60,7 @@ impl FlagTable {
     }
 }
 
-/// The name in a word such as `--size=64x64`.
+/// The flag name in a word such as `--size=64x64`.
 fn word_name(word: &str) -> &str {
     let name = word.strip_prefix("--").unwrap_or(word);
     name.split_once('=').map_or(name, |(name, _)| name)

@@ -9,17 +9,17 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-/// The maximum depth of folders that are searched. No real folder is that deep.
+/// The maximum depth of the folder search. No real folder is that deep.
 const MAX_DEPTH: usize = 64;
 
 /// Finds the jobs of all inputs, sorted, so that every shard sees the same order.
 ///
-/// A file that is found twice under the same path and name is one job. Files that are named
-/// directly are taken whatever their extension; the importer then reports those it cannot read.
+/// A file that is found twice under the same path and name is one job. Files named directly are
+/// accepted with any extension; the importer then reports those it cannot read.
 ///
 /// # Errors
-/// If a folder or a list cannot be read. A listed file that does not exist is no error here: its
-/// job fails, and the others run.
+/// If a folder or a list cannot be read. A listed file that does not exist is not an error here:
+/// its job fails, and the others run.
 pub(super) fn find_jobs(
     inputs: &[PathBuf],
     scene: Option<&Path>,
@@ -58,13 +58,13 @@ pub(super) fn find_jobs(
     Ok(named.into_iter().map(group).collect())
 }
 
-/// What is wrong with the name of a file that is not UTF-8: reports and workers could not name it.
+/// The error for a file name that is not UTF-8: reports and workers could not name it.
 pub(super) fn unreadable_name(input: &Path) -> Option<String> {
     let fault = || "the name is not UTF-8\n  = help: rename the file".to_owned();
     input.to_str().is_none().then(fault)
 }
 
-/// The error of an input that cannot be read.
+/// The error for an input that cannot be read.
 fn read_error(path: &Path, cause: &std::io::Error) -> BatchError {
     BatchError::Unusable(format!("cannot read {}: {cause}", visible_path(path)))
 }
@@ -74,10 +74,10 @@ fn lowercase_extension(path: &Path) -> Option<String> {
     Some(path.extension()?.to_string_lossy().to_lowercase())
 }
 
-/// Adds the files of a list, relative to its folder. Empty lines and `#` comments are skipped.
+/// Adds the files in a list, relative to its folder. Empty lines and `#` comments are skipped.
 ///
-/// Pairs are the path to read and the name below the output folder. A line is a path as it is
-/// written, without quotes or escapes; spaces at its ends are removed.
+/// Pairs are the path to read and the name below the output folder. A line is a literal path,
+/// without quotes or escapes; spaces at both ends are removed.
 fn add_listed(list: &str, folder: &Path, found: &mut Vec<(PathBuf, PathBuf)>) {
     let lines =
         list.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
@@ -86,15 +86,15 @@ fn add_listed(list: &str, folder: &Path, found: &mut Vec<(PathBuf, PathBuf)>) {
     );
 }
 
-/// A search for the models below a folder.
+/// A search for models below a folder.
 ///
 /// Scenes are not searched for: they are rare among models, and often refer to these very models.
-/// Each folder is visited once, under its own name where it has one below the root: symbolic links
-/// are followed after all else, so that the names do not depend on the order of the disk.
+/// Each folder is visited once, under its own name if it has one below the root. Symbolic links are
+/// followed last, so that the names do not depend on the order on disk.
 struct FolderSearch<'a> {
-    /// The name of a picture is the path below the root, so subfolders appear in the output as well.
+    /// The name of a picture is its path below the root, so the output has the same subfolders.
     root: &'a Path,
-    /// The folders that have been visited, by their real paths.
+    /// The visited folders, by their real paths.
     visited: BTreeSet<PathBuf>,
     /// Symbolic links to folders that are still to be visited, with their depths.
     links: VecDeque<(PathBuf, usize)>,
@@ -108,7 +108,7 @@ impl<'a> FolderSearch<'a> {
     /// Adds all models.
     ///
     /// # Errors
-    /// If a folder cannot be read. A run must not silently leave out a part of its models.
+    /// If a folder cannot be read. A run must not silently skip some of its models.
     fn run(mut self, found: &mut Vec<(PathBuf, PathBuf)>) -> Result<(), BatchError> {
         self.visit(self.root, 0, found)?;
         while let Some((link, depth)) = self.links.pop_front() {
@@ -117,7 +117,7 @@ impl<'a> FolderSearch<'a> {
         Ok(())
     }
 
-    /// Adds the models of a folder and of those in it, but for links.
+    /// Adds the models in a folder and its subfolders, except links.
     fn visit(
         &mut self,
         folder: &Path,
@@ -148,11 +148,11 @@ impl<'a> FolderSearch<'a> {
     }
 }
 
-/// Names the picture of each file: its own name with `.png`.
+/// Names the picture of each file: the file's name with `.png`.
 ///
-/// Where two files would have the same, the original extension stays in the name, and a number is
-/// appended if that does not help. Names are compared without case, because some file systems
-/// ignore it.
+/// If two files would get the same name, the original extension stays in it, and a number is
+/// appended if that does not help. Names are compared case-insensitively, because some file systems
+/// ignore case.
 ///
 /// ```text
 /// fox.glb                ─►  fox.png
@@ -182,7 +182,7 @@ fn name_outputs(found: Vec<(PathBuf, PathBuf)>) -> Vec<(PathBuf, String)> {
 /// Names the picture of each file by a template.
 ///
 /// # Errors
-/// If two files would have the same.
+/// If two files would get the same name.
 fn name_by_template(
     found: Vec<(PathBuf, PathBuf)>,
     template: &PictureName,

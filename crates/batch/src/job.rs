@@ -1,4 +1,4 @@
-//! The jobs of a batch: what each renders, from what, with which flags, and what came of it.
+//! The jobs of a batch, each with its input, output and flags.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -9,17 +9,17 @@ use std::sync::Arc;
 /// Jobs of one [`JobGroup`] have the same input, which is loaded once for all of them.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct BatchJob {
-    /// The model or the scene.
+    /// The model or scene.
     pub(super) input: PathBuf,
     /// The picture's path below the output folder, with `/` between its parts.
     pub(super) output: String,
-    /// The scene that is rendered with the input in the place of its model `{input}`.
+    /// The scene that is rendered with the input as its model `{input}`.
     pub(super) scene: Option<PathBuf>,
-    /// The flags of its line, which come on top of those of the command: `--size=64x64`.
+    /// The flags of its line, which override the command's: `--size=64x64`.
     pub(super) flags: Vec<String>,
     /// The line of a list that describes it.
     pub(super) line: Option<ListLine>,
-    /// The mistake in its line: the job fails with this message before it begins.
+    /// The mistake in its line: the job fails with this message before it starts.
     pub(super) fault: Option<String>,
 }
 
@@ -28,11 +28,11 @@ pub(super) struct BatchJob {
 pub(super) struct JobGroup {
     /// The pictures; at least one.
     pub(super) jobs: Vec<BatchJob>,
-    /// The size of the input in bytes, if the list says it.
+    /// The size of the input in bytes, if the list gives it.
     pub(super) bytes: Option<u64>,
 }
 
-/// A line of a list, as messages name it: `jobs.jsonl:17`.
+/// A line of a list, printed in messages as `jobs.jsonl:17`.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct ListLine {
     /// The name of the list.

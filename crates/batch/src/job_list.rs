@@ -1,11 +1,11 @@
-//! Lists of jobs, one a line, read as they are needed: JSON lines, or CSV with a header.
+//! Lists of jobs, one per line, read on demand: JSON lines, or CSV with a header.
 //!
 //! ```text
 //! {"input": "fox.glb", "output": "a.png", "size": "64x64", "lenient": true}
 //! {"input": "fox.glb", "pictures": [{"view": "front", "output": "f.png"}, {"view": "top"}]}
 //! ```
-//! Members that are none of the list itself are flags of the picture. A wrong line is a job that
-//! fails; the others run.
+//! Members that do not belong to the list itself are flags of the picture. A wrong line is a job
+//! that fails; the others run.
 
 use super::csv::CsvRecord;
 use super::job::{BatchJob, JobGroup, ListLine};
@@ -21,12 +21,12 @@ use std::io::{BufRead, BufReader, Read as _};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The longest line of a list in bytes.
+/// The maximum length of a line in bytes.
 const MAX_LINE_BYTES: u64 = 16 << 20;
 
 /// A list that is being read.
 pub(super) struct JobList {
-    /// The rest of it.
+    /// The unread rest of the list.
     reader: Box<dyn BufRead + Send>,
     /// Its name in messages.
     name: Arc<str>,
@@ -34,22 +34,22 @@ pub(super) struct JobList {
     context: ListContext,
     /// The columns of a CSV file; `None` for JSON lines.
     columns: Option<Vec<String>>,
-    /// The number of the last line that was read.
+    /// The number of the last line read.
     line: u64,
-    /// The number of bytes that were read, and that of all of them, if it is known.
+    /// The number of bytes read, and the total number if known.
     position: (u64, Option<u64>),
-    /// The outputs so far, of a list that cannot be read twice.
+    /// The outputs so far, for a list that cannot be read twice.
     outputs: Option<OutputNames>,
 }
 
 impl JobList {
-    /// Opens a list; `-` is the standard input. `flags` are those that lines may have.
+    /// Opens a list; `-` is the standard input. `flags` are the flags that lines may have.
     ///
-    /// A name in `.csv` is CSV, any other JSON lines; the standard input is JSON lines if it begins
-    /// with a brace.
+    /// A name that ends in `.csv` means CSV, any other JSON lines; the standard input is JSON lines
+    /// if it begins with a brace.
     ///
-    /// A file is read once before, for two lines with the same output. Of a pipe the second of such
-    /// lines is wrong.
+    /// A file is first read once to find lines with the same output. In a pipe, the second of two
+    /// such lines is wrong.
     ///
     /// # Errors
     /// If it cannot be read, a CSV file has no column `input`, or two lines have the same output.
@@ -67,7 +67,7 @@ impl JobList {
         Ok(list)
     }
 
-    /// Reads the list to its end.
+    /// Reads the list to its end and checks its outputs.
     ///
     /// # Errors
     /// If it cannot be read, or two lines have the same output.
@@ -124,7 +124,7 @@ impl JobList {
         Ok(list)
     }
 
-    /// The part of the list that was read, from 0 to 1, if its length is known.
+    /// The fraction of the list read so far, from 0 to 1, if its length is known.
     pub(super) fn fraction(&self) -> Option<f64> {
         let (read, all) = self.position;
         all.map(|all| if all == 0 { 1.0 } else { read as f64 / all as f64 })
@@ -166,7 +166,7 @@ impl JobList {
     /// The next line with its line break; `None` at the end.
     ///
     /// # Errors
-    /// If the list cannot be read, or the line is longer than any that a person or a program means.
+    /// If the list cannot be read, or the line is too long.
     fn next_line(&mut self) -> Result<Option<Vec<u8>>, BatchError> {
         let mut line = Vec::new();
         let mut limited = self.reader.by_ref().take(MAX_LINE_BYTES + 1);
@@ -183,7 +183,7 @@ impl JobList {
         Ok((length > 0).then_some(line))
     }
 
-    /// The fields of the CSV record that begins with a line; the inner error is one of the record.
+    /// The fields of the CSV record that begins with a line; the inner error concerns the record.
     fn read_record(&mut self, first: Vec<u8>) -> Result<Result<Vec<String>, String>, BatchError> {
         let (mut record, mut line) = (CsvRecord::default(), first);
         loop {
@@ -219,7 +219,7 @@ impl JobList {
         }
     }
 
-    /// The members of a CSV record; an empty field is not given.
+    /// The members of a CSV record; an empty field counts as not given.
     fn csv_members(&self, fields: Vec<String>) -> Members {
         let columns = self.columns.as_deref().unwrap_or_default();
         if fields.len() != columns.len() {
@@ -274,7 +274,7 @@ impl Iterator for JobList {
     }
 }
 
-/// What is wrong with the outputs of a line: an earlier line has one of them.
+/// The error if an earlier line already has one of a line's outputs.
 fn repeated_output(outputs: &mut OutputNames, group: &JobGroup, line: u64) -> Option<String> {
     let jobs = group.jobs.iter().filter(|job| job.fault.is_none());
     let claims = jobs.map(|job| (&job.output, outputs.claim(&job.output, line)));
@@ -282,7 +282,7 @@ fn repeated_output(outputs: &mut OutputNames, group: &JobGroup, line: u64) -> Op
     repeated.map(|(output, earlier)| same_output_fault([earlier, line], output))
 }
 
-/// The members of a line, or what is wrong with it.
+/// The members of a line, or the error in it.
 type Members = Result<Map<String, Value>, String>;
 
 /// The members of a line of JSON.
@@ -298,7 +298,7 @@ fn json_members(line: &[u8]) -> Members {
     }
 }
 
-/// The job of a wrong line: it fails under the name of the line.
+/// The job for a wrong line: it fails under the name of the line.
 fn wrong_line(line: ListLine, fault: &str) -> JobGroup {
     let job = BatchJob {
         input: PathBuf::new(),
@@ -311,7 +311,7 @@ fn wrong_line(line: ListLine, fault: &str) -> JobGroup {
     JobGroup { jobs: vec![job], bytes: Some(0) }
 }
 
-/// The error of a list that cannot be read.
+/// The error for a list that cannot be read.
 fn list_error(name: &str, cause: &std::io::Error) -> BatchError {
     BatchError::Unusable(format!("cannot read {name}: {cause}"))
 }

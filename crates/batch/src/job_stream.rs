@@ -1,5 +1,5 @@
-//! The jobs of a run as they are needed: first those of inputs and folders, then those of a list,
-//! and of all of them those of this shard.
+//! The jobs of a run on demand: first from inputs and folders, then from a list, restricted to this
+//! shard.
 
 use super::flag_table::FlagTable;
 use super::inputs::find_jobs;
@@ -10,7 +10,7 @@ use super::shard::{Shard, ShardBalance};
 use crate::BatchError;
 use std::path::{Path, PathBuf};
 
-/// Where the jobs of a run come from.
+/// The sources of a run's jobs.
 pub(super) struct JobSource<'a> {
     /// Files, folders and lists of names.
     pub(super) inputs: &'a [PathBuf],
@@ -28,14 +28,14 @@ pub(super) struct JobSource<'a> {
 ///
 /// A list is read line by line, so that its length takes no memory.
 pub(super) struct JobStream {
-    /// The rest of the inputs, and how many there were.
+    /// The remaining inputs, and their original number.
     inputs: std::vec::IntoIter<JobGroup>,
     input_count: usize,
     /// The list that comes after them.
     list: Option<JobList>,
     /// The shard; `None` for all jobs.
     balance: Option<ShardBalance>,
-    /// The input that was measured last, and its size.
+    /// The input measured last, and its size.
     measured: Option<(PathBuf, u64)>,
 }
 
@@ -60,8 +60,7 @@ impl JobStream {
         })
     }
 
-    /// The part of the inputs, or of the list, that was read; `None` of a list without known
-    /// length.
+    /// The fraction of the inputs or the list read so far; `None` for a list of unknown length.
     pub(super) fn fraction(&self) -> Option<f64> {
         if let Some(list) = &self.list {
             return list.fraction();
@@ -70,7 +69,7 @@ impl JobStream {
         Some(if all == 0 { 1.0 } else { (all - left) as f64 / all as f64 })
     }
 
-    /// The size of the input of a group, for the balance of the shards; 0 if it does not exist.
+    /// The size of a group's input, for balancing the shards; 0 if it does not exist.
     fn measure(&mut self, group: &JobGroup) -> u64 {
         let Some(job) = group.jobs.first() else { return 0 };
         if let Some(bytes) = group.bytes {
@@ -84,7 +83,7 @@ impl JobStream {
         bytes
     }
 
-    /// Whether a group is one of this shard.
+    /// Whether a group belongs to this shard.
     fn takes_group(&mut self, group: &JobGroup) -> bool {
         if self.balance.is_none() {
             return true;

@@ -1,8 +1,8 @@
 //! Content keys: a hash of everything that a picture depends on.
 //!
-//! That is the version of the program, the settings, the name of the picture, and the content of
-//! the model and of the scene with all files they refer to. A picture is up to date if its key is
-//! unchanged, and a job that failed fails again.
+//! These are the program version, the settings, the picture's name, and the contents of the model,
+//! the scene and all files they refer to. If its key is unchanged, a picture is up to date, and a
+//! failed job would fail again.
 //!
 //! Content is hashed rather than compared by time, because models are copied, checked out and
 //! mounted in ways that change their times but not their bytes.
@@ -19,45 +19,46 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// The number of models and scenes whose hashes are kept.
+/// The number of models and scenes whose hashes are cached.
 const MAX_CACHED: usize = 4096;
-/// The size of the pieces in which a file is hashed.
+/// The size of the blocks in which a file is hashed.
 const PIECE_BYTES: usize = 1 << 16;
-/// How much of a file tells its format.
+/// The number of leading bytes of a file that determine its format.
 const HEAD_BYTES: u64 = 1 << 16;
-/// How much of a PLY file is searched for the textures that its header names.
+/// The number of bytes of a PLY file that are searched for textures named in its header.
 const MAX_HEADER_BYTES: u64 = 1 << 20;
 
-/// A SHA-256.
+/// A SHA-256 hash.
 type ContentHash = [u8; 32];
 
-/// Makes the keys of jobs; the threads share one.
+/// Makes the keys of jobs; the threads share one instance.
 ///
-/// Many lines of a list may share a model or a scene: its content is hashed once, and a file that
-/// is changed while the run goes on may keep its old hash to the end.
+/// Many lines of a list may share a model or a scene, so its content is hashed only once. A file
+/// that changes during the run may keep its old hash to the end.
 pub(super) struct KeyMaker {
-    /// The hash of what is the same for all jobs: version, settings, files that flags name.
+    /// The hash of everything common to all jobs: version, settings, files named by flags.
     common: ContentHash,
-    /// The files and folders that scenes may read from besides their own.
+    /// The files and folders outside their own from which scenes may read.
     allowed: Vec<PathBuf>,
     /// The hashes of the last models and scenes.
     cache: Mutex<HashCache>,
 }
 
-/// The hashes of the last models and scenes, by path. The oldest is dropped if they are too many.
+/// The hashes of the last models and scenes, by path. The oldest is dropped when there are too
+/// many.
 #[derive(Default)]
 struct HashCache {
     hashes: BTreeMap<PathBuf, ContentHash>,
-    /// The paths, the oldest first.
+    /// The paths, oldest first.
     order: VecDeque<PathBuf>,
 }
 
 impl KeyMaker {
-    /// Keys of jobs with these settings.
+    /// Creates a maker of keys for jobs with these settings.
     ///
-    /// `settings` is the debug form of the flags; a flag that is added changes it and thereby
-    /// renders everything again, which is the safe side. Files among `allowed`, such as that of
-    /// `--environment`, count by their content.
+    /// `settings` is the debug form of the flags; a new flag changes it and so renders everything
+    /// again, which is the safe choice. Files in `allowed`, such as the `--environment` file, count
+    /// by their content.
     pub(super) fn new(settings: &str, allowed: Vec<PathBuf>) -> Self {
         let mut hash = Sha256::new();
         hash_part(&mut hash, env!("CARGO_PKG_VERSION").as_bytes());
@@ -68,8 +69,8 @@ impl KeyMaker {
 
     /// The key of a job: the first 16 bytes of a SHA-256, in hexadecimal.
     ///
-    /// Files that cannot be read count as empty; rendering reports what is wrong with them. 128
-    /// bits make an accidental collision impossible in practice.
+    /// Files that cannot be read count as empty; rendering reports the errors. 128 bits make an
+    /// accidental collision impossible in practice.
     pub(super) fn job_key(&self, job: &BatchJob) -> String {
         let mut hash = Sha256::new();
         hash.update(self.common);
@@ -93,7 +94,7 @@ impl KeyMaker {
         to_hexadecimal(&hash.finalize()[..16])
     }
 
-    /// The hash of a model or a scene with all that it refers to.
+    /// The hash of a model or a scene with everything it refers to.
     fn content_hash(&self, path: &Path) -> ContentHash {
         let lock = || self.cache.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(known) = lock().hashes.get(path) {
@@ -126,7 +127,7 @@ impl HashCache {
 
 /// Hashes a model with the buffers, material libraries and images it refers to.
 ///
-/// The file is read as bytes and not imported: a key costs a read of the files, not a parse of the
+/// The file is read as bytes and not imported: a key costs reading the files, not parsing the
 /// meshes. Files in folders above the model are hashed as well, since only their bytes matter here;
 /// the importer decides whether they may be read.
 fn hash_model(hash: &mut Sha256, path: &Path) {
@@ -145,8 +146,8 @@ fn hash_model(hash: &mut Sha256, path: &Path) {
 
 /// Hashes a scene with its includes, models and images.
 ///
-/// Of one that cannot be parsed, the text and the mistake are hashed: it may be in an include, and
-/// the key must change when that is corrected.
+/// If a scene cannot be parsed, its text and the mistake are hashed: the mistake may be in an
+/// include, and fixing it must change the key.
 fn hash_scene(hash: &mut Sha256, path: &Path, allowed: &[PathBuf]) {
     hash.update(hash_file(path).0);
     let (origin, file) = match Origin::read_scene_allowing(path, allowed) {
@@ -162,11 +163,10 @@ fn hash_scene(hash: &mut Sha256, path: &Path, allowed: &[PathBuf]) {
     }
 }
 
-/// The hash of a file's content, and the names of the files that it refers to.
+/// The hash of a file's content, and the names of the files it refers to.
 ///
-/// A large file is not kept in memory, but for the part that may have names in it. One that is not
-/// a regular file has no content: a name in a model may be that of a device or a pipe, which would
-/// never end.
+/// Only the part of a large file that may contain names is kept in memory. A file that is not
+/// regular has no content: a model may name a device or a pipe, which would never end.
 fn hash_file(path: &Path) -> (ContentHash, Vec<String>) {
     let mut hash = Sha256::new();
     let is_file = path.metadata().is_ok_and(|metadata| metadata.is_file());
@@ -179,7 +179,7 @@ fn hash_file(path: &Path) -> (ContentHash, Vec<String>) {
         let rest = text_length(path, text).saturating_sub(text.len() as u64);
         file.take(rest).read_to_end(text)
     };
-    // A file that fails to be read fails to be rendered as well.
+    // A file that cannot be read cannot be rendered either.
     let is_whole = read_text(&mut file, &mut text).is_ok();
     hash.update(&text);
     let mut piece = vec![0; if is_whole { PIECE_BYTES } else { 0 }];
@@ -190,7 +190,7 @@ fn hash_file(path: &Path) -> (ContentHash, Vec<String>) {
     (hash.finalize().into(), referenced_files(&name, &text))
 }
 
-/// The length of the part of a file that may name other files, by its extension and first bytes.
+/// The length of the part of a file that may name other files, from its extension and first bytes.
 fn text_length(path: &Path, head: &[u8]) -> u64 {
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("mtl")) {
         return u64::MAX;
@@ -208,7 +208,7 @@ fn text_length(path: &Path, head: &[u8]) -> u64 {
     }
 }
 
-/// Hashes one part, prefixed by its length, so that no two lists of parts give the same bytes.
+/// Hashes one part with its length first, so that no two lists of parts give the same bytes.
 ///
 /// Without the length, `ab` + `c` and `a` + `bc` would have the same key.
 fn hash_part(hash: &mut Sha256, part: &[u8]) {

@@ -1,18 +1,18 @@
-//! Temporary files in the folder of the reports that a killed run has left.
+//! Temporary files that a killed run left in the report folder.
 
 use super::report::host_name;
 use std::path::Path;
 
-/// Removes the temporary files of runs on this machine whose process has died.
+/// Removes the temporary files of runs on this machine whose process is dead.
 ///
-/// Runs on other machines may share the folder: their processes are not known here.
+/// Runs on other machines may share the folder; their processes are unknown here.
 pub(super) fn remove_left_over(reports: &Path) {
     let entries = std::fs::read_dir(reports);
     for entry in entries.into_iter().flatten().flatten() {
         let is_file = entry.file_type().is_ok_and(|kind| kind.is_file());
         let process = entry.file_name().to_str().and_then(|name| process_of(name, &host_name()));
         if is_file && process.is_some_and(is_dead) {
-            // Another run may just have removed it.
+            // Another run may have just removed it.
             let _ = std::fs::remove_file(entry.path());
         }
     }
@@ -25,7 +25,7 @@ fn process_of(name: &str, host: &str) -> Option<u32> {
     process.parse().ok().filter(|_| of == host)
 }
 
-/// Whether the system says that there is no such process; not all do.
+/// Whether the system reports that there is no such process; not all systems do.
 fn is_dead(process: u32) -> bool {
     Path::new("/proc/self").exists() && !Path::new("/proc").join(process.to_string()).exists()
 }

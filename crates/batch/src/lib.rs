@@ -1,33 +1,32 @@
-//! Batches of pictures: many models and scenes, each rendered to a picture of its own.
+//! Batch rendering: many models and scenes, each rendered to its own picture.
 //!
 //! ```text
 //!  folders, lists ─► stream of jobs ─► this shard ─► not done yet ─► workers ─► pictures, tars
 //!                                                         ▲             │
 //!                                     records of earlier runs ◄── report ◄── counts, metrics
 //! ```
-//! A job is done if a report has it with the same content and settings and its picture has the
-//! recorded size. A run that was stopped or killed therefore resumes where it was. A model that is
-//! broken, hangs, crashes or takes all memory is one line of the report and does not stop the
-//! others.
+//! A job is done if a report lists it with the same content and settings and its picture has the
+//! recorded size. A run that was stopped or killed can therefore resume. A model that is broken,
+//! hangs, crashes or uses up the memory is one line in the report and does not stop the others.
 //!
-//! The output folder holds, besides the pictures:
+//! Apart from the pictures, the output folder holds:
 //!
 //! - `reports/`: the reports of all runs, one JSON object per job;
-//! - `report.jsonl`: the reports merged, and `index.html`, the contact sheet, both written by a run
-//!   without shards and by [`merge_reports`].
+//! - `report.jsonl`: the merged report, and `index.html`, the contact sheet; a run without shards
+//!   and [`merge_reports`] write both.
 //!
-//! Names of pictures and the shards of jobs depend on the inputs alone, so that neither threads nor
-//! shards change them.
+//! Picture names and the assignment of jobs to shards depend only on the inputs, so that the number
+//! of threads or shards does not change the names.
 //!
 //! | module | subject |
 //! | --- | --- |
-//! | `run` | a batch from its options: [`run_jobs`], [`verify_jobs`], [`merge_reports`] |
-//! | `inputs`, `job_list`, `list_line`, `job_stream` | the jobs, read as they are needed |
-//! | `template`, `picture_name`, `flag_table` | names of pictures, flags of lines |
-//! | `key`, `content_digest`, `earlier_records` | what is done already |
+//! | `run` | a batch, from its options: [`run_jobs`], [`verify_jobs`], [`merge_reports`] |
+//! | `inputs`, `job_list`, `list_line`, `job_stream` | the jobs, read on demand |
+//! | `template`, `picture_name`, `flag_table` | picture names, flags in list lines |
+//! | `key`, `content_digest`, `earlier_records` | jobs already done |
 //! | `pool`, `worker_process`, `protocol`, `outcome` | workers, and how they end |
-//! | `report`, `report_reader`, `merge`, `contact_sheet` | what came of the jobs |
-//! | `progress`, `metrics` | how far a run is |
+//! | `report`, `report_reader`, `merge`, `contact_sheet` | results of the jobs |
+//! | `progress`, `metrics` | progress of a run |
 //! | `shard`, `tar_output`, `verify` | jobs divided between machines; tar files; verification |
 
 mod contact_sheet;

@@ -1,4 +1,4 @@
-//! The members of a line of a list: the input, the pictures, and flags by their names.
+//! The members of a list line: the input, the pictures, and flags by name.
 
 use super::job::{BatchJob, JobGroup, ListLine};
 use super::picture_name::{NameSource, PictureName, check_picture_name, normal_parts};
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 /// The members that are not flags.
 const OWN_MEMBERS: [&str; 5] = ["input", "output", "scene", "bytes", "pictures"];
 
-/// The context that the lines of a list share.
+/// The context shared by the lines of a list.
 pub(super) struct ListContext {
     /// The folder that inputs and scenes are relative to.
     pub(super) folder: PathBuf,
@@ -24,10 +24,10 @@ pub(super) struct ListContext {
 }
 
 impl ListContext {
-    /// Checks that a member has a meaning.
+    /// Checks that a member is known.
     ///
     /// # Errors
-    /// If it has none, with the name that is likely meant.
+    /// If it is unknown; the message suggests the name that was probably meant.
     pub(super) fn check_member(&self, name: &str) -> Result<(), String> {
         if OWN_MEMBERS.contains(&name) || self.flags.has_flag(name) {
             return Ok(());
@@ -92,7 +92,7 @@ impl LineReader<'_> {
         Ok(JobGroup { jobs, bytes })
     }
 
-    /// The job of one of several pictures; its members come on top of those of the line.
+    /// The job for one of several pictures; its members override the line's.
     fn read_picture(
         &self,
         given: &Path,
@@ -116,7 +116,7 @@ impl LineReader<'_> {
         self.read_job(given, &members, flags, number)
     }
 
-    /// A job with these flags; `number` is that of the picture, 0 for the only one of its line.
+    /// A job with these flags; `number` is the picture's number, 0 for the only one of its line.
     fn read_job(
         &self,
         given: &Path,
@@ -150,7 +150,7 @@ impl LineReader<'_> {
         })
     }
 
-    /// The flags among the members, in the order of their names.
+    /// The flags among the members, in order of name.
     fn flags_of(&self, members: &Map<String, Value>) -> Result<Vec<String>, String> {
         let mut words = Vec::new();
         for (name, value) in members {
@@ -167,12 +167,12 @@ impl LineReader<'_> {
     }
 }
 
-/// A path that means a file: `-` would be the standard input.
+/// A path that names a file: `-` would be the standard input.
 fn named_file(path: PathBuf) -> PathBuf {
     if path.as_os_str() == "-" { Path::new(".").join(path) } else { path }
 }
 
-/// A member that is a text, if it is given.
+/// A text member, if given.
 fn text_member<'a>(members: &'a Map<String, Value>, name: &str) -> Result<Option<&'a str>, String> {
     match members.get(name) {
         None | Some(Value::Null) => Ok(None),
@@ -183,8 +183,8 @@ fn text_member<'a>(members: &'a Map<String, Value>, name: &str) -> Result<Option
 
 /// Adds a flag with the value of a member.
 ///
-/// `true` is a flag without value, `false` and `null` none. A list of numbers is one value with
-/// commas; any other list repeats the flag.
+/// `true` gives a flag without a value, `false` and `null` give no flag. A list of numbers is one
+/// value with commas; any other list repeats the flag.
 fn push_flag(name: &str, value: &Value, words: &mut Vec<String>) -> Result<(), String> {
     match value {
         Value::Null | Value::Bool(false) => {}

@@ -1,12 +1,12 @@
-//! Merges the reports of all runs and shards to one, sorted by output, with one record for each.
+//! Merges the reports of all runs and shards into one, sorted by output, with one record for each.
 //!
 //! ```text
 //!  reports/1-of-2.….jsonl ─┐
 //!  reports/2-of-2.….jsonl ─┼─► sorted chunks ─► one record per output ─► report.jsonl
 //!  report.jsonl ───────────┘   (in a temporary file, if they are many)
 //! ```
-//! The memory is that of one chunk, however many records there are. No report is removed: a run
-//! that is not finished yet may still append to it.
+//! It needs memory for only one chunk, however many records there are. No report is removed: an
+//! unfinished run may still append to it.
 
 mod sorted_chunks;
 
@@ -19,7 +19,7 @@ use sorted_chunks::{Chunks, SortedLine};
 use std::io::Write as _;
 use std::path::Path;
 
-/// The size of a chunk of records that is sorted in memory.
+/// The size of a chunk of records, which is sorted in memory.
 const CHUNK_BYTES: usize = 8 << 20;
 
 /// The counts of a merged report.
@@ -31,18 +31,18 @@ pub struct MergeCounts {
     pub failed: u64,
     /// The size of all pictures in bytes.
     pub bytes: u64,
-    /// The time of all jobs in seconds: that of one worker for all of them.
+    /// The time of all jobs in seconds, as if one worker ran them all.
     pub seconds: f64,
-    /// The longest time of a job in seconds, and its input.
+    /// The longest job time in seconds, and the job's input.
     pub longest: Option<(f64, String)>,
 }
 
-/// The jobs of a run, by which a merged report is restricted to them.
+/// The jobs of a run, used to restrict a merged report to them.
 ///
-/// Eight bytes for each, as a folder may have millions.
+/// It takes eight bytes per job, because a folder may have millions.
 #[derive(Clone, Default, Debug)]
 pub(super) struct CurrentJobs {
-    /// The hashes of output and key.
+    /// The hashes of outputs and keys.
     hashes: Vec<u64>,
 }
 
@@ -64,11 +64,11 @@ impl CurrentJobs {
 
 /// Merges all reports of an output folder into `report.jsonl`, which is replaced atomically.
 ///
-/// The last record of each output counts; one that failed gives way to a picture of the same key,
-/// whichever was first. With `current`, records of other jobs and of other keys are left out.
+/// The last record of each output counts, but a picture always takes precedence over a failure with
+/// the same key. With `current`, records of other jobs and keys are omitted.
 ///
 /// # Errors
-/// If a report cannot be read, or the merged one cannot be written; the old one is unchanged then.
+/// If a report cannot be read, or the merged one cannot be written; then the old one is unchanged.
 pub(super) fn merge_reports(
     out_dir: &Path,
     current: Option<CurrentJobs>,
@@ -76,7 +76,7 @@ pub(super) fn merge_reports(
     merge_in_chunks(out_dir, current, CHUNK_BYTES)
 }
 
-/// [`merge_reports`] with the size of a chunk.
+/// [`merge_reports`] with a given chunk size.
 fn merge_in_chunks(
     out_dir: &Path,
     mut current: Option<CurrentJobs>,
@@ -109,7 +109,7 @@ fn merge_in_chunks(
     merged.finish()
 }
 
-/// The records of one output, as they come in the order of their runs.
+/// The records of one output, in run order.
 #[derive(Default)]
 struct OutputGroup {
     /// The last record.
@@ -119,7 +119,7 @@ struct OutputGroup {
 }
 
 impl OutputGroup {
-    /// Adds a line; returns the record of the output before, if the line begins another.
+    /// Adds a line; returns the previous output's record if the line begins another output.
     fn add_line(&mut self, line: SortedLine) -> Option<Vec<u8>> {
         let Some(last) = &mut self.last else {
             self.last = Some(line);
@@ -149,7 +149,7 @@ impl OutputGroup {
     }
 }
 
-/// The merged report while it is written.
+/// The merged report that is being written.
 struct MergedReport {
     file: std::io::BufWriter<AtomicFile>,
     counts: MergeCounts,
@@ -207,8 +207,8 @@ mod tests {
         (output.to_owned(), key.to_owned(), status.to_owned())
     }
 
-    /// Three runs: a model that was changed, one that failed and then did not, one the other way
-    /// round, and one that failed again after it was changed.
+    /// Three runs: a model that changed, one that failed and then succeeded, one the other way
+    /// round, and one that failed again after it changed.
     fn three_runs(name: &str) -> ReportFolder {
         let folder = ReportFolder::new(name);
         let first = [

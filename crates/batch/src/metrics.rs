@@ -1,4 +1,4 @@
-//! The metrics of a run in the text format of Prometheus, for its textfile collector.
+//! The metrics of a run in Prometheus text format, for the textfile collector.
 //!
 //! The file is replaced as a whole, so that a collector never reads half of it.
 
@@ -7,10 +7,10 @@ use crate::BatchError;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// The upper bounds of the histogram of seconds.
+/// The upper bounds of the histogram in seconds.
 const BOUNDS: [f64; 11] = [0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
 
-/// How the jobs of a run ended.
+/// The outcomes of a run's jobs.
 #[derive(Clone, Copy, PartialEq, Default, Debug)]
 pub struct RunCounts {
     /// Pictures that were rendered.
@@ -19,21 +19,21 @@ pub struct RunCounts {
     pub up_to_date: u64,
     /// Jobs that failed in this run.
     pub failed: u64,
-    /// Jobs that had failed in an earlier run.
+    /// Jobs that failed in an earlier run.
     pub failed_before: u64,
     /// Workers that were replaced.
     pub restarts: u64,
     /// The size of the pictures that were rendered, in bytes.
     pub bytes: u64,
-    /// The time of the jobs of this run in seconds.
+    /// The total job time of this run in seconds.
     pub seconds: f64,
-    /// How many jobs of this run took at most as long as each bound from 0.01 s to 1000 s, and no
-    /// less than the bound before.
+    /// The number of jobs in this run that took at most each bound from 0.01 s to 1000 s, but
+    /// longer than the previous bound.
     pub histogram: [u64; BOUNDS.len()],
 }
 
 impl RunCounts {
-    /// Counts a job that was rendered or has failed.
+    /// Counts a job that was rendered or failed.
     pub(super) fn count_record(&mut self, record: &JobRecord) {
         *(if record.status == FAILED { &mut self.failed } else { &mut self.rendered }) += 1;
         self.bytes = self.bytes.saturating_add(record.bytes);
@@ -53,7 +53,7 @@ impl RunCounts {
         self.rendered + self.failed
     }
 
-    /// The metrics as text. `elapsed` is the time since the beginning of the run, in seconds.
+    /// The metrics as text. `elapsed` is the time since the start of the run, in seconds.
     fn to_metrics(self, elapsed: f64) -> String {
         let mut text = String::new();
         let jobs = [
@@ -85,7 +85,7 @@ impl RunCounts {
     }
 }
 
-/// The lines in front of a metric: what it is, and of which type.
+/// Adds the lines before a metric: its description and its type.
 fn head(text: &mut String, name: &str, kind: &str, help: &str) {
     let _ = writeln!(text, "# HELP alberti_batch_{name} {help}");
     let _ = writeln!(text, "# TYPE alberti_batch_{name} {kind}");
@@ -97,14 +97,14 @@ pub(super) struct MetricsFile {
 }
 
 impl MetricsFile {
-    /// A file that is not written yet.
+    /// Creates a metrics file that is not written yet.
     pub(super) fn new(path: &Path) -> Self {
         Self { path: path.to_owned() }
     }
 
     /// Replaces the file.
     ///
-    /// It is not brought to the disk: the next one comes in a second.
+    /// It is not flushed to disk: the next one follows in a second.
     ///
     /// # Errors
     /// If it cannot be written.

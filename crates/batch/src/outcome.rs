@@ -1,4 +1,4 @@
-//! Records of jobs that fail, and the reasons of runs that end early.
+//! Records of failed jobs, and the reasons why runs end early.
 
 use super::job::BatchJob;
 use super::pool::JobPolicy;
@@ -10,12 +10,12 @@ use files::visible_text;
 /// The outcome of a step of a run.
 pub(super) type Outcome = Result<(), RunStop>;
 
-/// Why a run ends before its jobs do.
+/// The reason why a run ends before its jobs.
 #[derive(Debug)]
 pub(super) enum RunStop {
-    /// A list cannot be read, or the output folder cannot be written: no fault of a job.
+    /// A list cannot be read, or the output folder cannot be written: not an error of a job.
     Fault(BatchError),
-    /// A worker was interrupted by this signal, and the run with it.
+    /// This signal interrupted a worker and the run with it.
     Signal(i32),
 }
 
@@ -25,15 +25,15 @@ impl From<BatchError> for RunStop {
     }
 }
 
-/// The most failures that are told at the end of a run; the report has all.
+/// The maximum number of failures printed at the end of a run; the report has all.
 const MAX_TOLD: usize = 20;
 
-/// The failures that are told at the end of a run: the first ones by the name of the picture.
+/// The failures that are printed at the end of a run: the first ones by picture name.
 #[derive(Debug, Default)]
 pub(super) struct FailureList {
-    /// Name of the picture, and the message; sorted.
+    /// The picture name and the message; sorted.
     first: Vec<(String, String)>,
-    /// The number of all.
+    /// The total number.
     count: usize,
 }
 
@@ -42,7 +42,8 @@ impl FailureList {
     pub(super) fn add(&mut self, record: &JobRecord) {
         self.count += 1;
         let at = self.first.partition_point(|(output, _)| *output < record.output);
-        // The message of a wrong line names the line, and that of a model often its file.
+        // The message for a wrong line names the line, and the message for a model often names its
+        // file.
         let name = format!("{}: ", visible_text(&record.input));
         let text = if record.input.is_empty() || record.message.starts_with(&name) {
             record.message.clone()
@@ -53,7 +54,7 @@ impl FailureList {
         self.first.truncate(MAX_TOLD);
     }
 
-    /// Tells the failures, one after the other.
+    /// Passes on the failures one by one.
     ///
     /// ```text
     /// failed: models/broken.glb: …
@@ -91,7 +92,7 @@ pub(super) fn failed_record(
     }
 }
 
-/// Signals by their numbers, which are the same on all systems that have them.
+/// Signals by number; the numbers are the same on all systems that have them.
 const SIGNALS: [(i32, &str); 9] = [
     (1, "SIGHUP"),
     (2, "SIGINT"),
@@ -105,7 +106,7 @@ const SIGNALS: [(i32, &str); 9] = [
 ];
 
 impl WorkerEnd {
-    /// The signal, if it is one that asks for an end and says nothing about the job.
+    /// The signal, if it requests termination and says nothing about the job.
     pub(super) fn interruption(&self) -> Option<i32> {
         match self {
             Self::Signal(signal @ (1 | 2 | 15)) => Some(*signal),
@@ -113,14 +114,14 @@ impl WorkerEnd {
         }
     }
 
-    /// Whether it was killed: by the system that is out of memory, or by somebody who ends all.
+    /// Whether it was killed: by a system that is out of memory, or by someone who ends everything.
     pub(super) fn is_killed(&self) -> bool {
         *self == Self::Signal(9)
     }
 }
 
-/// The message of a job whose worker has ended: how, and the end of what it wrote to its standard
-/// error stream.
+/// The message for a job whose worker ended: the way it ended, and the end of its standard error
+/// output.
 pub(super) fn worker_end_message(end: &WorkerEnd, text: &str, policy: JobPolicy) -> String {
     let what = match end {
         WorkerEnd::TimedOut => {

@@ -1,21 +1,20 @@
-//! The outputs of a list: no two of its lines may write one file.
+//! The outputs of a list: no two of its lines may write the same file.
 
 use std::collections::BTreeMap;
 
-/// The line of each output, by a hash of its name: a list may be longer than the memory has room
-/// for names.
+/// The line of each output, by a hash of its name: there may be too many names for memory.
 #[derive(Debug, Default)]
 pub(super) struct OutputNames {
     lines: BTreeMap<u64, u64>,
 }
 
 impl OutputNames {
-    /// Notes the output of a line.
+    /// Records the output of a line.
     ///
     /// # Errors
-    /// If an earlier line has it: the number of that line.
+    /// If an earlier line has the same output: the number of that line.
     pub(super) fn claim(&mut self, output: &str, line: u64) -> Result<(), u64> {
-        // Of the key of a record: two outputs of one hash are as unlikely as there.
+        // Uses the hash of record keys: collisions are as unlikely as there.
         let hash = super::earlier_records::record_hash(&same_file_name(output), "");
         match self.lines.insert(hash, line) {
             Some(earlier) if earlier != line => Err(earlier),
@@ -24,12 +23,12 @@ impl OutputNames {
     }
 }
 
-/// The name by which a file system knows an output: those of these systems ignore case.
+/// The name that a file system uses for an output: the file systems on these platforms ignore case.
 fn same_file_name(output: &str) -> String {
     if cfg!(any(windows, target_os = "macos")) { output.to_lowercase() } else { output.to_owned() }
 }
 
-/// What is wrong with two lines of one output.
+/// The error for two lines with the same output.
 pub(super) fn same_output_fault(lines: [u64; 2], output: &str) -> String {
     let [first, second] = lines;
     let output = files::visible_text(output);

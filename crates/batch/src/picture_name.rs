@@ -1,4 +1,4 @@
-//! Names of pictures below the output folder: by a template, or as a list says.
+//! Output file names: from a template or from a job list.
 //!
 //! ```text
 //! {stem}-{line:08}.png            fox-00000017.png
@@ -10,26 +10,26 @@ use files::visible_text;
 use sha2::{Digest, Sha256};
 use std::path::{Component, Path};
 
-/// A template of names with the fields of a batch.
+/// A name template with the fields of a batch.
 #[derive(Clone, Debug)]
 pub struct PictureName(NameTemplate);
 
-/// The source of the fields of a name.
+/// The source of a name's fields.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NameSource<'a> {
-    /// The input, relative to the folder or the list that it was found in.
+    /// The input, relative to the folder or list in which it was found.
     pub(super) input: &'a Path,
     /// The number of the line, or of the input, from 1.
     pub(super) line: usize,
-    /// The number of the picture among those of its line, from 1.
+    /// The number of the picture within its line, from 1.
     pub(super) picture: usize,
 }
 
 impl PictureName {
-    /// The names of lists that name no pictures themselves.
+    /// The template for lists that do not name their pictures.
     ///
-    /// Lines cannot be compared with each other, as a list may be longer than the memory: the
-    /// number of the line makes the name unique.
+    /// Lines cannot be compared with each other, because a list may be larger than memory: the line
+    /// number makes the name unique.
     pub(super) fn of_line(has_pictures: bool) -> Self {
         let text =
             if has_pictures { "{stem}-{line:08}-{picture}.png" } else { "{stem}-{line:08}.png" };
@@ -59,7 +59,8 @@ impl PictureName {
 
     /// The name of a picture.
     ///
-    /// `{prefix}` is of the name without it, so that it stays as it is when a name is found again.
+    /// `{prefix}` is computed from the name without it, so it stays the same when the name is
+    /// computed again.
     pub(super) fn name_picture(&self, source: NameSource<'_>) -> String {
         let plain = self.expand(source, "");
         if !self.has_field("prefix") {
@@ -86,10 +87,9 @@ impl PictureName {
     }
 }
 
-/// A path without root, `.` and `..`, with `/` between its parts: it stays below the output
-/// folder.
+/// A path without root, `.` and `..`, with `/` as separator: it stays below the output folder.
 ///
-/// `../up/x.glb` and `/up/x.glb` both become `up/x.glb`. A list is often made by another program,
+/// `../up/x.glb` and `/up/x.glb` both become `up/x.glb`. A list is often made by another program
 /// and must not be able to write outside the folder.
 pub(super) fn normal_parts(path: &Path) -> String {
     let normal = path.components().filter_map(|part| match part {
@@ -102,7 +102,7 @@ pub(super) fn normal_parts(path: &Path) -> String {
 /// Checks the name that a list gives to a picture.
 ///
 /// # Errors
-/// If it leads out of the output folder, or is none of a PNG file.
+/// If it points outside the output folder, or does not end in `.png`.
 pub(super) fn check_picture_name(name: &str) -> Result<(), String> {
     let (path, shown) = (Path::new(name), visible_text(name));
     let is_normal = path.components().all(|part| matches!(part, Component::Normal(_)));

@@ -1,7 +1,7 @@
-//! The pool of workers: one thread for each, which gives it jobs and keeps what came of them.
+//! The worker pool: each worker has a thread that gives it jobs and records the results.
 //!
-//! One worker per core is faster for many small pictures than all cores on one: loading, decoding
-//! and encoding are serial, and take most of the time of a thumbnail.
+//! One worker per core is faster for many small pictures than all cores on one picture: loading,
+//! decoding and encoding are serial, and take most of a thumbnail's time.
 
 use super::earlier_records::{EarlierRecord, EarlierRecords};
 use super::job::{BatchJob, JobGroup};
@@ -22,18 +22,18 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// The bounds of one job, and which jobs are to be run again.
+/// The limits of one job, and which jobs to run again.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct JobPolicy {
-    /// The time of one picture.
+    /// The time limit for one picture.
     pub(super) limit: Option<Duration>,
-    /// The memory of a worker in bytes.
+    /// The memory limit of a worker in bytes.
     pub(super) memory: Option<u64>,
     /// Whether jobs that failed in an earlier run are run again.
     pub(super) retries_failed: bool,
 }
 
-/// A run: where its jobs come from, and where their results go.
+/// A run, with the source of its jobs and the destinations of their results.
 pub(super) struct BatchRun<'a> {
     /// The jobs of this shard, which the threads share.
     pub(super) jobs: Mutex<JobStream>,
@@ -41,7 +41,7 @@ pub(super) struct BatchRun<'a> {
     pub(super) keys: &'a KeyMaker,
     /// The flags of the command.
     pub(super) flags: &'a [String],
-    /// Which flags exclude each other.
+    /// The flags, with their conflicts.
     pub(super) flag_table: &'a FlagTable,
     /// The program that workers run.
     pub(super) program: WorkerProgram<'a>,
@@ -55,29 +55,28 @@ pub(super) struct BatchRun<'a> {
     pub(super) progress: &'a RunProgress,
     /// The output folder.
     pub(super) out_dir: &'a Path,
-    /// The bounds of the jobs.
+    /// The limits of the jobs.
     pub(super) policy: JobPolicy,
-    /// The failures of this run, for the end.
+    /// The failures of this run, to print at the end.
     pub(super) failures: Mutex<FailureList>,
-    /// All jobs, by which the merged report is restricted to them; `None` of a shard
-    /// and of a list.
+    /// All jobs, to restrict the merged report to them; `None` for a shard and for a list.
     pub(super) current: Option<Mutex<CurrentJobs>>,
-    /// Why no further job is begun.
+    /// The reason why no further job is started.
     pub(super) stop: Mutex<Option<RunStop>>,
 }
 
-/// A job that is to be run, and its key.
+/// A job to run, with its key.
 struct OpenJob {
     job: BatchJob,
     key: String,
 }
 
 impl BatchRun<'_> {
-    /// Runs the jobs that are not up to date, with so many workers at a time.
+    /// Runs the jobs that are not up to date, with this many workers at a time.
     ///
     /// Threads take the next jobs from the stream as they become free, so that large models do not
     /// leave workers idle. The calling thread works as well. A worker is started for the first job
-    /// of its thread: nothing is started where all is done.
+    /// of its thread: if everything is done, none is started.
     pub(super) fn run_jobs(&self, threads: usize) {
         std::thread::scope(|scope| {
             for slot in 1..threads {
@@ -114,8 +113,8 @@ impl BatchRun<'_> {
 
     /// Runs those jobs of a group that are not up to date.
     ///
-    /// The key is taken before rendering: if the model is changed meanwhile, the record has the old
-    /// key, and the next run renders it again.
+    /// The key is taken before rendering: if the model changes in the meantime, the record has the
+    /// old key, and the next run renders it again.
     fn run_group(
         &self,
         slot: usize,
@@ -137,7 +136,7 @@ impl BatchRun<'_> {
                 },
             }
         }
-        // How many jobs were left when a worker ended that the first of them may not have ended.
+        // The number of jobs left when a worker ended, perhaps not because of the first of them.
         let mut doubted = None;
         while !open.is_empty() {
             let running = match worker {
@@ -152,7 +151,7 @@ impl BatchRun<'_> {
             if let Some(signal) = end.interruption() {
                 return Err(RunStop::Signal(signal));
             }
-            // Jobs before may have spoiled the worker, and who kills it may be about to kill all.
+            // Earlier jobs may have corrupted the worker, and its killer may be about to kill all.
             let is_doubtful = (!is_fresh && end != WorkerEnd::TimedOut) || end.is_killed();
             if is_doubtful && doubted != Some(open.len()) {
                 doubted = Some(open.len());
@@ -167,7 +166,7 @@ impl BatchRun<'_> {
         Ok(())
     }
 
-    /// Whether a job was run before, and has then failed; `None` if it is to be run.
+    /// Whether a job that already ran had failed; `None` if it must be run.
     fn settled(&self, job: &BatchJob, key: &str) -> Option<bool> {
         match self.earlier.as_ref()?.find(&job.output, key)? {
             EarlierRecord::Failed => (!self.policy.retries_failed).then_some(true),
@@ -179,9 +178,9 @@ impl BatchRun<'_> {
         }
     }
 
-    /// Has a worker run jobs; those that it has answered are kept and taken from the list.
+    /// Makes a worker run jobs; answered jobs are recorded and removed from the list.
     ///
-    /// The inner error is the end of the worker, which was that of the first job that is left.
+    /// The inner error says how the worker ended while running the first job left in the list.
     fn ask_worker(
         &self,
         slot: usize,
@@ -218,7 +217,7 @@ impl BatchRun<'_> {
         PictureRequest { scene: job.scene.clone(), flags, target }
     }
 
-    /// Keeps what came of a job.
+    /// Records the result of a job.
     fn keep(&self, record: JobRecord, picture: &[u8]) -> Outcome {
         self.progress.count_record(&record);
         if record.status == DONE {
@@ -233,10 +232,10 @@ impl BatchRun<'_> {
     }
 }
 
-/// The record of an answer.
+/// Creates the record for an answer.
 ///
 /// # Errors
-/// If the output folder cannot be written, which is no fault of the job.
+/// If the output folder cannot be written, which is not an error of the job.
 fn answered_record(job: &BatchJob, key: String, answer: WorkAnswer) -> Result<JobRecord, RunStop> {
     match answer {
         WorkAnswer::Done { seconds, warnings, message, bytes, sha256 } => Ok(JobRecord {

@@ -1,9 +1,10 @@
-//! How far a batch is: a line on a terminal, a line a minute in a log, and the file of `--metrics`.
+//! Batch progress: a status line on a terminal, one line per minute in a log, and the `--metrics`
+//! file.
 //!
 //! ```text
 //! 1204 jobs, 58.3/s, 2 failed, 12 min left
 //! ```
-//! All three are written by one thread, because a job may take minutes in which nothing is counted.
+//! One thread writes all three, because a job may take minutes during which nothing is counted.
 
 use super::metrics::{MetricsFile, RunCounts};
 use super::report::JobRecord;
@@ -20,14 +21,14 @@ use std::time::{Duration, Instant};
 const TERMINAL_INTERVAL: Duration = Duration::from_millis(250);
 /// The interval between two lines of a log.
 const LOG_INTERVAL: Duration = Duration::from_mins(1);
-/// The interval between two versions of the file of `--metrics`.
+/// The interval between two versions of the `--metrics` file.
 const METRICS_INTERVAL: Duration = Duration::from_secs(1);
 
-/// Where the progress of a run is shown.
+/// The destination of the progress display.
 pub struct ProgressDisplay {
     /// The stream, such as the standard error stream.
     pub stream: Box<dyn Write + Send>,
-    /// Whether it is a terminal, on which a line is written over and over; a log gets one a minute.
+    /// Whether it is a terminal, on which one line is rewritten; a log gets one line per minute.
     pub is_terminal: bool,
 }
 
@@ -39,9 +40,9 @@ impl std::fmt::Debug for ProgressDisplay {
     }
 }
 
-/// Counts the jobs of a run and shows how far it is; the threads share one.
+/// Counts the jobs of a run and shows its progress; the threads share one instance.
 ///
-/// It must be finished before messages are printed, which would be appended to the line.
+/// Finish it before printing messages, which would be appended to the line.
 pub(super) struct RunProgress {
     state: Arc<Mutex<ProgressState>>,
     begin: Instant,
@@ -55,15 +56,15 @@ pub(super) struct RunProgress {
 #[derive(Clone, Copy, Default)]
 struct ProgressState {
     counts: RunCounts,
-    /// The part of the inputs that was read, from 0 to 1; unknown for a pipe.
+    /// The fraction of the inputs read so far, from 0 to 1; unknown for a pipe.
     fraction: Option<f64>,
 }
 
 impl RunProgress {
-    /// Starts to count, and the thread that shows it.
+    /// Starts counting and starts the display thread.
     ///
     /// # Errors
-    /// If the file of `--metrics` cannot be written, which is noticed here, before any work is done.
+    /// If the `--metrics` file cannot be written; this is detected here, before any work is done.
     pub(super) fn start(
         metrics: Option<&Path>,
         display: ProgressDisplay,
@@ -82,12 +83,12 @@ impl RunProgress {
         let (sender, receiver) = channel();
         let thread = std::thread::Builder::new().name("progress".to_owned());
         let thread = thread.spawn(move || display.run(|time| receiver.recv_timeout(time)));
-        // Without a thread nothing is shown, which is no reason to stop.
+        // Without a thread nothing is shown, but the run continues.
         let display = thread.ok().map(|thread| (sender, thread));
         Ok(Self { state, begin, metrics, display })
     }
 
-    /// Says which part of the inputs was read, from 0 to 1.
+    /// Sets the fraction of the inputs read so far, from 0 to 1.
     pub(super) fn set_fraction(&self, fraction: f64) {
         lock(&self.state).fraction = Some(fraction.clamp(0.0, 1.0));
     }
@@ -108,10 +109,10 @@ impl RunProgress {
         lock(&self.state).counts.restarts += 1;
     }
 
-    /// Removes the line from the terminal and writes the metrics for the last time.
+    /// Removes the line from the terminal and writes the metrics one last time.
     ///
     /// # Errors
-    /// If the file of `--metrics` cannot be written.
+    /// If the `--metrics` file cannot be written.
     pub(super) fn finish(mut self) -> Result<RunCounts, BatchError> {
         self.end_display();
         let counts = lock(&self.state).counts;
@@ -129,14 +130,14 @@ impl RunProgress {
     }
 }
 
-/// A run that ends early leaves no line on the terminal either.
+/// Even a run that ends early leaves no line on the terminal.
 impl Drop for RunProgress {
     fn drop(&mut self) {
         self.end_display();
     }
 }
 
-/// The state; a panic of another thread leaves whole numbers behind.
+/// Locks the state; its numbers stay valid even if another thread panicked.
 fn lock(state: &Mutex<ProgressState>) -> MutexGuard<'_, ProgressState> {
     state.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -152,7 +153,7 @@ struct DisplayLoop {
 impl DisplayLoop {
     /// Writes until the channel is closed.
     ///
-    /// Errors are ignored here: a display that cannot be drawn is no reason to stop, and metrics
+    /// Errors are ignored here: a display that cannot be drawn should not stop the run, and metrics
     /// that cannot be written are an error at the end.
     fn run(mut self, wait: impl Fn(Duration) -> Result<(), RecvTimeoutError>) {
         let is_terminal = self.shown.is_terminal;
@@ -182,10 +183,10 @@ impl DisplayLoop {
     }
 }
 
-/// The number of jobs a second, over the last minutes.
+/// The number of jobs per second, over the last minutes.
 ///
-/// It is that of the last one or two minutes, so that the first large model does not decide for
-/// long. Jobs that were up to date do not count.
+/// It covers the last one or two minutes, so that a large first model does not dominate for long.
+/// Jobs that were up to date do not count.
 #[derive(Default)]
 struct JobRate {
     /// Time in seconds and jobs of this run at the last two marks.
@@ -207,10 +208,10 @@ impl JobRate {
     }
 }
 
-/// The line of the progress; `elapsed` is the time since the beginning of the run, in seconds.
+/// The progress line; `elapsed` is the time since the start of the run, in seconds.
 ///
-/// The time left follows from the part of the inputs that was read. All jobs that are left count as
-/// ones to be rendered, though some may turn out to be up to date.
+/// The remaining time follows from the fraction of the inputs read so far. All remaining jobs count
+/// as jobs to render, though some may turn out to be up to date.
 fn progress_line(state: &ProgressState, rate: &mut JobRate, elapsed: f64) -> String {
     let ProgressState { counts, fraction } = state;
     let mut line = format!("{} jobs", counts.settled());
@@ -263,7 +264,7 @@ mod tests {
     #[test]
     fn the_rate_is_that_of_the_last_minutes() {
         let mut rate = JobRate::default();
-        // A job a second for 5 minutes, then ten.
+        // One job per second for 5 minutes, then ten.
         for second in 1..=300_u32 {
             rate.measure(f64::from(second), second.into());
         }

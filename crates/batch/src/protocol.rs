@@ -1,4 +1,4 @@
-//! The protocol between the coordinator of a batch and its workers: one JSON object a line.
+//! The protocol between the coordinator of a batch and its workers: one JSON object per line.
 //!
 //! ```text
 //!  coordinator ─► {"input":"a.glb","pictures":[{"flags":["--size=64x64"],…},…]} ─► worker
@@ -8,10 +8,10 @@
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// An input to load, and the pictures to render of it.
+/// An input to load, and its pictures to render.
 #[derive(Serialize, Deserialize, Debug)]
 pub struct WorkRequest {
-    /// The model or the scene.
+    /// The model or scene.
     #[serde(with = "any_path")]
     pub input: PathBuf,
     /// The pictures, at least one.
@@ -21,24 +21,24 @@ pub struct WorkRequest {
 /// A picture to render.
 #[derive(Serialize, Deserialize, Debug)]
 pub struct PictureRequest {
-    /// The scene that the input is put into.
+    /// The scene into which the input is inserted.
     pub scene: Option<PathBuf>,
     /// All flags of the picture.
     pub flags: Vec<String>,
-    /// Where the picture goes.
+    /// The destination of the picture.
     pub target: PictureTarget,
 }
 
-/// Where a picture goes.
+/// The destination of a picture.
 #[derive(Serialize, Deserialize, Debug)]
 #[serde(rename_all = "snake_case")]
 pub enum PictureTarget {
-    /// To a file, which is written under another name first.
+    /// To a file, which is first written under a temporary name.
     File {
         /// The file.
         #[serde(with = "any_path")]
         path: PathBuf,
-        /// The other name.
+        /// The temporary name.
         #[serde(with = "any_path")]
         partial: PathBuf,
     },
@@ -46,7 +46,7 @@ pub enum PictureTarget {
     Pipe,
 }
 
-/// An answer, and how many bytes of its picture follow the line.
+/// An answer, and the number of picture bytes that follow its line.
 #[derive(Serialize, Deserialize, Debug)]
 pub struct FramedAnswer {
     /// The answer.
@@ -61,7 +61,7 @@ pub struct FramedAnswer {
 pub enum WorkAnswer {
     /// It was rendered, and written unless it follows through the pipe.
     Done {
-        /// Time in seconds, with loading, if that was for this picture.
+        /// Time in seconds, including loading, if this picture caused it.
         seconds: f64,
         /// The number of warnings.
         warnings: usize,
@@ -72,28 +72,28 @@ pub enum WorkAnswer {
         /// Its SHA-256 in hexadecimal.
         sha256: String,
     },
-    /// The model, the scene or a flag is at fault.
+    /// The model, the scene or a flag is wrong.
     Failed {
         /// Time in seconds.
         seconds: f64,
-        /// What is wrong.
+        /// The error.
         message: String,
     },
-    /// The output folder is at fault, so that no other picture can be written either.
+    /// The output folder is unusable, so no other picture can be written either.
     Stopped {
-        /// What is wrong.
+        /// The error.
         message: String,
     },
 }
 
-/// Paths as text, or as bytes where they are not UTF-8.
+/// Paths as text, or as bytes if they are not UTF-8.
 mod any_path {
     use serde::de::Error as _;
     use serde::ser::Error as _;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
     use std::path::{Path, PathBuf};
 
-    /// A path that JSON can hold.
+    /// A path in a form that JSON can represent.
     #[derive(Serialize, Deserialize)]
     #[serde(untagged)]
     enum PathText {

@@ -1,16 +1,16 @@
-//! The report of a run: one line of JSON for each picture, appended as soon as it is finished.
+//! The report of a run: one line of JSON per picture, appended as soon as it is finished.
 //!
-//! Every run writes a file of its own, `OUT/reports/I-of-N.HOST.PID.RUN.jsonl`, and no file is ever
-//! written by two runs or written again: this is safe on network file systems without locks, and
-//! when the same shard is started twice at once. A run that is killed leaves the records of what it
-//! has done.
+//! Every run writes its own file, `OUT/reports/I-of-N.HOST.PID.RUN.jsonl`, and no file is ever
+//! shared by two runs or rewritten. This is safe on network file systems without locks, and if the
+//! same shard is started twice at once. A run that is killed leaves the records of its finished
+//! jobs.
 //!
 //! ```text
 //! {"input":"models/fox.glb","output":"fox.png","status":"done","key":"90a1…","seconds":0.41,
 //!  "warnings":0,"message":"","bytes":20117,"sha256":"5d02…"}
 //! ```
-//! `RUN` is one more than the highest number in the folder. It says which records are newer, as
-//! clocks of several machines cannot.
+//! `RUN` is one more than the highest number in the folder. It shows which records are newer, which
+//! the clocks of several machines cannot.
 
 use super::Shard;
 use super::left_over::remove_left_over;
@@ -22,38 +22,38 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// The folder of the reports, below the output folder.
+/// The report folder, below the output folder.
 pub(super) const REPORTS_FOLDER: &str = "reports";
-/// The time after which records are brought to the disk. A machine that loses its power loses no
-/// more than the work of this time.
+/// The time after which records are flushed to disk. A power failure loses at most the work of this
+/// time.
 const SYNC_INTERVAL: Duration = Duration::from_secs(5);
-/// The maximum length of a host's name in the name of a report.
+/// The maximum length of a host name in a report name.
 const MAX_HOST_LENGTH: usize = 64;
 
 /// The outcome of one job.
 #[derive(Clone, PartialEq, Debug, serde::Serialize)]
 pub(super) struct JobRecord {
-    /// The path of the input, as it was given.
+    /// The path of the input, as given.
     pub(super) input: String,
     /// The path of the picture below the output folder.
     pub(super) output: String,
     /// `done` or `failed`.
     pub(super) status: String,
-    /// The content key that the picture was rendered from.
+    /// The content key from which the picture was rendered.
     ///
     /// A job whose key has changed is run again.
     pub(super) key: String,
-    /// Time in seconds, with loading and writing.
+    /// Time in seconds, including loading and writing.
     pub(super) seconds: f64,
     /// The number of warnings.
     pub(super) warnings: usize,
     /// The error, or the first warning.
     pub(super) message: String,
-    /// The size of the picture in bytes; 0 of a job that failed.
+    /// The size of the picture in bytes; 0 if the job failed.
     pub(super) bytes: u64,
-    /// The SHA-256 of the picture in hexadecimal; empty of a job that failed.
+    /// The SHA-256 of the picture in hexadecimal; empty if the job failed.
     pub(super) sha256: String,
-    /// The tar file below the output folder that holds the picture, if it is in one.
+    /// The tar file below the output folder that contains the picture, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) tar: Option<String>,
 }
@@ -66,9 +66,9 @@ pub(super) const FAILED: &str = "failed";
 impl JobRecord {
     /// The record as one line of JSON.
     ///
-    /// A time that is not finite, which no clock gives, is written as `null`.
+    /// A time that is not finite, which no clock reports, is written as `null`.
     pub(super) fn to_line(&self) -> String {
-        // The type has only strings and numbers, which can always be written.
+        // The type has only strings and numbers, which can always be serialized.
         let mut line = serde_json::to_string(self).unwrap_or_default();
         line.push('\n');
         line
@@ -81,25 +81,25 @@ pub(super) struct ReportWriter {
     run_name: String,
     /// The path of the report.
     path: PathBuf,
-    /// The open report; a lock keeps the lines of several threads apart.
+    /// The open report; a lock keeps lines from different threads apart.
     open: Mutex<OpenReport>,
 }
 
-/// A report that is open for appending.
+/// A report open for appending.
 struct OpenReport {
     file: File,
-    /// Whether there is a record in it.
+    /// Whether it contains a record.
     has_records: bool,
-    /// When it was last brought to the disk.
+    /// The time of the last flush to disk.
     synced: Instant,
 }
 
 impl ReportWriter {
-    /// Creates a report that no other run has, and the folder of the reports; what killed runs have
-    /// left there is removed.
+    /// Creates a report that no other run uses, and the report folder; removes files that killed
+    /// runs left there.
     ///
     /// # Errors
-    /// If the file cannot be created, which is noticed here, before any work is done.
+    /// If the file cannot be created; this is detected here, before any work is done.
     pub(super) fn create(out_dir: &Path, shard: Shard) -> Result<Self, BatchError> {
         let folder = out_dir.join(REPORTS_FOLDER);
         std::fs::create_dir_all(&folder).map_err(|cause| write_error(&folder, &cause))?;
@@ -115,23 +115,23 @@ impl ReportWriter {
                     let open = OpenReport { file, has_records: false, synced: Instant::now() };
                     return Ok(Self { run_name, path, open: Mutex::new(open) });
                 }
-                // Another host of this name, such as a container, has a process of this number.
+                // Another host with this name, such as a container, has a process with this number.
                 Err(cause) if cause.kind() == ErrorKind::AlreadyExists && run < u64::MAX => {}
                 Err(cause) => return Err(write_error(&path, &cause)),
             }
         }
     }
 
-    /// The name of the run, which is that of no other in the output folder.
+    /// The name of the run, which is unique in the output folder.
     pub(super) fn run_name(&self) -> &str {
         &self.run_name
     }
 
-    /// Appends a record, which may be that of a finished picture only.
+    /// Appends a record, which must belong to a finished picture or a failed job.
     ///
     /// The line is written in one call and not buffered: after a crash, at most the last line is
-    /// incomplete. A poisoned lock is ignored, because a panic of another thread leaves no
-    /// half-written state behind.
+    /// incomplete. A poisoned lock is ignored, because a panic in another thread leaves no
+    /// half-written state.
     ///
     /// # Errors
     /// If it cannot be written: the disk is full, or the folder is gone.
@@ -142,7 +142,7 @@ impl ReportWriter {
     /// Appends several records in one call.
     ///
     /// # Errors
-    /// If they cannot be written; some of them may be in the report then.
+    /// If they cannot be written; then some of them may be in the report.
     pub(super) fn append_records(&self, records: &[JobRecord]) -> Result<(), BatchError> {
         let lines: String = records.iter().map(JobRecord::to_line).collect();
         let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
@@ -155,7 +155,7 @@ impl ReportWriter {
         written.map_err(|cause| write_error(&self.path, &cause))
     }
 
-    /// Brings the report to the disk; an empty one is removed.
+    /// Flushes the report to disk; an empty one is removed.
     ///
     /// # Errors
     /// If it cannot be written.
@@ -165,18 +165,18 @@ impl ReportWriter {
             return open.file.sync_all().map_err(|cause| write_error(&self.path, &cause));
         }
         drop(open);
-        // An empty report that stays is read as one without records.
+        // An empty report that remains is read as one without records.
         let _ = std::fs::remove_file(&self.path);
         Ok(())
     }
 }
 
-/// The error of a file or a folder that cannot be written.
+/// The error for a file or folder that cannot be written.
 pub(super) fn write_error(path: &Path, cause: &std::io::Error) -> BatchError {
     BatchError::Unusable(format!("cannot write {}: {cause}", visible_path(path)))
 }
 
-/// The number of a run in the name of its report: the part before the extension.
+/// The run number in a report name: the part before the extension.
 ///
 /// ```text
 /// 2-of-8.node17.4711.3.jsonl  ─►  3
@@ -186,7 +186,7 @@ pub(super) fn run_number(path: &Path) -> u64 {
     stem.rsplit('.').next().and_then(|number| number.parse().ok()).unwrap_or(0)
 }
 
-/// The highest number of a run among the reports of a folder; 0 if there are none.
+/// The highest run number among the reports in a folder; 0 if there are none.
 fn last_run(folder: &Path) -> std::io::Result<u64> {
     let mut last = 0;
     for entry in std::fs::read_dir(folder)? {
@@ -198,9 +198,10 @@ fn last_run(folder: &Path) -> std::io::Result<u64> {
     Ok(last)
 }
 
-/// The name of this machine, for names of files; `host` if it is not known.
+/// The name of this machine, for file names; `host` if unknown.
 ///
-/// Letters, digits and `-` stay. It need not be unique, but helps to find the machine of a record.
+/// Letters, digits and `-` are kept. It need not be unique, but helps to find the machine that
+/// wrote a record.
 pub(super) fn host_name() -> String {
     let name = std::fs::read_to_string("/proc/sys/kernel/hostname").ok();
     let name = name.or_else(|| std::env::var("COMPUTERNAME").ok()).unwrap_or_default();

@@ -1,7 +1,7 @@
-//! Reading the reports of an output folder, line by line and without keeping them.
+//! Reads the reports of an output folder line by line, without keeping them in memory.
 //!
-//! A report of a million records is read in a second or two, and takes no more memory than its
-//! longest line.
+//! Reading a report of a million records takes a second or two, and no more memory than its longest
+//! line.
 
 use super::report::{DONE, FAILED, REPORTS_FOLDER, run_number};
 use crate::BatchError;
@@ -13,18 +13,18 @@ use std::path::{Path, PathBuf};
 
 /// The merged report, below the output folder.
 pub(super) const MERGED_REPORT: &str = "report.jsonl";
-/// The maximum length of a line in bytes; what is longer is no record of ours.
+/// The maximum length of a line in bytes; longer lines are not batch records.
 const MAX_LINE_BYTES: u64 = 1 << 20;
-/// The size of the buffer of a report.
+/// The size of the read buffer for a report.
 const BUFFER_BYTES: usize = 1 << 18;
 
-/// A record, as it stands in a line. All members but `tar` must be there.
+/// A record as parsed from a line. All members except `tar` are required.
 ///
-/// Further members are ignored, so that reports of newer versions can be read; a line of an older
-/// one that lacks a member is skipped, and its job is run again.
+/// Further members are ignored, so that reports from newer versions can be read. A line from an
+/// older version that lacks a member is skipped, and its job is run again.
 #[derive(Debug, serde::Deserialize)]
 pub(super) struct RecordLine<'a> {
-    /// The path of the input, as it was given.
+    /// The path of the input, as given.
     #[serde(borrow)]
     pub(super) input: Cow<'a, str>,
     /// The path of the picture below the output folder.
@@ -46,13 +46,13 @@ pub(super) struct RecordLine<'a> {
     /// The SHA-256 of the picture in hexadecimal.
     #[serde(borrow)]
     pub(super) sha256: Cow<'a, str>,
-    /// The tar file that holds the picture.
+    /// The tar file that contains the picture.
     #[serde(default)]
     pub(super) tar: Option<String>,
 }
 
 impl<'a> RecordLine<'a> {
-    /// Parses a line; `None` if it is truncated or of another schema.
+    /// Parses a line; `None` if it is truncated or has another schema.
     pub(super) fn parse(line: &'a [u8]) -> Option<Self> {
         let record: Self = serde_json::from_slice(line).ok()?;
         matches!(&*record.status, DONE | FAILED).then_some(record)
@@ -64,13 +64,13 @@ impl<'a> RecordLine<'a> {
     }
 }
 
-/// Reads all reports of an output folder, the oldest run first and the merged report before all.
+/// Reads all reports of an output folder: first the merged report, then the runs, oldest first.
 ///
 /// Calls `visit` for each record with its line, which has no line break.
 ///
 /// # Errors
-/// If a report cannot be read, or `visit` fails. What is left out would be rendered again, or be
-/// missing in a merged report. A folder that does not exist yet has no reports.
+/// If a report cannot be read, or `visit` fails. Skipped records would be rendered again, or be
+/// missing from a merged report. A folder that does not exist yet has no reports.
 pub(super) fn read_reports(
     out_dir: &Path,
     mut visit: impl FnMut(&RecordLine<'_>, &[u8]) -> Result<(), BatchError>,
@@ -81,7 +81,7 @@ pub(super) fn read_reports(
     Ok(())
 }
 
-/// Reads one report, if it is there and a file; see [`read_reports`].
+/// Reads one report, if it exists and is a file; see [`read_reports`].
 ///
 /// # Errors
 /// If it cannot be read, or `visit` fails.
@@ -89,13 +89,13 @@ pub(super) fn read_report(
     path: &Path,
     mut visit: impl FnMut(&RecordLine<'_>, &[u8]) -> Result<(), BatchError>,
 ) -> Result<(), BatchError> {
-    // A pipe of this name would be waited for, a folder cannot be read.
+    // A pipe with this name would block, and a folder cannot be read.
     if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
         return Ok(());
     }
     let file = match File::open(path) {
         Ok(file) => file,
-        // An empty report that its run has just removed.
+        // This is an empty report that its run has just removed.
         Err(cause) if cause.kind() == ErrorKind::NotFound => return Ok(()),
         Err(cause) => return Err(read_error(path, &cause)),
     };
@@ -114,7 +114,7 @@ pub(super) fn read_report(
     }
 }
 
-/// The paths of all reports: the merged one, then those of the runs, by number and name.
+/// The paths of all reports: the merged one, then the runs by number and name.
 ///
 /// # Errors
 /// If the folder cannot be read.
@@ -138,7 +138,7 @@ pub(super) fn report_paths(out_dir: &Path) -> Result<Vec<PathBuf>, BatchError> {
     Ok(paths)
 }
 
-/// The error of a report that cannot be read.
+/// The error for a report that cannot be read.
 fn read_error(path: &Path, cause: &std::io::Error) -> BatchError {
     BatchError::Unusable(format!("cannot read {}: {cause}", visible_path(path)))
 }
@@ -148,7 +148,7 @@ mod tests {
     use super::*;
     use crate::test_records::{ReportFolder, done_record, failed_record};
 
-    /// The outputs of all records, in the order in which they are read.
+    /// The outputs of all records, in reading order.
     fn outputs(folder: &ReportFolder) -> Vec<String> {
         let mut outputs = Vec::new();
         let visited = read_reports(folder.path(), |record, _| {
@@ -177,7 +177,7 @@ mod tests {
             let text = format!("{whole}{}", &whole.replace("first", "second")[..cut]);
             folder.add_text("reports/1-of-1.a.1.1.jsonl", text.as_bytes());
             let read = outputs(&folder);
-            // Without its line break it is whole as well; `second` is one letter longer.
+            // A line without its line break is complete as well; `second` is one letter longer.
             assert_eq!(read.len(), 1, "{cut}: {read:?}");
         }
         let torn = format!("{}{whole}\0\0\0\n{{}}\nno JSON\n[1]\n{whole}", &whole[..40]);

@@ -1,4 +1,4 @@
-//! A batch from its options to its result: rendered, verified, or merged.
+//! Runs a batch from options to result: renders, verifies or merges.
 
 use super::contact_sheet;
 use super::earlier_records::EarlierRecords;
@@ -22,45 +22,45 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-/// The jobs of a batch, and how they are run.
+/// The jobs of a batch, and the options for running them.
 #[derive(Clone, Debug)]
 pub struct BatchOptions {
     /// Models, scenes, folders, and lists of names.
     pub inputs: Vec<PathBuf>,
     /// A list of jobs, JSON lines or CSV; `-` is the standard input.
     pub list: Option<PathBuf>,
-    /// The scene that inputs are put into.
+    /// The scene into which inputs are inserted.
     pub scene: Option<PathBuf>,
-    /// The template of the names of pictures.
+    /// The template for picture names.
     pub picture_name: Option<PictureName>,
     /// The output folder.
     pub out_dir: PathBuf,
-    /// The part of the jobs that is run.
+    /// The shard of the jobs to run.
     pub shard: Shard,
     /// The flags of all pictures, as words such as `--size=64x64`.
     pub flags: Vec<String>,
-    /// The flags that lines of a list may have, and which exclude each other.
+    /// The flags that lines of a list may have, and which of them conflict.
     pub flag_table: FlagTable,
-    /// Folders outside of those of the scenes that files may lie in, and files that flags name.
+    /// Allowed folders outside the scenes' own, and files named by flags.
     pub allowed: Vec<PathBuf>,
-    /// The time of one picture.
+    /// The time limit for one picture.
     pub job_time: Option<Duration>,
-    /// The memory of a worker in bytes.
+    /// The memory limit of a worker in bytes.
     pub job_memory: Option<u64>,
     /// Whether everything is rendered again.
     pub is_forced: bool,
     /// Whether jobs that failed in an earlier run are run again.
     pub retries_failed: bool,
-    /// The number of pictures in each tar file, if they go to tar files.
+    /// The number of pictures per tar file, if tar files are written.
     pub tar: Option<u32>,
-    /// The file of counts and times for Prometheus.
+    /// The file with counts and times for Prometheus.
     pub metrics: Option<PathBuf>,
     /// The number of workers at a time.
     pub threads: usize,
 }
 
 impl BatchOptions {
-    /// Finds the inputs and opens the list: the jobs of this shard.
+    /// Finds the inputs and opens the list; returns the jobs of this shard.
     ///
     /// # Errors
     /// If a folder or the list cannot be read.
@@ -75,13 +75,13 @@ impl BatchOptions {
         JobStream::open(&source, self.shard).map(ShardJobs)
     }
 
-    /// The maker of the keys by which jobs are known to be done.
+    /// The maker of the keys that identify finished jobs.
     fn keys(&self) -> KeyMaker {
         KeyMaker::new(&format!("{:?}", self.flags), self.allowed.clone())
     }
 }
 
-/// The jobs of a shard: found, and not run yet.
+/// The jobs of a shard, found but not run yet.
 pub struct ShardJobs(JobStream);
 
 impl std::fmt::Debug for ShardJobs {
@@ -90,12 +90,12 @@ impl std::fmt::Debug for ShardJobs {
     }
 }
 
-/// How a run ended.
+/// The result of a run.
 #[derive(Clone, Copy, Debug)]
 pub enum RunEnd {
-    /// All jobs were run, and came to this.
+    /// All jobs were run, with these counts.
     Finished(RunCounts),
-    /// It was interrupted by this signal; the next run goes on.
+    /// This signal interrupted it; the next run resumes.
     Interrupted(i32),
 }
 
@@ -109,8 +109,8 @@ pub fn merge_reports(out_dir: &Path) -> Result<MergeCounts, BatchError> {
     Ok(counts)
 }
 
-/// Checks that every job has a record and every picture is whole; `tell` gets what is wrong, one
-/// picture a line, then the counts. Whether nothing is wrong.
+/// Checks that every job has a record and every picture is intact; `tell` gets the problems, one
+/// line per picture, then the counts. Returns true if there are none.
 ///
 /// # Errors
 /// If a list or a report cannot be read, or `tell` fails.
@@ -122,14 +122,14 @@ pub fn verify_jobs<E: From<BatchError>>(
     verify::verify_jobs(jobs.0, &options.keys(), &options.out_dir, tell)
 }
 
-/// Runs the jobs; `tell_failure` gets the messages of those that failed, at the end.
+/// Runs the jobs; `tell_failure` gets the messages of failed jobs at the end.
 ///
-/// The reports of all shards in the folder count as earlier work, so a run may resume with another
-/// number of shards.
+/// The reports of all shards in the folder count as earlier work, so a run may resume with a
+/// different number of shards.
 ///
 /// # Errors
-/// If a list cannot be read, or the output folder cannot be written. A job that fails is no error:
-/// it is a record of the report.
+/// If a list cannot be read, or the output folder cannot be written. A job that fails is not an
+/// error: it is a record in the report.
 pub fn run_jobs(
     options: &BatchOptions,
     jobs: ShardJobs,
@@ -164,7 +164,7 @@ pub fn run_jobs(
             retries_failed: options.retries_failed,
         },
         failures: Mutex::default(),
-        // A list may be too long to be kept.
+        // A list may be too long to keep in memory.
         current: (shard.has_all_jobs() && options.list.is_none())
             .then(Mutex::<CurrentJobs>::default),
         stop: Mutex::new(None),
@@ -173,7 +173,7 @@ pub fn run_jobs(
     let stop = run.stop.into_inner().unwrap_or_else(PoisonError::into_inner);
     let current = run.current.map(|jobs| jobs.into_inner().unwrap_or_else(PoisonError::into_inner));
     let failures = run.failures.into_inner().unwrap_or_else(PoisonError::into_inner);
-    // What was rendered is kept, whatever has stopped the run.
+    // Finished pictures are kept, no matter what stopped the run.
     let tar = tar.map_or(Ok(()), |tar| tar.finish(&report));
     let closed = tar.and_then(|()| report.finish());
     let counts = progress.finish()?;

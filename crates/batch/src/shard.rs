@@ -1,8 +1,8 @@
 //! Shards: the jobs of a batch divided between several machines.
 //!
-//! Every machine runs the same command with a shard of its own and needs nothing from the others
-//! but a common view of the inputs: each goes through all jobs in the same order, and takes those
-//! that [`ShardBalance`] gives to its shard.
+//! Every machine runs the same command with its own shard, and needs nothing from the others except
+//! a common view of the inputs. Each goes through all jobs in the same order and takes the jobs
+//! that [`ShardBalance`] assigns to its shard.
 //!
 //! ```text
 //! alberti batch models --out-dir out --shard 2/8
@@ -40,15 +40,15 @@ impl Shard {
         self.count == 1
     }
 
-    /// The shard in the names of files, counted from 1 as on the command line: `2-of-8`.
+    /// The shard in file names, counted from 1 as on the command line: `2-of-8`.
     ///
-    /// Each shard has files of its own, because appending from several machines to one file is not
+    /// Each shard has its own files, because appending to one file from several machines is not
     /// safe on network file systems.
     pub(super) fn file_name_part(self) -> String {
         format!("{}-of-{}", self.index + 1, self.count)
     }
 
-    /// A shard, if its index is valid.
+    /// Creates a shard, if its index is valid.
     fn new(index: usize, count: usize) -> Option<Self> {
         (index < count && count <= MAX_SHARDS).then_some(Self { index, count })
     }
@@ -56,27 +56,28 @@ impl Shard {
 
 /// The jobs of one shard, balanced by the bytes of their inputs.
 ///
-/// Each job goes to the shard that has the fewest bytes so far; of several, to the first. Large
+/// Each job goes to the shard with the fewest bytes so far; among several, to the first. Large
 /// models are often neighbors in a folder, and one of them may be as large as a thousand others.
-/// The bytes of all shards are known without asking them, because the jobs of all are counted.
+/// Each machine counts the jobs of all shards, so the shards need not communicate.
 #[derive(Clone, Debug)]
 pub(super) struct ShardBalance {
-    /// The shard whose jobs are looked for.
+    /// The shard whose jobs are wanted.
     shard: Shard,
-    /// The bytes and the index of each shard, the one with the fewest bytes on top.
+    /// The bytes and the index of each shard, with the fewest bytes on top.
     loads: BinaryHeap<Reverse<(u64, usize)>>,
 }
 
 impl ShardBalance {
-    /// All shards are empty.
+    /// Creates a balance in which all shards are empty.
     pub(super) fn new(shard: Shard) -> Self {
         Self { shard, loads: (0..shard.count).map(|index| Reverse((0, index))).collect() }
     }
 
-    /// Deals out the next group of jobs, whose input has this many bytes; whether this shard has it.
+    /// Assigns the next group of jobs, whose input has this many bytes; returns whether it belongs
+    /// to this shard.
     ///
-    /// An input of 0 bytes, such as a file that is missing, counts as 1: otherwise all of them
-    /// would go to one shard.
+    /// An input of 0 bytes, such as a missing file, counts as 1: otherwise all such inputs would go
+    /// to one shard.
     pub(super) fn takes_group(&mut self, bytes: u64) -> bool {
         let Some(mut least) = self.loads.peek_mut() else { return true };
         let Reverse((load, index)) = *least;
@@ -88,13 +89,13 @@ impl ShardBalance {
 /// Parses `I/N`; `auto` and `auto/N` take the index from the environment.
 ///
 /// # Errors
-/// If the text is not `I/N` with `1 <= I <= N`, or `auto` is used outside of an array job, or the
-/// array job has another number of tasks than `N`.
+/// If the text is not `I/N` with `1 <= I <= N`, or `auto` is used outside an array job, or the
+/// number of tasks in the array job is not `N`.
 pub fn parse_shard(text: &str) -> Result<Shard, String> {
     parse_shard_with(text, |name| std::env::var(name).ok().as_deref().and_then(parse_count))
 }
 
-/// [`parse_shard`] with the numbers of the environment.
+/// [`parse_shard`] with the given environment variables.
 fn parse_shard_with(text: &str, variable: impl Fn(&str) -> Option<usize>) -> Result<Shard, String> {
     let fault = || "expected I/N with I from 1 to N, such as 2/8, or auto, or auto/N".to_owned();
     if text == "auto" {
@@ -121,11 +122,11 @@ fn parse_count(digits: &str) -> Option<usize> {
 struct Scheduler {
     /// The index of this task.
     index: &'static str,
-    /// The index of the first task, because array jobs may be numbered from any index.
+    /// The index of the first task, because array job numbering may start anywhere.
     first: FirstIndex,
     /// The number of tasks.
     count: TaskCount,
-    /// The difference of two indices that follow each other; 1 if it has no variable.
+    /// The difference between successive indices; 1 if it has no variable.
     step: Option<&'static str>,
 }
 
@@ -139,20 +140,20 @@ enum FirstIndex {
     Variable(&'static str),
 }
 
-/// Where the number of tasks is known from.
+/// The source of the number of tasks.
 enum TaskCount {
     /// The variable holds the number of tasks.
     Variable(&'static str),
     /// The variable holds the index of the last task; the count follows from the first index.
     Last(&'static str),
-    /// The scheduler does not tell it, so that `auto/N` has to.
+    /// The scheduler does not report it, so `auto/N` must give it.
     Unknown,
 }
 
-/// The job schedulers that are known.
+/// The known job schedulers.
 ///
-/// In this order: Slurm, AWS Batch, Cloud Run jobs, Google Batch, Grid Engine, LSF, PBS, Buildkite,
-/// GitLab CI, and Kubernetes, which comes last because others run their tasks in it.
+/// The order is: Slurm, AWS Batch, Cloud Run jobs, Google Batch, Grid Engine, LSF, PBS, Buildkite,
+/// GitLab CI, and Kubernetes, which comes last because other schedulers run their tasks in it.
 const SCHEDULERS: &[Scheduler] = &[
     Scheduler {
         index: "SLURM_ARRAY_TASK_ID",
@@ -217,9 +218,9 @@ const SCHEDULERS: &[Scheduler] = &[
 ];
 
 impl Scheduler {
-    /// The index from 0 of this task, and the number of tasks if it is known.
+    /// The index of this task, from 0, and the number of tasks if known.
     ///
-    /// `None` outside of an array job, or if the index does not fit the other variables.
+    /// `None` outside an array job, or if the index does not match the other variables.
     fn task(&self, variable: &impl Fn(&str) -> Option<usize>) -> Option<(usize, Option<usize>)> {
         let own = variable(self.index)?;
         let first = match self.first {
@@ -240,8 +241,8 @@ impl Scheduler {
 
 /// The shard of the first scheduler whose variables are set.
 ///
-/// `wanted` is the number of shards in `auto/N`. It must be the number of tasks if that is known:
-/// jobs of shards without a task would never be rendered.
+/// `wanted` is the number of shards in `auto/N`. If the number of tasks is known, it must be the
+/// same: jobs of shards without a task would never be rendered.
 fn shard_of_task(
     variable: impl Fn(&str) -> Option<usize>,
     wanted: Option<usize>,
@@ -277,7 +278,7 @@ fn shard_of_task(
 mod tests {
     use super::*;
 
-    /// The shard `auto` or `auto/N` with these variables.
+    /// Parses the shard `auto` or `auto/N` with these variables.
     fn shard_with(text: &str, set: &[(&str, usize)]) -> Result<Shard, String> {
         let value = |name: &str| set.iter().find(|(known, _)| *known == name).map(|(_, v)| *v);
         parse_shard_with(text, value)
@@ -301,7 +302,7 @@ mod tests {
         let (mut state, mut largest) = (1_u64, 0);
         for _ in 0..1000 {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            // From 1 to 2^20, as likely small as large.
+            // From 1 to 2^20, with small and large values equally likely.
             let bytes = 1_u64 << (state >> 59).min(20);
             largest = largest.max(bytes);
             let takers: Vec<usize> =

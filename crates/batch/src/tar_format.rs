@@ -1,16 +1,16 @@
-//! Tar archives (POSIX.1-1988 `ustar`): regular files one after the other, written and read.
+//! Reads and writes tar archives (POSIX.1-1988 `ustar`) of regular files.
 //!
 //! A file is a header of 512 bytes, then its content, padded to a multiple of 512 bytes; two blocks
-//! of zeros end the archive. A name that is too long for the header comes before it in a record of
-//! its own (POSIX.1-2001 `pax`, type `x`). Owner, permissions and time are the same for all files,
-//! so that the same files give the same bytes.
+//! of zeros end the archive. A name that is too long for the header is in a separate record before
+//! it (POSIX.1-2001 `pax`, type `x`). Owner, permissions and time are the same for all files, so
+//! that the same files give the same bytes.
 
 use std::io::{Error, ErrorKind, Read, Result, Write};
 use std::ops::Range;
 
-/// The unit of length of an archive.
+/// The unit of length in an archive.
 const BLOCK_BYTES: usize = 512;
-/// The maximum length of a name in `pax` records that is read.
+/// The maximum length of a `pax` record that is read.
 const MAX_NAME_RECORD: u64 = 1 << 16;
 
 /// The fields of a header.
@@ -39,7 +39,7 @@ pub(super) fn append_file(writer: &mut impl Write, name: &str, content: &[u8]) -
         let mut before = [0; BLOCK_BYTES];
         before[NAME][..9].copy_from_slice(b"PaxHeader");
         append_block(writer, before, b'x', record.as_bytes())?;
-        // What a reader sees that does not know the record.
+        // This name is for readers that do not know the record.
         let cut =
             name.char_indices().map(|(at, c)| at + c.len_utf8()).take_while(|end| *end <= 100);
         let cut = cut.last().unwrap_or(0);
@@ -48,7 +48,7 @@ pub(super) fn append_file(writer: &mut impl Write, name: &str, content: &[u8]) -
     append_block(writer, header, b'0', content)
 }
 
-/// Ends an archive.
+/// Finishes an archive.
 ///
 /// # Errors
 /// If it cannot be written.
@@ -56,7 +56,7 @@ pub(super) fn finish_archive(writer: &mut impl Write) -> Result<()> {
     writer.write_all(&[0; 2 * BLOCK_BYTES])
 }
 
-/// Completes a header that has a name, and writes it with the content.
+/// Completes a header that has a name and writes it with the content.
 fn append_block(
     writer: &mut impl Write,
     mut header: [u8; BLOCK_BYTES],
@@ -82,7 +82,7 @@ fn append_block(
     writer.write_all(&[0; BLOCK_BYTES][..padding])
 }
 
-/// The sum of the bytes of a header, with spaces in the place of the sum.
+/// The sum of a header's bytes, with spaces where the sum goes.
 fn header_sum(header: &[u8; BLOCK_BYTES]) -> u32 {
     let spaces = CHECKSUM.len() as u32 * u32::from(b' ');
     let all: u32 = header.iter().map(|byte| u32::from(*byte)).sum();
@@ -90,7 +90,8 @@ fn header_sum(header: &[u8; BLOCK_BYTES]) -> u32 {
     all - own + spaces
 }
 
-/// A name in the two fields of a header, which are joined by a slash; `None` if it is too long.
+/// Splits a name into the two fields of a header, which are joined by a slash; `None` if it is too
+/// long.
 fn split_name(name: &str) -> Option<(&str, &str)> {
     if name.len() <= NAME.len() {
         return Some(("", name));
@@ -104,18 +105,18 @@ fn split_name(name: &str) -> Option<(&str, &str)> {
 fn pax_record(key: &str, value: &str) -> String {
     let rest = format!(" {key}={value}\n");
     let mut length = rest.len();
-    // The digits count themselves.
+    // The length includes its own digits.
     while length != rest.len() + length.to_string().len() {
         length = rest.len() + length.to_string().len();
     }
     format!("{length}{rest}")
 }
 
-/// Reads an archive that was written by [`append_file`]: `visit` gets the name and the content of
-/// each file, and need not read it to the end.
+/// Reads an archive written by [`append_file`]: `visit` gets the name and content of each file, and
+/// need not read it to the end.
 ///
 /// # Errors
-/// If it cannot be read, is truncated, or has a header that is damaged.
+/// If it cannot be read, is truncated, or has a damaged header.
 pub(super) fn read_archive(
     reader: &mut impl Read,
     mut visit: impl FnMut(&str, &mut dyn Read) -> Result<()>,
@@ -170,7 +171,7 @@ fn header_name(header: &[u8; BLOCK_BYTES]) -> String {
 mod tests {
     use super::*;
 
-    /// Names and contents of an archive.
+    /// The names and contents in an archive.
     fn files_in(mut archive: &[u8]) -> Result<Vec<(String, Vec<u8>)>> {
         let mut files = Vec::new();
         read_archive(&mut archive, |name, content| {
@@ -182,7 +183,7 @@ mod tests {
         Ok(files)
     }
 
-    /// Names of all lengths around the limits of the fields, and contents around a block.
+    /// Names with all lengths around the field limits, and contents around one block.
     fn test_files() -> Vec<(String, Vec<u8>)> {
         let deep =
             |folder: usize, name: usize| format!("{}/{}", "f".repeat(folder), "n".repeat(name));
@@ -226,7 +227,7 @@ mod tests {
         assert_eq!(text(0..13), "folder/a.png\0");
         assert_eq!((text(124..136), text(136..148)), ("00000000010\0", "00000000000\0"));
         assert_eq!((text(156..157), text(257..265)), ("0", "ustar\x0000"));
-        // By hand: the words of the header, and 8 spaces for the sum itself.
+        // Computed by hand: the header text, and 8 spaces for the sum itself.
         let words =
             "folder/a.png0000644000000000000000000000001000000000000".to_owned() + "0ustar00";
         let sum = words.bytes().map(u32::from).sum::<u32>() + 8 * 32;

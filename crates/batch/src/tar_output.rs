@@ -1,11 +1,11 @@
-//! Pictures in tar files, each with its record, as WebDataset reads them.
+//! Writes pictures and their records to tar files for WebDataset.
 //!
 //! ```text
 //! shard-1-of-8-000000.tar:  fox.png fox.json  more/lamp.png more/lamp.json  …
 //! ```
-//! A tar file is written under a temporary name, brought to the disk, and then gets its name; only
-//! then its pictures are recorded. After a crash it is there as a whole or not at all, and what is
-//! in no tar file is rendered again.
+//! A tar file is written under a temporary name, flushed to disk, and then renamed; only then are
+//! its pictures recorded. After a crash it is complete or absent, and pictures that are not in a
+//! tar file are rendered again.
 
 use super::report::{JobRecord, REPORTS_FOLDER, ReportWriter, write_error};
 use super::tar_format::{append_file, finish_archive};
@@ -16,17 +16,17 @@ use std::io::{BufWriter, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The size of the buffer of a tar file.
+/// The size of a tar file's buffer.
 const BUFFER_BYTES: usize = 1 << 18;
 
-/// The tar files of a run, one after the other; the threads share them.
+/// A run's tar files, written one after the other; the threads share them.
 pub(super) struct TarOutput {
     out_dir: PathBuf,
-    /// The temporary file, which no other run has.
+    /// The temporary file, which no other run uses.
     partial: PathBuf,
-    /// The names of the tar files, up to the number: `shard-1-of-8`.
+    /// The prefix of tar file names, up to the number: `shard-1-of-8`.
     prefix: String,
-    /// The number of samples in each.
+    /// The number of samples per tar file.
     samples: usize,
     state: Mutex<TarState>,
 }
@@ -35,18 +35,18 @@ pub(super) struct TarOutput {
 #[derive(Default)]
 struct TarState {
     open: Option<OpenTar>,
-    /// The number from which a name for the next tar file is looked for.
+    /// The number from which to search for the next tar file name.
     next: u32,
 }
 
-/// A tar file without a name, and the records of its samples.
+/// An unnamed tar file, and the records of its samples.
 struct OpenTar {
     writer: BufWriter<File>,
     records: Vec<JobRecord>,
 }
 
 impl TarOutput {
-    /// No tar file yet. `run_name` is that of the report: `1-of-8.HOST.PID.RUN`.
+    /// Creates an output without a tar file yet. `run_name` is the report's: `1-of-8.HOST.PID.RUN`.
     pub(super) fn new(out_dir: &Path, run_name: &str, samples: u32) -> Self {
         let shard = run_name.split('.').next().unwrap_or(run_name);
         Self {
@@ -60,7 +60,7 @@ impl TarOutput {
 
     /// Adds a picture and its record.
     ///
-    /// Once the tar file is full, it gets its name, and its records are appended to the report.
+    /// Once the tar file is full, it is renamed, and its records are appended to the report.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -100,7 +100,7 @@ impl TarOutput {
         last.map_or(Ok(()), |open| self.finish_tar(open, &mut state.next, report))
     }
 
-    /// The tar file that is being written. A panic of another thread may have left half a sample.
+    /// The tar file being written. A panic in another thread may have left half a sample.
     fn lock(&self) -> MutexGuard<'_, TarState> {
         self.state.lock().unwrap_or_else(|poison| {
             let mut state = PoisonError::into_inner(poison);
@@ -115,7 +115,7 @@ impl TarOutput {
         Ok(OpenTar { writer: BufWriter::with_capacity(BUFFER_BYTES, file), records: Vec::new() })
     }
 
-    /// Brings a tar file to the disk, names it, and appends its records to the report.
+    /// Flushes a tar file to disk, names it, and appends its records to the report.
     fn finish_tar(
         &self,
         open: OpenTar,
@@ -132,7 +132,7 @@ impl TarOutput {
         report.append_records(&records)
     }
 
-    /// Gives the temporary file the first name that is free, and returns it.
+    /// Gives the temporary file the first free name, and returns it.
     ///
     /// A hard link fails if another run has just taken the name; renaming would replace its file.
     fn name_tar(&self, next: &mut u32) -> Result<String, BatchError> {
@@ -144,7 +144,7 @@ impl TarOutput {
                 Err(cause) if cause.kind() == ErrorKind::AlreadyExists => continue,
                 Ok(()) => std::fs::remove_file(&self.partial),
                 Err(_) if path.exists() => continue,
-                // A file system without hard links.
+                // This file system has no hard links.
                 Err(_) => std::fs::rename(&self.partial, &path),
             };
             named.map_err(|cause| write_error(&path, &cause))?;
@@ -165,9 +165,9 @@ impl Drop for TarOutput {
 
 /// The name of an output in a tar file.
 ///
-/// Readers take what comes before the first dot of a file's name as the key of the sample. Dots
-/// before the last are therefore written as `%2E`, and `%` as `%25`, so that different outputs have
-/// different keys:
+/// Readers take the part of a file name before the first dot as the sample's key. Dots before the
+/// last are therefore written as `%2E`, and `%` as `%25`, so that different outputs have different
+/// keys:
 ///
 /// ```text
 /// more/fox.glb.png  ─►  more/fox%2Eglb.png
@@ -182,7 +182,7 @@ pub(super) fn sample_name(output: &str) -> String {
     format!("{folder}{stem}.{extension}")
 }
 
-/// An output with the extension `.json` in the place of its own.
+/// An output with its extension replaced by `.json`.
 fn with_extension_json(output: &str) -> String {
     let stem = output.rsplit_once('.').filter(|(_, extension)| !extension.contains('/'));
     format!("{}.json", stem.map_or(output, |(stem, _)| stem))
@@ -196,7 +196,7 @@ mod tests {
     use crate::tar_format::read_archive;
     use crate::test_records::{ReportFolder, done_record};
 
-    /// The names of the files in a tar file.
+    /// The file names in a tar file.
     fn names_in(folder: &ReportFolder, tar: &str) -> Vec<String> {
         let mut names = Vec::new();
         let mut file = File::open(folder.path().join(tar)).unwrap();
@@ -208,7 +208,7 @@ mod tests {
         names
     }
 
-    /// Output and tar file of each record.
+    /// The output and tar file of each record.
     fn records_in(folder: &ReportFolder) -> Vec<(String, String)> {
         let mut records = Vec::new();
         read_reports(folder.path(), |record, _| {

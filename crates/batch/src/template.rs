@@ -5,8 +5,8 @@
 //! frames/{frame:04}.png   frames/0007.png
 //! {{{frame}}}.png         {7}.png
 //! ```
-//! Each command decides which fields it has. An unknown field is an error, not literal text,
-//! because a typo would otherwise write all pictures to one file.
+//! Each command defines its own fields. An unknown field is an error, not literal text, because
+//! otherwise a typo would write all pictures to one file.
 
 use std::path::PathBuf;
 
@@ -22,13 +22,13 @@ pub struct NameTemplate {
 enum TemplatePart {
     /// Literal text, with braces already unescaped.
     Text(String),
-    /// A text field, by its name.
+    /// A text field, by name.
     Word(&'static str),
     /// A number field, zero-padded to at least this many digits.
     Number(&'static str, usize),
 }
 
-/// What to write for `%04d` (printf, ffmpeg) or `####` (Blender), if a name has one.
+/// The replacement for `%04d` (printf, ffmpeg) or `####` (Blender), if a name has one.
 fn counter_of_others(text: &str, number: &str) -> Option<String> {
     let hashes =
         text.find("##").map(|at| at..at + text[at..].chars().take_while(|c| *c == '#').count());
@@ -38,7 +38,7 @@ fn counter_of_others(text: &str, number: &str) -> Option<String> {
         (!behind.starts_with(char::is_alphanumeric)).then_some(at..at + digits + 2)
     });
     let counter = printf.or(hashes)?;
-    // `//` is the folder of the model in Blender, and the root of the disk here.
+    // `//` is the model's folder in Blender, but the root of the disk here.
     let before = text[..counter.start].trim_start_matches("//");
     let after = &text[counter.end..];
     let ending = if after.contains('.') { "" } else { ".png" };
@@ -54,12 +54,12 @@ fn counter_of_others(text: &str, number: &str) -> Option<String> {
 impl NameTemplate {
     /// Parses a template whose fields may be these `words` and `numbers`.
     ///
-    /// The scan finds the next brace, takes the text before it, then either an escaped brace or a
-    /// field up to the next `}`.
+    /// The scan finds the next brace, takes the text before it, and then either an escaped brace or
+    /// a field up to the next `}`.
     ///
     /// # Errors
-    /// If a brace has no partner or a field is unknown; the message lists the known fields. If there
-    /// is a counter as of other programs, `%04d` or `####`.
+    /// If a brace has no partner or a field is unknown; the message lists the known fields. Also if
+    /// there is another program's counter, `%04d` or `####`.
     pub fn parse(
         text: &str,
         words: &[&'static str],
@@ -91,7 +91,7 @@ impl NameTemplate {
 
     /// Whether the template has this field.
     ///
-    /// Commands use it to distinguish a name for many files from a name for one.
+    /// Commands use it to tell a name for many files from a name for one.
     #[must_use]
     pub fn has_field(&self, field: &str) -> bool {
         self.parts.iter().any(|part| match part {
@@ -100,10 +100,10 @@ impl NameTemplate {
         })
     }
 
-    /// The name, with every field replaced by its value.
+    /// Returns the name with every field replaced by its value.
     ///
-    /// Characters of words that are no part of a file name become `_`, so that a value cannot lead
-    /// to another folder. The field `{folder}` alone keeps its `/`.
+    /// Characters that are not valid in a file name become `_`, so that a value cannot lead to
+    /// another folder. Only the field `{folder}` keeps its `/`.
     #[must_use]
     pub fn expand_fields(
         &self,
@@ -137,8 +137,8 @@ fn push_text(parts: &mut Vec<TemplatePart>, text: &str) {
 
 /// Parses the inside of a pair of braces: `NAME`, or `NAME:0N` for `N` digits.
 ///
-/// Digits are from 1 to 9, written with a leading zero as in Rust's format strings; without that
-/// zero, numbers would be padded with spaces.
+/// `N` is from 1 to 9, written with a leading zero as in Rust's format strings; without that zero,
+/// numbers would be padded with spaces.
 ///
 /// # Errors
 ///
@@ -175,10 +175,11 @@ fn parse_field(
     }
 }
 
-/// A value as part of a file name: separators and characters that some system forbids become `_`.
+/// Makes a value part of a file name: separators and characters that some system forbids become
+/// `_`.
 ///
-/// The list is that of Windows, which includes all separators; control characters are invalid there
-/// as well. The literal text of a template is not changed, as it may name folders.
+/// The list follows Windows, which forbids all separators and control characters. The literal text
+/// of a template is not changed, because it may name folders.
 fn sanitize_file_name(word: &str) -> String {
     let safe = |c: char| if c.is_control() || "/\\:*?\"<>|".contains(c) { '_' } else { c };
     word.chars().map(safe).collect()

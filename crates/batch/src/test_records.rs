@@ -1,9 +1,9 @@
-//! Records and folders of reports for tests.
+//! Records and report folders for tests.
 
 use super::report::{DONE, FAILED, JobRecord};
 use std::path::{Path, PathBuf};
 
-/// A record of a picture of 100 bytes.
+/// A record of a picture with 100 bytes.
 pub(super) fn done_record(output: &str, key: &str) -> JobRecord {
     JobRecord {
         input: format!("models/{output}.glb"),
@@ -19,7 +19,7 @@ pub(super) fn done_record(output: &str, key: &str) -> JobRecord {
     }
 }
 
-/// A record of a job that failed.
+/// A record of a failed job.
 pub(super) fn failed_record(output: &str, key: &str) -> JobRecord {
     JobRecord {
         status: FAILED.to_owned(),
@@ -34,7 +34,7 @@ pub(super) fn failed_record(output: &str, key: &str) -> JobRecord {
 pub(super) struct ReportFolder(PathBuf);
 
 impl ReportFolder {
-    /// An empty folder with the name of the test.
+    /// An empty folder named after the test.
     pub(super) fn new(name: &str) -> Self {
         let name = format!("alberti-batch-{name}-{}", std::process::id());
         let folder = std::env::temp_dir().join(name);

@@ -1,4 +1,4 @@
-//! `batch --verify`: every job has a record with its key, and its picture is whole.
+//! `batch --verify`: every job has a record with its key, and its picture is intact.
 
 use super::earlier_records::record_hash;
 use super::job::{BatchJob, JobGroup};
@@ -17,14 +17,14 @@ use std::path::Path;
 /// The size of the buffer in which tar files are read.
 const BUFFER_BYTES: usize = 1 << 16;
 
-/// Verifies the jobs and tells what is wrong, one picture a line, then the counts; whether nothing
-/// is wrong.
+/// Verifies the jobs and reports the problems, one line per picture, then the counts; returns true
+/// if there are none.
 ///
 /// ```text
 /// more/fox.png: missing: the picture is not there
 /// 117 whole, 1 missing, 0 wrong, 0 failed
 /// ```
-/// The models are hashed as for a run, and the pictures are read whole.
+/// The models are hashed as for a run, and the pictures are read completely.
 ///
 /// # Errors
 /// If a list or a report cannot be read, or `tell` fails.
@@ -48,14 +48,14 @@ pub(super) fn verify_jobs<E: From<BatchError>>(
     Ok(counts.is_all_whole())
 }
 
-/// The state of the picture of a job.
+/// The state of a job's picture.
 #[derive(Clone, PartialEq, Eq, Debug)]
 enum Verdict {
-    /// It is there and has the bytes that were recorded.
+    /// It exists and has the recorded bytes.
     Whole,
-    /// There is no record with its key, or no picture; the reason.
+    /// There is no record with its key, or no picture, for this reason.
     Missing(&'static str),
-    /// The picture is not the one that was recorded; the reason.
+    /// The picture is not the recorded one, for this reason.
     Wrong(String),
     /// The job failed.
     Failed,
@@ -71,7 +71,7 @@ struct VerdictCounts {
 }
 
 impl VerdictCounts {
-    /// Counts a verdict; its words, unless the picture is whole.
+    /// Counts a verdict; returns its text, unless the picture is intact.
     fn count_verdict(&mut self, verdict: &Verdict) -> Option<String> {
         let (count, words) = match verdict {
             Verdict::Whole => (&mut self.whole, None),
@@ -96,24 +96,24 @@ impl VerdictCounts {
     }
 }
 
-/// The records of all runs, and what was read of the tar files.
+/// The records of all runs, and the tar file contents read so far.
 struct Verifier<'a> {
     out_dir: &'a Path,
-    /// The hash of output and key, and the picture; sorted.
+    /// The hashes of output and key with the pictures, sorted.
     records: Vec<(u64, RecordedPicture)>,
-    /// The names of the tar files.
+    /// The tar file names.
     tars: Vec<String>,
-    /// The samples of the tar files that were read.
+    /// The samples of the tar files read so far.
     contents: BTreeMap<u32, TarContent>,
 }
 
-/// The pictures of a tar file by the hash of their names, or why it cannot be read.
+/// The pictures of a tar file by the hashes of their names, or the reason why it cannot be read.
 type TarContent = Result<BTreeMap<u64, ContentDigest>, String>;
 
-/// A picture, as it was recorded. Those that were made come first.
+/// A picture as recorded. Rendered pictures sort first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 enum RecordedPicture {
-    /// It was made, and is in the tar file of this index if it is in one.
+    /// It was rendered, and is in the tar file with this index, if any.
     Done(ContentDigest, Option<u32>),
     Failed,
 }
@@ -139,8 +139,8 @@ impl<'a> Verifier<'a> {
         Ok(Self { out_dir, records, tars: names, contents: BTreeMap::new() })
     }
 
-    /// Whether the picture of a job is whole, by any of its records; else what is wrong with the
-    /// last of them.
+    /// Whether a job's picture is intact according to any of its records; if not, the problem with
+    /// the last record.
     fn verify_job(&mut self, job: &BatchJob, key: &str) -> Verdict {
         let hash = record_hash(&job.output, key);
         let begin = self.records.partition_point(|(other, _)| *other < hash);
@@ -191,7 +191,7 @@ impl<'a> Verifier<'a> {
         }
     }
 
-    /// The picture in a tar file, which is read once.
+    /// The picture in a tar file; each tar file is read only once.
     fn picture_in_tar(&mut self, output: &str, tar: u32) -> Result<ContentDigest, String> {
         let (name, out_dir) = (&self.tars[tar as usize], self.out_dir);
         let content = self.contents.entry(tar).or_insert_with(|| read_tar(&out_dir.join(name)));
@@ -201,12 +201,12 @@ impl<'a> Verifier<'a> {
     }
 }
 
-/// Opens a regular file; a pipe would be waited for.
+/// Opens a regular file; a pipe would block.
 fn open_file(path: &Path) -> std::io::Result<File> {
     if path.metadata()?.is_file() { File::open(path) } else { Err(ErrorKind::NotFound.into()) }
 }
 
-/// Size and SHA-256 of each picture in a tar file.
+/// The size and SHA-256 of each picture in a tar file.
 fn read_tar(path: &Path) -> TarContent {
     let mut pictures = BTreeMap::new();
     let file = open_file(path).map_err(|cause| cause.to_string())?;
@@ -218,7 +218,7 @@ fn read_tar(path: &Path) -> TarContent {
 }
 
 impl RecordedPicture {
-    /// The picture of a record; `None` if its SHA-256 is none.
+    /// The picture of a record; `None` if its SHA-256 is invalid.
     fn from_line(record: &RecordLine<'_>, tar: Option<u32>) -> Option<Self> {
         if !record.is_done() {
             return Some(Self::Failed);
@@ -238,7 +238,7 @@ mod tests {
     use crate::test_records::{ReportFolder, done_record, failed_record};
     use std::path::PathBuf;
 
-    /// The record of a picture of these bytes.
+    /// The record of a picture with these bytes.
     fn record_of(output: &str, picture: &[u8]) -> JobRecord {
         let sha256 = hexadecimal_sha256(picture);
         JobRecord { bytes: picture.len() as u64, sha256, ..done_record(output, "k") }

@@ -1,4 +1,4 @@
-//! A worker as its coordinator sees it: a process, requests to it, its answers, and how it ended.
+//! Worker processes as the coordinator sees them: requests, answers, and the end of the process.
 
 use super::protocol::{FramedAnswer, WorkAnswer, WorkRequest};
 use crate::BatchError;
@@ -9,13 +9,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-/// The most bytes of a worker's standard error stream that are kept: its end.
+/// The number of bytes kept from the end of a worker's standard error stream.
 const MAX_ERROR_BYTES: usize = 2_048;
 
-/// The largest picture that is taken through the pipe.
+/// The maximum size of a picture that is sent through the pipe.
 const MAX_PICTURE_BYTES: u64 = 1 << 32;
 
-/// Makes the command that starts the program whose hidden command `batch-worker` is a worker.
+/// Makes the command for the program whose hidden command `batch-worker` is a worker.
 pub type WorkerProgram<'a> = &'a (dyn Fn() -> std::io::Result<Command> + Sync);
 
 /// A running worker.
@@ -23,31 +23,31 @@ pub(super) struct WorkerProcess {
     child: Child,
     requests: ChildStdin,
     answers: Receiver<(WorkAnswer, Vec<u8>)>,
-    /// The end of its standard error stream, and the thread that reads it.
+    /// The end of its standard error output, and the thread that reads it.
     error_text: Arc<Mutex<Vec<u8>>>,
     error_reader: Option<JoinHandle<()>>,
     /// The number of its answers.
     answer_count: u64,
 }
 
-/// Why a worker gave no answer.
+/// The reason why a worker gave no answer.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum WorkerEnd {
-    /// It took longer than it may, and was ended.
+    /// It exceeded its time limit and was ended.
     TimedOut,
-    /// It was ended by a signal, from within or from outside.
+    /// A signal ended it, from inside or outside.
     Signal(i32),
-    /// It ended by itself, with this code.
+    /// It exited with this code.
     Exit(Option<i32>),
 }
 
 impl WorkerProcess {
-    /// Starts a worker: the program of this command, with the hidden command `batch-worker`.
+    /// Starts a worker: this program with the hidden command `batch-worker`.
     ///
-    /// The thread that starts it must live as long as the worker, which ends with it.
+    /// The starting thread must live as long as the worker, which ends with it.
     ///
     /// # Errors
-    /// If the system starts no further process.
+    /// If the system cannot start another process.
     pub(super) fn start(
         program: WorkerProgram<'_>,
         memory: Option<u64>,
@@ -55,7 +55,7 @@ impl WorkerProcess {
         let fault =
             |cause| BatchError::Unusable(format!("cannot start a worker of the batch: {cause}"));
         let mut command = program().map_err(fault)?;
-        // What a worker says at its end goes to the report, where a stack is of no use.
+        // The last output of a worker goes to the report, where a backtrace is useless.
         command.arg("batch-worker").env("RUST_BACKTRACE", "0");
         if let Some(memory) = memory {
             command.arg(format!("--memory={memory}"));
@@ -75,15 +75,15 @@ impl WorkerProcess {
         Ok(Self { child, requests, answers, error_text, error_reader, answer_count: 0 })
     }
 
-    /// Whether the worker has answered nothing yet, so that nothing before can have spoiled it.
+    /// Whether the worker has not answered anything yet, so no earlier job can have corrupted it.
     pub(super) const fn is_fresh(&self) -> bool {
         self.answer_count == 0
     }
 
-    /// Sends a request. A worker that has ended cannot take it, which its missing answer tells.
+    /// Sends a request. A worker that has ended cannot receive it; the missing answer shows that.
     ///
     /// # Errors
-    /// If the request cannot be written down.
+    /// If the request cannot be serialized.
     pub(super) fn send(&mut self, request: &WorkRequest) -> Result<(), BatchError> {
         self.error_text.lock().unwrap_or_else(PoisonError::into_inner).clear();
         let mut line = serde_json::to_vec(request)
@@ -93,10 +93,10 @@ impl WorkerProcess {
         Ok(())
     }
 
-    /// The next answer, and the picture that came with it.
+    /// The next answer, and the picture that comes with it.
     ///
     /// # Errors
-    /// If there is none within the time, or the worker has ended; it is gone then.
+    /// If there is no answer in time, or the worker has ended; the worker is then gone.
     pub(super) fn next_answer(
         &mut self,
         limit: Option<Duration>,
@@ -122,8 +122,8 @@ impl WorkerProcess {
         }
     }
 
-    /// Ends the worker, if it has not ended; the end of what it wrote to its standard error stream
-    /// about the last request.
+    /// Ends the worker if it is still running; returns the end of its standard error output about
+    /// the last request.
     pub(super) fn into_error_text(mut self) -> String {
         let _ = self.child.kill();
         let _ = self.child.wait();
@@ -136,13 +136,13 @@ impl WorkerProcess {
 
 impl Drop for WorkerProcess {
     fn drop(&mut self) {
-        // An idle worker has nothing to put in order, and one that is at work is not wanted.
+        // An idle worker has nothing to clean up, and a busy one is no longer needed.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
 }
 
-/// Starts a worker; a system that is short of processes for a moment is asked again.
+/// Starts a worker; tries again if the system is temporarily out of processes.
 fn spawn_worker(command: &mut Command) -> std::io::Result<Child> {
     let mut pause = Duration::from_millis(50);
     loop {
@@ -164,7 +164,7 @@ fn start_thread(work: impl FnOnce() + Send + 'static) -> std::io::Result<JoinHan
     std::thread::Builder::new().name("batch pipe".to_owned()).spawn(work)
 }
 
-/// Sends the answers of a worker on, until it ends or says what is no answer.
+/// Forwards the answers of a worker until it ends or sends something else.
 fn read_answers(stdout: ChildStdout, sender: &Sender<(WorkAnswer, Vec<u8>)>) {
     let mut stdout = BufReader::new(stdout);
     let mut line = String::new();
@@ -185,7 +185,7 @@ fn read_answers(stdout: ChildStdout, sender: &Sender<(WorkAnswer, Vec<u8>)>) {
     }
 }
 
-/// Keeps the end of a standard error stream.
+/// Stores the end of a standard error stream.
 fn keep_error_text(mut stderr: ChildStderr, text: &Mutex<Vec<u8>>) {
     let mut buffer = [0; 1_024];
     while let Ok(length @ 1..) = stderr.read(&mut buffer) {
@@ -196,14 +196,14 @@ fn keep_error_text(mut stderr: ChildStderr, text: &Mutex<Vec<u8>>) {
     }
 }
 
-/// How a process ended.
+/// Converts an exit status to the end of a worker.
 #[cfg(unix)]
 fn end_of(status: ExitStatus) -> WorkerEnd {
     use std::os::unix::process::ExitStatusExt as _;
     status.signal().map_or(WorkerEnd::Exit(status.code()), WorkerEnd::Signal)
 }
 
-/// How a process ended.
+/// Converts an exit status to the end of a worker.
 #[cfg(not(unix))]
 fn end_of(status: ExitStatus) -> WorkerEnd {
     WorkerEnd::Exit(status.code())

@@ -1,4 +1,4 @@
-//! The color of a pixel explained: its triangles, the nearest surface point, and every stage to it.
+//! Explains the color of a pixel: its triangles, the nearest surface point, and every stage.
 //!
 //! Run it with `cargo run -p alberti-explain --example explain_pixel -- model.glb 480 360`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]

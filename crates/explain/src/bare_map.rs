@@ -22,7 +22,7 @@ pub struct BareMap {
 }
 
 impl BareMap {
-    /// The map of a matrix for column vectors, by rows.
+    /// Creates the map of a matrix for column vectors, given by rows.
     #[must_use]
     pub fn from_rows(rows: [[f64; 4]; 4]) -> Self {
         let map = Projective::from_rows(rows);
@@ -32,13 +32,14 @@ impl BareMap {
         Self { map, steps: vec![step] }
     }
 
-    /// The textbook's matrix P of the planes z = `near` and z = `far` (PE-1), with its inverse.
+    /// Creates the textbook's matrix P for the planes z = `near` and z = `far` (PE-1), with its
+    /// inverse.
     ///
     /// The numbers are z-coordinates, negative ahead of the camera; both may be positive, as in
     /// exercise 8. The product of P and nf P⁻¹ is nf times the identity (exercise 6).
     ///
     /// # Errors
-    /// If a number is 0 or not finite, both are equal, or they lie on different sides of the eye.
+    /// If a number is 0 or not finite, both are equal, or they are on different sides of the eye.
     pub fn from_planes(near: f64, far: f64) -> Result<Self, ProjectionError> {
         let p = chapter::p(near, far)?;
         let inverse = chapter::p_inverse_scaled(near, far)?;
@@ -52,10 +53,10 @@ impl BareMap {
         Ok(Self { map: Projective::from_raw(p.raw()), steps: vec![step] })
     }
 
-    /// Explains the image of a homogeneous point, or of several: a segment has two.
+    /// Explains the image of one or more homogeneous points: a segment has two.
     ///
     /// # Errors
-    /// If the four numbers of a point are all 0.
+    /// If all four numbers of a point are 0.
     pub fn explain_points(&self, points: &[HPoint<View>]) -> Result<Explanation, String> {
         let mut steps = self.steps.clone();
         let labels: &[&str] = if let [_] = points { &[""] } else { &["a", "b"] };
@@ -83,7 +84,7 @@ impl BareMap {
     }
 }
 
-/// The images of points: four numbers, and divided.
+/// The images of points, before and after the divide.
 fn image_step(labels: &[&str], points: &[HPoint<View>], images: &[HPoint<Clip>]) -> Step {
     let mut step = Step::new("image", "The image: M p, divided by its w", Some("HO-1, HO-3"));
     for ((label, point), image) in labels.iter().zip(points).zip(images) {
@@ -105,7 +106,7 @@ fn image_step(labels: &[&str], points: &[HPoint<View>], images: &[HPoint<Clip>])
     step
 }
 
-/// The image of a segment in words, by w at its ends.
+/// Describes the image of a segment in words, from w at its ends.
 fn describe_segment(start: f64, end: f64) -> &'static str {
     if start * end > 0.0 {
         "Both ends are mapped; f(t) says where the points between them go."
@@ -118,7 +119,7 @@ fn describe_segment(start: f64, end: f64) -> &'static str {
     }
 }
 
-/// The image of one point in words.
+/// Describes the image of one point in words.
 fn describe_image(image: HPoint<Clip>) -> String {
     match image.divide() {
         Some(divided) => {

@@ -1,5 +1,5 @@
-//! The matrices of the textbook's page, in its signs and order: P, M_orth, M_per and the products
-//! with M_vp and M_cam (PL-1, PE-2, OR-1).
+//! The matrices as printed in the textbook, with its signs and order: P, M_orth, M_per and the
+//! products with M_vp and M_cam (PL-1, PE-2, OR-1).
 //!
 //! ```text
 //!  perspective   M = M_vp M_orth P M_cam = M_vp M_per M_cam     w = z < 0 ahead of the eye
@@ -11,24 +11,24 @@ use super::Step;
 use homog::{Affine, Clip, HPoint, Ndc, Projective, Screen, View, World};
 use projection::{Convention, Decomposed, Window, chapter, decompose};
 
-/// The textbook's factors of a perspective or orthographic projection.
+/// The textbook's factors of a perspective or an orthographic projection.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ChapterMatrices {
     /// The window on the plane z = n: l, r, b, t.
     window: Window,
-    /// The z-coordinates n and f of the near and the far plane.
+    /// The z-coordinates n and f of the near and far planes.
     planes: [f64; 2],
     /// P, of a perspective.
     p: Option<Projective<View, View>>,
     /// M_orth.
     m_orth: Affine<View, Clip>,
-    /// M_per of a perspective, M_orth of a parallel projection.
+    /// M_per for a perspective, M_orth for a parallel projection.
     projection: Projective<View, Clip>,
 }
 
 impl ChapterMatrices {
     /// The factors of a projection to the textbook's canonical volume; `None` for other kinds, and
-    /// where the far plane is infinite.
+    /// if the far plane is infinite.
     pub(super) fn from_projection(view_to_clip: Projective<View, Clip>) -> Option<Self> {
         let kind = decompose(view_to_clip, Convention::CHAPTER).ok()?.kind;
         let (window, n, f) = match kind {
@@ -52,7 +52,7 @@ impl ChapterMatrices {
         if self.p.is_some() { "OR-1, PE-1, PE-2, PE-3" } else { "OR-1" }
     }
 
-    /// Adds window, planes and factors, each matrix with its name on the page.
+    /// Adds the window, the planes and the factors, each matrix with its name in the textbook.
     pub(super) fn add_factors(&self, step: &mut Step) {
         let w = self.window;
         let [n, f] = self.planes;
@@ -88,12 +88,12 @@ impl ChapterMatrices {
         step.add_item("m", name, whole.rows());
     }
 
-    /// Whether w is negative ahead of the eye on the page, as in M_per.
+    /// Whether w is negative ahead of the eye in the textbook, as in M_per.
     pub(super) const fn turns_w(&self) -> bool {
         self.p.is_some()
     }
 
-    /// A clip-space point with w > 0 in the signs of the page: M_per of it has w = z.
+    /// Converts a clip-space point with w > 0 to the textbook's signs: M_per gives w = z.
     pub(super) fn page_clip(&self, clip: HPoint<Clip>) -> HPoint<Clip> {
         if self.p.is_some() { HPoint::from_raw(-clip.raw()) } else { clip }
     }

@@ -1,5 +1,5 @@
 //! Conventions of graphics APIs: canonical view volume, handedness of view space, pixel
-//! coordinates. The picture does not depend on them, the numbers of an explanation do.
+//! coordinates. They do not change the picture, but they change the numbers of an explanation.
 //!
 //! | conventions | NDC z, near to far | y in clip space | view space |
 //! | --- | --- | --- | --- |
@@ -9,10 +9,10 @@
 //! | Direct3D | 0 to 1 | up | looks along +z |
 //! | WebGPU, Metal | 0 to 1 | up | looks along −z |
 //!
-//! A conversion between two rows is one matrix C after the projection, M' = C · M_proj: a scale and
-//! offset of z (for example z' = (w − z)/2 from +1 … −1 to 0 … 1) and a sign of y. The frustum in
-//! the world and the pixel under a point stay as they are; matrices, outcodes and depth values
-//! change.
+//! A conversion between two rows is one matrix C after the projection, M' = C · M_proj. It scales
+//! and offsets z (for example z' = (w − z)/2 from +1 … −1 to 0 … 1) and sets the sign of y. The
+//! frustum in the world and the pixel under a point stay the same; matrices, outcodes and depth
+//! values change.
 
 use homog::NdcY;
 use homog::{Affine, PixelConvention, View};
@@ -26,7 +26,7 @@ use viewport::{DepthRange, Rectangle, Viewport, ViewportError};
 /// convention of the viewport and its depth range.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum ApiConventions {
-    /// The program's own: the chapter's volume, near at z = +1; pixels as in image files, depth 1
+    /// The program's own: the chapter's volume, near at z = +1; pixels as in image files; depth 1
     /// at the near plane.
     #[default]
     Alberti,
@@ -41,8 +41,7 @@ pub enum ApiConventions {
     OpenGl,
     /// Vulkan: near at z = 0, y down in clip space.
     ///
-    /// Framebuffer rows count from the top, like those of image files, because both flips of y
-    /// cancel.
+    /// Framebuffer rows count from the top, as in image files, because both flips of y cancel.
     Vulkan,
     /// Direct3D: near at z = 0, view space looks along +z.
     Direct3d,
@@ -78,7 +77,7 @@ impl ApiConventions {
         }
     }
 
-    /// Depth range, direction of y, handedness and pixel centers in a line.
+    /// One line with the depth range, direction of y, handedness and pixel centers.
     #[must_use]
     pub const fn summary(self) -> &'static str {
         match self {
@@ -115,8 +114,8 @@ impl ApiConventions {
     /// The canonical view volume.
     ///
     /// It holds the NDC range of z, the direction of y and the handedness of view space. None of
-    /// the conventions here is reversed-z in the sense of Vulkan or Direct3D; the chapter's near
-    /// plane at +1 has the same ordering by nature.
+    /// these conventions is reversed-z in the sense of Vulkan or Direct3D; the chapter's near plane
+    /// at +1 gives the same depth order.
     #[must_use]
     pub const fn canonical_volume(self) -> Convention {
         match self {
@@ -128,7 +127,8 @@ impl ApiConventions {
         }
     }
 
-    /// The map from a view space that looks along −z to that of the conventions: diag(1, 1, ±1).
+    /// The map from a view space that looks along −z to the view space of the conventions: diag(1,
+    /// 1, ±1).
     ///
     /// It is its own inverse, and its determinant of −1 turns right-handed into left-handed
     /// coordinates.
@@ -146,12 +146,12 @@ impl ApiConventions {
         matches!(self, Self::Chapter | Self::ChapterYDown)
     }
 
-    /// Whether y runs down in clip space.
+    /// Whether y points down in clip space.
     pub(super) fn y_runs_down(self) -> bool {
         self.canonical_volume().ndc_y() == NdcY::Down
     }
 
-    /// Where pixel centers are and which way rows run.
+    /// The positions of pixel centers and the direction of rows.
     #[must_use]
     pub const fn pixel_convention(self) -> PixelConvention {
         match self {
@@ -164,8 +164,8 @@ impl ApiConventions {
 
     /// The map from NDC z to the depth of a pixel.
     ///
-    /// That of OpenGL maps −1 … +1 to 0 … 1 as `glDepthRange(0, 1)` does; conventions with NDC z in
-    /// 0 … 1, and the chapter, pass z through unchanged.
+    /// OpenGL maps −1 … +1 to 0 … 1, as `glDepthRange(0, 1)` does; conventions with NDC z in 0 … 1,
+    /// and the chapter, leave z unchanged.
     #[must_use]
     pub const fn depth_range(self) -> DepthRange {
         match self {
@@ -187,7 +187,7 @@ impl ApiConventions {
         }
     }
 
-    /// The viewport that covers an image.
+    /// The viewport that covers a whole image.
     ///
     /// # Errors
     /// If width or height is 0.
@@ -214,8 +214,8 @@ impl FromStr for ApiConventions {
 
 /// The common name of a canonical volume.
 ///
-/// Compares with a table of the volumes in use, in their plain and reversed forms. A custom
-/// convention has no entry and is called `another convention`.
+/// Looks in a table of the volumes in use, in their plain and reversed forms. A custom convention
+/// has no entry and is called `another convention`.
 pub(super) fn volume_name(volume: Convention) -> &'static str {
     const OPENCV: Convention = Convention::OPENGL.left_handed().with_ndc_y(NdcY::Down);
     const NAMES: [(Convention, &str); 16] = [

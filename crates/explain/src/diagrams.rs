@@ -1,7 +1,7 @@
 //! SVG diagrams of an explanation: the view volume from above and from the side, the canonical
 //! volume, and the picture.
 //!
-//! They show numbers of the steps and nothing else.
+//! They show only numbers from the steps.
 //!
 //! ```text
 //!   view space from above     canonical volume        picture
@@ -22,9 +22,9 @@ use base64::engine::general_purpose::STANDARD;
 use homog::HPoint;
 use picture::Picture;
 
-/// Width and height of a volume diagram in SVG user units; the page scales it to the column.
+/// The width and height of a volume diagram in SVG user units; the page scales it to the column.
 const SIZE: [f64; 2] = [300.0, 220.0];
-/// Free border around the contents in SVG user units: labels of extreme points lie in it.
+/// The margin around the contents in SVG user units, with room for labels of extreme points.
 const MARGIN: f64 = 24.0;
 
 /// A point of the subject in one space, with its label.
@@ -35,9 +35,9 @@ struct LabeledPoint {
     coordinates: Vec<f64>,
 }
 
-/// A diagram: caption and SVG element.
+/// A diagram, with a caption and an SVG element.
 ///
-/// The SVG has classes instead of colors; the page's style sheet sets these for light and dark
+/// The SVG has classes instead of colors; the page's style sheet sets the colors for light and dark
 /// schemes.
 pub(super) struct Diagram {
     /// The caption below the diagram.
@@ -46,7 +46,7 @@ pub(super) struct Diagram {
     pub(super) svg: String,
 }
 
-/// All diagrams for which an explanation has the numbers.
+/// Draws all diagrams for which an explanation has the numbers.
 ///
 /// ```text
 ///  view from above   (depth ahead, x)      if the view volume is finite
@@ -55,7 +55,7 @@ pub(super) struct Diagram {
 ///  NDC side          (z, y)                ″
 ///  picture           (column, row)         if a picture is given
 /// ```
-/// View space is drawn with the gaze to the right in all conventions: z is negated where view space
+/// View space is drawn with the gaze to the right in all conventions: z is negated if view space
 /// looks along −z.
 pub(super) fn draw_diagrams(
     explanation: &Explanation,
@@ -106,10 +106,10 @@ pub(super) fn draw_diagrams(
     figures
 }
 
-/// The points of the steps in a space, found by the ids of items: one, two ends or three vertices.
+/// The points of the steps in a space, found by item ids: one, two ends or three vertices.
 ///
-/// Accepts the id `space` itself and `space_label`. Items of other types, homogeneous points (four
-/// numbers) and coordinates that are not finite are skipped, such as a clip-space point near w = 0.
+/// Accepts the id `space` itself and `space_label`. Skips items of other types, homogeneous points
+/// (four numbers) and coordinates that are not finite, such as a clip-space point near w = 0.
 fn labeled_points(explanation: &Explanation, space: &str) -> Vec<LabeledPoint> {
     let items = explanation.steps.iter().flat_map(|step| &step.items);
     let marks = items.filter_map(|item| {
@@ -134,9 +134,9 @@ fn canonical_corners(chain: &TransformChain) -> [[f64; 3]; 8] {
 
 /// The corners of the view volume in view space; `None` if it is infinite.
 ///
-/// Maps the corners of the canonical volume back by the inverse projection, p_view = M⁻¹ p_ndc, and
-/// divides by w. Infinite far planes give w = 0, singular projections no inverse; coordinates
-/// beyond 1e12 would reduce the rest of the diagram to a dot.
+/// Maps the corners of the canonical volume back with the inverse projection, p_view = M⁻¹ p_ndc,
+/// and divides by w. Infinite far planes give w = 0, and singular projections have no inverse;
+/// coordinates beyond 1e12 would reduce the rest of the diagram to a dot.
 fn view_volume_corners(chain: &TransformChain) -> Option<[[f64; 3]; 8]> {
     let clip_to_view = chain.view_to_clip().inverse()?;
     let mut corners = [[0.0; 3]; 8];
@@ -149,8 +149,8 @@ fn view_volume_corners(chain: &TransformChain) -> Option<[[f64; 3]; 8]> {
 
 /// The edges of a box by the indices of its corners.
 ///
-/// Two indices of an edge differ in exactly one bit: four edges along x, four along y, four along
-/// z.
+/// The two indices of an edge differ in exactly one bit: four edges along x, four along y, four
+/// along z.
 const BOX_EDGES: [[usize; 2]; 12] = [
     [0, 1],
     [2, 3],
@@ -170,7 +170,7 @@ const BOX_EDGES: [[usize; 2]; 12] = [
 ///
 /// `corners` are already projected to the plane of the diagram; `project` does this for the points.
 /// Diagrams of view space also show the eye, which is the origin there. The window includes points
-/// outside the volume, so a clipped point is visible beside the box.
+/// outside the volume, so a clipped point is visible next to the box.
 fn volume_diagram(
     caption: &str,
     corners: [[f64; 2]; 8],
@@ -227,10 +227,10 @@ fn picture_diagram(chain: &TransformChain, picture: &Picture, marks: &[LabeledPo
 }
 
 /// The points with their labels, joined to a polygon if there are several; `unit` scales lines and
-/// letters.
+/// text.
 ///
 /// `positions` are in SVG user units, one for each mark. A segment is a polygon of two points,
-/// which draws as a line. Labels are ids of this program (`a`, `b`, `1`, …) and need no escaping.
+/// drawn as a line. Labels are ids of this program (`a`, `b`, `1`, …) and need no escaping.
 fn subject_svg(marks: &[LabeledPoint], positions: &[[f64; 2]], unit: f64) -> String {
     let mut svg = String::new();
     if positions.len() > 1 {
@@ -275,17 +275,17 @@ fn open_svg([width, height]: [f64; 2]) -> String {
 ///  y_svg = SIZE_y / 2 − (y − center_y) · scale
 /// ```
 struct DiagramWindow {
-    /// The point that is mapped to the diagram's center.
+    /// The point mapped to the diagram's center.
     center: [f64; 2],
     /// Diagram units per unit of the plane.
     scale: f64,
 }
 
 impl DiagramWindow {
-    /// The map that shows all points, centered.
+    /// Creates the map that shows all points, centered.
     ///
     /// The smaller of the two axis scales fits both extents. A single point has extent 0; the lower
-    /// bound 1e-300 avoids a division by zero, and the point lands at the center.
+    /// bound 1e-300 avoids a division by zero, and the point maps to the center.
     fn around_points<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> Self {
         let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for point in points {
@@ -299,7 +299,7 @@ impl DiagramWindow {
         Self { center, scale: scale(0).min(scale(1)) }
     }
 
-    /// A point in the diagram's units.
+    /// Maps a point to the diagram's units.
     fn to_diagram(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [cx, cy] = self.center;
         [0.5 * SIZE[0] + (x - cx) * self.scale, 0.5 * SIZE[1] - (y - cy) * self.scale]

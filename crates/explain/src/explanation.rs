@@ -1,6 +1,6 @@
 //! An explanation as data: steps, each with its formula and its items.
 
-/// The stages that a subject passes, and the result.
+/// The stages that a subject passes through, and the result.
 ///
 /// All values are plain data: the three writers (text, JSON, HTML) read the same structure and
 /// compute nothing, so the outputs cannot disagree.
@@ -16,8 +16,8 @@ pub struct Explanation {
 
 /// One stage of the pipeline.
 ///
-/// A step with an empty item list is legal: the divide and the viewport of a chain without points
-/// have only their matrices.
+/// A step may have no items: the divide and the viewport of a chain without points have only their
+/// matrices.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Step {
     /// A stable identifier for programs, such as `camera` or `clip`; it is also the anchor of the
@@ -26,7 +26,7 @@ pub struct Step {
     pub id: &'static str,
     /// A heading for people.
     pub title: String,
-    /// The ids of its formulas in the chapter, such as `PE-1, VV-2`.
+    /// The ids of its formulas, such as `PE-1, VV-2`.
     pub formula: Option<&'static str>,
     /// Its inputs and results.
     pub items: Vec<ExplanationEntry>,
@@ -35,8 +35,8 @@ pub struct Step {
 /// A named value of a step.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ExplanationEntry {
-    /// A stable identifier for programs, unique within its step. For one of several points it ends
-    /// in the point's label: `clip_a`, `ndc_start`.
+    /// A stable identifier for programs, unique within its step. For one of several points, it ends
+    /// with the point's label: `clip_a`, `ndc_start`.
     pub id: String,
     /// A label for people.
     pub name: String,
@@ -46,7 +46,7 @@ pub struct ExplanationEntry {
 
 /// The value of an item.
 ///
-/// Numbers stay f64 up to the writers: JSON prints all digits, text and HTML round to seven.
+/// Numbers stay f64 until they are written: JSON prints all digits, text and HTML round to seven.
 #[derive(Clone, PartialEq, Debug)]
 pub enum ItemValue {
     /// A matrix for column vectors, by rows.
@@ -63,7 +63,7 @@ pub enum ItemValue {
 }
 
 impl Step {
-    /// A step without items.
+    /// Creates a step without items.
     pub(super) fn new(
         id: &'static str,
         title: impl Into<String>,
@@ -72,7 +72,7 @@ impl Step {
         Self { id, title: title.into(), formula, items: Vec::new() }
     }
 
-    /// Returns the step with one more item, for chains of calls.
+    /// Returns the step with one more item, for chained calls.
     pub(super) fn with_item(
         mut self,
         id: impl Into<String>,

@@ -1,4 +1,4 @@
-//! The step of f(t): where the points of a segment land between the images of its ends (IN-1,
+//! The step for f(t): where points of a segment appear between the images of its ends (IN-1,
 //! exercise 11).
 //!
 //! ```text
@@ -8,14 +8,14 @@
 use super::Step;
 use homog::{Foreshortening, HPoint, Space};
 
-/// The parameters for which f(t) is printed.
+/// The parameters at which f(t) is printed.
 const SAMPLES: [(&str, f64); 5] =
     [("f_0", 0.0), ("f_1_4", 0.25), ("f_1_2", 0.5), ("f_3_4", 0.75), ("f_1", 1.0)];
 
-/// The step of f(t) for a segment between two images that are not divided yet.
+/// The step for f(t) of a segment between two images before the divide.
 ///
-/// A segment whose ends have w of different signs passes the plane of the eye; it has no image in
-/// one piece and no f(t), and the step says so.
+/// A segment whose ends have w with different signs crosses the plane of the eye. Its image is not
+/// connected and there is no f(t), as the step says.
 pub(super) fn foreshortening_step<S: Space>(start: HPoint<S>, end: HPoint<S>) -> Step {
     let title = "f(t): where its points land between the images of the ends";
     let mut step = Step::new("foreshortening", title, Some("IN-1"))

@@ -1,5 +1,5 @@
-//! The formulas of the viewing pipeline by their ids, read from `docs/formulas.md`, which is part
-//! of the program.
+//! The formulas of the viewing pipeline by id, parsed from `docs/formulas.md`, which is embedded in
+//! the program.
 //!
 //! ```text
 //!  **OB-1, oblique projection by length and angle** [A]. `x' = x + z L1 cos φ`, …     an entry
@@ -9,19 +9,19 @@
 
 use std::fmt;
 
-/// The file that the entries are read from.
+/// The file from which the entries are parsed.
 const PAGE: &str = include_str!("../formulas.md");
 
 /// An entry of the formulas.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Formula {
-    /// The ids and the name, such as `OB-1, oblique projection by length and angle`.
+    /// The ids and name, such as `OB-1, oblique projection by length and angle`.
     pub name: &'static str,
-    /// The marks of its sources, such as `S, N`.
+    /// The abbreviations of its sources, such as `S, N`.
     marks: &'static str,
     /// The formula and its meaning, as Markdown.
     pub text: &'static str,
-    /// The command that demonstrates it; `None` if no output shows it by itself.
+    /// The command that demonstrates it; `None` if no command shows it separately.
     pub command: Option<&'static str>,
 }
 
@@ -31,7 +31,7 @@ pub fn find_formula(id: &str) -> Option<Formula> {
     entries().find(|entry| entry.has_id(id)).or_else(|| table_row(id))
 }
 
-/// All entries, in the order of the file; rows of tables belong to the entry of their table.
+/// All entries, in file order; table rows belong to the entry of their table.
 pub fn entries() -> impl Iterator<Item = Formula> {
     PAGE.split("\n**").skip(1).filter_map(|part| {
         let (name, rest) = part.split_once("** [")?;
@@ -43,10 +43,9 @@ pub fn entries() -> impl Iterator<Item = Formula> {
     })
 }
 
-/// The formulas with these words in their names, and then those with them in their texts; true for
-/// a name.
+/// The formulas with these words in the name, then the ones with them in the text; true for a name.
 ///
-/// Words are compared by their stems, in any case: `homogenize` finds `homogeneous`.
+/// Words are compared by stem, in any case: `homogenize` finds `homogeneous`.
 #[must_use]
 pub fn find_formulas(words: &str) -> Vec<(Formula, bool)> {
     let wanted: Vec<String> = stems(words).collect();
@@ -60,13 +59,13 @@ pub fn find_formulas(words: &str) -> Vec<(Formula, bool)> {
     named.into_iter().map(|entry| (entry, true)).chain(told).collect()
 }
 
-/// The stems of the words of a text, of three letters or more.
+/// The stems, of three letters or more, of the words in a text.
 fn stems(text: &str) -> impl Iterator<Item = String> {
     let words = text.split(|c: char| !c.is_alphabetic()).filter(|word| word.len() >= 3);
     words.map(|word| stem(&word.to_lowercase()))
 }
 
-/// A word in lower case without its ending, so that forms of one word are equal.
+/// A lowercase word without its ending, so that different forms of a word are equal.
 fn stem(word: &str) -> String {
     const ENDINGS: [&str; 28] = [
         "izations", "ization", "ations", "eously", "ation", "ating", "izing", "eous", "ates",
@@ -75,7 +74,7 @@ fn stem(word: &str) -> String {
     ];
     let mut cut = ENDINGS.iter().filter_map(|ending| word.strip_suffix(ending));
     let stem = cut.find(|stem| stem.len() >= 3).unwrap_or(word);
-    // clipping is of clip
+    // clipping is a form of clip
     let doubled = stem.len() > 3
         && stem != word
         && stem.is_ascii()
@@ -85,7 +84,7 @@ fn stem(word: &str) -> String {
 }
 
 impl Formula {
-    /// Whether the entry has an id, in any case.
+    /// Whether the entry has this id, in any case.
     fn has_id(&self, id: &str) -> bool {
         let is_word = |c: char| c.is_alphanumeric() || c == '-';
         let words = self.name.split(|c: char| !is_word(c));
@@ -101,7 +100,7 @@ impl Formula {
         })
     }
 
-    /// The first three equations of the text: code with `=` or `→` in it.
+    /// The first three equations of the text: code that contains `=` or `→`.
     pub fn equations(&self) -> impl Iterator<Item = &'static str> {
         let code = self.text.split("```").next().unwrap_or_default().split('`').skip(1).step_by(2);
         code.filter(|code| code.contains(" = ") || code.contains(" → ")).take(3)
@@ -109,7 +108,7 @@ impl Formula {
 }
 
 impl fmt::Display for Formula {
-    /// Markdown: the name, the text, the sources and the command.
+    /// Writes Markdown: the name, the text, the sources and the command.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}\n\n{}\n", self.name, self.text)?;
         for source in self.sources() {
@@ -131,7 +130,7 @@ fn is_id(word: &str) -> bool {
     })
 }
 
-/// The formula in the row of a table, whose cells are matched with the names of the columns.
+/// The formula in a table row, with each cell matched to its column name.
 fn table_row(id: &str) -> Option<Formula> {
     if !is_id(id) {
         return None;
@@ -147,7 +146,7 @@ fn table_row(id: &str) -> Option<Formula> {
     Some(Formula { name: row.trim_matches(['|', ' ']), marks: "std", text: text.trim(), command })
 }
 
-/// Splits the line of the command off a text.
+/// Splits the command line off a text.
 fn split_command(text: &'static str) -> (&'static str, Option<&'static str>) {
     match text.split_once("\nCommand: `") {
         Some((text, rest)) => (text.trim(), rest.split("`\n").next().map(str::trim)),

@@ -1,5 +1,5 @@
-//! Explanation of a homogeneous point, four numbers x, y, z, w: the multiples of a point and the
-//! points at infinity (HO-1, HO-2, HO-5, VN-1).
+//! Explains a homogeneous point (x, y, z, w): the multiples of a point and the points at infinity
+//! (HO-1, HO-2, HO-5, VN-1).
 //!
 //! ```text
 //!  w ≠ 0   (hx, hy, hz, h) ~ (x, y, z, 1)   every multiple has one image: M (h p) = h (M p)
@@ -11,14 +11,14 @@ use super::transform_chain::{TransformChain, describe_outcode};
 use super::{Explanation, Step};
 use homog::{Clip, HPoint, World};
 
-/// Follows a homogeneous point of the world through every stage, undivided up to the divide.
+/// Follows a homogeneous world point through every stage, undivided up to the divide.
 ///
-/// The four numbers stay as they are up to clip space, so that a factor h can be seen in all of
-/// them. Outcodes are those of the multiple with w = 1, since those of −p and p differ. A point
+/// The four numbers are not divided up to clip space, so a factor h is visible in all of them.
+/// Outcodes are computed for the multiple with w = 1, since −p and p have different ones. A point
 /// with w = 0 is a direction: it is not clipped, and the divide gives its vanishing point.
 ///
 /// # Errors
-/// If all four numbers are 0, which is no point.
+/// If all four numbers are 0, which is not a point.
 pub fn explain_homogeneous_point(
     chain: &TransformChain,
     point: HPoint<World>,
@@ -53,7 +53,7 @@ pub fn explain_homogeneous_point(
     })
 }
 
-/// The point that four numbers stand for.
+/// The point that four numbers represent.
 pub(super) fn homogeneous_step<S: homog::Space>(point: HPoint<S>) -> Step {
     let step = Step::new("homogeneous", "The four numbers", Some("HO-1, HO-2")).with_item(
         "numbers",
@@ -68,7 +68,7 @@ pub(super) fn homogeneous_step<S: homog::Space>(point: HPoint<S>) -> Step {
     }
 }
 
-/// The vanishing point of a direction in words.
+/// Describes the vanishing point of a direction in words.
 fn describe_vanishing_point(chain: &TransformChain, clip: HPoint<Clip>) -> String {
     match chain.project_to_screen(clip) {
         Some(screen) => {

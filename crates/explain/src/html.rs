@@ -1,7 +1,7 @@
 //! An explanation as a self-contained HTML page: diagrams, then the steps.
 //!
 //! The page has no script and loads nothing: style sheet, diagrams (SVG) and picture (a data URI)
-//! are inside. It follows the color scheme of the reader's system.
+//! are embedded. It follows the color scheme of the reader's system.
 
 use super::diagrams::draw_diagrams;
 use super::plain_text::format_number;
@@ -10,8 +10,8 @@ use super::{Explanation, ExplanationEntry, ItemValue, Step};
 use picture::Picture;
 
 impl Explanation {
-    /// Formats the explanation as an HTML page. `chain` is the chain it was made with; `picture`,
-    /// of any size and of the scene's aspect ratio, shows the position of the subject.
+    /// Formats the explanation as an HTML page. `chain` is the chain used for the explanation;
+    /// `picture`, of any size but with the scene's aspect ratio, shows the position of the subject.
     ///
     /// The page is complete without network access. The order is subject, introduction, verdict,
     /// diagrams, steps.
@@ -41,7 +41,7 @@ impl Explanation {
 /// One step as a list item with a table of its values.
 ///
 /// The id of the step is the anchor, so `page.html#clip` leads to clipping. Formula ids become
-/// `<code>` chips behind the title.
+/// `<code>` chips after the title.
 fn step_html(step: &Step) -> String {
     let formulas = step.formula.unwrap_or_default();
     let chips: String = formulas
@@ -83,8 +83,8 @@ fn matrix_html<const N: usize>(rows: &[[f64; N]; N]) -> String {
 
 /// Escapes text for HTML content and attribute values.
 ///
-/// The ampersand comes first, or it would escape the entities of the others. Names of nodes and
-/// models come from files and can hold any character.
+/// The ampersand comes first, or it would escape the other entities. Node and model names come from
+/// files and can contain any character.
 fn escape_html(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

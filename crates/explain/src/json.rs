@@ -12,18 +12,17 @@ use serde_json::{Value as Json, json};
 
 /// The name of the schema.
 ///
-/// Consumers compare it before they read anything else; the program writes other JSON documents
-/// too.
+/// Consumers check it before they read anything else; the program also writes other JSON documents.
 pub const SCHEMA_NAME: &str = "alberti-explain";
 /// The version of the schema. It rises when a member changes its meaning or is removed; new members
-/// may come in any release.
+/// may be added in any release.
 pub const SCHEMA_VERSION: u32 = 1;
 
 impl Explanation {
     /// Formats the explanation as a JSON document: a list of steps, each with a list of items.
     /// Numbers that are not finite become `null`.
     ///
-    /// Decimals are the shortest that parse to the same f64, so a program can recompute each step
+    /// Decimals are the shortest that parse to the same f64, so programs can recompute each step
     /// bit for bit. Matrices are `{"rows": [[…], …]}` for column vectors.
     #[must_use]
     pub fn to_json(&self) -> Json {
@@ -51,7 +50,7 @@ fn step_json(step: &Step) -> Json {
 
 /// One item; a matrix as an object with its rows.
 ///
-/// The object tells a matrix from a list of coordinates without counting numbers.
+/// The object distinguishes a matrix from a list of coordinates without counting numbers.
 fn item_json(item: &ExplanationEntry) -> Json {
     let value = match &item.value {
         ItemValue::Matrix(rows) => json!({"rows": rows}),

@@ -1,17 +1,18 @@
-//! The viewing pipeline step by step for one point, segment, triangle, node, pixel or matrix.
+//! Explains the viewing pipeline step by step for a point, segment, triangle, node, pixel or
+//! matrix.
 //!
 //! ```text
 //!  subject ─► steps, each with its formula ─► items: matrices, coordinates ─► text, JSON, HTML
 //! ```
-//! Every number comes from the stage that a picture goes through; nothing is computed differently
+//! Every number comes from the same stage that renders a picture; nothing is computed differently
 //! here.
 //!
 //! | subject | file |
 //! | --- | --- |
-//! | what an explanation is made of | `explanation.rs` |
+//! | the parts of an explanation | `explanation.rs` |
 //! | the transform chain and its steps, shared by all | `transform_chain.rs` |
 //! | conventions of OpenGL, Vulkan, Direct3D, WebGPU | `conventions.rs` |
-//! | the matrices of the textbook's page | `chapter_matrices.rs` |
+//! | the matrices as printed in the textbook | `chapter_matrices.rs` |
 //! | points and vertices, segments, triangles | `point.rs`, `segment.rs`, `triangle.rs` |
 //! | homogeneous points and directions, f(t) | `homogeneous_point.rs`, `foreshortening.rs` |
 //! | points under a single matrix, without a scene | `bare_map.rs` |
@@ -19,7 +20,7 @@
 //! | why a node is invisible; why a pixel has its color | `node.rs`, `pixel.rs` |
 //! | the meaning of an arbitrary matrix, and known misprints | `matrix.rs` |
 //! | factors of a projection | `projection_factors.rs` |
-//! | formulas by their ids | [`formulas`] |
+//! | formulas by id | [`formulas`] |
 //! | output | `introduction.rs`, `plain_text.rs`, `json.rs`, `html.rs`, `diagrams.rs` |
 
 mod bare_map;

@@ -1,10 +1,10 @@
-//! Explanation of a matrix: its kind, its inverse, its meaning with parameters, and known misprints
-//! it resembles.
+//! Explains a matrix: its kind, its inverse, its meaning with parameters, and known misprints it
+//! resembles.
 //!
-//! Sixteen numbers can be several projections, each in another convention: OpenGL's and
-//! the textbook's differ by the sign of z. The most sensible reading stands first with all its
-//! parameters; others follow in a line each. A misprint is reported only where the matrix as it
-//! stands makes less sense; where both are as good, both are listed.
+//! Sixteen numbers can be several projections, each in a different convention: OpenGL's and the
+//! textbook's differ by the sign of z. The most likely reading comes first with all its parameters;
+//! others follow, one per line. A misprint is reported only if the matrix as given is less
+//! plausible; if both are equally plausible, both are listed.
 
 mod meaning;
 mod planar;
@@ -20,10 +20,10 @@ use recognition::{
     MatrixMeaning, MatrixReading, Misprint, Recognition, Suspicion, SuspicionStrength, recognize,
 };
 
-/// How many readings are listed beside the first.
+/// The maximum number of readings listed after the first.
 const OTHER_READINGS: usize = 5;
 
-/// The greatest cost of a reading beside the first: four digits and a rare convention more.
+/// The maximum extra cost of a reading after the first: four digits and a rare convention.
 const LESS_LIKELY: u32 = 10;
 
 /// Explains a 4×4 matrix for column vectors.
@@ -31,8 +31,8 @@ const LESS_LIKELY: u32 = 10;
 /// # Errors
 /// If an entry is not a finite number.
 ///
-/// The transposed matrix (row vectors, or column-major storage read by rows) is named as such only
-/// if its reading is the more sensible one, and shown corrected.
+/// The transposed matrix (row vectors, or column-major storage read by rows) is reported only if
+/// its reading is more likely, and is shown corrected.
 pub fn explain_matrix(rows: [[f64; 4]; 4]) -> Result<Explanation, String> {
     check_finite(&rows)?;
     let map = Projective::<View, Clip>::from_rows(rows);
@@ -52,8 +52,8 @@ pub fn explain_matrix(rows: [[f64; 4]; 4]) -> Result<Explanation, String> {
     Ok(Explanation { subject: "A matrix for column vectors".to_owned(), steps, verdict })
 }
 
-/// The reading of the matrix without its slip, if it makes clearly more sense and as it stands
-/// there is little to say of it; and the title of that reading.
+/// The reading of the corrected matrix, with its title, if it is clearly more likely and there is
+/// little to say about the matrix as given.
 fn mended_reading(found: &Recognition) -> Option<(MatrixReading, &'static str)> {
     let slip = found.misprint()?;
     let title = match slip.misprint {
@@ -89,9 +89,9 @@ fn inverse_step(map: Projective<View, Clip>) -> Step {
     }
 }
 
-/// The rows of an inverse, with 0 for entries that are rounding: below the bound of the error of
-/// Gaussian elimination, ε |M⁻¹| |M| |M⁻¹| by entries (Higham 2002, chapter 14), or so small that
-/// M M⁻¹ and M⁻¹ M are the identity without them.
+/// The rows of an inverse, with 0 for rounding noise: entries below the error bound of Gaussian
+/// elimination, ε |M⁻¹| |M| |M⁻¹| by entries (Higham 2002, chapter 14), or so small that M M⁻¹ and
+/// M⁻¹ M are the identity without them.
 #[must_use]
 pub fn without_rounding(matrix: DMat4, inverse: DMat4) -> [[f64; 4]; 4] {
     let size = |m: DMat4| DMat4::from_cols_array(&m.to_cols_array().map(f64::abs));
@@ -107,10 +107,10 @@ pub fn without_rounding(matrix: DMat4, inverse: DMat4) -> [[f64; 4]; 4] {
     std::array::from_fn(|row| std::array::from_fn(|column| clean(4 * column + row)))
 }
 
-/// The kind of map: affine, projective, its rank and determinant.
+/// The kind of map: affine or projective, with its rank and determinant.
 ///
-/// A rank below 4 loses a dimension, as a projection onto a plane does; the sign of the determinant
-/// says whether orientation changes, as it does between handednesses.
+/// A rank below 4 loses a dimension, as in a projection onto a plane; the sign of the determinant
+/// shows whether orientation changes, as it does between handednesses.
 fn kind_step(rows: [[f64; 4]; 4], map: Projective<View, Clip>) -> Step {
     let found = map.classify();
     Step::new("kind", "What kind of map it is", Some("HO-3"))
@@ -171,8 +171,8 @@ fn is_rigid(meaning: &MatrixMeaning) -> bool {
 
 /// The vanishing points of the three axes.
 ///
-/// The vanishing point of a direction d is M (d, 0): the columns of the matrix. Finite columns
-/// belong to one-, two- and three-point perspective (VN-1); 1e-12 is the relative tolerance on w.
+/// The vanishing point of a direction d is M (d, 0): the columns of the matrix. Finite columns give
+/// one-, two- and three-point perspective (VN-1); 1e-12 is the relative tolerance on w.
 fn vanishing_points_step(map: Projective<View, Clip>) -> Step {
     let points = map.principal_vanishing_points(1e-12);
     let words = |meaning: HPointKind<Clip>| match meaning {
@@ -190,7 +190,7 @@ fn vanishing_points_step(map: Projective<View, Clip>) -> Step {
         .fold(step, |step, (axis, point)| step.with_item(axis, axis, words(point)))
 }
 
-/// The readings beside the first, those as sensible as it before the others.
+/// The readings after the first, beginning with those equally likely.
 fn other_readings_step(found: &Recognition) -> Option<Step> {
     let misprint = found.misprint().map(|slip| slip.misprint);
     if matches!(misprint, Some(Misprint::LastRowNegated | Misprint::WrongSign)) {
@@ -199,7 +199,7 @@ fn other_readings_step(found: &Recognition) -> Option<Step> {
     let turned = misprint == Some(Misprint::Transposed);
     let equal = if turned { 0 } else { found.equal_readings().count() };
     let most = found.first().cost + LESS_LIKELY;
-    // Whatever their digits, programs use a rigid matrix in all three ways.
+    // Programs use a rigid matrix in all three ways, no matter what its numbers are.
     let rigid = is_rigid(&found.first().meaning);
     let told = |reading: &&MatrixReading| {
         let likely = reading.cost <= most || (rigid && is_rigid(&reading.meaning));
@@ -222,12 +222,12 @@ fn other_readings_step(found: &Recognition) -> Option<Step> {
     }))
 }
 
-/// A place in a matrix, counted from 1.
+/// A position in a matrix, counted from 1.
 fn place_words(row: usize, column: usize) -> String {
     format!("row {}, column {}", row + 1, column + 1)
 }
 
-/// The entry whose sign is wrong.
+/// The entry with the wrong sign.
 fn entry_words(rows: [[f64; 4]; 4], found: &Recognition) -> String {
     let changed = found.misprint().and_then(|slip| changed_entry(rows, slip));
     changed.map_or("one entry".to_owned(), |[row, column]| place_words(row, column))
@@ -240,10 +240,10 @@ fn changed_entry(rows: [[f64; 4]; 4], slip: &Suspicion) -> Option<[usize; 2]> {
     Some([at / 4, at % 4])
 }
 
-/// A known misprint that the matrix resembles, with the correction and what it then is.
+/// A known misprint that the matrix resembles, with the correction and its meaning.
 ///
-/// The corrected matrix is shown only where the sixteen entries determine it. The first misprint
-/// has the id `misprint`, further ones `other_misprint`.
+/// The corrected matrix is shown only if the sixteen entries determine it. The first misprint has
+/// the id `misprint`, further ones `other_misprint`.
 fn misprint_step(at: usize, rows: [[f64; 4]; 4], slip: &Suspicion) -> Step {
     let known = slip.misprint.id().unwrap_or("not numbered");
     let title = match (slip.misprint, slip.strength) {
@@ -270,7 +270,7 @@ fn misprint_step(at: usize, rows: [[f64; 4]; 4], slip: &Suspicion) -> Step {
         }
         _ => step,
     };
-    // The report of a mended matrix has its reading already.
+    // The report on a corrected matrix already has its reading.
     let mended = [Misprint::Transposed, Misprint::LastRowNegated, Misprint::WrongSign];
     let likely = slip.strength == SuspicionStrength::Likely;
     let is_read = at == 0 && likely && mended.contains(&slip.misprint);

@@ -1,15 +1,15 @@
-//! Explanation of a node: why its mesh is visible or not, by the stages that could remove it.
+//! Explains why a node's mesh is visible or not, from the stages that could remove it.
 //!
 //! ```text
 //!  tree ─► model transform ─► outcodes (trivial reject) ─► back-face test ─► alpha ─► visible
 //!            not in a scene       outside of a plane         away, edge-on     transparent
 //! ```
-//! A primitive is counted at the first stage that removes it. Where everything fails at one stage,
-//! the verdict names it and a remedy.
+//! A primitive is counted at the first stage that removes it. If one stage removes everything, the
+//! verdict names it and a remedy.
 //!
-//! The order of the stages is that of the pipeline, so the count of a later stage excludes
-//! everything that an earlier one removed. Counts are exact integers; the percentage in the verdict
-//! is the only rounded number.
+//! The stages follow pipeline order, so the count of a later stage excludes everything that an
+//! earlier one removed. Counts are exact integers; the percentage in the verdict is the only
+//! rounded number.
 
 use super::plain_text::format_number;
 use super::point::{describe_node, model_point};
@@ -26,9 +26,9 @@ use model::{AlphaMode, MeshInstance, Model, Primitive, Topology};
 ///
 /// Occlusion by other surfaces is not tested: it comes after all of these stages.
 ///
-/// The cost is O(vertices + primitives) of the node's mesh, for each of its instances. The node's
-/// own mesh is meant, not those of its children. Skinned meshes are posed first, so the bounds are
-/// those of the current pose.
+/// The cost is O(vertices + primitives) of the node's mesh, for each of its instances. Only the
+/// node's own mesh is examined, not its children's. Skinned meshes are posed first, so the bounds
+/// match the current pose.
 #[must_use]
 pub fn explain_node(
     chain: &TransformChain,
@@ -57,12 +57,12 @@ pub fn explain_node(
 
 /// The path from the root to the node.
 ///
-/// Follows the parent indices to the root and prints them root first. The matrix is the accumulated
-/// node-to-model transform, the product of the local TRS matrices along this path.
+/// Follows the parent indices to the root and prints the path from there. The matrix is the
+/// accumulated node-to-model transform, the product of the local TRS matrices along this path.
 fn tree_step(model: &Model, node: usize) -> Step {
     let mut path = Vec::new();
     let mut above = Some(node);
-    // The importer refuses cycles, so this ends.
+    // The importer refuses cycles, so this terminates.
     while let Some(at) = above {
         path.push(describe_node(model, at));
         above = model.nodes.get(at).and_then(|node| node.parent);
@@ -86,7 +86,7 @@ fn tree_step(model: &Model, node: usize) -> Step {
 /// The reason for a node without a visible mesh.
 ///
 /// Three causes: the index is out of range, the node has no mesh (a group, joint, light or camera),
-/// or the node is outside the scene that is drawn.
+/// or the node is outside the drawn scene.
 fn explain_absence(model: &Model, node: usize) -> String {
     match model.nodes.get(node) {
         None => "There is no such node.".to_owned(),
@@ -104,15 +104,16 @@ fn explain_absence(model: &Model, node: usize) -> String {
 /// The number of points, lines and triangles by the stage that removes them.
 #[derive(Default)]
 struct PrimitiveCounts {
-    /// The axis-aligned bounding box in world space: least and greatest corner; `None` without
+    /// The axis-aligned bounding box in world space: minimum and maximum corners; `None` without
     /// vertices.
     bounds: Option<[DVec3; 2]>,
-    /// The planes of the view volume that every vertex is outside of: the AND of all outcodes. A
-    /// plane in it rejects the whole mesh, which names the simplest remedy.
+    /// The planes of the view volume with every vertex outside: the AND of all outcodes. A plane in
+    /// it rejects the whole mesh, which suggests the simplest remedy.
     common_outcode: Option<Outcode>,
     /// All points, lines and triangles of the node's mesh.
     total: usize,
-    /// Trivially rejected, by the first plane that rejects; one count for each of the six.
+    /// Trivially rejected primitives, by the first plane that rejects them; one count for each of
+    /// the six.
     outside: [usize; 6],
     /// Culled back faces of single-sided materials.
     back_facing: usize,
@@ -120,7 +121,7 @@ struct PrimitiveCounts {
     edge_on: usize,
     /// Blended with alpha 0.
     transparent: usize,
-    /// Those that no stage removes.
+    /// Primitives that no stage removes.
     visible: usize,
 }
 
@@ -129,7 +130,7 @@ impl PrimitiveCounts {
     ///
     /// Positions are skinned, mapped to world and clip space in f64, then assembled by topology. A
     /// transform with a negative determinant mirrors the mesh: triangles that were counterclockwise
-    /// appear clockwise, so the culled side is exchanged as the glTF specification demands.
+    /// appear clockwise, so the culled side is exchanged as the glTF specification requires.
     fn count_primitive(
         &mut self,
         chain: &TransformChain,
@@ -160,14 +161,14 @@ impl PrimitiveCounts {
         }
     }
 
-    /// Extends the bounding box to a point.
+    /// Extends the bounding box to include a point.
     fn extend_bounds(&mut self, point: DVec3) {
         let [least, most] = self.bounds.unwrap_or([point, point]);
         self.bounds = Some([least.min(point), most.max(point)]);
     }
 
-    /// Counts one point, line or triangle. `culled` says for a front face (`true`) or back face
-    /// whether it is culled.
+    /// Counts one point, line or triangle. `culled` says whether a front face (`true`) or a back
+    /// face is culled.
     ///
     /// The tests in order: trivial rejection (the AND of the vertices' outcodes is not 0), facing
     /// (edge-on if the area is 0), culling, alpha. A primitive outside several planes is counted at
@@ -202,7 +203,7 @@ impl PrimitiveCounts {
 
     /// The bounding box and its relation to the view volume.
     ///
-    /// World units. A mesh whose box lies outside one plane is explained by this step alone.
+    /// It is in world units. If the box is outside one plane, this step alone explains the mesh.
     fn bounds_step(&self) -> Step {
         let step = Step::new("bounds", "Where all of it is", Some("CL-1"));
         let Some([min, most]) = self.bounds else {
@@ -220,8 +221,8 @@ impl PrimitiveCounts {
 
     /// The counts as a step.
     ///
-    /// Planes that reject nothing are left out of the list. Primitives that cross a plane count as
-    /// visible: only a part of them is clipped.
+    /// Planes that reject nothing are omitted from the list. Primitives that cross a plane count as
+    /// visible: they are clipped only in part.
     fn count_step(&self) -> Step {
         let mut step =
             Step::new("counts", "Its points, lines and triangles", Some("CL-1, CL-3, RA-1"))

@@ -1,5 +1,5 @@
-//! Explanation of a pixel: its fragments with weights and colors, and the transform chain of the
-//! nearest surface point.
+//! Explains a pixel: its fragments with weights and colors, and the transform chain of the nearest
+//! surface point.
 //!
 //! The fragments come from the renderer itself ([`inspect_pixel`]): the pixel is rendered again
 //! with a recording surface. Several fragments mean an edge within the pixel, or translucent
@@ -22,10 +22,10 @@ use scene::Scene;
 /// Explains the color of a pixel; x and y count from the upper left corner.
 ///
 /// # Errors
-/// If there is no such pixel, or none of the picture's pixels is shaded; the text says which.
+/// If there is no such pixel, or the picture has no shaded pixels; the text says which.
 ///
-/// The nearest fragment is that with the largest depth in the pipeline's own volume, whatever the
-/// conventions of `chain`: reversed or flipped depth would otherwise select the farthest.
+/// The nearest fragment is the one with the largest depth in the pipeline's own volume, independent
+/// of the conventions of `chain`: reversed or flipped depth would otherwise select the farthest.
 pub fn explain_pixel(
     chain: &TransformChain,
     scene: &Scene,
@@ -57,10 +57,10 @@ pub fn explain_pixel(
     Ok(Explanation { subject, steps, verdict: pixel_verdict(&pixel) })
 }
 
-/// A fragment: the primitive it comes from, weights, color, world position.
+/// A fragment, with its source primitive, weights, color and world position.
 ///
-/// A fragment without a source comes from environment, backdrop or ground and has no position. Its
-/// color is linear RGB, premultiplied by alpha.
+/// A fragment without a source comes from the environment, backdrop or ground and has no position.
+/// Its color is linear RGB, premultiplied by alpha.
 fn fragment_step(scene: &Scene, at: usize, seen: &ShadedFragment) -> Step {
     let title = match seen.source {
         Some(owner) => format!("Seen: {}", source_name(scene, owner)),
@@ -76,10 +76,10 @@ fn fragment_step(scene: &Scene, at: usize, seen: &ShadedFragment) -> Step {
     step
 }
 
-/// The primitive of a fragment in words.
+/// Describes the primitive of a fragment in words.
 ///
-/// `triangle 12 of primitive 0 at node 3 of model 0`: the indices are those that `--triangle` and
-/// `--node` accept, so the next question can be asked directly.
+/// `triangle 12 of primitive 0 at node 3 of model 0`: `--triangle` and `--node` accept these
+/// indices, so you can explain that triangle or node next.
 fn source_name(scene: &Scene, owner: FragmentSource) -> String {
     let FragmentSource { model, node, primitive, element: item } = owner;
     let Some(model_instance) = scene.models.get(model) else { return String::new() };
@@ -104,7 +104,7 @@ fn find_primitive(scene: &Scene, owner: FragmentSource) -> Option<&model::Primit
 
 /// The world position of a triangle's fragment: its vertices blended by the barycentric weights.
 ///
-/// p = w₀ p₀ + w₁ p₁ + w₂ p₂ with the vertices skinned and mapped to world space in f64. The
+/// p = w₀ p₀ + w₁ p₁ + w₂ p₂, with the vertices skinned and mapped to world space in f64. The
 /// weights are f32, so the position is exact to about 1e-7 of the triangle's size. Points and lines
 /// have no barycentric weights and give `None`.
 fn fragment_position(scene: &Scene, seen: &ShadedFragment) -> Option<Point<World>> {
@@ -127,7 +127,7 @@ fn fragment_position(scene: &Scene, seen: &ShadedFragment) -> Option<Point<World
 /// The resolved color of the pixel.
 ///
 /// Samples are averaged in linear light; an average of sRGB values would darken edges. The result
-/// is 8 bits for each channel, alpha not premultiplied, as the PNG stores it.
+/// has 8 bits per channel and straight alpha, as the PNG stores it.
 fn color_step(makeup: &PixelFragments) -> Step {
     let [r, g, b, alpha] = makeup.color;
     Step::new("pixel", "The pixel: samples resolved in linear light, then sRGB", Some("RA-2"))

@@ -31,7 +31,7 @@ impl Display for Explanation {
     }
 }
 
-/// Writes a paragraph in lines of at most 100 characters.
+/// Writes a paragraph wrapped to lines of at most 100 characters.
 fn write_wrapped(f: &mut Formatter<'_>, words: &str) -> fmt::Result {
     let mut line = String::new();
     for word in words.split_whitespace() {
@@ -58,8 +58,8 @@ impl Display for FormulaSuffix<'_> {
 
 /// Writes an item, its label padded to `width`.
 ///
-/// The label stands before the first line only; the other rows of a matrix are indented below it.
-/// `width` counts characters, not bytes, for labels such as `x, y = ±distance`.
+/// The label is on the first line only; the other rows of a matrix are indented below it. `width`
+/// counts characters, not bytes, for labels such as `x, y = ±distance`.
 fn write_item_text(f: &mut Formatter<'_>, item: &ExplanationEntry, width: usize) -> fmt::Result {
     let lines = match &item.value {
         ItemValue::Matrix(rows) => format_matrix(rows),
@@ -79,7 +79,7 @@ fn write_item_text(f: &mut Formatter<'_>, item: &ExplanationEntry, width: usize)
     Ok(())
 }
 
-/// Formats a matrix with aligned columns, a row in each line, its numbers as everywhere else.
+/// Formats a matrix with aligned columns, one row per line, and numbers as elsewhere.
 fn format_matrix<const N: usize>(rows: &[[f64; N]; N]) -> String {
     let cells = rows.map(|row| row.map(format_number));
     let width = |column: usize| cells.iter().map(|row| row[column].len()).max().unwrap_or(0);
@@ -97,10 +97,10 @@ fn format_matrix<const N: usize>(rows: &[[f64; N]; N]) -> String {
 ///  0, 1e-4 ≤ |x| < 1e9   decimal     0.333333   123456.8
 ///  otherwise             scientific  1.5e-9
 /// ```
-/// The digits before the point are counted on the rounded number, so 9.9999999 becomes 10 and not a
-/// number with eight digits. Infinities print as `inf`.
+/// The digits before the point are counted on the rounded number, so 9.9999999 becomes 10 instead
+/// of a number with eight digits. Infinities print as `inf`.
 pub(super) fn format_number(x: f64) -> String {
-    // −0 is a 0 to people.
+    // People read −0 as 0.
     let x = x + 0.0;
     let size = x.abs();
     if !(size == 0.0 || (1e-4..1e9).contains(&size)) {
@@ -149,7 +149,7 @@ mod tests {
         }
     }
 
-    /// A third in a matrix reads as a third in coordinates does.
+    /// A third looks the same in a matrix as in coordinates.
     #[test]
     fn a_number_has_one_form_in_matrices_and_lists() {
         let third = 1.0 / 3.0;

@@ -1,9 +1,9 @@
-//! Explanation of a world point or of a mesh vertex: all transforms to its pixel.
+//! Explains a world point or a mesh vertex: all transforms to its pixel.
 //!
 //! ```text
 //!  mesh ─nodes─► model ─scene─► world ─camera─► view ─projection─► clip ─÷ w─► NDC ─► pixel
 //! ```
-//! A vertex is explained in the model's current pose: skinned and morphed as the scene has it.
+//! A vertex is explained in the model's current pose, skinned and morphed as in the scene.
 
 use super::plain_text::format_number;
 use super::transform_chain::{TransformChain, describe_outcode};
@@ -14,7 +14,8 @@ use model::{MeshInstance, Model};
 
 /// Explains the transforms themselves, without a point.
 ///
-/// Camera, projection and viewport matrices: all that a program needs to repeat the projection.
+/// The camera, projection and viewport matrices are all that a program needs to repeat the
+/// projection.
 #[must_use]
 pub fn explain_transforms(chain: &TransformChain) -> Explanation {
     let [_, screen] = chain.screen_steps(&[]);
@@ -29,7 +30,7 @@ pub fn explain_transforms(chain: &TransformChain) -> Explanation {
 
 /// Follows a world point through every stage.
 ///
-/// Coordinates are those of the world, in the units of the scene.
+/// Coordinates are world coordinates, in the scene's units.
 #[must_use]
 pub fn explain_point(chain: &TransformChain, point: Point<World>) -> Explanation {
     let [x, y, z] = <[f64; 3]>::from(point).map(format_number);
@@ -39,21 +40,21 @@ pub fn explain_point(chain: &TransformChain, point: Point<World>) -> Explanation
 /// The indices of a mesh vertex.
 #[derive(Clone, Copy, Debug)]
 pub struct VertexRef {
-    /// Index of the node in its model.
+    /// The index of the node in its model.
     pub node: usize,
-    /// Index of the primitive in the node's mesh.
+    /// The index of the primitive in the node's mesh.
     pub primitive: usize,
-    /// Index of the vertex in the primitive.
+    /// The index of the vertex in the primitive.
     pub index: usize,
 }
 
 /// Follows a vertex of a model through every stage, in the model's current pose.
 ///
 /// # Errors
-/// If the model does not show such a vertex; the text says what there is.
+/// If the model does not show such a vertex; the text lists what exists.
 ///
-/// Morph targets, then skinning, then node and model transform, as the glTF specification orders
-/// them.
+/// The order is morph targets, skinning, node transform, model transform, as in the glTF
+/// specification.
 pub fn explain_vertex(
     chain: &TransformChain,
     model_instance: &ModelInstance,
@@ -78,10 +79,10 @@ pub fn explain_vertex(
     Ok(explain_world_point(chain, world, subject, vec![step]))
 }
 
-/// The steps of a world point, after those that led to it.
+/// The steps of a world point, after the steps that led to it.
 ///
-/// The verdict is positive only if the outcode is 0 and w is not 0: a point behind the eye can
-/// divide to coordinates inside the image, which is why the outcode is tested and not the NDC.
+/// The verdict is positive only if the outcode is 0 and w is not 0. The outcode is tested instead
+/// of the NDC, because after the divide a point behind the eye can appear inside the image.
 fn explain_world_point(
     chain: &TransformChain,
     point: Point<World>,
@@ -138,10 +139,10 @@ pub(super) fn model_step(
     step
 }
 
-/// The first instance of a node's mesh, and one of its primitives.
+/// Finds the first instance of a node's mesh, and one of its primitives.
 ///
 /// # Errors
-/// If there is none; the message lists nodes or counts primitives that exist.
+/// If there is none; the message lists the existing nodes or counts the primitives.
 ///
 /// A node outside the drawn scene has no instance. The message lists up to twelve nodes that have
 /// one.
@@ -165,7 +166,7 @@ pub(super) fn find_shown_primitive(
     Ok((instance, primitive))
 }
 
-/// A node by its index and name.
+/// Describes a node by index and name.
 pub(super) fn describe_node(model: &Model, node: usize) -> String {
     match model.nodes.get(node).and_then(|node| node.name.as_deref()) {
         Some(name) => format!("node {node} `{name}`"),
@@ -175,7 +176,7 @@ pub(super) fn describe_node(model: &Model, node: usize) -> String {
 
 /// A vertex position in f64.
 ///
-/// The conversion is exact; everything behind it is computed in f64.
+/// The conversion is exact; everything after it is computed in f64.
 pub(super) fn model_point(position: [f32; 3]) -> Point<ModelSpace> {
     Point::from(position.map(f64::from))
 }

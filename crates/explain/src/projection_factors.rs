@@ -1,5 +1,4 @@
-//! Factorization of a projection matrix into shear, scale and depth mapping, and the ids of its
-//! formulas.
+//! Factors a projection matrix into shear, scale and depth mapping, with formula ids.
 //!
 //! ```text
 //!  perspective = depth · scale · shear   (frustum centered, sides to 45°, depth to clip space)
@@ -16,8 +15,7 @@ use projection::{Classical, Decomposed, decompose};
 /// Adds the kind of a projection, and its factors in the order in which they apply to a point.
 ///
 /// The product of the factors equals the projection matrix up to rounding. A projection that cannot
-/// be decomposed adds nothing, and neither does one whose kind has no textbook factorization: only
-/// its kind is named then.
+/// be decomposed adds nothing. One whose kind has no textbook factorization adds only its kind.
 ///
 /// The shear of a frustum moves the center of the window onto the axis, x' = x + z (l + r)/(2n);
 /// for a symmetric frustum it is the identity. The shear of an oblique projection makes its
@@ -58,10 +56,10 @@ pub(super) fn add_projection_factors(
     }
 }
 
-/// A projection with its parameters in words.
+/// Describes a projection with its parameters in words.
 ///
-/// Window and depth are in the units of view space, depth as positive distances from the eye. A
-/// placed projection is one that has a camera transform multiplied into it.
+/// Window and depth are in view space units, depth as positive distances from the eye. A placed
+/// projection has a camera transform multiplied into it.
 fn describe_projection(kind: &Decomposed) -> String {
     let window = |w: projection::Window| {
         let [l, r, b, t] = [w.left(), w.right(), w.bottom(), w.top()].map(format_number);
@@ -97,20 +95,19 @@ fn describe_projection(kind: &Decomposed) -> String {
     }
 }
 
-/// The ids of the formulas of a projection in the pipeline's own conventions, as the chapter
-/// numbers them.
+/// The formula ids of a projection in the pipeline's own conventions, numbered as in the chapter.
 ///
-/// Such as `PE-1, PE-3, VV-2`; `None` for a matrix that is not recognized.
+/// An example is `PE-1, PE-3, VV-2`; `None` for a matrix that is not recognized.
 #[must_use]
 pub fn formula_ids(view_to_clip: Projective<View, Clip>) -> Option<&'static str> {
     let decomposition = decompose(view_to_clip, ApiConventions::Alberti.canonical_volume()).ok()?;
     formula_ids_of_kind(&decomposition.kind, ApiConventions::Alberti)
 }
 
-/// The ids of the formulas of a kind of projection in the given conventions.
+/// The formula ids of a kind of projection in the given conventions.
 ///
-/// Perspective and orthographic matrices have formulas of their own for the volumes of graphics
-/// APIs (GL-1, GL-3); the classical projections are numbered once.
+/// Perspective and orthographic matrices have separate formulas for the volumes of graphics APIs
+/// (GL-1, GL-3); the classical projections are numbered once.
 fn formula_ids_of_kind(kind: &Decomposed, conventions: ApiConventions) -> Option<&'static str> {
     let chapter = conventions == ApiConventions::Alberti || conventions.is_textbook();
     match kind {

@@ -1,10 +1,11 @@
-//! Explanation of a segment: clipping against the view volume before the divide (CL-2).
+//! Explains a segment: clipping against the view volume before the divide (CL-2).
 //!
 //! ```text
 //!  p(t) = a + t (b − a) in clip space;  each plane cuts at t = d(a) / (d(a) − d(b))
 //! ```
 //! d is a plane's signed distance, such as w − x for the right plane. The visible part runs from
-//! the largest t where the segment enters to the smallest where it leaves (Liang and Barsky, 1984).
+//! the largest t at which the segment enters to the smallest at which it leaves (Liang and Barsky,
+//! 1984).
 
 use super::foreshortening::foreshortening_step;
 use super::plain_text::format_number;
@@ -52,7 +53,7 @@ pub fn explain_segment(chain: &TransformChain, ends: [Point<World>; 2]) -> Expla
 
 /// The clipping step: the planes through which the visible part enters and leaves.
 ///
-/// `left` is `None` for a segment that is rejected, trivially or because its interval is empty (t₀
+/// `left` is `None` for a segment rejected trivially or because its interval is empty (t₀
 /// > t₁); the step then names the planes that it is outside of.
 fn clip_step(
     chain: &TransformChain,

@@ -1,4 +1,4 @@
-//! The step of a stereo pair: where both eyes stand and where each sees the subject (C65).
+//! The step for a stereo pair: the positions of both eyes, and where each sees the subject (C65).
 //!
 //! ```text
 //!  parallax = x of the right eye − x of the left eye, in pixels
@@ -12,8 +12,8 @@ use homog::{Point, World};
 impl Explanation {
     /// Returns the explanation with a step for the eyes of a stereo pair: left, then right.
     ///
-    /// `point` is the subject, whose position in both pictures gives the parallax; without one the
-    /// step has the eyes and their matrices. Coordinates are those of each eye's own picture.
+    /// `point` is the subject, whose position in both pictures gives the parallax; without a point,
+    /// the step has the eyes and their matrices. Coordinates are in each eye's own picture.
     #[must_use]
     pub fn with_stereo_pair(
         mut self,
@@ -36,7 +36,7 @@ impl Explanation {
     }
 }
 
-/// Adds the positions of a point in both pictures, and their difference.
+/// Adds a point's positions in both pictures, and their difference.
 fn add_parallax(step: &mut Step, eyes: &[TransformChain; 2], point: Point<World>) {
     let seen = |chain: &TransformChain| {
         chain.project_to_screen(chain.world_to_clip().transform_point(point))

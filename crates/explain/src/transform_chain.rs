@@ -5,8 +5,8 @@
 //!  World ──T, R──► View ──projection──► Clip ──÷w──► Ndc ──M_vp──► Screen
 //! ```
 //!
-//! Matrices act on column vectors; the composition reads from left to right in the figure and from
-//! right to left in a product, M = M_vp · M_proj · M_cam.
+//! Matrices act on column vectors; read the figure from left to right and the product M = M_vp ·
+//! M_proj · M_cam from right to left.
 
 use super::chapter_matrices::ChapterMatrices;
 use super::conventions::ApiConventions;
@@ -21,7 +21,7 @@ use viewport::{Viewport, ViewportError};
 
 /// Camera, projection and viewport in the conventions of a graphics API.
 ///
-/// The volume is converted once, when the chain is built; all steps then speak one convention.
+/// The volume is converted once, when the chain is built; all steps then use one convention.
 #[derive(Clone, Copy, Debug)]
 pub struct TransformChain {
     /// The camera, whose view space looks along −z.
@@ -34,24 +34,24 @@ pub struct TransformChain {
     viewport: Viewport,
     /// Columns and rows of the picture.
     size: [u32; 2],
-    /// World → clip → screen in these conventions.
+    /// The transform from world to clip to screen in these conventions.
     transform: ViewTransform,
     /// Whether the window exchanges left and right, or bottom and top; front faces then wind
     /// clockwise.
     is_mirrored: bool,
 }
 
-/// A point with its label in an explanation: empty for a single one.
+/// A point with its label in an explanation; the label of a single point is empty.
 pub(super) type NamedPoint<'a, P> = (&'a str, P);
 
 impl TransformChain {
-    /// The chain of a picture of width × height pixels.
+    /// Creates the chain for a picture of width × height pixels.
     ///
     /// # Errors
     /// If the picture has no pixels.
     ///
     /// The projection is converted from the pipeline's own volume by `Convention::convert`; the
-    /// camera is composed with the flip of z of left-handed conventions. World to clip is the
+    /// camera is composed with the flip of z of left-handed conventions. World to clip is their
     /// product in f64.
     pub fn new(
         view_projection: &ViewProjection,
@@ -92,7 +92,7 @@ impl TransformChain {
         self.transform.ndc_to_screen()
     }
 
-    /// The view volume in clip space, to clip against.
+    /// The view volume in clip space, used for clipping.
     #[must_use]
     pub fn clip_volume(&self) -> Volume {
         match self.conventions {
@@ -106,22 +106,22 @@ impl TransformChain {
         }
     }
 
-    /// Perspective divide and viewport transform of a clip-space point; `None` where w is 0.
+    /// The perspective divide and viewport transform of a clip-space point; `None` if w is 0.
     #[must_use]
     pub fn project_to_screen(&self, point: HPoint<Clip>) -> Option<Point<Screen>> {
         self.transform.project_to_screen(point)
     }
 
-    /// Back-face test: whether a triangle shows the viewer the side on which its vertices run
-    /// counterclockwise; `None` if it is seen edge-on. Points and lines have no back.
+    /// Whether a triangle shows its front, the side on which its vertices run counterclockwise;
+    /// `None` if it is seen edge-on. Points and lines have no back.
     ///
-    /// Working before the divide avoids clipping: the sign is right for triangles that cross the
+    /// Testing before the divide avoids clipping: the sign is correct for triangles that cross the
     /// plane of the eye. A flip of y (Vulkan) and a mirrored window each invert it; two flips
     /// cancel.
     pub(super) fn is_front_facing(&self, corners: &[HPoint<Clip>]) -> Option<bool> {
         let &[a, b, c] = corners else { return Some(true) };
-        // The determinant of the (x, y, w) is positive for counterclockwise triangles in clip space
-        // with y up, also with w < 0 at some vertices (Olano and Greer, 1997).
+        // The determinant of the (x, y, w) rows is positive for counterclockwise triangles in clip
+        // space with y up, even if w < 0 at some vertices (Olano and Greer, 1997).
         let [a, b, c] = [a, b, c].map(|p| glam::DVec3::new(p.x(), p.y(), p.w()));
         let volume = a.dot(b.cross(c));
         let is_flipped = self.conventions.y_runs_down() != self.is_mirrored;
@@ -154,7 +154,7 @@ impl TransformChain {
         self.conventions.looks_along_z()
     }
 
-    /// NDC z of the near and of the far plane.
+    /// The NDC z of the near and far planes.
     pub(super) fn depth_range(&self) -> [f64; 2] {
         match self.conventions {
             ApiConventions::Alberti | ApiConventions::Chapter | ApiConventions::ChapterYDown => {
@@ -167,13 +167,13 @@ impl TransformChain {
         }
     }
 
-    /// The textbook's matrices, in its conventions and for projections that its page has.
+    /// The textbook's matrices, in its conventions and for the projections it covers.
     fn chapter_matrices(&self) -> Option<ChapterMatrices> {
         let is_textbook = self.conventions.is_textbook();
         is_textbook.then(|| ChapterMatrices::from_projection(self.view_to_clip)).flatten()
     }
 
-    /// Width and height of the picture in pixels.
+    /// The width and height of the picture in pixels.
     pub(super) fn image_size(&self) -> [f64; 2] {
         [self.viewport.area().width(), self.viewport.area().height()]
     }
@@ -228,7 +228,7 @@ impl TransformChain {
 
     /// The projection's factors, and the points in clip space.
     ///
-    /// The formula ids depend on the kind of projection and are set with the factors. Clip
+    /// The formula ids depend on the kind of projection and are added with the factors. Clip
     /// coordinates have four components; w is the distance ahead for a perspective and 1 for a
     /// parallel projection.
     pub(super) fn projection_step(&self, points: &[NamedPoint<'_, Point<World>>]) -> Step {
@@ -250,7 +250,7 @@ impl TransformChain {
         step
     }
 
-    /// Adds a point of clip space; in the textbook's conventions also in the signs of its page.
+    /// Adds a clip-space point; in the textbook's conventions, also with the textbook's signs.
     pub(super) fn add_clip_items(&self, step: &mut Step, name: &str, clip: HPoint<Clip>) {
         if let Some(page) = self.chapter_matrices() {
             let product = if page.turns_w() { "M_per M_cam p" } else { "M_orth M_cam p" };
@@ -262,16 +262,16 @@ impl TransformChain {
         step.add_item(id, label, <[f64; 4]>::from(clip));
     }
 
-    /// The intrinsic parameters of a perspective that looks straight ahead, by the picture's rows
-    /// from the top.
+    /// The intrinsic parameters of a perspective that looks straight ahead, with picture rows
+    /// counted from the top.
     fn intrinsics(&self) -> Option<Intrinsics> {
         let volume = self.conventions.canonical_volume();
         Intrinsics::from_view_to_clip(self.view_to_clip, volume, self.size).ok()
     }
 
-    /// The outcodes of points of clip space.
+    /// The outcodes of clip-space points.
     ///
-    /// A bit is set where the signed distance of the point from a plane is negative, such as w − x
+    /// A bit is set if the signed distance of the point from a plane is negative, such as w − x
     /// < 0 for right (Cohen and Sutherland). The bits are printed in binary and as plane names.
     pub(super) fn outcode_step(&self, points: &[NamedPoint<'_, HPoint<Clip>>]) -> Step {
         let mut step =
@@ -288,11 +288,11 @@ impl TransformChain {
         step
     }
 
-    /// Perspective divide and viewport transform of clip-space points.
+    /// The perspective divide and viewport transform of clip-space points.
     ///
-    /// Returns the step of the divide and that of the viewport. A point at infinity appears in the
-    /// first only. Points outside the volume are mapped too: their coordinates show how far outside
-    /// they are. Depth is 0 … 1, its direction given by the conventions.
+    /// Returns the divide step and the viewport step. A point at infinity appears only in the
+    /// first. Points outside the volume are mapped too: their coordinates show how far outside they
+    /// are. Depth is 0 … 1, its direction given by the conventions.
     pub(super) fn screen_steps(&self, points: &[NamedPoint<'_, HPoint<Clip>>]) -> [Step; 2] {
         let mut divide = Step::new("divide", "The divide by w", Some("HO-1"));
         let mut screen = Step::new(
@@ -343,10 +343,10 @@ impl TransformChain {
         [divide, screen]
     }
 
-    /// The pixel in words: column and row from the top, as image files count them.
+    /// Describes the pixel in words: column and row from the top, as in image files.
     ///
-    /// The floor of the coordinates relative to the image border; for points outside the picture
-    /// the column or row is negative or beyond the last.
+    /// These are the floors of the coordinates relative to the image border; for points outside the
+    /// picture, the column or row is negative or beyond the last.
     fn describe_pixel(&self, [x, y, _]: [f64; 3]) -> String {
         let pixels = self.viewport.convention();
         let (border, height) = (pixels.centers.image_border(), self.viewport.area().height());
@@ -366,10 +366,10 @@ impl TransformChain {
     }
 }
 
-/// The item of a point whose w is 0.
+/// The item for a point whose w is 0.
 ///
-/// It takes the id of the NDC coordinates, with text in their stead; a direction or a point in the
-/// plane of the eye has no image.
+/// It has the id of the NDC coordinates, but contains text; a direction or a point in the plane of
+/// the eye has no image.
 fn infinity_item(name: &str) -> ExplanationEntry {
     let words = "w is 0: it is at infinity and has no place on the screen";
     ExplanationEntry {
@@ -379,7 +379,7 @@ fn infinity_item(name: &str) -> ExplanationEntry {
     }
 }
 
-/// The planes of an outcode in words: `inside`, or `outside of near, left`.
+/// Describes the planes of an outcode in words: `inside`, or `outside of near, left`.
 pub(super) fn describe_outcode(code: Outcode) -> String {
     if code.is_inside() {
         return "inside".to_owned();
@@ -388,16 +388,16 @@ pub(super) fn describe_outcode(code: Outcode) -> String {
     format!("outside of {}", names.join(", "))
 }
 
-/// The end of an item's id for a labeled point.
+/// The suffix of an item's id for a labeled point.
 ///
-/// `_a` for the point a, empty for a single point.
+/// It is `_a` for the point a, and empty for a single point.
 fn id_suffix(name: &str) -> String {
     if name.is_empty() { String::new() } else { format!("_{name}") }
 }
 
 /// The label of an item for a labeled point.
 ///
-/// `clip of a` for the point a, `clip` for a single point.
+/// It is `clip of a` for the point a, and `clip` for a single point.
 fn label_with_name(what: &str, name: &str) -> String {
     if name.is_empty() { what.to_owned() } else { format!("{what} of {name}") }
 }

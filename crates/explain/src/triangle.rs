@@ -1,9 +1,8 @@
-//! Explanation of a triangle: clipping planes, the clipped polygon, its area and winding (CL-3,
-//! RA-1).
+//! Explains a triangle: clipping planes, the clipped polygon, its area and winding (CL-3, RA-1).
 //!
 //! Clipping cuts the triangle at each plane in turn (Sutherland and Hodgman, 1974), in homogeneous
-//! coordinates before the divide. A vertex of the result is a blend of a, b and c; the weights of
-//! the blend are what attributes are interpolated by.
+//! coordinates before the divide. A vertex of the result is a blend of a, b and c; attributes are
+//! interpolated with the same weights.
 //!
 //! ```text
 //!       b                 3───4          up to nine vertices: each of the six
@@ -23,10 +22,10 @@ use model::Topology;
 /// Follows a triangle of a model through every stage.
 ///
 /// # Errors
-/// If the model does not show such a triangle; the text says what there is.
+/// If the model does not show such a triangle; the text lists what exists.
 ///
-/// Vertices keep the labels a, b, c through the transforms; those of the clipped polygon are
-/// numbered from 1. The area is that of the visible part, in square pixels, before samples decide
+/// Vertices keep the labels a, b, c through the transforms; vertices of the clipped polygon are
+/// numbered from 1. The area covers the visible part, in square pixels, before samples decide
 /// coverage.
 pub fn explain_triangle(
     chain: &TransformChain,
@@ -88,10 +87,10 @@ pub fn explain_triangle(
     Ok(Explanation { subject, steps, verdict })
 }
 
-/// The clipping step: planes, and the vertices of the clipped polygon with their weights.
+/// The clipping step: the planes, and the vertices of the clipped polygon with their weights.
 ///
 /// The weights of a vertex sum to 1 and are affine in the world, since clipping comes before the
-/// divide: 1, 0, 0 is the vertex a itself, two entries other than 0 are a cut of an edge.
+/// divide. 1, 0, 0 is the vertex a itself; two nonzero entries are a cut edge.
 fn clip_step(left: &ClippedPolygon) -> Step {
     let mut step = Step::new("clip", "Clipping, in homogeneous space", Some("CL-3"))
         .with_item("cut", "cut by", plane_list(left.outcomes.clipped, "no plane"))
@@ -138,8 +137,8 @@ fn screen_area(chain: &TransformChain, left: &ClippedPolygon) -> f64 {
 
 /// The area and winding on the screen.
 ///
-/// The turn is named by axes and not by a clock, since y runs up in some conventions and down in
-/// others.
+/// The turn is described by axes and not as clockwise, since y points up in some conventions and
+/// down in others.
 fn area_step(area: f64) -> Step {
     let orientation = match area {
         area if area > 0.0 => "from +x towards +y",

@@ -1,6 +1,6 @@
-//! Output files, written atomically: to a temporary file beside the target, which is then renamed.
+//! Writes output files atomically: to a temporary file next to the target, which is then renamed.
 //!
-//! A run that fails leaves the old file as it was, and no reader ever sees half a file.
+//! A run that fails leaves the old file unchanged, and no reader ever sees half a file.
 
 use crate::partial_files::{self, forget_partial_file};
 use crate::visible_path;
@@ -8,7 +8,7 @@ use std::fs::File;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// The error of an output file that could not be written.
+/// The error for an output file that could not be written.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write {}: {}{}", visible_path(path), reason(cause), self.remedy())]
 pub struct OutputError {
@@ -18,7 +18,7 @@ pub struct OutputError {
     pub cause: std::io::Error,
 }
 
-/// The message of the operating system without its number, which says nothing to most readers.
+/// The operating system's message without its number, which means nothing to most readers.
 fn reason(cause: &std::io::Error) -> String {
     let text = cause.to_string();
     let number = cause.raw_os_error().map(|code| format!(" (os error {code})"));
@@ -26,7 +26,7 @@ fn reason(cause: &std::io::Error) -> String {
 }
 
 impl OutputError {
-    /// A line of help where the folder is missing.
+    /// A line of help if the folder is missing.
     fn remedy(&self) -> String {
         let folder = self.path.parent().filter(|folder| !folder.as_os_str().is_empty());
         match folder {
@@ -38,7 +38,7 @@ impl OutputError {
     }
 }
 
-/// Writes a file atomically: whole or not at all.
+/// Writes a file atomically: completely or not at all.
 ///
 /// # Errors
 /// If the file cannot be written; an older file is then unchanged.
@@ -48,21 +48,21 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     file.finish()
 }
 
-/// A temporary file beside its target, which it replaces when it is finished. It is removed if it
-/// is dropped before that.
+/// A temporary file next to its target, which it replaces when finished. It is removed if dropped
+/// earlier.
 #[derive(Debug)]
 pub struct AtomicFile {
-    /// The file that is replaced when the temporary one is finished.
+    /// The file to replace when the temporary one is finished.
     target_path: PathBuf,
     /// The temporary file: the target's name with the process id and `.part`.
     partial_path: PathBuf,
     file: File,
-    /// Whether it was renamed, and must not be removed any more.
+    /// Whether it was renamed and must no longer be removed.
     is_finished: bool,
 }
 
 impl AtomicFile {
-    /// Creates the temporary file for a target; removes those of processes that have died.
+    /// Creates the temporary file for a target; removes temporary files left by dead processes.
     ///
     /// # Errors
     /// If no file can be created in the target's folder.
@@ -76,12 +76,13 @@ impl AtomicFile {
         }
     }
 
-    /// Flushes the file to the disk and renames it to the target.
+    /// Flushes the file to disk and renames it to the target.
     ///
     /// # Errors
     /// If it cannot be renamed; an older file is then unchanged.
     pub fn finish(mut self) -> Result<(), OutputError> {
-        // On the disk before the name: a crash leaves the old file or the new one, whole.
+        // Data reaches the disk before the name: a crash leaves the old file or the new one,
+        // intact.
         let renamed = self
             .file
             .sync_all()

@@ -1,5 +1,4 @@
-//! Output files that are written whole or not at all, and names of files and objects that are safe
-//! to print.
+//! Writes output files completely or not at all, and makes file and object names safe to print.
 //!
 //! ```
 //! use files::{visible_text, write_file};
@@ -14,9 +13,9 @@
 //!
 //! | module | subject |
 //! | --- | --- |
-//! | `atomic_file` | a temporary file beside its target, which it replaces when it is complete |
-//! | `partial_files` | temporary files of this process and of dead ones, removed on signals |
-//! | `visible_text` | characters that a terminal would obey, written by their codes |
+//! | `atomic_file` | a temporary file next to its target, which it replaces when it is complete |
+//! | `partial_files` | temporary files: removed on signals, and if their process is dead |
+//! | `visible_text` | characters that a terminal would obey, written as codes |
 
 mod atomic_file;
 mod partial_files;

@@ -1,4 +1,4 @@
-//! Temporary files: none of this process outlives it, and those of dead processes are removed.
+//! Temporary files: this process leaves none behind, and removes the ones left by dead processes.
 //!
 //! ```text
 //!  a.png.4711.part ── renamed ─► a.png
@@ -14,14 +14,14 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// The temporary files of this process that exist.
+/// This process's existing temporary files.
 static OWN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// Temporary files of other processes, by the folder where this one has looked for them.
+/// Other processes' temporary files, by the folder where this one searched for them.
 static FOREIGN: Mutex<BTreeMap<PathBuf, Vec<ForeignFile>>> = Mutex::new(BTreeMap::new());
 
-/// Age of a temporary file from which on its process need not be known to be dead, if the file is
-/// not locked.
+/// The age from which an unlocked temporary file counts as abandoned even if its process is not
+/// known to be dead.
 const ABANDONED_AGE: Duration = Duration::from_secs(60);
 
 /// A temporary file of another process.
@@ -33,7 +33,7 @@ struct ForeignFile {
     process: u32,
 }
 
-/// Creates the temporary file of a target; removes those that dead processes have left for it.
+/// Creates the temporary file for a target; removes files that dead processes left for it.
 pub(crate) fn create(target: &Path) -> io::Result<(PathBuf, File)> {
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
@@ -46,23 +46,23 @@ pub(crate) fn create(target: &Path) -> io::Result<(PathBuf, File)> {
     Ok((path, file))
 }
 
-/// Creates a temporary file that [`remove_partial_files`] removes, until it is
+/// Creates a temporary file that [`remove_partial_files`] removes until it is
 /// [forgotten](forget_partial_file).
 ///
 /// # Errors
 /// As [`File::create`].
 pub fn create_partial_file(path: &Path) -> io::Result<File> {
-    // The lock is held while the file is created: a signal leaves none behind.
+    // The lock is held while the file is created, so a signal leaves no file behind.
     let mut own = lock(&OWN);
     let file = File::create(path)?;
     own.insert(path.to_owned());
     drop(own);
-    // Best effort: without a lock other processes wait until the file is old.
+    // Best effort: without a lock, other processes wait until the file is old.
     let _ = file.try_lock();
     Ok(file)
 }
 
-/// Has [`remove_partial_files`] remove a file that a child process creates.
+/// Makes [`remove_partial_files`] remove a file that a child process creates.
 pub fn register_partial_file(path: PathBuf) {
     lock(&OWN).insert(path);
 }
@@ -74,40 +74,40 @@ pub fn forget_partial_file(path: &Path) {
 
 /// Removes a temporary file.
 pub(crate) fn remove(path: &Path) {
-    // Best effort: nobody is left to report an error to.
+    // Best effort: there is nobody left to report an error to.
     let _ = std::fs::remove_file(path);
     forget_partial_file(path);
 }
 
-/// Removes all temporary files of this process, and calls `end`, which must end the process: no
-/// further one can be created meanwhile.
+/// Removes all of this process's temporary files and calls `end`, which must end the process: no
+/// further file can be created in the meantime.
 ///
-/// For a program that a signal interrupts.
+/// Use it in a program that a signal interrupts.
 pub fn remove_partial_files(end: impl FnOnce()) {
     let own = lock(&OWN);
     for path in own.iter() {
-        // It may just have been renamed.
+        // It may have just been renamed.
         let _ = std::fs::remove_file(path);
     }
     end();
 }
 
-/// Removes the temporary files of a target whose processes have died.
+/// Removes a target's temporary files whose processes are dead.
 fn remove_abandoned(folder: &Path, target: &OsStr) {
     let mut foreign = lock(&FOREIGN);
-    // A folder of a batch has many files: it is read once.
+    // A batch folder has many files, so it is read only once.
     let files = foreign.entry(folder.to_owned()).or_insert_with(|| foreign_files(folder));
     for file in files.iter().filter(|file| target == file.target.as_str()) {
         let path = folder.join(&file.name);
         if is_abandoned(&path, file.process) {
-            // It may be gone already, or belong to somebody else.
+            // It may already be gone, or belong to someone else.
             let _ = std::fs::remove_file(path);
         }
     }
     files.retain(|file| target != file.target.as_str());
 }
 
-/// The temporary files of a folder that have been there before this process.
+/// A folder's temporary files that existed before this process.
 fn foreign_files(folder: &Path) -> Vec<ForeignFile> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     entries.filter_map(|entry| ForeignFile::from_name(entry.file_name())).collect()
@@ -123,9 +123,9 @@ impl ForeignFile {
     }
 }
 
-/// Whether nobody writes a temporary file any more.
+/// Whether nobody is writing a temporary file any more.
 ///
-/// The process may run on another machine that shares the folder: what is locked is alive.
+/// The process may run on another machine that shares the folder: a locked file is in use.
 fn is_abandoned(path: &Path, process: u32) -> bool {
     let is_file = path.symlink_metadata().is_ok_and(|metadata| metadata.is_file());
     let Some(file) = is_file.then(|| OpenOptions::new().write(true).open(path).ok()).flatten()
@@ -137,12 +137,12 @@ fn is_abandoned(path: &Path, process: u32) -> bool {
     file.try_lock().is_ok() && (is_dead(process) || age >= ABANDONED_AGE)
 }
 
-/// Whether the system says that there is no such process.
+/// Whether the system reports that there is no such process.
 fn is_dead(process: u32) -> bool {
     Path::new("/proc/self").exists() && !Path::new("/proc").join(process.to_string()).exists()
 }
 
-/// The content of a mutex; a panic of another thread leaves it as whole as it was.
+/// Locks a mutex; its content stays valid even if another thread panicked.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,19 +1,19 @@
-//! Names in messages: characters that a terminal would obey are written by their codes.
+//! Names in messages: characters that a terminal would obey are written as codes.
 
 use std::borrow::Cow;
 use std::path::Path;
 
 /// Whether a terminal may obey a character rather than show it: controls (C0, DEL and C1), line and
-/// paragraph separators, and those that change the direction of writing.
+/// paragraph separators, and characters that change the text direction.
 #[must_use]
 pub fn is_terminal_control(character: char) -> bool {
     character.is_control() || matches!(character, '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// A text for a line of a message, in which controls are written as in Rust: `\n`, `\u{1b}`.
+/// Prepares text for a message line: control characters are written as in Rust, `\n` or `\u{1b}`.
 ///
-/// Files of strangers name nodes, keys and other files; none of these may move the cursor, color the
-/// screen or start a new line.
+/// Untrusted files name nodes, keys and other files; no name may move the cursor, color the screen
+/// or start a new line.
 ///
 /// ```
 /// assert_eq!(files::visible_text("roof"), "roof");
@@ -35,17 +35,17 @@ pub fn visible_text(text: &str) -> Cow<'_, str> {
     Cow::Owned(visible)
 }
 
-/// A path for a line of a message, as [`visible_text`] writes it.
+/// Prepares a path for a message line, as [`visible_text`] does.
 #[must_use]
 pub fn visible_path(path: impl AsRef<Path>) -> String {
     visible_text(&path.as_ref().to_string_lossy()).into_owned()
 }
 
-/// Characters beyond this number are left out of an excerpt: names of parts have any length.
+/// The maximum number of characters in an excerpt: part names can have any length.
 const MAX_EXCERPT: usize = 60;
 
-/// The beginning of a text in a message, in which characters without a sign of their own, such as
-/// controls and those that change the direction of writing, are written by their code: `\u{202e}`.
+/// The beginning of a text for a message. Invisible characters, such as control characters and
+/// characters that change the text direction, are written as codes: `\u{202e}`.
 ///
 /// ```
 /// assert_eq!(files::visible_excerpt("roof\u{200b}"), "roof\\u{200b}");

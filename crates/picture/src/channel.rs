@@ -3,21 +3,22 @@
 //! A picture is generic over the type of its channels, so that code that encodes, composites or
 //! writes pixels exists once.
 
-/// A channel of a pixel, `u8` or `u16`. It cannot be implemented outside of this crate.
+/// A channel of a pixel, `u8` or `u16`. It cannot be implemented outside this crate.
 pub trait Channel: sealed::Sealed + Copy + Default + Eq + Send + Sync + 'static {
-    /// The code of 1: 255 or 65,535.
+    /// The code for 1: 255 or 65,535.
     const FULL: Self;
-    /// The bits of a channel, 8 or 16.
+    /// The number of bits per channel, 8 or 16.
     const BITS: u8;
-    /// The code from an 8-bit one, exact at both ends.
+    /// Converts from an 8-bit code, exact at both ends.
     fn from_byte(byte: u8) -> Self;
-    /// The nearest 8-bit code.
+    /// Converts to the nearest 8-bit code.
     fn to_byte(self) -> u8;
-    /// Appends pixels as PNG stores them, big-endian; of an opaque picture without their alpha.
+    /// Appends pixels as PNG stores them, big-endian; without alpha if the picture is opaque.
     fn append_pixels(pixels: &[[Self; 4]], opaque: bool, bytes: &mut Vec<u8>);
-    /// Composites a pixel under one of a vector drawing, which is 8-bit sRGB multiplied by alpha.
+    /// Composites a pixel under a pixel of a vector drawing, which is 8-bit sRGB multiplied by
+    /// alpha.
     ///
-    /// Porter-Duff over, in sRGB codes as canvases do it.
+    /// This is Porter-Duff over in sRGB codes, as in HTML canvases.
     fn composite_under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4];
 }
 
@@ -75,13 +76,13 @@ impl Channel for u16 {
     }
 
     fn composite_under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4] {
-        // Exactly the pixel where nothing is drawn: the arithmetic below would round.
+        // Where nothing is drawn, the pixel stays exact: the arithmetic below would round.
         if over[3] == 0 {
             return pixel;
         }
         let full = f64::from(Self::FULL);
         let [.., alpha] = over.map(|channel| f64::from(channel) / 255.0);
-        // Porter-Duff over: what the drawing lets through of the pixel.
+        // Porter-Duff over: the part of the pixel that the drawing lets through.
         let through = f64::from(pixel[3]) / full * (1.0 - alpha);
         let sum = alpha + through;
         let mut mixed = [0, 1, 2, 3].map(|k| {
@@ -102,7 +103,7 @@ mod tests {
         let under = [65_535, 0, 32_768, 65_535];
         assert_eq!(u16::composite_under(under, [0; 4]), under);
         assert_eq!(u16::composite_under(under, [10, 20, 30, 255]), [2570, 5140, 7710, 65_535]);
-        // Half of the drawing's black over it.
+        // A black drawing with alpha 51/255 over it.
         let [r, g, b, a] = u16::composite_under(under, [0, 0, 0, 51]);
         assert_eq!([r, g, a], [52_428, 0, 65_535]);
         assert!(b.abs_diff(26_214) <= 1);

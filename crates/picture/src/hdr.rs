@@ -1,27 +1,27 @@
 //! Decoder of Radiance `.hdr` images (RGBE): one shared exponent for three mantissas.
 //!
 //! Source: G. Ward, *Real Pixels*, Graphics Gems II, 1991, and the file format in Radiance's
-//! manual. Both encodings of scanlines are read, flat with old-style runs and run-length encoded
-//! channels; only the orientation `-Y … +X …`. Sizes are checked against the length of the file
-//! before anything is allocated, and rows are halved as they come: sixteen bytes can be a row of
-//! 16,384 texels, and a file of a hundred kilobytes would otherwise take 800 MB.
+//! manual. Both scanline encodings are read, flat with old-style runs and run-length encoded
+//! channels, but only the orientation `-Y … +X …`. Sizes are checked against the file length before
+//! anything is allocated, and rows are halved as they arrive. Sixteen bytes can be a row of 16,384
+//! texels; otherwise a file of a hundred kilobytes would take 800 MB.
 //!
 //! ```text
 //!  value = (mantissa + ½) · 2^(exponent − 136)     0 if the exponent is 0
 //! ```
 
-/// The most texels along one side of an image.
+/// The maximum number of texels along one side of an image.
 const MAX_HDR_SIDE: usize = 16384;
-/// The most texels of an image.
+/// The maximum number of texels in an image.
 const MAX_HDR_TEXELS: usize = 64 << 20;
 
 /// An equirectangular environment image, linear RGB: longitude along the rows, latitude from the
 /// zenith down.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Panorama {
-    /// Texels of a row, 360° of longitude.
+    /// The number of texels per row, 360° of longitude.
     width: usize,
-    /// Rows, 180° of latitude.
+    /// The number of rows, 180° of latitude.
     height: usize,
     /// Linear red, green and blue, row by row from the top.
     texels: Vec<[f32; 3]>,
@@ -31,9 +31,8 @@ impl Panorama {
     /// Decodes a Radiance file, and halves the image until it is at most `most` texels wide.
     ///
     /// Environment lighting is filtered to far lower resolution than 1024, so nothing visible is
-    /// lost; a background shows more. Memory
-    /// grows with the rows that are really in the file: a short file with a large header cannot
-    /// demand more.
+    /// lost; a background shows more. Memory grows only with the rows actually in the file: a short
+    /// file with a large header cannot demand more.
     ///
     /// # Errors
     /// A description of the first error in the file.
@@ -45,7 +44,7 @@ impl Panorama {
                 "the picture has {width} x {height} texels; each side has {MAX_HDR_SIDE} at most, all have {MAX_HDR_TEXELS}"
             ));
         }
-        // A row of any kind takes four bytes at least; of runs, four bytes and two for each 127
+        // Any row takes at least four bytes; a row of runs takes four bytes plus two for each 127
         // texels of a channel.
         if data.len() / 4 < height {
             return Err("the file ends before its picture does".to_owned());
@@ -64,10 +63,10 @@ impl Panorama {
         })
     }
 
-    /// Bilinear lookup of the radiance from a direction, a unit vector.
+    /// Looks up the radiance from a direction, a unit vector, with bilinear interpolation.
     ///
-    /// u = ½ + atan2(z, x)/2π and v = acos(y)/π: +x is the center of the image, +z lies a quarter
-    /// to its right. Columns wrap around, rows are clamped at the poles.
+    /// u = ½ + atan2(z, x)/2π and v = acos(y)/π: +x is at the center of the image, +z a quarter of
+    /// its width to the right. Columns wrap around, rows are clamped at the poles.
     #[must_use]
     #[inline]
     pub fn sample_direction(&self, [x, y, z]: [f32; 3]) -> [f32; 3] {
@@ -92,7 +91,7 @@ impl Panorama {
 /// Rows of an image, halved by 2 × 2 box filters until they are narrow enough; an odd
 /// last row or column is dropped each time.
 struct HalvedRows {
-    /// For each halving the upper row of the next pair, if it has come.
+    /// For each halving, the upper row of the next pair, if it has arrived.
     pending: Vec<Option<Vec<[f32; 3]>>>,
     /// The rows that are halved as often as that.
     texels: Vec<[f32; 3]>,
@@ -133,21 +132,22 @@ fn split_floor(place: f32) -> (i64, f32) {
 
 /// Linear RGB of an RGBE texel: three 8-bit mantissas and an exponent with bias 128.
 ///
-/// The value is in the middle of the mantissa's step, as Ward's own decoder has it, and clamped to
-/// 65504, the largest half-precision number: the sun in an unclipped image would turn into noise.
+/// The value is in the middle of the mantissa's step, as in Ward's own decoder. It is clamped to
+/// 65504, the largest half-precision number, because the sun in an unclipped image would turn into
+/// noise.
 fn decode_rgbe([r, g, b, exponent]: [u8; 4]) -> [f32; 3] {
     if exponent == 0 {
         return [0.0; 3];
     }
     let unit = libm::ldexpf(1.0, i32::from(exponent) - 136);
-    // More than 65504 is a sun; as bright as half precision holds is as bright as it shall be.
+    // Values above 65504, such as a sun, are clamped to the maximum of half precision.
     [r, g, b].map(|mantissa| ((f32::from(mantissa) + 0.5) * unit).min(65504.0))
 }
 
-/// Parses the header: width, height, and the bytes after it.
+/// Parses the header: returns the width, the height, and the bytes after it.
 ///
-/// `#?` in the first line, then variables up to an empty line, then the resolution. Lines are at
-/// most 4096 bytes, and at most 1000 of them are read. Exposure is ignored.
+/// The header has `#?` in the first line, then variables up to an empty line, then the resolution.
+/// Lines have at most 4096 bytes, and at most 1000 are read. Exposure is ignored.
 fn parse_hdr_header(bytes: &[u8]) -> Result<(usize, usize, &[u8]), String> {
     let mut rest = bytes;
     let mut next = || -> Option<&[u8]> {
@@ -226,7 +226,7 @@ fn read_scanline<'a>(bytes: &'a [u8], row: &mut [[u8; 4]]) -> Option<&'a [u8]> {
 /// Decodes a flat scanline of RGBE texels; a texel (1, 1, 1, n) repeats the last one n times (old
 /// run-length encoding).
 ///
-/// Consecutive repeat texels form a number in base 256, least digit first.
+/// Consecutive repeat texels form a number in base 256, least significant digit first.
 fn read_flat_scanline<'a>(bytes: &'a [u8], row: &mut [[u8; 4]]) -> Option<&'a [u8]> {
     let mut rest = bytes;
     let (mut x, mut shift) = (0, 0);
@@ -276,7 +276,7 @@ mod tests {
         assert_eq!(found.texels[7], [2.5 / 256.0; 3]);
     }
 
-    /// A row of 2048 equal texels in twelve bytes, old-style runs.
+    /// A row of 2048 equal texels in twelve bytes, with old-style runs.
     fn equal_row(mantissa: u8) -> [u8; 12] {
         [mantissa, 0, 0, 136, 1, 1, 1, 255, 1, 1, 1, 7]
     }

@@ -1,4 +1,4 @@
-//! Pictures: sRGB pixels with straight alpha, 8 or 16 bits a channel, and their encoder to PNG.
+//! Pictures: sRGB pixels with straight alpha, 8 or 16 bits per channel, and a PNG encoder.
 //!
 //! ```
 //! use picture::Picture;
@@ -10,9 +10,9 @@
 //!
 //! | module | subject |
 //! | --- | --- |
-//! | `picture` | the picture, its pixels by place, PNG in memory and in a file |
+//! | `picture` | the picture, its pixels by position, PNG in memory and in a file |
 //! | `channel` | the bit depths, and drawings composited over pixels |
-//! | `hdr` | panoramas in the format of Radiance, for environments |
+//! | `hdr` | panoramas in Radiance format, for environments |
 //! | `png_rows` | PNG as a stream, for pictures larger than memory |
 
 mod channel;

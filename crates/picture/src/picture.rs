@@ -4,13 +4,13 @@ use crate::{Channel, encode_png};
 use files::{OutputError, write_file};
 use std::path::Path;
 
-/// A picture of sRGB pixels with straight alpha, rows from the top, with 8 bits a channel (`u8`) or
-/// 16 (`u16`).
+/// A picture of sRGB pixels with straight alpha, rows from the top, with 8 (`u8`) or 16 (`u16`)
+/// bits per channel.
 #[derive(Clone, PartialEq, Eq, Default)]
 pub struct Picture<C = u8> {
-    /// Width in pixels.
+    /// The width in pixels.
     pub width: u32,
-    /// Height in pixels.
+    /// The height in pixels.
     pub height: u32,
     /// `width` × `height` pixels: red, green, blue, alpha.
     pub pixels: Vec<[C; 4]>,
@@ -24,12 +24,12 @@ impl<C: Channel> Picture<C> {
         is_inside.then(|| self.pixels[y as usize * self.width as usize + x as usize])
     }
 
-    /// Resizes the picture for a new one: the pixels are unspecified. Memory is reused.
+    /// Resizes the picture for new content: the pixels are unspecified. Memory is reused.
     pub fn resize(&mut self, width: u32, height: u32) {
         (self.width, self.height) = (width, height);
         let area = width as usize * height as usize;
         if self.pixels.capacity() < area {
-            // Zeroed pages of the system are cheaper than writing zeros.
+            // Zeroed pages from the system are cheaper than writing zeros.
             self.pixels = vec![[C::default(); 4]; area];
         } else {
             self.pixels.resize(area, [C::default(); 4]);
@@ -42,8 +42,8 @@ impl<C: Channel> Picture<C> {
         self.pixels.iter().all(|pixel| pixel[3] == C::FULL)
     }
 
-    /// Encodes the picture as a PNG file with as many bits a channel as it has: RGB if it is
-    /// opaque, RGBA with straight alpha otherwise.
+    /// Encodes the picture as a PNG file with its own bit depth: RGB if it is opaque, RGBA with
+    /// straight alpha otherwise.
     #[must_use]
     pub fn to_png(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(self.pixels.len());

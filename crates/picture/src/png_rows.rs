@@ -1,16 +1,16 @@
-//! PNG encoding as a stream: pixels are compressed as they arrive, and the whole picture need never
+//! PNG encoding as a stream: pixels are compressed as they arrive, so the whole picture need never
 //! be in memory.
 
 use crate::Channel;
 use png::{BitDepth, ColorType, Compression, Encoder, SrgbRenderingIntent, StreamWriter};
 use std::io::{self, Write};
 
-/// The size of a data chunk (IDAT) of the file.
+/// The size of a data chunk (IDAT) in the file.
 const CHUNK_BYTES: usize = 1 << 20;
-/// Pixels that are converted to bytes and handed to the compressor at once.
+/// The number of pixels converted to bytes and passed to the compressor at once.
 const PIXELS_PER_WRITE: usize = 1 << 13;
 
-/// The pixel stream of a PNG file that is being written, rows from the top.
+/// The pixel stream of a PNG file being written, rows from the top.
 ///
 /// The file's bytes do not depend on how many pixels are written at a time.
 pub struct PngRows<'a, 'out> {
@@ -20,13 +20,13 @@ pub struct PngRows<'a, 'out> {
     bytes: Vec<u8>,
 }
 
-/// Encodes a PNG file of this width and height with 8 or 16 bits a channel: RGB if the picture is
+/// Encodes a PNG file of this width and height with 8 or 16 bits per channel: RGB if the picture is
 /// opaque, RGBA with straight alpha otherwise. `draw` writes its pixels.
 ///
-/// The file says that its colors are sRGB. It needs memory for one chunk of compressed data only.
+/// The file is marked as sRGB. Encoding needs memory only for one chunk of compressed data.
 ///
 /// # Errors
-/// If the file cannot be written, `draw` fails, or it has written too many pixels or too few.
+/// If the file cannot be written, `draw` fails, or it writes too many or too few pixels.
 pub fn encode_png<E: From<io::Error>>(
     out: &mut dyn Write,
     size: [u32; 2],
@@ -55,16 +55,16 @@ fn write_header(
     encoder.set_color(if opaque { ColorType::Rgb } else { ColorType::Rgba });
     encoder.set_depth(if bits == 16 { BitDepth::Sixteen } else { BitDepth::Eight });
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-    // Rendered pictures gain little by the slower levels.
+    // Rendered pictures gain little from slower levels.
     encoder.set_compression(Compression::Fast);
     encoder.write_header().map_err(io::Error::from)
 }
 
 impl PngRows<'_, '_> {
-    /// Writes the next pixels, in row-major order; of an opaque picture alpha is left out.
+    /// Writes the next pixels, in row-major order; omits alpha if the picture is opaque.
     ///
     /// # Errors
-    /// If they cannot be written, or are more than the picture has.
+    /// If they cannot be written, or the picture does not have that many.
     pub fn write_pixels<C: Channel>(&mut self, pixels: &[[C; 4]]) -> io::Result<()> {
         for pixels in pixels.chunks(PIXELS_PER_WRITE) {
             self.bytes.clear();

@@ -1,8 +1,8 @@
-//! The output of a frame sequence, which takes one frame after the other.
+//! The output of a frame sequence, which takes one frame at a time.
 //!
 //! | output | format | colors | transparency |
 //! | --- | --- | --- | --- |
-//! | `NAME_{frame:04}.png` | a PNG for each frame | 8 bits | full |
+//! | `NAME_{frame:04}.png` | one PNG per frame | 8 bits | full |
 //! | `NAME.png`, `NAME.apng` | animated PNG | 8 bits | full |
 //! | `NAME.gif` | animated GIF | 256 per frame | on or off |
 //! | `-` | raw RGBA, for `ffmpeg -f rawvideo` | 8 bits | full |
@@ -19,10 +19,10 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-/// An output of frames. A file of several frames appears under its name once it is complete.
+/// An output for frames. A file of several frames appears under its name once it is complete.
 ///
 /// The frames of [`Self::Files`] are each written atomically and stay if the run is stopped. The
-/// raw stream has no header: the reader must know size and frame rate.
+/// raw stream has no header: the reader must know the size and frame rate.
 pub(super) enum FrameSink {
     /// One PNG per frame, with the value of `{stem}`.
     Files(NameTemplate, String),
@@ -34,9 +34,9 @@ pub(super) enum FrameSink {
     Raw,
 }
 
-/// The error of a video, with the command that makes it with ffmpeg.
+/// The error for a video file name, with the ffmpeg command that makes such a video.
 ///
-/// Most players want colors at half resolution, and with them an even width and height.
+/// Most players need colors at half resolution, which requires an even width and height.
 fn unwritten_video_error(input: &Path, output: &Path, size: (u32, u32), fps: f64) -> CliError {
     let (width, height) = size;
     let (input, name) = (input.display(), output.display());
@@ -48,10 +48,9 @@ fn unwritten_video_error(input: &Path, output: &Path, size: (u32, u32), fps: f64
 }
 
 impl FrameSink {
-    /// Opens the output that a name stands for; nothing appears under the name yet.
+    /// Opens the output for a name; nothing appears under the name yet.
     ///
-    /// A name with the field `{frame}` stands for a file per frame, even where there is only one
-    /// frame.
+    /// A name with the field `{frame}` means one file per frame, even if there is only one frame.
     ///
     /// # Errors
     ///
@@ -98,7 +97,7 @@ impl FrameSink {
         }
     }
 
-    /// Opens an animated PNG: RGB if every frame is opaque, else RGBA.
+    /// Opens an animated PNG: RGB if every frame is opaque, otherwise RGBA.
     ///
     /// The delay of a frame is a fraction of 16-bit numbers, 1000 / (1000 fps).
     ///
@@ -106,7 +105,7 @@ impl FrameSink {
     /// denominator has 16 bits as well: rates above 65.535 frames per second play at 65.535.
     ///
     /// Whether all frames are opaque must be known before the first, because the color type is in
-    /// the header; it follows from the background of the scene. The file plays endlessly (0
+    /// the header; it follows from the background of the scene. The file loops forever (0
     /// repetitions).
     fn open_png(output: &Path, film: &Sequence, fps: f64) -> Result<Self, CliError> {
         let ((width, height), opaque) = (film.image_size(), film.is_opaque());
@@ -127,10 +126,10 @@ impl FrameSink {
 
     /// Opens an animated GIF that repeats forever.
     ///
-    /// The global palette is empty, because every frame brings its own.
+    /// The global palette is empty, because every frame has its own.
     ///
     /// # Errors
-    /// If a side is above 65,535 pixels, the limit of the format's 16-bit fields.
+    /// If a side exceeds 65,535 pixels, the limit of the format's 16-bit fields.
     fn open_gif(output: &Path, film: &Sequence, fps: f64) -> Result<Self, CliError> {
         let (width, height) = film.image_size();
         let (Ok(width), Ok(height)) = (u16::try_from(width), u16::try_from(height)) else {
@@ -146,7 +145,7 @@ impl FrameSink {
         Ok(Self::Gif { encoder: Box::new(encoder), fps, path: output.to_owned() })
     }
 
-    /// Appends one frame, or writes it to a file of its own.
+    /// Appends one frame, or writes it to a separate file.
     ///
     /// A frame of the animated formats must have the size of the first, which [`Sequence`]
     /// guarantees. Alpha is dropped from opaque frames only, never blended.
@@ -176,8 +175,8 @@ impl FrameSink {
 
     /// Finishes a file of several frames and renames it into place.
     ///
-    /// It must be called: a sink that is dropped without it removes its temporary file, which is
-    /// the right end of a run that failed.
+    /// It must be called: a sink that is dropped without it removes its temporary file, as a failed
+    /// run should.
     pub(super) fn finish(self) -> Result<(), CliError> {
         match self {
             Self::Files(..) => Ok(()),
@@ -202,7 +201,7 @@ impl FrameSink {
 pub(super) struct SharedFile(Rc<RefCell<BufWriter<AtomicFile>>>);
 
 impl SharedFile {
-    /// Creates the temporary file of an output.
+    /// Creates the temporary file for an output.
     fn create(output: &Path) -> Result<Self, CliError> {
         Ok(Self(Rc::new(RefCell::new(BufWriter::new(AtomicFile::create(output)?)))))
     }
@@ -231,21 +230,21 @@ impl Write for SharedFile {
 
 /// The display time of a GIF frame in hundredths of a second, rounded so that the sum is exact.
 ///
-/// It is the difference of two rounded times rather than a rounded difference: at 30 frames per
-/// second the delays are 3, 4, 3, 3, 4, 3 …, and 30 of them last exactly one second. Many viewers
-/// raise delays below 2, that is rates above 50, to 10.
+/// It is the difference of two rounded times, not a rounded difference. At 30 frames per second,
+/// the delays are 3, 4, 3, 3, 4, 3 …, and 30 of them last exactly one second. Many viewers raise
+/// delays below 2, that is, rates above 50, to 10.
 fn frame_delay(frame: usize, fps: f64) -> u16 {
     let until = |frame: usize| libm::round(100.0 * frame as f64 / fps);
     (until(frame + 1) - until(frame)).min(65_535.0) as u16
 }
 
-/// Quantizes a picture to a palette of 256 colors of its own.
+/// Quantizes a picture to its own palette of 256 colors.
 ///
 /// GIF has no partial transparency: alpha below one half becomes transparent, the rest opaque.
 ///
-/// The palette is made by NeuQuant with a sampling factor of 10, which reads a tenth of the pixels:
-/// a compromise of the `gif` crate between speed (30) and quality (1). Each frame is erased before
-/// the next, because transparent pixels would otherwise show the frame before.
+/// NeuQuant makes the palette with a sampling factor of 10, which reads a tenth of the pixels: the
+/// `gif` crate's compromise between speed (30) and quality (1). Each frame is erased before the
+/// next, because transparent pixels would otherwise show the previous frame.
 fn gif_frame(picture: &Picture, delay: u16) -> gif::Frame<'static> {
     let mut pixels: Vec<u8> = picture
         .pixels
@@ -259,10 +258,10 @@ fn gif_frame(picture: &Picture, delay: u16) -> gif::Frame<'static> {
     frame
 }
 
-/// An error of the PNG encoder as an error about the output.
+/// Converts a PNG encoder error to an error about the output.
 ///
-/// Only input/output errors have a cause of the system; others, such as a wrong amount of data,
-/// become one with the encoder's message, so that both are reported with the name of the file.
+/// Only input/output errors come from the system; others, such as a wrong amount of data, become
+/// one with the encoder's message. Both are thus reported with the file name.
 fn png_error(path: &Path, error: png::EncodingError) -> CliError {
     let cause = match error {
         png::EncodingError::IoError(cause) => cause,
@@ -271,7 +270,7 @@ fn png_error(path: &Path, error: png::EncodingError) -> CliError {
     OutputError { path: path.to_owned(), cause }.into()
 }
 
-/// An error of the GIF encoder as an error about the output.
+/// Converts a GIF encoder error to an error about the output.
 fn gif_error(path: &Path, error: gif::EncodingError) -> CliError {
     let cause = match error {
         gif::EncodingError::Io(cause) => cause,

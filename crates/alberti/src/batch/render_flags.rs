@@ -1,5 +1,4 @@
-//! The flags of a picture: those of the command, and those that a line of a list puts in their
-//! place.
+//! The flags of a picture: from the command, or from the list line that replaces them.
 //!
 //! ```text
 //!  command: --size 64x64 --view front      line: {"input": "a.glb", "camera": "left"}
@@ -27,7 +26,7 @@ impl RenderFlags {
     /// Parses words such as `--size=64x64`.
     ///
     /// # Errors
-    /// If a value is none of its flag, or two flags exclude each other; the message is clap's.
+    /// If a flag does not accept its value, or two flags conflict; the message is clap's.
     pub(super) fn parse(words: &[String]) -> Result<Self, String> {
         let command = declaration().no_binary_name(true).color(clap::ColorChoice::Never);
         let parsed = command.try_get_matches_from(words);
@@ -45,10 +44,10 @@ fn declaration() -> Command {
     RenderFlags::augment_args(Command::new("batch").disable_help_flag(true))
 }
 
-/// The flags as they were given to the command.
+/// The flags as given to the command.
 #[derive(Debug, Default)]
 pub(super) struct GivenFlags {
-    /// Name and value of each, in the order of the declaration; a switch has no value.
+    /// The name and value of each, in declaration order; a switch has no value.
     words: Vec<(String, Option<String>)>,
     /// The folders of `--allow-outside`, and the file of `--environment`.
     pub(super) allowed: Vec<PathBuf>,
@@ -95,8 +94,8 @@ impl FromArgMatches for GivenFlags {
 }
 
 impl GivenFlags {
-    /// Takes the scene file of `--scene lineup.ron` out of the flags; any other value of the flag
-    /// is the name of a scene within the models.
+    /// Removes the scene file of `--scene lineup.ron` from the flags; any other value names a scene
+    /// within the models.
     pub(super) fn take_scene_file(&mut self) -> Option<PathBuf> {
         let is_file = |(name, value): &(String, Option<String>)| {
             name == "scene" && value.as_deref().is_some_and(is_scene_name)

@@ -1,6 +1,6 @@
-//! `alberti batch-worker`: renders what the coordinator of a batch asks for, until that ends.
+//! `alberti batch-worker`: renders what a batch coordinator requests, until the coordinator ends.
 //!
-//! A model that hangs, crashes or takes all memory takes its worker along, and no other.
+//! A model that hangs, crashes or uses up the memory brings down only its own worker.
 
 use super::render_flags::RenderFlags;
 use super::worker_scene::SceneLoader;
@@ -25,10 +25,10 @@ pub(crate) struct WorkerArgs {
     memory: Option<u64>,
 }
 
-/// Answers requests until the end of the input.
+/// Answers requests until the input ends.
 ///
 /// # Errors
-/// If a request makes no sense, or the answers cannot be written.
+/// If a request is malformed, or the answers cannot be written.
 pub(crate) fn run(args: &WorkerArgs) -> Result<(), CliError> {
     end_with_coordinator();
     if let Some(memory) = args.memory {
@@ -63,29 +63,29 @@ pub(crate) fn run(args: &WorkerArgs) -> Result<(), CliError> {
 #[cfg(target_os = "linux")]
 fn end_with_coordinator() {
     use rustix::process::{Signal, set_parent_process_death_signal};
-    // Where it is forbidden, the worker ends with its next answer.
+    // If this is forbidden, the worker ends at its next answer.
     let _ = set_parent_process_death_signal(Some(Signal::KILL));
 }
 
-/// Other systems have no such signal: the worker ends with its next answer.
+/// Other systems have no such signal: the worker ends at its next answer.
 #[cfg(not(target_os = "linux"))]
 fn end_with_coordinator() {}
 
-/// A worker, with all that it keeps from picture to picture.
+/// A worker with the state it keeps between pictures.
 struct Worker {
     /// The model that was loaded last.
     loader: SceneLoader,
     /// The buffers.
     renderer: Renderer,
-    /// The flags that were parsed last: they are often those of the next picture.
+    /// The flags parsed last: often the next picture has the same ones.
     flags: Option<(Vec<String>, RenderFlags)>,
 }
 
-/// Why there is no picture.
+/// The reason why there is no picture.
 enum PictureError {
-    /// The input or a flag is at fault.
+    /// The input or a flag is wrong.
     Job(CliError),
-    /// The output folder is at fault.
+    /// The output folder is unusable.
     Place(String),
 }
 
@@ -95,11 +95,11 @@ impl<E: Into<CliError>> From<E> for PictureError {
     }
 }
 
-/// A picture that was made: PNG and warnings.
+/// A finished picture: PNG and warnings.
 type RenderedPicture = (Vec<u8>, Vec<String>);
 
 impl Worker {
-    /// Renders a picture and writes it; the answer, and the PNG that may have to follow it.
+    /// Renders and writes a picture; returns the answer, and the PNG that may have to follow it.
     fn answer(&mut self, input: &Path, picture: &PictureRequest) -> (WorkAnswer, Vec<u8>) {
         let begin = Instant::now();
         let made = self.render_picture(input, picture).and_then(|made| {
@@ -154,7 +154,7 @@ impl Worker {
     }
 }
 
-/// Parses flags; a value in the error of a wrong one is in a line.
+/// Parses flags; an error message about a wrong value is a single line.
 fn parse_flags(words: &[String]) -> Result<RenderFlags, CliError> {
     RenderFlags::parse(words).map_err(|error| {
         let visible: Vec<String> = words.iter().map(|word| visible_text(word).into()).collect();
@@ -162,15 +162,15 @@ fn parse_flags(words: &[String]) -> Result<RenderFlags, CliError> {
     })
 }
 
-/// Writes a picture whole or not at all: to a file of this worker alone, which then takes the
-/// picture's name.
+/// Writes a picture atomically: to this worker's own file, which is then renamed to the picture's
+/// name.
 ///
-/// The folder of the picture is made only now, so that failed models leave no empty folders.
+/// The picture's folder is created only now, so that failed models leave no empty folders.
 fn write_picture(path: &Path, partial: &Path, png: &[u8]) -> Result<(), PictureError> {
     let fault = |what: &Path, cause: std::io::Error| {
         let message = format!("cannot write {}: {cause}", visible_path(what));
         match cause.kind() {
-            // The name is at fault, and with it the job.
+            // The name is wrong, so the job fails.
             ErrorKind::InvalidFilename
             | ErrorKind::InvalidInput
             | ErrorKind::IsADirectory
@@ -188,12 +188,13 @@ fn write_picture(path: &Path, partial: &Path, png: &[u8]) -> Result<(), PictureE
     }
     let written = create_partial_file(partial).and_then(|mut file| {
         file.write_all(png)?;
-        // On the disk before the name: a crash leaves the old picture or the new one, whole.
+        // Data reaches the disk before the name: a crash leaves the old picture or the new one,
+        // intact.
         file.sync_all()?;
         std::fs::rename(partial, path)
     });
     let written = written.map_err(|cause| {
-        // Best effort: an error is on its way already.
+        // Best effort: an error is already being reported.
         let _ = std::fs::remove_file(partial);
         fault(path, cause)
     });
@@ -201,14 +202,14 @@ fn write_picture(path: &Path, partial: &Path, png: &[u8]) -> Result<(), PictureE
     written
 }
 
-/// Checks that the folder of a picture is below the output folder, after symbolic links.
+/// Checks that a picture's folder, with symbolic links resolved, is below the output folder.
 ///
-/// What of its path does not exist yet will be made of real folders.
+/// Missing parts of its path will be created as real folders.
 fn check_inside(path: &Path, folder: &Path, out_dir: &Path) -> Result<(), PictureError> {
     let existing = folder.ancestors().find(|folder| folder.exists()).unwrap_or(folder);
     let is_inside = match (existing.canonicalize(), out_dir.canonicalize()) {
         (Ok(folder), Ok(out_dir)) => folder.starts_with(out_dir),
-        // The error of the system comes when the folder is made.
+        // The system reports its error when the folder is created.
         _ => true,
     };
     if is_inside {

@@ -1,6 +1,6 @@
 //! The scenes of a worker: a model, a scene file, or a scene file with the input as its model.
 //!
-//! The models that were loaded last are kept: the next picture is often another view of them.
+//! The models loaded last are kept: the next picture is often another view of them.
 
 use super::render_flags::RenderFlags;
 use crate::CliError;
@@ -14,28 +14,28 @@ use scene_file::is_scene_file;
 use std::path::Path;
 use std::time::SystemTime;
 
-/// The path in a scene file that the input takes the place of.
+/// The path in a scene file that the input replaces.
 const INPUT_PATH: &str = "{input}";
 
-/// Loads scenes, and keeps the models of the last one.
+/// Loads scenes and keeps the last scene's models.
 pub(super) struct SceneLoader {
-    /// The memory of the worker, which bounds what may be loaded.
+    /// The worker's memory, which limits what may be loaded.
     memory: Option<u64>,
-    /// The models that were loaded last, and what they were loaded from.
+    /// The models loaded last, with the key of their source.
     loaded: Option<(LoadKey, Vec<ModelInstance>)>,
 }
 
 /// The files and options that loaded models depend on.
 #[derive(PartialEq)]
 struct LoadKey {
-    /// The models of the scene file with their poses, and the options, as text.
+    /// The scene file's models with their poses, and the options, as text.
     description: String,
-    /// Size and time of the models' files.
+    /// Sizes and modification times of the model files.
     stamps: Vec<Option<(u64, SystemTime)>>,
 }
 
 impl LoadKey {
-    /// The key of the models of a scene.
+    /// The key of a scene's models.
     fn of(origin: &Origin, file: &SceneFile, import: &ImportOptions) -> Self {
         let stamp = |path: &String| {
             let metadata = origin.folder.join(path).metadata().ok()?;
@@ -80,7 +80,7 @@ impl SceneLoader {
             Some((_, models)) => {
                 Scene::from_models_allowing(&origin, &file, &models, &import.allow_outside)?
             }
-            // The old models are gone by now, and do not take memory beside the new ones.
+            // The old models have been dropped, so they take no memory while the new ones load.
             None => Scene::resolve(&origin, &file, &flags.overrides.resolve_options(import))?,
         };
         self.loaded = Some((key, scene.models.clone()));
@@ -89,10 +89,9 @@ impl SceneLoader {
     }
 }
 
-/// Opens a scene file and puts the input in the place of its models `{input}`.
+/// Opens a scene file and replaces its models `{input}` with the input.
 ///
-/// The input was named by the user and may be anywhere; other models have to be below the folder of
-/// the scene.
+/// The user named the input, so it may be anywhere; other models must be below the scene's folder.
 fn open_scene_around(
     scene: &Path,
     input: &Path,

@@ -9,8 +9,8 @@
 //!   "models": [{"file": "fox.glb", "problems": [{"code": "…", "pointer": "/meshes/0"}]}]
 //! }
 //! ```
-//! Member names are part of the interface and keep their words, even where the program now uses
-//! others.
+//! Member names are part of the interface and do not change, even where the program now uses other
+//! words.
 
 use super::CheckResult;
 use gltf_check::CheckReport;
@@ -34,8 +34,8 @@ pub(super) fn file_report(findings: &CheckResult) -> String {
 
 /// The report on scenes.
 ///
-/// The sums at the top let a script decide without looking at the files. `files` has one entry for
-/// each argument, in that order.
+/// The totals at the top let a script decide without looking at the files. `files` has one entry
+/// for each argument, in that order.
 pub(super) fn scenes_report(all: &[CheckResult]) -> String {
     let document = json!({
         "schema": {"name": "alberti-scene-check", "version": VERSION},
@@ -49,7 +49,7 @@ pub(super) fn scenes_report(all: &[CheckResult]) -> String {
 /// The result for one input.
 ///
 /// `scene` is `null` for a bare model and an empty list for a scene without errors. `errors` counts
-/// those of the scene and of all its models.
+/// the errors of the scene and all its models.
 fn result_json(findings: &CheckResult) -> Value {
     let scene = findings.scene.as_ref();
     json!({

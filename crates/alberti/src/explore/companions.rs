@@ -1,7 +1,7 @@
 //! The files that a model or a scene refers to, so that a browser can be given all of them.
 //!
-//! Whether they are used well is for the importer to say. A name that leads out of the model's
-//! folder, also by a symbolic link, is left out.
+//! The importer judges whether they are used correctly. A name that points outside the model's
+//! folder, even through a symbolic link, is skipped.
 
 use crate::CliError;
 use files::visible_path;
@@ -13,20 +13,20 @@ use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
 use std::path::{Component, Path};
 
-/// A model or a scene and the files it refers to, by their paths in its folder.
+/// A model or a scene and the files it refers to, by their paths relative to its folder.
 #[derive(Debug, Default)]
 pub(super) struct ModelFiles {
     /// The name of the model or scene.
     pub(super) name: String,
-    /// All files, itself among them.
+    /// All files, including the model or scene itself.
     pub(super) files: BTreeMap<String, Vec<u8>>,
 }
 
 impl ModelFiles {
-    /// Reads a model or a scene and the files it refers to, as far as they exist.
+    /// Reads a model or a scene and the existing files it refers to.
     ///
     /// # Errors
-    /// If the model cannot be read, or all together are larger than models may be.
+    /// If the model cannot be read, or the files together exceed the size limit for models.
     pub(super) fn read(path: &Path) -> Result<Self, CliError> {
         let cannot_read =
             |error: Error| CliError::Usage(format!("cannot read {}: {error}", visible_path(path)));
@@ -64,7 +64,7 @@ fn files_of(name: &str, bytes: &[u8]) -> Vec<String> {
     scene.models.into_iter().map(|model| model.path).chain(images).collect()
 }
 
-/// The content of a file below a folder, if it is there.
+/// The content of a file below a folder, if it exists.
 fn read_below(folder: &Path, name: &str) -> Option<Vec<u8>> {
     let is_plain = |part| matches!(part, Component::Normal(_) | Component::CurDir);
     if !Path::new(name).components().all(is_plain) {

@@ -1,9 +1,10 @@
-//! Connections: a thread for each, few at once, and none that can wait for long.
+//! Connections: one thread each, few at once, and none that can wait for long.
 //!
-//! A browser, or anything else on the machine, may open connections and send nothing, or ask and not
-//! take the answer. When there are too many, the one that has waited longest for its request is
-//! closed, or else the one that has taken its answer for longest: a new one that sends its request
-//! at once is answered however many are silent or slow.
+//! A browser, or any other program on the machine, may open connections and send nothing, or send a
+//! request and not read the answer. When there are too many, the connection that has waited longest
+//! for its request is closed, or else the one that has been reading its answer for longest. A new
+//! connection that sends its request at once is thus answered no matter how many are silent or
+//! slow.
 
 use super::CliError;
 use super::request::{parse_request, read_head};
@@ -15,42 +16,42 @@ use std::net::{Shutdown, TcpListener, TcpStream};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Connections at once.
+/// Maximum number of simultaneous connections.
 const MAX_CONNECTIONS: usize = 64;
 
-/// Bytes of computed answers that have not been taken yet, of all connections: two of the largest
+/// Maximum bytes of computed answers not yet read, over all connections: two of the largest
 /// pictures.
 const MAX_UNTAKEN_BYTES: usize = 512 << 20;
 
-/// Time in which any response must have been taken, and more for each MiB of it.
+/// Time in which any response must be read, plus more for each MiB of it.
 const WRITE_TIME: Duration = Duration::from_secs(20);
 const TIME_PER_MIB: Duration = Duration::from_secs(1);
 
-/// Bytes that are written at once: between two pieces the time is checked.
+/// Bytes written at once: the time is checked between blocks.
 const PIECE_BYTES: usize = 256 << 10;
 
-/// Pause after the system refuses a connection or a thread, so that it is not asked in a loop.
+/// Pause after the system refuses a connection or a thread, to avoid a busy loop.
 const PAUSE: Duration = Duration::from_millis(50);
 
 /// The connections of a server.
 #[derive(Debug, Default)]
 struct Connections {
-    /// How many there are.
+    /// The number of open connections.
     count: usize,
-    /// How many there have been: the next one's number.
+    /// The number of connections so far, which is the next one's number.
     accepted: u64,
-    /// Those whose request has not come yet, the oldest first.
+    /// Connections whose request has not arrived yet, oldest first.
     silent: VecDeque<Closable>,
-    /// Those whose response is being written, the oldest first.
+    /// Connections whose response is being written, oldest first.
     taking: VecDeque<Closable>,
 }
 
-/// A connection as another one may close it.
+/// A connection that another one may close.
 #[derive(Debug)]
 struct Closable {
     number: u64,
     stream: TcpStream,
-    /// Bytes of memory that are freed with it.
+    /// Bytes of memory freed by closing it.
     bytes: usize,
 }
 
@@ -65,7 +66,7 @@ struct Connection {
 /// Answers requests for as long as the program runs.
 ///
 /// # Errors
-/// None: a server ends with its program. The type is that of all commands.
+/// None: a server ends with its program. The return type is the same for all commands.
 pub(super) fn serve(listener: &TcpListener, port: u16, site: Site) -> Result<(), CliError> {
     let site = Arc::new(site);
     let all = Arc::new(Mutex::new(Connections::default()));
@@ -85,19 +86,20 @@ pub(super) fn serve(listener: &TcpListener, port: u16, site: Site) -> Result<(),
 }
 
 impl Connections {
-    /// Closes the oldest idle or slow connection; false if there is none.
+    /// Closes the oldest idle or slow connection; returns false if there is none.
     ///
-    /// Its thread wakes up, and takes it off the count.
+    /// Its thread wakes up and decrements the count.
     fn close_oldest(&mut self) -> bool {
         let oldest = self.silent.pop_front().or_else(|| self.taking.pop_front());
         oldest.is_some_and(|oldest| {
-            // It may have been closed already.
+            // It may already be closed.
             let _ = oldest.stream.shutdown(Shutdown::Both);
             true
         })
     }
 
-    /// Closes the oldest of those that take their answers until there is room for another answer.
+    /// Closes the connections that have been reading their answers longest, until another answer
+    /// fits.
     fn make_room_for(&mut self, bytes: usize) {
         let mut untaken: usize = self.taking.iter().map(|taking| taking.bytes).sum();
         while untaken + bytes > MAX_UNTAKEN_BYTES {
@@ -107,7 +109,7 @@ impl Connections {
         }
     }
 
-    /// Takes a connection off the lists of those that may be closed.
+    /// Removes a connection from the lists of those that may be closed.
     fn keep_open(&mut self, number: u64) {
         self.silent.retain(|closable| closable.number != number);
         self.taking.retain(|closable| closable.number != number);
@@ -139,7 +141,7 @@ impl Connection {
             Err(Some(response)) => Err(response),
             Err(None) => return,
         };
-        // A client that has gone takes nothing.
+        // A client that is gone reads nothing.
         let _ = match request {
             Ok(request) => match site.respond(&request, &mut self) {
                 Some(response) => self.write(&response, request.is_head),
@@ -149,7 +151,7 @@ impl Connection {
         };
     }
 
-    /// Writes a response, as long as its client takes it.
+    /// Writes a response for as long as its client reads it.
     fn write(&mut self, response: &Response<'_>, is_head: bool) -> std::io::Result<()> {
         let body = if is_head { &[] } else { response.bytes() };
         let mebibytes = u32::try_from(body.len() >> 20).unwrap_or(u32::MAX);
@@ -164,7 +166,7 @@ impl Connection {
         self.write_until(deadline, body)
     }
 
-    /// Writes bytes in pieces; a client that takes them too slowly is an error.
+    /// Writes bytes in blocks; a client that reads too slowly is an error.
     fn write_until(&mut self, deadline: Instant, mut bytes: &[u8]) -> std::io::Result<()> {
         while !bytes.is_empty() {
             let left = deadline.saturating_duration_since(Instant::now());
@@ -188,12 +190,13 @@ impl Connection {
 }
 
 impl Visitor for Connection {
-    /// Whether the client still waits: it has closed neither the connection nor its half of it.
+    /// Whether the client is still waiting: it has closed neither the connection nor its half of
+    /// it.
     fn is_there(&mut self) -> bool {
         if self.stream.set_nonblocking(true).is_err() {
             return false;
         }
-        // What follows a request is not read: there is one for each connection.
+        // Only one request is read per connection.
         let is_there = match self.stream.read(&mut [0; 2048]) {
             Ok(count) => count > 0,
             Err(error) => matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::Interrupted),

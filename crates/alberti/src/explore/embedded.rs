@@ -1,12 +1,11 @@
-//! The files of the page, the models of its lessons and its engine, as they were when the program
-//! was built.
+//! The page's files, its lesson models and its engine, embedded when the program was built.
 
 use std::collections::BTreeMap;
 
 /// Paths with compressed contents; see `build.rs`.
 const FILES: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/explorer_files.rs"));
 
-/// All files by their paths in addresses, without the first slash.
+/// All files by their URL paths, without the leading slash.
 pub(super) fn embedded_files() -> BTreeMap<String, Vec<u8>> {
     let unpack = |(path, bytes): &(&str, &[u8])| {
         let bytes = miniz_oxide::inflate::decompress_to_vec_zlib(bytes);
@@ -15,7 +14,7 @@ pub(super) fn embedded_files() -> BTreeMap<String, Vec<u8>> {
     FILES.iter().filter_map(unpack).collect()
 }
 
-/// The type of a file, by the ending of its path.
+/// The content type of a file, from its extension.
 pub(super) fn content_type(path: &str) -> &'static str {
     match path.rsplit_once('.').map_or("", |(_, ending)| ending) {
         "html" => "text/html; charset=utf-8",

@@ -1,11 +1,11 @@
-//! Lanes: threads that answer one request after the other. Requests of clients that have gone are
+//! Lanes: threads that answer one request at a time. Requests from clients that are gone are
 //! canceled.
 //!
 //! ```text
 //!  thread of a connection ─► queue ─► thread of the lane: its explorer computes
 //!  waits, and looks whether the client is still there ──► CancelToken
 //! ```
-//! Small questions have a separate lane, so that none waits behind a large picture.
+//! Small questions have a separate lane, so that none has to wait for a large picture.
 
 use explorer::{Answer, Explorer, ExplorerError};
 use pipeline::CancelToken;
@@ -14,19 +14,19 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Questions that may wait in a lane.
+/// Maximum number of questions waiting in a lane.
 const MAX_WAITING: usize = 16;
 
-/// Pause between two looks at whether the client is still there.
+/// Interval between checks whether the client is still there.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Looks at a full lane before it counts as busy.
+/// Checks of a full lane before it counts as busy.
 const MAX_LOOKS: u32 = 40;
 
 /// The explorer's answer or error.
 type Computed = Result<Answer, ExplorerError>;
 
-/// A question that waits for its turn.
+/// A question waiting for its turn.
 #[derive(Debug)]
 struct Job {
     query: String,
@@ -34,27 +34,27 @@ struct Job {
     reply: Sender<Computed>,
 }
 
-/// The questions of a lane, the oldest first.
+/// The questions of a lane, oldest first.
 #[derive(Debug, Default)]
 struct Queue {
     jobs: Mutex<VecDeque<Job>>,
     has_job: Condvar,
 }
 
-/// A thread that answers questions one after the other.
+/// A thread that answers one question at a time.
 #[derive(Debug)]
 pub(super) struct Lane {
     queue: Arc<Queue>,
 }
 
-/// Why a question has no answer.
+/// The reason why a question has no answer.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Unanswered {
-    /// Too many others wait.
+    /// Too many others are waiting.
     Busy,
-    /// Its client has gone.
+    /// Its client is gone.
     Abandoned,
-    /// The computation has failed in a way that it should not.
+    /// The computation failed unexpectedly.
     Failed,
 }
 
@@ -62,7 +62,7 @@ impl Lane {
     /// Starts a lane.
     ///
     /// # Errors
-    /// If the system has no thread for it.
+    /// If the system cannot create a thread.
     pub(super) fn start(explorer: Explorer) -> std::io::Result<Self> {
         let queue = Arc::new(Queue::default());
         let own = Arc::clone(&queue);
@@ -70,10 +70,10 @@ impl Lane {
         Ok(Self { queue })
     }
 
-    /// The answer to a query; `is_wanted` is asked again and again whether anybody waits for it.
+    /// Answers a query; polls `is_wanted` to learn whether anybody is still waiting.
     ///
     /// # Errors
-    /// If it will not be answered.
+    /// If there will be no answer.
     pub(super) fn ask(
         &self,
         query: &str,
@@ -83,7 +83,7 @@ impl Lane {
         let mut looks = 0;
         let answer = loop {
             match self.queue.push(query, &cancel) {
-                // Those whose clients have gone make room as soon as that is seen.
+                // Questions whose clients are gone make room as soon as that is noticed.
                 Err(Unanswered::Busy) if looks < MAX_LOOKS => {
                     looks += 1;
                     std::thread::sleep(LOOK);
@@ -135,7 +135,7 @@ impl Queue {
         }
     }
 
-    /// Answers for as long as the program runs.
+    /// Answers questions for as long as the program runs.
     fn work(&self, mut explorer: Explorer) {
         loop {
             let Job { query, cancel, reply } = self.next();
@@ -144,7 +144,7 @@ impl Queue {
                 scope.spawn(|| explorer.answer_unless_canceled(&query, &cancel)).join()
             });
             if let Ok(outcome) = computed {
-                // Whoever has asked may have gone.
+                // The client may be gone.
                 let _ = reply.send(outcome);
             }
         }

@@ -6,18 +6,18 @@ use std::io::Read;
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
-/// Bytes of the first line and all headers together.
+/// Maximum bytes of the first line and all headers together.
 const MAX_HEAD_BYTES: usize = 16 * 1024;
 
-/// Time in which they must have come.
+/// Time in which they must arrive.
 const HEAD_TIME: Duration = Duration::from_secs(10);
 
 /// A request that may be answered.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Request {
-    /// Whether only the headers of the answer are asked for.
+    /// Whether only the headers of the answer are requested.
     pub(super) is_head: bool,
-    /// The path without its first slash, percent-decoded.
+    /// The path without its leading slash, percent-decoded.
     pub(super) path: String,
     /// The query after `?`, as it was sent.
     pub(super) query: String,
@@ -26,7 +26,7 @@ pub(super) struct Request {
 /// Reads the head of a request, up to the empty line.
 ///
 /// # Errors
-/// The response to one that is too long; nothing if the connection was closed or too slow.
+/// The response to a head that is too long; none if the connection was closed or too slow.
 pub(super) fn read_head(stream: &mut TcpStream) -> Result<Vec<u8>, Option<Response<'static>>> {
     let deadline = Instant::now() + HEAD_TIME;
     let mut head = Vec::new();
@@ -50,10 +50,10 @@ pub(super) fn read_head(stream: &mut TcpStream) -> Result<Vec<u8>, Option<Respon
     }
 }
 
-/// Parses a head and checks that this server's own page, or the user, has sent it.
+/// Parses a head and checks that it comes from this server's own page or from the user.
 ///
 /// # Errors
-/// The response that refuses it.
+/// The refusal as a response.
 pub(super) fn parse_request(head: &[u8], port: u16) -> Result<Request, Response<'static>> {
     let refuse = |status, text| Err(Response::text(status, text));
     let Ok(head) = std::str::from_utf8(head) else {
@@ -78,18 +78,18 @@ pub(super) fn parse_request(head: &[u8], port: u16) -> Result<Request, Response<
     }
 }
 
-/// The name of a header in lower case, and its value.
+/// Splits a header into its name in lower case and its value.
 fn split_header(line: &str) -> Option<(String, &str)> {
     let (name, value) = line.split_once(':')?;
     let is_name = !name.is_empty() && !name.contains(char::is_whitespace);
     is_name.then(|| (name.to_ascii_lowercase(), value.trim()))
 }
 
-/// Refuses what does not come from this server's page.
+/// Refuses requests that do not come from this server's page.
 ///
 /// `Host` must be this server: a foreign name that resolves to this machine (DNS rebinding) would
-/// let another site's page read the answers. `Origin` and `Sec-Fetch-Site`, where a browser sends
-/// them, must be of this page or of the user's own typing.
+/// let another site's page read the answers. `Origin` and `Sec-Fetch-Site`, if sent, must indicate
+/// this page or an address the user typed.
 fn check_origin(headers: &[(String, &str)], port: u16) -> Result<(), Response<'static>> {
     let values = |name: &str| {
         let matching = headers.iter().filter(|(known, _)| known == name);

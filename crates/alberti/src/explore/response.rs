@@ -1,8 +1,8 @@
-//! Responses: a status, a type and bytes, and the headers that every one of them has.
+//! Responses: a status, a type, bytes, and the headers common to all responses.
 
 use std::borrow::Cow;
 
-/// The resources that a page of this server may load: none of any other host.
+/// The resources that a page of this server may load: none from any other host.
 const CONTENT_SECURITY_POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; \
     img-src 'self' blob:; object-src 'none'; base-uri 'none'; form-action 'none'; \
     frame-ancestors 'none'";
@@ -16,7 +16,7 @@ pub(super) struct Response<'a> {
 }
 
 impl<'a> Response<'a> {
-    /// A response with the bytes that were asked for.
+    /// A response with the requested bytes.
     pub(super) fn ok(
         content_type: impl Into<Cow<'a, str>>,
         bytes: impl Into<Cow<'a, [u8]>>,
@@ -24,7 +24,7 @@ impl<'a> Response<'a> {
         Self { status: 200, content_type: content_type.into(), bytes: bytes.into() }
     }
 
-    /// A sentence.
+    /// A response that consists of a sentence.
     pub(super) fn text(status: u16, text: &'a str) -> Self {
         let content_type = "text/plain; charset=utf-8".into();
         Self { status, content_type, bytes: Cow::Borrowed(text.as_bytes()) }
@@ -35,7 +35,7 @@ impl<'a> Response<'a> {
         &self.bytes
     }
 
-    /// How many of them are held in memory for this response alone.
+    /// The number of bytes held in memory only for this response.
     pub(super) fn owned_bytes(&self) -> usize {
         match &self.bytes {
             Cow::Owned(bytes) => bytes.len(),

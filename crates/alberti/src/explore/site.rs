@@ -14,29 +14,29 @@ use serde_json::json;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The page itself, also the answer to an empty path.
+/// The page itself, which also answers an empty path.
 const INDEX: &str = "index.html";
 
-/// Everything that can be asked for.
+/// Everything that can be requested.
 pub(super) struct Site {
-    /// All files by their paths in addresses: the page, the models of the lessons, the model given.
+    /// All files by their URL paths: the page, the lesson models, the user's model.
     files: BTreeMap<String, Vec<u8>>,
     /// The first part of every path.
     token: String,
-    /// Answers questions for numbers and sentences, which take little time.
+    /// Answers requests for numbers and text, which take little time.
     small: Lane,
-    /// Answers questions for pictures and drawings.
+    /// Answers requests for pictures and drawings.
     large: Lane,
 }
 
-/// Who has sent a request.
+/// The sender of a request.
 pub(super) trait Visitor {
-    /// Whether the client still waits for the answer.
+    /// Whether the client is still waiting for the answer.
     fn is_there(&mut self) -> bool;
 }
 
 impl Site {
-    /// Reads the model that is given, and tries whether it can be shown.
+    /// Reads the given model and checks that it can be shown.
     ///
     /// # Errors
     /// If it cannot be read or shown.
@@ -67,7 +67,7 @@ impl Site {
         Ok(Self { files, token, small, large })
     }
 
-    /// The response to a request; none if nobody waits for it any more.
+    /// The response to a request; none if nobody is waiting any more.
     pub(super) fn respond(
         &self,
         request: &Request,
@@ -89,9 +89,9 @@ impl Site {
 
     /// The explorer's answer to a query.
     ///
-    /// An error of the explorer is an answer like any other, told by its type: browsers write every
-    /// response with another status than 200 to the console, and a value that cannot be drawn is no
-    /// fault of the page.
+    /// An explorer error is an answer like any other, recognizable by its type. Browsers log every
+    /// response with a status other than 200, and a value that cannot be drawn is not an error of
+    /// the page.
     fn compute(&self, query: &str, visitor: &mut impl Visitor) -> Option<Response<'_>> {
         let lane = if draws(query) { &self.large } else { &self.small };
         Some(match lane.ask(query, || visitor.is_there()) {
@@ -127,7 +127,7 @@ fn as_cli_error(error: ExplorerError) -> CliError {
     CliError::Usage(format!("{message}\n  = help: {help}"))
 }
 
-/// The page with what the server says about itself, in an attribute.
+/// The page with information about the server in an attribute.
 fn with_server_info(page: &str, said: &str) -> String {
     let said = said.replace('&', "&amp;").replace('"', "&quot;").replace('<', "&lt;");
     let place = r#"name="explorer-server" content=""#;

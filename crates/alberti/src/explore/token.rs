@@ -1,11 +1,11 @@
-//! The secret in the address of the server.
+//! The secret in the server's address.
 //!
-//! Every user of the machine can connect to the loopback address. Only who has been told the
-//! address, which begins with the token, is answered.
+//! Every user of the machine can connect to the loopback address. Only requests to the full
+//! address, whose path begins with the token, are answered.
 
 use super::CliError;
 
-/// Bytes of randomness in a token: too many to be guessed.
+/// Bytes of randomness in a token: too many to guess.
 const TOKEN_BYTES: usize = 16;
 
 /// A new token, in hexadecimal digits.
@@ -30,8 +30,8 @@ fn random_bytes() -> std::io::Result<[u8; TOKEN_BYTES]> {
     Ok(bytes)
 }
 
-/// The standard library has no random bytes, but keys its hashes of maps with those of the system:
-/// what a key makes of a number cannot be guessed without the key.
+/// The standard library offers no random bytes, but keys its map hashes with the system's: the hash
+/// of a number cannot be guessed without the key.
 #[cfg(not(unix))]
 fn random_bytes() -> std::io::Result<[u8; TOKEN_BYTES]> {
     use std::hash::{BuildHasher as _, RandomState};
@@ -43,10 +43,10 @@ fn random_bytes() -> std::io::Result<[u8; TOKEN_BYTES]> {
     Ok(bytes)
 }
 
-/// What follows the token in a path, without the slash between them; nothing if the path does not
-/// begin with the token.
+/// Returns the rest of a path after the token and a slash; nothing if the path does not begin with
+/// the token.
 ///
-/// The time of the comparison does not tell how many digits are right.
+/// The comparison takes the same time however many digits are right.
 pub(super) fn strip_token<'a>(path: &'a str, token: &str) -> Option<&'a str> {
     let (given, rest) = path.split_once('/')?;
     let pairs = given.bytes().zip(token.bytes());

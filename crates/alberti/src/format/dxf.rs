@@ -1,4 +1,4 @@
-//! DXF output: the flag for its arcs, and what the format leaves out.
+//! DXF output: the flag for its arcs, and the warning about images that the format omits.
 
 use super::OutputFormat;
 use drawing::Warning;
@@ -22,13 +22,13 @@ impl DxfArgs {
         self.arc_tolerance.is_some()
     }
 
-    /// The options with the tolerance of the flag.
+    /// The options with the flag's tolerance.
     pub(crate) fn apply_to(&self, options: DxfOptions) -> DxfOptions {
         DxfOptions { arc_tolerance: self.arc_tolerance.unwrap_or(options.arc_tolerance), ..options }
     }
 }
 
-/// The warning that a format leaves out the images of a page.
+/// The warning that a format omits the images of a page.
 pub(crate) fn image_warning<W>(format: OutputFormat, page: &Page<W>) -> Option<Warning> {
     let leaves_out = format == OutputFormat::Dxf && !page.images.is_empty();
     leaves_out.then_some(Warning::ImagesNotInDxf)

@@ -1,5 +1,5 @@
-//! Pictures as PNG, JPEG and WebP, all by encoders that compute with integers: the bytes are the same
-//! on every machine.
+//! Pictures as PNG, JPEG and WebP, all from encoders that compute with integers: the bytes are the
+//! same on every machine.
 
 use super::OutputFormat;
 use crate::CliError;
@@ -7,24 +7,24 @@ use image_webp::{ColorType, WebPEncoder};
 use jpeg_encoder::Encoder;
 use pipeline::Picture;
 
-/// The quality of a JPEG that nobody chose.
+/// The default quality of a JPEG.
 pub(crate) const DEFAULT_QUALITY: u8 = 90;
-/// The longest side of a JPEG, and that of a WebP.
+/// The maximum side lengths of JPEG and WebP in pixels.
 const MAX_JPEG_SIDE: u32 = 65_535;
 const MAX_WEBP_SIDE: u32 = 16_384;
 
 impl OutputFormat {
-    /// Whether files of this format have pixels.
+    /// Whether this format stores pixels.
     pub(crate) const fn is_raster(self) -> bool {
         matches!(self, Self::Png | Self::Jpeg | Self::Webp)
     }
 
-    /// The bytes of a file with a picture of 8 bits a channel.
+    /// Encodes a picture with 8 bits per channel as a file.
     ///
-    /// A JPEG has no alpha: what is transparent is white there.
+    /// A JPEG has no alpha: transparent pixels become white.
     ///
     /// # Errors
-    /// If the picture has more pixels along a side than the format has numbers for.
+    /// If a side of the picture exceeds the limit of the format.
     pub(crate) fn encode_picture(
         self,
         picture: &Picture,
@@ -55,7 +55,7 @@ impl OutputFormat {
         Ok(bytes)
     }
 
-    /// Refuses a size that the format has no numbers for.
+    /// Refuses a size that exceeds the limit of the format.
     ///
     /// # Errors
     /// As [`encode_picture`](Self::encode_picture).

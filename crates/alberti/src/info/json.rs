@@ -1,9 +1,9 @@
 //! `alberti info --json`: the contents of a model as JSON.
 //!
-//! Objects are in the order of the file and referred to by index from 0. Lengths are in units of
-//! the model, angles in radians, times in seconds, colors linear. Absent values are `null` or empty
-//! lists. New members may be added in any release; [`VERSION`] rises when one is removed or changes
-//! its meaning.
+//! Objects are in file order and referred to by index from 0. Lengths are in units of the model,
+//! angles in radians, times in seconds, colors linear. Absent values are `null` or empty lists. New
+//! members may be added in any release; [`VERSION`] rises when one is removed or changes its
+//! meaning.
 //!
 //! ```json
 //! {
@@ -33,10 +33,10 @@ use serde_json::{Value, json};
 /// The version of the JSON schema.
 const VERSION: u32 = 1;
 
-/// The document as text, with a final newline.
+/// Returns the document as text, with a final newline.
 ///
-/// `shown` describes the drawn scene in its pose, counting instances; the top level `counts` is the
-/// content of the file. `animation` and `time` are `null` unless a flag has posed the model.
+/// `shown` describes the drawn scene in its pose, counting instances; the top-level `counts`
+/// describes the file. `animation` and `time` are `null` unless a flag has posed the model.
 pub(super) fn info_document(args: &InfoArgs, model: &Model) -> String {
     let ModelStateArgs { animation, time, .. } = &args.model_state;
     let posed = animation.is_some() || time.is_some();
@@ -76,7 +76,7 @@ pub(super) fn info_document(args: &InfoArgs, model: &Model) -> String {
 
 /// The index of the animation that poses the model.
 ///
-/// `None` cannot happen for a loaded model, because an invalid choice has ended the command before.
+/// `None` cannot occur for a loaded model, because an invalid choice has already ended the command.
 fn chosen_animation_index(args: &InfoArgs, model: &Model) -> Option<usize> {
     scene::select_animation(model, args.model_state.animation.as_ref()).ok()
 }
@@ -96,7 +96,7 @@ pub(super) fn shortest_numbers(numbers: &[f32]) -> Vec<Value> {
 
 /// Bounds as two points, or `null`.
 ///
-/// Coordinates are 64-bit, as the bounds are computed in that precision.
+/// Coordinates are 64-bit, because the bounds are computed in that precision.
 pub(super) fn bounds_json<S: homog::Space>(of: Option<Bounds<S>>) -> Value {
     of.map_or(Value::Null, |bounds| {
         let [min, max] = [bounds.min(), bounds.max()].map(<[f64; 3]>::from);
@@ -106,8 +106,7 @@ pub(super) fn bounds_json<S: homog::Space>(of: Option<Bounds<S>>) -> Value {
 
 /// Totals of some primitives: vertices, triangles, lines and points.
 ///
-/// `items` is indexed by the number of vertices of a primitive's item less one: points, lines,
-/// triangles.
+/// `items` is indexed by an item's vertex count minus one: points, lines, triangles.
 pub(super) fn counts_json<'a>(primitives: impl Iterator<Item = &'a Primitive>) -> Value {
     let (mut parts, mut vertices, mut items) = (0_usize, 0_usize, [0_usize; 3]);
     for primitive in primitives {
@@ -134,7 +133,7 @@ pub(super) fn topology_name(of: Topology) -> &'static str {
     }
 }
 
-/// A skin: its joints.
+/// A skin, as its joints.
 fn skin_json(skin: &Skin) -> Value {
     json!({"joints": skin.joints})
 }
@@ -170,7 +169,7 @@ fn channel_json(model: &Model, AnimationChannel { target, curve }: &AnimationCha
 
 /// The property that an animation channel changes, as a JSON pointer into the file.
 ///
-/// The form is that of KHR_animation_pointer, also for channels of core glTF:
+/// The form follows KHR_animation_pointer, also for channels of core glTF:
 ///
 /// ```text
 /// /nodes/3/rotation
@@ -211,9 +210,9 @@ fn target_pointer(model: &Model, target: AnimationTarget) -> String {
     }
 }
 
-/// The extensions of the file, sorted, with the way in which each is supported.
+/// The extensions of the file, sorted, with the level of support for each.
 ///
-/// `extensionsRequired` should be a subset of `extensionsUsed`, but files get it wrong, so both
+/// `extensionsRequired` should be a subset of `extensionsUsed`, but not all files comply, so both
 /// lists are merged. `note` explains a status that is not plain success.
 fn extensions_json(model: &Model) -> Value {
     let mut names: Vec<&String> =
@@ -237,7 +236,7 @@ fn extensions_json(model: &Model) -> Value {
 
 /// The warnings of the importer.
 ///
-/// `check` has more: it looks at everything, the importer only at what it reads.
+/// `check` reports more: it examines everything, the importer only the parts it reads.
 fn warnings_json(model: &Model) -> Value {
     let describe = |warning: &model::Diagnostic| json!({"pointer": warning.location, "message": warning.message});
     model.warnings.iter().map(describe).collect()

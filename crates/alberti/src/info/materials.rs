@@ -1,6 +1,6 @@
 //! Materials, textures and images in `alberti info --json`.
 //!
-//! Colors are linear, as in glTF, and factors are those of the file: textures are listed, not
+//! Colors are linear, as in glTF, and factors are as in the file: textures are listed, not
 //! multiplied in.
 
 use super::json::{shortest_number, shortest_numbers};
@@ -17,8 +17,8 @@ pub(super) fn materials_json(model: &Model) -> Vec<Value> {
 
 /// A material: the factors and textures of core glTF, and its extensions.
 ///
-/// `alpha_cutoff` is `null` unless the mode is `MASK`. `base_color` has four components, the last
-/// of them alpha; `emissive` has three and does not include the strength of the extension.
+/// `alpha_cutoff` is `null` unless the mode is `MASK`. `base_color` has four components, of which
+/// the last is alpha; `emissive` has three and does not include the strength of the extension.
 fn material_json(material: &Material) -> Value {
     let (mode, cutoff) = match material.alpha_mode {
         AlphaMode::Opaque => ("OPAQUE", None),
@@ -56,9 +56,8 @@ fn texture_use_json(slot: TextureSlot, used: TextureInfo) -> Value {
 
 /// The material extensions that differ from their defaults, by name without `KHR_materials_`.
 ///
-/// An extension that is present with default values has no effect and is left out: an index of
-/// refraction of 1.5, a dispersion of 0, a strength of 1. Textures of extensions are among those of
-/// the material.
+/// An extension with default values has no effect and is omitted: an index of refraction of 1.5, a
+/// dispersion of 0, a strength of 1. Extension textures are listed with the material's.
 fn material_extensions_json(material: &Material) -> Value {
     let (more, strength) = (&material.extensions, material.emission.strength);
     let ior = (more.ior != 1.5).then(|| json!({"ior": shortest_number(more.ior)}));
@@ -82,11 +81,11 @@ fn material_extensions_json(material: &Material) -> Value {
     all.filter_map(|(name, value)| Some((name.to_owned(), value?))).collect()
 }
 
-/// The extensions that add or replace a layer of the BRDF; `None` where the material has none.
+/// The extensions that add or replace a layer of the BRDF; `None` if the material has none.
 ///
 /// The thickness of iridescence is a pair, minimum and maximum, in nanometers.
 fn material_layers_json(more: &MaterialExtensions) -> [(&'static str, Option<Value>); 7] {
-    // A color or reflectance has three components, every other parameter one.
+    // Colors and reflectances have three components, every other parameter one.
     let (one, three) = (shortest_number, |color: &[f32]| shortest_numbers(color));
     let specular = more
         .specular
@@ -126,8 +125,8 @@ fn material_layers_json(more: &MaterialExtensions) -> [(&'static str, Option<Val
 
 /// All textures of the file, with their samplers.
 ///
-/// `wrap` has the modes along u and v. Samplers of glTF combine minification and mipmaps in one
-/// constant, such as `LINEAR_MIPMAP_NEAREST`; they are two members here.
+/// `wrap` has the modes along u and v. glTF samplers combine minification and mipmaps in one
+/// constant, such as `LINEAR_MIPMAP_NEAREST`; here they are two members.
 pub(super) fn textures_json(model: &Model) -> Vec<Value> {
     let describe = |texture: &model::Texture| {
         let sampler = texture.sampler;
@@ -163,7 +162,7 @@ fn filter_name(filter: TextureFilter) -> &'static str {
     }
 }
 
-/// All images of the file; `file` has the header of those that can be read.
+/// All images of the file; `file` has the header of each readable image.
 ///
 /// `uri` is `null` for an image in a buffer. `bytes` is the size of the encoded file.
 pub(super) fn images_json(model: &Model) -> Vec<Value> {

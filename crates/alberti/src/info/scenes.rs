@@ -1,8 +1,8 @@
 //! Scenes, nodes, meshes, cameras and lights in `alberti info --json`.
 //!
-//! Arrays are in the order of the file, so that an index of the glTF document is an index here.
-//! Nodes refer to meshes, skins, cameras and lights by index; cameras and lights list their nodes
-//! in return, which the glTF document does not.
+//! Arrays are in file order, so an index in the glTF document is also an index here. Nodes refer to
+//! meshes, skins, cameras and lights by index; cameras and lights in turn list their nodes, which
+//! the glTF document does not.
 
 use super::json::{bounds_json, counts_json, shortest_number, shortest_numbers, topology_name};
 use model::{
@@ -27,14 +27,14 @@ pub(super) fn nodes_json(model: &Model) -> Vec<Value> {
     model.nodes.iter().map(node_json).collect()
 }
 
-/// A node: its place in the hierarchy, its transforms, and what hangs on it.
+/// A node: its place in the hierarchy, its transforms, and the objects attached to it.
 ///
 /// `transform` is the local one, `null` for a node with a matrix; `to_model` is the matrix from the
 /// node to the model, column by column, in the current pose.
 ///
 /// `rotation` is a unit quaternion `x, y, z, w`. `places` is the number of instances of
-/// EXT_mesh_gpu_instancing, `null` without the extension. `weights` are those of the node, which
-/// replace those of its mesh.
+/// EXT_mesh_gpu_instancing, `null` without the extension. `weights` are the node's weights, which
+/// replace the mesh's.
 fn node_json(node: &Node) -> Value {
     let parts = node.trs.map(|parts| {
         json!({
@@ -85,8 +85,8 @@ pub(super) fn meshes_json(model: &Model) -> Vec<Value> {
 
 /// A primitive: its topology, its counts, and which attributes it has.
 ///
-/// `count` is the number of triangles, lines or points after strips, fans and loops have been
-/// converted to lists.
+/// `count` is the number of triangles, lines or points after converting strips, fans and loops to
+/// lists.
 fn primitive_json(primitive: &Primitive) -> Value {
     let variant = |of: &VariantMaterial| json!({"variant": of.variant, "material": of.material});
     json!({
@@ -120,10 +120,10 @@ fn edges_json(edges: &PrimitiveEdges) -> Value {
     })
 }
 
-/// All cameras of the file, with the nodes that carry them.
+/// All cameras in the file, with the nodes that carry them.
 ///
-/// `fov_y` is in radians, `width` and `height` are the whole extent, twice the `xmag` and `ymag` of
-/// glTF. `aspect` is `null` if the camera adapts to the picture, `far` if it is infinite.
+/// `fov_y` is in radians; `width` and `height` are the whole extent, twice glTF's `xmag` and
+/// `ymag`. `aspect` is `null` if the camera adapts to the picture, `far` if it is infinite.
 pub(super) fn cameras_json(model: &Model) -> Vec<Value> {
     let describe = |(number, lens): (usize, &model::ModelCamera)| {
         let mut value = match lens.projection {
@@ -151,8 +151,8 @@ pub(super) fn cameras_json(model: &Model) -> Vec<Value> {
 
 /// All punctual lights of the file, with the nodes that carry them.
 ///
-/// `range` is present for point and spot lights, the cone angles, in radians from the axis, for
-/// spot lights only.
+/// `range` is present for point and spot lights; the cone angles, in radians from the axis, only
+/// for spot lights.
 pub(super) fn lights_json(model: &Model) -> Vec<Value> {
     let describe = |(number, light): (usize, &model::PunctualLight)| {
         let unit = if light.kind == LightKind::Directional { "lux" } else { "candela" };
@@ -179,7 +179,7 @@ pub(super) fn lights_json(model: &Model) -> Vec<Value> {
 
 /// The indices of the nodes that satisfy a predicate.
 ///
-/// A list, because several nodes may share one camera or light.
+/// Several nodes may share one camera or light.
 fn nodes_where(model: &Model, carries: impl Fn(&Node) -> bool) -> Value {
     let nodes = model.nodes.iter().enumerate().filter(|(_, node)| carries(node));
     nodes.map(|(at, _)| Value::from(at)).collect()

@@ -1,4 +1,4 @@
-//! Matrices from parameters: the flags, and products of what they build.
+//! Matrices from parameters: the flags, and products of the matrices they build.
 //!
 //! ```text
 //!  --viewport 4,3 --ortho … --p -1,-3     =     M_vp M_orth P: the rightmost is applied first
@@ -12,12 +12,12 @@ use glam::DMat4;
 use projection::Convention;
 use recognition::parse_number;
 
-/// The sentence about near and far of all flags but `--p`, in the help and in messages.
+/// The sentence on near and far for all flags except `--p`, in the help and in messages.
 pub(super) const DISTANCES: &str = "near and far are distances ahead of the eye, 0 < near < far \
     (--ortho and --oblique also take near = 0 and, but for the conventions alberti and chapter, a \
     near plane behind the eye, as glOrtho's -1,1); the textbook's coordinates n and f, 0 > n > f, are near = -n and far = -f";
 
-/// Options that change the matrix of some flags.
+/// Options that change the matrices of some flags.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Modifier {
     Conventions,
@@ -32,7 +32,7 @@ struct BuilderFlag {
     name: &'static str,
     value: &'static str,
     help: &'static str,
-    /// The modifiers that it obeys.
+    /// The modifiers that affect it.
     uses: &'static [Modifier],
     build: fn(&NumberList, BuildOptions) -> Built,
 }
@@ -47,7 +47,7 @@ const fn flag(
     BuilderFlag { name, value, help, uses, build }
 }
 
-/// All of them, in the order of the help.
+/// All builder flags, in help order.
 const FLAGS: [BuilderFlag; 16] = [
     flag(
         "perspective",
@@ -148,7 +148,7 @@ const FLAGS: [BuilderFlag; 16] = [
     ),
 ];
 
-/// The flags of the command line with their numbers, in the order written.
+/// The flags on the command line with their numbers, in the order written.
 #[derive(Clone, Debug, Default)]
 pub(super) struct BuildArgs {
     /// Indices of flags, and their numbers.
@@ -195,7 +195,7 @@ impl clap::Args for BuildArgs {
     }
 }
 
-/// Numbers separated by commas; how many depends on the flag.
+/// Numbers separated by commas; their count depends on the flag.
 #[derive(Clone, Debug)]
 pub(super) struct NumberList(pub(super) Vec<f64>);
 
@@ -218,7 +218,7 @@ pub(super) fn wrong_count(flag: &str, expected: &str, found: usize) -> CliError 
     ))
 }
 
-/// The modifiers of the command line.
+/// The modifiers on the command line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BuildOptions {
     /// `None` for the default, OpenGL.
@@ -264,7 +264,7 @@ impl BuildOptions {
         })
     }
 
-    /// Refuses a modifier that none of the flags obeys.
+    /// Refuses a modifier that affects none of the flags.
     fn check(self, calls: &[(usize, NumberList)]) -> Result<(), CliError> {
         for (modifier, name) in self.given() {
             let obeys = |flag: &BuilderFlag| flag.uses.contains(&modifier);
@@ -318,7 +318,7 @@ impl BuiltMatrix {
 pub(super) type Built = Result<BuiltMatrix, CliError>;
 
 impl BuildArgs {
-    /// Builds the matrix that the flags ask for, a product if there are several; `None` without a
+    /// Builds the matrix that the flags describe, a product if there are several; `None` without a
     /// flag.
     ///
     /// # Errors
@@ -328,7 +328,7 @@ impl BuildArgs {
         (!self.calls.is_empty()).then(|| self.build_product(options))
     }
 
-    /// Refuses numbers beside a flag that builds a matrix: a list with a blank in it, or a second
+    /// Refuses numbers next to a flag that builds a matrix: a list with a blank in it, or a second
     /// matrix.
     pub(super) fn check_alone(&self, numbers: &[String]) -> Result<(), CliError> {
         let (Some((at, list)), false) = (self.calls.last(), numbers.is_empty()) else {
@@ -348,7 +348,7 @@ impl BuildArgs {
         )))
     }
 
-    /// A flag with its numbers.
+    /// Formats a flag with its numbers as written.
     fn as_written(at: usize, list: &NumberList) -> String {
         let numbers: Vec<String> = list.0.iter().map(f64::to_string).collect();
         format!("--{} {}", FLAGS[at].name, numbers.join(","))
@@ -359,7 +359,7 @@ impl BuildArgs {
         let single = self.calls.len() == 1;
         let build = |(at, list): &(usize, NumberList)| {
             let flag = &FLAGS[*at];
-            // Each flag of a product takes the modifiers that it obeys.
+            // Each flag of a product takes the modifiers that affect it.
             let has = |modifier: Modifier| single || flag.uses.contains(&modifier);
             let own = BuildOptions {
                 given_conventions: options.given_conventions.filter(|_| has(Conventions)),

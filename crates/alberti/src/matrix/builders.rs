@@ -21,8 +21,8 @@ fn refused(error: impl std::error::Error) -> CliError {
     CliError::Usage(error.to_string())
 }
 
-/// Refuses coordinates in the place of distances. An orthographic box may begin at the eye or
-/// behind it, but not in the textbook's convention, where -1 would be taken for a coordinate.
+/// Refuses coordinates instead of distances. An orthographic box may begin at or behind the eye,
+/// except in the textbook's convention, where -1 would be taken for a coordinate.
 fn check_distances(flag: &str, near: f64, far: f64, least: f64) -> Result<(), CliError> {
     if near >= least && far > 0.0 {
         return Ok(());
@@ -64,8 +64,8 @@ fn box_formula(volume: Convention) -> &'static str {
     }
 }
 
-/// The matrix with 0 for entries that are rounding: below 1e-15 of a row of length 1, and of the
-/// largest offset.
+/// Replaces rounding noise by 0: entries below 1e-15 of a row of length 1, and of the largest
+/// offset.
 fn without_noise(matrix: DMat4) -> DMat4 {
     let clean = |column: glam::DVec4| {
         let kept = column.to_array().map(|entry| if entry.abs() < 1e-15 { 0.0 } else { entry });
@@ -275,7 +275,7 @@ pub(super) fn build_look_to(list: &NumberList, options: BuildOptions) -> Built {
 }
 
 fn camera_of(subject: String, camera: Camera, options: BuildOptions) -> BuiltMatrix {
-    // A left-handed world has the same up and line of sight, but right is the other way.
+    // A left-handed world has the same up vector and line of sight, but right points the other way.
     let left_handed = options.volume().ahead() > 0.0;
     let side = if left_handed { -1.0 } else { 1.0 };
     let turn = DMat4::from_diagonal(glam::DVec4::new(side, 1.0, side, 1.0));
@@ -305,7 +305,7 @@ pub(super) fn build_viewport(list: &NumberList, options: BuildOptions) -> Built 
     Ok(built(subject, conventions.viewport_formulas(), viewport.ndc_to_screen().raw()))
 }
 
-/// A map of the plane as one of space that leaves z alone.
+/// Extends a map of the plane to space, keeping z unchanged.
 fn lift(plane: DMat3) -> DMat4 {
     let [x, y, w] = [plane.x_axis, plane.y_axis, plane.z_axis];
     let column = |v: glam::DVec3| glam::DVec4::new(v.x, v.y, 0.0, v.z);

@@ -1,9 +1,9 @@
 //! A second process for a command whose memory is limited.
 //!
-//! A program that gets no more memory is ended by the system in the middle of its work, without a
-//! word. Where there is a limit, by `--max-memory`, by `ulimit` or by that of thumbnails, the command
-//! runs in a second process. The first one reports what happened, removes unfinished files, and ends
-//! with exit code 1.
+//! The system ends a program that runs out of memory in the middle of its work, without a message.
+//! If there is a limit, from `--max-memory`, `ulimit` or the thumbnailer, the command runs in a
+//! second process. The first one reports what happened, removes unfinished files, and ends with
+//! exit code 1.
 //!
 //! ```text
 //!  alberti --max-memory 1GiB render … ─► the same words, limited ─► picture, or killed
@@ -22,17 +22,17 @@ use std::os::unix::process::ExitStatusExt as _;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Stdio};
 
-/// The environment variable by which a process knows that it is the limited one: the bytes that it
-/// may take, or 0 if the system knows.
+/// The environment variable that marks the limited process: the bytes it may use, or 0 if another
+/// limit is in force.
 const LIMITED: &str = "ALBERTI_LIMITED_PROCESS";
-/// What the standard library prints before it gives up.
+/// The message that the standard library prints before it aborts.
 const LAST_WORDS: &str = "memory allocation of";
 
 /// Runs the command in a second process if its memory is limited. Returns `None` without a limit,
 /// and in the second process.
 pub(super) fn supervise(words: &[OsString]) -> Option<u8> {
     if let Some(bytes) = std::env::var(LIMITED).ok().and_then(|text| text.parse().ok()) {
-        // The one that waits may be killed.
+        // The waiting process may be killed.
         let _ = set_parent_process_death_signal(Some(Signal::TERM));
         if bytes > 0 {
             limit_process_memory(bytes);
@@ -53,8 +53,8 @@ pub(super) fn supervise(words: &[OsString]) -> Option<u8> {
     Some(1)
 }
 
-/// The bytes that the command may take, 0 if the system enforces a limit already, and the message
-/// for a command that exceeds it. `None` without a limit.
+/// The bytes that the command may use, 0 if another limit is in force, and the message for a
+/// command that exceeds it. `None` without a limit.
 fn memory_limit(words: &[OsString]) -> Option<(u64, String)> {
     let limits = [Resource::As, Resource::Data].map(|resource| getrlimit(resource).current);
     let of_system = limits.into_iter().flatten().min();
@@ -65,7 +65,7 @@ fn memory_limit(words: &[OsString]) -> Option<(u64, String)> {
     if !may_ask && of_system.is_none() {
         return None;
     }
-    // What is wrong with the words is said where they are read again.
+    // Mistakes in the words are reported when they are parsed again.
     let words = negative_numbers::join_negative_numbers(words.iter().cloned(), Args::command);
     let args = usage_advice::parse_args(&words).ok()?;
     let size = |bytes: u64| format!("{} MiB", bytes >> 20);
@@ -81,8 +81,8 @@ fn memory_limit(words: &[OsString]) -> Option<(u64, String)> {
     Some((0, format!("the system allows {}\n  = help: raise the limit (`ulimit`)", size(bytes))))
 }
 
-/// Writes the messages of a process as they come, but for the last words of one that is out of
-/// memory, and waits for its end.
+/// Forwards the messages of a process as they arrive, except the last words of one that is out of
+/// memory, and waits for it to end.
 fn forward_messages(mut child: Child) -> std::io::Result<std::process::ExitStatus> {
     if let Some(messages) = child.stderr.take() {
         let mut reader = BufReader::new(messages);
@@ -102,7 +102,7 @@ fn forward_messages(mut child: Child) -> std::io::Result<std::process::ExitStatu
         .inspect(|status| debug_assert!(status.code().is_some() || status.signal().is_some()))
 }
 
-/// Removes the temporary files of a process that was killed, in the folders that the words name.
+/// Removes the temporary files of a killed process from the folders named by the words.
 fn remove_left_over(words: &[OsString], process: u32) {
     let ending = format!(".{process}.part");
     let of_words = words.iter().skip(1).filter_map(|word| Path::new(word).parent());
@@ -114,7 +114,7 @@ fn remove_left_over(words: &[OsString], process: u32) {
         let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
         for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
             if entry.file_name().to_string_lossy().ends_with(&ending) {
-                // It may be gone already.
+                // It may already be gone.
                 let _ = std::fs::remove_file(entry.path());
             }
         }

@@ -1,4 +1,4 @@
-//! Sections of the reference for the types of scene files.
+//! Reference sections for the scene file types.
 //!
 //! The scene language declares its types with their doc comments in a schema; nothing is repeated
 //! here.
@@ -11,7 +11,7 @@ pub(super) fn type_sections() -> Vec<ReferenceSection> {
     all_types().into_iter().map(type_section).collect()
 }
 
-/// The section of one type.
+/// The section for one type.
 fn type_section(entry: &TypeEntry) -> ReferenceSection {
     let entries = match entry.shape {
         Shape::Plain(_) => Vec::new(),
@@ -21,7 +21,7 @@ fn type_section(entry: &TypeEntry) -> ReferenceSection {
     ReferenceSection { title: entry.name.to_owned(), about: entry.about(), entries }
 }
 
-/// The entry of one field.
+/// The entry for one field.
 ///
 /// Optional fields need no note, because nearly all are.
 fn field_entry(field: &FieldEntry) -> ReferenceEntry {
@@ -34,7 +34,7 @@ fn field_entry(field: &FieldEntry) -> ReferenceEntry {
     }
 }
 
-/// The entry of a variant, written as in a scene: `Word`, `Word(value)` or `Word(field: …)`.
+/// The entry for a variant, written as in a scene: `Word`, `Word(value)` or `Word(field: …)`.
 ///
 /// The fields of a variant are inner entries, so that a search can find them by name.
 fn variant_entry(variant: &VariantEntry) -> ReferenceEntry {

@@ -1,12 +1,12 @@
-//! Sections of the reference for commands and flags, from clap's own definitions.
+//! Reference sections for commands and flags, from clap's own definitions.
 
 use super::{ReferenceEntry, ReferenceSection};
 use clap::{Arg, Command};
 
-/// A section for each command, in the order of the help.
+/// A section for each command, in help order.
 ///
-/// The program must be built first: clap adds global flags and the names of subcommands (`alberti
-/// scene init`) only then.
+/// The command must be built first: only then does clap add global flags and subcommand names
+/// (`alberti scene init`).
 pub(super) fn command_sections(program: Command) -> Vec<ReferenceSection> {
     let mut program = program.disable_help_subcommand(true);
     program.build();
@@ -15,7 +15,7 @@ pub(super) fn command_sections(program: Command) -> Vec<ReferenceSection> {
     sections
 }
 
-/// Appends the section of a command, then those of its subcommands.
+/// Appends the section of a command, then the sections of its subcommands.
 fn collect_sections(command: &Command, sections: &mut Vec<ReferenceSection>) {
     let about = command.get_long_about().or(command.get_about());
     let arguments = command.get_arguments().filter(|arg| !arg.is_hide_set());
@@ -29,11 +29,11 @@ fn collect_sections(command: &Command, sections: &mut Vec<ReferenceSection>) {
     }
 }
 
-/// The entry of a flag or a positional argument, as clap parses it: names, value, default and
+/// The entry for a flag or positional argument, as clap parses it: names, value, default and
 /// possible values.
 ///
-/// Positional arguments have no flag and are listed by the name of their value. A switch has
-/// neither value nor default, although clap stores `true` and `false` for it.
+/// Positional arguments have no flag and are listed by their value name. A switch has neither value
+/// nor default, although clap stores `true` and `false` for it.
 fn argument_entry(arg: &Arg) -> ReferenceEntry {
     let takes_value = arg.get_action().takes_values();
     let names = arg.get_value_names().filter(|_| takes_value).unwrap_or_default();
@@ -51,7 +51,7 @@ fn argument_entry(arg: &Arg) -> ReferenceEntry {
     };
     let mut words = if takes_value { arg.get_possible_values() } else { Vec::new() };
     words.retain(|word| !word.is_hide_set());
-    // Possible values without help are listed in the description of the flag.
+    // Possible values without help are listed in the flag's description.
     let silent = words.iter().all(|word| word.get_help().is_none());
     let choice = if silent && !words.is_empty() {
         let names: Vec<String> = words.drain(..).map(|word| word.get_name().to_owned()).collect();

@@ -1,14 +1,14 @@
-//! A formula of the reference, as text, Markdown or HTML.
+//! A formula from the reference, as text, Markdown or HTML.
 //!
-//! The words are those of `docs/formulas.md`, which the program contains; paragraphs are wrapped,
-//! matrices and tables stay as they are.
+//! The text comes from `docs/formulas.md`, which is embedded in the program; paragraphs are
+//! wrapped, matrices and tables stay unchanged.
 
 use super::text::wrap_paragraphs;
 use super::{ReferenceEntry, ReferenceFormat, ReferenceSection};
 use explain::formulas::Formula;
 use page::escape_markup;
 
-/// The entry of a formula: name, formula and meaning, sources, and the command that shows it.
+/// The entry for a formula: name, formula and meaning, sources, and the command that shows it.
 pub(super) fn format_formula(formula: &Formula, format: ReferenceFormat) -> String {
     match format {
         ReferenceFormat::Text => plain_text(formula),
@@ -22,7 +22,7 @@ pub(super) fn format_formula(formula: &Formula, format: ReferenceFormat) -> Stri
     }
 }
 
-/// The entry with wrapped paragraphs, without the marks of Markdown.
+/// The entry with wrapped paragraphs, without Markdown markup.
 fn plain_text(formula: &Formula) -> String {
     let mut page = String::new();
     let mut paragraph = String::new();

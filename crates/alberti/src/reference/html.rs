@@ -1,7 +1,7 @@
 //! The reference as a self-contained HTML page.
 //!
-//! The page needs no script and no other file. Names of types are links wherever they occur in a
-//! value, such as `list of Model`.
+//! The page needs no script and no other file. Type names are links wherever they occur in a value,
+//! such as `list of Model`.
 
 use super::{ReferenceEntry, ReferenceSection};
 use page::escape_markup;
@@ -65,10 +65,10 @@ fn section_anchor(title: &str) -> String {
     title.replace(' ', "-")
 }
 
-/// Escapes text and turns words that are titles of sections into links to them.
+/// Escapes text and links words that are section titles to those sections.
 ///
-/// The text is split after every character that is not part of a word, so that `list of Model` has
-/// the word `Model`, which is a title.
+/// The text is split after every non-word character, so that `list of Model` contains the word
+/// `Model`, which is a title.
 fn link_titles(text: &str, titles: &[&str]) -> String {
     let mut html = String::new();
     for (number, part) in text.split_inclusive(|c: char| !c.is_alphanumeric()).enumerate() {
@@ -87,8 +87,8 @@ fn link_titles(text: &str, titles: &[&str]) -> String {
 
 /// Escapes text and turns backticks into `<code>`.
 ///
-/// Escaping comes first; it does not touch backticks. Parts with an odd index were between two of
-/// them.
+/// Escaping comes first; it leaves backticks unchanged. Parts with an odd index were between two
+/// backticks.
 fn mark_code(text: &str) -> String {
     let parts = escape_markup(text).split('`').map(str::to_owned).collect::<Vec<_>>();
     let part = |(number, part): (usize, &String)| match number % 2 {

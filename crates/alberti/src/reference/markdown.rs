@@ -18,7 +18,7 @@ pub(super) fn format_markdown(title: &str, sections: &[ReferenceSection]) -> Str
     page
 }
 
-/// Appends an entry as a list item, then the entries inside.
+/// Appends an entry as a list item, then its inner entries.
 ///
 /// ```text
 /// - `--size` `<WxH>` — Width and height of the picture in pixels, such as 1920x1080
@@ -37,9 +37,9 @@ fn write_entry(page: &mut String, entry: &ReferenceEntry, depth: usize) {
     entry.inner.iter().for_each(|inner| write_entry(page, inner, depth + 1));
 }
 
-/// Escapes angle brackets, stars and underscores outside of code spans.
+/// Escapes angle brackets, asterisks and underscores outside code spans.
 ///
-/// An angle bracket would start an HTML tag, and `W_H` could become italic. Code spans need no
+/// An angle bracket could start an HTML tag, and `W_H` could become italic. Code spans need no
 /// escapes.
 fn escape_markdown(text: &str) -> String {
     let parts = text.split('`').enumerate().map(|(number, part)| match number % 2 {

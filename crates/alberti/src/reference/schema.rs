@@ -1,4 +1,4 @@
-//! The JSON Schemas (draft 2020-12) of what the program writes as JSON.
+//! The JSON Schemas (draft 2020-12) of the program's JSON output.
 
 use clap::ValueEnum;
 
@@ -34,7 +34,7 @@ pub(super) enum SchemaName {
 }
 
 impl SchemaName {
-    /// The schema as the repository has it.
+    /// The schema as stored in the repository.
     pub(super) fn schema_text(self) -> &'static str {
         match self {
             Self::Render => include_str!("../../schemas/render.schema.json"),

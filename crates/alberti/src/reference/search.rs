@@ -1,14 +1,14 @@
-//! Search in the reference by name, type or path of fields.
+//! Searches the reference by name, type or field path.
 
 use super::{ReferenceEntry, ReferenceSection};
 use scene_file::closest_name;
 
-/// Finds the section with the title `word`, the end of a path of fields with its types, or all
-/// entries of that name.
+/// Finds the section titled `word`, the end of a field path with its types, or all entries with
+/// that name.
 ///
 /// Titles come first, because they are the most specific: `render` is the command, not every entry
-/// of that name. Types are found in any case, commands with or without `alberti`. A path may be one
-/// of an error, with indices as in `models[0].materials[0].of`, and may begin with a type.
+/// with that name. Types are found in any case, commands with or without `alberti`. A path may come
+/// from an error, with indices as in `models[0].materials[0].of`, and may begin with a type.
 ///
 /// # Errors
 /// If nothing has that name; the message suggests the most similar one.
@@ -30,9 +30,9 @@ pub(super) fn find_sections(
     if found.is_empty() { Err(unknown_word(sections, word)) } else { Ok(found) }
 }
 
-/// Meanings of a word that is no name: names in other cases or with more words, such as `Depth` and
-/// `depth_cue_percent` for `depth`; the fields that other programs call so, such as `camera_path`
-/// for `turntable`; else all entries that speak of it.
+/// Finds matches for a word that is not a name. These are names in other cases or with more words,
+/// such as `Depth` and `depth_cue_percent` for `depth`, or fields that other programs call by this
+/// word, such as `camera_path` for `turntable`. Otherwise, all entries that mention it match.
 fn find_related(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSection> {
     let word = word.to_lowercase();
     let mut found = filter_entries(sections, &|entry| has_in_name(entry, &word));
@@ -44,14 +44,14 @@ fn find_related(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSecti
             }
         }
     }
-    // Words of three letters and less are part of too many sentences.
+    // Words of up to three letters occur in too many sentences.
     if found.is_empty() && word.len() > 3 {
         found = filter_entries(sections, &|entry| mentions(&entry.about, &word));
     }
     found
 }
 
-/// Whether a word, in lower case, is the name of an entry in any case, or a part of it.
+/// Whether a lowercase word is the name of an entry in any case, or a part of it.
 fn has_in_name(entry: &ReferenceEntry, word: &str) -> bool {
     entry_names(entry).any(|name| {
         let name = name.trim_start_matches('-').to_lowercase();
@@ -59,7 +59,7 @@ fn has_in_name(entry: &ReferenceEntry, word: &str) -> bool {
     })
 }
 
-/// Whether sections were found by the words of their descriptions alone.
+/// Whether sections were found only by the words in their descriptions.
 pub(super) fn is_only_mentioned(found: &[ReferenceSection], word: &str) -> bool {
     let lower = word.to_lowercase();
     let mentioned = |entry: &ReferenceEntry| mentions(&entry.about, &lower);
@@ -68,7 +68,7 @@ pub(super) fn is_only_mentioned(found: &[ReferenceSection], word: &str) -> bool 
         && !filter_entries(found, &mentioned).is_empty()
 }
 
-/// Whether a text has a word, or its plural.
+/// Whether a text contains a word or its plural.
 fn mentions(text: &str, word: &str) -> bool {
     let is_word = |part: &str| {
         let part = part.to_lowercase();
@@ -77,7 +77,7 @@ fn mentions(text: &str, word: &str) -> bool {
     text.split(|c: char| !c.is_alphanumeric()).any(is_word)
 }
 
-/// A step of a path without the indices of elements: `models` of `models[0]`.
+/// A path step without its index: `models` for `models[0]`.
 fn without_index(step: &str) -> &str {
     match step.split_once('[') {
         Some((name, index)) if !name.is_empty() && index.ends_with(']') => name,
@@ -85,19 +85,19 @@ fn without_index(step: &str) -> &str {
     }
 }
 
-/// Whether a section describes the type or command of this name.
+/// Whether a section describes the type or command with this name.
 fn is_titled(section: &ReferenceSection, word: &str) -> bool {
     let title = &section.title;
     title.eq_ignore_ascii_case(word)
         || title.strip_prefix("alberti ").is_some_and(|command| command == word)
 }
 
-/// The sections reduced to entries of this name.
+/// The sections reduced to entries with this name.
 fn find_entries(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSection> {
     filter_entries(sections, &|entry| is_named(entry, word))
 }
 
-/// The sections reduced to the entries that are wanted.
+/// The sections reduced to the wanted entries.
 fn filter_entries(
     sections: &[ReferenceSection],
     is_wanted: &dyn Fn(&ReferenceEntry) -> bool,
@@ -114,10 +114,10 @@ fn filter_entries(
     sections.iter().filter_map(with).collect()
 }
 
-/// An entry that is wanted, or an entry reduced to inner entries that are.
+/// A wanted entry, or an entry reduced to its wanted inner entries.
 ///
-/// An entry that matches itself keeps all of its inner entries; one that only contains a match
-/// keeps the matches.
+/// An entry that itself matches keeps all its inner entries; one that only contains matches keeps
+/// those.
 fn prune_entry(
     entry: &ReferenceEntry,
     is_wanted: &dyn Fn(&ReferenceEntry) -> bool,
@@ -142,12 +142,11 @@ fn entry_names(entry: &ReferenceEntry) -> impl Iterator<Item = &str> {
 
 /// The entries at the end of a path such as `camera.view.eye`.
 ///
-/// Variants on the path may be named or left out. The types of the values at the end are appended,
+/// Variants on the path may be named or omitted. The types of the values at the end are appended,
 /// so that `camera.view` describes `View` as well.
 ///
-/// Each step looks for its name in the current scopes, beginning with `Scene`; the next scopes are
-/// the types of the values that were found and the fields inside of them. A step without a match
-/// ends with nothing found.
+/// Each step looks up its name in the current scopes, beginning with `Scene`; the next scopes are
+/// the types of the values found and their inner fields. If a step has no match, nothing is found.
 fn find_by_path(sections: &[ReferenceSection], steps: &[&str]) -> Vec<ReferenceSection> {
     let titled = |title: &str| -> Vec<ReferenceSection> {
         sections.iter().filter(|section| section.title == title).cloned().collect()
@@ -156,14 +155,14 @@ fn find_by_path(sections: &[ReferenceSection], steps: &[&str]) -> Vec<ReferenceS
     if !found.is_empty() {
         return found;
     }
-    // A path that begins with a type, or with a field or variant of any.
+    // A path may begin with a type, or with a field or variant of any type.
     match (steps, titled(steps[0])) {
         ([_, rest @ ..], start) if !start.is_empty() => follow_path(sections, start, rest),
         _ => follow_path(sections, sections.to_vec(), steps),
     }
 }
 
-/// The entries at the end of a path that begins in one of the scopes.
+/// The entries at the end of a path that starts in one of the scopes.
 fn follow_path(
     sections: &[ReferenceSection],
     mut scopes: Vec<ReferenceSection>,
@@ -184,9 +183,9 @@ fn follow_path(
     found
 }
 
-/// The scope below the entries of this name: their own fields, and the types of their values.
+/// The scope below the entries with this name: their own fields, and the types of their values.
 ///
-/// Types are found by their names in the text of the value, so `list of Model` opens `Model`.
+/// Types are found by name in the value's text, so `list of Model` opens `Model`.
 fn open_entries(
     sections: &[ReferenceSection],
     part: &ReferenceSection,
@@ -206,10 +205,9 @@ fn open_entries(
     entries.iter().flat_map(open).collect()
 }
 
-/// The message for a word that nothing matches, with the most similar name as a hint, or where to
-/// look.
+/// The message for a word without a match; it suggests the most similar name, or where to look.
 ///
-/// Of a path only the last step is compared.
+/// Only the last step of a path is compared.
 fn unknown_word(sections: &[ReferenceSection], word: &str) -> String {
     fn collect_names<'a>(entry: &'a ReferenceEntry, found: &mut Vec<&'a str>) {
         found.extend(entry_names(entry));
@@ -241,7 +239,7 @@ mod tests {
     use super::super::fields::type_sections;
     use super::*;
 
-    /// Paths as messages print them are found when they are followed.
+    /// Paths can be followed as messages print them.
     #[test]
     fn paths_of_messages_are_found() {
         let sections = type_sections();
@@ -272,7 +270,7 @@ mod tests {
         assert!(find_sections(&sections, "Nothing.path").is_err());
     }
 
-    /// Words of other programs, and words that only descriptions have, lead to entries.
+    /// Words from other programs, and words that occur only in descriptions, lead to entries.
     #[test]
     fn words_that_are_no_names_are_answered_with_what_they_mean() {
         let sections = type_sections();

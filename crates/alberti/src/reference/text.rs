@@ -11,7 +11,7 @@ use super::{ReferenceEntry, ReferenceSection};
 /// The width of a line in characters.
 const LINE_WIDTH: usize = 100;
 
-/// The text, a block for each section.
+/// The text, with a block for each section.
 pub(super) fn format_text(sections: &[ReferenceSection]) -> String {
     let mut page = String::new();
     for (number, section) in sections.iter().enumerate() {
@@ -26,7 +26,7 @@ pub(super) fn format_text(sections: &[ReferenceSection]) -> String {
     page
 }
 
-/// Appends an entry and, indented, its description and the entries inside.
+/// Appends an entry and, indented, its description and inner entries.
 fn write_entry(page: &mut String, entry: &ReferenceEntry, indent: usize) {
     page.push_str(&" ".repeat(indent));
     page.push_str(&entry.term);
@@ -45,7 +45,7 @@ fn write_entry(page: &mut String, entry: &ReferenceEntry, indent: usize) {
 /// Appends paragraphs, wrapped at [`LINE_WIDTH`] and indented.
 ///
 /// The width includes the indentation. A word longer than a line is not broken. Widths are counted
-/// in characters, which is exact for the text of the reference.
+/// in characters, which is exact for the reference text.
 pub(crate) fn wrap_paragraphs(page: &mut String, text: &str, indent: usize) {
     for line in text.lines().filter(|line| !line.is_empty()) {
         let mut column = 0;

@@ -1,4 +1,4 @@
-//! One scale for the views of `--views`: `--same-scale`.
+//! One scale for all `--views`: `--same-scale`.
 
 use crate::CliError;
 use crate::scene_overrides::SceneOverrideArgs;
@@ -7,10 +7,10 @@ use pipeline::{Origin, Scene};
 use scene_file::SceneFile;
 use scene_file::file::{EnvironmentFile, ViewportsScale};
 
-/// Gives the view of a scene the least scale of all `--views`.
+/// Gives the view of a scene the smallest scale of all `--views`.
 ///
-/// The other views are resolved around the models of this one, without their viewports and
-/// backdrops, which have no influence on their scale.
+/// The other views are resolved around this view's models, without viewports and backdrops, which
+/// do not affect the scale.
 ///
 /// # Errors
 /// If a view is a perspective, which has no scale.

@@ -1,7 +1,7 @@
 //! The pictures that one call of `render` makes, planned before any work starts.
 //!
-//! Every output name is known up front, so that two pictures of one name are refused before the
-//! first is written.
+//! Every output name is known up front, so that two pictures with the same name are refused before
+//! the first is written.
 
 use super::missing_input_help;
 use crate::CliError;
@@ -16,8 +16,8 @@ use std::path::{Path, PathBuf};
 
 /// The text and number fields of an output name template.
 ///
-/// All but `stem` have the value of a flag, or `default` without it. They differ between calls
-/// rather than between pictures, except `view` with `--views`.
+/// All except `stem` have the value of a flag, or `default` without it. They differ between calls,
+/// not between pictures, except `view` with `--views`.
 const WORD_FIELDS: [&str; 6] = ["stem", "camera", "view", "style", "projection", "variant"];
 /// The number fields of an output name template.
 ///
@@ -26,10 +26,10 @@ const NUMBER_FIELDS: [&str; 2] = ["index", "frame"];
 
 /// One picture to render.
 ///
-/// It owns its overrides, because `--views` makes one task of each view, with the flags of all.
+/// It owns its overrides, because `--views` makes one task per view, with the flags common to all.
 #[derive(Debug)]
 pub(crate) struct RenderTask {
-    /// The scene or the model; `-` for the standard input.
+    /// The scene or model; `-` for the standard input.
     pub(crate) input: PathBuf,
     /// The scene overrides of this picture.
     pub(crate) overrides: SceneOverrideArgs,
@@ -42,7 +42,7 @@ pub(crate) struct RenderTask {
 /// Plans all pictures, in the order of the inputs, then of the views.
 ///
 /// # Errors
-/// If the name is no valid template, or two pictures would have the same name.
+/// If the name is not a valid template, or two pictures would have the same name.
 pub(super) fn plan_tasks(args: &RenderArgs) -> Result<Vec<RenderTask>, CliError> {
     refuse_output_as_input(&args.inputs)?;
     refuse_words_as_input(&args.inputs)?;
@@ -78,7 +78,7 @@ pub(super) fn plan_tasks(args: &RenderArgs) -> Result<Vec<RenderTask>, CliError>
     Ok(jobs)
 }
 
-/// Refuses `render model.glb picture.png`, before a picture is made of the first alone.
+/// Refuses `render model.glb picture.png`, before a picture of only the first is made.
 fn refuse_output_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
     let is_flag = |path: &Path| path.to_string_lossy().starts_with('+');
     let is_output =
@@ -113,7 +113,7 @@ fn refuse_words_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
     Err(CliError::Usage(format!("{name}: the file does not exist\n  = help: {help}")))
 }
 
-/// The overrides of each picture of an input: one for each of `--views`.
+/// The overrides for each picture of an input: one for each of `--views`.
 fn overrides_per_view(args: &RenderArgs) -> Vec<SceneOverrideArgs> {
     if args.views.is_empty() {
         return vec![args.overrides.clone()];
@@ -126,7 +126,7 @@ fn overrides_per_view(args: &RenderArgs) -> Vec<SceneOverrideArgs> {
     args.views.iter().map(from).collect()
 }
 
-/// The template of the output name: that of `--output`, or the default.
+/// The template for the output name: from `--output`, or the default.
 ///
 /// The default names the view only if there are several, so that `--view front` and `--views front`
 /// write the same file.
@@ -142,12 +142,12 @@ fn output_template(args: &RenderArgs) -> Result<NameTemplate, CliError> {
         .map_err(CliError::Usage)
 }
 
-/// The value of a text field of the template; `default` where no flag sets it.
+/// The value of a text field of the template; `default` if no flag sets it.
 ///
 /// The value of a flag is its name as written on the command line.
 ///
-/// Names of cameras and variants come from models and may hold any character; the template replaces
-/// those that are no part of a file name.
+/// Camera and variant names come from models and may contain any character; the template replaces
+/// characters that file names cannot contain.
 fn template_word(name: &str, input: &Path, look: &SceneOverrideArgs) -> String {
     let choice = |choice: &Option<scene_file::file::Choice>| {
         choice.as_ref().map(|choice| match choice {
@@ -173,8 +173,8 @@ fn template_word(name: &str, input: &Path, look: &SceneOverrideArgs) -> String {
 
 /// Checks that no two pictures have the same file name.
 ///
-/// Paths are compared as they are written: `a.png` and `./a.png` count as two. A scene and a model
-/// of one stem are a typical cause.
+/// Paths are compared as written: `a.png` and `./a.png` count as two. A typical cause is a scene
+/// and a model with the same stem.
 fn check_distinct_outputs(jobs: &[RenderTask]) -> Result<(), CliError> {
     let mut taken: BTreeMap<&Path, &RenderTask> = BTreeMap::new();
     for job in jobs {

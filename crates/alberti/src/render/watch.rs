@@ -1,8 +1,8 @@
-//! `render --watch`: renders again whenever the inputs change, or files that they use.
+//! `render --watch`: renders again when the inputs, or files they use, change.
 //!
-//! Files are asked for their time and length a few times a second, which works on every file system.
-//! A change counts once the files have stayed as they are from one look to the next: editors and
-//! exporters write for a while.
+//! The times and lengths of files are polled a few times a second, which works on every file
+//! system. A change counts once two successive polls agree, because editors and exporters write for
+//! a while.
 
 use crate::CliError;
 use crate::messages::{print_message, print_note};
@@ -13,20 +13,20 @@ use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
 
-/// The time between two looks.
+/// The time between two polls.
 const INTERVAL: Duration = Duration::from_millis(150);
-/// The most files that are watched.
+/// The maximum number of watched files.
 const MAX_FILES: usize = 4096;
-/// The longest file that is searched for the names of others.
+/// The maximum length of a file that is searched for the names of others.
 const MAX_SEARCHED_BYTES: u64 = 64 << 20;
 
-/// When each file was changed, and its length; `None` if it does not exist.
+/// The modification time and length of each file; `None` if it does not exist.
 type Stamps = BTreeMap<PathBuf, Option<(SystemTime, u64)>>;
 
 /// Runs `make` now and after every change, until the program is interrupted; its errors are printed.
 ///
 /// # Errors
-/// If an input is the standard input, or the output the standard output.
+/// If an input is the standard input, or the output is the standard output.
 pub(super) fn repeat(
     inputs: &[PathBuf],
     to_stdout: bool,
@@ -82,7 +82,7 @@ fn stamp_files(inputs: &[PathBuf]) -> Stamps {
 fn used_files(path: &Path) -> Vec<PathBuf> {
     let Ok(bytes) = std::fs::read(path) else { return Vec::new() };
     let names: Vec<String> = if is_scene_file(path) {
-        // Whatever is between quotation marks may be a path.
+        // Any text between quotation marks may be a path.
         let text = String::from_utf8_lossy(&bytes);
         text.split('"').skip(1).step_by(2).map(str::to_owned).collect()
     } else {

@@ -18,10 +18,10 @@ pub(crate) struct FmtArgs {
     check: bool,
 }
 
-/// Formats the files, or with `--check` lists those that are not formatted.
+/// Formats the files, or with `--check` lists the unformatted ones.
 ///
-/// A file that is formatted already is not written, so its time of modification stays. Files before
-/// one with a syntax error have been formatted when the command fails.
+/// A file that is already formatted is not written, so its modification time stays. When the
+/// command fails on a syntax error, earlier files have already been formatted.
 ///
 /// # Errors
 /// If a file cannot be read, parsed or written.

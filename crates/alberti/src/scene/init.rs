@@ -1,6 +1,6 @@
 //! `alberti scene init`: creates a commented scene file for a model.
 //!
-//! The file is a starting point to be edited: it has the default view and light as explicit fields,
+//! The file is a starting point for editing: it has the default view and light as explicit fields,
 //! and everything else that the model offers as comments.
 //!
 //! ```text
@@ -43,7 +43,7 @@ pub(crate) struct InitArgs {
 /// permission.
 ///
 /// The model is loaded to learn its size, cameras and lights. The text is built without indentation
-/// and formatted like by `scene fmt`, which also proves that it can be parsed.
+/// and then formatted as by `scene fmt`, which also proves that it parses.
 ///
 /// # Errors
 /// If the output exists and `--force` is not given, the model cannot be loaded, or the file cannot
@@ -90,8 +90,8 @@ pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
 /// Both paths are made canonical first, so that symbolic links and `..` in the current folder do
 /// not matter.
 ///
-/// A path that cannot be made canonical, such as in a folder that does not exist yet, is written as
-/// it was given.
+/// A path that cannot be made canonical, for example in a folder that does not exist yet, is
+/// written as given.
 fn relative_path(folder: &Path, file: &Path) -> String {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let (Ok(from), Ok(to)) = (here.canonicalize(), file.canonicalize()) else {
@@ -106,7 +106,7 @@ fn relative_path(folder: &Path, file: &Path) -> String {
 
 /// The text of the scene, before formatting.
 ///
-/// Every comment that shows a field is valid RON, so that removing the slashes is enough to try it.
+/// Every comment that shows a field is valid RON, so you only need to remove the slashes to try it.
 /// Writing to a `String` cannot fail.
 ///
 /// Strings are written with `{:?}`, whose escapes are valid in RON.
@@ -141,8 +141,7 @@ fn starter_scene(path: &str, output: &str, scene: &Scene, crease: Option<f64>) -
     text
 }
 
-/// Writes the light of the bare model, which is its lights or else a key light, and the studio
-/// around it.
+/// Writes the light of the bare model: its lights or else a key light, and the studio around it.
 fn write_light(text: &mut String, scene: &Scene) {
     let placed = &scene.models[0];
     let has_lights = placed.model.scene_lights().next().is_some();
@@ -164,7 +163,7 @@ fn write_light(text: &mut String, scene: &Scene) {
     let _ = writeln!(text, "environment: Studio(strength: {strength}),");
 }
 
-/// The comment at the top: the size of the model, and commands to go on with.
+/// The comment at the top: the model's size, and commands to try next.
 ///
 /// The commands can be copied as they are if the path has no spaces.
 fn header_comment(model: &Model, path: &str, output: &str) -> String {
@@ -183,7 +182,7 @@ fn header_comment(model: &Model, path: &str, output: &str) -> String {
     )
 }
 
-/// Writes axis and unit of the file, which flags may have chosen, unless they are those of glTF.
+/// Writes the file's up axis and unit, which flags may have chosen, unless they match glTF.
 fn write_conventions(text: &mut String, model: &Model, crease: Option<f64>) {
     let Model { up_axis, length_unit, .. } = model;
     if (*up_axis, *length_unit) != Default::default() {
@@ -194,7 +193,7 @@ fn write_conventions(text: &mut String, model: &Model, crease: Option<f64>) {
 
 /// Writes comments for the scenes, variants and animations that the model offers.
 ///
-/// Things without a name are chosen by index. Nothing is written for a model with one scene and
+/// Items without a name are chosen by index. Nothing is written for a model with one scene and
 /// neither variants nor animations.
 fn write_model_states(text: &mut String, model: &Model) {
     let names = |all: Vec<Option<&str>>, field: &str, text: &mut String| {
@@ -221,8 +220,7 @@ fn write_model_states(text: &mut String, model: &Model) {
 
 /// Writes the default view, with the equivalent `LookAt` and the model's cameras as comments.
 ///
-/// The target of the `LookAt` is the point on the view axis that is nearest to the center of the
-/// model.
+/// The target of the `LookAt` is the point on the view axis nearest to the center of the model.
 ///
 /// Numbers have four decimals, enough to edit and short enough to read; the active view stays
 /// exact, because it has no numbers.

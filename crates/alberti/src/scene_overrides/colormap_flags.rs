@@ -1,4 +1,4 @@
-//! Flags that show numbers as colors: scalar attributes of vertices, and depth.
+//! Flags that show numbers as colors: scalar vertex attributes, and depth.
 
 use crate::number_list::parse_numbers;
 use crate::options::option_parser;
@@ -32,7 +32,7 @@ pub(crate) struct ColormapArgs {
     scalar_range: Option<ScalarRange>,
 }
 
-/// The values of the first and the last color.
+/// The values that get the first and the last color.
 #[derive(Clone, Copy, Debug)]
 struct ScalarRange {
     min: Finite,
@@ -40,7 +40,7 @@ struct ScalarRange {
 }
 
 impl ColormapArgs {
-    /// Replaces the colors of depth, and of all models of a scene.
+    /// Replaces the colors of the depth and of all models in a scene.
     ///
     /// Another attribute has its own range of values, so --scalars does not keep the scene's.
     pub(crate) fn apply_to(&self, file: &mut SceneFile) {
@@ -58,8 +58,8 @@ impl ColormapArgs {
         }
     }
 
-    /// The warnings about flags without effect in a picture of a scene. `draws_lines` is whether
-    /// the picture is a line drawing, `style` is the name of its style.
+    /// The warnings about flags that have no effect in a picture of a scene. `draws_lines` is
+    /// whether the picture is a line drawing, `style` is the name of its style.
     pub(crate) fn find_unused(&self, scene: &Scene, draws_lines: bool, style: &str) -> Vec<String> {
         let has_scalars =
             scene.models.iter().any(|placed| placed.model.active_scalar_attribute.is_some());
@@ -88,7 +88,7 @@ impl ColormapArgs {
     }
 }
 
-/// Whether surfaces of a style have the colors of their vertices.
+/// Whether surfaces of a style show their vertex colors.
 const fn shows_vertex_colors(style: Style) -> bool {
     matches!(style, Style::Shaded | Style::Flat | Style::Gouraud | Style::Toon)
 }
@@ -96,7 +96,7 @@ const fn shows_vertex_colors(style: Style) -> bool {
 /// Parses `MIN,MAX`.
 ///
 /// # Errors
-/// If these are not two finite numbers, or the first is larger.
+/// If the text is not two finite numbers, or the first is larger.
 fn parse_scalar_range(text: &str) -> Result<ScalarRange, String> {
     let [min, max] = parse_numbers(text)?;
     if min > max {

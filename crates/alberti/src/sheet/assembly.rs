@@ -1,4 +1,4 @@
-//! Flags of assemblies: parts list, balloons, exploded view, a sheet for each part.
+//! Flags for assemblies: parts list, balloons, exploded view, a sheet for each part.
 
 use super::parts_list_json::parts_list_document;
 use crate::options::option_parser;
@@ -39,7 +39,7 @@ pub(super) struct AssemblyArgs {
 }
 
 impl AssemblyArgs {
-    /// Switches on what was asked for; nothing is switched off.
+    /// Turns on the requested features; turns nothing off.
     pub(super) fn apply_to(&self, sheet: &mut SheetFile) {
         sheet.parts_list |= self.parts_list.is_some();
         sheet.balloons |= self.balloons;
@@ -50,7 +50,7 @@ impl AssemblyArgs {
         }
     }
 
-    /// The name and the content of the parts list as a file, if it was asked for.
+    /// The file name and content of the parts list, if a file was requested.
     pub(super) fn list_file(
         &self,
         sheet: &Sheet,

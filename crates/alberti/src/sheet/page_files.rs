@@ -1,4 +1,4 @@
-//! Files of pages: one for each page, written all or none.
+//! Page files: one for each page, all written or none.
 //!
 //! ```text
 //!   out.svg          out.svg of one page, out-1.svg, out-2.svg … of several
@@ -13,7 +13,7 @@ use sheet::SheetPage;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// The names of the files of pages.
+/// Names for the page files.
 pub(super) struct PageNames {
     output: PathBuf,
     /// The value of `{stem}`.
@@ -22,18 +22,17 @@ pub(super) struct PageNames {
 }
 
 impl PageNames {
-    /// The names that an output stands for.
+    /// Parses the file names from an output path.
     ///
     /// # Errors
-    /// If the output has a field that is unknown, or the field `{page}` in a PDF, which holds all
-    /// pages.
+    /// If the output has an unknown field, or `{page}` in a PDF, which holds all pages.
     pub(super) fn parse(
         input: &Path,
         output: &Path,
         format: OutputFormat,
     ) -> Result<Self, CliError> {
         let name = output.to_string_lossy();
-        // Braces in a name without a field stay as they are.
+        // Braces in a name without a field stay unchanged.
         let is_template = name.contains("{page");
         if is_template && format == OutputFormat::Pdf {
             let help = "\n  = help: leave out {page}: a PDF holds all pages";
@@ -60,7 +59,7 @@ impl PageNames {
         self.output.with_file_name(name)
     }
 
-    /// The name and the content of the file of each page.
+    /// The file name and content for each page.
     ///
     /// # Errors
     /// Those of `encode`.
@@ -74,10 +73,10 @@ impl PageNames {
     }
 }
 
-/// Writes files: none appears under its name before all are written.
+/// Writes files; none appears under its name before all are written.
 ///
 /// # Errors
-/// If one cannot be written; older files of these names are then unchanged.
+/// If one cannot be written; existing files with these names are then unchanged.
 pub(super) fn write_all(files: &[(PathBuf, Vec<u8>)]) -> Result<(), CliError> {
     let mut written = Vec::new();
     for (path, bytes) in files {

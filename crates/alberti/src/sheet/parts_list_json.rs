@@ -12,7 +12,7 @@
 //!   ]
 //! }
 //! ```
-//! (Shortened: each of the four bolts has its place.)
+//! (Shortened: each of the four bolts has an entry with its position.)
 
 use serde_json::{Value, json};
 use sheet::{PartPlace, PartsList, PartsListItem};
@@ -20,7 +20,7 @@ use sheet::{PartPlace, PartsList, PartsListItem};
 /// The version of the JSON schema.
 const VERSION: u32 = 1;
 
-/// The document as text, with a final newline.
+/// Returns the document as text, with a final newline.
 pub(super) fn parts_list_document(list: &PartsList) -> String {
     let value = json!({
         "schema": {"name": "alberti-parts-list", "version": VERSION},
@@ -29,7 +29,7 @@ pub(super) fn parts_list_document(list: &PartsList) -> String {
     format!("{value:#}\n")
 }
 
-/// An item; masses have the decimals that they have in CSV.
+/// An item; masses have the same decimals as in CSV.
 fn item_json(item: &PartsListItem) -> Value {
     json!({
         "item": item.number,
@@ -41,7 +41,7 @@ fn item_json(item: &PartsListItem) -> Value {
     })
 }
 
-/// The place of a part in its model.
+/// The position of a part in its model.
 fn place_json(place: &PartPlace) -> Value {
     json!({"model": place.model, "node": place.node, "path": place.path})
 }

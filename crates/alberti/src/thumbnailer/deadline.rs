@@ -1,4 +1,4 @@
-//! The time limit of a thumbnail: a canceled rendering, and then the end of the process.
+//! The time limit for a thumbnail: rendering is canceled, then the process ends.
 
 use crate::CliError;
 use crate::messages::print_message;
@@ -6,26 +6,26 @@ use pipeline::CancelToken;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Time for the rendering to end by itself after it was canceled.
+/// Time for the rendering to end by itself after cancellation.
 const GRACE: Duration = Duration::from_millis(250);
 
-/// A time limit: a thread that cancels the rendering, and then ends the process.
+/// A time limit: a thread that cancels the rendering and then ends the process.
 ///
-/// Decoders, the assembly of meshes and line drawings cannot be canceled, so that the process has
-/// to end under them. It holds nothing that would have to be put in order: the only file is written
-/// at the very end, when the limit is no longer in force.
+/// Decoders, mesh assembly and line drawings cannot be canceled, so the process must end while they
+/// run. Nothing needs cleaning up: the only file is written at the very end, when the limit no
+/// longer applies.
 pub(super) struct Deadline {
-    /// Canceled when the time is over.
+    /// Canceled when time is up.
     cancel: CancelToken,
-    /// Whether the work is done. Whoever holds the lock decides how the process ends.
+    /// Whether the work is done. The holder of the lock decides how the process ends.
     is_done: Arc<Mutex<bool>>,
 }
 
 impl Deadline {
-    /// Starts the time.
+    /// Starts the timer.
     ///
     /// # Errors
-    /// If there is no thread for the watch.
+    /// If the system cannot create the timer thread.
     pub(super) fn start(seconds: u32) -> Result<Self, CliError> {
         let deadline = Self { cancel: CancelToken::default(), is_done: Arc::default() };
         let (cancel, is_done) = (deadline.cancel.clone(), Arc::clone(&deadline.is_done));
@@ -44,13 +44,13 @@ impl Deadline {
         })
     }
 
-    /// The token that is canceled when the time is over.
+    /// The token that is canceled when time is up.
     pub(super) const fn cancel_token(&self) -> &CancelToken {
         &self.cancel
     }
 
-    /// Does the last of the work, which is not interrupted once it has begun: a file is written
-    /// whole or not at all.
+    /// Does the final work, which is not interrupted once begun: a file is written completely or
+    /// not at all.
     pub(super) fn finish<T>(&self, work: impl FnOnce() -> T) -> T {
         let mut is_done = self.is_done.lock().unwrap_or_else(PoisonError::into_inner);
         *is_done = true;
@@ -58,12 +58,12 @@ impl Deadline {
     }
 }
 
-/// The error of a thumbnail that took too long.
+/// The error for a thumbnail that took too long.
 pub(super) fn timeout(seconds: u32) -> CliError {
     CliError::Usage(format!("no picture after {seconds} s; --max-seconds allows more"))
 }
 
-/// Ends the process, whatever its other threads are doing.
+/// Ends the process without waiting for its other threads.
 #[expect(clippy::exit, reason = "decoders cannot be canceled")]
 fn end_process(seconds: u32) {
     print_message("error", &timeout(seconds).to_message());

@@ -1,11 +1,11 @@
-//! The files that make file managers show thumbnails: the thumbnailer entry and the MIME types.
+//! The files through which file managers find the thumbnailer: its entry and the MIME types.
 //!
 //! ```text
 //!  $XDG_DATA_HOME/thumbnailers/alberti.thumbnailer      or below PREFIX/share
 //!  $XDG_DATA_HOME/mime/packages/alberti.xml             then update-mime-database
 //! ```
-//! Sources: the shared MIME-info specification, the XDG base directory specification, and what
-//! tumbler and gnome-desktop read of a `.thumbnailer` file.
+//! Sources: the shared MIME-info specification, the XDG base directory specification, and the parts
+//! of a `.thumbnailer` file that tumbler and gnome-desktop read.
 
 use crate::CliError;
 use crate::messages::print_stdout;
@@ -16,10 +16,10 @@ use std::process::{Command, Stdio};
 
 /// The MIME types of all formats, for shared-mime-info.
 ///
-/// That of Debian has those of glTF, STL, OBJ and 3MF since version 2.2, and none of PLY.
+/// Debian's has had types for glTF, STL, OBJ and 3MF since version 2.2, but none for PLY.
 pub(super) const MIME_TYPES: &str = include_str!("mime_types.xml");
 
-/// The MIME types that the entry names, with the other names in use.
+/// The MIME types in the entry, including other names in use.
 const MIME_TYPE_NAMES: [&str; 13] = [
     "model/gltf+json",
     "model/gltf-binary",
@@ -36,7 +36,7 @@ const MIME_TYPE_NAMES: [&str; 13] = [
     "application/vnd.ms-3mfdocument",
 ];
 
-/// The thumbnailer entry that runs a program.
+/// The thumbnailer entry for a program.
 ///
 /// # Errors
 /// If its path cannot be written into such a file.
@@ -56,7 +56,7 @@ pub(super) fn entry_of(program: &Path) -> Result<String, CliError> {
     ))
 }
 
-/// An argument of `Exec`, which is split into words as a shell does; `%` begins a field code.
+/// Quotes an argument of `Exec`, which is split into words as in a shell; `%` begins a field code.
 fn quote_argument(path: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "/._-+".contains(c);
     if path.chars().all(is_plain) {
@@ -65,12 +65,12 @@ fn quote_argument(path: &str) -> String {
     format!("'{}'", path.replace('\'', r"'\''").replace('%', "%%"))
 }
 
-/// A value of a key file, in which a backslash begins an escape.
+/// Escapes a key file value, in which a backslash begins an escape.
 fn escape_value(text: &str) -> String {
     text.replace('\\', r"\\")
 }
 
-/// Writes both files, updates the database, and says so.
+/// Writes both files, updates the database, and reports it.
 ///
 /// # Errors
 /// If there is no folder for them, a file cannot be written, or the database cannot be updated.
@@ -99,7 +99,7 @@ pub(super) fn install_files(prefix: Option<&Path>) -> Result<(), CliError> {
     print_stdout(done.as_bytes())
 }
 
-/// Removes both files, updates the database, and says so.
+/// Removes both files, updates the database, and reports it.
 ///
 /// # Errors
 /// If there is no such folder, a file cannot be removed, or the database cannot be updated.
@@ -127,17 +127,17 @@ pub(super) fn remove_files(prefix: Option<&Path>) -> Result<(), CliError> {
     print_stdout(done.as_bytes())
 }
 
-/// The entry and the MIME types below a folder of data.
+/// The paths of the entry and the MIME types below a data folder.
 fn file_paths(folder: &Path) -> [PathBuf; 2] {
     [folder.join("thumbnailers/alberti.thumbnailer"), folder.join("mime/packages/alberti.xml")]
 }
 
-/// The folder of data below a prefix, else that of the user (XDG base directory specification).
+/// The data folder below a prefix, or else the user's (XDG base directory specification).
 fn data_folder(prefix: Option<&Path>) -> Result<PathBuf, CliError> {
     if let Some(prefix) = prefix {
         return Ok(prefix.join("share"));
     }
-    // Relative paths are to be ignored.
+    // Relative paths must be ignored.
     let named =
         |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
     let of_home = || named("HOME").map(|home| home.join(".local/share"));
@@ -146,7 +146,7 @@ fn data_folder(prefix: Option<&Path>) -> Result<PathBuf, CliError> {
     })
 }
 
-/// Runs update-mime-database on the MIME types below a folder of data; returns what to say of it.
+/// Runs update-mime-database on the MIME types below a data folder; returns what to print.
 fn update_database(folder: &Path) -> Result<String, CliError> {
     let mime = folder.join("mime");
     let run = Command::new("update-mime-database").arg(&mime).stdout(Stdio::null()).status();

@@ -1,26 +1,26 @@
-//! Words that people bring from f3d, Blender, ImageMagick, ffmpeg, three.js or stl-thumb.
+//! Words that users know from f3d, Blender, ImageMagick, ffmpeg, three.js or stl-thumb.
 //!
-//! They are lines of `foreign_words.tsv`: the table, the words without hyphens at the front, what
-//! they belong to (`-` for nothing), and what to write. Of several lines with a word the first
-//! counts. Single letters keep their case.
+//! Each line of `foreign_words.tsv` has a table, words without leading hyphens, their owner (`-`
+//! for none), and the text to write. If several lines have a word, the first counts. Single letters
+//! keep their case.
 //!
-//! | table | belongs to |
+//! | table | owner |
 //! | --- | --- |
 //! | `flag` | the flag that the command must have; none if the advice names another command |
-//! | `habit` | the only command for which it holds; none if it holds for all |
+//! | `habit` | the only command to which it applies; none if it applies to all |
 //! | `value` | the flag |
 //! | `command` | the command before it |
 
-/// The lines of the file.
+/// The content of the file.
 const TABLES: &str = include_str!("foreign_words.tsv");
 
 /// A line of a table.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ForeignWords {
     words: &'static str,
-    /// What they belong to; empty for nothing.
+    /// The owner of the words; empty for none.
     pub(super) owner: &'static str,
-    /// What to write.
+    /// The text to write instead.
     pub(super) advice: &'static str,
 }
 
@@ -30,13 +30,13 @@ impl ForeignWords {
         self.words().any(|known| known == word)
     }
 
-    /// The words, one by one.
+    /// Iterates over the words.
     pub(super) fn words(&self) -> impl Iterator<Item = &'static str> {
         self.words.split(' ')
     }
 }
 
-/// The lines of a table, in their order.
+/// The lines of a table, in order.
 pub(super) fn foreign_words(table: &str) -> impl Iterator<Item = ForeignWords> {
     TABLES.lines().filter_map(move |line| {
         let mut cells = line.split('\t');

@@ -1,22 +1,21 @@
-//! Values that were given in the manner of another program, in the manner of this one.
+//! Converts values from another program's notation to this program's.
 
 use super::context;
 use super::foreign_words::foreign_words;
 use clap::error::{ContextKind, ErrorKind};
 use clap::{Command, Error};
 
-/// The value that was given for another program's flag.
+/// The value given for another program's flag.
 pub(super) enum Given {
     /// No value was given, or the flag here takes none.
     Nothing,
-    /// The flag here takes it: the advice with the value.
+    /// The flag here accepts it: the advice with the value.
     Fits(String),
-    /// The flag here, which does not take it.
+    /// The flag here, which does not accept it.
     FitsNot(String),
 }
 
-/// The advice with the value that was given for the other program's flag, where the flag here takes
-/// it.
+/// The advice with the value given for the other program's flag, if the flag here accepts it.
 pub(super) fn with_given_value(
     advice: &str,
     word: &str,
@@ -28,7 +27,7 @@ pub(super) fn with_given_value(
     };
     let Some(name) = flag.strip_prefix("--") else { return Given::Nothing };
     let example = rest.split(" --").next().unwrap_or(rest);
-    // A word that chooses what the flag is set to, such as `wireframe`, is no example.
+    // A word that selects the flag's setting, such as `wireframe`, is not an example.
     let is_choice =
         has_choices(command, name) || example == "transparent" || example == "environment";
     if example.starts_with("--") {
@@ -61,7 +60,7 @@ pub(super) fn with_given_value(
     }
 }
 
-/// The value that follows a word of the command line, or stands behind its equals sign.
+/// The value that follows a word on the command line or its equals sign.
 pub(super) fn value_of(word: &str, words: &[String]) -> Option<String> {
     let name = word.split('=').next().unwrap_or(word);
     let joined = words.iter().find_map(|it| it.strip_prefix(name)?.strip_prefix('='));
@@ -72,7 +71,7 @@ pub(super) fn value_of(word: &str, words: &[String]) -> Option<String> {
     given.filter(|value| !value.is_empty() && (!value.starts_with('-') || is_number(value)))
 }
 
-/// A value whose numbers were given apart, as in `--size 64 48` or `--eye 3 2 5`.
+/// A value whose numbers are separate words, as in `--size 64 48` or `--eye 3 2 5`.
 pub(super) fn following_numbers(
     word: &str,
     flag: &str,
@@ -94,7 +93,7 @@ pub(super) fn following_numbers(
     })
 }
 
-/// The size whose sides were given by two flags, such as `--width 64 --height 48`.
+/// The size given by two flags, such as `--width 64 --height 48`.
 fn both_sides(words: &[String]) -> Option<String> {
     let side = |names: [&str; 4]| {
         let value = names.iter().find_map(|name| value_of(name, words))?;
@@ -105,16 +104,16 @@ fn both_sides(words: &[String]) -> Option<String> {
     Some(format!("{width}x{height}"))
 }
 
-/// A value as a shell takes it.
+/// Quotes a value for a shell.
 pub(super) fn quoted(value: &str) -> String {
     let is_plain = value.chars().all(|c| c.is_ascii_alphanumeric() || "._-,/=+:".contains(c));
     if is_plain { value.to_owned() } else { format!("'{value}'") }
 }
 
-/// A value that a flag takes: the one that was given, or what it means in another program.
+/// A value that a flag accepts: the given one, or its equivalent from another program.
 pub(super) fn accepted_value(flag: &str, given: &str, command: &Command) -> Option<String> {
     let lower = given.to_ascii_lowercase();
-    // Values from a list are written as the help has them.
+    // Values from a list are written as in the help.
     if has_choices(command, flag) && is_accepted(flag, &lower, command) {
         return Some(lower);
     }
@@ -130,14 +129,14 @@ pub(super) fn accepted_value(flag: &str, given: &str, command: &Command) -> Opti
     meant.into_iter().flatten().find(|value| is_accepted(flag, value, command))
 }
 
-/// The value here for one of another program.
+/// The equivalent of another program's value.
 pub(super) fn foreign_value(flag: &str, given: &str) -> Option<String> {
     let given = given.to_ascii_lowercase().replace('_', "-");
     let mut values = foreign_words("value");
     values.find(|row| row.owner == flag && row.has(&given)).map(|row| row.advice.to_owned())
 }
 
-/// A value in the form of this program: `200,150` as `200x150`, `1,0,0` as `#ff0000`, and
+/// A value in this program's notation: `200,150` as `200x150`, `1,0,0` as `#ff0000`, and
 /// `100x80+10+20` as `10,20,100,80`.
 fn rewritten(flag: &str, given: &str) -> Option<String> {
     match flag {
@@ -200,14 +199,14 @@ fn rewritten(flag: &str, given: &str) -> Option<String> {
     }
 }
 
-/// A color of three numbers, to 1 or to 255, in hexadecimal digits; four with an alpha of 0 are
-/// transparent.
+/// A color of three numbers, up to 1 or up to 255, in hexadecimal digits; four with an alpha of 0
+/// are transparent.
 fn hex_color(given: &str) -> Option<String> {
     let numbers = given.trim_start_matches(|c: char| c.is_alphabetic() || "([".contains(c));
     let numbers = numbers.trim_end_matches([')', ']']).split([',', ' ']);
     let numbers = numbers.filter(|word| !word.is_empty());
     let channels: Vec<f64> = numbers.map(|word| word.trim().parse().ok()).collect::<Option<_>>()?;
-    // An alpha between clear and opaque cannot be kept.
+    // An alpha between transparent and opaque cannot be kept.
     let has_alpha = matches!(channels[..], [_, _, _, alpha] if ![0.0, 1.0, 255.0].contains(&alpha));
     if has_alpha {
         return None;
@@ -238,7 +237,7 @@ fn drawing_scale(given: &str) -> Option<String> {
     })
 }
 
-/// A color whose name is almost that of a flag's value.
+/// The color name, or other value of the flag, that is most similar to the given one.
 pub(super) fn similar_color(flag: &str, given: &str) -> Option<String> {
     let names = scene_file::color_names().chain(["transparent", "environment"]);
     let names: Vec<&str> = names.collect();
@@ -246,14 +245,14 @@ pub(super) fn similar_color(flag: &str, given: &str) -> Option<String> {
     (flag == "background").then(similar).flatten()
 }
 
-/// A field of view in degrees that was given in radians, as programs in Python take it.
+/// Converts a field of view from radians, as Python programs use, to degrees.
 fn degrees_of_radians(name: &str, given: &str) -> Option<f64> {
     let radians: f64 = given.parse().ok().filter(|_| name == "fov")?;
     let degrees = libm::round(radians.to_degrees() * 10.0) / 10.0;
     (0.0..core::f64::consts::PI).contains(&radians).then_some(degrees)
 }
 
-/// The vertical angle of view in degrees of a lens on full frame, 24 mm high, by its focal length.
+/// The vertical angle of view in degrees of a full-frame lens (24 mm high), from its focal length.
 pub(super) fn lens_angle(millimeters: &str) -> Option<String> {
     let length: f64 = millimeters.trim().parse().ok().filter(|length| *length > 0.0)?;
     let degrees = 2.0 * libm::atan(12.0 / length).to_degrees();
@@ -279,7 +278,7 @@ fn has_choices(command: &Command, name: &str) -> bool {
     flag.is_some_and(|flag| !flag.get_possible_values().is_empty())
 }
 
-/// Whether a flag takes a value.
+/// Whether a flag accepts a value.
 fn is_accepted(flag: &str, value: &str, command: &Command) -> bool {
     let attempt = [command.get_name().to_owned(), format!("--{flag}={value}")];
     match command.clone().try_get_matches_from(attempt) {
@@ -288,7 +287,7 @@ fn is_accepted(flag: &str, value: &str, command: &Command) -> bool {
     }
 }
 
-/// The flag, without hyphens, and the value of an error about a value.
+/// The flag, without hyphens, and the value in an error about a value.
 pub(super) fn invalid_value(error: &Error) -> Option<(String, String)> {
     let flag = context(error, ContextKind::InvalidArg)?;
     let flag = flag.trim_start_matches('-').split([' ', '=']).next()?;

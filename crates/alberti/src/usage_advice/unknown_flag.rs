@@ -1,4 +1,4 @@
-//! Flags that a command does not have: what to type in their place.
+//! Advice on flags that a command does not have.
 
 use super::foreign_words::foreign_words;
 use super::given_value::{
@@ -13,7 +13,7 @@ use scene_file::closest_name;
 use std::ffi::OsString;
 use std::path::Path;
 
-/// What to write in place of a flag that does not exist.
+/// Advice on a flag that does not exist.
 pub(super) fn advise_on_flag(
     error: &Error,
     words: &[OsString],
@@ -73,7 +73,7 @@ pub(super) fn advise_on_flag(
     Some(format!("`{name}` is not a flag of `{command}`; {help}"))
 }
 
-/// What to write in place of a flag: the same with two hyphens, or what another program's means.
+/// Text to replace a flag: the flag with two hyphens, or the equivalent of another program's.
 pub(super) fn what_to_write(
     name: &str,
     word: &str,
@@ -116,7 +116,7 @@ pub(super) fn what_to_write(
     }
 }
 
-/// What to do about the name of an output without its flag, as in `alberti animate a.glb film.gif`.
+/// Advice on an output name without its flag, as in `alberti animate a.glb film.gif`.
 fn advise_on_output(name: &str, words: &[String], command: &Command) -> Option<String> {
     let is_output = FileFormat::from_extension(Path::new(name)).is_none();
     let input = words
@@ -133,8 +133,8 @@ fn advise_on_output(name: &str, words: &[String], command: &Command) -> Option<S
     })
 }
 
-/// The format that `-f svg`, `-Tsvg` or `--export-type=svg` chooses in other programs, unless it is
-/// the number of a frame.
+/// The format that `-f svg`, `-Tsvg` or `--export-type=svg` selects in other programs, unless it is
+/// a frame number.
 fn chosen_format(name: &str, words: &[String], command: &Command) -> Option<String> {
     let known = [
         "f",
@@ -152,7 +152,7 @@ fn chosen_format(name: &str, words: &[String], command: &Command) -> Option<Stri
     has_flag(command, "format").then(|| accepted_value("format", &value, command)).flatten()
 }
 
-/// A short flag and its value, which stand together in `-j4`, as two words.
+/// Splits a short flag from its value, as in `-j4`.
 fn with_value_apart(word: String, words: Vec<String>) -> (String, Vec<String>) {
     let is_joined = word.len() > 2
         && word.chars().nth(1).is_some_and(char::is_alphabetic)
@@ -169,7 +169,7 @@ fn with_value_apart(word: String, words: Vec<String>) -> (String, Vec<String>) {
     (flag.to_owned(), apart)
 }
 
-/// What to do about a negative number behind another one, as in `--eye 3 -2 5`.
+/// Advice on a negative number after another one, as in `--eye 3 -2 5`.
 fn advise_on_negative_number(name: &str, words: &[String], command: &Command) -> Option<String> {
     name.parse::<f64>().ok()?;
     let before = words.iter().take_while(|word| *word != name);
@@ -178,7 +178,7 @@ fn advise_on_negative_number(name: &str, words: &[String], command: &Command) ->
     Some(format!("`{flag}` takes one value: write `{flag} {meant}`"))
 }
 
-/// Advice without further flags that were given: `--target 0,0,0 --eye 4,3,6` beside an `--eye`.
+/// Advice without flags already given, such as `--target 0,0,0 --eye 4,3,6` next to an `--eye`.
 fn without_given_flags(advice: &str, words: &[String]) -> String {
     let is_given = |part: &str| {
         let flag = format!("--{}", part.split(' ').next().unwrap_or(part));
@@ -192,7 +192,7 @@ fn without_given_flags(advice: &str, words: &[String]) -> String {
     parts.filter(|part| !is_given(part)).fold(first, |kept, part| format!("{kept} --{part}"))
 }
 
-/// The folder of outputs that was given to a command whose outputs are named by a template.
+/// The output folder given to a command whose outputs are named by a template.
 fn chosen_folder(stem: &str, words: &[String], command: &Command) -> Option<String> {
     let names = ["output-dir", "outdir", "out-dir", "output-folder"];
     let is_meant = command.get_name() == "render" && names.contains(&&*with_hyphens(stem));
@@ -200,14 +200,14 @@ fn chosen_folder(stem: &str, words: &[String], command: &Command) -> Option<Stri
     Some(folder.trim_end_matches('/').to_owned())
 }
 
-/// Whether the value of a piece of advice is a name that few models or folders have.
+/// Whether the value in a piece of advice is a name that few models or folders have.
 fn is_only_an_example(advice: &str) -> bool {
     let flags = ["environment", "scalars", "compare", "camera", "animation", "variant", "pose"];
     let flag = advice.split(' ').next().and_then(|flag| flag.strip_prefix("--"));
     flag.is_some_and(|flag| flags.contains(&flag))
 }
 
-/// What to do about a focal length in millimeters: the angle of view that it stands for.
+/// Advice on a focal length in millimeters: the equivalent angle of view.
 fn lens_advice(stem: &str, words: &[String], command: &Command) -> Option<String> {
     let is_length = ["focal-length", "focal", "lens", "lens-mm"].contains(&&*with_hyphens(stem));
     let length = value_of(&format!("--{stem}"), words).filter(|_| is_length)?;
@@ -218,7 +218,7 @@ fn lens_advice(stem: &str, words: &[String], command: &Command) -> Option<String
     ))
 }
 
-/// What to do about Blender's `-b` or `--background` before a file: it draws without a window.
+/// Advice on Blender's `-b` or `--background` before a file: Alberti draws without a window.
 fn advise_on_no_window(name: &str, words: &[String]) -> Option<String> {
     let file = value_of(name, words).filter(|value| Path::new(value).extension().is_some())?;
     if !matches!(name, "-b" | "--background") {
@@ -236,7 +236,7 @@ fn advise_on_no_window(name: &str, words: &[String]) -> Option<String> {
     Some(format!("nothing opens a window here, so leave `{name}` out: {help}{color}"))
 }
 
-/// What to do about a flag before any command.
+/// Advice on a flag before any command.
 fn advise_before_command(name: &str, program: &Command) -> Option<String> {
     let stem = if name == "-o" { "output" } else { name.strip_prefix("--")? };
     has_flag(program.find_subcommand("render")?, stem).then(|| {
@@ -246,7 +246,7 @@ fn advise_before_command(name: &str, program: &Command) -> Option<String> {
     })
 }
 
-/// The word that was typed: of `-resize` the parser tells `-r` alone.
+/// The whole word that was typed: for `-resize` the parser reports only `-r`.
 fn whole_word(told: &str, words: &[OsString]) -> String {
     let is_long = |word: &&str| {
         !word.starts_with("--")
@@ -258,23 +258,23 @@ fn whole_word(told: &str, words: &[OsString]) -> String {
     typed.flatten().unwrap_or(told).to_owned()
 }
 
-/// What to do about a flag of another program that has no counterpart, or several.
+/// Advice on another program's flag that has no counterpart here, or several.
 fn foreign_habit(word: &str, command: &Command) -> Option<&'static str> {
     let word = with_hyphens(word);
     let holds = |owner: &str| owner.is_empty() || owner == command.get_name();
     foreign_words("habit").find(|row| holds(row.owner) && row.has(&word)).map(|row| row.advice)
 }
 
-/// What to write for a flag of another program.
+/// Text to replace another program's flag.
 pub(super) fn foreign_flag(word: &str, command: &Command) -> Option<&'static str> {
     let word = with_hyphens(word);
-    // What draws has a style.
+    // Commands that draw have a style.
     let is_known = |flag: &str| has_flag(command, if flag.is_empty() { "style" } else { flag });
     foreign_words("flag").find(|row| is_known(row.owner) && row.has(&word)).map(|row| row.advice)
 }
 
-/// What to write for a value that was given apart from a flag that wants an equals sign, as in
-/// `--turntable 180`.
+/// Text to replace a separate value after a flag that needs an equals sign, as in `--turntable
+/// 180`.
 fn advise_on_detached_value(words: &[String], command: &Command) -> Option<String> {
     words.windows(2).find_map(|pair| {
         let [flag, value] = pair else { return None };

@@ -1,4 +1,4 @@
-//! Values that a flag does not take: what was probably meant.
+//! Advice on values that a flag does not accept.
 
 use super::given_value::{
     accepted_value, following_numbers, foreign_value, invalid_value, quoted, similar_color,
@@ -12,8 +12,8 @@ use clap::{Command, Error};
 use std::ffi::OsString;
 use std::path::Path;
 
-/// Puts the value that another program's one means in the place of clap's tip; says more where a
-/// flag of this name has another meaning.
+/// Replaces clap's tip with the equivalent of another program's value; says more if a flag with
+/// this name has another meaning.
 pub(super) fn advise_on_value(
     error: &mut Error,
     words: &[OsString],
@@ -74,7 +74,7 @@ pub(super) fn advise_on_value(
     None
 }
 
-/// What to do about a value of a kind that a flag of this name takes elsewhere.
+/// Advice on a kind of value that a flag with this name takes in other programs.
 fn other_meaning(flag: &str, given: &str) -> Option<String> {
     if flag == "color" {
         return Some(format!(
@@ -120,7 +120,7 @@ fn other_meaning(flag: &str, given: &str) -> Option<String> {
     None
 }
 
-/// What to do about a format that pictures are not written in.
+/// Advice on a format in which pictures cannot be written.
 fn unwritten_format_help(flag: &str, given: &str) -> Option<String> {
     let ending = given.to_ascii_lowercase().replace(['_', '-'], "").replace("openexr", "exr");
     let path = format!("picture.{ending}");
@@ -130,7 +130,7 @@ fn unwritten_format_help(flag: &str, given: &str) -> Option<String> {
     Some(format!("{message}; {help}"))
 }
 
-/// What to do with a file that a flag does not take, but that could be made into one.
+/// Advice on a file that a flag does not accept, but that can be converted.
 fn other_file_help(flag: &str, given: &str) -> Option<String> {
     let path = Path::new(given);
     let ending = path.extension()?.to_str()?.to_ascii_lowercase();
@@ -153,7 +153,7 @@ fn other_file_help(flag: &str, given: &str) -> Option<String> {
     }
 }
 
-/// The numbers that a flag takes, where clap gives them in the notation of Rust: `0 is not in
+/// The numbers that a flag accepts, if clap reports them in Rust notation: `0 is not in
 /// 1..=100000`.
 fn expected_number(error: &Error, given: &str) -> Option<String> {
     let reason = std::error::Error::source(error)?.to_string();

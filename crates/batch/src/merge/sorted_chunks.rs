@@ -1,5 +1,5 @@
-//! Lines sorted by output in little memory: chunks are sorted one by one, written to a temporary
-//! file, and merged while they are read.
+//! Sorts lines by output in little memory: chunks are sorted one by one, written to a temporary
+//! file, and merged as they are read.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -10,26 +10,26 @@ use std::path::{Path, PathBuf};
 /// The size of the buffer from which a chunk is read.
 const READ_BYTES: usize = 1 << 16;
 
-/// A line of a report and what it is sorted by.
+/// A report line with its sort key.
 #[derive(PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) struct SortedLine {
     /// The output of the record.
     pub(super) output: Vec<u8>,
-    /// The number of the chunk, by which lines of the same output stay in the order of the runs.
+    /// The chunk number, which keeps lines with the same output in run order.
     chunk: usize,
     /// The line without its line break.
     pub(super) line: Vec<u8>,
 }
 
-/// Lines while they are collected.
+/// Lines that are being collected.
 pub(super) struct Chunks {
     /// The folder of the temporary file.
     folder: PathBuf,
-    /// The size from which a chunk is written to the temporary file.
+    /// The size at which a chunk is written to the temporary file.
     chunk_bytes: usize,
     /// The output and the line of each record of this chunk, one after the other.
     text: Vec<u8>,
-    /// Where the records of this chunk are in `text`.
+    /// The positions of this chunk's records in `text`.
     spans: Vec<Span>,
     /// The temporary file, if there is one.
     file: Option<File>,
@@ -37,7 +37,7 @@ pub(super) struct Chunks {
     ranges: Vec<[u64; 2]>,
 }
 
-/// The place of a record in the text of a chunk.
+/// The position of a record in the text of a chunk.
 #[derive(Clone, Copy)]
 pub(super) struct Span {
     start: usize,
@@ -58,7 +58,7 @@ impl Span {
 }
 
 impl Chunks {
-    /// No lines yet. The temporary file, if one is needed, is made in `folder`.
+    /// Creates an empty collection. The temporary file, if needed, is created in `folder`.
     pub(super) fn new(folder: &Path, chunk_bytes: usize) -> Self {
         let (text, spans) = (Vec::new(), Vec::new());
         Self { folder: folder.to_owned(), chunk_bytes, text, spans, file: None, ranges: Vec::new() }
@@ -93,13 +93,13 @@ impl Chunks {
         Ok(SortedLines::File(files))
     }
 
-    /// Sorts the lines of this chunk; those of the same output stay in their order.
+    /// Sorts the lines of this chunk; lines with the same output keep their order.
     fn sort_chunk(&mut self) {
         let text = &self.text;
         self.spans.sort_by(|a, b| a.output(text).cmp(b.output(text)));
     }
 
-    /// Appends this chunk to the temporary file: both lengths, output and line of each record.
+    /// Appends this chunk to the temporary file: for each record both lengths, output and line.
     fn write_chunk(&mut self) -> std::io::Result<()> {
         self.sort_chunk();
         let mut file = match self.file.take() {
@@ -124,7 +124,7 @@ impl Chunks {
     }
 }
 
-/// A file that is gone as soon as it is closed.
+/// A file that disappears when it is closed.
 fn temporary_file(folder: &Path) -> std::io::Result<File> {
     let mut number = 0_u32;
     loop {
@@ -141,13 +141,13 @@ fn temporary_file(folder: &Path) -> std::io::Result<File> {
     }
 }
 
-/// Lines in the order of their outputs; those of the same output in the order of the runs.
+/// Lines sorted by output; lines with the same output are in run order.
 pub(super) enum SortedLines {
     /// One chunk in memory.
     Memory {
         /// The text of the chunk.
         text: Vec<u8>,
-        /// The places of the lines that are left.
+        /// The positions of the remaining lines.
         spans: std::vec::IntoIter<Span>,
     },
     /// Chunks in a temporary file.
@@ -172,7 +172,7 @@ impl SortedLines {
 pub(super) struct FileLines {
     file: File,
     chunks: Vec<ChunkReader>,
-    /// The first line of each chunk that is not at its end; the least is on top.
+    /// The first line of each unfinished chunk; the smallest is on top.
     next: BinaryHeap<Reverse<SortedLine>>,
 }
 
@@ -183,7 +183,7 @@ impl FileLines {
         Ok(Some(line))
     }
 
-    /// Puts the next line of a chunk among those that wait, if it has one.
+    /// Queues the next line of a chunk, if there is one.
     fn read_from(&mut self, chunk: usize) -> std::io::Result<()> {
         let reader = &mut self.chunks[chunk];
         let Some(lengths) = reader.read_bytes(&mut self.file, 8)? else { return Ok(()) };
@@ -202,11 +202,11 @@ impl FileLines {
 
 /// Reads a chunk of the temporary file from front to back.
 struct ChunkReader {
-    /// The part of the file that is not read yet.
+    /// The part of the file that has not been read yet.
     range: [u64; 2],
     /// The bytes that were read from the file.
     buffer: Vec<u8>,
-    /// How much of `buffer` is used.
+    /// The number of used bytes in `buffer`.
     used: usize,
 }
 

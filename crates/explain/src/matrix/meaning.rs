@@ -6,7 +6,7 @@ use super::super::plain_text::format_number;
 use projection::{Classical, Convention, Oblique, PrincipalPlane, ProjectionClass, Window};
 use recognition::{CameraReading, Lens, MatrixMeaning, MatrixReading, ViewportReading};
 
-/// A reading in one sentence without its full stop: meaning, parameters, convention and factor.
+/// A reading in one sentence without a period: meaning, parameters, convention and factor.
 pub(super) fn describe_meaning(reading: &MatrixReading) -> String {
     let meaning = &reading.meaning;
     let convention = match meaning.convention() {
@@ -76,7 +76,7 @@ fn planometric_words(turn: f64, height: f64, z_up: bool, onto_plane: bool) -> St
     format!("{name}{depth}: the plan of {plan} turned by {turn}°, {up} upwards times {height}")
 }
 
-/// View volumes, also behind a camera; `None` for other maps.
+/// Describes view volumes, also combined with a camera; `None` for other maps.
 fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
     Some(match meaning {
         MatrixMeaning::Perspective { frustum: f, .. } => {
@@ -136,13 +136,13 @@ fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
     })
 }
 
-/// The handedness of the world where it is not the usual one.
+/// The handedness of the world, if unusual.
 fn world_words(meaning: &MatrixMeaning) -> &'static str {
     let left_handed = meaning.convention().is_some_and(|convention| convention.ahead() > 0.0);
     if left_handed { ", in a left-handed world" } else { "" }
 }
 
-/// Classical projections; `None` for other maps.
+/// Describes classical projections; `None` for other maps.
 fn describe_classical(meaning: &MatrixMeaning) -> Option<String> {
     Some(match meaning {
         MatrixMeaning::ObliqueVolume { projection, volume: o, .. } => {
@@ -216,7 +216,7 @@ fn image_words(size: [f64; 2], origin: &str, y_down: bool, integer_centers: bool
     format!("the viewport of {width} × {height} pixels{origin}, {rows}, pixel centers {centers}")
 }
 
-/// Affine maps, viewports, intrinsics, and the textbook's P.
+/// Describes affine maps, viewports, intrinsics, and the textbook's P.
 fn describe_transform(meaning: &MatrixMeaning) -> String {
     match meaning {
         MatrixMeaning::Identity => "the identity".to_owned(),
@@ -337,7 +337,7 @@ fn add_parameters(step: Step, meaning: &MatrixMeaning) -> Step {
     }
 }
 
-/// Of view volumes, also behind a camera and below a viewport.
+/// Adds the parameters of view volumes, also combined with a camera and a viewport.
 fn add_view_parameters(step: Step, meaning: &MatrixMeaning) -> Step {
     match meaning {
         MatrixMeaning::Perspective { frustum: f, lens, convention }

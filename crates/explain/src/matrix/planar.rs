@@ -1,4 +1,4 @@
-//! Explanation of a 3×3 matrix: a map of the plane, camera intrinsics or a rotation of space.
+//! Explains a 3×3 matrix: a map of the plane, camera intrinsics or a rotation of space.
 
 use super::super::plain_text::format_number;
 use super::super::{Explanation, ItemValue, Step};
@@ -7,7 +7,7 @@ use super::meaning::describe_meaning;
 use homog::{HPoint2, Homography};
 use recognition::{MatrixMeaning, MatrixReading, PlanarMatrix, PlanarReading, recognize_planar};
 
-/// How many readings are listed beside the first.
+/// The maximum number of readings listed after the first.
 const OTHER_READINGS: usize = 3;
 
 /// Explains a 3×3 matrix for column vectors (x, y, w).
@@ -51,7 +51,7 @@ pub fn explain_planar_matrix(rows: [[f64; 3]; 3]) -> Result<Explanation, String>
     Ok(Explanation { subject: "A 3 × 3 matrix for column vectors".to_owned(), steps, verdict })
 }
 
-/// The images of the unit square's corners, and the line that goes to infinity.
+/// The images of the unit square's corners, and the line that maps to infinity.
 fn points_step(map: Homography) -> Step {
     let image = |x: f64, y: f64| match map.transform_point(HPoint2::from_xy(x, y)).divide() {
         Some([x, y]) => format!("({}, {})", format_number(x), format_number(y)),

@@ -1,4 +1,4 @@
-//! The chapter's claims about the whole pipeline, seen in pictures and in numbers.
+//! Checks the chapter's claims about the whole pipeline, in pictures and in numbers.
 
 #[path = "chapter/derivations.rs"]
 mod derivations;
@@ -13,7 +13,7 @@ use scene::parse_scene;
 use scene::{Origin, Scene};
 use std::path::Path;
 
-/// Resolves a scene of the committed models.
+/// Resolves a scene with the committed models.
 fn resolve_text(text: &str) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/models");
     let file = parse_scene("test.ron", text).expect("a scene");
@@ -103,8 +103,8 @@ fn c35_a_ball_beside_the_line_of_sight_is_drawn_as_the_ellipse_that_its_cone_cut
          image: (size: (1600, 400), background: Color(\"#fff\"), samples: 16))",
     );
     let picture = render_scene(&scene);
-    // The outermost ball: 4.5 to the right and 4 ahead, radius ½; θ off the axis, its cone half as
-    // wide as α.
+    // The outermost ball: 4.5 to the right and 4 ahead, radius ½; θ off the axis, with a cone of
+    // half-angle α.
     let (x, ahead): (f64, f64) = (4.5, 4.0);
     let theta = libm::atan2(x, ahead);
     let alpha = libm::asin(0.5 / (x * x + ahead * ahead).sqrt());

@@ -1,4 +1,4 @@
-//! Matrices of scenes against their derivations, and the classes of projections by what they do.
+//! Checks scene matrices against their derivations, and projection classes by their effects.
 
 use super::resolve_text;
 use super::stages::{chain_of, close, numbers};
@@ -27,12 +27,12 @@ fn c23_p_shrinks_x_and_y_keeps_lines_and_makes_rays_of_the_eye_parallel() {
     for z in [-2.0, -3.0, -4.5, -6.0] {
         assert!(close(&image(3.0, -1.0, z), &[3.0 * n / z, -n / z, n + f - f * n / z]), "{z}");
     }
-    // Along a ray of the eye x and y stay, and z goes on falling.
+    // Along a ray from the eye, x and y stay constant, and z keeps decreasing.
     let along: Vec<[f64; 3]> =
         [2.0, 3.0, 5.0].map(|s| image(0.4 * s, -0.7 * s, -s)).into_iter().collect();
     assert!(along.iter().all(|place| close(&place[..2], &[0.8, -1.4])), "{along:?}");
     assert!(along.windows(2).all(|pair| pair[1][2] < pair[0][2]), "{along:?}");
-    // Three points of any line stay on a line.
+    // Any three points on a line stay on a line.
     let [a, b, c] = [0.0, 0.3, 1.0].map(|t| image(1.0 + 2.0 * t, 3.0 - t, -2.5 - 3.0 * t));
     let [ab, ac] =
         [b, c].map(|end| Vector::<View>::new(end[0] - a[0], end[1] - a[1], end[2] - a[2]));
@@ -50,7 +50,7 @@ fn c57_the_trace_of_a_frustum_has_the_steps_of_its_derivation() {
     };
     let [shear, scale, depth] = ["shear", "scale", "depth"].map(matrix);
     let (x, y, z) = (1.3, 0.4, -3.7);
-    // The center line of the window onto the axis, its sides to 45°.
+    // The center line of the window moves to the axis, its sides to 45°.
     let upright = shear * Point::<View>::new(x, y, z).raw().extend(1.0);
     assert!(close(&[upright.x], &[x + z * (l + r) / (2.0 * near)]));
     assert!(close(&[upright.y], &[y + z * (b + t) / (2.0 * near)]));
@@ -59,7 +59,7 @@ fn c57_the_trace_of_a_frustum_has_the_steps_of_its_derivation() {
     let remapped = |on_near: f64, low: f64, high: f64| -1.0 + 2.0 * (on_near - low) / (high - low);
     let [u, v] = [remapped(-near * x / z, l, r), remapped(-near * y / z, b, t)];
     assert!(close(&[square.x, square.y], &[-z * u, -z * v]));
-    // a z + b over −z is −1 at the near and +1 at the far plane.
+    // (a z + b)/−z is −1 at the near plane and +1 at the far plane.
     let [a, offset] = [-(far + near) / (far - near), -2.0 * far * near / (far - near)];
     assert!(close(&depth.transpose().z_axis.to_array(), &[0.0, 0.0, a, offset]));
     assert!(close(&depth.transpose().w_axis.to_array(), &[0.0, 0.0, -1.0, 0.0]));
@@ -81,7 +81,7 @@ fn c66_the_lessons_frustum_is_its_five_steps_one_after_the_other() {
     let scene =
         scene_with("ApexMovedFrustum(left: -1, right: 3, bottom: -1, top: 2, near: 2, far: 6)");
     let explained = explain_transforms(&chain_of(&scene, ApiConventions::OpenGl));
-    // Eq9 of the lesson (LW-1).
+    // Equation 9 of the lesson (LW-1).
     let (c1, c2) = (2.0 * far * near / (near - far), (far + near) / (far - near));
     let eq9 = [
         [2.0 * near / (r - l), 0.0, 0.0, -near * (r + l) / (r - l)],
@@ -96,7 +96,7 @@ fn c66_the_lessons_frustum_is_its_five_steps_one_after_the_other() {
         let (x1, y1) = (x - f64::midpoint(l, r), y - f64::midpoint(b, t));
         let (x2, y2) = (near * x1 / -z, near * y1 / -z);
         let (x3, y3) = (2.0 * x2 / (r - l), 2.0 * y2 / (t - b));
-        // 4 and 5 depth as c1/D + c2, which has turned z.
+        // 4 and 5 depth as c1/D + c2, which has reversed z.
         let depth = c1 / -z + c2;
         let clip = chain.world_to_clip().transform_point(Point::new(x, y, z));
         let ndc = clip.divide().expect("ahead");
@@ -129,8 +129,8 @@ fn axis_images(projection: &str) -> [HPoint<homog::Clip>; 3] {
     [Vector::X, Vector::Y, Vector::Z].map(|axis| map.transform_direction(axis))
 }
 
-/// How long a unit of each axis is drawn, and Gauss's sum of the squares of their images, taken for
-/// complex numbers: it is 0 for an orthographic projection and for no other.
+/// The drawn length of a unit of each axis, and Gauss's sum of the squares of their images as
+/// complex numbers: it is 0 only for an orthographic projection.
 fn drawn_lengths(images: [HPoint<homog::Clip>; 3]) -> ([f64; 3], f64) {
     let drawn = images.map(|image| DVec2::new(image.x(), image.y()));
     let square = |c: DVec2| DVec2::new(c.x * c.x - c.y * c.y, 2.0 * c.x * c.y);

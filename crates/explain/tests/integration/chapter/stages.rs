@@ -1,4 +1,4 @@
-//! The stages of the pipeline, one after the other, and a pixel's ray against the picture.
+//! Checks the stages of the pipeline one by one, and a pixel's ray against the picture.
 
 use super::{pixel_position, render_scene, resolve_text};
 use explain::{
@@ -15,7 +15,7 @@ pub(super) fn chain_of(scene: &Scene, conventions: ApiConventions) -> TransformC
     TransformChain::new(&scene.view_projection, size, conventions).expect("a viewport")
 }
 
-/// The numbers of an item.
+/// The numbers in an item.
 pub(super) fn numbers(explanation: &Explanation, id: &str) -> Vec<f64> {
     let mut items = explanation.steps.iter().flat_map(|step| &step.items);
     match &items.find(|item| item.id == id).expect(id).value {
@@ -26,13 +26,13 @@ pub(super) fn numbers(explanation: &Explanation, id: &str) -> Vec<f64> {
     }
 }
 
-/// Whether numbers are equal to 1e-12 of the largest.
+/// Whether numbers agree to within 1e-12 of the largest.
 pub(super) fn close(a: &[f64], b: &[f64]) -> bool {
     let size = b.iter().fold(1.0_f64, |size, x| size.max(x.abs()));
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12 * size)
 }
 
-/// Whether the ray meets the crate, grown by `margin` on all sides: the part of the ray between
+/// Whether the ray meets the crate, grown by `margin` on all sides: the interval of the ray between
 /// opposite sides is not empty.
 fn meets_crate(origin: [f64; 3], direction: [f64; 3], margin: f64) -> bool {
     let [low, high] = [[-0.5, 0.0, -0.5], [0.5, 1.0, 0.5]];
@@ -77,7 +77,7 @@ fn c1_rays_of_pixels_meet_what_the_forward_map_draws_there() {
             );
             let is_covered = picture.pixel(x, y).expect("a pixel")[3] > 0;
             covered += usize::from(is_covered);
-            // Corners are snapped to 1/256 pixel: within a pixel's width the border may differ.
+            // Corners are snapped to 1/256 pixel, so the border may differ within a pixel's width.
             if meets_crate(origin, direction, -0.004) {
                 assert!(is_covered, "{projection}: ({x}, {y}) is empty");
             }
@@ -105,22 +105,22 @@ fn c54_clipping_comes_between_the_two_steps_of_projecting() {
     assert!(
         at("projection") < at("clip") && at("clip") < at("divide") && at("divide") < at("viewport")
     );
-    // The segment goes from z = −4 to 4 and passes z = −2 after a quarter of its way.
+    // The segment goes from z = −4 to 4 and passes z = −2 after a quarter of its length.
     assert!(close(&numbers(&explained, "t"), &[0.0, 0.25]));
-    // Before the divide: w = −z, of which that of b is negative.
+    // Before the divide, w = −z, which is negative for b.
     assert!(close(&numbers(&explained, "clip_a")[3..], &[4.0]));
     assert!(close(&numbers(&explained, "clip_b")[3..], &[-4.0]));
-    // (1.25, 0.625, −2) is in the window [−1, 3] × [−1, 2] at these fractions, and at depth −1.
+    // (1.25, 0.625, −2) is at these fractions of the window [−1, 3] × [−1, 2], and at depth −1.
     let (x, y) = (2.0 * 2.25 / 4.0 - 1.0, 2.0 * 1.625 / 3.0 - 1.0);
     assert!(close(&numbers(&explained, "ndc_end"), &[x, y, -1.0]));
-    // Divided first, b would be upside down in the picture, as if it were ahead: −N x/z is −1 and
-    // −N y/z is −1/2, of the window [−1, 3] × [−1, 2].
+    // If divided first, b would be upside down in the picture, as if it were ahead: −N x/z is −1
+    // and −N y/z is −1/2, in the window [−1, 3] × [−1, 2].
     let behind = chain.world_to_clip().transform_point(Point::new(2.0, 1.0, 4.0));
     let wrapped = behind.divide().expect("w is not 0");
     assert!(close(&[wrapped.x(), wrapped.y()], &[-1.0, -2.0 / 3.0]), "{wrapped:?}");
 }
 
-/// C84 as well: a vertex passes model, camera, projection, outcodes, divide and viewport.
+/// C84 as well: a vertex passes through model, camera, projection, outcodes, divide and viewport.
 #[test]
 fn c103_the_stages_follow_each_other_and_each_starts_from_the_last() {
     let scene = resolve_text(

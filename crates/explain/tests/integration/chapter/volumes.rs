@@ -1,4 +1,4 @@
-//! View volumes that become boxes, and the grid of a height field.
+//! Checks view volumes that become boxes, and the grid of a height field.
 
 use super::resolve_text;
 use homog::Point;
@@ -25,7 +25,7 @@ fn c88_a_scenes_frustum_becomes_the_box_and_nearer_stays_nearer() {
             }
         }
     }
-    // Whatever x and y are: of two points, the nearer one has the greater depth.
+    // For any x and y, the nearer of two points has the greater depth.
     let places: Vec<(f64, f64, f64)> = (0..60)
         .map(|k: u32| {
             let [a, b, c] = [7, 11, 13].map(|factor| f64::from(k * factor % 60) / 59.0);
