@@ -11,8 +11,8 @@ use serde_json::Value;
 ///
 /// Only the declarations are compared here; the elements are read by [`data`](super::data).
 ///
-/// `min` and `max` are checked even where the layout is incomplete, because they depend on the
-/// element type alone.
+/// `min` and `max` are checked even if the layout is incomplete, because they depend only on the
+/// element type.
 pub(super) fn check_accessors(
     document: &CheckedDocument<'_>,
     store: &BufferStore<'_>,
@@ -39,12 +39,12 @@ struct AccessorChecker<'a> {
     pointer: String,
 }
 
-/// A range of bytes in a buffer view that holds components of `size` bytes.
+/// A range of bytes in a buffer view, containing components of `size` bytes.
 ///
-/// For an accessor it reaches from the first byte of the first element to the last byte of the last
-/// one; the padding after the last element is not part of it.
+/// For an accessor it extends from the first byte of the first element to the last byte of the last
+/// one; the padding after the last element is excluded.
 struct ByteRange {
-    /// Where the range starts, in bytes from the start of the buffer view.
+    /// The start of the range, in bytes from the start of the buffer view.
     offset: u64,
     /// The length of the range in bytes.
     length: u64,
@@ -120,7 +120,7 @@ impl AccessorChecker<'_> {
     /// Validates a sparse accessor: its count, and the layout of its indices and values.
     ///
     /// The values have the component type of the accessor and are tightly packed; so are the
-    /// indices, in a component type of their own (glTF 2.0 §3.6.2.3).
+    /// indices, which have a separate component type (glTF 2.0 §3.6.2.3).
     fn check_sparse(&self, sparse: &Value, layout: AccessorLayout) {
         let Some(count) = integer_member(sparse, "count") else { return };
         let diagnostics = self.document.diagnostics;
@@ -179,9 +179,9 @@ impl AccessorChecker<'_> {
 
     /// Validates that a range of bytes is aligned to its component size and inside its buffer view.
     ///
-    /// Alignment is required of the offset in the view and of the offset in the buffer, and
-    /// reported by different codes (glTF 2.0 §3.6.2.4). The sums saturate: offsets near the largest
-    /// integer must not wrap around to a small one that looks valid.
+    /// Both the offset in the view and the offset in the buffer must be aligned; they are reported
+    /// by different codes (glTF 2.0 §3.6.2.4). The sums saturate: offsets near the largest integer
+    /// must not wrap around to a small one that looks valid.
     fn check_byte_range(&self, view: usize, stretch: &ByteRange, pointer: &str) {
         let diagnostics = self.document.diagnostics;
         let Some(json) = self.document.root_array("bufferViews").get(view) else { return };
@@ -209,7 +209,7 @@ impl AccessorChecker<'_> {
     /// Validates that the sparse indices are strictly increasing and less than the accessor's
     /// count.
     ///
-    /// They are the only data that is read here, because the elements cannot be read without them.
+    /// They are the only data read here, because the elements cannot be read without them.
     fn check_sparse_indices(&self, sparse: &Value, layout: AccessorLayout, pointer: &str) {
         let Some(indices) = self.store.sparse_indices(sparse) else { return };
         let diagnostics = self.document.diagnostics;

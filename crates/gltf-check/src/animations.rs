@@ -20,10 +20,10 @@ use std::fmt::Display;
 
 /// Validates all animations, and records rules for the elements of their accessors.
 ///
-/// Samplers come first, because channels refer to them; samplers that no channel uses get a note.
+/// Samplers come first, because channels refer to them; unused samplers get a note.
 ///
-/// The number of morph targets of a mesh, which determines the count of weights, is taken from its
-/// first primitive: all others must agree with it.
+/// The number of morph targets of a mesh, which determines the count of weights, comes from its
+/// first primitive; all others must match it.
 pub(super) fn check_animations(
     document: &CheckedDocument<'_>,
     usage: &UsageMap<'_>,
@@ -70,7 +70,7 @@ struct AnimationChecker<'a, 'd> {
     usage: &'a UsageMap<'a>,
     /// The rules for the elements of accessors, collected for the pass over the data.
     demands: &'d mut ElementRules,
-    /// The samplers of the animation, to which its channels refer by index.
+    /// The samplers of the animation; channels refer to them by index.
     samplers: &'a [Value],
     /// The number of morph targets of each mesh.
     targets: &'a [usize],
@@ -140,11 +140,11 @@ impl<'a> AnimationChecker<'a, '_> {
 
     /// A channel: its target is animated once and can be animated, and its sampler exists.
     ///
-    /// `known` has the targets of the channels before it, as pairs of node and path.
+    /// `known` has the targets of the preceding channels, as pairs of node and path.
     ///
     /// Two channels for one property would race: the result would depend on the order of
-    /// evaluation. The check of the values needs the path, and is skipped for pointers, whose type
-    /// the loader resolves.
+    /// evaluation. Checking the values needs the path, and is skipped for pointers, whose type the
+    /// loader resolves.
     fn check_channel(
         &mut self,
         number: usize,
@@ -193,8 +193,8 @@ impl<'a> AnimationChecker<'a, '_> {
     /// A target by JSON pointer (KHR_animation_pointer): the path is `pointer`, and there is no
     /// node.
     ///
-    /// The extension reuses the members of the target, and fixes both of them for old readers,
-    /// which then ignore the channel.
+    /// The extension reuses the members of the target. It fixes both of them for old readers, which
+    /// then ignore the channel.
     fn check_pointer_target(&self, target: &Value, path: &str, member: &str) {
         if path != "pointer" {
             let message = format_args!(
@@ -211,7 +211,7 @@ impl<'a> AnimationChecker<'a, '_> {
     }
 
     /// A target node: morph weights need morph targets, and a node with a matrix cannot be
-    /// animated, because an animation replaces one of translation, rotation and scale.
+    /// animated, because an animation replaces its translation, rotation or scale.
     fn check_node_target(&self, at: usize, path: &str, member: &str) {
         let Some(node) = self.document.root_array("nodes").get(at) else { return };
         let member = format!("{member}/target");
@@ -228,13 +228,13 @@ impl<'a> AnimationChecker<'a, '_> {
         }
     }
 
-    /// The values of a channel: their format, and as many as the keyframes need.
+    /// The values of a channel: their format, and their number for the given keyframes.
     ///
-    /// There is one value per keyframe; for morph weights one per target; and three of each for a
-    /// cubic spline, with its in- and out-tangents (glTF 2.0 §3.11).
+    /// There is one value per keyframe, or one per target for morph weights. A cubic spline has
+    /// three of each, with in- and out-tangents (glTF 2.0 §3.11).
     ///
-    /// Quaternions additionally get a rule about their length, tested on the data. With a wrong
-    /// count the loader cannot assign values to keyframes, and leaves out the channel.
+    /// Quaternions also get a rule about their length, tested on the data. With a wrong count the
+    /// loader cannot assign values to keyframes, and skips the channel.
     fn check_output(&mut self, sampler: &Value, path: &str, targets: u64, member: &str) {
         let at = index_member(sampler, "output");
         let Some(layout) = self.accessor_json(at).and_then(AccessorLayout::from_accessor) else {

@@ -1,4 +1,4 @@
-//! Checks of whole files: the rules of glTF, then the diagnostics of the loader.
+//! Checks of whole files: the rules of glTF, then the loader's diagnostics.
 
 use crate::CheckReport;
 use crate::data::ElementRules;
@@ -12,9 +12,9 @@ use model::Diagnostic;
 use serde_json::Value;
 use std::path::Path;
 
-/// Validates a file with those it refers to.
+/// Validates a file and the files it refers to.
 ///
-/// There is always a report: a file that cannot be read is an error in it.
+/// There is always a report: a file that cannot be read appears in it as an error.
 ///
 /// ```no_run
 /// use import::ImportOptions;
@@ -33,14 +33,14 @@ pub fn check_file(path: &Path, options: &ImportOptions) -> CheckReport {
         if has_gltf_rules(path, &bytes) {
             check_content(&bytes, &resolver(bytes.len())?, &findings);
         }
-        // A resolver of its own: the bytes read by the validation do not count against the
-        // loader's limits.
+        // A separate resolver: the bytes read by the validation do not count against the loader's
+        // limits.
         import_model(path, &bytes, &resolver(bytes.len())?, options)
     });
     build_report(path, result, findings)
 }
 
-/// Validates a file in memory; `name` stands for its path in the report.
+/// Validates a file in memory; `name` replaces its path in the report.
 ///
 /// As for [`load_bytes`](import::load_bytes), other files are read only with a
 /// [root](ImportOptions::root).
@@ -58,13 +58,13 @@ pub fn check_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> CheckRe
     build_report(path, result, findings)
 }
 
-/// Whether the file is validated against the specification of glTF. Of other formats only the
+/// Whether the file is validated against the glTF specification. For other formats only the
 /// loader's diagnostics are reported.
 fn has_gltf_rules(path: &Path, bytes: &[u8]) -> bool {
     FileFormat::recognize(path, bytes) == Ok(FileFormat::Gltf)
 }
 
-/// Adds the diagnostics of the loader, and counts.
+/// Adds the loader's diagnostics and the counts.
 fn build_report(
     path: &Path,
     result: Result<model::Model, Diagnostic>,
@@ -82,7 +82,7 @@ fn build_report(
     }
 }
 
-/// Validates the container and its JSON, as far as it can be parsed.
+/// Validates the container and, if it can be parsed, its JSON.
 fn check_content(bytes: &[u8], resolver: &UriResolver<'_>, findings: &Diagnostics) {
     let parts = crate::glb::check_container(bytes, findings);
     let Some(text) = parts.json.map(|range| &bytes[range]) else { return };
@@ -106,8 +106,9 @@ fn check_content(bytes: &[u8], resolver: &UriResolver<'_>, findings: &Diagnostic
 
 /// Runs all checks on a parsed document.
 ///
-/// The order matters: the schema walk first, because it reports missing and mistyped members that
-/// later checks skip; the element data after all rules for it are known; unused objects last.
+/// The order matters. The schema walk comes first, because it reports missing and mistyped members
+/// that later checks skip; the element data comes after all rules for it are known; unused objects
+/// come last.
 fn check_document(
     document: &CheckedDocument<'_>,
     resolver: &UriResolver<'_>,

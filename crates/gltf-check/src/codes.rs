@@ -1,8 +1,8 @@
 //! Diagnostic codes: name, severity and help of each.
 //!
-//! Names and severities are those of the Khronos glTF validator 2.0 (its `ISSUES.md`) for every
-//! issue that it knows; its "information" and "hint" are notes here. The last few of each severity
-//! are our own: they report what the loader does with the file.
+//! Names and severities match the Khronos glTF validator 2.0 (its `ISSUES.md`) for every issue that
+//! it knows; its "information" and "hint" are notes here. The last few of each severity are our
+//! own: they report how the loader treats the file.
 
 use model::Severity;
 
@@ -11,13 +11,13 @@ use model::Severity;
 pub(super) struct DiagnosticCode {
     /// The code, such as `ACCESSOR_TOO_LONG`.
     pub(super) name: &'static str,
-    /// The severity of every diagnostic of this code.
+    /// The severity of every diagnostic with this code.
     pub(super) severity: Severity,
     /// The fix, in the imperative.
     pub(super) remedy: &'static str,
 }
 
-/// Declares a constant for each code: severity, then help, then the names that have both in common.
+/// Declares a constant for each code: severity, then help, then the names that share both.
 macro_rules! codes {
     ($($severity:ident { $($remedy:literal => $($name:ident)*;)* })*) => {$($($(
         pub(super) const $name: DiagnosticCode =

@@ -1,7 +1,7 @@
 //! Accessor data: every element is compared with the declared bounds and the rules of its users.
 //!
-//! Each accessor is read once, whatever the number of its users. One diagnostic covers all elements
-//! that violate one rule: their number, and the first of them.
+//! Each accessor is read once, however many users it has. One diagnostic covers all elements that
+//! violate one rule: their number, and the first of them.
 //!
 //! Rules are collected first and tested last: the checks of meshes, skins and animations know which
 //! rules apply to an accessor, and this pass knows its elements.
@@ -25,8 +25,8 @@ use std::fmt::Display;
 
 /// A rule for the elements of an accessor, from the member that uses it.
 ///
-/// Rules are compared for equality to test each of them once, however many primitives share an
-/// accessor. Values that are not finite are left to the check of the bounds, which reports them.
+/// Rules are compared for equality so that each is tested once, however many primitives share an
+/// accessor. Values that are not finite are left to the bounds check, which reports them.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum ElementRule {
     /// Unit vectors, tested after dequantization; a fourth component, the handedness of a tangent,
@@ -42,10 +42,10 @@ pub(super) enum ElementRule {
     Indices { vertices: u64, triangles: bool },
     /// Keyframe times in seconds: not negative, strictly increasing.
     Times,
-    /// Unit quaternions; of cubic splines only the value between the two tangents.
+    /// Unit quaternions; for cubic splines only the value between the two tangents.
     Quaternions { spline: bool },
-    /// Affine matrices, stored column by column: the components 3, 7, 11 and 15, that is the last
-    /// row, are 0, 0, 0, 1.
+    /// Affine matrices, stored column by column: components 3, 7, 11 and 15, the last row, are 0,
+    /// 0, 0, 1.
     Matrices,
 }
 
@@ -59,21 +59,21 @@ pub(super) struct ElementRules {
 
 /// The maximum number of rules for one accessor: each costs a comparison per element.
 ///
-/// An accessor has one or two rules in sensible files. Without a maximum, a small file in which
-/// thousands of primitives index one accessor, each with its own number of vertices, would take
-/// time in the square of its size.
+/// In sensible files an accessor has one or two rules. Without a maximum, a small file in which
+/// thousands of primitives index one accessor, each with a different number of vertices, would take
+/// quadratic time.
 const MAX_RULES: usize = 16;
 
 /// The tolerance for the length of unit vectors, slightly more than the rounding of signed bytes.
-/// This and the next are the Khronos validator's values.
+/// This and the next constant are the Khronos validator's values.
 const UNIT_VECTOR_TOLERANCE: f64 = 0.00674;
 /// The tolerance for the length of unit quaternions.
 ///
-/// It is larger than that of vectors, because a fourth quantized component adds to the error.
+/// It is larger than for vectors, because a fourth quantized component adds to the error.
 const UNIT_QUATERNION_TOLERANCE: f64 = 0.00769;
 
 impl ElementRules {
-    /// Adds a rule for the elements of an accessor, unless it is known or there are too many.
+    /// Adds a rule for the elements of an accessor, unless it already exists or there are too many.
     ///
     /// `pointer` is the member that the rule comes from, where its violations will be reported.
     pub(super) fn add(&mut self, accessor: usize, demand: ElementRule, pointer: &str) {
@@ -87,7 +87,7 @@ impl ElementRules {
 /// Reads the elements of all accessors that have data, and reports their violations.
 ///
 /// The work is charged to the memory budget, so that a small file that declares many elements
-/// cannot take long: an accessor without data costs no bytes, and overlapping accessors reuse them.
+/// cannot take long: an accessor without data takes no bytes, and overlapping accessors reuse them.
 pub(super) fn check_data(
     document: &CheckedDocument<'_>,
     store: &BufferStore<'_>,
@@ -100,7 +100,7 @@ pub(super) fn check_data(
         let pointer = format!("/accessors/{at}");
         // The time depends on the number of components, not on their size: charge 4 bytes each.
         let cost = layout.count.saturating_mul(4 * layout.element_type.component_count() as u64);
-        // An accessor without data is all zeros, or stored in the stream of an extension.
+        // An accessor without data is all zeros, or its data is in the stream of an extension.
         if !elements.has_no_data() && store.charge_budget(&format!("{pointer}/count"), cost) {
             AccessorScan::new(document, &elements, pointer, own).scan_elements(accessor);
         }
@@ -109,7 +109,7 @@ pub(super) fn check_data(
 
 /// The number of violations of one rule, and the element and value of the first.
 ///
-/// One diagnostic with a count replaces a diagnostic for each of possibly millions of elements.
+/// One diagnostic with a count replaces possibly millions of diagnostics.
 #[derive(Clone, Default, Debug)]
 struct Tally {
     /// The number of violations.
@@ -144,13 +144,13 @@ struct AccessorScan<'a> {
 
 /// A rule with its violations, and the state it carries from one element to the next.
 ///
-/// `last` and `triangle` have a meaning only for some rules; separate states for each rule would be
-/// a second enum with the same variants.
+/// `last` and `triangle` are used only by some rules; a separate state for each rule would be a
+/// second enum with the same variants.
 struct RuleScan<'a> {
     rule: ElementRule,
     /// The pointer of the member that the rule comes from, where violations are reported.
     pointer: &'a str,
-    /// The violations; some rules have two parts with a code each.
+    /// The violations; some rules have two parts, each with its own code.
     tallies: [Tally; 2],
     /// The previous keyframe time, or the number of degenerate triangles.
     last: f64,
@@ -254,8 +254,8 @@ impl BoundsScan {
 
     /// Reports non-finite values, and declared bounds that differ from the actual ones.
     ///
-    /// Bounds must be exact (glTF 2.0 §3.6.2.5). Too wide ones are a mismatch; too narrow ones are
-    /// also reported with the number of elements outside of them.
+    /// Bounds must be exact (glTF 2.0 §3.6.2.5). Bounds that are too wide are a mismatch; if they
+    /// are too narrow, the number of elements outside is also reported.
     fn report_bounds(&self, document: &CheckedDocument<'_>, pointer: &str) {
         let Tally { count, first, value } = self.non_finite;
         if count > 0 {
@@ -294,8 +294,8 @@ impl BoundsScan {
 impl RuleScan<'_> {
     /// Tests one element against the rule.
     ///
-    /// `numbers` are the stored components; `elements` dequantizes them where the rule is about the
-    /// value that a renderer sees. Each violation goes to the tally of its code.
+    /// `numbers` are the stored components; `elements` dequantizes them if the rule concerns the
+    /// value that a renderer sees. Each violation is added to the tally for its code.
     fn visit_element(&mut self, elements: &AccessorElements<'_>, at: u64, numbers: &[f64]) {
         let length = |numbers: &[f64]| {
             let squares = numbers.iter().map(|&x| elements.dequantize(x)).map(|x| x * x);
@@ -357,8 +357,8 @@ impl RuleScan<'_> {
 
     /// Reports the violations of the rule in an accessor of `total` elements.
     ///
-    /// Messages have the form "… (3 of 24; the first is 1.5 in element 7)", which leads to the
-    /// defect without a list of all of them.
+    /// Messages have the form "… (3 of 24; the first is 1.5 in element 7)", which points to the
+    /// defect without listing all of them.
     fn report_violations(&self, document: &CheckedDocument<'_>, total: u64) {
         let say = |code: &DiagnosticCode, tally: &Tally, what: &dyn Display| {
             let Tally { count, first, value } = tally;

@@ -1,4 +1,4 @@
-//! The collection of diagnostics: deduplicated, and bounded even if a file has millions.
+//! The collection of diagnostics: deduplicated, and bounded even for a file with millions of them.
 
 use super::codes::DiagnosticCode;
 use model::{Diagnostic, Severity};
@@ -6,12 +6,11 @@ use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fmt::Display;
 
-/// The number of diagnostics of each severity that are listed; further ones are only counted.
+/// The maximum number of listed diagnostics of each severity; further ones are only counted.
 ///
-/// A report with more is not read by anyone, but would cost memory and time in every consumer of
-/// it.
+/// Nobody reads a longer report, but it would cost memory and time in all of its consumers.
 const MAX_PER_SEVERITY: usize = 400;
-/// The maximum length of a message or pointer in bytes: names in a file may have megabytes.
+/// The maximum length of a message or pointer in bytes: names in a file may be megabytes long.
 const MAX_TEXT_LENGTH: usize = 500;
 
 /// Collects diagnostics while a file is validated.
@@ -25,11 +24,11 @@ pub(super) struct Diagnostics {
 
 /// The diagnostics of one severity.
 ///
-/// Duplicates are recognized by code and pointer: two messages of one code at one location say the
-/// same.
+/// Duplicates are recognized by code and pointer: two messages with the same code and location say
+/// the same.
 #[derive(Default, Debug)]
 struct SeverityList {
-    /// The diagnostics that are listed, in the order in which they were added.
+    /// The listed diagnostics, in the order in which they were added.
     retained: Vec<Diagnostic>,
     /// Code and pointer of each, to drop duplicates.
     known_keys: BTreeSet<(&'static str, String)>,
@@ -43,7 +42,7 @@ impl Diagnostics {
         self.add_with_help(code, pointer, message, code.remedy);
     }
 
-    /// Adds a diagnostic with a help of its own. A second one of the same code and pointer is
+    /// Adds a diagnostic with specific help. A second one with the same code and pointer is
     /// dropped.
     pub(super) fn add_with_help(
         &self,
@@ -82,13 +81,13 @@ impl Diagnostics {
         self.lists.borrow()[Severity::Error as usize].count > 0
     }
 
-    /// Whether there is a diagnostic of this code.
+    /// Whether there is a diagnostic with this code.
     pub(super) fn has_code(&self, code: &DiagnosticCode) -> bool {
         let list = &self.lists.borrow()[code.severity as usize];
         list.retained.iter().any(|problem| problem.code == code.name)
     }
 
-    /// The listed diagnostics, the worst first, and the numbers of errors, warnings and notes.
+    /// The listed diagnostics, worst first, and the error, warning and note counts.
     pub(super) fn into_parts(self) -> (Vec<Diagnostic>, [usize; 3]) {
         let lists = self.lists.into_inner();
         let [errors, warnings, info, hints] = Severity::ALL.map(|s| lists[s as usize].count);

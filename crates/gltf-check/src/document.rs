@@ -1,8 +1,8 @@
 //! The document under validation: its raw JSON, the diagnostics so far, and the objects referred
 //! to.
 //!
-//! The accessors of this module return `None` for members that are missing or of the wrong type:
-//! the schema walk has reported those already.
+//! The accessors in this module return `None` for members that are missing or have the wrong type:
+//! the schema walk has already reported those.
 
 use super::diagnostics::Diagnostics;
 use super::schema::Collection;
@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 pub(super) struct CheckedDocument<'a> {
     /// The root of the JSON.
     pub(super) root: &'a Value,
-    /// The collection that every check reports to.
+    /// The collection that receives the diagnostics of every check.
     pub(super) diagnostics: &'a Diagnostics,
     /// For each object of each collection, whether something refers to it.
     used_flags: RefCell<Vec<Vec<bool>>>,
@@ -23,7 +23,7 @@ pub(super) struct CheckedDocument<'a> {
 }
 
 impl<'a> CheckedDocument<'a> {
-    /// A document of which nothing has been validated yet.
+    /// A document with nothing validated yet.
     pub(super) fn new(root: &'a Value, diagnostics: &'a Diagnostics) -> Self {
         let count = |(_, pointer, _): (Collection, &str, bool)| {
             root.pointer(pointer).and_then(Value::as_array).map_or(0, Vec::len)
@@ -47,7 +47,7 @@ impl<'a> CheckedDocument<'a> {
         slot.map(|slot| *slot = true).is_some()
     }
 
-    /// The indices of the objects of a collection that nothing refers to.
+    /// The indices of a collection's objects that nothing refers to.
     pub(super) fn unused_indices(&self, collection: Collection) -> Vec<usize> {
         let used = self.used_flags.borrow();
         let list = used.get(collection as usize).into_iter().flatten();
@@ -72,7 +72,7 @@ pub(super) fn object_members<'a>(value: &'a Value, key: &str) -> Option<&'a Map<
 
 /// A non-negative integer, written as `1` or as `1.0`.
 pub(super) fn as_whole_number(value: &Value) -> Option<u64> {
-    // The cast saturates: a number too large for u64 is out of every range, as u64::MAX is.
+    // The cast saturates: a number too large for u64 is always out of range, and so is u64::MAX.
     let from_float = |number: f64| (number >= 0.0 && number % 1.0 == 0.0).then_some(number as u64);
     value.as_u64().or_else(|| from_float(value.as_f64()?))
 }

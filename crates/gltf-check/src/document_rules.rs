@@ -1,4 +1,5 @@
-//! Rules of the document as a whole: version, extension lists, variants, cameras, unused objects.
+//! Rules about the document as a whole: version, extension lists, variants, cameras, unused
+//! objects.
 //!
 //! These rules relate several objects, or several members of one object, which the tables of the
 //! schema cannot express.
@@ -17,7 +18,7 @@ use std::collections::BTreeSet;
 /// Another major version stops the validation, because its schema is unknown; a later minor version
 /// is only a warning, because minor versions are compatible (glTF 2.0 §3.2).
 ///
-/// Versions are compared as pairs of integers, since 2.10 is later than 2.9.
+/// Versions are compared as pairs of integers, because 2.10 is later than 2.9.
 pub(super) fn check_asset(document: &CheckedDocument<'_>) {
     let diagnostics = document.diagnostics;
     let Some(asset) = document.root.get("asset") else { return };
@@ -77,8 +78,8 @@ fn is_known(extension: &str) -> bool {
 ///
 /// The root must declare the variants, and each of them maps a primitive to at most one material.
 ///
-/// A variant that two mappings of one primitive list would have two materials, and viewers would
-/// differ in the one they use.
+/// A variant listed by two mappings of one primitive would have two materials, and viewers would
+/// differ in their choice.
 pub(super) fn check_variants(document: &CheckedDocument<'_>) {
     const NAME: &str = "KHR_materials_variants";
     let diagnostics = document.diagnostics;
@@ -115,9 +116,9 @@ pub(super) fn check_variants(document: &CheckedDocument<'_>) {
 /// Validates the parameters of cameras.
 ///
 /// `zfar` is greater than `znear`, magnifications are not zero, and the field of view is less than
-/// a half turn: other values make no projection.
+/// a half turn: other values do not define a projection.
 ///
-/// The object that `type` names must be present. Angles are in radians.
+/// The object named by `type` must be present. Angles are in radians.
 pub(super) fn check_cameras(document: &CheckedDocument<'_>) {
     let diagnostics = document.diagnostics;
     for (at, camera) in document.root_array("cameras").iter().enumerate() {
@@ -166,10 +167,10 @@ pub(super) fn check_cameras(document: &CheckedDocument<'_>) {
 
 /// Reports objects that nothing refers to.
 ///
-/// Skipped with unsupported extensions, which may refer to anything. Nodes and scenes are never
-/// reported: a viewer may select them.
+/// This is skipped for files with unsupported extensions, which may refer to anything. Nodes and
+/// scenes are never reported: a viewer may select them.
 ///
-/// Unused objects are valid, but cost download time; they are notes.
+/// Unused objects are valid, but increase the download time; they get notes.
 pub(super) fn check_unused(document: &CheckedDocument<'_>) {
     let names = array_items(document.root, "extensionsUsed").iter().filter_map(Value::as_str);
     if names.into_iter().any(|name| !is_known(name)) {

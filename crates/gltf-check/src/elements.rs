@@ -1,11 +1,11 @@
 //! Streaming access to the elements of an accessor, without a decoded copy.
 //!
-//! Accessors may have millions of elements, so that they are decoded one at a time into a buffer of
-//! 16 numbers, the size of the largest element type.
+//! Accessors may have millions of elements, so they are decoded one at a time into a buffer of 16
+//! numbers, the size of the largest element type.
 
 use super::layout::AccessorLayout;
 
-/// The elements of one accessor whose bytes are all present, with its sparse replacements.
+/// The elements of one accessor, with sparse replacements; all bytes are present.
 ///
 /// All numbers are read as f64, which represents each of the component types exactly.
 #[derive(Debug)]
@@ -14,14 +14,14 @@ pub(super) struct AccessorElements<'a> {
     pub(super) layout: AccessorLayout,
     /// The bytes of the elements and their stride; `None` if all are zero.
     base: Option<(&'a [u8], usize)>,
-    /// Pairs of element and sparse value that replaces it, sorted by element.
+    /// Pairs of an element and the sparse value that replaces it, sorted by element.
     replaced: Vec<(u32, u32)>,
     /// The bytes of the sparse values, tightly packed.
     values: &'a [u8],
 }
 
 impl<'a> AccessorElements<'a> {
-    /// Elements of which those at `indices` are replaced by the tightly packed `values`.
+    /// Elements, with those at `indices` replaced by the tightly packed `values`.
     pub(super) fn new(
         layout: AccessorLayout,
         base: Option<(&'a [u8], usize)>,
@@ -40,11 +40,11 @@ impl<'a> AccessorElements<'a> {
 
     /// Calls `see` with the index of each element and its components.
     ///
-    /// The components are those of the file: [`dequantize`](Self::dequantize) maps normalized
+    /// The components are as stored in the file: [`dequantize`](Self::dequantize) maps normalized
     /// integers. The sorted replacements are merged with the elements, so that the pass is linear.
     ///
-    /// Of several sparse values for one element the last counts; the sparse indices have a
-    /// diagnostic of their own if they are not increasing.
+    /// If there are several sparse values for one element, the last is used; sparse indices that
+    /// are not increasing are reported separately.
     pub(super) fn for_each_element(&self, mut see: impl FnMut(u64, &[f64])) {
         let mut numbers = [0.0; 16];
         let numbers = &mut numbers[..self.layout.element_type.component_count()];

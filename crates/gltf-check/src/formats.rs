@@ -3,8 +3,8 @@
 //! KHR_mesh_quantization adds integer formats for positions, normals, tangents and texture
 //! coordinates.
 //!
-//! The integer formats of core glTF are normalized, with the exception of joint indices and
-//! primitive indices, which are integers by nature:
+//! The integer formats of core glTF are normalized, except for joint indices and primitive indices,
+//! which are integers by nature:
 //!
 //! ```text
 //!               float   normalized integers        with KHR_mesh_quantization
@@ -23,7 +23,7 @@ type AttributeFormat = (ElementType, ComponentType, bool);
 
 /// The semantic of an attribute, parsed from its name.
 ///
-/// Its lifetime is that of the name in the document.
+/// It borrows the name from the document.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Semantic<'a> {
     /// POSITION, NORMAL, TANGENT.
@@ -63,11 +63,11 @@ impl<'a> Semantic<'a> {
 
     /// The formats that an attribute may have; `None` for a custom name, which may have any.
     ///
-    /// `in_target` is for displacements of morph targets: tangents have three components there, and
-    /// signed integers are allowed for texture coordinates and colors.
+    /// `in_target` selects the displacements of morph targets: their tangents have three
+    /// components, and signed integers are allowed for texture coordinates and colors.
     ///
-    /// `quantized` is set if the file uses KHR_mesh_quantization. The formats of the extension are
-    /// added to those of core glTF and never replace them.
+    /// `quantized` is set if the file uses KHR_mesh_quantization. The extension's formats are added
+    /// to the core glTF formats and never replace them.
     pub(super) fn allowed_formats(
         self,
         in_target: bool,
@@ -90,7 +90,7 @@ impl<'a> Semantic<'a> {
         Some(formats)
     }
 
-    /// The formats that KHR_mesh_quantization allows besides those of core glTF.
+    /// The formats that KHR_mesh_quantization allows in addition to core glTF.
     fn quantized_formats(self, in_target: bool) -> Vec<AttributeFormat> {
         let all = |shape, components: &[ComponentType], normalized: &[bool]| {
             let pairs = components.iter().flat_map(|&c| normalized.iter().map(move |&n| (c, n)));
@@ -107,7 +107,7 @@ impl<'a> Semantic<'a> {
     }
 }
 
-/// Float formats, and formats of normalized integers of some types.
+/// Float formats, and formats with normalized integers of some types.
 ///
 /// Each element type is combined with each component type.
 fn float_or_normalized(
@@ -121,7 +121,7 @@ fn float_or_normalized(
     shapes.iter().flat_map(of).collect()
 }
 
-/// Whether the format of a layout is one of those allowed.
+/// Whether the format of a layout is allowed.
 pub(super) fn is_allowed(layout: AccessorLayout, formats: &[AttributeFormat]) -> bool {
     formats.contains(&(layout.element_type, layout.component_type, layout.normalized))
 }
@@ -132,8 +132,7 @@ pub(super) const INDEX_FORMATS: [AttributeFormat; 3] =
 
 /// The formats of an animation output by the path of its target; `None` for an unknown path.
 ///
-/// Translations and scales are floats without exception, because they have no natural range (glTF
-/// 2.0 §3.11).
+/// Translations and scales are always floats, because they have no natural range (glTF 2.0 §3.11).
 pub(super) fn animation_output_formats(path: &str) -> Option<Vec<AttributeFormat>> {
     match path {
         "translation" | "scale" => Some(vec![(VEC3, F32, false)]),

@@ -4,21 +4,21 @@
 //!  magic · version · length │ length · JSON · … │ length · BIN · … │ length · anything · …
 //! ```
 //!
-//! All numbers are little-endian 32-bit integers. The header has 12 bytes, that of a chunk 8; the
-//! length of a chunk counts its content only, and content is padded to a multiple of 4. A defect in
-//! one chunk does not stop the validation as long as the start of the next chunk is known.
+//! All numbers are little-endian 32-bit integers. The file header takes 12 bytes, each chunk header
+//! 8 bytes. The length of a chunk counts only its content, which is padded to a multiple of 4. A
+//! defect in one chunk does not stop the validation if the start of the next chunk is known.
 
 use super::codes::{self, DiagnosticCode};
 use super::diagnostics::Diagnostics;
 use std::fmt::Display;
 use std::ops::Range;
 
-/// The byte ranges of the parts of a file, as far as they can be determined.
+/// The byte ranges of the parts of a file that can be determined.
 ///
-/// A part is absent if the container is damaged before it; the checks of the JSON are skipped then.
+/// A part is absent if the container is damaged before it; the JSON checks are then skipped.
 #[derive(Default, Debug)]
 pub(super) struct ContainerParts {
-    /// The JSON, in a GLB the content of its first chunk.
+    /// The JSON; in a GLB, the content of the first chunk.
     pub(super) json: Option<Range<usize>>,
     /// The content of the binary chunk of a GLB.
     pub(super) binary: Option<Range<usize>>,
@@ -28,7 +28,7 @@ pub(super) struct ContainerParts {
 
 /// Validates the container, and finds its parts.
 ///
-/// A file that does not start with `glTF` is taken for JSON. A byte order mark is reported and
+/// A file that does not start with `glTF` is treated as JSON. A byte order mark is reported and
 /// skipped, because many editors write one and everything after it may be valid.
 pub(super) fn check_container(bytes: &[u8], diagnostics: &Diagnostics) -> ContainerParts {
     if !bytes.starts_with(b"glTF") {
@@ -57,7 +57,7 @@ fn check_byte_order_mark(json: &[u8], diagnostics: &Diagnostics) {
 
 /// Reads the container chunk by chunk.
 struct ContainerReader<'a> {
-    /// The file, cut at the length that its header declares.
+    /// The file, truncated at the length that its header declares.
     bytes: &'a [u8],
     diagnostics: &'a Diagnostics,
     /// The parts found so far.
@@ -79,8 +79,9 @@ impl ContainerReader<'_> {
     /// Validates the 12-byte header: version, and declared length against the size of the file.
     ///
     /// Another version ends the validation, because its chunks may be laid out differently. Extra
-    /// bytes after the declared end are a warning and are cut off; a file shorter than declared is
-    /// read as far as it goes. The smallest meaningful length, 20, is a header and an empty chunk.
+    /// bytes after the declared end cause a warning and are ignored; if a file is shorter than
+    /// declared, its existing part is read. The smallest meaningful length, 20, is a header and an
+    /// empty chunk.
     fn check_header(&mut self) {
         let actual = self.bytes.len();
         let (Some(version), Some(length)) = (self.read_u32(4), self.read_u32(8)) else {
@@ -109,10 +110,10 @@ impl ContainerReader<'_> {
         self.check_chunks();
     }
 
-    /// Validates all chunks, and finds the content of the JSON and the BIN chunk.
+    /// Validates all chunks, and finds the content of the JSON and BIN chunks.
     ///
-    /// The JSON chunk counts only as the first, and the BIN chunk only as the second (glTF 2.0
-    /// §4.4.3): later ones are reported and ignored, as in the loader.
+    /// The JSON chunk must be the first, and the BIN chunk the second (glTF 2.0 §4.4.3): later ones
+    /// are reported and ignored, as in the loader.
     fn check_chunks(&mut self) {
         let (mut at, mut number, mut known) = (12, 0, [false; 2]);
         while at < self.bytes.len() {
@@ -147,7 +148,7 @@ impl ContainerReader<'_> {
     /// Validates one chunk: alignment, type, order and duplicates.
     ///
     /// `known` has a flag for JSON and one for BIN, set once such a chunk has been found. Unknown
-    /// types are allowed and ignored (glTF 2.0 §4.4.3); the warning about them helps with
+    /// types are allowed and ignored (glTF 2.0 §4.4.3); the warning about them helps to find
     /// misspelled types.
     fn check_chunk(
         &self,

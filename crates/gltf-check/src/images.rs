@@ -1,4 +1,4 @@
-//! Images: their source, their format against the declared one, and their use in textures.
+//! Images: their source, their actual and declared formats, and their use in textures.
 //!
 //! ```text
 //!  uri ──────────┐             ┌─► mimeType, data URI: must agree with the bytes
@@ -6,8 +6,8 @@
 //!  bufferView ───┘             └─► textures: PNG and JPEG, others with an extension
 //! ```
 //!
-//! No pixel is decoded: a header tells the format and the size, and a full decode would take most
-//! of the time of the validation.
+//! No pixel is decoded: a header contains the format and the size, and a full decode would take
+//! most of the validation time.
 
 use super::codes;
 use super::document::{CheckedDocument, extension_object, index_member, string_member};
@@ -20,8 +20,8 @@ use std::borrow::Cow;
 
 /// Validates all images, then the textures that use them.
 ///
-/// The media types of the images, by their bytes or as declared, decide which textures may refer to
-/// them.
+/// The media types of the images, detected from their bytes or declared, determine which textures
+/// may refer to them.
 ///
 /// `is_binary` is set for a GLB, in which data URIs are discouraged.
 pub(super) fn check_images(
@@ -50,7 +50,7 @@ pub(super) fn check_images(
 
 /// The image formats by media type, with the extension that allows each.
 ///
-/// Core glTF has PNG and JPEG only (§3.8.3). An extension allows its format in its own `source`
+/// Core glTF has only PNG and JPEG (§3.8.3). An extension allows its format in its own `source`
 /// member, so that a texture can also have a fallback image.
 const IMAGE_FORMATS: [(&str, Option<&str>); 4] = [
     ("image/png", None),
@@ -61,7 +61,7 @@ const IMAGE_FORMATS: [(&str, Option<&str>); 4] = [
 
 /// The media type of an image, from its first bytes (glTF 2.0 §3.8.3).
 ///
-/// The bytes decide, not the declared type, as in every viewer.
+/// The bytes decide, not the declared type, as in all viewers.
 ///
 /// WebP is a RIFF container: bytes 4 to 7 are the length of the file, and are skipped.
 fn sniff_media_type(bytes: &[u8]) -> Option<&'static str> {
@@ -87,9 +87,9 @@ struct ImageChecker<'a> {
 }
 
 impl ImageChecker<'_> {
-    /// Validates an image; returns its media type, from its bytes or as declared.
+    /// Validates an image; returns its media type, detected from its bytes or declared.
     ///
-    /// The declared `mimeType` and that of a data URI must agree with the bytes, and formats other
+    /// The declared `mimeType` and the type of a data URI must match the bytes, and formats other
     /// than PNG and JPEG need their extension.
     ///
     /// An image in a buffer view needs a `mimeType` (glTF 2.0 §3.8.3); for a URI it is optional.
@@ -125,7 +125,7 @@ impl ImageChecker<'_> {
             && !self.document.uses_extension(extension)
         {
             let message = format_args!("{kind} is allowed only with {extension}");
-            // The Khronos validator recognizes WebP only; a vendor extension may allow the others.
+            // The Khronos validator recognizes only WebP; a vendor extension may allow the others.
             let is_webp = kind == "image/webp";
             let strange = &codes::IMAGE_UNRECOGNIZED_FORMAT;
             let code = if is_webp { &codes::IMAGE_NON_ENABLED_MIME_TYPE } else { strange };
@@ -154,12 +154,11 @@ impl ImageChecker<'_> {
         uris::read_uri(self.resolver, uri, &pointer, diagnostics).map(Cow::Owned)
     }
 
-    /// Validates the header of an image; returns its media type by its first bytes.
+    /// Validates the header of an image; returns its media type, detected from its first bytes.
     ///
-    /// Only the header is decoded. Decoders distinguish a truncated file from a corrupt one in the
-    /// text of their errors alone, which decides the code here. Without the feature `basisu`, KTX2 is
-    /// recognized alone.
-    /// `None` stands for an unknown format, which has been reported.
+    /// Only the header is decoded. Decoders distinguish a truncated file from a corrupt one only in
+    /// their error text, which selects the code here. Without the feature `basisu`, KTX2 is
+    /// recognized but not checked. `None` means an unknown format, which has been reported.
     fn check_image_header(&self, bytes: &[u8]) -> Option<&'static str> {
         let diagnostics = self.document.diagnostics;
         let Some(kind) = sniff_media_type(bytes) else {
@@ -189,8 +188,8 @@ impl ImageChecker<'_> {
 
 /// Validates the images of a texture: PNG or JPEG directly, other formats through their extensions.
 ///
-/// An extension such as EXT_texture_webp has a `source` of its own, which must be of its format.
-/// Images whose type is unknown are skipped, because they have a diagnostic already.
+/// An extension such as EXT_texture_webp has its own `source`, which must be in its format. Images
+/// of unknown type are skipped, because they already have a diagnostic.
 fn check_texture(
     document: &CheckedDocument<'_>,
     at: usize,

@@ -14,7 +14,7 @@ use serde_json::Value;
 
 /// The layout that an accessor declares.
 ///
-/// It is a copy of the accessor's members, which have passed the schema; nothing refers to the
+/// It is a copy of the accessor's members, which have passed the schema; it does not refer to the
 /// buffer.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct AccessorLayout {
@@ -54,7 +54,7 @@ pub(super) enum ComponentType {
 /// The type of an element, as its number of rows and columns; vectors have one column.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct ElementType {
-    /// The number of components of a vector, or of a column of a matrix.
+    /// The number of components of a vector or a matrix column.
     pub(super) rows: usize,
     /// The number of columns; 1 for scalars and vectors.
     pub(super) columns: usize,
@@ -108,8 +108,8 @@ impl ComponentType {
         }
     }
 
-    /// Reads the component at the start of some bytes; 0 if they are too few, which callers
-    /// exclude.
+    /// Reads the component at the start of the bytes; 0 if there are too few, which callers
+    /// prevent.
     pub(super) fn read_number(self, bytes: &[u8]) -> f64 {
         let one = || bytes.first().copied().unwrap_or(0);
         let two = || bytes.first_chunk().copied().unwrap_or_default();
@@ -179,7 +179,7 @@ impl ElementType {
 impl AccessorLayout {
     /// The layout of an accessor, if its type, component type and count are valid.
     ///
-    /// `None` where the schema walk has reported a member: such an accessor has no layout to check.
+    /// `None` if the schema walk has reported a member: such an accessor has no layout to check.
     pub(super) fn from_accessor(accessor: &Value) -> Option<Self> {
         Some(Self {
             component_type: ComponentType::from_gl_constant(integer_member(
@@ -219,7 +219,7 @@ impl AccessorLayout {
         self.element_type.columns * self.column_stride()
     }
 
-    /// The bytes of all elements at this stride, up to the end of the last component.
+    /// The total bytes of all elements at this stride, up to the end of the last component.
     pub(super) fn byte_length(&self, stride: usize) -> u64 {
         if self.count == 0 {
             return 0;
@@ -228,7 +228,7 @@ impl AccessorLayout {
         gaps.saturating_add(self.element_size() as u64)
     }
 
-    /// The format as messages name it, such as `VEC3 of FLOAT`.
+    /// The format as written in messages, such as `VEC3 of FLOAT`.
     pub(super) fn format_name(&self) -> String {
         let normalized = if self.normalized { "normalized " } else { "" };
         format!("{} of {normalized}{}", self.element_type.name(), self.component_type.name())

@@ -1,9 +1,9 @@
 //! Validation: every violation of the glTF specification in a file, not only the first fatal one.
-//! Of other formats, the diagnostics of the loader.
+//! For other formats, the loader's diagnostics.
 //!
-//! Loading stops at the first error that prevents drawing. Validation goes on: it compares the JSON
-//! with the schema, resolves every reference, reads every accessor element, and finally loads the
-//! file, so that its report includes the diagnostics of the loader.
+//! Loading stops at the first error that prevents drawing. Validation continues: it compares the
+//! JSON with the schema, resolves every reference, reads every accessor element, and finally loads
+//! the file, so that its report includes the loader's diagnostics.
 //!
 //! ```text
 //!  bytes ─glb─► JSON ─schema_walk, by the tables of schema─► references
@@ -11,9 +11,9 @@
 //!  loader ─load_outcome─► diagnostics
 //! ```
 //!
-//! It works on the raw JSON, in which members may be missing or of any type. The rules are those of
-//! glTF 2.0, under the codes and severities of the Khronos glTF validator. The
-//! [limits](import::Limits) hold as for loading: time and memory are bounded by the size of the
+//! It works on the raw JSON, in which members may be missing or have any type. The rules follow
+//! glTF 2.0, with the codes and severities of the Khronos glTF validator. The
+//! [limits](import::Limits) apply as for loading: time and memory are bounded by the size of the
 //! files, not by the sizes they declare.
 
 mod accessors;

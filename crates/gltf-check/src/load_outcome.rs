@@ -1,13 +1,13 @@
-//! Diagnostics of the loader, without those that the validation has reported already.
+//! Diagnostics of the loader, except those that the validation has already reported.
 
 use super::codes;
 use super::diagnostics::Diagnostics;
 use model::{Diagnostic, Model, Severity, codes as load};
 
-/// Adds the warnings or the error of the loader; returns the error.
+/// Adds the loader's warnings or error; returns the error.
 ///
-/// A warning at a location that already has a diagnostic of the validation is dropped: both are
-/// about the same defect, and that of the validation has the specific code.
+/// A warning is dropped if the validation already has a diagnostic at its location: both describe
+/// the same defect, and the validation's code is more specific.
 pub(super) fn add_load_outcome(
     loaded: Result<Model, Diagnostic>,
     diagnostics: &Diagnostics,
@@ -35,8 +35,8 @@ pub(super) fn add_load_outcome(
     None
 }
 
-/// Adds the loader's error by the validator's codes, unless an error at or below the same location
-/// explains it already.
+/// Adds the loader's error with a validator code, unless an error at or below the same location
+/// already explains it.
 fn add_refusal(fault: &Diagnostic, diagnostics: &Diagnostics) {
     let is_known = diagnostics.has_at_or_below(Severity::Error, &fault.location);
     let has_errors = diagnostics.has_errors();

@@ -9,10 +9,10 @@ use serde_json::Value;
 
 /// Validates all materials, and the lights of KHR_lights_punctual.
 ///
-/// The schema covers single values; here are the rules about two members, and the gap in the range
+/// The schema covers single values; this covers rules about two members, and the gap in the range
 /// of `ior`.
 ///
-/// Textures are validated by the schema walk; here are neither texture nor image accessed.
+/// Textures are validated by the schema walk; neither textures nor images are accessed here.
 pub(super) fn check_materials(document: &CheckedDocument<'_>) {
     for (at, material) in document.root_array("materials").iter().enumerate() {
         let mode = material.get("alphaMode").and_then(Value::as_str).unwrap_or("OPAQUE");
@@ -39,8 +39,8 @@ pub(super) fn check_materials(document: &CheckedDocument<'_>) {
 
 /// Validates a punctual light: a spot light has a `spot` with ordered cone angles.
 ///
-/// Absent angles have their defaults: 0 and π/4. With equal angles the falloff between them, a
-/// division by their difference, has no value.
+/// Missing angles have their defaults: 0 and π/4. With equal angles the falloff between them, a
+/// division by their difference, is undefined.
 fn check_light(document: &CheckedDocument<'_>, at: usize, light: &Value) {
     let pointer = format!("/extensions/KHR_lights_punctual/lights/{at}");
     let is_spot = light.get("type").and_then(Value::as_str) == Some("spot");
@@ -73,16 +73,16 @@ fn check_light(document: &CheckedDocument<'_>, at: usize, light: &Value) {
 
 /// The vertex attributes that a material requires.
 ///
-/// A primitive that lacks them is drawn without the texture, or with generated tangents.
+/// A primitive without them is drawn without the texture, or with generated tangents.
 #[derive(Clone, Copy, Default, Debug)]
 pub(super) struct MaterialRequirements {
     /// The largest index of texture coordinates that its textures use.
     max_uv_set: Option<u64>,
-    /// Whether the material has a normal map; tangents are generated from its texture coordinates
-    /// where a mesh has none.
+    /// Whether the material has a normal map; if a mesh has no tangents, they are generated from
+    /// its texture coordinates.
     has_normal_map: bool,
-    /// Whether it needs tangents that no normal map determines: for anisotropy, or for the normal
-    /// map of a clearcoat.
+    /// Whether it needs tangents independent of a normal map: for anisotropy, or for a clearcoat's
+    /// normal map.
     needs_tangents: bool,
 }
 
@@ -132,12 +132,12 @@ impl MaterialRequirements {
     }
 }
 
-/// Finds the largest `texCoord` of all texture infos below a JSON value.
+/// Finds the largest `texCoord` in all texture infos below a JSON value.
 ///
-/// A texture info is any object with an `index`, so that those of extensions are found without a
-/// list; KHR_texture_transform may override its `texCoord`.
+/// A texture info is any object with an `index`, so that texture infos of extensions are found
+/// without a list; KHR_texture_transform may override its `texCoord`.
 ///
-/// The recursion is as deep as the JSON, which the limit on nesting bounds.
+/// The recursion is as deep as the JSON, whose nesting is limited.
 fn find_max_uv_set(value: &Value, most: &mut Option<u64>) {
     let Some(members) = value.as_object() else { return };
     if index_member(value, "index").is_some() {

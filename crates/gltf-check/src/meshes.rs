@@ -1,7 +1,7 @@
 //! Meshes: their attributes, indices and morph targets (glTF 2.0 §3.7.2).
 //!
-//! Here are the checks of declarations: names, formats and counts. They need no buffer. Rules about
-//! the stored values are passed on to [`data`](super::data), which reads every accessor once.
+//! This file checks declarations: names, formats and counts. The checks do not need a buffer. Rules
+//! about the stored values are passed on to [`data`](super::data), which reads every accessor once.
 
 use super::codes::{self, DiagnosticCode};
 use super::data::{ElementRule, ElementRules};
@@ -19,11 +19,11 @@ use std::fmt::Display;
 
 /// Validates all meshes, and records rules for the elements of their accessors.
 ///
-/// All primitives of a mesh have the same number of morph targets, and `weights` has one for each.
+/// All primitives of a mesh have the same number of morph targets, and `weights` has one entry for
+/// each.
 ///
-/// Renderers blend all primitives of a mesh with one list of weights, which is why the counts must
-/// agree. The first primitive sets the expected count, so that one deviating primitive gives one
-/// diagnostic.
+/// Renderers blend all primitives of a mesh with one list of weights, so the counts must agree. The
+/// first primitive sets the expected count, so that one deviating primitive gives one diagnostic.
 pub(super) fn check_meshes(
     document: &CheckedDocument<'_>,
     usage: &UsageMap<'_>,
@@ -81,7 +81,7 @@ type ResolvedAttributes<'a> = Vec<(&'a str, usize, &'a Value)>;
 
 /// The number of elements of each attribute of a primitive.
 ///
-/// `None` stands for an accessor without a valid `count`. Morph targets are compared with it: a
+/// `None` means an accessor without a valid `count`. Morph targets are compared with it: a
 /// displacement needs the base attribute, and one value for each vertex (glTF 2.0 §3.7.2.2).
 type AttributeCounts<'a> = BTreeMap<&'a str, Option<u64>>;
 
@@ -95,8 +95,8 @@ impl<'a> PrimitiveChecker<'a, '_> {
 
     /// Validates attributes, indices, mode, material requirements and morph targets, in this order.
     ///
-    /// The order follows the data: the number of vertices comes from the attributes, and bounds the
-    /// indices; the number of indices, or else of vertices, must suit the mode.
+    /// The order follows the data: the number of vertices comes from the attributes and limits the
+    /// indices. The number of indices, or else of vertices, must fit the mode.
     fn check_primitive(&mut self) {
         let Some(named) = object_members(self.primitive, "attributes") else {
             self.check_indices(None);
@@ -129,7 +129,7 @@ impl<'a> PrimitiveChecker<'a, '_> {
         }
     }
 
-    /// The attributes whose accessors exist; others have been reported by the schema walk.
+    /// The attributes whose accessors exist; the schema walk has reported the others.
     ///
     /// The JSON of the accessor is resolved once here instead of in each check.
     fn resolve_attributes(&self, named: &'a Map<String, Value>) -> ResolvedAttributes<'a> {
@@ -141,11 +141,10 @@ impl<'a> PrimitiveChecker<'a, '_> {
         named.iter().filter_map(find).collect()
     }
 
-    /// Validates the names of attributes and their numbering; returns the number of `TEXCOORD`
-    /// sets.
+    /// Validates attribute names and their numbering; returns the number of `TEXCOORD` sets.
     ///
-    /// Sets are numbered from 0 without gaps, and there are as many of joints as of weights (glTF
-    /// 2.0 §3.7.2.1).
+    /// Sets are numbered from 0 without gaps, and there are as many sets of joints as of weights
+    /// (glTF 2.0 §3.7.2.1).
     ///
     /// Gaps are an error because renderers stop at the first missing set. The check needs no sorted
     /// list: `n` distinct indices are consecutive from 0 if and only if the largest is `n − 1`.
@@ -196,7 +195,7 @@ impl<'a> PrimitiveChecker<'a, '_> {
 
     /// Validates the formats and counts of all attributes; returns the number of vertices.
     ///
-    /// That is the count of `POSITION`, or of the first attribute without it.
+    /// It is the count of `POSITION`, or of the first attribute if there is none.
     ///
     /// All counts must be equal, because one index addresses all attributes of a vertex.
     fn check_attributes(&mut self, attributes: &ResolvedAttributes<'_>) -> Option<u64> {
@@ -339,8 +338,8 @@ impl<'a> PrimitiveChecker<'a, '_> {
         }
     }
 
-    /// A morph target: its attributes can be displaced, exist in the base mesh, and have as many
-    /// elements as there.
+    /// A morph target: its attributes can be displaced, exist in the base mesh, and have the same
+    /// number of elements.
     fn check_morph_target(
         &self,
         at: usize,

@@ -1,8 +1,8 @@
-//! Nodes and scenes: transforms, the node hierarchy, and the meshes of nodes (glTF 2.0 §3.5).
+//! Nodes and scenes: transforms, the node hierarchy, and node meshes (glTF 2.0 §3.5).
 //!
 //! The hierarchy must be a set of disjoint strict trees (glTF 2.0 §3.5.2): a node has at most one
-//! parent, and no node is its own ancestor. Files may violate both, so that no traversal here
-//! recurses or follows a link twice.
+//! parent, and no node is its own ancestor. Files may violate both, so no traversal here recurses
+//! or follows a link twice.
 
 use super::codes;
 use super::document::{
@@ -11,7 +11,7 @@ use super::document::{
 use glam::DMat4;
 use serde_json::Value;
 
-/// The node hierarchy, without the links that would make it other than a forest.
+/// The node hierarchy, without the links that would prevent it from being a forest.
 ///
 /// ```text
 ///        A [0, 4)            B is below A: [1, 3) is inside [0, 4)
@@ -22,19 +22,19 @@ use serde_json::Value;
 /// ```
 #[derive(Debug)]
 pub(super) struct NodeTree {
-    /// The parent of each node; of several, the first.
+    /// The parent of each node; the first if there are several.
     pub(super) parents: Vec<Option<usize>>,
-    /// The root above each node; `None` for nodes of a cycle.
+    /// The root above each node; `None` for nodes in a cycle.
     pub(super) roots: Vec<Option<usize>>,
     /// The entry and exit time of each node in a depth-first traversal: the interval of a
-    /// descendant is inside that of its ancestor.
+    /// descendant is inside its ancestor's.
     visit_intervals: Vec<(usize, usize)>,
 }
 
 impl NodeTree {
-    /// Whether a node is another one or a descendant of it, in constant time.
+    /// Whether a node is the other node or a descendant of it, in constant time.
     ///
-    /// A node of a cycle counts as below every node: the cycle itself has been reported.
+    /// A node in a cycle counts as below every node: the cycle itself has been reported.
     pub(super) fn is_at_or_below(&self, node: usize, other: usize) -> bool {
         let (Some(inner), Some(outer)) =
             (self.visit_intervals.get(node), self.visit_intervals.get(other))
@@ -47,8 +47,8 @@ impl NodeTree {
 
 /// Validates all nodes and scenes; returns the hierarchy for the checks of skins.
 ///
-/// The root nodes of a scene must have no parent (glTF 2.0 §3.5.1): drawn from there, a node would
-/// lose the transforms of its ancestors.
+/// The root nodes of a scene must not have a parent (glTF 2.0 §3.5.1): if drawn from there, a node
+/// would lose the transforms of its ancestors.
 pub(super) fn check_nodes(document: &CheckedDocument<'_>) -> NodeTree {
     let meshes = document.root_array("meshes");
     let shapes: Vec<MeshSummary> = meshes.iter().map(MeshSummary::from_mesh).collect();
@@ -122,7 +122,7 @@ const ROTATION_ROUNDING: f64 = 5e-4;
 ///
 /// Its columns are then perpendicular, and its last row is 0, 0, 0, 1. The tolerance is relative to
 /// the lengths of the columns (0.005 is an angle of about 0.3°), so that it does not depend on the
-/// scale. A column of length 0 has lost its direction, and is refused.
+/// scale. A column of length 0 has no direction, and is rejected.
 fn is_decomposable(matrix: &DMat4) -> bool {
     let columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(glam::DVec4::truncate);
     let [x, y, z] = columns;
@@ -138,21 +138,21 @@ fn is_decomposable(matrix: &DMat4) -> bool {
         && are_perpendicular(z, x)
 }
 
-/// The properties of a mesh that matter to the nodes that use it.
+/// The properties of a mesh that matter to its nodes.
 #[derive(Clone, Copy, Debug)]
 struct MeshSummary {
     /// The number of morph targets of its first primitive.
     targets: usize,
     /// Whether a primitive has `JOINTS_0`.
     has_joints: bool,
-    /// Whether there are primitives at all; a mesh without has been reported already.
+    /// Whether there are any primitives; a mesh without them has already been reported.
     has_primitives: bool,
 }
 
 impl MeshSummary {
     /// Summarizes the JSON of a mesh.
     ///
-    /// Many nodes may use one mesh, so that the summary is computed once instead of for each node.
+    /// Many nodes may use one mesh, so the summary is computed once instead of for each node.
     fn from_mesh(mesh: &Value) -> Self {
         let primitives = array_items(mesh, "primitives");
         let has_joints = |primitive: &Value| {
@@ -197,7 +197,8 @@ fn check_mesh_use(document: &CheckedDocument<'_>, at: usize, node: &Value, shape
 
 /// Builds the hierarchy, and reports nodes with several parents or in a cycle.
 ///
-/// Of several parents the first counts, so that the rest of the validation has a forest.
+/// If there are several parents, the first is used, so that the rest of the validation has a
+/// forest.
 ///
 /// A child that is listed by several parents is reported at each of the later ones. Indices out of
 /// range have been reported by the schema walk, and are skipped.
@@ -226,11 +227,11 @@ fn build_tree(document: &CheckedDocument<'_>) -> NodeTree {
 
 /// Traverses the hierarchy depth first, without recursion, from every root.
 ///
-/// It numbers the nodes for [`NodeTree::is_at_or_below`], and finds cycles: their nodes are not
+/// It numbers the nodes for [`NodeTree::is_at_or_below`], and finds cycles, whose nodes are not
 /// reached.
 ///
-/// Hostile files may nest nodes a million deep: the stack of open nodes is therefore on the heap. A
-/// cycle has no root, and its nodes keep the empty interval. The time is linear in the nodes.
+/// Hostile files may nest nodes a million deep, so the stack of open nodes is on the heap. A cycle
+/// has no root, and its nodes keep the empty interval. The time is linear in the number of nodes.
 fn traverse_tree(
     document: &CheckedDocument<'_>,
     parents: Vec<Option<usize>>,

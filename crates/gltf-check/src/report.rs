@@ -3,15 +3,14 @@
 use model::{Diagnostic, Severity};
 use std::path::PathBuf;
 
-/// The diagnostics of a file, and whether it can be drawn in spite of them.
+/// The diagnostics of a file, and whether it can still be drawn.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub struct CheckReport {
     /// The file that was checked.
     pub file: PathBuf,
-    /// The diagnostics, the worst severity first, and those of one severity in the order of the
-    /// checks. Of each severity only the first few hundred are listed; the counts below include
-    /// all.
+    /// The diagnostics, worst severity first and otherwise in the order of the checks. Only the
+    /// first few hundred of each severity are listed; the counts below include all.
     pub diagnostics: Vec<Diagnostic>,
     /// The number of errors: broken rules of the specification, or missing data.
     pub errors: usize,
@@ -19,7 +18,7 @@ pub struct CheckReport {
     pub warnings: usize,
     /// The number of notes: nothing is wrong, but something could be improved.
     pub notes: usize,
-    /// Why the file cannot be loaded; `None` if it can, as many files with errors can.
+    /// The reason why the file cannot be loaded; `None` if it can, like many files with errors.
     pub load_error: Option<Diagnostic>,
 }
 

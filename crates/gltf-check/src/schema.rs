@@ -2,7 +2,7 @@
 //!
 //! The tables are the property tables of the specification (glTF 2.0 §5) and of the extensions, row
 //! by row. The schema walk ([`super::schema_walk`]) interprets them: it finds values of the wrong
-//! type or out of range, missing members and unresolved references without code for any single
+//! type or out of range, missing members and unresolved references without code for any individual
 //! member.
 //!
 //! A member is a row of its object's table:
@@ -15,9 +15,9 @@
 pub(super) mod core;
 pub(super) mod extensions;
 
-/// The schema of an object: its name, to which extensions refer, and its members.
+/// The schema of an object: its name, which extensions refer to, and its members.
 ///
-/// Every object may have `extensions` and `extras` besides.
+/// In addition, every object may have `extensions` and `extras`.
 #[derive(Debug)]
 pub(super) struct ObjectSchema {
     /// The name in the specification, such as `accessor` or `textureInfo`.
@@ -28,18 +28,18 @@ pub(super) struct ObjectSchema {
 
 /// The schema of a member.
 ///
-/// Default values are not part of the schema: an absent member is valid whatever its default.
+/// Default values are not part of the schema: an absent member is always valid.
 #[derive(Debug)]
 pub(super) struct MemberSchema {
     /// The name of the member.
     pub(super) name: &'static str,
     /// The type and range of its value.
     pub(super) kind: ValueKind,
-    /// When it must be present.
+    /// The rule for its presence.
     pub(super) rule: PresenceRule,
 }
 
-/// When a member must be present.
+/// The conditions under which a member may or must be present.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum PresenceRule {
     /// It may be present or absent.
@@ -61,7 +61,7 @@ pub(super) enum PresenceRule {
 pub(super) enum ValueKind {
     /// Any value.
     Any,
-    /// true or false.
+    /// `true` or `false`.
     Boolean,
     /// A string.
     Text,
@@ -69,7 +69,7 @@ pub(super) enum ValueKind {
     Version,
     /// One of these strings; another one is only a warning.
     EnumString(&'static [&'static str]),
-    /// An integer from the first to the second.
+    /// An integer in an inclusive range.
     Integer(u64, u64),
     /// One of these integers; another one is only a warning.
     EnumInteger(&'static [u64]),
@@ -150,8 +150,8 @@ pub(super) enum Collection {
 impl Collection {
     /// The collections of a document with their pointers, and whether unused objects get a note.
     ///
-    /// Nodes and scenes get no note about being unused: nodes are reached through scenes, and all
-    /// scenes but one are unused by design.
+    /// Nodes and scenes do not get a note about being unused: nodes are reached through scenes, and
+    /// all scenes except one are unused by design.
     pub(super) const ALL: [(Self, &'static str, bool); 14] = [
         (Self::Accessors, "/accessors", true),
         (Self::Buffers, "/buffers", true),
@@ -185,7 +185,7 @@ const fn requires(name: &'static str, other: &'static str, kind: ValueKind) -> M
     MemberSchema { name, kind, rule: PresenceRule::Requires(other) }
 }
 
-/// A member of which, with another one, exactly one must be present.
+/// A member for which exactly one of it and another one must be present.
 const fn one_of(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
     MemberSchema { name, kind, rule: PresenceRule::ExactlyOne(other) }
 }

@@ -1,8 +1,8 @@
-//! Schema validation: the walk over a document along the tables of [`schema`](super::schema).
+//! Schema validation: walks a document along the tables of [`schema`](super::schema).
 //!
-//! Every value is compared with the kind that its member has in the tables, and every index that
-//! resolves marks its target as used, for the notes about unused objects. The codes are those of
-//! the Khronos validator, including its distinction between members and items of arrays.
+//! Every value is compared with the kind that the tables give its member. Every index that resolves
+//! marks its target as used, for the notes about unused objects. The codes match the Khronos
+//! validator, including its distinction between members and items of arrays.
 //!
 //! The walk is a recursive descent. [`SchemaWalker::check_value`] dispatches on the kind of a
 //! value; objects and arrays descend with one more token on the JSON pointer:
@@ -13,8 +13,8 @@
 //!       └───────────────┴─► check_objects, check_object            inner nodes
 //! ```
 //!
-//! The recursion is as deep as the schema and not as deep as the file: members that the tables do
-//! not name are reported but never entered. The time is linear in the size of the JSON.
+//! The recursion is as deep as the schema, not as deep as the file: members that are not in the
+//! tables are reported but never entered. The time is linear in the size of the JSON.
 
 use super::codes::{self, DiagnosticCode};
 use super::document::{CheckedDocument, as_whole_number, escape_pointer_token};
@@ -62,7 +62,7 @@ impl SchemaWalker<'_> {
     /// Calls `work` for a member or an item, with its token appended to the JSON pointer.
     ///
     /// Tokens are escaped as in RFC 6901: `~` becomes `~0` and `/` becomes `~1`. Names with
-    /// neither, that is nearly all, are appended without a copy.
+    /// neither, which are almost all, are appended without a copy.
     fn descend(&mut self, name: &str, work: impl FnOnce(&mut Self)) {
         let length = self.pointer.len();
         self.pointer.push('/');
@@ -76,8 +76,8 @@ impl SchemaWalker<'_> {
 
     /// Validates an object: known members by kind, required members, unknown members, extensions.
     ///
-    /// The first loop follows the schema and finds what is missing; the second follows the file and
-    /// finds what is unknown. `extras` may hold anything (glTF 2.0 §5.16), and is not entered.
+    /// The first loop follows the schema and finds missing members; the second follows the file and
+    /// finds unknown ones. `extras` may hold anything (glTF 2.0 §5.16), and is not entered.
     fn check_object(&mut self, members: &Map<String, Value>, object: &ObjectSchema) {
         for member in object.members {
             match members.get(member.name) {
@@ -87,8 +87,8 @@ impl SchemaWalker<'_> {
                 None if member.rule == PresenceRule::Required => {
                     let name = member.name;
                     let message = format_args!("missing property `{name}`");
-                    // The pointer names the missing member, so that each is a diagnostic of its
-                    // own.
+                    // The pointer names the missing member, so that each gets a separate
+                    // diagnostic.
                     let diagnostics = &self.document.diagnostics;
                     diagnostics.add(
                         &codes::UNDEFINED_PROPERTY,
@@ -112,7 +112,7 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// Validates the rule of a member about the presence of other members.
+    /// Validates a member's rule about the presence of other members.
     ///
     /// `UNSATISFIED_DEPENDENCY` is reported at the member that needs another one, `ONE_OF_MISMATCH`
     /// at the parent, because neither of the two members is more at fault than the other.
@@ -152,7 +152,7 @@ impl SchemaWalker<'_> {
 
     /// Validates an extension object: it must be declared, and allowed in this parent.
     ///
-    /// Extensions that the tables do not know are checked for their declaration only. A known
+    /// Extensions that are not in the tables are only checked for their declaration. A known
     /// extension in an object where its specification does not allow it is an
     /// `UNEXPECTED_EXTENSION_OBJECT`, and its members are not validated, because their meaning is
     /// unknown there.
@@ -177,7 +177,7 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// Validates any value, by the kind that the schema gives it.
+    /// Validates any value, according to its kind in the schema.
     fn check_value(&mut self, value: &Value, kind: ValueKind) {
         match kind {
             ValueKind::Any => {}
@@ -222,7 +222,7 @@ impl SchemaWalker<'_> {
 
     /// Validates a string with a fixed list of values.
     ///
-    /// A string outside the list is only a warning, because an extension may define further values.
+    /// A string outside the list is only a warning, because an extension may define more values.
     fn check_enum_string(&self, value: &Value, words: &[&str]) {
         match value.as_str() {
             None => self.report_type_mismatch(value, "a string"),
@@ -235,11 +235,11 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// Validates an integer in a range, both ends included.
+    /// Validates an integer in an inclusive range.
     ///
-    /// `1.0` is accepted as an integer, as in the JSON schema of glTF; `1.5` is of the wrong type.
-    /// A negative integer does not fit `u64`, and is therefore reported as out of range in a case
-    /// of its own.
+    /// `1.0` is accepted as an integer, as in the JSON schema of glTF; `1.5` has the wrong type. A
+    /// negative integer does not fit in `u64`, and is therefore a separate case that is also
+    /// reported as out of range.
     fn check_integer(&self, value: &Value, min: u64, max: u64) {
         match (as_whole_number(value), value.as_f64()) {
             (Some(number), _) if (min..=max).contains(&number) => {}
@@ -264,7 +264,7 @@ impl SchemaWalker<'_> {
 
     /// Validates an integer with a fixed list of values, such as the OpenGL constants of a sampler.
     ///
-    /// As in the Khronos validator, a number with a fraction is a value outside the list, and not a
+    /// As in the Khronos validator, a number with a fraction is a value outside the list, not a
     /// value of the wrong type.
     fn check_enum_integer(&self, value: &Value, numbers: &[u64]) {
         match as_whole_number(value) {
@@ -325,7 +325,7 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// Reports an item of an array that is of the wrong type.
+    /// Reports an array item of the wrong type.
     fn report_item_mismatch(&self, value: &Value, expected: &str) {
         self.report(
             &codes::ARRAY_TYPE_MISMATCH,
@@ -365,7 +365,7 @@ impl SchemaWalker<'_> {
 
     /// Validates a non-empty array of distinct indices, such as the children of a node.
     ///
-    /// A duplicate is reported in addition to the check of the index itself, by its own code.
+    /// A duplicate is reported in addition to the check of the index itself, with a separate code.
     fn check_indices(&mut self, value: &Value, collection: Collection) {
         let Value::Array(items) = value else {
             return self.report_type_mismatch(value, "an array of indices");
@@ -418,7 +418,7 @@ impl SchemaWalker<'_> {
             return self.report(&codes::EMPTY_ENTITY, "the array is empty");
         }
         // The validator reports items of top-level arrays like members, and items of inner arrays
-        // by another code.
+        // with another code.
         let at_top = self.pointer.rfind('/') == Some(0);
         for (at, item) in items.iter().enumerate() {
             self.descend(&at.to_string(), |walker| match item {
@@ -466,7 +466,7 @@ impl SchemaWalker<'_> {
 
 /// A value as quoted in a message: arrays, objects and long strings only by their type.
 ///
-/// A message must stay one short line whatever the file contains.
+/// A message must always stay one short line.
 struct ShortValue<'a>(&'a Value);
 
 impl Display for ShortValue<'_> {

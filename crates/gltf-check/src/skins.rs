@@ -14,8 +14,8 @@ use serde_json::{Map, Value};
 
 /// Validates all skins, and records rules for the elements of their accessors.
 ///
-/// The weights of vertices are validated later, by [`check_skinned_meshes`], because they need a
-/// mesh and a skin together.
+/// The joint weights of vertices are validated later, by [`check_skinned_meshes`], because they
+/// need a mesh and a skin together.
 ///
 /// `joints` that are not valid indices are skipped: the schema walk has reported them. They still
 /// count for the number of inverse bind matrices, which correspond to joints by position.
@@ -35,10 +35,10 @@ pub(super) fn check_skins(
     }
 }
 
-/// Validates that the joints have a common root, and that `skeleton` is a common ancestor of them.
+/// Validates that the joints have a common root, and that `skeleton` is their common ancestor.
 ///
 /// Both are constant-time queries for each joint, because the tree has the root and the traversal
-/// interval of each node; walking up from each joint would take time in the square of a long chain.
+/// interval of each node; walking up from each joint would take quadratic time for a long chain.
 fn check_common_root(
     document: &CheckedDocument<'_>,
     tree: &NodeTree,
@@ -65,8 +65,8 @@ fn check_common_root(
 
 /// Validates the inverse bind matrices: format, stride, and at least one for each joint.
 ///
-/// The format is MAT4 of floats without exception (glTF 2.0 §5.28). More matrices than joints are
-/// allowed; the affine last row is tested with the data.
+/// The format is always MAT4 of floats (glTF 2.0 §5.28). More matrices than joints are allowed; the
+/// affine last row is tested with the data.
 fn check_inverse_bind_matrices(
     document: &CheckedDocument<'_>,
     usage: &UsageMap<'_>,
@@ -143,24 +143,24 @@ struct InfluenceChecker<'a> {
     pointer: String,
 }
 
-/// The maximum number of sets of joints and weights that are validated.
+/// The maximum number of sets of joints and weights to validate.
 ///
-/// Exporters write one or two sets, for four or eight influences. The maximum bounds the memory, as
-/// all sets of a primitive are in memory together for the sum of the weights.
+/// Exporters write one or two sets, for four or eight influences. The maximum limits the memory,
+/// because all sets of a primitive are needed together for the sum of the weights.
 const MAX_SETS: usize = 16;
 
 /// The tolerance for the sum of weights rounded to bytes, for every two joints beyond the first two
 /// (the Khronos validator's value).
 ///
-/// It is 1/255: quantization to bytes moves each weight by up to half of that, so that two joints
-/// can move the sum by one step.
+/// It is 1/255: quantization to bytes changes each weight by up to half of that, so two joints can
+/// change the sum by one step.
 const WEIGHT_ROUNDING: f64 = 0.003_921_6;
 
 impl InfluenceChecker<'_> {
     /// Validates all sets of joints and weights of a primitive together, because the weights of a
     /// vertex sum to 1 over all sets.
     ///
-    /// Sets are read up to the first that is missing or undecodable. The four kinds of faults are
+    /// Sets are read up to the first that is missing or undecodable. The four kinds of errors are
     /// counted for each set, which gives one diagnostic for each kind and attribute.
     fn check_influences(&self, named: &Map<String, Value>) {
         let mut sets = Vec::new();
@@ -212,7 +212,7 @@ impl InfluenceChecker<'_> {
 
     /// Decodes the four components of every vertex.
     ///
-    /// `None` leaves the primitive unvalidated: the defect of the accessor has been reported.
+    /// `None` leaves the primitive unvalidated: the accessor's defect has been reported.
     fn read_vec4s(&self, accessor: &Value) -> Option<Vec<[f32; 4]>> {
         let at = usize::try_from(as_whole_number(accessor)?).ok()?;
         let accessor = self.document.root_array("accessors").get(at)?;

@@ -1,8 +1,8 @@
-//! Buffer data: buffers are read once, and buffer views are resolved in them.
+//! Buffer data: buffers are read once, and buffer views are resolved within them.
 //!
-//! A [`BufferStore`] lends slices and never copies a buffer. Every request is answered with `None`
-//! if any byte of it is missing, and the checks skip such data: the missing bytes have a diagnostic
-//! of their own already.
+//! A [`BufferStore`] lends slices and never copies a buffer. Every request returns `None` if any
+//! byte of it is missing, and the checks skip such data: the missing bytes already have a
+//! diagnostic.
 
 use super::codes;
 use super::document::{
@@ -19,9 +19,9 @@ use std::cell::{Cell, OnceCell};
 
 /// The buffers of a document, its decompressed buffer views, and the budget for reading them.
 ///
-/// Time and memory are bounded in two ways. Reading a URI is limited by the resolver; decoding and
-/// visiting elements is charged to `budget`, which is proportional to the bytes that the files
-/// really have.
+/// Time and memory are limited in two ways. Reading a URI is limited by the resolver; decoding and
+/// visiting elements is charged to `budget`, which is proportional to the actual bytes of the
+/// files.
 pub(super) struct BufferStore<'a> {
     document: &'a CheckedDocument<'a>,
     resolver: &'a UriResolver<'a>,
@@ -29,15 +29,15 @@ pub(super) struct BufferStore<'a> {
     buffers: Vec<Option<BufferBytes<'a>>>,
     /// The buffer views decompressed by meshopt, each on first use.
     decompressed: Vec<OnceCell<Option<Vec<u8>>>>,
-    /// The budget of bytes that may be read or decoded, in proportion to the size of the files.
+    /// The budget of bytes that may be read or decoded, proportional to the size of the files.
     budget: MemoryBudget<'a>,
-    /// Whether the budget has been exceeded: nothing more is read then.
+    /// Whether the budget has been exceeded, so that nothing more is read.
     exhausted: Cell<bool>,
 }
 
 /// The bytes of a buffer.
 ///
-/// The binary chunk is borrowed from the GLB, which is in memory as a whole.
+/// The binary chunk is borrowed from the GLB, which is entirely in memory.
 enum BufferBytes<'a> {
     /// The binary chunk of a GLB.
     Chunk(&'a [u8]),
@@ -49,7 +49,7 @@ impl<'a> BufferStore<'a> {
     /// Reads all buffers; `chunk` is the binary chunk of a GLB.
     ///
     /// Errors are reported, and leave a buffer without bytes. Buffer views are decompressed later,
-    /// on first use, because a view without a user need not be valid.
+    /// on first use, because an unused view need not be valid.
     pub(super) fn load_buffers(
         document: &'a CheckedDocument<'a>,
         resolver: &'a UriResolver<'a>,
@@ -77,8 +77,8 @@ impl<'a> BufferStore<'a> {
     /// The binary chunk is the first buffer without a URI; it may be up to three bytes longer than
     /// the buffer, for padding.
     ///
-    /// The declared `byteLength` may be less than the data, but not greater: a short buffer gives
-    /// `BUFFER_BYTE_LENGTH_MISMATCH`, and the bytes it has remain in use.
+    /// The declared `byteLength` may be less than the length of the data, but not greater: a short
+    /// buffer gives `BUFFER_BYTE_LENGTH_MISMATCH`, and its bytes remain in use.
     fn load_buffer(
         &self,
         at: usize,
@@ -135,10 +135,10 @@ impl<'a> BufferStore<'a> {
 
     /// Charges bytes to the budget; returns whether they may be read.
     ///
-    /// The first time the budget is exceeded, that is reported; after that nothing is read, so that
-    /// a hostile file cannot prolong the validation.
+    /// The first excess is reported; after that nothing is read, so that a hostile file cannot
+    /// prolong the validation.
     ///
-    /// The first refusal is final even if a smaller request would still fit: otherwise the report
+    /// The first refusal is final even if a smaller request would still fit; otherwise the report
     /// would depend on the order of the accessors.
     pub(super) fn charge_budget(&self, pointer: &str, bytes: u64) -> bool {
         if self.exhausted.get() {
@@ -191,7 +191,7 @@ impl<'a> BufferStore<'a> {
         )
     }
 
-    /// The range of a buffer that starts at `offset`; `None` if it is not completely inside.
+    /// A range of a buffer that starts at `offset`; `None` if it is not completely inside.
     ///
     /// Both values come from the file, and may be larger than the address space of a 32-bit
     /// machine.
@@ -203,9 +203,8 @@ impl<'a> BufferStore<'a> {
     /// Decompresses a meshopt buffer view; `None` if the stream is invalid or the budget is
     /// exceeded.
     ///
-    /// Errors of the stream are reported by the loader, which uses the same decoder. The
-    /// decompressed length is declared in the file, and is therefore charged before anything is
-    /// allocated.
+    /// The loader, which uses the same decoder, reports errors in the stream. The decompressed
+    /// length is declared in the file, and is therefore charged before anything is allocated.
     fn decompress_view(&self, view: usize, json: &Value) -> Option<Vec<u8>> {
         let pointer = format!("/bufferViews/{view}");
         let packed = CompressedView::from_json(json, &pointer).ok()??;
@@ -214,9 +213,9 @@ impl<'a> BufferStore<'a> {
             .then(|| packed.decompress(stream).ok())?
     }
 
-    /// The elements of an accessor, if all of their bytes are present.
+    /// The elements of an accessor, if all their bytes are present.
     ///
-    /// A missing part has been reported elsewhere; the data is then skipped, so that no diagnostic
+    /// A missing part has been reported elsewhere. The data is then skipped, so that no diagnostic
     /// is a consequence of another. The layers of an accessor are resolved in this order:
     ///
     /// ```text
@@ -224,7 +223,7 @@ impl<'a> BufferStore<'a> {
     ///  sparse        some of them replaced: indices and values, tightly packed
     /// ```
     ///
-    /// The last packed element needs no padding after it, which matters for matrices of small
+    /// The last packed element needs no padding after it, which matters for matrices with small
     /// components.
     pub(super) fn accessor_elements(
         &self,
@@ -255,10 +254,10 @@ impl<'a> BufferStore<'a> {
         Some(AccessorElements::new(layout, base, indices, values))
     }
 
-    /// The indices of a sparse accessor, if all of their bytes are present (glTF 2.0 §3.6.2.3).
+    /// The indices of a sparse accessor, if all their bytes are present (glTF 2.0 §3.6.2.3).
     ///
-    /// They are converted to 32 bits, whatever their component type; the conversion is charged to
-    /// the budget, as the count is only a declaration.
+    /// They are always converted to 32 bits; the conversion is charged to the budget, because the
+    /// count is only a declaration.
     pub(super) fn sparse_indices(&self, sparse: &Value) -> Option<Vec<u32>> {
         let json = sparse.get("indices")?;
         let component = ComponentType::from_gl_constant(integer_member(json, "componentType")?)?;
@@ -294,7 +293,7 @@ pub(super) fn check_buffer_views(document: &CheckedDocument<'_>) {
 ///
 /// The stride is a multiple of four, not set for indices, and not greater than the view. The range
 /// is compared with the declared length of the buffer, not with its data, so that a truncated file
-/// gives one diagnostic at the buffer and none at each of its views.
+/// gives one diagnostic at the buffer and none at its views.
 fn check_buffer_view(document: &CheckedDocument<'_>, at: usize, view: &Value) {
     let diagnostics = document.diagnostics;
     let offset = integer_member(view, "byteOffset").unwrap_or(0);

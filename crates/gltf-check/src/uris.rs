@@ -5,9 +5,9 @@ use super::diagnostics::Diagnostics;
 use gltf_import::UriResolver;
 use model::{Diagnostic, codes as load};
 
-/// The media type of a data URI in lower case; `None` for another URI.
+/// The media type of a data URI in lowercase; `None` for other URIs.
 ///
-/// It is empty for `data:,`, whose type is text/plain by RFC 2397.
+/// It is empty for `data:,`, whose type is text/plain according to RFC 2397.
 pub(super) fn media_type(uri: &str) -> Option<String> {
     let (scheme, rest) = uri.split_once(':')?;
     let kind = rest.split([';', ',']).next()?;
@@ -60,7 +60,7 @@ pub(super) fn check_buffer_uri(
 
 /// The bytes a URI refers to; `None`, with a diagnostic, if they cannot be read.
 ///
-/// Only files below the allowed folders are read, and only as much as the limits allow.
+/// Only files below the allowed folders are read, and only within the limits.
 pub(super) fn read_uri(
     resolver: &UriResolver<'_>,
     uri: &str,
@@ -75,7 +75,7 @@ pub(super) fn read_uri(
     resolver.read_uri(uri, pointer).map_err(|fault| add_read_error(&fault, diagnostics)).ok()
 }
 
-/// Reports why a URI could not be read, by the validator's codes.
+/// Reports why a URI could not be read, with a validator code.
 fn add_read_error(fault: &Diagnostic, diagnostics: &Diagnostics) {
     let code = match fault.code {
         load::INVALID_DATA => &codes::INVALID_URI,

@@ -1,7 +1,7 @@
-//! Uses of accessors and buffer views: each may have one purpose only (glTF 2.0 §3.6.2.1, §5.11.5).
+//! Uses of accessors and buffer views: each may have only one purpose (glTF 2.0 §3.6.2.1, §5.11.5).
 //!
-//! Graphics APIs upload a buffer view as a whole, with one purpose: a vertex buffer cannot be an
-//! index buffer at the same time in WebGL. Only the first conflicting use of each is reported.
+//! Graphics APIs upload a buffer view as a whole, for one purpose: in WebGL a vertex buffer cannot
+//! also be an index buffer. Only the first conflicting use of each is reported.
 
 use super::codes;
 use super::document::{CheckedDocument, index_member, integer_member};
@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The purpose of an accessor.
 ///
-/// Accessors of different purposes have different rules for bounds, strides and formats.
+/// Accessors for different purposes have different rules for bounds, strides and formats.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum AccessorUse {
     /// A vertex attribute, or the displacement of one in a morph target.
@@ -25,7 +25,7 @@ pub(super) enum AccessorUse {
 
 /// The purpose of a buffer view.
 ///
-/// It follows from the accessors in the view, or from its declared `target`.
+/// It is determined by the accessors in the view, or by its declared `target`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum ViewUse {
     Vertices,
@@ -37,7 +37,7 @@ pub(super) enum ViewUse {
 }
 
 impl AccessorUse {
-    /// The purpose as messages name it.
+    /// The purpose as written in messages.
     const fn name(self) -> &'static str {
         match self {
             Self::Attribute => "a vertex attribute",
@@ -50,7 +50,7 @@ impl AccessorUse {
 }
 
 impl ViewUse {
-    /// The purpose as messages name it.
+    /// The purpose as written in messages.
     const fn name(self) -> &'static str {
         match self {
             Self::Vertices => "vertex attributes",
@@ -135,9 +135,9 @@ impl<'a> UsageMap<'a> {
         }
     }
 
-    /// Records an accessor of vertex attributes: several in one buffer view need a `byteStride`.
+    /// Records an accessor for vertex attributes: several in one buffer view need a `byteStride`.
     ///
-    /// Interleaved attributes cannot be distinguished from consecutive ones without it, so the
+    /// Without it, interleaved attributes cannot be distinguished from consecutive ones, so the
     /// specification requires it for two or more accessors (glTF 2.0 §5.11.4). One accessor may be
     /// used any number of times.
     pub(super) fn note_vertex_accessor(&self, accessor: usize, pointer: &str) {

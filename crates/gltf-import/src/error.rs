@@ -22,7 +22,7 @@ pub struct ImportError {
 }
 
 impl ImportError {
-    /// The error of a file that a diagnostic stopped.
+    /// The error for a file that a diagnostic stopped.
     #[must_use]
     pub fn new(file: impl Into<PathBuf>, diagnostic: Diagnostic) -> Self {
         Self { file: file.into(), diagnostic: Box::new(diagnostic) }

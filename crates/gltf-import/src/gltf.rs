@@ -6,7 +6,7 @@
 //!  other files ──uri_resolver──► buffers ─┴─► accessor, elements, images
 //! ```
 //!
-//! Of the `gltf` crate only the JSON types are used: its own importer panics on malformed files and
+//! Only the JSON types of the `gltf` crate are used: its own importer panics on malformed files and
 //! reads any file that a URI names.
 
 mod accessor;

@@ -1,9 +1,9 @@
-//! Image decoding into 8-bit RGBA: PNG, JPEG and, with the features `webp` and `basisu`, WebP and
+//! Image decoding to 8-bit RGBA: PNG, JPEG and, with the features `webp` and `basisu`, WebP and
 //! KTX2.
 //!
 //! The format is recognized by the first bytes; the file's name and glTF's `mimeType` are ignored.
 //! Sizes are read from the header and checked before any decoder allocates, and a decoder that
-//! panics counts as one that fails.
+//! panics counts as failed.
 
 mod jpeg;
 #[cfg(feature = "basisu")]
@@ -34,7 +34,7 @@ pub(crate) struct EncodedImage<'a> {
     pub(crate) size: (u32, u32),
 }
 
-/// Whether images of a media type are decoded: the features decide about KTX2 and WebP.
+/// Whether images of a media type are decoded; for KTX2 and WebP this depends on the features.
 #[must_use]
 pub fn is_decoded(media_type: &str) -> bool {
     match media_type {
@@ -44,14 +44,14 @@ pub fn is_decoded(media_type: &str) -> bool {
     }
 }
 
-/// Width and height from the header alone.
+/// Width and height, from the header without decoding.
 ///
-/// Refuses decompression bombs: sizes that so few bytes cannot hold.
+/// Rejects decompression bombs: sizes that so few bytes cannot encode.
 ///
 /// # Errors
-/// A message for people: the format is not known, the header is broken, or the size is implausible.
+/// A readable message: the format is unknown, the header is broken, or the size is implausible.
 ///
-/// The plausibility of the size depends on the compression ratio that the format can reach.
+/// Whether a size is plausible depends on the compression ratio that the format can reach.
 pub fn image_size(bytes: &[u8]) -> Result<(u32, u32), String> {
     catch_decoder_panic(|| match ImageFormat::from_magic(bytes)? {
         ImageFormat::Png => {
@@ -83,7 +83,7 @@ pub fn image_size(bytes: &[u8]) -> Result<(u32, u32), String> {
     })
 }
 
-/// Name of the format (`png`, `jpeg`, `webp`, `ktx2`); empty if it is not known.
+/// Name of the format (`png`, `jpeg`, `webp`, `ktx2`); empty if it is unknown.
 pub(crate) fn format_name(bytes: &[u8]) -> &'static str {
     match ImageFormat::from_magic(bytes) {
         Ok(ImageFormat::Png) => "png",
@@ -104,7 +104,7 @@ pub(crate) fn format_name(bytes: &[u8]) -> &'static str {
 /// ```
 ///
 /// # Errors
-/// A message for people: the format is not known, the data is broken, or the image is too large.
+/// A readable message: the format is unknown, the data is broken, or the image is too large.
 pub fn decode_bounded(bytes: &[u8], most: u64) -> Result<Image, String> {
     let (width, height) = image_size(bytes)?;
     if u64::from(width) * u64::from(height) > most {
@@ -113,7 +113,7 @@ pub fn decode_bounded(bytes: &[u8], most: u64) -> Result<Image, String> {
     decode_rgba(bytes)
 }
 
-/// Decodes the whole image. Callers check [`image_size`] first: this allocates 4 bytes a texel.
+/// Decodes the whole image. Callers check [`image_size`] first: this allocates 4 bytes per texel.
 pub(crate) fn decode_rgba(bytes: &[u8]) -> Result<Image, String> {
     catch_decoder_panic(|| match ImageFormat::from_magic(bytes)? {
         ImageFormat::Png => decode_png(bytes),
@@ -128,7 +128,7 @@ pub(crate) fn decode_rgba(bytes: &[u8]) -> Result<Image, String> {
 /// Runs a decoder; a panic means that the image is broken.
 ///
 /// Decoders are written for well-formed files; an index out of range in one of them must not end
-/// the program because of one texture.
+/// the program because of a single texture.
 fn catch_decoder_panic<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err("the decoder gave up".to_owned()))
 }
@@ -138,8 +138,8 @@ fn decompression_bomb(width: u32, height: u32, bytes: usize) -> String {
     format!("the image says {width} x {height} texels, which cannot be in {bytes} bytes")
 }
 
-/// Texels that an image of next to no bytes may have, in formats that can store a flat color in
-/// them.
+/// Number of texels allowed for an image of almost no bytes, in formats that can store a flat color
+/// that way.
 #[cfg(any(feature = "webp", feature = "basisu"))]
 const BOMB_ALLOWANCE_TEXELS: u64 = 8 << 20;
 
@@ -160,18 +160,18 @@ enum ImageFormat {
     /// WebP: lossy or lossless (RFC 9649).
     #[cfg(feature = "webp")]
     WebP,
-    /// KTX2: Basis Universal's ETC1S and UASTC, or texels of 8 bits (KTX 2.0).
+    /// KTX2: Basis Universal's ETC1S and UASTC, or 8-bit texels (KTX 2.0).
     #[cfg(feature = "basisu")]
     Ktx2,
 }
 
 impl ImageFormat {
-    /// Upper bound of the texels that an image of this many bytes can encode.
+    /// Upper bound on the number of texels that an image of this many bytes can encode.
     ///
-    /// - PNG: deflate makes at most 1,032 bytes of one, and a byte has eight 1-bit texels.
+    /// - PNG: deflate expands one byte to at most 1,032 bytes, and a byte has eight 1-bit texels.
     /// - JPEG: each block of 64 texels takes at least one bit.
-    /// - WebP and KTX2: a flat image takes almost no bytes, so that its size itself is bounded: what
-    ///   [`BOMB_ALLOWANCE_TEXELS`] allows takes 70 MB while it is decoded.
+    /// - WebP and KTX2: a flat image takes almost no bytes, so its size itself is limited: decoding
+    ///   [`BOMB_ALLOWANCE_TEXELS`] texels takes 70 MB.
     fn max_plausible_texels(&self, bytes: usize) -> u64 {
         let bytes = bytes as u64;
         match self {
@@ -207,7 +207,7 @@ impl ImageFormat {
     }
 }
 
-/// Whether a file begins as a WebP does: a RIFF file of this type.
+/// Whether a file begins like a WebP: a RIFF file of this type.
 fn is_webp(bytes: &[u8]) -> bool {
     matches!(bytes, [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..])
 }
@@ -217,10 +217,10 @@ fn png_problem(error: &png::DecodingError) -> String {
     format!("the PNG is broken: {error}")
 }
 
-/// Decodes a PNG, converting palettes, gray and 16 bits to RGBA of 8 bits.
+/// Decodes a PNG, converting palettes, gray and 16 bits to 8-bit RGBA.
 ///
 /// Color profiles and text chunks are skipped: glTF requires that profiles be ignored (§3.8.3).
-/// Memory of the decoder is limited to 1 GiB.
+/// The decoder's memory is limited to 1 GiB.
 fn decode_png(bytes: &[u8]) -> Result<Image, String> {
     let message = |error: png::DecodingError| png_problem(&error);
     let mut decoder =
@@ -251,7 +251,7 @@ fn blank_texels(width: u32, height: u32) -> Vec<[u8; 4]> {
     vec![[0; 4]; width as usize * height as usize]
 }
 
-/// A JPEG decoder with RGBA output and the largest size of the format, 65535 in each direction.
+/// A JPEG decoder with RGBA output and the maximum size of the format, 65535 in each direction.
 fn jpeg_decoder(bytes: &[u8]) -> JpegDecoder<ZCursor<&[u8]>> {
     let options = DecoderOptions::default()
         .jpeg_set_out_colorspace(ColorSpace::RGBA)
@@ -265,7 +265,7 @@ fn jpeg_problem(error: &zune_jpeg::errors::DecodeErrors) -> String {
     format!("the JPEG is broken: {error}")
 }
 
-/// Decodes a baseline or progressive JPEG; CMYK is refused, as it needs a color profile.
+/// Decodes a baseline or progressive JPEG; CMYK is rejected because it needs a color profile.
 fn decode_jpeg(bytes: &[u8]) -> Result<Image, String> {
     check_chroma_sampling(bytes)?;
     let mut decoder = jpeg_decoder(bytes);
@@ -280,7 +280,7 @@ fn decode_jpeg(bytes: &[u8]) -> Result<Image, String> {
     Ok(Image { width, height, rgba })
 }
 
-/// The image, if there are as many texels as its size says.
+/// The image, if the number of texels matches its size.
 fn checked_image(width: u32, height: u32, rgba: Vec<[u8; 4]>) -> Result<Image, String> {
     if rgba.len() as u64 == u64::from(width) * u64::from(height) {
         Ok(Image { width, height, rgba })
@@ -307,7 +307,7 @@ mod tests {
         bytes
     }
 
-    /// A baseline JPEG of 8 x 8 texels, all of middle gray: every coefficient is 0, and each of the
+    /// A baseline JPEG of 8 x 8 texels, all middle gray: every coefficient is 0, and each of the
     /// two Huffman tables has the single code `0`, for "no difference" and for "end of block".
     fn jpeg(components: u8) -> Vec<u8> {
         let numbers = || 1..=components;

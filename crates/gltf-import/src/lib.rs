@@ -1,5 +1,5 @@
-//! The glTF 2.0 reader, and the guards that every reader of files has: limits, a memory budget, a
-//! sandbox for referenced files, decoders of images that cannot bring the program down.
+//! The glTF 2.0 reader, and the guards of all file readers: limits, a memory budget, a sandbox for
+//! referenced files, and image decoders that cannot crash the program.
 //!
 //! ```text
 //!  bytes ──container──► JSON ──document──► Root ──model_builder──► Model
@@ -8,16 +8,16 @@
 //! ```
 //!
 //! Files are untrusted input: every index, length and size is checked before it is used. The crate
-//! `import` reads the other formats with the same guards, and loads files of any.
+//! `import` reads the other formats with the same guards, and loads files in any format.
 //!
 //! | module | subject |
 //! | --- | --- |
 //! | `gltf` | containers, accessors, compressed meshes, materials, animations, extensions |
-//! | `options`, `limits`, `memory_budget` | what a file may ask for |
-//! | `uri_resolver`, `memory_folder` | which files a URI may open |
+//! | `options`, `limits`, `memory_budget` | requests to the loader, and limits on a file |
+//! | `uri_resolver`, `memory_folder` | files that a URI may open |
 //! | `image_decoder`, `parallel_decoding` | PNG, JPEG, WebP, KTX2 |
-//! | `warnings`, `error` | what is left out, and what stops loading |
-//! | `scalars`, `normals`, `srgb` | attributes of vertices |
+//! | `warnings`, `error` | skipped data, and the error that stops loading |
+//! | `scalars`, `normals`, `srgb` | vertex attributes |
 
 mod error;
 mod gltf;

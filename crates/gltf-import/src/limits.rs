@@ -4,44 +4,45 @@
 //! A glTF file of a few hundred bytes can declare an accessor of 2³² zeros, a chain of a million
 //! nodes, or a mesh that a million nodes draw; a PNG of a few kilobytes can hold a billion black
 //! texels. Each of these is cheap to write and expensive to read. The defaults are far above what
-//! real models need; the program has a flag `--max-…` for each.
+//! real models need; the program has a `--max-…` flag for each.
 
-/// The largest sizes that are accepted. Exceeding one is an error that names the field.
+/// The maximum accepted sizes. Exceeding one is an error that names the field.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Limits {
     /// Bytes of any one file. Default: 512 MiB.
     pub file_bytes: u64,
-    /// Bytes of all files together, counted as often as they are read. Default: 2 GiB.
+    /// Bytes of all files together, counted each time they are read. Default: 2 GiB.
     pub total_bytes: u64,
     /// Nesting depth of the JSON, at most 127. Default: 120.
     pub json_depth: usize,
     /// Values in the JSON; an object counts as ten because of the memory it takes. Default: 16
     /// million.
     pub json_values: usize,
-    /// Bytes of all arrays that are made of accessors. Default: 4 GiB.
+    /// Bytes of all arrays made from accessors. Default: 4 GiB.
     pub array_bytes: u64,
-    /// How many times larger than all files together those arrays may be, beyond the first 16 MiB.
+    /// Maximum ratio of those arrays to all files together, beyond the first 16 MiB.
     ///
-    /// An accessor without data, or the same data used over and over, takes memory that no bytes of
-    /// a file account for: a decompression bomb. Default: 64.
+    /// An accessor without data, or the same data used over and over, takes memory without matching
+    /// bytes in a file: a decompression bomb. Default: 64.
     pub array_growth: u64,
     /// Width and height of an image. Default: 16,384.
     pub image_side: u32,
-    /// Texels of all images that are decoded. Default: 256 million.
+    /// Texels of all decoded images. Default: 256 million.
     pub image_texels: u64,
     /// Nodes of the scene graph. Default: 1 million.
     pub nodes: usize,
     /// Depth of the scene graph. Default: 1,024.
     pub node_depth: usize,
     /// Points, lines and triangles of the active scene, counted for every instance; vertices and
-    /// joints of skinned meshes count as well. Default: 200 million.
+    /// joints of skinned meshes also count. Default: 200 million.
     pub scene_items: u64,
-    /// Bytes of the arrays and images of all models of a scene, each loaded once. Default: 4 GiB.
+    /// Bytes of the arrays and images of all loaded models in a scene, counted once each. Default:
+    /// 4 GiB.
     pub scene_bytes: u64,
 }
 
 impl Default for Limits {
-    /// The defaults that the fields name.
+    /// The defaults documented at the fields.
     fn default() -> Self {
         Self {
             file_bytes: 512 << 20,

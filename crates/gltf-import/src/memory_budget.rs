@@ -1,15 +1,15 @@
 //! Memory budget for the arrays that a file declares: the defense against decompression bombs.
 //!
-//! Two bounds apply: an absolute one, and one relative to the bytes that have been read. The second
-//! catches small files that declare much: an ordinary model's arrays are at most a few times as
+//! Two limits apply: an absolute one, and one relative to the bytes that have been read. The second
+//! catches small files that declare a lot: an ordinary model's arrays are at most a few times as
 //! large as its files, even when compressed. Charges are made before an array is allocated and
-//! never refunded, as the arrays live as long as the model.
+//! never refunded, because the arrays live as long as the model.
 
 use super::limits::Limits;
 use model::{Diagnostic, codes};
 use std::cell::Cell;
 
-/// Bytes that arrays may take however small the files are.
+/// Bytes that arrays may take regardless of the size of the files.
 const FREE_ARRAY_BYTES: u64 = 16 << 20;
 
 /// Running total of array bytes; see [`Limits::array_bytes`] and [`Limits::array_growth`].
@@ -17,12 +17,12 @@ const FREE_ARRAY_BYTES: u64 = 16 << 20;
 pub struct MemoryBudget<'a> {
     /// The absolute and the relative limit.
     limits: &'a Limits,
-    /// Bytes charged so far, of all arrays; saturating.
+    /// Bytes charged so far, for all arrays; saturating.
     allocated: Cell<u64>,
 }
 
 impl<'a> MemoryBudget<'a> {
-    /// A budget of which nothing has been spent.
+    /// An unspent budget.
     #[must_use]
     pub fn new(limits: &'a Limits) -> Self {
         Self { limits, allocated: Cell::new(0) }

@@ -1,10 +1,10 @@
-//! A folder of files in memory: models and their buffers and images where there is no file system,
+//! A folder of files in memory: models with their buffers and images if there is no file system,
 //! such as in a browser.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Files in memory, by their paths in a folder that they share.
+/// Files in memory, by their paths in a common folder.
 ///
 /// A path has `/` between its parts; `.` and `..` are resolved, and none leads out of the folder.
 ///
@@ -22,8 +22,8 @@ pub struct MemoryFolder {
 }
 
 impl MemoryFolder {
-    /// Adds a file, or replaces the one of this path; false if the path is empty or leads out of
-    /// the folder, and nothing is added.
+    /// Adds a file, or replaces the one at this path; false, without adding it, if the path is
+    /// empty or leads out of the folder.
     pub fn insert(&mut self, path: &str, bytes: Vec<u8>) -> bool {
         let Some(path) = normalize_path("", path).filter(|path| !path.is_empty()) else {
             return false;
@@ -32,12 +32,12 @@ impl MemoryFolder {
         true
     }
 
-    /// Removes a file; false if there is none of this path.
+    /// Removes a file; false if there is none at this path.
     pub fn remove(&mut self, path: &str) -> bool {
         normalize_path("", path).is_some_and(|path| self.files.remove(&path).is_some())
     }
 
-    /// The content of a file; `None` if there is none of this path.
+    /// The content of a file; `None` if there is none at this path.
     #[must_use]
     pub fn file(&self, path: &str) -> Option<&[u8]> {
         self.files.get(&normalize_path("", path)?).map(|bytes| &**bytes)
@@ -49,7 +49,8 @@ impl MemoryFolder {
     }
 }
 
-/// A path relative to `folder` as one without `.` and `..`; `None` if it leads out of all folders.
+/// Resolves a path relative to `folder` to one without `.` and `..`; `None` if it leads out of all
+/// folders.
 pub(super) fn normalize_path(folder: &str, path: &str) -> Option<String> {
     if path.starts_with(['/', '\\']) || path.contains('\0') {
         return None;

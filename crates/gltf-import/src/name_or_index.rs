@@ -17,7 +17,7 @@ pub enum NameOrIndex {
 impl NameOrIndex {
     /// The index of the selected item among items with these names, or an error that lists them.
     ///
-    /// An index that is out of range may still be a name made of digits.
+    /// An index that is out of range may still be a numeric name.
     pub(super) fn find_among(
         &self,
         names: &[Option<&str>],

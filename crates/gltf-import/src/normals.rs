@@ -3,23 +3,23 @@
 use glam::{DVec3, Vec3};
 use model::{Primitive, Topology};
 
-/// Numbers of normals that had to be corrected.
+/// Counts of corrected normals.
 #[derive(Default, Debug, PartialEq, Eq)]
 pub struct NormalRepairs {
-    /// Normals with a direction that were not of unit length.
+    /// Normals with a direction that did not have unit length.
     pub lengths: usize,
     /// Normals without a direction (zero, infinite, not a number).
     pub replaced: usize,
 }
 
 /// Normalizes all normals. One without a direction is replaced by the area-weighted mean of the
-/// triangles around its vertex, or by (0, 0, 1) where those have none either.
+/// triangles around its vertex, or by (0, 0, 1) if those have none either.
 ///
-/// Deviations of up to 2 %, which quantization to bytes explains, are corrected without being
+/// Deviations of up to 2 %, which quantization to bytes can cause, are corrected without being
 /// counted.
 ///
-/// The time is linear; the sums over triangles are computed only if some normal has no direction.
-/// The comparison of the squared length skips the square root for normals that are right already.
+/// The time is linear; the sums over triangles are computed only if a normal has no direction.
+/// Comparing the squared length avoids the square root for normals that are already right.
 pub fn normalize_normals(primitive: &mut Primitive) -> NormalRepairs {
     let mut repairs = NormalRepairs::default();
     let Some(mut normals) = primitive.normals.take() else { return repairs };
@@ -51,11 +51,11 @@ pub fn normalize_normals(primitive: &mut Primitive) -> NormalRepairs {
     repairs
 }
 
-/// For each vertex the sum of the normals of its triangles, each as long as twice the triangle's
-/// area.
+/// For each vertex, the sum of the normals of its triangles, each with a length of twice the
+/// triangle's area.
 ///
-/// The cross product of two edges has this length, so that no triangle needs to be normalized, and
-/// slivers count little.
+/// The cross product of two edges has this length, so no triangle needs to be normalized, and
+/// slivers have little weight.
 fn area_weighted_normals(primitive: &Primitive) -> Vec<DVec3> {
     let mut sums = vec![DVec3::ZERO; primitive.positions.len()];
     if primitive.topology != Topology::Triangles {

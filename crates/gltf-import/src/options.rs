@@ -7,32 +7,32 @@ use std::path::PathBuf;
 /// Options for loading a file.
 #[derive(Clone, Debug, Default)]
 pub struct ImportOptions {
-    /// The largest sizes that are accepted.
+    /// The maximum accepted sizes.
     pub limits: Limits,
     /// The folder below which all referenced files must be. Default: the folder of the file itself.
     pub root: Option<PathBuf>,
-    /// Further folders that may hold referenced files: `..` and symbolic links may lead there.
-    /// Default: none.
+    /// Additional folders that may contain referenced files: `..` and symbolic links may lead
+    /// there. Default: none.
     pub allow_outside: Vec<PathBuf>,
-    /// Whether broken, missing or unknown data is left out with a warning instead of an error, as
-    /// long as something else is left to load. Limits hold all the same. Default: no.
+    /// Whether broken, missing or unknown data is skipped with a warning instead of causing an
+    /// error, as long as something is left to load. Limits still apply. Default: no.
     pub lenient: bool,
     /// The active scene. Default: the file's default scene, else its first.
     pub scene: Option<NameOrIndex>,
     /// The active material variant (KHR_materials_variants). Default: none.
     pub variant: Option<NameOrIndex>,
-    /// The colors of vertices by a scalar attribute. Default: the colors and materials of the file.
+    /// Vertex colors from a scalar attribute. Default: the colors and materials of the file.
     pub scalars: Option<ScalarColors>,
-    /// Whether images are decoded. Default: those that are visible.
+    /// Whether images are decoded. Default: visible ones are.
     pub images: ImageLoading,
-    /// The axis that points up in the file. Default: what the format says: z for STL and 3MF, y for
+    /// The axis that points up in the file. Default: given by the format: z for STL and 3MF, y for
     /// the others.
     pub up: Option<UpAxis>,
-    /// The unit of the file's coordinates. Default: what the file declares, else the convention of
-    /// its format; see [`LengthUnit`].
+    /// The unit of the file's coordinates. Default: the unit declared in the file, else the
+    /// convention of its format; see [`LengthUnit`].
     pub length_unit: Option<LengthUnit>,
     /// The largest angle between the normals of two faces that are shaded as one smooth surface, in
-    /// degrees, where a file has no normals. Default: 30.
+    /// degrees, for files without normals. Default: 30.
     pub crease_angle: Option<f64>,
     /// Stopwatch for the stages of loading. Default: none.
     pub timings: Timings,
@@ -41,14 +41,14 @@ pub struct ImportOptions {
 /// Treatment of a file's images.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum ImageLoading {
-    /// Images that visible surfaces use are decoded; no other is read.
+    /// Images that visible surfaces use are decoded; no others are read.
     #[default]
     Decode,
     /// No image is decoded, but the headers of all are read.
     Headers,
 }
 
-/// The crease angle where the options name none, in degrees.
+/// The crease angle in degrees if the options do not specify one.
 const DEFAULT_CREASE_ANGLE: f64 = 30.0;
 
 impl ImportOptions {

@@ -1,8 +1,7 @@
 //! Parallel image decoding, on all processors while the geometry is read.
 //!
-//! Threads take images from a common queue and store results by index, so that it makes no
-//! difference which thread decodes which image. The thread that reads the geometry joins in when it
-//! is done.
+//! Threads take images from a common queue and store results by index, so it makes no difference
+//! which thread decodes which image. The thread that reads the geometry joins in when it is done.
 //!
 //! Scoped threads borrow the encoded bytes, and end with the call. An image is the unit of work:
 //! one large image occupies one thread.
@@ -15,7 +14,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// A decoded image, or a message that says why there is none.
+/// A decoded image, or a message that explains why there is none.
 pub(super) type DecodeResult = Result<Image, String>;
 
 /// Decodes images on all processors.
@@ -27,13 +26,13 @@ pub(crate) fn decode_images(encoded: &[EncodedImage<'_>]) -> Vec<DecodeResult> {
     decoded
 }
 
-/// Runs `work` while other threads decode images, then helps with those that are left, which is
-/// measured as `images`. If the work fails no further image is begun.
+/// Runs `work` while other threads decode images, then helps with the rest, which is measured as
+/// `images`. If the work fails, no more images are started.
 ///
 /// With a single processor no thread is started, and the images are decoded after the work.
 ///
 /// # Errors
-/// The error of `work`. Images that fail are messages in the result.
+/// The error from `work`. Failed images become messages in the result.
 pub(super) fn decode_images_alongside<T, E>(
     encoded: &[EncodedImage<'_>],
     timings: &Timings,
@@ -58,21 +57,21 @@ pub(super) fn decode_images_alongside<T, E>(
     Ok((done?, queue.into_results()))
 }
 
-/// Queue of images from which each thread takes the next.
+/// A queue from which each thread takes the next image.
 ///
-/// The counter hands out each index once; each result has a lock of its own, which is never
+/// The counter hands out each index once; each result has a separate lock, which is never
 /// contended.
 struct DecodeQueue<'a> {
     /// The images to decode.
     encoded: &'a [EncodedImage<'a>],
     /// Index of the next image that no thread has taken.
     next: AtomicUsize,
-    /// Results by index; `None` where a thread panicked.
+    /// Results by index; `None` if a thread panicked.
     results: Vec<Mutex<Option<DecodeResult>>>,
 }
 
 impl<'a> DecodeQueue<'a> {
-    /// A queue of all images, of which none has been taken.
+    /// A queue of all images, none of them taken yet.
     fn new(encoded: &'a [EncodedImage<'a>]) -> Self {
         let results = encoded.iter().map(|_| Mutex::new(None)).collect();
         Self { encoded, next: AtomicUsize::new(0), results }
@@ -90,7 +89,7 @@ impl<'a> DecodeQueue<'a> {
         }
     }
 
-    /// Lets no further image be begun.
+    /// Prevents more images from being started.
     fn stop_queue(&self) {
         self.next.store(self.encoded.len(), Ordering::Relaxed);
     }

@@ -1,12 +1,12 @@
 //! Percent-encoding of URIs and queries (RFC 3986 §2.1).
 
-/// Decodes `%41` to A; `None` where two digits do not follow a `%`, and for anything but UTF-8.
+/// Decodes `%41` to A; `None` if a `%` is not followed by two digits, and for anything but UTF-8.
 #[must_use]
 pub fn percent_decode(text: &str) -> Option<String> {
     String::from_utf8(percent_decode_bytes(text)?).ok()
 }
 
-/// Decodes `%41` to the byte 0x41; `None` where two digits do not follow a `%`.
+/// Decodes `%41` to the byte 0x41; `None` if a `%` is not followed by two digits.
 pub(super) fn percent_decode_bytes(text: &str) -> Option<Vec<u8>> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();
@@ -23,8 +23,8 @@ pub(super) fn percent_decode_bytes(text: &str) -> Option<Vec<u8>> {
     Some(bytes)
 }
 
-/// Encodes each byte of UTF-8 that is neither a letter nor a digit nor one of `-_.,~/`, so that the
-/// text can be a relative path or a value in a query.
+/// Encodes each UTF-8 byte that is not a letter, a digit or one of `-_.,~/`, so that the text can
+/// be a relative path or a value in a query.
 #[must_use]
 pub fn percent_encode(text: &str) -> String {
     let mut encoded = String::with_capacity(text.len());

@@ -1,28 +1,29 @@
-//! Colors for scalar attributes of vertices: temperature, stress, the quality of a scan.
+//! Colors for scalar vertex attributes: temperature, stress, the quality of a scan.
 //!
-//! The importers of formats with such attributes read the values of the one that the options name;
-//! here they become vertex colors. The surfaces then have one plain white material, so that shading
-//! shows their shape and no texture covers the colors.
+//! The importers of formats with such attributes read the values of the attribute that the options
+//! name; here they become vertex colors. The surfaces then have one plain white material, so that
+//! shading shows their shape and no texture hides the colors.
 
 use super::srgb::linear_from_srgb;
 use super::warnings::ImportWarnings;
 use model::{Colormap, Diagnostic, codes};
 
-/// Colors by a scalar attribute of the vertices, in place of the materials of a file.
+/// Colors from a scalar attribute of the vertices, instead of the materials of a file.
 ///
-/// The attribute is a custom one of glTF with accessors of type `SCALAR`, such as `_TEMPERATURE`, or
-/// a property of a PLY file's vertices that has no meaning by itself, such as `quality`. Primitives
-/// without the attribute keep their materials. Values that are not finite are gray, with a warning.
+/// The attribute is a custom glTF attribute with accessors of type `SCALAR`, such as
+/// `_TEMPERATURE`, or a vertex property of a PLY file that has no other meaning, such as `quality`.
+/// Primitives without the attribute keep their materials. Values that are not finite are gray, with
+/// a warning.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct ScalarColors {
-    /// The name of the attribute, in glTF with or without the underscore at its beginning. Upper and
-    /// lower case are one if the file has no such name otherwise.
+    /// The name of the attribute, in glTF with or without the leading underscore. Case is ignored
+    /// if the file has no exact match.
     pub attribute: String,
     /// The colormap. Default: Viridis.
     pub colormap: Colormap,
-    /// The values that have the first and the last color; values beyond them have these colors too.
-    /// If the first is larger, the colors are in reverse. Default: the smallest and the largest
-    /// finite value of the model. Where both are equal, every value has the middle color.
+    /// The values with the first and the last color; values outside the range get these colors too.
+    /// If the first is larger, the colors are reversed. Default: the smallest and the largest
+    /// finite value of the model. If both are equal, every value has the middle color.
     pub range: Option<[f64; 2]>,
 }
 
@@ -30,10 +31,10 @@ pub struct ScalarColors {
 const NOT_FINITE_CODE: f32 = 0.5;
 
 impl ScalarColors {
-    /// The index of the attribute among those of a file.
+    /// Finds the attribute among the names in a file.
     ///
     /// # Errors
-    /// [`NO_SUCH_ITEM`](codes::NO_SUCH_ITEM), with a list of those that there are.
+    /// [`NO_SUCH_ITEM`](codes::NO_SUCH_ITEM), with a list of the existing ones.
     pub fn find_among(&self, names: &[String], location: &str) -> Result<usize, Diagnostic> {
         let wanted = self.attribute.as_str();
         let bare_wanted = bare_name(wanted);
@@ -57,7 +58,7 @@ impl ScalarColors {
         })
     }
 
-    /// The error of a format, by its name, that has no scalar attributes.
+    /// The error for a format, given by name, without scalar attributes.
     #[must_use]
     pub fn unsupported_in(&self, format: &str) -> Diagnostic {
         let attribute = &self.attribute;
@@ -66,9 +67,9 @@ impl ScalarColors {
         Diagnostic::error(codes::NO_SUCH_ITEM, "", message, help)
     }
 
-    /// The color of each value, linear with alpha 1; the ranges of several arrays are one.
+    /// The color of each value, linear with alpha 1; several arrays share one range.
     ///
-    /// Values that are not finite get a warning with their number.
+    /// Values that are not finite are counted in a warning.
     pub fn color_arrays<T: Copy + Into<f64>>(
         &self,
         arrays: &[&[T]],
@@ -106,7 +107,7 @@ impl ScalarColors {
     }
 }
 
-/// The name of an attribute without the underscore that custom attributes of glTF begin with.
+/// The name of an attribute without the leading underscore of custom glTF attributes.
 pub(crate) fn bare_name(name: &str) -> &str {
     name.strip_prefix('_').unwrap_or(name)
 }

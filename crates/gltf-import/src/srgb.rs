@@ -1,4 +1,4 @@
-//! The sRGB transfer function (IEC 61966-2-1), for colors that formats store as they are displayed.
+//! The sRGB transfer function (IEC 61966-2-1), for colors that formats store as displayed.
 
 use std::sync::OnceLock;
 

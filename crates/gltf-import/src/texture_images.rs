@@ -1,7 +1,7 @@
-//! Images of mesh formats: files beside the mesh, or entries of its archive, decoded as those of
-//! glTF are.
+//! Images of mesh formats: files next to the mesh, or entries of its archive, decoded like glTF
+//! images.
 //!
-//! A broken image costs a warning, never the model.
+//! A broken image causes a warning and never discards the model.
 
 use crate::gltf::check_image_size;
 use crate::image_decoder::{self, EncodedImage};
@@ -10,7 +10,7 @@ use crate::{ImageLoading, ImportOptions, ImportWarnings};
 use model::{Diagnostic, Image, ImageHeader, ImageInfo, Model};
 use std::borrow::Cow;
 
-/// The consequence that all warnings about images have.
+/// The consequence stated in all warnings about images.
 const SHOWN_WITHOUT_IMAGE: &str = "the surface is shown without it";
 
 /// An image that a material names.
@@ -18,9 +18,10 @@ const SHOWN_WITHOUT_IMAGE: &str = "the surface is shown without it";
 pub struct TextureImage<'a> {
     /// Its name in the file that refers to it.
     pub name: String,
-    /// Where that file refers to it, for messages.
+    /// Location of the reference in that file, for messages.
     pub location: String,
-    /// The encoded bytes, or the reason why there are none; `None` if nothing visible needs it.
+    /// The encoded bytes, or the reason why there are none; `None` if nothing visible uses the
+    /// image.
     pub bytes: Option<Result<Cow<'a, [u8]>, Diagnostic>>,
 }
 

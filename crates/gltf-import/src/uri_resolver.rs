@@ -1,11 +1,12 @@
-//! URI resolution within a sandbox of folders: which file a URI means, and whether it may be read.
+//! URI resolution within a sandbox of folders: finds the file that a URI means, and checks whether
+//! it may be read.
 //!
-//! A model is untrusted input, and so are its URIs: they are relative paths below one folder, the
-//! root, and nothing else. No absolute path, no scheme but `data:`, no `..` above the root, no
-//! symbolic link that leads out of it, no device or pipe, no file larger than the limit. Everything
-//! is checked before a file is opened, and a path that would leave the root is refused without
-//! looking whether something exists there. The user may allow further folders
-//! ([`ImportOptions::allow_outside`]): then `..` and symbolic links may lead there too.
+//! A model is untrusted input, and so are its URIs: they may only be relative paths below one
+//! folder, the root. No absolute path, no scheme but `data:`, no `..` above the root, no symbolic
+//! link that leads out of it, no device or pipe, no file larger than the limit. Everything is
+//! checked before a file is opened, and a path that would leave the root is rejected without
+//! checking whether it exists. The user may allow other folders ([`ImportOptions::allow_outside`]):
+//! then `..` and symbolic links may lead there too.
 
 use super::ImportOptions;
 use super::limits::Limits;
@@ -23,7 +24,7 @@ use std::path::{Component, Path, PathBuf};
 /// Reads the files and data URIs that a file refers to.
 #[derive(Debug)]
 pub struct UriResolver<'a> {
-    /// Where files may be.
+    /// The allowed location of files.
     source: AssetSource<'a>,
     /// The limits in effect.
     pub limits: &'a Limits,
@@ -33,33 +34,33 @@ pub struct UriResolver<'a> {
     bytes_read: Cell<u64>,
 }
 
-/// Where referenced files may be.
+/// The allowed location of referenced files.
 #[derive(Debug)]
 enum AssetSource<'a> {
     /// Nowhere: the file is in memory, without a folder.
     Nowhere,
-    /// In folders of the disk.
+    /// In folders on disk.
     Disk(AssetSandbox),
-    /// In a folder in memory, relative to the folder of the file within it.
+    /// In a folder in memory, relative to the folder of the referring file.
     Memory(&'a MemoryFolder, String),
 }
 
 /// The folders that referenced files may be in.
 ///
-/// Paths are compared after both sides are canonical, so that neither `..` nor symbolic links
+/// Both paths are made canonical before they are compared, so that neither `..` nor symbolic links
 /// matter.
 #[derive(Debug)]
 struct AssetSandbox {
-    /// The folder that relative paths begin at.
+    /// The folder that relative paths start from.
     folder: PathBuf,
-    /// Folders, canonical; every file must be below one of them.
+    /// Canonical folders; every file must be below one of them.
     roots: Vec<PathBuf>,
 }
 
 impl<'a> UriResolver<'a> {
     /// A resolver for the assets of `file`, in its own folder or in those that the options name.
     ///
-    /// The file itself has been read already: its `length` counts against the limit.
+    /// The file itself has already been read: its `length` counts against the limit.
     ///
     /// # Errors
     /// The folder of the file, or one that the options name, does not exist.
@@ -73,8 +74,8 @@ impl<'a> UriResolver<'a> {
         Self::with_sandbox(Some((folder, root)), length, options)
     }
 
-    /// A resolver for a file in memory: its assets are below the root, or, without one, may not be
-    /// files.
+    /// A resolver for a file in memory: its assets are below the root. Without a root, they may not
+    /// be files.
     ///
     /// # Errors
     /// A folder that the options name does not exist.
@@ -83,7 +84,7 @@ impl<'a> UriResolver<'a> {
         Self::with_sandbox(root.map(|root| (root.clone(), root)), length, options)
     }
 
-    /// A resolver for a file of a folder in memory: its assets are in the same folder.
+    /// A resolver for a file in an in-memory folder: its assets are in the same folder.
     pub fn in_memory_folder(
         folder: &'a MemoryFolder,
         path: &str,
@@ -96,7 +97,7 @@ impl<'a> UriResolver<'a> {
         Self { source, limits, lenient: *lenient, bytes_read }
     }
 
-    /// A resolver for assets whose paths begin at a folder and stay below a root.
+    /// A resolver for assets whose paths start from a folder and stay below a root.
     ///
     /// # Errors
     /// An allowed folder does not exist.
@@ -118,7 +119,7 @@ impl<'a> UriResolver<'a> {
     /// The bytes that a URI refers to; `pointer` is the location of the URI.
     ///
     /// # Errors
-    /// The file does not exist, is outside of the sandbox or too large; the data URI is malformed.
+    /// The file does not exist, is outside the sandbox or too large; the data URI is malformed.
     pub fn read_uri(&self, uri: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
         let bytes = match uri.split_once(':') {
             Some((scheme, data)) if scheme.eq_ignore_ascii_case("data") => {
@@ -147,8 +148,8 @@ impl<'a> UriResolver<'a> {
     /// The content of the file that a URI names: taken literally, else percent-decoded, else with
     /// `\` read as `/`.
     ///
-    /// Exporters disagree about escaping, and some write paths of Windows; the first candidate that
-    /// exists is taken. Each candidate is checked against the sandbox.
+    /// Exporters disagree about escaping, and some write Windows paths; the first existing
+    /// candidate is used. Each candidate is checked against the sandbox.
     ///
     /// # Errors
     /// The path leaves the sandbox, has a scheme, no candidate exists, or the file is too large.
@@ -172,7 +173,7 @@ impl<'a> UriResolver<'a> {
         })
     }
 
-    /// The content of the file of a relative path, or `None` if there is none.
+    /// The content of the file at a relative path, or `None` if there is none.
     ///
     /// # Errors
     /// The path leaves the sandbox, or the file is too large or not a regular one.
@@ -213,9 +214,9 @@ impl AssetSandbox {
         self.roots.iter().any(|root| path.starts_with(root))
     }
 
-    /// Joins a relative path to the folder, if it stays below a root by its components alone.
+    /// Joins a relative path to the folder, if its components stay below a root.
     ///
-    /// This is the first of two checks, made before the file system is asked anything: a file that
+    /// This is the first of two checks, made before any access to the file system: a file that
     /// contains `../../secret` learns nothing, not even whether that file exists.
     /// [`check_path`](Self::check_path) is the second, on the canonical path, and catches symbolic
     /// links.
@@ -242,7 +243,7 @@ impl AssetSandbox {
         if self.contains_path(&path) { Ok(path) } else { outside() }
     }
 
-    /// Checks that an existing canonical path is a regular file that no symbolic link has led
+    /// Checks that an existing canonical path is a regular file that no symbolic link has moved
     /// outside.
     fn check_path(&self, path: PathBuf, uri: &str, pointer: &str) -> Result<PathBuf, Diagnostic> {
         if !self.contains_path(&path) {
@@ -260,7 +261,7 @@ impl AssetSandbox {
 
 /// Reads a whole regular file, but no more than the limit.
 ///
-/// The size is checked before reading and the read is bounded as well: a file may grow in between,
+/// The size is checked before reading and the read is limited as well: a file may grow in between,
 /// and special files report a size of 0. One byte more than the limit is read to detect the excess.
 ///
 /// # Errors
@@ -289,7 +290,7 @@ pub fn read_file(path: &Path, limits: &Limits, pointer: &str) -> Result<Vec<u8>,
     Ok(bytes)
 }
 
-/// Canonical path of a folder that the user allows files to be in.
+/// Canonical path of a folder in which the user allows files.
 fn canonical_allowed_folder(folder: &Path) -> Result<PathBuf, Diagnostic> {
     folder.canonicalize().map_err(|error| {
         let message =
@@ -305,10 +306,9 @@ fn canonical_folder(folder: &Path) -> Result<PathBuf, Diagnostic> {
 
 /// The error for a file that cannot be opened or read.
 ///
-/// The two common cases, a missing file and missing permissions, have messages and advice of their
-/// own.
+/// The two common cases, a missing file and missing permissions, have specific messages and advice.
 fn unreadable_file(pointer: &str, path: &Path, error: &std::io::Error) -> Diagnostic {
-    // An empty pointer stands for the glTF file, whose path precedes the message.
+    // An empty pointer means the glTF file, whose path precedes the message.
     let name = if pointer.is_empty() { "the file".to_owned() } else { path.display().to_string() };
     let (message, help) = match error.kind() {
         std::io::ErrorKind::NotFound => (format!("{name} does not exist"), "check the name"),
@@ -320,7 +320,7 @@ fn unreadable_file(pointer: &str, path: &Path, error: &std::io::Error) -> Diagno
     Diagnostic::error(codes::IO_ERROR, pointer, message, help)
 }
 
-/// The error for a file that is not there.
+/// The error for a missing file.
 pub fn missing_file(pointer: &str, name: &str) -> Diagnostic {
     let message = format!("the file {name:?} does not exist");
     Diagnostic::error(codes::IO_ERROR, pointer, message, "put it beside the model")
@@ -343,7 +343,7 @@ pub fn check_file_size(length: usize, limits: &Limits) -> Result<(), Diagnostic>
     ))
 }
 
-/// The error for a path outside of the sandbox.
+/// The error for a path outside the sandbox.
 fn forbidden_path(pointer: &str, message: &str) -> Diagnostic {
     let help = "copy the file beside the model and name it by a relative path, or allow its folder \
                   with --allow-outside DIR";
@@ -364,8 +364,7 @@ const LENIENT_BASE64: GeneralPurposeConfig = GeneralPurposeConfig::new()
     .with_decode_allow_trailing_bits(true)
     .with_decode_padding_mode(DecodePaddingMode::Indifferent);
 
-/// The data of a data URI (RFC 2397) whose scheme has been removed; both alphabets of base64 are
-/// read.
+/// The data of a data URI (RFC 2397) without its scheme; both base64 alphabets are read.
 fn decode_data_uri(data: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
     let Some((kind, data)) = data.split_once(',') else {
         return Err(Diagnostic::invalid(pointer, "the data URI has no comma before its data"));

@@ -1,9 +1,9 @@
-//! The importer's list of warnings, bounded even if a file has millions of faults.
+//! The importer's list of warnings, bounded even if a file has millions of errors.
 //!
-//! Errors become warnings in two ways: some always do, because only the appearance suffers
-//! ([`ImportWarnings::downgrade`]); others only when reading leniently
-//! ([`ImportWarnings::downgrade_if_lenient`]). The message then ends with the consequence: what is
-//! left out, or what replaces it.
+//! Errors become warnings in two ways: some always do, because they affect only the appearance
+//! ([`ImportWarnings::downgrade`]); others only in lenient mode
+//! ([`ImportWarnings::downgrade_if_lenient`]). The message then ends with the consequence: the part
+//! that is skipped or its replacement.
 
 use model::{Diagnostic, Severity, codes};
 
@@ -13,7 +13,7 @@ const MAX_WARNINGS: usize = 500;
 /// Collector of warnings while a file is read.
 #[derive(Debug, Default)]
 pub struct ImportWarnings {
-    /// Whether errors are downgraded to warnings where something is left to load.
+    /// Whether errors become warnings if something is left to load.
     lenient: bool,
     /// Stored warnings, in the order in which they were found.
     list: Vec<Diagnostic>,
@@ -22,7 +22,7 @@ pub struct ImportWarnings {
 }
 
 impl ImportWarnings {
-    /// An empty list; `lenient` decides what [`Self::downgrade_if_lenient`] does.
+    /// An empty list; `lenient` controls [`Self::downgrade_if_lenient`].
     pub fn new(lenient: bool) -> Self {
         Self { lenient, ..Self::default() }
     }
@@ -41,7 +41,8 @@ impl ImportWarnings {
         }
     }
 
-    /// Adds an error as a warning; `consequence` says what is left out or replaced because of it.
+    /// Adds an error as a warning; `consequence` describes the part that is skipped or replaced
+    /// because of it.
     pub fn downgrade(&mut self, diagnostic: &Diagnostic, consequence: &str) {
         self.push(warning(
             diagnostic.code,
@@ -50,11 +51,10 @@ impl ImportWarnings {
         ));
     }
 
-    /// Adds an error as a warning if reading leniently, and returns it otherwise.
+    /// Adds an error as a warning in lenient mode, and returns it otherwise.
     ///
     /// # Errors
-    /// The error itself, if reading is strict. Limits and the requested scene or variant are never
-    /// waived.
+    /// The error itself in strict mode. Limits and the requested scene or variant are never waived.
     pub fn downgrade_if_lenient(
         &mut self,
         diagnostic: Diagnostic,
@@ -74,7 +74,7 @@ impl ImportWarnings {
         self.omitted += left_out;
     }
 
-    /// The stored warnings, and one that counts the others.
+    /// The stored warnings, and one with the number of the others.
     pub fn into_list(mut self) -> Vec<Diagnostic> {
         if self.omitted > 0 {
             let message = format!("{} more warnings are not listed", self.omitted);

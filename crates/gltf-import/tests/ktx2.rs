@@ -1,8 +1,8 @@
-//! KTX2 images as encoders write them, against the texels of the reference transcoder.
+//! KTX2 images from real encoders, compared with the texels of the reference transcoder.
 //!
 //! The images of `ktx2/` are 7 x 5 texels: a gradient with a white corner. The encoder of Basis
-//! Universal 2.50 wrote them; the transcoder of the same project, at RGBA32, wrote the texels
-//! beside them. What it decodes is specified to the bit.
+//! Universal 2.50 wrote them; the transcoder of the same project wrote the texels next to them, as
+//! RGBA32. Its output is specified exactly.
 
 use import::{ImportOptions, decode_image, load_bytes};
 
@@ -32,7 +32,7 @@ fn images_have_the_texels_of_the_reference_transcoder() {
 #[test]
 fn every_truncation_is_an_error() {
     for (name, file, _) in IMAGES {
-        // The levels after the first are not read, and are before it.
+        // The levels after the first are not read, and come before it.
         for end in 0..file.len() {
             assert!(decode_image(&file[..end], 35).is_err(), "{name} cut at {end}");
         }

@@ -1,7 +1,8 @@
-//! Meshes from memory: arrays of vertices and polygons become a [`Model`], as those of files do.
+//! Meshes from memory: arrays of vertices and polygons become a [`Model`], like the arrays of
+//! files.
 //!
-//! They go the way of PLY files: polygons are cut into triangles, normals follow from the crease
-//! angle where there are none, and faces with colors of their own split the vertices between them.
+//! They are treated like PLY files: polygons are cut into triangles, missing normals are computed
+//! with the crease angle, and vertices are split between faces of different colors.
 
 use super::ply::{self, Contents};
 use crate::load::{check_scene_limits, surface_without_area};
@@ -14,7 +15,7 @@ use model::{
     TextureInfo, codes,
 };
 
-/// A mesh as arrays: vertices, polygons and what they look like.
+/// A mesh as arrays: vertices, polygons and their appearance.
 ///
 /// ```
 /// use import::{MeshArrays, MeshNode, load_arrays};
@@ -38,48 +39,48 @@ pub struct MeshArrays {
     pub lengths: Vec<u32>,
     /// Vertices of the corners of all polygons, counter-clockwise seen from outside.
     pub corners: Vec<u32>,
-    /// Vertices of the ends of lines, two for each. Without polygons and lines the vertices are a
-    /// cloud of points.
+    /// Vertices at the ends of lines, two for each line. Without polygons and lines, the vertices
+    /// form a point cloud.
     pub line_ends: Vec<u32>,
-    /// Normals of the vertices, of any length; without them the crease angle decides.
+    /// Normals of the vertices, of any length; without them the crease angle is used.
     pub normals: Option<Vec<[f32; 3]>>,
     /// Texture coordinates of the vertices with (0, 0) at the upper left.
     pub uvs: Option<Vec<[f32; 2]>>,
     /// Linear colors of the vertices.
     pub vertex_colors: Option<Vec<[f32; 4]>>,
-    /// Linear colors of the polygons, where the vertices have none.
+    /// Linear colors of the polygons, used if the vertices have none.
     pub face_colors: Option<Vec<[f32; 4]>>,
-    /// The image of the texture, which multiplies the base color; colors do not count then.
+    /// The texture image, which multiplies the base color; vertex and face colors are then ignored.
     pub image: Option<Image>,
-    /// The material; `None` for that of formats without materials.
+    /// The material; `None` for the default of formats without materials.
     pub material: Option<Material>,
 }
 
-/// A place of a mesh in the model.
+/// A placement of a mesh in the model.
 #[derive(Clone, PartialEq, Debug)]
 pub struct MeshNode {
     /// The name, if it has one.
     pub name: Option<String>,
     /// The index of the mesh.
     pub mesh: usize,
-    /// From the mesh's coordinates to the model's.
+    /// The transform from the mesh's coordinates to the model's.
     pub to_model: Affine<ModelSpace, ModelSpace>,
 }
 
 impl Default for MeshNode {
-    /// The first mesh, where its coordinates say.
+    /// The first mesh, placed by its own coordinates.
     fn default() -> Self {
         Self { name: None, mesh: 0, to_model: Affine::IDENTITY }
     }
 }
 
-/// Makes a model of meshes in memory; `nodes` says where each of them is shown.
+/// Makes a model from meshes in memory; `nodes` places them.
 ///
-/// Of the options, limits, up axis, unit and crease angle count.
+/// Of the options, only the limits, up axis, unit and crease angle are used.
 ///
 /// # Errors
-/// A limit is exceeded; arrays of different lengths; an index out of range; a position that is not
-/// finite. Locations begin with the index of the mesh or node: `/meshes/0/corners/7`.
+/// A limit is exceeded, arrays have different lengths, an index is out of range, or a position is
+/// not finite. Locations begin with the index of the mesh or node: `/meshes/0/corners/7`.
 pub fn load_arrays(
     name: &str,
     meshes: Vec<MeshArrays>,
@@ -120,7 +121,7 @@ pub fn load_arrays(
     Ok(model)
 }
 
-/// Adds the nodes, all of them roots.
+/// Adds the nodes, all as roots.
 fn add_nodes(model: &mut Model, nodes: &[MeshNode]) -> Result<(), Diagnostic> {
     for (index, MeshNode { name, mesh, to_model }) in nodes.iter().enumerate() {
         let location = format!("/nodes/{index}");
@@ -144,7 +145,7 @@ fn add_nodes(model: &mut Model, nodes: &[MeshNode]) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-/// The error of arrays that do not fit together.
+/// The error for arrays that do not fit together.
 fn wrong_arrays(location: &str, message: String) -> Diagnostic {
     Diagnostic::error(codes::INVALID_DATA, location, message, "correct the arrays")
 }
@@ -197,7 +198,7 @@ impl MeshArrays {
         Ok(())
     }
 
-    /// The material, with the texture of this index.
+    /// The material, with the texture at this index.
     fn to_material(&self, texture: Option<usize>) -> Material {
         let colors = self.vertex_colors.as_ref().or(self.face_colors.as_ref());
         let colors = colors.filter(|_| texture.is_none());
@@ -217,7 +218,7 @@ impl MeshArrays {
         material
     }
 
-    /// The name, and the arrays as those of a PLY file.
+    /// The name, and the arrays in the form of a PLY file's.
     fn into_contents(self) -> (Option<String>, Contents) {
         let vertices = ply::Vertices {
             positions: self.positions,

@@ -1,15 +1,15 @@
-//! Vertices that are split where the corners at them have different colors or texture coordinates.
+//! Splits vertices whose corners have different colors or texture coordinates.
 //!
-//! PLY and 3MF give attributes to faces and to corners of faces; a primitive has them at its
-//! vertices only.
+//! PLY and 3MF attach attributes to faces and to corners of faces; a primitive has them only at its
+//! vertices.
 
 /// Marks the end of a list.
 const NONE: u32 = u32::MAX;
-/// Attributes that are compared before a vertex is split once more. A vertex of more corners, all
-/// different, would otherwise take quadratic time.
+/// Maximum number of attributes to compare before a vertex is split again. A vertex with many
+/// different corners would otherwise take quadratic time.
 const MAX_COMPARISONS: usize = 32;
 
-/// Attributes of a corner besides its position.
+/// Attributes of a corner other than its position.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct CornerAttributes {
     /// Texture coordinates.
@@ -30,16 +30,16 @@ impl Default for CornerAttributes {
 pub(super) struct CornerVertices {
     /// The last new vertex of each old one.
     latest: Vec<u32>,
-    /// For each new vertex the one before it that has the same old vertex.
+    /// For each new vertex, the previous one made from the same old vertex.
     before: Vec<u32>,
-    /// For each new vertex the old one.
+    /// For each new vertex, the old one.
     pub(super) sources: Vec<u32>,
-    /// For each new vertex its attributes.
+    /// For each new vertex, its attributes.
     pub(super) attributes: Vec<CornerAttributes>,
 }
 
 impl CornerVertices {
-    /// No new vertex for any of the old ones.
+    /// An empty list for each of the old vertices.
     pub(super) fn new(vertices: usize) -> Self {
         Self {
             latest: vec![NONE; vertices],

@@ -1,12 +1,12 @@
-//! File formats of models: which one a file is in, by its content first and by its name only where
-//! the content does not say.
+//! Model file formats, and their detection from the content; the name is used only if the content
+//! is ambiguous.
 
 use super::stl;
 use super::text::decode_text;
 use model::{Diagnostic, codes};
 use std::path::Path;
 
-/// A file format of models.
+/// A model file format.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum FileFormat {
     /// glTF 2.0, as JSON or in the binary container (GLB).
@@ -21,9 +21,9 @@ pub enum FileFormat {
     ThreeMf,
 }
 
-/// The bytes at the beginning of a file that tell text formats apart.
+/// Number of bytes at the beginning of a file that are used to tell text formats apart.
 ///
-/// Comments before the first statement of an OBJ file are seldom longer.
+/// Comments before the first statement of an OBJ file are rarely longer.
 const PREFIX_BYTES: usize = 16 << 10;
 
 impl FileFormat {
@@ -42,7 +42,7 @@ impl FileFormat {
         }
     }
 
-    /// File extensions of the format, in lower case and without the dot.
+    /// File extensions of the format, in lowercase and without the dot.
     #[must_use]
     pub const fn extensions(self) -> &'static [&'static str] {
         match self {
@@ -54,16 +54,16 @@ impl FileFormat {
         }
     }
 
-    /// The format that a file's extension stands for; upper and lower case are the same.
+    /// The format for a file's extension, regardless of case.
     #[must_use]
     pub fn from_extension(path: &Path) -> Option<Self> {
         let extension = path.extension()?.to_str()?.to_ascii_lowercase();
         Self::ALL.into_iter().find(|format| format.extensions().contains(&extension.as_str()))
     }
 
-    /// The format that the content of a file shows; `None` if it shows none of them for certain.
+    /// The format that the content of a file shows; `None` if it does not clearly show one.
     ///
-    /// The time does not grow with the file.
+    /// The time does not depend on the length of the file.
     #[must_use]
     pub fn from_content(bytes: &[u8]) -> Option<Self> {
         if bytes.starts_with(b"glTF") {
@@ -86,15 +86,16 @@ impl FileFormat {
         }
     }
 
-    /// Whether content of this format is that, even in a file as long as a binary STL file.
+    /// Whether content that looks like this format is certain, even in a file that is as long as a
+    /// binary STL file.
     pub(super) fn precedes_binary_stl(self) -> bool {
         matches!(self, Self::Gltf | Self::ThreeMf | Self::Ply)
     }
 
-    /// The format of a file, by its content, else by its name.
+    /// The format of a file, from its content or else from its name.
     ///
     /// # Errors
-    /// [`UNKNOWN_FORMAT`](codes::UNKNOWN_FORMAT) if neither says.
+    /// [`UNKNOWN_FORMAT`](codes::UNKNOWN_FORMAT) if neither shows it.
     pub fn recognize(path: &Path, bytes: &[u8]) -> Result<Self, Diagnostic> {
         let named = Self::from_extension(path);
         let is_scene = path.extension().is_some_and(|ending| ending == "ron");
@@ -106,8 +107,7 @@ impl FileFormat {
     }
 }
 
-/// Whether the first line that is neither blank nor a comment is a statement of an OBJ file, with
-/// something to state.
+/// Whether the first line that is neither blank nor a comment is an OBJ statement with arguments.
 fn begins_with_obj_statement(text: &[u8]) -> bool {
     const STATEMENTS: [&[u8]; 16] = [
         b"v", b"vn", b"vt", b"vp", b"f", b"l", b"p", b"o", b"g", b"s", b"mg", b"mtllib", b"usemtl",
@@ -120,11 +120,11 @@ fn begins_with_obj_statement(text: &[u8]) -> bool {
     is_statement && words.next().is_some() && !text.contains(&0)
 }
 
-/// How files begin that only have the name of a model.
+/// The first bytes of files that only have the name of a model.
 const MISLEADING: [&[u8]; 6] =
     [b"version https://git-lfs", b"<!DOCTYPE", b"<!doctype", b"<html", b"\x1f\x8b", b"\x89PNG"];
 
-/// Formats that are not read: how they begin, what they are called, and what to do.
+/// Unsupported formats: their first bytes, name and remedy.
 const FOREIGN_FORMATS: [(&[u8], &str, &str); 19] = [
     (
         b"version https://git-lfs",
@@ -155,13 +155,13 @@ const FOREIGN_FORMATS: [(&[u8], &str, &str); 19] = [
     (b"<?xml", "an XML file (COLLADA, AMF, X3D …)", "export it as .glb or .3mf"),
 ];
 
-/// The error for a scene file in the place of a model.
+/// The error for a scene file where a model is expected.
 fn scene_as_model() -> Diagnostic {
     let help = "`alberti scene check` checks it, and `alberti render` draws it";
     Diagnostic::error(codes::UNKNOWN_FORMAT, "", "this is a scene and not a model", help)
 }
 
-/// The error for a file whose format neither its content nor its name says.
+/// The error for a file whose format neither its content nor its name shows.
 fn unknown_format(bytes: &[u8]) -> Diagnostic {
     let is_text = bytes.len() > 8
         && bytes.iter().take(512).all(|b| b.is_ascii_graphic() || b.is_ascii_whitespace());

@@ -1,25 +1,25 @@
-//! Import: reads a file into a [`Model`](model::Model) without trusting anything in it.
+//! Import: reads a file into a [`Model`](model::Model) without trusting any of its content.
 //!
 //! Files are untrusted input. Every index, length and size is checked before it is used, URIs refer
-//! to files below one folder only, and everything a file can declare has a [limit](Limits). A
-//! [`Diagnostic`](model::Diagnostic) says where the file is wrong, what is wrong and what to do.
+//! only to files below one folder, and everything a file can declare has a [limit](Limits). A
+//! [`Diagnostic`](model::Diagnostic) gives the location, the problem and the remedy.
 //!
 //! Faults in the geometry (positions, indices, the node hierarchy) are errors; faults in the
 //! appearance (materials, normals, images) are [warnings](model::Model::warnings), and the file is
-//! drawn without what is broken. With [`ImportOptions::lenient`] most errors become warnings too,
-//! as long as something is left to load. The crate `gltf-check` lists everything that is wrong
-//! instead of stopping at the first error.
+//! drawn without the broken parts. With [`ImportOptions::lenient`] most errors become warnings too,
+//! as long as something is left to load. The crate `gltf-check` lists every error instead of
+//! stopping at the first.
 //!
 //! | option | error by default | with `lenient` |
 //! | --- | --- | --- |
-//! | broken shape | yes | the primitive is left out |
-//! | missing buffer file | yes | what uses it is left out |
+//! | broken shape | yes | the primitive is skipped |
+//! | missing buffer file | yes | anything that uses it is skipped |
 //! | unknown required extension | yes | it is ignored |
 //! | unknown format, other version | yes | yes |
 //! | exceeded limit | yes | yes |
 //!
-//! glTF is read by the crate `gltf-import`, which has the guards; `stl`, `obj`, `ply` and `threemf`
-//! read one format each, and the other modules serve them.
+//! glTF is read by the crate `gltf-import`, which contains the guards; `stl`, `obj`, `ply` and
+//! `threemf` read one format each, and the other modules support them.
 
 mod arrays;
 mod corner_vertices;
@@ -38,7 +38,7 @@ pub use file_format::FileFormat;
 pub use load::{import_model, load, load_bytes, load_from_memory};
 pub use obj::PhongMaterial;
 
-// What the functions here take and return.
+// Parameter and result types of the functions here.
 pub use gltf_import::{
     ExtensionUse, ImageLoading, ImportError, ImportOptions, Limits, MemoryFolder, NameOrIndex,
     ScalarColors, UriResolver, decode_image, extension_use, percent_decode, percent_encode,

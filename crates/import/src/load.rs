@@ -1,4 +1,4 @@
-//! Loading: the format is recognized, its reader makes the model, and the options complete it.
+//! Loading: detects the format, runs its reader, and completes the model with the options.
 
 use crate::{FileFormat, obj, ply, stl, threemf};
 use glam::DVec3;
@@ -9,11 +9,11 @@ use gltf_import::{
 use model::{Diagnostic, Model, Severity, Topology, codes};
 use std::path::Path;
 
-/// Loads a model; its content decides which [format](FileFormat) it is, and its name only where
-/// the content does not say.
+/// Loads a model. Its [format](FileFormat) is detected from the content; the name is used only if
+/// the content is ambiguous.
 ///
-/// Faults that leave something to draw do not stop it: they are in [`Model::warnings`]. A file
-/// without anything to draw loads as well.
+/// Problems that leave something to draw do not stop it: they are in [`Model::warnings`]. A file
+/// without anything to draw loads too.
 ///
 /// ```no_run
 /// use import::{ImportOptions, load};
@@ -27,9 +27,9 @@ use std::path::Path;
 /// ```
 ///
 /// # Errors
-/// The file, or one it refers to, cannot be read or is forbidden; is of no known format or breaks
-/// its rules; requires an unsupported extension; exceeds a limit; has no such scene, variant or
-/// scalar attribute as the options ask for.
+/// The file, or one it refers to, cannot be read or is forbidden; has an unknown format or breaks
+/// its rules; requires an unsupported extension; exceeds a limit; or lacks the scene, variant or
+/// scalar attribute that the options ask for.
 pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
     let read = || read_file(path, &options.limits, "");
     let load_bytes = || {
@@ -46,10 +46,10 @@ pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> 
     loaded.map_err(|diagnostic| ImportError::new(path, diagnostic))
 }
 
-/// Loads a model from a file in memory, as [`load`] does; `name` stands for its path in messages.
+/// Loads a model from a file in memory, as [`load`] does; `name` replaces its path in messages.
 ///
 /// Without a [root](ImportOptions::root) the file must be self-contained: no other file is read.
-/// With one, relative URIs are resolved against that folder.
+/// With a root, relative URIs are resolved against that folder.
 ///
 /// # Errors
 /// As for [`load`].
@@ -60,10 +60,10 @@ pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<M
     loaded.map_err(|diagnostic| ImportError::new(path, diagnostic))
 }
 
-/// Loads a model from a file of a folder in memory, as [`load`] does from one of the disk.
+/// Loads a model from a file in an in-memory folder, as [`load`] does from disk.
 ///
-/// Relative URIs are resolved within the folder; neither [`root`](ImportOptions::root) nor
-/// [`allow_outside`](ImportOptions::allow_outside) matters, and no file of the disk is read.
+/// Relative URIs are resolved within the folder. [`root`](ImportOptions::root) and
+/// [`allow_outside`](ImportOptions::allow_outside) are ignored, and no file on disk is read.
 ///
 /// ```
 /// use import::{MemoryFolder, load_from_memory};
@@ -75,7 +75,7 @@ pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<M
 /// ```
 ///
 /// # Errors
-/// There is no such file in the folder; else as for [`load`].
+/// There is no such file in the folder; otherwise as for [`load`].
 pub fn load_from_memory(
     folder: &MemoryFolder,
     path: &str,
@@ -112,8 +112,8 @@ pub fn import_model(
     complete_model(import(path, bytes, resolver, options)?, path, format, options)
 }
 
-/// Completes a model as its reader left it, with the up axis and unit of its file: the options
-/// replace these, and the model is turned upright.
+/// Completes a model from its reader, given the file's up axis and unit. The options override
+/// these, and the model is rotated so that y is up.
 fn complete_model(
     mut model: Model,
     path: &Path,
@@ -138,7 +138,7 @@ fn complete_model(
     Ok(model)
 }
 
-/// The note about a file whose name stands for another format than it is in.
+/// The note about a file whose name suggests another format than its content.
 fn misleading_name(path: &Path, format: FileFormat) -> Option<Diagnostic> {
     let named = FileFormat::from_extension(path).filter(|named| *named != format)?;
     let message = format!("the name says {}, but this is {}", named.name(), format.name());
@@ -147,7 +147,7 @@ fn misleading_name(path: &Path, format: FileFormat) -> Option<Diagnostic> {
     Some(fault.with_severity(Severity::Info))
 }
 
-/// The warning about a model none of whose triangles has an area: there is nothing to see.
+/// The warning about a model in which no triangle has an area, so that there is nothing to see.
 pub(crate) fn surface_without_area(model: &Model) -> Option<Diagnostic> {
     let primitives = model.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let mut triangles = primitives
@@ -168,7 +168,7 @@ pub(crate) fn surface_without_area(model: &Model) -> Option<Diagnostic> {
     (!triangles.any(has_area)).then(|| fault().with_severity(Severity::Warning))
 }
 
-/// Checks the numbers of nodes and of items that the scene shows.
+/// Checks the node and item counts of the scene.
 pub(crate) fn check_scene_limits(model: &Model, limits: &Limits) -> Result<(), Diagnostic> {
     let nodes = model.nodes.len();
     if nodes > limits.nodes {

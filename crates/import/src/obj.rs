@@ -1,20 +1,20 @@
-//! The OBJ importer: Wavefront's text format of polygons, with its material libraries (MTL).
+//! The OBJ importer: Wavefront's text format for polygons, with its material libraries (MTL).
 //!
 //! ```text
 //!  text ──parser──► vertices, elements ──parts──► triangles ──primitives──► meshes ─scene─► Model
 //!   └─ mtllib ──mtl──► statements ──material, textures─────────────────────────────────────┘
 //! ```
 //!
-//! Read are polygons of any number of corners, lines and points; positions, texture coordinates,
+//! Reads polygons with any number of corners, lines and points; positions, texture coordinates,
 //! normals and vertex colors; objects, groups, smoothing groups, materials and their textures.
-//! Free-form curves and surfaces, and statements that are not known, are named in a warning.
+//! Free-form curves and surfaces, and unknown statements, are listed in a warning.
 //!
-//! A file without any element is a cloud of points. Normals that a file does not give follow from
-//! its smoothing groups if it has some, and from the crease angle if not. Up is y and the unit is
-//! not known, by convention.
+//! A file without any element is a point cloud. Missing normals are computed from the smoothing
+//! groups if the file has some, otherwise with the crease angle. By convention y is up and the unit
+//! is unknown.
 //!
-//! The crate `tobj` was not taken: it cuts polygons as fans, wrong where they are concave, knows
-//! neither smoothing groups nor locations of faults, and reads no UTF-16.
+//! The crate `tobj` was not used: it cuts polygons into fans, which is wrong for concave ones,
+//! supports neither smoothing groups nor error locations, and does not read UTF-16.
 
 mod elements;
 mod fault_counts;
@@ -43,10 +43,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use textures::TextureTable;
 
-/// Material libraries that are looked for; a file names one, or one for each object.
+/// Maximum number of material libraries; a file names one, or one for each object.
 const MAX_LIBRARIES: usize = 1024;
-/// Bytes that the arrays of a corner take at most: references, triangle, vertex with attributes,
-/// and what the computation of normals needs.
+/// Maximum number of bytes in the arrays of a corner: references, triangle, vertex with attributes,
+/// and temporary data for computing normals.
 const BYTES_PER_CORNER: u64 = 140;
 
 /// Imports an OBJ file whose bytes have been read.
@@ -74,7 +74,7 @@ pub(super) fn import_obj(
     Ok(model)
 }
 
-/// Checks what the elements will take against the limits.
+/// Checks the memory for the elements against the limits.
 fn check_sizes(file: &ObjFile<'_>, resolver: &UriResolver<'_>) -> Result<(), Diagnostic> {
     let limits = resolver.limits;
     let nodes = 2 * file.groups.len();
@@ -98,7 +98,7 @@ struct Library {
     text: Vec<u8>,
 }
 
-/// Reads the material libraries. Those that are missing cost a warning each.
+/// Reads the material libraries. Each missing one causes a warning.
 ///
 /// `mtllib` takes one name, which may contain spaces, or several.
 fn read_libraries(
@@ -141,7 +141,7 @@ fn read_library(name: String, resolver: &UriResolver<'_>) -> Result<Library, Dia
     Ok(Library { name, text })
 }
 
-/// Gives the model the materials that its primitives have, in the order in which elements first use
+/// Adds the materials of the primitives to the model, in the order in which elements first use
 /// them, and the images of their textures.
 fn build_materials(
     model: &mut Model,
@@ -151,7 +151,7 @@ fn build_materials(
     options: &ImportOptions,
     warnings: &mut ImportWarnings,
 ) {
-    // The first library that defines a name counts, and in it the last definition.
+    // The first library that defines a name is used, and the last definition in it.
     let mut defined: BTreeMap<&[u8], (usize, MtlMaterial<'_>)> = BTreeMap::new();
     for (at, library) in libraries.iter().enumerate() {
         for material in mtl::parse_mtl(&library.text, &shorten(&library.name), warnings) {
@@ -188,7 +188,7 @@ fn build_materials(
     textures.load_images(model, resolver, options, warnings);
 }
 
-/// A name from a file as messages quote it: its beginning, if it is very long.
+/// A name from a file as quoted in messages: only its beginning, if it is very long.
 fn shorten(name: &str) -> String {
     const LENGTH: usize = 80;
     let mut short: String = name.chars().take(LENGTH).collect();
@@ -198,13 +198,13 @@ fn shorten(name: &str) -> String {
     short
 }
 
-/// The folder of a path, with the slash at its end; empty if it has none, and for data URIs.
+/// The folder of a path, with a slash at its end; empty if it has none, and for data URIs.
 fn folder_of(path: &str) -> String {
     let path = if path.starts_with("data:") { "" } else { path };
     path.rfind(['/', '\\']).map_or_else(String::new, |slash| path[..=slash].to_owned())
 }
 
-/// A warning that names materials without definition.
+/// A warning that lists undefined materials.
 fn report_undefined(names: &[&[u8]], warnings: &mut ImportWarnings) {
     const NAMED: usize = 8;
     if names.is_empty() {

@@ -1,4 +1,4 @@
-//! The PLY importer (Stanford polygon format): text, and binary of both orders of bytes.
+//! The PLY importer (Stanford polygon format): text, and binary in both byte orders.
 //!
 //! ```text
 //!  header ──► elements and properties ─┬─ vertex      positions, normals, uvs, colors
@@ -8,10 +8,10 @@
 //!                                      └─ others      skipped
 //! ```
 //!
-//! A file without faces and edges is a point cloud. Colors are sRGB, whatever their type, and
-//! become linear; texture coordinates begin at the lower left, and are turned over. A property
-//! without a meaning here, such as `quality`, can be shown by colors instead. Faces and
-//! corners that carry attributes split the vertices between them.
+//! A file without faces and edges is a point cloud. Colors are sRGB for every type, and become
+//! linear. Texture coordinates begin at the lower left, and are flipped. A property without a
+//! meaning here, such as `quality`, can be shown as colors. Vertices are split between faces and
+//! corners that carry different attributes.
 
 mod body;
 mod faces;
@@ -34,7 +34,7 @@ pub(super) use primitives::{array_bytes, build_primitives};
 use std::path::Path;
 pub(super) use vertices::Vertices;
 
-/// The content of the body of a file.
+/// The content of a file's body.
 #[derive(Default, Debug)]
 pub(super) struct Contents {
     pub(super) vertices: Vertices,
@@ -44,7 +44,7 @@ pub(super) struct Contents {
 }
 
 impl Contents {
-    /// The material of what has no texture: it leaves the colors of vertices and faces as they are.
+    /// The material for untextured parts: it leaves the colors of vertices and faces unchanged.
     fn untextured_material(&self) -> Material {
         let plain = Material::plain();
         let Some(colors) = self.vertices.colors.as_ref().or(self.faces.colors.as_ref()) else {
@@ -55,8 +55,7 @@ impl Contents {
         Material { alpha_mode, ..Material::white() }
     }
 
-    /// Colors the vertices by the scalars that have been read with them; textures and the colors of
-    /// the file do not count then.
+    /// Colors the vertices by their scalars; textures and the colors of the file are then ignored.
     fn color_by_scalars(&mut self, colors: &ScalarColors, warnings: &mut ImportWarnings) {
         let values = self.vertices.scalars.take().unwrap_or_default();
         let colored = colors.color_arrays(&[&values[..]], "element vertex", warnings);
@@ -104,8 +103,8 @@ pub(super) fn import_ply(
     Ok(model)
 }
 
-/// Reads all elements in their order; those without meaning here are skipped. `scalar` is the
-/// property that is read as the scalar of each vertex.
+/// Reads all elements in order; those without meaning here are skipped. `scalar` is the property
+/// that is read as the scalar of each vertex.
 fn read_body(
     bytes: &[u8],
     header: &Header,
@@ -168,10 +167,10 @@ fn read_textures<'a>(
     header.texture_files.iter().map(read).collect()
 }
 
-/// Gives the model a material for each texture, or one without.
+/// Adds a material for each texture to the model, or one without a texture.
 ///
-/// Colors of vertices and faces multiply those of materials; a surface whose texture is there is
-/// shown in the texture's colors alone, as programs that write such files do.
+/// Colors of vertices and faces multiply the material's color. A surface whose texture exists shows
+/// only the texture's colors, as in the programs that write such files.
 fn build_materials(
     model: &mut Model,
     textures: Vec<TextureImage<'_>>,

@@ -1,5 +1,4 @@
-//! Polygons of formats without finished vertices: triangulation, welding, and normals for triangles
-//! that have none.
+//! Polygons of formats without ready-made vertices: triangulation, welding, and missing normals.
 
 mod crease_normals;
 mod orientation;

@@ -1,4 +1,4 @@
-//! The STL importer: ASCII and binary files of triangles become a [`Model`].
+//! The STL importer: reads ASCII and binary triangle files into a [`Model`].
 //!
 //! ```text
 //!  bytes ─┬─ binary ─┬─► facets ──VertexWelder──► vertices ──CreaseNormals──► Mesh per solid
@@ -6,11 +6,11 @@
 //! ```
 //!
 //! Both forms begin with `solid` in many files; the length tells them apart. By convention z points
-//! up and lengths are millimeters. The normals of the file are not read: they are those of the flat
-//! faces, and often 0 or wrong.
+//! up and lengths are in millimeters. The normals in the file are not read: they are the flat face
+//! normals, and often 0 or wrong.
 //!
-//! Triangles without area are kept, because they close the surface; those with a corner at no
-//! finite place are left out with a warning.
+//! Triangles without area are kept, because they close the surface; those with a corner that is not
+//! finite are skipped with a warning.
 
 mod ascii;
 mod binary;
@@ -32,11 +32,11 @@ use std::path::Path;
 
 /// Imports an STL file whose bytes have been read.
 ///
-/// Each solid with triangles becomes a node with a mesh. All have the same material; colors of
-/// facets are vertex colors.
+/// Each solid with triangles becomes a node with a mesh. All have the same material; facet colors
+/// become vertex colors.
 ///
 /// # Errors
-/// The file is cut off or breaks the form that it is in, or a limit is exceeded.
+/// The file is truncated or breaks the rules of its form, or a limit is exceeded.
 pub(super) fn import_stl(
     _path: &Path,
     bytes: &[u8],
@@ -55,7 +55,7 @@ pub(super) fn import_stl(
             let file = BinaryFile { header: *header, body: &mut body, body_bytes };
             binary::read_solid(file, &budget, &mut warnings).map(|solid| vec![solid])
         } else {
-            // A facet takes no more memory than the fewest characters that it can be written in.
+            // A facet takes no more memory than the fewest characters in which it can be written.
             budget.charge_bytes("", 2 * bytes.len() as u64, resolver.total_bytes())?;
             ascii::read_solids(&decode_text(bytes), limits, &mut warnings)
         }
@@ -69,7 +69,7 @@ pub(super) fn import_stl(
 }
 
 /// Imports a binary STL file of exactly the right length without holding all of it in memory;
-/// `None` if this is another file, or one that cannot be opened.
+/// `None` for any other file, or one that cannot be opened.
 ///
 /// # Errors
 /// A limit is exceeded, or the file cannot be read to its end.
@@ -77,7 +77,7 @@ pub(super) fn import_binary_file(
     path: &Path,
     options: &ImportOptions,
 ) -> Option<Result<Model, Diagnostic>> {
-    // Opening a pipe would wait for somebody who writes to it.
+    // Opening a pipe would wait for a writer.
     let metadata = path.metadata().ok().filter(std::fs::Metadata::is_file)?;
     let mut body = File::open(path).ok()?;
     let length = usize::try_from(metadata.len()).ok()?;
@@ -99,7 +99,7 @@ pub(super) fn import_binary_file(
     }))
 }
 
-/// The model of some solids; those without triangles are left out.
+/// The model of some solids; those without triangles are skipped.
 fn build_model(solids: Vec<Solid>, crease_degrees: f64) -> Model {
     let mut model = Model {
         materials: vec![Material::plain()],
@@ -122,11 +122,12 @@ fn build_model(solids: Vec<Solid>, crease_degrees: f64) -> Model {
     model
 }
 
-/// Bytes of a binary file before its triangles: a comment of 80, and the number of triangles.
+/// Number of bytes before the triangles of a binary file: a comment of 80, and the number of
+/// triangles.
 const HEADER_BYTES: usize = 84;
-/// Bytes of a triangle in a binary file: normal, three corners, attribute.
+/// Number of bytes of a triangle in a binary file: normal, three corners, attribute.
 const TRIANGLE_BYTES: usize = 50;
-/// The bytes that are searched for what only one of the two forms has.
+/// Number of bytes that are searched for features that only one of the two forms has.
 const PREFIX_BYTES: usize = 4 << 10;
 
 /// Whether the content of a file is certainly STL; `text` is its beginning as UTF-8.
@@ -134,15 +135,15 @@ pub(super) fn is_stl(bytes: &[u8], text: &[u8]) -> bool {
     has_binary_length(bytes) || starts_with(text.trim_ascii_start(), b"solid") && has_facets(text)
 }
 
-/// The number of triangles that a binary file declares; `None` if it is too short to.
+/// The number of triangles that a binary file declares; `None` if the file is too short.
 fn declared_triangles(bytes: &[u8]) -> Option<usize> {
     let count = bytes.get(80..HEADER_BYTES)?.first_chunk()?;
     usize::try_from(u32::from_le_bytes(*count)).ok()
 }
 
-/// Whether a file is exactly as long as a binary file of its number of triangles.
+/// Whether the length of a file matches its declared number of triangles exactly.
 ///
-/// No text is: four letters stand for more than 500 million triangles.
+/// No text has such a length: four characters encode more than 500 million triangles.
 fn has_binary_length(bytes: &[u8]) -> bool {
     binary_length(bytes) == Some(bytes.len())
 }
@@ -152,7 +153,7 @@ fn binary_length(bytes: &[u8]) -> Option<usize> {
     declared_triangles(bytes)?.checked_mul(TRIANGLE_BYTES)?.checked_add(HEADER_BYTES)
 }
 
-/// Whether a file that is not of the right length for a binary one is text.
+/// Whether a file whose length does not fit a binary file is text.
 fn is_text(bytes: &[u8]) -> bool {
     let text = decode_text(bytes.get(..PREFIX_BYTES).unwrap_or(bytes));
     let start = text.trim_ascii_start();
@@ -171,7 +172,7 @@ fn starts_with(text: &[u8], word: &[u8]) -> bool {
     text.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
 }
 
-/// The error for a file that ends too early; reading leniently, what there is is read.
+/// The error for a file that ends too early; in lenient mode, the existing part is read.
 fn truncated(location: &str, message: String) -> Diagnostic {
     let help = "the file is cut off: copy or export it again";
     Diagnostic::error(codes::INVALID_DATA, location, message, help)

@@ -1,8 +1,8 @@
 //! Surfaces of mesh formats: triangles whose corners carry attributes become primitives, one for
-//! each material, with normals and vertices of their own.
+//! each material, with separate normals and vertices.
 //!
-//! Normals that a file does not give follow from the crease angle over all triangles of the
-//! surface, so that a border between two colors is no crease.
+//! Missing normals are computed with the crease angle over all triangles of the surface, so that a
+//! border between two colors is not a crease.
 
 use super::corner_vertices::{CornerAttributes, CornerVertices};
 use super::polygons::{CreaseNormals, Smoothing, VertexWelder};
@@ -10,7 +10,7 @@ use gltf_import::normalize_normals;
 use model::{Primitive, Topology};
 use std::borrow::Cow;
 
-/// A surface as a file gives it.
+/// A surface as given by a file.
 pub(super) struct Surface<'a> {
     /// Positions of the vertices, all finite.
     pub(super) positions: &'a [[f32; 3]],
@@ -18,7 +18,7 @@ pub(super) struct Surface<'a> {
     pub(super) normals: Option<&'a [[f32; 3]]>,
     /// Vertices of the triangles, all in range.
     pub(super) triangles: Vec<[u32; 3]>,
-    /// Material of each triangle, less than `material_count`; empty if there is one only.
+    /// Material of each triangle, less than `material_count`; empty if there is only one.
     pub(super) materials: Vec<u32>,
     /// The number of materials.
     pub(super) material_count: usize,
@@ -28,11 +28,11 @@ pub(super) struct Surface<'a> {
     pub(super) has_colors: bool,
 }
 
-/// Builds the primitives of a surface; `attributes_at` has the attributes of a triangle's corner,
-/// where there are any.
+/// Builds the primitives of a surface; `attributes_at` returns the attributes of a triangle's
+/// corner, if there are any.
 ///
-/// Each primitive's material is its number in the surface. Normals without a direction are counted
-/// in the second result.
+/// Each primitive's material is its index in the surface. The second result counts normals without
+/// a direction.
 pub(super) fn build_primitives(
     surface: Surface<'_>,
     crease_angle: f64,
@@ -81,7 +81,7 @@ pub(super) fn build_primitives(
     (primitives, replaced)
 }
 
-/// A primitive of the first material.
+/// A primitive with the first material.
 fn surface_primitive(
     indices: Vec<u32>,
     positions: Vec<[f32; 3]>,
@@ -97,7 +97,7 @@ fn surface_primitive(
     }
 }
 
-/// Normals by crease angle: positions and normals of the vertices that the triangles then have.
+/// Normals by crease angle: positions and normals of the resulting vertices.
 fn compute_normals(
     positions: &[[f32; 3]],
     triangles: &mut Vec<[u32; 3]>,
@@ -117,7 +117,7 @@ fn compute_normals(
     (welded, computed.normals)
 }
 
-/// The triangles of each material that has any, both in their order.
+/// The triangles of each material that has any, both in order.
 fn triangles_by_material(surface: &Surface<'_>) -> Vec<(usize, Vec<u32>)> {
     let count = surface.triangles.len() as u32;
     if surface.materials.is_empty() {

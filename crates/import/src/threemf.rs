@@ -8,9 +8,9 @@
 //!                                                                        nodes, meshes
 //! ```
 //!
-//! Zip and XML are read by code of our own, which can do no more than 3MF needs: no encryption, no
-//! entities, no paths. Read are the core specification, and the extensions for materials and
-//! production; `namespaces` has the list of what is left out.
+//! Zip and XML are read by our own code, which supports only what 3MF needs: no encryption, no
+//! entities, no paths. It reads the core specification and the extensions for materials and
+//! production; `namespaces` lists the parts that are skipped.
 
 mod archive;
 mod assembly;
@@ -36,7 +36,7 @@ use properties::Palette;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The model parts of a package that are referred to, the main one first.
+/// The model parts of a package that are referenced, the main one first.
 #[derive(Debug, Default)]
 struct Parts {
     parts: Vec<ModelPart>,
@@ -90,7 +90,7 @@ pub(super) fn import_threemf(
     Ok(model)
 }
 
-/// Reads the model part, and those that it or they refer to.
+/// Reads the model part, and the parts it refers to, directly or indirectly.
 fn read_parts(
     package: &Package<'_>,
     palette: &mut Palette,
@@ -121,7 +121,7 @@ fn read_parts(
             part.items.iter().chain(components)
         };
         for reference in references() {
-            // Components of one part follow each other; a part is read once all the same.
+            // Components in the same part follow each other; a part is still read only once.
             if let Some(path) = &reference.path
                 && queue.last().is_none_or(|(last, _)| last != path)
             {
@@ -138,7 +138,7 @@ fn read_parts(
     Ok(parts)
 }
 
-/// Resolves the references between objects; the second result is what is built.
+/// Resolves the references between objects; the second result lists the built objects.
 fn assemble(
     package: &Package<'_>,
     parts: &Parts,
@@ -174,7 +174,7 @@ fn assemble(
     Ok((assembly, items))
 }
 
-/// Gives the model its materials, textures and the images that are visible.
+/// Adds the materials, textures and visible images to the model.
 fn store_palette(
     model: &mut Model,
     palette: Palette,
@@ -201,7 +201,7 @@ fn store_palette(
     store_images(model, images, options, warnings);
     let Model { materials, textures, image_infos, .. } = model;
     for material in materials {
-        // A texture without an image would be white; so is the material without it.
+        // A texture without an image would be white; a material without a texture is white too.
         let is_readable = |info: &TextureInfo| {
             let image = textures[info.texture].image.and_then(|image| image_infos.get(image));
             image.is_some_and(|image| image.header.is_some())

@@ -49,7 +49,7 @@ pub enum AnimationTarget {
         /// Index of the morph target.
         target: usize,
     },
-    /// Morph weights of a mesh, for all nodes without weights of their own.
+    /// Morph weights of a mesh, for all nodes that do not override them.
     MeshMorphWeights {
         /// Index of the mesh.
         mesh: usize,

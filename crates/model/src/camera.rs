@@ -1,9 +1,9 @@
 //! Cameras of a file: perspective and orthographic projections (glTF 2.0 §3.10).
 
-/// A camera of the file: only its projection; the node that carries it gives the view.
+/// A camera of the file: only its projection; the node that carries it provides the view.
 ///
-/// A camera looks along its node's −z with +y up. Where the file gives no aspect ratio, or another
-/// than that of the picture, the renderer decides how the two are fitted.
+/// A camera looks along its node's −z with +y up. If the file gives no aspect ratio, or one that
+/// differs from the picture's, the renderer decides how to fit the two.
 #[derive(Clone, Debug)]
 pub struct ModelCamera {
     /// The name in the file, if it has one.
@@ -23,7 +23,7 @@ pub enum CameraProjection {
         aspect: Option<f64>,
         /// Distance of the near plane, > 0.
         near: f64,
-        /// Distance of the far plane, > `near`; infinite if the file gives none.
+        /// Distance of the far plane, > `near`; infinite if the file does not give one.
         far: f64,
     },
     /// Orthographic projection.

@@ -1,10 +1,10 @@
-//! Colormaps: colors for numbers, such as temperatures of vertices and depths of pixels.
+//! Colormaps: colors for numbers, such as vertex temperatures and pixel depths.
 //!
 //! Viridis and Inferno are by van der Walt and Smith (2015, matplotlib), Turbo is by Mikhailov
 //! (2019, Google), the cool-warm map by Moreland (2009, *Diverging Color Maps for Scientific
-//! Visualization*). Of their published tables of 256 colors, those are kept between which linear
-//! interpolation comes closest to the others: no channel is off by more than 3 codes of 255 in
-//! Turbo, and 1.5 in the other maps.
+//! Visualization*). Of each published table of 256 colors, the control points are kept from which
+//! linear interpolation best reproduces the rest. No channel is off by more than 3 codes of 255 in
+//! Turbo, or 1.5 in the other maps.
 
 /// A colormap: a color for each number from 0 to 1.
 ///
@@ -25,11 +25,11 @@ pub enum Colormap {
     Inferno,
     /// From black to white.
     Grayscale,
-    /// From blue through light gray to red, for values on both sides of a middle (Moreland 2009).
+    /// From blue through light gray to red, for values on both sides of a midpoint (Moreland 2009).
     CoolWarm,
 }
 
-/// A color of a colormap that is given; those between two are interpolated.
+/// A control point of a colormap; colors between two of them are interpolated.
 #[derive(Clone, Copy)]
 struct ControlPoint {
     /// The index among 256 colors.
@@ -42,7 +42,7 @@ impl Colormap {
     /// The color of a number as fractions of the largest sRGB code, red, green and blue: encoded,
     /// not linear.
     ///
-    /// `t` is clamped to [0, 1]; NaN counts as 0.
+    /// `t` is clamped to [0, 1]; NaN becomes 0.
     #[must_use]
     pub fn srgb_at(self, t: f32) -> [f32; 3] {
         let points = self.control_points();
@@ -71,7 +71,7 @@ impl Colormap {
     }
 }
 
-/// A control point by its index and codes.
+/// A control point from its index and codes.
 const fn point(index: u8, codes: [u8; 3]) -> ControlPoint {
     ControlPoint { index, codes }
 }
@@ -175,7 +175,7 @@ mod tests {
         Colormap::CoolWarm,
     ];
 
-    /// Colors of the published tables that are not control points: the index among 256, and codes.
+    /// Published colors that are not control points: the index among 256, and the codes.
     #[test]
     fn colors_between_control_points_are_close_to_the_published_ones() {
         let table = [
@@ -217,7 +217,7 @@ mod tests {
         }
     }
 
-    /// The maps that are perceptually uniform, and gray, become brighter throughout.
+    /// The perceptually uniform maps, and gray, get brighter throughout.
     #[test]
     fn sequential_maps_become_brighter() {
         for colormap in [Colormap::Viridis, Colormap::Inferno, Colormap::Grayscale] {

@@ -1,77 +1,79 @@
-//! Diagnostics: one record for everything that the importer or the checker reports about a file.
+//! Diagnostics: one record type for everything that the importer or the checker reports about a
+//! file.
 //!
 //! ```text
 //!  severity code        location                        message                   help
 //!  error[ACCESSOR_INDEX_OOB] /meshes/0/primitives/0/indices: 3 indices lack a vertex; export again
 //! ```
 //!
-//! The importer's warnings ([`Model::warnings`](crate::Model::warnings)), the reason that a file
-//! could not be loaded ([`ImportError`](import::ImportError)) and the list of a check are made of
-//! these. Severities and, where it has one, codes are those of the Khronos glTF validator.
+//! It is used for the importer's warnings ([`Model::warnings`](crate::Model::warnings)), for the
+//! reason that a file could not be loaded ([`ImportError`](import::ImportError)) and for the
+//! findings of a check. Severities match the Khronos glTF validator, as do codes where it has one.
 //!
 //! Locations in glTF are JSON pointers (RFC 6901): the path of keys and indices from the root of
-//! the document, with `~1` for `/` and `~0` for `~` inside of a key. Those in other formats are
-//! `line 12, column 5` of a text and `byte 84` of a binary file; a part of an archive is named
-//! before: `3D/3dmodel.model: line 3, column 7`.
+//! the document, with `~1` for `/` and `~0` for `~` inside a key. In other formats they are `line
+//! 12, column 5` of a text and `byte 84` of a binary file. A part of an archive comes first:
+//! `3D/3dmodel.model: line 3, column 7`.
 
 use files::visible_text;
 use std::borrow::Cow;
 use std::fmt;
 
-/// Codes of what the importer reports; a check has those of the Khronos validator besides.
+/// Codes of the importer; a check also reports the Khronos validator's codes.
 pub mod codes {
-    /// A file could not be read: it is missing, is a folder, or may not be opened.
+    /// A file could not be read: it is missing, is a folder, or could not be opened.
     pub const IO_ERROR: &str = "IO_ERROR";
-    /// A file may not be read: it lies outside of the folders that assets must stay in.
+    /// Access to a file is forbidden: it is outside the folders that assets must stay in.
     pub const FORBIDDEN_PATH: &str = "FORBIDDEN_PATH";
-    /// Neither the content of the file nor its name says which format it is in.
+    /// Neither the content of the file nor its name shows its format.
     pub const UNKNOWN_FORMAT: &str = "UNKNOWN_FORMAT";
-    /// The file's name stands for another format than its content is in.
+    /// The file's name suggests another format than its content.
     pub const MISLEADING_NAME: &str = "MISLEADING_NAME";
     /// The file is not glTF, or is truncated.
     pub const NOT_GLTF: &str = "NOT_GLTF";
-    /// The file is of an unsupported version of glTF.
+    /// The file has an unsupported glTF version.
     pub const UNSUPPORTED_VERSION: &str = "UNSUPPORTED_VERSION";
     /// The file requires an extension that is not supported.
     pub const UNSUPPORTED_REQUIRED_EXTENSION: &str = "UNSUPPORTED_REQUIRED_EXTENSION";
     /// The file breaks a rule of the specification.
     pub const INVALID_DATA: &str = "INVALID_DATA";
-    /// Data that the file refers to is absent, or in an encoding that is not supported.
+    /// Data that the file refers to is missing, or its encoding is not supported.
     pub const MISSING_DATA: &str = "MISSING_DATA";
-    /// The file declares more of something than the limits allow.
+    /// The file declares more items or bytes than the limits allow.
     pub const LIMIT_EXCEEDED: &str = "LIMIT_EXCEEDED";
     /// The options ask for a scene, a variant or a scalar attribute that the file does not have.
     pub const NO_SUCH_ITEM: &str = "NO_SUCH_ITEM";
-    /// Something of the file is left out, replaced or corrected.
+    /// Part of the file is skipped, replaced or corrected.
     pub const LEFT_OUT: &str = "LEFT_OUT";
 }
 
-/// A statement about one location of a file: how bad, which rule, where, what, and what to do.
+/// A finding about one location in a file: severity, rule, location, message and remedy.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub struct Diagnostic {
-    /// How bad it is.
+    /// The severity.
     pub severity: Severity,
-    /// Identifier of the rule, for programs: a constant of [`codes`], or the name that the Khronos
-    /// validator gives the issue.
+    /// Identifier of the rule, for programs: a constant of [`codes`], or the Khronos validator's
+    /// name for the issue.
     pub code: &'static str,
-    /// Where: in glTF a JSON pointer (RFC 6901) such as `/meshes/3/primitives/0/attributes/NORMAL`,
-    /// else `line 12, column 5` or `byte 84`; empty if the file as a whole is meant.
+    /// The location: in glTF a JSON pointer (RFC 6901) such as
+    /// `/meshes/3/primitives/0/attributes/NORMAL`, otherwise `line 12, column 5` or `byte 84`;
+    /// empty for the file as a whole.
     pub location: String,
-    /// The fault and, for a warning, its consequence: a clause without a full stop.
+    /// The problem and, for a warning, its consequence: a clause without a full stop.
     pub message: String,
     /// The remedy, if there is one: a clause in the imperative.
     pub help: Option<String>,
 }
 
-/// Severity of a diagnostic, in the order and with the meaning of the Khronos glTF validator.
+/// Severity of a diagnostic, in the order and with the meaning used by the Khronos glTF validator.
 ///
-/// The worst is the least, so that sorting by severity puts errors first.
+/// The worst severity compares as smallest, so that sorting puts errors first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Severity {
     /// The file breaks a rule of its specification, or data is missing.
     Error,
-    /// The file may look different elsewhere, or something of it is left out here.
+    /// The file may look different elsewhere, or part of it is skipped here.
     Warning,
     /// Nothing is wrong, but something could be better (the validator's "information").
     Info,
@@ -83,8 +85,7 @@ impl Severity {
     /// All severities, the worst first.
     pub const ALL: [Self; 4] = [Self::Error, Self::Warning, Self::Info, Self::Hint];
 
-    /// The word that is printed: `error`, `warning`, `note` (rustc's word for information) or
-    /// `hint`.
+    /// The printed word: `error`, `warning`, `note` (rustc's word for information) or `hint`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -120,7 +121,7 @@ impl Diagnostic {
         Self { code, ..self }
     }
 
-    /// An error at a location, with the remedy that `help` names.
+    /// An error at a location, with `help` as the remedy.
     #[must_use]
     pub fn error(
         code: &'static str,
@@ -137,13 +138,13 @@ impl Diagnostic {
         }
     }
 
-    /// The file breaks a rule of the specification.
+    /// An error: the file breaks a rule of the specification.
     #[must_use]
     pub fn invalid(pointer: &str, message: impl Into<String>) -> Self {
         Self::error(codes::INVALID_DATA, pointer, message.into(), "export the file again")
     }
 
-    /// An index is out of range; `what` names the collection in the singular.
+    /// An error: an index is out of range; `what` names the collection in the singular.
     #[must_use]
     pub fn unresolved_index(pointer: &str, what: &str, index: usize, count: usize) -> Self {
         let message = match count {
@@ -154,7 +155,7 @@ impl Diagnostic {
         Self::invalid(pointer, message)
     }
 
-    /// The file declares too much; `limit` is the name of a field of the importer's `Limits`.
+    /// An error: the file declares too much; `limit` is a field name of the importer's `Limits`.
     #[must_use]
     pub fn limit_exceeded(pointer: &str, what: &str, limit: &str, allowed: u64) -> Self {
         let message = format!("{what}, more than the limit of {allowed}");
@@ -162,14 +163,14 @@ impl Diagnostic {
         Self::error(codes::LIMIT_EXCEEDED, pointer, message, &help)
     }
 
-    /// The remedy for an exceeded limit: its name and its flag on the command line.
+    /// The remedy for an exceeded limit: its name and its command-line flag.
     #[must_use]
     pub fn raise_limit_help(limit: &str) -> String {
         let flag = limit.replace('_', "-");
         format!("raise the limit `{limit}` (--max-{flag}) if you trust the file")
     }
 
-    /// Data is absent, or in an encoding that is not supported.
+    /// An error: data is missing, or in an encoding that is not supported.
     #[must_use]
     pub fn missing_data(pointer: &str, message: &str) -> Self {
         Self::error(
@@ -180,19 +181,19 @@ impl Diagnostic {
         )
     }
 
-    /// Whether the fault is in the content of the file and not around it (a missing file, a limit).
-    /// Only then may part of the picture be left out with a warning.
+    /// Whether the problem is in the content of the file and not around it (a missing file, a
+    /// limit). Only then may part of the picture be skipped with a warning.
     #[must_use]
     pub fn is_downgradable(&self) -> bool {
         matches!(self.code, codes::INVALID_DATA | codes::MISSING_DATA)
     }
 
     /// Location, message and help in one line, without severity and code: for messages that begin
-    /// with the name of the file. Names from the file are in it as [`visible_text`] writes them.
+    /// with the file name. Names from the file are escaped by [`visible_text`].
     #[must_use]
     pub fn sentence(&self) -> String {
         let mut text = String::new();
-        // What was asked for and is not there has no place in the file.
+        // A requested item that does not exist has no location in the file.
         if !self.location.is_empty() && self.code != codes::NO_SUCH_ITEM {
             text.push_str(&self.location);
             text.push_str(": ");

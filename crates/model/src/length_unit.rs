@@ -5,11 +5,11 @@
 pub enum LengthUnit {
     /// 0.001 mm.
     Micrometer,
-    /// 1 mm: the unit of 3MF files that name none, and by convention of STL files.
+    /// 1 mm: the default unit of 3MF files, and by convention of STL files.
     Millimeter,
     /// 10 mm.
     Centimeter,
-    /// 1 m: the unit of glTF, and assumed of OBJ and PLY files, whose formats have none.
+    /// 1 m: the unit of glTF, and assumed for OBJ and PLY files, whose formats do not define one.
     #[default]
     Meter,
     /// 25.4 mm.

@@ -1,17 +1,17 @@
-//! Models: plain arrays with every index checked and every default decided.
+//! Models: plain arrays with every index checked and every default applied.
 //!
-//! A [`Model`] is read from a file by the crate `import`, or made by a program. It is posed by
+//! A [`Model`] is read from a file by the crate `import`, or built by a program. It is posed by
 //! [`Model::apply_animation`], and its vertices are deformed by [`Model::skin_primitive`]. Nothing
 //! here reads a file or decodes an image.
 //!
 //! | module | subject |
 //! | --- | --- |
 //! | `model`, `scene_graph`, `mesh` | meshes, their primitives and the nodes that show them |
-//! | `material`, `texture`, `light`, `camera` | what surfaces are made of, and what lights them |
+//! | `material`, `texture`, `light`, `camera` | the look of surfaces, the lights and the cameras |
 //! | `animation`, `skinning` | keyframes, morph targets, skins |
-//! | `animation::object_model` | what animations may change, by JSON pointers |
+//! | `animation::object_model` | properties that animations may change, by JSON pointer |
 //! | `model_instance` | models placed in a world |
-//! | `diagnostic` | statements about a location of a file |
+//! | `diagnostic` | findings about a location in a file |
 
 mod animation;
 mod camera;

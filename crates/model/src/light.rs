@@ -1,15 +1,15 @@
 //! Punctual lights of a file (KHR_lights_punctual): directional, point and spot lights.
 //!
 //! They have no size. The node that carries a light gives its position, and its direction along −z.
-//! Lights that scene files add are a type of their own, in the crate `shade`.
+//! Lights that scene files add have a separate type, in the crate `shade`.
 
 use super::{MeshInstance, Model};
 
 /// A directional, point or spot light of the file.
 ///
 /// The extension attenuates point and spot lights by 1 / d² and, with a finite range, by a window
-/// that reaches 0 at it; spots fall off smoothly between the two cone angles. The crate `shade` has
-/// the formulas.
+/// that reaches 0 at the range. Spots fall off smoothly between the two cone angles. The crate
+/// `shade` has the formulas.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PunctualLight {
     /// The name in the file, if it has one.
@@ -30,19 +30,17 @@ pub enum LightKind {
     Directional,
     /// Light from the node's position in all directions, attenuated by the square of the distance.
     Point {
-        /// Distance in world units at which the light has faded to nothing, > 0; infinite by
-        /// default.
+        /// Distance in world units at which the light has faded to zero, > 0; infinite by default.
         range: f32,
     },
     /// Light from the node's position into a cone around its −z.
     Spot {
         /// As for a point light.
         range: f32,
-        /// Angle from the axis in radians up to which the light has full strength: at least 0, less
-        /// than `outer_cone_angle`.
+        /// Angle from the axis in radians up to which the light has full strength: at least 0 and
+        /// less than `outer_cone_angle`.
         inner_cone_angle: f32,
-        /// Angle from the axis in radians at which the light has fallen off to nothing, at most
-        /// π/2.
+        /// Angle from the axis in radians at which the light has fallen off to zero, at most π/2.
         outer_cone_angle: f32,
     },
 }

@@ -14,7 +14,8 @@ pub use uv_transform::{UvTransform, UvTransformPart};
 /// A surface material: glTF's metallic-roughness model (glTF 2.0 §3.9) and its extensions.
 ///
 /// All factors are linear, not sRGB, and in the ranges given here. A texture multiplies the factor
-/// beside it; the comments name the channels that count, and whether the texture is sRGB encoded.
+/// beside it; the comments name the channels that are used, and whether the texture is sRGB
+/// encoded.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Material {
     /// The name in the file, if it has one.
@@ -35,7 +36,7 @@ pub struct Material {
     pub normal_texture: Option<NormalTexture>,
     /// Ambient occlusion map.
     pub occlusion_texture: Option<OcclusionTexture>,
-    /// Emitted radiance: the product of `emission`'s color and strength.
+    /// Emitted radiance: color times strength of `emission`.
     pub emissive: [f32; 3],
     /// Texture of the emitted light (sRGB).
     pub emissive_texture: Option<TextureInfo>,
@@ -54,7 +55,7 @@ pub struct Material {
 impl Material {
     /// Whether light passes through the surface (KHR_materials_transmission).
     ///
-    /// Masked and unlit materials are drawn opaque, whatever their transmission.
+    /// Masked and unlit materials are always drawn opaque.
     #[must_use]
     pub fn is_transmissive(&self) -> bool {
         let transmission = self.extensions.transmission.as_ref();
@@ -62,10 +63,10 @@ impl Material {
         transmission.is_some_and(|layer| layer.factor > 0.0) && !masked && !self.unlit
     }
 
-    /// Whether transmitted light leaves the straight line: refracted by the thickness of the
-    /// surface (KHR_materials_volume, KHR_materials_dispersion) or scattered by its roughness.
+    /// Whether transmitted light changes direction: refracted by the thickness of the surface
+    /// (KHR_materials_volume, KHR_materials_dispersion) or scattered by its roughness.
     ///
-    /// Smooth thin sheets, and media with the index of refraction of air, leave light as it goes.
+    /// Smooth thin sheets, and media with the index of refraction of air, do not deflect light.
     #[must_use]
     pub fn bends_transmitted_light(&self) -> bool {
         let MaterialExtensions { ior, specular_glossiness, volume, .. } = &self.extensions;
@@ -174,20 +175,21 @@ pub enum AlphaMode {
     /// Alpha is ignored.
     #[default]
     Opaque,
-    /// Alpha test: the surface is opaque where alpha is at least the cutoff, and absent elsewhere.
+    /// Alpha test: the surface is opaque where alpha is at least the cutoff, and invisible
+    /// elsewhere.
     Mask {
         /// The smallest alpha that is opaque.
         cutoff: f32,
     },
-    /// Alpha is the coverage with which the surface is blended over what is behind it.
+    /// Alpha is the coverage with which the surface is blended over the background.
     Blend,
 }
 
 impl Material {
     /// The material of models in formats without materials: light gray, matte and double-sided.
     ///
-    /// The default of glTF is a metal, which mirrors whatever is around it. Both sides are drawn,
-    /// as many files in these formats have triangles of either winding.
+    /// The default of glTF is a metal, which mirrors its surroundings. Both sides are drawn because
+    /// many files in these formats have triangles of either winding.
     #[must_use]
     pub fn plain() -> Self {
         Self {
@@ -199,7 +201,7 @@ impl Material {
         }
     }
 
-    /// The material of surfaces with colors of scalars: white, matte, shown from both sides.
+    /// The material for surfaces colored by scalars: white, matte, shown from both sides.
     #[must_use]
     pub fn white() -> Self {
         Self { base_color: [1.0; 4], ..Self::plain() }

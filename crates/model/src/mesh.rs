@@ -8,39 +8,39 @@ pub use edge_visibility::{EdgeList, EdgeVisibility, PrimitiveEdges};
 use raster::Clusters;
 use std::sync::OnceLock;
 
-/// A mesh: a named group of primitives that a node carries as one.
+/// A mesh: a named group of primitives that a node carries as a unit.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
     /// The name in the file, if it has one.
     pub name: Option<String>,
     /// The primitives, each with one material.
     pub primitives: Vec<Primitive>,
-    /// Default weights of the morph targets, used by nodes without weights of their own. Targets
-    /// beyond the list have weight 0.
+    /// Default weights of the morph targets, for nodes that do not have their own. Targets beyond
+    /// the list have weight 0.
     pub morph_weights: Vec<f32>,
 }
 
 /// A mesh primitive: vertex attributes, indices and a material; the unit of a draw call.
 ///
 /// Strips, loops and fans have been expanded to plain lists, with the winding that the
-/// specification gives them. Every attribute that is present has one entry for each vertex, every
+/// specification defines. Every attribute that is present has one entry for each vertex, every
 /// index is less than the number of vertices, and every position is finite: the importer has
 /// dropped invalid items.
 #[derive(Clone, Debug, Default)]
 pub struct Primitive {
     /// Whether the indices form points, lines or triangles.
     pub topology: Topology,
-    /// Vertex indices: one for each point, two a line, three a triangle. The front face is the one
-    /// whose vertices run counter-clockwise.
+    /// Vertex indices: one for each point, two per line, three per triangle. The front face is the
+    /// one whose vertices run counter-clockwise.
     pub indices: Vec<u32>,
     /// Positions in the mesh's coordinates.
     pub positions: Vec<[f32; 3]>,
-    /// Unit normals; `None` where the file has none: faces are shaded flat then.
+    /// Unit normals; `None` if the file has none; faces are then shaded flat.
     pub normals: Option<Vec<[f32; 3]>>,
     /// Unit tangents with the handedness of the bitangent, 1 or −1, in w.
     ///
-    /// `None` where the file has none ([`mikktspace_tangents`](Self::mikktspace_tangents) generates
-    /// them) and where no material of the primitive needs a tangent frame.
+    /// `None` if the file has none ([`mikktspace_tangents`](Self::mikktspace_tangents) generates
+    /// them) or if no material of the primitive needs a tangent frame.
     pub tangents: Option<Vec<[f32; 4]>>,
     /// Sets of texture coordinates with (0, 0) at the upper left of the image; `uvs[n]` is
     /// `TEXCOORD_n`.
@@ -49,21 +49,21 @@ pub struct Primitive {
     pub colors: Option<Vec<[f32; 4]>>,
     /// Joint indices of the skin: sets of four for each vertex; entry n is `JOINTS_n`.
     pub joint_indices: Vec<Vec<[u16; 4]>>,
-    /// Weights of those joints, as many sets; entry n is `WEIGHTS_n`.
+    /// Weights of those joints, in the same number of sets; entry n is `WEIGHTS_n`.
     pub joint_weights: Vec<Vec<[f32; 4]>>,
     /// Morph targets (blend shapes): deltas that are added to the vertices.
     pub morph_targets: Vec<MorphTarget>,
     /// Index of the material in the model; `None` for the default material.
     pub material: Option<usize>,
-    /// Materials in variants of the model that replace `material`.
+    /// Replacement materials for `material` in variants of the model.
     pub material_variants: Vec<VariantMaterial>,
     /// Edges that the file marks for line drawings, if it does.
     pub edges: Option<Box<PrimitiveEdges>>,
-    /// Cache of what follows from the other fields; empty in a new primitive.
+    /// Cache of data derived from the other fields; empty in a new primitive.
     pub derived: DerivedData,
 }
 
-/// Lazily computed data that follows from the other fields of a primitive.
+/// Lazily computed data derived from the other fields of a primitive.
 ///
 /// After changing those fields, reset this with [`DerivedData::default`]: the cache does not
 /// notice.
@@ -150,15 +150,15 @@ impl Primitive {
 pub enum Topology {
     /// Points: each index is one.
     Points,
-    /// Line list: each two indices are a line.
+    /// Line list: every two indices form a line.
     Lines,
-    /// Triangle list: each three indices are a triangle.
+    /// Triangle list: every three indices form a triangle.
     #[default]
     Triangles,
 }
 
 impl Topology {
-    /// Indices for each point, line or triangle: 1, 2 or 3.
+    /// Number of indices for each point, line or triangle: 1, 2 or 3.
     #[must_use]
     pub const fn vertices_per_item(self) -> usize {
         match self {

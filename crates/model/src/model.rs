@@ -1,24 +1,24 @@
 //! The model: everything that was read from one file, as plain arrays with every index checked and
-//! every default decided.
+//! every default applied.
 //!
-//! Positions stay in the coordinates of their mesh; the [scene graph](Node) says where each mesh
-//! is. Nothing after the importer looks at the file again.
+//! Positions stay in the coordinates of their mesh; the [scene graph](Node) places the meshes.
+//! Nothing after the importer reads the file again.
 
 use crate::{
     Animation, Diagnostic, Image, ImageInfo, LengthUnit, Material, Mesh, ModelCamera, Node,
     Primitive, PunctualLight, SceneRoots, Skin, Texture, UpAxis, UvTransform,
 };
 
-/// One file's meshes, materials, textures, scene graph and animations.
+/// The meshes, materials, textures, scene graph and animations of one file.
 ///
-/// Vectors are indexed as in the file: material 3 of a glTF file is `materials[3]`. Indices that
-/// other fields hold are in range, so that no later stage needs to check them.
+/// Vectors are indexed as in the file: material 3 of a glTF file is `materials[3]`. Indices in
+/// other fields are in range, so that no later stage needs to check them.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
     /// The file's name without folder and extension, for messages.
     pub name: String,
-    /// Unit of all lengths: what the file declares, or the convention of its format, or
-    /// what the options of the reader say. Coordinates stay as they are.
+    /// Unit of all lengths: declared in the file, given by the convention of its format, or set in
+    /// the reader's options. Coordinates stay as they are.
     pub length_unit: LengthUnit,
     /// The axis that points up in the coordinates of the file. If that is not y, the root nodes
     /// have been rotated, so that y points up in model space.
@@ -29,20 +29,20 @@ pub struct Model {
     pub materials: Vec<Material>,
     /// Textures, indexed as in the file.
     pub textures: Vec<Texture>,
-    /// Decoded images, indexed as in the file; `None` for those that no visible primitive uses
-    /// (they are not decoded) and for broken ones (a warning says so).
+    /// Decoded images, indexed as in the file. `None` for images that no visible primitive uses,
+    /// which are not decoded, and for broken ones, which cause a warning.
     ///
     /// Shared: a clone of a model that is posed differently has the same images.
     pub images: std::sync::Arc<[Option<Image>]>,
-    /// Nodes of the scene graph, indexed as in the file. They form a forest: the importer refuses
+    /// Nodes of the scene graph, indexed as in the file. They form a forest: the importer rejects
     /// cycles.
     pub nodes: Vec<Node>,
     /// Root nodes of the active scene, in the order of the file.
     pub roots: Vec<usize>,
     /// All scenes of the file.
     pub scenes: Vec<SceneRoots>,
-    /// The active scene: the requested one, else the file's default scene, else its first. `None`
-    /// if the file has no scenes; all root nodes are visible then.
+    /// The active scene: the requested one, otherwise the file's default scene, otherwise its
+    /// first. `None` if the file has no scenes; all root nodes are then visible.
     pub active_scene: Option<usize>,
     /// Skins, indexed as in the file; an invalid one has no joints, and no node refers to it.
     pub skins: Vec<Skin>,
@@ -51,19 +51,19 @@ pub struct Model {
     pub cameras: Vec<ModelCamera>,
     /// Punctual lights, indexed as in the file (KHR_lights_punctual).
     pub lights: Vec<PunctualLight>,
-    /// Animations, indexed as in the file, without the channels that are invalid.
+    /// Animations, indexed as in the file, without invalid channels.
     pub animations: Vec<Animation>,
     /// Texture transforms that animations change (KHR_texture_transform, KHR_animation_pointer).
     pub uv_transforms: Vec<UvTransform>,
     /// Names of the material variants (KHR_materials_variants).
     pub variants: Vec<String>,
-    /// The active material variant; `None` for the materials that primitives have without variants.
+    /// The active material variant; `None` for the default materials of the primitives.
     pub active_variant: Option<usize>,
     /// Names of the scalar attributes of vertices that colors can show
     /// (`scalars` of the options of `import`): `_TEMPERATURE` in glTF, `quality`
     /// in PLY.
     pub scalar_attributes: Vec<String>,
-    /// The scalar attribute that the colors of the vertices show; `None` for the colors of the file.
+    /// The scalar attribute shown as vertex colors; `None` for the colors of the file.
     pub active_scalar_attribute: Option<usize>,
     /// Names of the extensions the file uses, sorted.
     pub extensions_used: Vec<String>,
@@ -71,7 +71,8 @@ pub struct Model {
     pub extensions_required: Vec<String>,
     /// Name, URI and header of every image of the file, decoded or not.
     pub image_infos: Vec<ImageInfo>,
-    /// Warnings of the importer: everything that was left out, replaced or corrected, and where.
+    /// Warnings of the importer: everything that was skipped, replaced or corrected, with its
+    /// location.
     pub warnings: Vec<Diagnostic>,
 }
 

@@ -9,7 +9,7 @@ use std::sync::Arc;
 pub struct ModelInstance {
     /// The model; all its instances share it.
     pub model: Arc<Model>,
-    /// From model space to world space.
+    /// The transform from model space to world space.
     pub model_to_world: Affine<ModelSpace, World>,
 }
 

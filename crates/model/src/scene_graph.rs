@@ -1,8 +1,8 @@
 //! The scene graph: a forest of nodes that carry meshes, skins, cameras and lights.
 //!
-//! Terms and structure are those of glTF 2.0 §3.5: a scene lists root nodes, a node has a local
-//! transform and children, and whatever it carries is drawn at the product of the transforms from
-//! the root down to it.
+//! Terms and structure follow glTF 2.0 §3.5: a scene lists root nodes, and a node has a local
+//! transform and children. Its contents are drawn with the product of the transforms from the root
+//! down to it.
 
 mod contents;
 mod mesh_instance;
@@ -13,7 +13,7 @@ pub use trs::Trs;
 
 use homog::{Affine, Model as ModelSpace};
 
-/// A node of the scene graph: a transform relative to its parent, and what is attached to it.
+/// A node of the scene graph: a transform relative to its parent, and the attached objects.
 #[derive(Clone, Debug)]
 pub struct Node {
     /// The name in the file, if it has one.
@@ -35,7 +35,7 @@ pub struct Node {
     /// Transforms of the instances of the mesh relative to the node (EXT_mesh_gpu_instancing);
     /// `None` if the mesh is drawn once, at the node itself.
     pub instance_transforms: Option<Vec<Affine<ModelSpace, ModelSpace>>>,
-    /// Weights of the mesh's morph targets at this node; `None` for the weights of the mesh.
+    /// Weights of the mesh's morph targets at this node; `None` for the mesh's default weights.
     pub morph_weights: Option<Vec<f32>>,
     /// The skin that deforms the mesh.
     pub skin: Option<usize>,
@@ -70,20 +70,20 @@ impl Default for Node {
 pub struct SceneRoots {
     /// The name in the file, if it has one.
     pub name: Option<String>,
-    /// Root nodes in the order of the file. Only those of the active scene are checked: other
-    /// entries may be out of range.
+    /// Root nodes in the order of the file. Only the active scene's are checked: other entries may
+    /// be out of range.
     pub nodes: Vec<usize>,
 }
 
 /// A skin: the joints that deform a mesh, and the mesh's transform relative to each of them.
 ///
 /// The matrix of a joint in the current pose is its inverse bind matrix followed by its global
-/// transform. In the bind pose the two cancel, and vertices stay where they were modelled.
+/// transform. In the bind pose the two cancel, and vertices stay where they were modeled.
 #[derive(Clone, Debug)]
 pub struct Skin {
     /// The nodes that are joints; joint indices of vertices point into this list.
     pub joints: Vec<usize>,
     /// Inverse bind matrix of each joint: from the mesh's coordinates to the joint's, in the pose
-    /// in which the mesh was modelled (the bind pose).
+    /// in which the mesh was modeled (the bind pose).
     pub inverse_bind_matrices: Vec<Affine<ModelSpace, ModelSpace>>,
 }

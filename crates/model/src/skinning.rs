@@ -14,8 +14,7 @@
 //! ```
 //!
 //! Normals are transformed by the inverse transpose of the blended matrix and normalized. Sums and
-//! products are formed in f64 and in the order of the file, so that every machine computes equal
-//! bits.
+//! products are computed in f64 and in file order, so that every machine gets identical bits.
 
 use super::{MeshInstance, Model, MorphTarget, Primitive, Skin};
 use glam::{DMat3, DMat4, DVec3, Vec3};
@@ -24,7 +23,7 @@ use std::borrow::Cow;
 
 /// Deformed vertices of a primitive: positions and normals after morphing and skinning.
 ///
-/// Arrays are borrowed from the primitive where nothing deforms them.
+/// Arrays are borrowed from the primitive if nothing deforms them.
 #[derive(Clone, Debug)]
 pub struct SkinnedPrimitive<'a> {
     /// Positions, one for each vertex, finite.
@@ -39,10 +38,9 @@ impl Model {
     /// Deforms the vertices of one of the instance's primitives: applies morph targets, then the
     /// skin.
     ///
-    /// Without a skin the result is in the mesh's coordinates and `to_model` is the instance's
-    /// transform; with one it is in model space, for the joints place it there, and `to_model` is
-    /// the identity. A vertex whose joint weights are all zero follows the node like an unskinned
-    /// one.
+    /// Without a skin the result is in the mesh's coordinates, and `to_model` is the instance's
+    /// transform. With a skin the joints place it in model space, and `to_model` is the identity. A
+    /// vertex whose joint weights are all zero follows the node like an unskinned one.
     ///
     /// ```
     /// # use model::{Model, SkinnedPrimitive};
@@ -84,9 +82,9 @@ impl Model {
 
     /// Deforms the tangents of one of the instance's primitives; `None` if the primitive has none.
     ///
-    /// The tangents go with [`SkinnedPrimitive::to_model`]. They have unit length; w, the
-    /// handedness of the bitangent, is unchanged. Unlike normals, tangents are transformed by the
-    /// matrix itself.
+    /// The tangents are in the coordinates of [`SkinnedPrimitive::to_model`]. They have unit
+    /// length; w, the handedness of the bitangent, is unchanged. Unlike normals, tangents are
+    /// transformed by the matrix itself.
     #[must_use]
     pub fn skin_tangents<'a>(
         &self,
@@ -158,7 +156,7 @@ impl Model {
         Some(uvs)
     }
 
-    /// The morph weights in effect at a node: its own, else those of its mesh.
+    /// The morph weights in effect at a node: its own, otherwise the mesh's.
     pub(super) fn morph_weights(&self, node: usize) -> &[f32] {
         let Some(node) = self.nodes.get(node) else { return &[] };
         let mesh = node.mesh.and_then(|mesh| self.meshes.get(mesh));
@@ -167,8 +165,8 @@ impl Model {
 
     /// Joint matrices of a skin: for each joint, from the mesh's coordinates to the model's.
     ///
-    /// A joint out of range counts as the identity. The matrices are computed once for each
-    /// primitive and not for each vertex.
+    /// A joint out of range counts as the identity. The matrices are computed once per primitive,
+    /// not per vertex.
     fn joint_matrices(&self, skin: &Skin) -> Vec<DMat4> {
         let bone = |(&joint, bind): (&usize, &Affine<ModelSpace, ModelSpace>)| {
             self.nodes.get(joint).map_or(DMat4::IDENTITY, |node| bind.then(node.to_model).raw())
@@ -180,7 +178,7 @@ impl Model {
 /// The morph targets whose weight is finite and not zero, each with its weight.
 ///
 /// Targets beyond the list of weights have weight 0. Most targets of a face rig are inactive, so
-/// that skipping them is most of the speed.
+/// skipping them accounts for most of the speed.
 fn active_morph_targets<'a>(
     primitive: &'a Primitive,
     weights: &[f32],
@@ -212,12 +210,12 @@ fn morph_vertices<'a>(primitive: &'a Primitive, weights: &[f32]) -> SkinnedPrimi
 
 /// Adds `weight` times the deltas of a morph target; a delta that is not finite changes nothing.
 ///
-/// A sum beyond the range of single precision becomes its largest number, and stays finite.
+/// A sum beyond the range of single precision becomes the largest finite number.
 fn add_weighted_deltas<const N: usize>(values: &mut [[f32; N]], deltas: &[[f32; N]], weight: f32) {
     for (value, delta) in values.iter_mut().zip(deltas) {
         let sum: [f64; N] =
             std::array::from_fn(|k| f64::from(value[k]) + f64::from(delta[k]) * f64::from(weight));
-        // A delta with NaN or an infinity is ignored.
+        // A delta that contains NaN or infinity is ignored.
         if sum.iter().all(|x| x.is_finite()) {
             *value = sum.map(saturate_f32);
         }
@@ -228,8 +226,8 @@ fn add_weighted_deltas<const N: usize>(values: &mut [[f32; N]], deltas: &[[f32; 
 ///
 /// Dividing by the sum of the weights accepts files whose weights do not add up to 1.
 ///
-/// Negative weights are ignored. A mean that overflows counts as no weights at all, so that a
-/// hostile file cannot produce positions that are not finite.
+/// Negative weights are ignored. A mean that overflows counts as no weights at all, so a hostile
+/// file cannot produce positions that are not finite.
 fn blend_joint_matrices(
     joint_transforms: &[DMat4],
     primitive: &Primitive,
@@ -248,9 +246,9 @@ fn blend_joint_matrices(
     (total > 0.0 && mean.is_finite()).then_some(mean)
 }
 
-/// Transforms each vertex by a matrix of its own, and its normal by the inverse transpose.
+/// Transforms each vertex by its own matrix, and its normal by the inverse transpose.
 ///
-/// The result is in model space, hence the identity in `to_model`.
+/// The result is in model space, so `to_model` is the identity.
 fn skin_vertices<'a>(
     morphed: &SkinnedPrimitive<'_>,
     map: impl Fn(usize) -> DMat4,
@@ -271,7 +269,7 @@ fn skin_vertices<'a>(
     }
 }
 
-/// A vector in double precision, in which all sums are formed.
+/// Converts a vector to double precision, in which all sums are computed.
 fn to_f64(v: [f32; 3]) -> DVec3 {
     Vec3::from_array(v).as_dvec3()
 }
@@ -316,7 +314,7 @@ mod tests {
         Affine::translation(Vector::new(x, y, z))
     }
 
-    /// A mesh of three vertices on node 0, which stands at x = 100; node 1 is its joint.
+    /// A mesh of three vertices on node 0, which is at x = 100; node 1 is its joint.
     fn model_with_joint(
         primitive: Primitive,
         joint: Affine<ModelSpace, ModelSpace>,
@@ -362,7 +360,7 @@ mod tests {
         arm.joint_indices = vec![vec![[1, 0, 0, 0], [0, 1, 0, 0], [0, 9, 0, 0]]];
         arm.joint_weights =
             vec![vec![[1.0, 0.0, 0.0, 0.0], [0.5, 0.5, 0.0, 0.0], [2.0, 1.0, 0.0, 0.0]]];
-        // The elbow is at y = 1 and has turned by a quarter about z: up becomes left.
+        // The elbow is at y = 1 and has turned by a quarter turn about z: up becomes left.
         let quarter = std::f64::consts::FRAC_1_SQRT_2;
         let turn = Affine::<ModelSpace, ModelSpace>::from_quaternion([0.0, 0.0, quarter, quarter]);
         let (mut model, instance) =
@@ -408,8 +406,8 @@ mod tests {
     fn eight_joints_of_two_sets_count_by_their_weights() {
         let mut arm = triangle();
         arm.joint_indices = vec![vec![[0, 1, 0, 1]; 3], vec![[1, 1, 1, 0]; 3]];
-        // Joint 0 has moved by 3, joint 1 (the mesh's own node) stands: in all 0.75 and 0.25 of the
-        // weight.
+        // Joint 0 has moved by 3; joint 1 (the mesh's own node) is fixed. Their total weights are
+        // 0.75 and 0.25.
         arm.joint_weights =
             vec![vec![[0.25, 0.125, 0.25, 0.0]; 3], vec![[0.0625, 0.0625, 0.0, 0.25]; 3]];
         let (mut model, instance) = model_with_joint(arm, translation_by(3.0, 1.0, 0.0));
@@ -441,7 +439,7 @@ mod tests {
         assert_eq!(posed(&model), ([0.0, 1.0, 0.0, -1.0], [0.5, 0.5, 0.5, 1.0], [0.25, 0.5]));
         model.meshes[0].morph_weights = vec![1.0];
         assert_eq!(posed(&model), ([0.0, 0.0, 1.0, -1.0], [0.75, 0.0, 0.5, 1.0], [1.25, 1.5]));
-        // A quarter turn about x takes z to −y.
+        // A quarter turn about x maps z to −y.
         let half = std::f64::consts::FRAC_1_SQRT_2;
         model.nodes[1].to_model = Affine::from_quaternion([half, 0.0, 0.0, half]).unwrap();
         model.nodes[0].skin = Some(0);

@@ -1,6 +1,6 @@
-//! Textures: decoded images, and the samplers that say how they are wrapped and filtered.
+//! Textures: decoded images, and the samplers that define how they are wrapped and filtered.
 //!
-//! Names and meaning of the sampler's states are those of glTF 2.0 §3.8.4, which are OpenGL's.
+//! Names and meanings of the sampler states follow glTF 2.0 §3.8.4, which takes them from OpenGL.
 
 /// A decoded image: 8 bits for each of red, green, blue and alpha, top row first, straight alpha.
 #[derive(Clone, PartialEq, Eq)]
@@ -24,8 +24,7 @@ impl std::fmt::Debug for Image {
 pub struct ImageInfo {
     /// The name in the file, if it has one.
     pub name: Option<String>,
-    /// The URI if the image is a file of its own; `data:` stands for one that is embedded in the
-    /// URI.
+    /// The URI if the image is in a separate file; `data:` if it is embedded in the URI.
     pub uri: Option<String>,
     /// Format and size from the first bytes of the image; `None` if they were not read or are
     /// invalid.
@@ -48,24 +47,24 @@ pub struct ImageHeader {
 /// A texture: an image and the sampler that reads it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Texture {
-    /// Index of the image; `None` if the file refers to none that can be read.
+    /// Index of the image; `None` if the file refers to none, or to one that cannot be read.
     pub image: Option<usize>,
     /// Wrapping and filtering.
     pub sampler: Sampler,
 }
 
-/// Sampler state: wrapping outside of [0, 1], and filtering between texels and mip levels.
+/// Sampler state: wrapping outside [0, 1], and filtering between texels and mip levels.
 ///
-/// The default repeats and filters trilinearly, as glTF's does. glTF has one `minFilter` for what
-/// is two states here and in Vulkan: `LINEAR_MIPMAP_NEAREST` is a linear `min_filter` with the
-/// nearest mip level.
+/// The default repeats and filters trilinearly, as in glTF. Its single `minFilter` covers two
+/// states here and in Vulkan: `LINEAR_MIPMAP_NEAREST` is a linear `min_filter` with the nearest mip
+/// level.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Sampler {
     /// Wrapping to the left and right of the image.
     pub wrap_u: WrapMode,
     /// Wrapping above and below the image.
     pub wrap_v: WrapMode,
-    /// Filter where the texture is magnified: a texel covers more than a pixel.
+    /// Filter where the texture is magnified: a texel covers more than one pixel.
     pub mag_filter: TextureFilter,
     /// Filter within one mip level where the texture is minified.
     pub min_filter: TextureFilter,
@@ -73,7 +72,7 @@ pub struct Sampler {
     pub mipmap_mode: MipmapMode,
 }
 
-/// Wrapping of texture coordinates outside of [0, 1].
+/// Wrapping of texture coordinates outside [0, 1].
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum WrapMode {
     /// The image repeats.
@@ -81,11 +80,11 @@ pub enum WrapMode {
     Repeat,
     /// The image repeats, every second time mirrored.
     MirroredRepeat,
-    /// The texels of the border continue.
+    /// The border texels continue.
     ClampToEdge,
 }
 
-/// Filter between the centers of texels.
+/// Filter between texel centers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum TextureFilter {
     /// The nearest texel.

@@ -1,12 +1,12 @@
-//! Stage timings: a stopwatch that is handed through loading and rendering.
+//! Stage timings: a stopwatch that is passed through loading and rendering.
 
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Names of stages, the time each took, and how often it ran.
+/// Stage names, the total time of each, and how often it ran.
 type StageTimes = Vec<(&'static str, Duration, usize)>;
 
-/// A stopwatch for the stages of a run. Clones add to one measurement; the default measures
+/// A stopwatch for the stages of a run. Clones add to the same measurement; the default measures
 /// nothing.
 ///
 /// ```
@@ -22,13 +22,13 @@ pub struct Timings {
 }
 
 impl Timings {
-    /// A stopwatch that measures.
+    /// A stopwatch that measures time.
     #[must_use]
     pub fn enabled() -> Self {
         Self { stage_times: Some(Arc::default()) }
     }
 
-    /// Runs `work` and adds the time it takes to that of the stage.
+    /// Runs `work` and adds its time to the stage's total.
     pub fn measure<T>(&self, stage: &'static str, work: impl FnOnce() -> T) -> T {
         let Some(spans) = &self.stage_times else { return work() };
         let begin = Instant::now();
@@ -42,13 +42,13 @@ impl Timings {
         result
     }
 
-    /// Stages and the time each took, in the order in which they first ended.
+    /// Stages with their total times, in the order in which they first ended.
     #[must_use]
     pub fn stages(&self) -> Vec<(&'static str, Duration)> {
         self.stage_times().into_iter().map(|(stage, time, _)| (stage, time)).collect()
     }
 
-    /// How often a stage ran; 0 if nothing is measured.
+    /// Number of times that a stage ran; 0 if nothing is measured.
     #[must_use]
     pub fn count(&self, stage: &str) -> usize {
         let times = self.stage_times();

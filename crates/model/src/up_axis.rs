@@ -40,8 +40,8 @@ impl UpAxis {
 impl Model {
     /// Gives every root node a parent that rotates the axis `up` of the file to y.
     ///
-    /// Parents instead of changed roots, as animations may set the transforms of those. The new
-    /// nodes come last, so that all others keep their indices.
+    /// Parents are added instead of changing the roots, whose transforms animations may set. The
+    /// new nodes come last, so that all others keep their indices.
     pub fn rotate_roots(&mut self, up: UpAxis) {
         self.up_axis = up;
         if up == UpAxis::Y {
@@ -59,7 +59,7 @@ impl Model {
                 self.nodes.push(Node { to_parent, to_model, trs, children, ..Node::default() });
             }
         }
-        // The roots of scenes that are not active have not been checked.
+        // The roots of inactive scenes have not been checked.
         let new_root =
             |node: &mut usize| *node = parents.get(*node).copied().flatten().unwrap_or(*node);
         self.roots.iter_mut().for_each(new_root);

@@ -1,5 +1,5 @@
-//! A depth map of a model: for each pixel how far ahead of the eye the surface in it is, in the
-//! units of the model.
+//! A depth map of a model: for each pixel, the distance of its surface in front of the eye, in
+//! model units.
 //!
 //! Run it with `cargo run -p alberti-pipeline --example depth_map -- model.glb depth.npy`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]

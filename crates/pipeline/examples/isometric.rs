@@ -1,4 +1,4 @@
-//! An isometric line drawing of a model, hidden lines dashed, as an SVG.
+//! An isometric line drawing of a model, with dashed hidden lines, as an SVG.
 //!
 //! Run it with `cargo run -p alberti-pipeline --example isometric -- model.glb drawing.svg`.
 

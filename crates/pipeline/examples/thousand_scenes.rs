@@ -1,4 +1,5 @@
-//! Renders a thousand scenes of one model from different views and in different light, and writes them as RON.
+//! Renders a thousand scenes of one model from different viewpoints and in different light, and
+//! writes them as RON.
 //!
 //! Run it with `cargo run --release -p alberti-pipeline --example thousand_scenes -- model.glb folder`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]

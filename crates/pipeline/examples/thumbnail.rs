@@ -1,4 +1,4 @@
-//! A thumbnail of a model: framed and lit by itself, as pixels in memory and as a PNG.
+//! A thumbnail of a model: framed and lit automatically, as pixels in memory and as a PNG.
 //!
 //! Run it with `cargo run -p alberti-pipeline --example thumbnail -- model.glb thumb.png`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
@@ -11,7 +11,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (origin, mut file) = Origin::from_model_path(model.as_ref());
     file.image.size = (256, 256);
     let scene = Scene::resolve(&origin, &file, &Default::default())?;
-    let picture = render(&scene, 2)?; // with two threads; the picture does not depend on it
+    let picture = render(&scene, 2)?; // with two threads, which do not change the picture
     println!("{} pixels, one in the middle {:?}", picture.pixels.len(), picture.pixel(128, 128));
     Ok(picture.write_png(output.as_ref())?)
 }

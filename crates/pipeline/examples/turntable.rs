@@ -1,4 +1,4 @@
-//! A turntable of a model: twelve pictures of a whole turn, loaded once and drawn two at a time.
+//! A turntable of a model: twelve pictures of a full turn, loaded once and drawn two at a time.
 //!
 //! Run it with `cargo run -p alberti-pipeline --example turntable -- model.glb frames`.
 

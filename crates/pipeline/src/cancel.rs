@@ -1,14 +1,14 @@
 //! Cancellation and progress: monitors of a rendering.
 //!
-//! The rasterizer asks its monitor once per row of tiles, so that a canceled picture costs at most
-//! a few milliseconds more; hidden lines ask every few hundred edges. Shadow maps run to their end
-//! first.
+//! The rasterizer asks its monitor once per row of tiles, so that canceling takes at most a few
+//! milliseconds; hidden-line removal asks every few hundred edges. Shadow maps are always
+//! completed.
 
 use raster::Monitor;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A flag that ends a rendering early. Clones share it: one goes into a
+/// A flag that ends a rendering early. Clones share it: one is passed to a
 /// [`RenderContext`](crate::RenderContext) as its monitor, another stays with the thread that may
 /// cancel.
 ///
@@ -35,14 +35,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub struct CancelToken(Arc<AtomicBool>);
 
 impl CancelToken {
-    /// Requests the end. Rendering stops within the time of a few rows of tiles; the request is
-    /// permanent.
+    /// Requests cancellation. Rendering stops within the time for a few rows of tiles; the request
+    /// is permanent.
     pub fn cancel(&self) {
-        // Relaxed: the flag orders nothing else, and a row of tiles more or less does not matter.
+        // Relaxed: the flag orders nothing else, and one row of tiles more or less does not matter.
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether the end was requested.
+    /// Whether cancellation was requested.
     #[must_use]
     pub fn is_canceled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
@@ -55,7 +55,7 @@ impl Monitor for CancelToken {
     }
 }
 
-/// A monitor that is asked for the end of a part of the work, and not told of its progress.
+/// A monitor that can end part of the work, but does not receive its progress.
 #[derive(Debug)]
 pub(crate) struct CancelOnly(pub(crate) Arc<dyn Monitor>);
 
@@ -65,16 +65,16 @@ impl Monitor for CancelOnly {
     }
 }
 
-/// The monitor of one frame: what is done of it counts as pixels of the whole work.
+/// The monitor of one frame: its progress counts as pixels of the whole work.
 #[derive(Debug)]
 pub(crate) struct PartMonitor {
     /// The monitor of the whole work.
     pub(crate) outer: Arc<dyn Monitor>,
-    /// The pixels that were done before.
+    /// The number of pixels done before.
     pub(crate) done: u64,
-    /// The pixels of this frame.
+    /// The number of pixels in this frame.
     pub(crate) pixels: u64,
-    /// The pixels of the whole work.
+    /// The number of pixels in the whole work.
     pub(crate) total: u64,
 }
 

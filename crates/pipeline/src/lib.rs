@@ -1,7 +1,7 @@
 //! The viewing pipeline from a glTF model to a picture.
 //!
-//! A picture takes three steps: a description ([`SceneFile`], read from a file or made of
-//! defaults), a scene ([`Scene`], with models loaded and everything decided), and the rendering.
+//! A picture takes three steps: a description ([`SceneFile`], read from a file or built from
+//! defaults), a scene ([`Scene`], with models loaded and all defaults resolved), and the rendering.
 //!
 //! ```no_run
 //! use pipeline::{Origin, Scene, render};
@@ -15,7 +15,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! | for | begin with | an example |
+//! | purpose | begin with | an example |
 //! | --- | --- | --- |
 //! | a picture in memory, or a PNG | [`render()`] | `examples/thumbnail.rs` |
 //! | lines as SVG, PDF, DXF, PNG | [`draw_lines`], [`drawing::Page`] | `examples/isometric.rs` |
@@ -30,11 +30,11 @@
 //! | the syntax of scene files | [`scene::reference`] | |
 //! | a tour of the stages, with the file of each | [`mod@render`] | |
 //!
-//! A rendering is observed by a [`Monitor`] and stopped by a [`CancelToken`], a sequence by an error of the function that takes
-//! its pictures.
+//! A [`Monitor`] observes a rendering and a [`CancelToken`] stops it; a sequence stops if the
+//! function that takes its pictures returns an error.
 //!
 //! Nothing here prints, and nothing is global: scenes, renderers and pictures can be sent to any
-//! thread and exist side by side. Errors are typed and name the fault, its location and a remedy.
+//! thread and coexist. Errors are typed, and give the problem, its location and a remedy.
 
 mod cancel;
 pub mod render;

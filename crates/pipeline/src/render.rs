@@ -14,8 +14,8 @@
 //! 4. **Skinning, morphing, model matrix.** `Model::skin_primitive` (`model/src/skinning.rs`) poses
 //!    the vertices; node and instance transforms make up `model_to_world`.
 //! 5. **Frustum culling and back-face culling of clusters.** `ProjectedMesh::cull_clusters`
-//!    (`render/projected_mesh.rs`) tests boxes by `ScreenTransform::classify_bounds`
-//!    (`render/screen_transform.rs`) and normal cones by `Cluster::is_back_facing`
+//!    (`render/projected_mesh.rs`) tests boxes with `ScreenTransform::classify_bounds`
+//!    (`render/screen_transform.rs`) and normal cones with `Cluster::is_back_facing`
 //!    (`raster/src/clusters.rs`).
 //! 6. **Vertex transform, perspective divide, viewport, snapping.**
 //!    `ProjectedMesh::project_vertices` multiplies by the model-view-projection matrix, divides by
@@ -28,9 +28,9 @@
 //! 8. **Vertex processing for shading.** `VertexArrays::write_vertices`
 //!    (`render/vertex_processing.rs`): positions, normals and tangents in the world.
 //! 9. **Binning into tiles.** `bin_triangles` (`raster/src/tile_bins.rs`) sorts triangles into
-//!    tiles of 64 × 64 pixels, which threads take by turns (`raster/src/tile_loop.rs`).
+//!    tiles of 64 × 64 pixels, which threads take in turn (`raster/src/tile_loop.rs`).
 //! 10. **Coverage and depth test.** `rasterize_triangle` (`raster/src/rasterize.rs`) evaluates edge
-//!     functions by the top-left rule and keeps the nearest depth of each sample; at equal depth
+//!     functions with the top-left rule and keeps the nearest depth of each sample; at equal depth
 //!     (depth ties) the first primitive wins.
 //! 11. **Visibility buffer.** A tile stores only the nearest triangle of each sample
 //!     (`raster/src/tile_visibility.rs`); masked materials are alpha-tested, translucent layers
@@ -114,7 +114,7 @@ pub enum RenderError {
     /// The lines of the scene cannot be drawn.
     #[error(transparent)]
     Draw(hidden_line::DrawError),
-    /// The [monitor](raster::Monitor) asked for the end.
+    /// The [monitor](raster::Monitor) requested the end.
     #[error("the picture was canceled")]
     Canceled,
     /// Ambient occlusion needs the whole depth buffer, and the picture is larger than one tile.
@@ -134,7 +134,7 @@ impl From<hidden_line::DrawError> for RenderError {
     }
 }
 
-/// Renders a scene with up to `threads` threads, whose number does not change the picture.
+/// Renders a scene with up to `threads` threads; their number does not change the picture.
 ///
 /// ```
 /// # use pipeline::scene::file::{CameraFile, LightFile};
@@ -152,11 +152,11 @@ impl From<hidden_line::DrawError> for RenderError {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// A shortcut for one picture; a [`Renderer`] renders several faster, measures, and can be
+/// A shortcut for one picture. A [`Renderer`] renders several faster, measures times, and can be
 /// observed and canceled.
 ///
 /// # Errors
-/// If the picture's size is out of range or the scene has too many primitives.
+/// The picture's size is out of range, or the scene has too many primitives.
 pub fn render(scene: &Scene, threads: usize) -> Result<Picture, RenderError> {
     image_tiles::validate_region(scene.image, scene.image.pixel_rect())?;
     let textures = Textures::for_scene(scene);

@@ -4,8 +4,8 @@
 //! ```text
 //!  motion ─► frame 0, 1, 2 … ─► one worker per thread ─► reorder queue ─► files, APNG, GIF, a pipe
 //! ```
-//! Models are loaded and mip chains built once. Each worker poses its own copy of the models and
-//! reuses the buffers of its last frame; frames, not tiles, are what runs in parallel.
+//! Models are loaded and mip chains built once. Each worker poses a separate copy of the models and
+//! reuses the buffers of its last frame; frames, not tiles, run in parallel.
 
 use crate::Picture;
 use crate::render::{RenderContext, RenderError, Renderer, Textures};
@@ -22,19 +22,18 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 /// The motion of a sequence.
 ///
 /// Both are sampled at the fractions i / n for the frames i = 0 … n − 1: the end belongs to the
-/// frame after the last, so that a full turn or a looping animation repeats without a doubled
-/// frame.
+/// frame after the last, so a full turn or a looping animation repeats without a duplicate frame.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Motion {
     /// The models rotate about the vertical axis through the center of their bounding box:
     /// counterclockwise seen from above, evenly from the first frame to the one after the last.
     Turntable {
-        /// The whole angle in radians; 2π for a full turn.
+        /// The total angle in radians; 2π for a full turn.
         angle: f64,
     },
     /// The models follow their glTF animations.
     Animations {
-        /// For each model of the scene the index of its animation; `None` keeps it still.
+        /// For each model of the scene, the index of its animation; `None` keeps it still.
         animations: Vec<Option<usize>>,
         /// The time of the first frame in seconds.
         from: f64,
@@ -43,16 +42,16 @@ pub enum Motion {
     },
 }
 
-/// A frame sequence, ready to be rendered.
+/// A frame sequence, ready to render.
 ///
 /// Immutable while it renders: workers share it by reference.
 #[derive(Debug)]
 pub struct Sequence {
     /// The source of the scene, for its errors.
     origin: Origin,
-    /// The description, by which the camera, lights and ground of each frame are resolved.
+    /// The description, used to resolve the camera, lights and ground of each frame.
     file: SceneFile,
-    /// The scene at the start of the motion, with the views that stay as they are in all frames.
+    /// The scene at the start of the motion, with the views that are the same in all frames.
     scene: Scene,
     /// The motion of the models.
     motion: Motion,
@@ -60,8 +59,8 @@ pub struct Sequence {
     frame_count: usize,
     /// The point that a turntable's axis passes through.
     pivot: Point<World>,
-    /// The camera of each frame, if it moves; otherwise empty, and the scene's camera holds for all
-    /// frames.
+    /// The camera of each frame, if it moves; otherwise empty, and the scene's camera applies to
+    /// all frames.
     view_projections: Vec<ViewProjection>,
 }
 
@@ -74,7 +73,7 @@ pub enum SequenceError<E> {
     /// A frame cannot be rendered.
     #[error(transparent)]
     Render(#[from] RenderError),
-    /// The scene makes no sense at the time of a frame.
+    /// The scene is invalid at the time of a frame.
     #[error(transparent)]
     Scene(#[from] ResolveError),
     /// The function that takes the frames failed.
@@ -82,27 +81,27 @@ pub enum SequenceError<E> {
     Output(E),
 }
 
-/// Moments of the motion that an automatic camera is fitted to.
+/// Number of moments of the motion to which an automatic camera is fitted.
 ///
-/// A turntable of 16 samples misses the extreme extent of a corner by at most 1 − cos(π/16), 2 % of
-/// its radius.
+/// A turntable with 16 samples misses the maximum extent of a corner by at most 1 − cos(π/16), 2 %
+/// of its radius.
 const FRAMING_SAMPLES: usize = 16;
-/// Frames per worker that may be started before the oldest one is delivered. It bounds the memory
-/// of frames that finish out of order.
+/// Number of frames per worker that may be started before the oldest one is delivered. It limits
+/// the memory for frames that finish out of order.
 ///
-/// With w workers at most 2 w pictures exist at a time, whatever the length of the sequence.
+/// With w workers at most 2 w pictures exist at a time, for any length of the sequence.
 const FRAMES_AHEAD: usize = 2;
 
 impl Sequence {
-    /// A sequence of `frames` pictures of a scene that `file` describes. An automatic camera is
+    /// A sequence of `frames` pictures of a scene described by `file`. An automatic camera is
     /// fitted to the whole motion.
     ///
     /// # Errors
-    /// If the scene cannot be framed.
+    /// The scene cannot be framed.
     ///
-    /// Each frame is resolved like a picture at its time, so that lights, cameras and grounds of
-    /// the models move with them. Only an automatic view is that of the whole motion: the scene is
-    /// resolved with the models at 16 moments together, as if they stood there at once.
+    /// Each frame is resolved like a picture at its time, so that the models' lights, cameras and
+    /// grounds move with them. Only an automatic view is shared by the whole motion: the scene is
+    /// resolved with the models at 16 moments together, as if they existed at once.
     pub fn new(
         origin: &Origin,
         file: &SceneFile,
@@ -136,8 +135,9 @@ impl Sequence {
         Ok(sequence)
     }
 
-    /// Whether the view of the picture, 0, or of an inset, counted from 1, is one for all frames: an
-    /// automatic view, or in a turntable that of a model's own camera, which would turn with it.
+    /// Whether the view of the picture, 0, or of an inset, counted from 1, is the same in all
+    /// frames: an automatic view or, in a turntable, a camera of the model, which would turn with
+    /// it.
     fn keeps_view(&self, index: usize) -> bool {
         let own = index.checked_sub(1).and_then(|inset| self.file.viewports.get(inset));
         let camera: &CameraFile =
@@ -152,11 +152,10 @@ impl Sequence {
     /// Moves the camera along a path between two times in seconds. Insets keep their cameras.
     ///
     /// # Errors
-    /// If there is no view at some time, such as where the eye coincides with its target.
+    /// There is no view at some time, for example because the eye coincides with its target.
     ///
-    /// One view is computed for each frame before rendering starts, so that errors come early.
-    /// Views that are fitted automatically use the models at 16 moments of the motion, or once if
-    /// they stand still.
+    /// The view for each frame is computed before rendering starts, so that errors come early.
+    /// Automatic views use the models at 16 moments of the motion, or once if they do not move.
     pub fn with_camera_path(
         mut self,
         origin: &Origin,
@@ -202,7 +201,7 @@ impl Sequence {
         self.scene.has_opaque_background()
     }
 
-    /// Renders all frames with up to `threads` workers and hands them to `sink` in order, on the
+    /// Renders all frames with up to `threads` workers and passes them to `sink` in order, on the
     /// calling thread. The number of threads does not change a frame.
     ///
     /// ```text
@@ -210,12 +209,12 @@ impl Sequence {
     ///  caller:   wait for finished[next] ─► delivered += 1 ─► sink
     /// ```
     /// Each frame is rendered on one thread; parallel frames scale better than parallel tiles,
-    /// since there is no serial part between stages. The sink runs without the lock held and may
-    /// block, on a pipe for example: workers then stop at the limit. A poisoned lock is entered all
-    /// the same, because the queue is consistent after every statement.
+    /// because there is no serial part between stages. The sink runs without holding the lock and
+    /// may block, for example on a pipe: workers then stop at the limit. A poisoned lock is entered
+    /// anyway, because the queue is consistent after every statement.
     ///
     /// # Errors
-    /// If a frame cannot be rendered, or the sink fails; no further frame is started then.
+    /// A frame cannot be rendered, or the sink fails; no more frames are started then.
     pub fn render_frames<E>(
         &self,
         threads: usize,
@@ -250,9 +249,9 @@ impl Sequence {
 
     /// Waits for each frame in order, and delivers it.
     ///
-    /// `delivered` is advanced before the sink runs, so that a slow sink does not keep workers
-    /// waiting. On an error the caller marks all frames as started, which ends the workers after
-    /// their current frame.
+    /// `delivered` is advanced before the sink runs, so that a slow sink does not stall workers. On
+    /// an error the caller marks all frames as started, which ends the workers after their current
+    /// frame.
     fn deliver_frames<'a, E>(
         &self,
         lock: &impl Fn() -> MutexGuard<'a, Queue>,
@@ -287,7 +286,7 @@ impl Sequence {
     }
 }
 
-/// Why a frame cannot be made.
+/// The reason why a frame cannot be made.
 #[derive(Debug, thiserror::Error)]
 enum FrameError {
     #[error(transparent)]
@@ -299,7 +298,7 @@ enum FrameError {
 /// The frames between start and delivery.
 #[derive(Default)]
 struct Queue {
-    /// The next frame to start; equal to the frame count when none is left or the sequence is
+    /// The next frame to start; equal to the frame count if none is left or the sequence is
     /// aborted.
     started: usize,
     /// The next frame to deliver.
@@ -308,7 +307,7 @@ struct Queue {
     finished: BTreeMap<usize, Result<Picture, FrameError>>,
 }
 
-/// Waits until the next frame is at most `ahead` frames before the one delivered last, and starts
+/// Waits until the next frame is at most `ahead` frames beyond the last delivered one, and starts
 /// it; `None` if all are started.
 ///
 /// The condition variable is notified on every delivery and on abortion; the loop tolerates
@@ -331,7 +330,7 @@ fn next_frame(
     }
 }
 
-/// The state of one thread: a scene with models of its own, and the buffers of its last frame.
+/// The state of one thread: a scene with separate models, and the buffers of its last frame.
 ///
 /// Copies of the scene are cheap: models, images and environment are behind `Arc`s until they are
 /// posed.
@@ -364,7 +363,7 @@ impl<'a> FrameWorker<'a> {
 
     /// Poses the models for a frame and renders it on this thread.
     ///
-    /// Insets show the posed models of the main view, not poses of their own.
+    /// Insets show the models in the pose of the main view, not in a separate one.
     fn render_frame(
         &mut self,
         frame: usize,
@@ -394,8 +393,8 @@ impl<'a> FrameWorker<'a> {
     }
 }
 
-/// Gives a scene what depends on the pose of the models, and the view of the frame if it is not
-/// that of the pose.
+/// Updates the pose-dependent parts of a scene, and sets the view of the frame if it differs from
+/// the pose's.
 fn take_posed(scene: &mut Scene, posed: Scene, view: Option<ViewProjection>) {
     scene.models = posed.models;
     scene.view_projection = view.unwrap_or(posed.view_projection);
@@ -413,10 +412,10 @@ impl Motion {
         matches!(self, Self::Turntable { angle } if *angle == 0.0)
     }
 
-    /// Poses models at a fraction of the motion; `start` holds them unposed.
+    /// Poses models at a fraction of the motion; `start` holds the unposed models.
     ///
     /// A turntable computes model_to_world · T(−p) · R_y(αf) · T(p) in the order of application,
-    /// from the unposed transform each time: rotations of thousands of frames do not drift. An
+    /// from the unposed transform each time, so rotations do not drift over thousands of frames. An
     /// animation is evaluated at t = from + (to − from) f seconds; instances of one model are posed
     /// once and share the result.
     fn pose_models(
@@ -441,7 +440,8 @@ impl Motion {
             Self::Animations { animations, from, to } => {
                 let time = from + (to - from) * fraction;
                 let shared = shared_models(start);
-                // Instances release the shared model first: `make_mut` would copy one in use.
+                // Instances release the shared model first: `make_mut` would copy one that is in
+                // use.
                 let empty_model = Arc::new(Model::default());
                 for &(index, _) in &shared {
                     models[index].model = Arc::clone(&empty_model);
@@ -478,7 +478,7 @@ fn shared_models(models: &[ModelInstance]) -> Vec<(usize, usize)> {
 
 /// The center of the bounding box of points; the origin without points.
 ///
-/// The box is that of the start pose; a center of mass would depend on the tessellation.
+/// The box is computed for the start pose; a center of mass would depend on the tessellation.
 fn bounds_center(points: &[Point<World>]) -> Point<World> {
     let mut points = points.iter().map(|point| point.raw());
     let Some(first) = points.next() else { return Point::ORIGIN };

@@ -1,11 +1,11 @@
-//! The alpha test: whether a fragment of a masked primitive is there (glTF 2.0 §3.9.4).
+//! The alpha test: whether a fragment of a masked primitive is opaque (glTF 2.0 §3.9.4).
 //!
-//! The rasterizer asks it before depth is written, for eight fragments of one primitive at once:
-//! what fails the test hides nothing.
+//! The rasterizer runs it before depth is written, for eight fragments of one primitive at once:
+//! fragments that fail the test hide nothing.
 //!
-//! Styles with one color for each fragment, such as those of normals and ids, ask it of blended
-//! primitives too: these have holes where textures and vertex colors make them less than half as
-//! opaque as their material is.
+//! Styles with one color for each fragment, such as normals and ids, apply it to blended primitives
+//! too: these have holes where textures and vertex colors make them less than half as opaque as
+//! their material.
 
 use super::attributes::{PrimitiveIndices, interpolate};
 use super::fragment_lanes::{FragmentLanes, FragmentPacket};
@@ -33,7 +33,7 @@ impl Kernel for AlphaTestEight<'_> {
 }
 
 impl DrawList<'_> {
-    /// The alpha test: whether a fragment of a masked primitive is there (glTF 2.0 §3.9.4).
+    /// The alpha test: whether a fragment of a masked primitive is opaque (glTF 2.0 §3.9.4).
     pub fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
         let (draw, _) = self.find_draw(fragment.id);
         let primitive = draw.primitive_indices(&[fragment.id], true);
@@ -43,7 +43,7 @@ impl DrawList<'_> {
 
     /// The alpha test of eight fragments of one primitive, with vector instructions of this level.
     ///
-    /// The rasterizer asks it before depth is written: what fails the test hides nothing.
+    /// The rasterizer runs it before depth is written: fragments that fail the test hide nothing.
     pub fn passes_alpha_test_eight(
         &self,
         fragments: &Fragments<'_>,
@@ -62,7 +62,7 @@ impl DrawList<'_> {
 }
 
 impl Draw<'_> {
-    /// The alpha test at fragments; those of opaque materials all pass.
+    /// The alpha test at fragments; fragments of opaque materials all pass.
     #[inline(always)]
     fn passes_alpha_test<const N: usize>(
         &self,

@@ -1,5 +1,5 @@
-//! Screen-space ambient occlusion: the fraction of the light from all directions that arrives at a
-//! surface, as far as the picture shows what is in its way (GTAO).
+//! Screen-space ambient occlusion (GTAO): the fraction of the light from all directions that
+//! arrives at a surface, judged from the occluders visible in the picture.
 //!
 //! ```text
 //!          v  to the viewer
@@ -17,13 +17,13 @@
 //!            from pixel to pixel  on one surface
 //! ```
 //!
-//! The slices of a pixel are turned by a 4 × 4 pattern, and the mean over 4 × 4 pixels of one
-//! surface takes the pattern away again: each pixel has the horizons of sixteen times as many
-//! slices. The pattern is fixed to the picture, so that parts of it unite.
+//! The slices of a pixel are rotated by a 4 × 4 pattern, and the mean over 4 × 4 pixels of one
+//! surface removes the pattern again: each pixel gets the horizons of sixteen times as many slices.
+//! The pattern is fixed to the picture, so that parts of it join seamlessly.
 //!
 //! Fragments do not search horizons themselves. A fragment that does not cover the center of its
-//! pixel lies beside its surface there, and would find itself below others: a dark dot. It takes
-//! the visibility of the pixels around it that show its own surface.
+//! pixel is next to the surface there, and would find itself below others: a dark dot. Instead it
+//! takes the visibility of the surrounding pixels that show its surface.
 
 mod denoise;
 mod horizon_search;
@@ -36,10 +36,11 @@ use raster::{Kernel, LANES, SimdLevel, SurfaceDepth, for_each_parallel};
 use screen_space::PixelGrid;
 pub use screen_space::ScreenSpace;
 
-/// The distance from a fragment's plane, in radii, within which a pixel shows its surface.
+/// The distance from a fragment's plane, in radii, within which a pixel is taken to show its
+/// surface.
 const SAME_SURFACE: f32 = 0.02;
-/// The weight of full visibility in a lookup; only fragments without a pixel of their own surface
-/// near them notice it.
+/// The weight of full visibility in a lookup; it matters only for fragments without a nearby pixel
+/// of their surface.
 const OPEN_WEIGHT: f32 = 4.0;
 
 /// The ambient visibility of the pixels of a picture.
@@ -49,17 +50,17 @@ pub struct AmbientOcclusion {
     space: ScreenSpace,
     /// The depth of the nearest surface at the first sample of each pixel.
     depths: PixelGrid,
-    /// The fraction of the light from all directions that arrives there, 0 to 1.
+    /// The fraction of the light from all directions that arrives at each pixel, 0 to 1.
     visibilities: PixelGrid,
-    /// These before they were denoised: memory for the next picture.
+    /// The visibilities before denoising; their memory is reused for the next picture.
     noisy: PixelGrid,
 }
 
 impl AmbientOcclusion {
     /// Computes the ambient visibility of the nearest surfaces of a picture, rows from the top.
     ///
-    /// Uses up to `threads` threads, with the same result for any number, and the memory of the
-    /// `last` picture.
+    /// Uses up to `threads` threads, with the same result for any number, and reuses the memory of
+    /// the `last` picture.
     pub fn compute(
         nearest: &[SurfaceDepth],
         space: ScreenSpace,
@@ -94,8 +95,8 @@ impl AmbientOcclusion {
 
     /// The ambient visibility of positions in the world with these unit normals, 0 to 1.
     ///
-    /// A mean over the nine pixels around each position, weighted by how near their surfaces are to
-    /// the plane of the fragment (a joint bilateral lookup).
+    /// A mean over the nine pixels around each position, weighted by how close their surfaces are
+    /// to the plane of the fragment (a joint bilateral lookup).
     #[inline(always)]
     pub(super) fn visibility<const N: usize>(
         &self,
@@ -114,7 +115,7 @@ impl AmbientOcclusion {
             let y = Lanes::from_fn(|lane| (pixels[lane][1] + dy) as f32);
             let found = space.unproject_pixels([x, y], depths);
             let distances = (found - positions).dot(normals) * inv_distance;
-            // A tent over the pixels, times the likeness of the surfaces.
+            // A tent over the pixels, times the similarity of the surfaces.
             let tent = [4096.0, 2048.0, 1024.0][(dx.abs() + dy.abs()) as usize];
             let weight = tent / (1.0 + distances * distances);
             let weight = weight.select(&depths.is_above(0.0), Lanes::ZERO);
@@ -141,10 +142,10 @@ fn search_one_by_one(
     visibilities
 }
 
-/// The ambient visibility of a surface with this albedo, with the light that its surroundings
+/// The ambient visibility of a surface with this albedo, including the light that its surroundings
 /// reflect to it: a fit to multiple bounces (Jimenez et al. 2016, eq. 10).
 ///
-/// Surroundings are taken to have the same albedo: white corners are brighter than black ones.
+/// Surroundings are assumed to have the same albedo: white corners are brighter than black ones.
 #[inline(always)]
 pub(super) fn add_bounces<const N: usize>(visibility: Lanes<N>, albedo: Rgb<N>) -> Rgb<N> {
     albedo.map(|albedo| {
@@ -160,7 +161,7 @@ mod tests {
     use super::*;
     use glam::{DMat4, DVec3, DVec4};
 
-    /// A camera that looks down on the ground, from far away.
+    /// A camera that looks down at the ground, from far away.
     fn distant_view() -> DMat4 {
         let world_to_clip = DMat4::from_cols_array_2d(&[
             [1.681_992, -0.747_552, 1.824_367, -2.0 / 3.0],
@@ -217,7 +218,7 @@ mod tests {
             let eight: [f32; LANES] = HorizonSearch { space, pattern, depths, x, y }.run();
             let single = search_one_by_one(space, pattern, depths, [x, y]);
             for lane in 0..LANES {
-                // Where nothing is, both are ignored.
+                // Background pixels are ignored by both.
                 if depths.at([(x + lane) as i32, y as i32], [0, 0]) > 0.0 {
                     assert_eq!(eight[lane].to_bits(), single[lane].to_bits(), "{x} + {lane}, {y}");
                     darkest = darkest.min(eight[lane]);

@@ -1,9 +1,8 @@
-//! Elementary functions by polynomials, and rounding: to about six digits, and in vector
-//! instructions, which `libm` does not have.
+//! Elementary functions as polynomials, and rounding: accurate to about six digits, and usable in
+//! vector instructions, which `libm` does not offer.
 //!
-//! Logarithm and power take a number apart into exponent and mantissa, as IEEE 754 stores it; only
-//! the mantissa needs a polynomial. The cosine takes off whole turns. The same bits come out on
-//! every machine.
+//! Logarithm and power split a number into exponent and mantissa, as IEEE 754 stores it; only the
+//! mantissa needs a polynomial. The cosine removes whole turns. All machines produce the same bits.
 
 use std::f32::consts::LN_2;
 
@@ -45,7 +44,7 @@ pub(crate) fn log2_approx(x: f32) -> f32 {
     exponent as f32 + sum * t
 }
 
-/// Two to a power from −126 to 127, to about six digits; powers beyond are clamped.
+/// Two to the power of a number from −126 to 127, to about six digits; numbers outside are clamped.
 #[inline(always)]
 #[expect(clippy::manual_clamp, reason = "a bound in place of NaN, which `clamp` keeps")]
 pub(crate) fn exp2_approx(power: f32) -> f32 {
@@ -53,7 +52,7 @@ pub(crate) fn exp2_approx(power: f32) -> f32 {
     const COEFFICIENTS: [f32; 6] =
         [1.000_000_1, LN_2, 0.240_221_07, 0.055_503_57, 0.009_676_03, 0.001_339_09];
     let power = power.max(-126.0).min(127.0);
-    // The nearest whole number: positive once it is the exponent of IEEE 754.
+    // The nearest integer, biased as an IEEE 754 exponent and thus positive.
     let exponent = floor_to_int(power + 127.5);
     let t = power - (exponent - 127) as f32;
     // Horner's scheme.
@@ -64,8 +63,8 @@ pub(crate) fn exp2_approx(power: f32) -> f32 {
     sum * f32::from_bits((exponent as u32) << 23)
 }
 
-/// The cosine of an angle in turns, up to a million of them: off by at most 10⁻⁶ and the rounding
-/// of the angle.
+/// The cosine of an angle in turns, up to a million of them; the error is at most 10⁻⁶ plus the
+/// rounding of the angle.
 #[inline(always)]
 #[expect(clippy::manual_clamp, reason = "a bound in place of NaN, which `clamp` keeps")]
 pub(crate) fn cosine_of_turns(turns: f32) -> f32 {
@@ -73,7 +72,7 @@ pub(crate) fn cosine_of_turns(turns: f32) -> f32 {
     const COEFFICIENTS: [f32; 7] =
         [1.0, -19.739_204, 64.939_12, -85.450_11, 60.167_43, -25.966_885, 6.527_706];
     let turns = turns.max(-1e6).min(1e6);
-    // From −½ to ½, the rest after the nearest whole number.
+    // From −½ to ½, the remainder from the nearest integer.
     let t = turns - floor_to_int(turns + 0.5) as f32;
     let square = t * t;
     // Horner's scheme.

@@ -1,15 +1,15 @@
 //! Vertex attributes: fetched for the vertices of fragments' primitives, and interpolated.
 //!
-//! The rasterizer writes a visibility buffer: which primitive a fragment is of, and the barycentric
-//! weights of its vertices. Attributes are fetched only when a fragment is shaded, once for all
-//! lanes where these are of one primitive.
+//! The rasterizer writes a visibility buffer: the primitive of each fragment, and the barycentric
+//! weights of its vertices. Attributes are fetched only when a fragment is shaded, and only once
+//! for all lanes if these belong to one primitive.
 
 use super::lanes::Lanes;
 
-/// The attributes of a vertex that most draws need, in half a cache line.
+/// The vertex attributes that most draws need, in half a cache line.
 ///
 /// The position in the world, the unit normal there, and the texture coordinates that most textures
-/// are sampled by; they begin at [`POSITION`], [`NORMAL`] and [`UV`].
+/// use; they begin at [`POSITION`], [`NORMAL`] and [`UV`].
 pub type Vertex = [f32; 8];
 
 /// The offset of the position in a [`Vertex`].
@@ -25,23 +25,23 @@ pub(super) type Attributes<const N: usize, const K: usize> = [[Lanes<N>; K]; 3];
 /// The indices of the vertices of some fragments' primitives.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum VertexIndices<const N: usize> {
-    /// All fragments are of one primitive.
+    /// All fragments belong to one primitive.
     One([usize; 3]),
-    /// Each fragment may be of a primitive of its own.
+    /// Each fragment may belong to a different primitive.
     Each([[usize; 3]; N]),
 }
 
 /// The indices of some fragments' primitives within their draw.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum PrimitiveIndices<const N: usize> {
-    /// All fragments are of one primitive.
+    /// All fragments belong to one primitive.
     One(usize),
-    /// Each fragment may be of a primitive of its own.
+    /// Each fragment may belong to a different primitive.
     Each([usize; N]),
 }
 
 impl<const N: usize> PrimitiveIndices<N> {
-    /// The vertices of each primitive, by a function from its index.
+    /// The vertices of each primitive, from a function of its index.
     #[inline(always)]
     pub(super) fn vertex_indices(
         &self,
@@ -61,7 +61,7 @@ impl<const N: usize> PrimitiveIndices<N> {
 }
 
 impl<const N: usize> VertexIndices<N> {
-    /// Fetches an attribute of `K` components of each vertex, which begin at `offset`.
+    /// Fetches an attribute of `K` components for each vertex, which begin at `offset`.
     #[inline(always)]
     pub(super) fn fetch_attributes<const M: usize, const K: usize>(
         &self,
@@ -79,7 +79,7 @@ impl<const N: usize> VertexIndices<N> {
                 }
             }
             Self::Each(vertices) => {
-                // A gather: lane by lane, as each vertex is in another cache line.
+                // A gather: lane by lane, because each vertex is in another cache line.
                 for (lane, vertices) in vertices.iter().enumerate() {
                     for (attribute, &vertex) in attributes.iter_mut().zip(vertices) {
                         let value = &values[vertex];
@@ -94,9 +94,9 @@ impl<const N: usize> VertexIndices<N> {
     }
 }
 
-/// Interpolates an attribute: the sum of those of the vertices, each times its barycentric weight.
+/// Interpolates an attribute: the sum over the vertices, each weighted by its barycentric weight.
 ///
-/// With the derivatives of the weights it gives the derivative of the attribute.
+/// With the derivatives of the weights it returns the derivative of the attribute.
 #[inline(always)]
 pub(super) fn interpolate<const N: usize, const K: usize>(
     [a, b, c]: &Attributes<N, K>,

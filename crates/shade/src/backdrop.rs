@@ -44,7 +44,8 @@ impl Backdrop {
         }
     }
 
-    /// Renders all of it to a picture of this size, one sample at the center of each pixel.
+    /// Renders the whole backdrop to a picture of this size, with one sample at the center of each
+    /// pixel.
     #[must_use]
     pub fn to_picture(&self, width: u32, height: u32) -> Picture {
         let encoder = SrgbEncoder::shared();
@@ -90,12 +91,12 @@ mod tests {
         let slanted = gradient(45.0, [300, 100]);
         assert_eq!(codes(&slanted, 0.0, 0.0), [0, 0, 0, 255]);
         assert_eq!(codes(&slanted, 1.0, 1.0), [255, 255, 255, 255]);
-        // Lines of one color are perpendicular to it in pixels: 100 to the right are as far as 100
-        // down.
+        // Lines of one color are perpendicular to it in pixels: 100 to the right count as much as
+        // 100 down.
         assert_eq!(codes(&slanted, 1.0 / 3.0, 0.0), codes(&slanted, 0.0, 1.0));
     }
 
-    /// Four texels: red, green, blue, and half of white.
+    /// Four texels: red, green, blue, and half-transparent white.
     fn image() -> Image {
         let rgba = vec![[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [255, 255, 255, 128]];
         Image { width: 2, height: 2, rgba }
@@ -111,7 +112,7 @@ mod tests {
         assert_eq!(codes(&stretched, 0.0, 0.0), [255, 0, 0, 255]);
         assert_eq!(codes(&stretched, 0.25, 0.75), [0, 0, 255, 255]);
         assert_eq!(codes(&stretched, 1.0, 1.0), [255, 255, 255, 128]);
-        // Of a square in a picture twice as wide, the upper and the lower fourth are cropped.
+        // For a square in a picture twice as wide, the upper and lower quarters are cropped.
         let cropped = backdrop_image(ImageFit::Cover, [400, 200]);
         assert_eq!(cropped.color_at([0.0, 0.5]), stretched.color_at([0.0, 0.5]));
         assert_eq!(cropped.color_at([0.0, 0.0]), stretched.color_at([0.0, 0.25]));

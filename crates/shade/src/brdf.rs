@@ -1,4 +1,4 @@
-//! The BRDF of glTF materials: a base of diffuse and GGX specular reflection, with layers over it.
+//! The BRDF of glTF materials: a base of diffuse and GGX specular reflection, with layers on top.
 //!
 //! ```text
 //!  clearcoat          smooth dielectric of index 1.5     KHR_materials_clearcoat
@@ -10,7 +10,7 @@
 //!                     and blurred; tinted                _ior, _dispersion
 //! ```
 //!
-//! Each layer scales what is below it by the energy that it leaves: the clearcoat by its Fresnel
+//! Each layer scales the ones below by the energy that it leaves: the clearcoat by its Fresnel
 //! reflectance, sheen by its directional albedo, the base specular by Fresnel.
 //!
 //! | file | term |
@@ -22,7 +22,7 @@
 //! | `thin_film` | iridescence by interference in a thin film |
 //! | `sheen` | Charlie distribution and its albedo |
 //! | `clearcoat` | the clear layer |
-//! | `layered` | the sum of all of it, over lights and environment |
+//! | `layered` | the sum of all layers, over lights and environment |
 
 mod anisotropy;
 mod base;

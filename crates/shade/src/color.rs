@@ -1,12 +1,12 @@
-//! Colors: linear light inside, sRGB at the ends (IEC 61966-2-1).
+//! Colors: linear light internally, sRGB at input and output (IEC 61966-2-1).
 //!
 //! ```text
 //!  textures, #rrggbb ──► linear light ──► shading ──► SrgbEncoder, Srgb16Encoder ──► picture
 //!                  table                              table, 8 bits and 16
 //! ```
 //!
-//! Both directions go by tables that are computed once with `libm`, so the bits are the same on
-//! every machine.
+//! Both directions use tables that are computed once with `libm`, so the bits are the same on every
+//! machine.
 
 mod primaries;
 mod srgb16;
@@ -30,24 +30,24 @@ pub fn srgb_to_linear_table() -> &'static [f32; 256] {
     TABLE.get_or_init(|| std::array::from_fn(|code| srgb_to_linear(code as f64 / 255.0) as f32))
 }
 
-/// The bits of the least light that the encoder distinguishes from 0: 2⁻¹³, which is less than half
-/// of the linear light of code 1.
+/// The bits of the smallest light that the encoder distinguishes from 0: 2⁻¹³, which is less than
+/// half of the linear light of code 1.
 const MIN_LIGHT_BITS: u32 = 0x3900_0000;
 
-/// Encodes linear light as the nearest 8-bit sRGB code, by a table of 2048 steps.
+/// Encodes linear light as the nearest 8-bit sRGB code, using a table of 2048 steps.
 ///
 /// ```text
 ///  entry = code << 16 | carry        encode(x) = (entry of x + lower 16 bits of x) >> 16
 /// ```
 ///
-/// A float's upper 16 bits, exponent and seven bits of the mantissa, are one of 128 steps of each
-/// octave. Codes are farther apart than that, so that a step holds at most one threshold between
-/// two codes. Its entry has in the upper half the code at its beginning, and in the lower half the
+/// A float's upper 16 bits, the exponent and seven bits of the mantissa, are one of 128 steps of
+/// each octave. Codes are farther apart than that, so a step contains at most one threshold between
+/// two codes. The upper half of its entry has the code at its beginning. The lower half has the
 /// number that carries into the upper half when the float's lower bits, from the threshold on, are
 /// added.
 #[derive(Debug)]
 pub struct SrgbEncoder {
-    /// For each step, from the least light to 1: the code, and the carry to the next.
+    /// For each step, from the smallest light to 1: the code, and the carry to the next.
     step_table: Box<[u32; 2048]>,
 }
 
@@ -99,7 +99,7 @@ impl SrgbEncoder {
             is_opaque &= *alpha >= 1.0;
         }
         let mut pixels = [0; N];
-        // Divide by alpha only where some lane needs it.
+        // Divide by alpha only if some lane needs it.
         for (shift, channel) in [(0, r), (8, g), (16, b)] {
             let mut straight = channel;
             if !is_opaque {
@@ -137,7 +137,7 @@ impl Encode<[u8; 4]> for &SrgbEncoder {
     }
 }
 
-/// The least linear light whose nearest code is the index; the first entry is below all light.
+/// The smallest linear light whose nearest code is the index; the first entry is below all light.
 fn code_thresholds() -> [f32; 256] {
     let threshold = |code: usize| srgb_to_linear((code as f64 - 0.5) / 255.0) as f32;
     std::array::from_fn(|code| if code == 0 { f32::MIN } else { threshold(code) })

@@ -1,8 +1,8 @@
 //! Draw calls: the vertex and index arrays behind the primitive ids of a visibility buffer.
 //!
-//! The rasterizer knows a triangle by an id and gives the weights of its vertices at a pixel. A
-//! draw holds what shading needs beside that, for a run of consecutive ids: one primitive (in the
-//! words of glTF: a mesh with one material) of one instance.
+//! The rasterizer identifies a triangle by an id and gives the weights of its vertices at a pixel.
+//! A draw holds everything else needed for shading, for a run of consecutive ids: one primitive (in
+//! glTF terms: part of a mesh with one material) of one instance.
 //!
 //! ```text
 //!   id        0 … 11        12 … 523        524 …
@@ -22,36 +22,37 @@ use std::borrow::Cow;
 
 /// A draw call: one primitive of a mesh, in one instance.
 ///
-/// Vertices are already transformed to the world, once per frame, as lights and environments are
-/// there; the rasterizer has positions on the screen of its own.
+/// Vertices are already transformed to the world, once per frame, because lights and environments
+/// are there; the rasterizer uses separate screen positions.
 #[derive(Clone, Debug)]
 pub struct Draw<'a> {
     /// The id of its first point, line or triangle; the others follow.
     pub first_id: u32,
-    /// Its index among the primitives of the scene, each counted for each of its instances.
+    /// Its index among the primitives of the scene, counted once for each instance.
     pub part_id: u32,
-    /// The indices, and the attributes that [`vertices`](Self::vertices) does not have.
+    /// The indices, and the attributes that are not in [`vertices`](Self::vertices).
     pub primitive: &'a Primitive,
-    /// The material of all its surface.
+    /// The material of its whole surface.
     pub material: &'a Material,
     /// The textures of the material.
     pub textures: MaterialTextures<'a>,
-    /// The vertices in the world, by the indices of `primitive`; empty where no fragment of the
-    /// draw is shaded.
+    /// The vertices in the world, by the indices of `primitive`; empty if no fragment of the draw
+    /// is shaded.
     pub vertices: Vec<Vertex>,
     /// The tangents for normal maps and anisotropy.
     pub tangents: Tangents,
-    /// Whether shading interpolates the vertices' normals; otherwise each triangle has its own.
+    /// Whether shading interpolates the vertices' normals; otherwise each triangle has a flat
+    /// normal.
     pub is_smooth: bool,
-    /// The index of the set of texture coordinates that `vertices` has, if it has any.
+    /// The index of the texture coordinate set in `vertices`, if it has any.
     pub uv_set: Option<usize>,
     /// The vertex colors, linear, if there are any.
     pub colors: Option<Cow<'a, [[f32; 4]]>>,
-    /// The kind of surface it is.
+    /// The kind of surface.
     pub kind: DrawKind,
     /// Whether the transform to the world mirrors, so that front faces are wound clockwise.
     pub flips_winding: bool,
-    /// The scale from the mesh to the world; the mean over all directions where they differ.
+    /// The scale from the mesh to the world; the mean over all directions if they differ.
     pub world_scale: f32,
 }
 
@@ -61,25 +62,25 @@ pub enum DrawKind {
     /// A surface of a model.
     #[default]
     Surface,
-    /// The environment as a background, blurred as a mirror of this roughness would blur it.
+    /// The environment as a background, blurred as by a mirror with this roughness.
     Environment(f32),
     /// The backdrop, a gradient or an image; positions are fractions of the picture's width and
     /// height.
     Backdrop,
-    /// The ground as a shadow catcher: it is transparent but for the shadows on it.
+    /// The ground as a shadow catcher: it is transparent except for the shadows on it.
     ShadowCatcher,
 }
 
-/// The tangents of a draw: unit vectors in the world along growing u, and in w the handedness of
-/// the tangent frame, 1 or −1.
+/// The tangents of a draw: unit vectors in the world in the direction of increasing u, and in w the
+/// handedness of the tangent frame, 1 or −1.
 #[derive(Clone, Debug, Default)]
 pub enum Tangents {
-    /// Nothing asks for them.
+    /// They are not needed.
     #[default]
     None,
     /// One for each vertex.
     PerVertex(Vec<[f32; 4]>),
-    /// One for each corner of each triangle, three after the other.
+    /// One for each corner of each triangle, three after another.
     PerCorner(Vec<[f32; 4]>),
 }
 
@@ -100,10 +101,10 @@ impl<'a> DrawList<'a> {
         (&self.draws[after - 1], end)
     }
 
-    /// Whether two triangles of a smooth draw have an edge in common, with the same vertices:
-    /// normals, colors and texture coordinates are then continuous across it.
+    /// Whether two triangles of a smooth draw share an edge, with the same vertices: normals,
+    /// colors and texture coordinates are then continuous across it.
     ///
-    /// Vertices that only lie at one place, as at creases and at seams of textures, are not the
+    /// Vertices that merely have equal positions, as at creases and at texture seams, are not the
     /// same.
     pub(crate) fn is_continuous(&self, first_id: u32, second_id: u32) -> bool {
         let (draw, end) = self.find_draw(first_id);
@@ -137,7 +138,7 @@ impl Draw<'_> {
         [0, 1, 2].map(|k: usize| indices[primitive * count + k.min(count - 1)] as usize)
     }
 
-    /// The indices of the primitives with these ids, all of this draw.
+    /// The indices of the primitives with these ids, all from this draw.
     #[inline(always)]
     pub(super) fn primitive_indices<const N: usize>(
         &self,
@@ -167,7 +168,7 @@ impl Draw<'_> {
         )
     }
 
-    /// The interpolated tangents, of any length; zero where the draw has none.
+    /// The interpolated tangents, of any length; zero if the draw has none.
     #[inline(always)]
     pub(super) fn interpolate_tangents<const N: usize>(
         &self,
@@ -187,7 +188,7 @@ impl Draw<'_> {
         TangentLanes { vectors: Vec3Lanes { x, y, z }, w }
     }
 
-    /// The coordinates by which a texture is sampled, with their screen-space derivatives.
+    /// The coordinates at which a texture is sampled, with their screen-space derivatives.
     #[inline(always)]
     pub(super) fn texture_coordinates<const N: usize>(
         &self,
@@ -215,7 +216,7 @@ impl Draw<'_> {
     }
 }
 
-/// Transforms a derivative of texture coordinates, to which the translation does not apply.
+/// Transforms a derivative of texture coordinates, which the translation does not affect.
 #[inline(always)]
 fn transform_uv_step<const N: usize>(
     uv_matrix: &[[f32; 3]; 2],

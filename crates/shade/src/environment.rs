@@ -10,11 +10,11 @@
 //!
 //! Diffuse light is the irradiance by direction (Ramamoorthi and Hanrahan 2001). Specular light is
 //! the first sum of the split-sum approximation (Karis, *Real shading in Unreal Engine 4*, 2013), a
-//! mip chain prefiltered for growing roughness; the second sum is the directional albedo of the
+//! mip chain prefiltered for increasing roughness; the second sum is the directional albedo of the
 //! BRDF.
 //!
-//! Directions lie on a square by the octahedral map (Engelhardt and Dachsbacher 2008), with
-//! directions at the nodes of a grid: the borders fold onto themselves, and nothing has a seam.
+//! Directions are mapped to a square by the octahedral map (Engelhardt and Dachsbacher 2008), with
+//! directions at the nodes of a grid: the borders fold onto themselves, so there is no seam.
 
 mod irradiance;
 mod octahedral_map;
@@ -31,7 +31,7 @@ use std::sync::Arc;
 /// A radiance for each direction, a unit vector of the world.
 type Radiance = dyn Fn([f32; 3]) -> [f32; 3] + Send + Sync;
 
-/// What an environment was made of, for pictures in which it is seen itself.
+/// The source of an environment, for pictures in which it is itself visible.
 #[derive(Clone)]
 struct Source(Arc<Radiance>);
 
@@ -47,25 +47,26 @@ impl fmt::Debug for Source {
     }
 }
 
-/// Nodes along a side of the octahedral map: 256 texels for all directions, about 1° each.
+/// Number of nodes along a side of the octahedral map: 256 texels for all directions, about 1°
+/// each.
 const SIDE: usize = 257;
 
 /// Light from all directions: linear radiance, ready for diffuse and for specular lookups.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Environment {
-    /// Diffuse light, as nine spherical harmonics a channel.
+    /// Diffuse light, as nine spherical harmonics per channel.
     irradiance: IrradianceHarmonics,
     /// From mirrors to the roughest surfaces.
     prefiltered: PrefilteredLevels,
-    /// What a background shows, finer than the map is.
+    /// The radiance shown in a background, finer than the map.
     source: Option<Source>,
 }
 
 impl Environment {
     /// The environment with this radiance in each direction, a unit vector of the world.
     ///
-    /// The function is called once for each of some 66,000 directions. Prefiltered levels are
-    /// computed when a surface first asks for them.
+    /// The function is called once for each of about 66,000 directions. Prefiltered levels are
+    /// computed when a surface first needs them.
     #[must_use]
     pub fn from_radiance(radiance: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
         let map = OctahedralMap::from_function(SIDE, radiance);
@@ -76,7 +77,7 @@ impl Environment {
         }
     }
 
-    /// As [`from_radiance`](Self::from_radiance), with a function that is kept: as a background the
+    /// Like [`from_radiance`](Self::from_radiance), but keeps the function: as a background the
     /// environment is then as sharp as the picture.
     #[must_use]
     pub fn from_source(radiance: impl Fn([f32; 3]) -> [f32; 3] + Send + Sync + 'static) -> Self {
@@ -84,7 +85,7 @@ impl Environment {
         Self { source: Some(Source(Arc::new(radiance))), ..made }
     }
 
-    /// The function that it was made of, if it was kept.
+    /// The function it was made from, if it was kept.
     pub(super) fn source(&self) -> Option<&Radiance> {
         self.source.as_ref().map(|source| &*source.0)
     }
@@ -109,10 +110,10 @@ impl Environment {
         self.prefiltered_radiance(mirrored, roughness)
     }
 
-    /// The radiance around directions of any length but 0, prefiltered for a perceptual roughness:
-    /// trilinear between the two nearest levels.
+    /// The radiance around directions of any nonzero length, prefiltered for a perceptual
+    /// roughness: trilinear between the two nearest levels.
     ///
-    /// The level 0 is a mirror's, level 5 that of roughness 1; between two the lookup is linear.
+    /// Level 0 is for mirrors, level 5 for roughness 1; the lookup is linear between levels.
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
     #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn prefiltered_radiance<const N: usize>(
@@ -162,7 +163,7 @@ mod tests {
 
     #[test]
     fn a_bright_half_lights_the_half_that_faces_it() {
-        // The irradiance of a hemisphere of light is π for a normal at its pole, π (1 + cosθ) / 2
+        // The irradiance from a hemisphere of light is π for a normal at its pole, π (1 + cosθ) / 2
         // otherwise.
         let half =
             Environment::from_radiance(|[_, y, _]| [if y > 0.0 { 1.0 } else { 0.0 }, 0.5, 0.0]);

@@ -1,9 +1,9 @@
-//! The environment as a background: as sharp as the picture, without bands.
+//! The environment as a background: as sharp as the picture, without banding.
 //!
-//! A background that is not blurred asks the function that the environment was made of, at four
-//! places of each pixel; the map that surfaces reflect is far coarser. Where the picture has 8 bits
-//! a channel, an ordered dither (Bayer, *An optimum method for two-level rendition of
-//! continuous-tone pictures*, 1973) turns the steps of a smooth sky into a pattern that is not seen.
+//! A background that is not blurred evaluates the environment's source function at four positions
+//! of each pixel; the map that surfaces reflect is far coarser. If the picture has 8 bits per
+//! channel, an ordered dither (Bayer, *An optimum method for two-level rendition of continuous-tone
+//! pictures*, 1973) turns the steps of a smooth sky into an invisible pattern.
 
 use super::approximations::{exp2_approx, floor_to_int, log2_approx};
 use super::attributes::{PrimitiveIndices, UV, interpolate};
@@ -13,14 +13,14 @@ use super::surface_geometry::view_directions;
 use super::vector::normalize_or_zero;
 use super::{Draw, Shading};
 
-/// Where a pixel is sampled: fractions of it from its center, no two in a row or a column.
+/// Sample positions in a pixel: fractions of it from its center, no two in the same row or column.
 const SAMPLES: [[f32; 2]; 4] = [[-0.125, -0.375], [0.375, -0.125], [0.125, 0.375], [-0.375, 0.125]];
 
 impl Shading<'_> {
-    /// The environment behind everything, as a mirror of some roughness would blur it.
+    /// The environment behind everything, blurred as by a mirror of the given roughness.
     ///
-    /// The draw is a quad at the far plane: its positions are only used for the direction of view,
-    /// its texture coordinates are those of the picture in pixels.
+    /// The draw is a quad at the far plane: its positions are used only for the view direction, and
+    /// its texture coordinates are pixel coordinates of the picture.
     #[inline(always)]
     pub(super) fn shade_environment_background<const N: usize>(
         &self,
@@ -59,7 +59,7 @@ impl Shading<'_> {
         [r, g, b, Lanes::ONE]
     }
 
-    /// The mean color of a pixel of the background, by a position in it and the steps to the next
+    /// The mean color of a pixel of the background, from a position in it and the steps to the next
     /// pixels.
     #[inline(never)]
     fn sharp_environment(&self, [position, right, down]: [[f32; 3]; 3]) -> [f32; 3] {
@@ -81,7 +81,8 @@ impl Shading<'_> {
     }
 }
 
-/// A linear color, moved by up to half a step of an 8-bit sRGB code as the place of its pixel says.
+/// A linear color, shifted by up to half a step of an 8-bit sRGB code depending on the pixel's
+/// position.
 #[inline(never)]
 fn dither(color: [f32; 3], pixel: [f32; 2]) -> [f32; 3] {
     let [x, y] = pixel.map(|coordinate| floor_to_int(coordinate) as u32);
@@ -97,7 +98,7 @@ fn dither(color: [f32; 3], pixel: [f32; 2]) -> [f32; 3] {
     })
 }
 
-/// The threshold of a place in Bayer's matrix of 8 × 8, from 0 to 63.
+/// The threshold at a position in Bayer's 8 × 8 matrix, from 0 to 63.
 const fn bayer(x: u32, y: u32) -> u32 {
     let (a, b) = (x ^ y, y);
     let mut threshold = 0;

@@ -1,23 +1,22 @@
-//! Fragment lanes: the barycentric weights of fragments that are shaded together, of one or of
-//! eight.
+//! Fragment lanes: the barycentric weights of fragments that are shaded together, one or eight.
 //!
-//! Shading is generic over the number of lanes and asks for nothing but the weights of a fragment's
-//! vertices and their screen-space derivatives. The derivatives (`dFdx` and `dFdy` of GLSL) are
-//! exact, from the triangle's plane equations, not differences between neighboring fragments.
+//! Shading is generic over the number of lanes and needs only the weights of a fragment's vertices
+//! and their screen-space derivatives. The derivatives (`dFdx` and `dFdy` of GLSL) are exact, from
+//! the triangle's plane equations, not differences between neighboring fragments.
 
 use super::lanes::{Lanes, map_to_lanes};
 use raster::{Fragment, Fragments, LANES};
 
-/// The weights of the vertices of some fragments' primitives.
+/// The vertex weights of some fragments' primitives.
 ///
 /// Implemented for a single fragment, for packets of eight, and by shading styles for a fragment at
-/// a vertex. Weights and derivatives are those of the whole triangle, also where it was clipped.
+/// a vertex. Weights and derivatives always refer to the whole triangle, even if it was clipped.
 pub(super) trait FragmentLanes<const N: usize> {
     /// The perspective-correct barycentric weights of the three vertices.
     fn weights(&self) -> [Lanes<N>; 3];
-    /// Their derivatives by the pixel's column.
+    /// Their derivatives with respect to the pixel's column.
     fn weights_dx(&self) -> [Lanes<N>; 3];
-    /// Their derivatives by the pixel's row, downwards.
+    /// Their derivatives with respect to the pixel's row, downward.
     fn weights_dy(&self) -> [Lanes<N>; 3];
 }
 
@@ -41,14 +40,14 @@ impl FragmentLanes<1> for Fragment<'_> {
 pub(super) struct FragmentPacket {
     /// Perspective-correct barycentric weights.
     weights: [Lanes<LANES>; 3],
-    /// Derivatives of the weights by the pixel's column.
+    /// Derivatives of the weights with respect to the pixel's column.
     weights_dx: [Lanes<LANES>; 3],
-    /// Derivatives of the weights by the pixel's row.
+    /// Derivatives of the weights with respect to the pixel's row.
     weights_dy: [Lanes<LANES>; 3],
 }
 
 impl FragmentPacket {
-    /// The weights of eight fragments of the rasterizer.
+    /// The weights of eight fragments from the rasterizer.
     #[inline(always)]
     pub(super) fn new(fragments: &Fragments<'_>) -> Self {
         // One set of barycentrics, clipped triangles included; derivatives by the quotient rule.

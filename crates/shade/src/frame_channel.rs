@@ -1,14 +1,14 @@
-//! Frames of the rasterizer drawn into pixels of 8 or 16 bits.
+//! Drawing of rasterizer frames into 8-bit or 16-bit pixels.
 
 use crate::color::{Srgb16Encoder, SrgbEncoder};
 use picture::Channel;
 use raster::{Frame, Surface};
 
-/// A channel that frames are drawn into: `u8` or `u16`.
+/// A pixel channel of a frame: `u8` or `u16`.
 pub trait FrameChannel: Channel {
     /// Draws a frame over `background` (linear, premultiplied by alpha) into pixels.
     ///
-    /// As [`Frame::draw`], but compiled once for each depth, here: callers that are generic over
+    /// Like [`Frame::draw`], but compiled here once for each depth: callers that are generic over
     /// channels and surfaces would each have copies of it.
     fn draw_frame(
         frame: &Frame,

@@ -1,4 +1,4 @@
-//! Occlusion of level ground by the models on it: a contact shadow in light from all around.
+//! Occlusion of level ground by the models on it: a contact shadow in light from all directions.
 //!
 //! ```text
 //!          ▂▄▆▆▄▂  slab of a cell: from the lowest to the highest surface over it
@@ -9,39 +9,39 @@
 //! ```
 //!
 //! From every second cell of the ground, rays run along 16 azimuths over the slabs of the other
-//! cells and mark what these hide in a bitmask of 64 sectors of equal cosine-weighted solid angle
-//! (after Therrien, Levesque and Gilet, *Screen space indirect lighting with visibility bitmask*,
-//! 2023). Neighbors in a block of 2 × 2 have azimuths between each other's, and their mean takes
-//! the pattern out again (interleaved sampling, Keller and Heidrich 2001). What is between the
-//! lowest and the highest surface of a cell counts as solid.
+//! cells. The directions hidden by these are marked in a bitmask of 64 sectors of equal
+//! cosine-weighted solid angle (after Therrien, Levesque and Gilet, *Screen space indirect lighting
+//! with visibility bitmask*, 2023). Neighbors in a block of 2 × 2 have interleaved azimuths, and
+//! their mean removes the pattern again (interleaved sampling, Keller and Heidrich 2001). The space
+//! between the lowest and the highest surface of a cell counts as solid.
 
 use super::approximations::floor_to_int;
 use raster::for_each_parallel;
 
-/// The space that models fill over one cell of the ground, as heights above it.
+/// The space that models occupy over one cell of the ground, as heights above it.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct HeightSlab {
     /// The height of the lowest surface.
     pub low: f32,
-    /// The height of the highest surface; not above `low` where nothing is over the cell.
+    /// The height of the highest surface; not above `low` if the cell is empty.
     pub high: f32,
 }
 
 impl HeightSlab {
-    /// Nothing over the cell.
+    /// An empty cell.
     pub const EMPTY: Self = Self { low: 0.0, high: 0.0 };
 }
 
-/// A grid of square cells on level ground, in rows along x, one row after the other along z.
+/// A grid of square cells on level ground, in rows along x, which follow each other along z.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct GroundGrid {
-    /// The least x and z in the world.
+    /// The smallest x and z in the world.
     pub corner: [f32; 2],
     /// The side of a cell.
     pub cell: f32,
     /// Columns and rows.
     pub size: [usize; 2],
-    /// The width of the margin within which the shadow fades to nothing, so that it has no edge.
+    /// The width of the margin in which the shadow fades out, so that it has no edge.
     pub fade: f32,
 }
 
@@ -54,15 +54,16 @@ pub struct GroundOcclusion {
     visibility: Vec<f32>,
 }
 
-/// The azimuths of one cell.
+/// The number of azimuths per cell.
 const AZIMUTHS: usize = 16;
 /// The side of a block of cells with different azimuths.
 const BLOCK: usize = 2;
-/// The cells along the side of a cell of the visibility, which is smoother than what hides it.
+/// The number of cells along the side of a visibility cell, because visibility is smoother than the
+/// occluders.
 const COARSENESS: usize = 2;
-/// The sectors of an azimuth.
+/// The number of sectors of an azimuth.
 const SECTORS: f32 = 64.0;
-/// The growth of steps with the distance: about the width that an azimuth's wedge has there.
+/// The growth of steps with distance: about the width of an azimuth's wedge there.
 const STEP_GROWTH: f32 = 0.08;
 
 impl GroundOcclusion {
@@ -89,7 +90,7 @@ impl GroundOcclusion {
         Self { grid, visibility }
     }
 
-    /// The visibility at a position in the world, bilinear between the cells; 1 beside the grid.
+    /// The visibility at a position in the world, bilinear between the cells; 1 outside the grid.
     #[inline(always)]
     pub(super) fn visibility_at(&self, [x, _, z]: [f32; 3]) -> f32 {
         let GroundGrid { corner, cell, .. } = self.grid;
@@ -105,11 +106,11 @@ impl GroundOcclusion {
         sum
     }
 
-    /// The visibility of a cell; 1 beside the grid.
+    /// The visibility of a cell; 1 outside the grid.
     #[inline(always)]
     fn cell_at(&self, column: i32, row: i32) -> f32 {
         let [columns, rows] = self.grid.size;
-        // Indices below 0 are far beyond the last.
+        // Negative indices wrap to values far beyond the last.
         let (column, row) = (column as usize, row as usize);
         let is_inside = column < columns && row < rows;
         if is_inside { self.visibility[row * columns + column] } else { 1.0 }
@@ -140,7 +141,7 @@ impl GroundGrid {
 struct RayCaster<'a> {
     grid: GroundGrid,
     slabs: &'a [HeightSlab],
-    /// The first and the last column and row over which there is something.
+    /// The first and last occupied column and row.
     occupied: [[f32; 2]; 2],
     /// The azimuths of all cells of a block, as unit vectors.
     azimuths: Vec<[f32; 2]>,
@@ -164,13 +165,13 @@ impl<'a> RayCaster<'a> {
         Self { grid, slabs, occupied: [least, most], azimuths: azimuths.collect() }
     }
 
-    /// The visibility from the center of a cell of the visibility, along the azimuths of its place
-    /// in the block.
+    /// The visibility from the center of a visibility cell, along the azimuths for its position in
+    /// the block.
     fn visibility_at(&self, column: usize, row: usize) -> f32 {
         // An order in which neighbors are far apart, as in ordered dithering.
         const ORDER: [usize; BLOCK * BLOCK] = [0, 2, 3, 1];
         let place = ORDER[row % BLOCK * BLOCK + column % BLOCK];
-        // The center, in cells of the slabs from the center of the first.
+        // The center, in slab cells from the center of the first.
         let from = [column, row]
             .map(|index| (index * COARSENESS) as f32 + 0.5 * (COARSENESS as f32 - 1.0));
         let mut hidden = 0;
@@ -187,7 +188,7 @@ impl<'a> RayCaster<'a> {
         let (mut hidden, mut near) = (0, start);
         while near < end {
             let step = (STEP_GROWTH * near).max(1.0);
-            // Steps begin at the border of the cell that the ray starts from.
+            // Steps begin at the border of the ray's first cell.
             let far = if near == 0.0 { 0.5 } else { near + step };
             let middle = if near == 0.0 { 0.0 } else { near + 0.5 * step };
             let [column, row] =
@@ -198,7 +199,7 @@ impl<'a> RayCaster<'a> {
         hidden
     }
 
-    /// The distances in cells between which a ray runs over something.
+    /// The distances in cells between which a ray passes over occupied cells.
     fn clip_ray(&self, from: [f32; 2], along: [f32; 2]) -> Option<[f32; 2]> {
         let [least, most] = self.occupied;
         let (mut start, mut end) = (0.0_f32, f32::INFINITY);
@@ -210,11 +211,11 @@ impl<'a> RayCaster<'a> {
         (start < end).then_some([start, end])
     }
 
-    /// The sectors that the slab of a cell hides between two distances.
+    /// The sectors hidden by the slab of a cell between two distances.
     fn slab_sectors(&self, column: i32, row: i32, [near, far]: [f32; 2]) -> u64 {
         let [columns, rows] = self.grid.size;
         let (column, row) = (column as usize, row as usize);
-        // Indices below 0 are far beyond the last.
+        // Negative indices wrap to values far beyond the last.
         if column >= columns || row >= rows {
             return 0;
         }
@@ -253,7 +254,7 @@ fn average_blocks(values: &[f32], [columns, rows]: [usize; 2], step: [usize; 2])
 mod tests {
     use super::*;
 
-    /// A grid of 192 × 192 cells around the origin, with a slab wherever `slab` says.
+    /// A grid of 192 × 192 cells around the origin, with slabs given by `slab`.
     fn grid_of(half: f32, slab: impl Fn(f32, f32) -> HeightSlab) -> GroundOcclusion {
         let cell = half / 96.0;
         let grid = GroundGrid { corner: [-half; 2], cell, size: [192; 2], fade: 0.2 * half };
@@ -302,7 +303,7 @@ mod tests {
             HeightSlab { low: height - square.sqrt(), high: height + square.sqrt() }
         });
         for distance in [0.0_f32, 0.3, 0.6, 1.0, 1.6] {
-            // The ball is wholly above the horizon: its solid angle times the cosine.
+            // The ball is entirely above the horizon: its solid angle times the cosine.
             let far = (height * height + distance * distance).sqrt();
             let expected = 1.0 - height * radius * radius / (far * far * far);
             for (x, z) in [(distance, 0.0), (0.0, -distance), (0.6 * distance, 0.8 * distance)] {
@@ -320,7 +321,7 @@ mod tests {
             if x < -2.0 { HeightSlab { low: 0.0, high: 4.0 } } else { HeightSlab::EMPTY }
         });
         for distance in [0.3_f32, 0.6, 1.2] {
-            // ½ (1 − d / √(d² + h²)) for a wall without end; this one ends after 4 units.
+            // ½ (1 − d / √(d² + h²)) for an infinite wall; this one ends after 4 units.
             let expected = 1.0 - 0.5 * (1.0 - distance / (distance * distance + 16.0).sqrt());
             let actual = wall.visibility_at([distance - 2.0, 0.0, 0.0]);
             assert!((actual - expected).abs() < 0.05, "{distance}: {actual} {expected}");

@@ -1,8 +1,8 @@
-//! Parts of kernels: where shading is cut in functions, so that it compiles sooner.
+//! Parts of kernels: places where shading is split into functions, so that it compiles faster.
 //!
-//! All that a kernel calls is inlined into it, and the time that LLVM takes for one function grows
-//! faster than the function does. A part is compiled by itself, with the instructions of the kernel;
-//! a picture takes no longer for it, because a part is called once for eight fragments.
+//! Everything that a kernel calls is inlined into it, and LLVM's compile time grows faster than the
+//! size of a function. A part is compiled separately, with the instructions of the kernel. It does
+//! not slow down rendering, because a part is called once for eight fragments.
 
 /// Runs one fragment's part of shading, not inlined.
 #[inline(never)]
@@ -10,7 +10,7 @@ pub(crate) fn run_scalar_part<R>(part: impl FnOnce() -> R) -> R {
     part()
 }
 
-/// Evaluates an expression of a kernel of `N` lanes in a function by itself.
+/// Evaluates an expression of a kernel with `N` lanes in a separate function.
 macro_rules! kernel_part {
     ($lanes:expr, $part:expr) => {
         if const { $lanes == 1 } {

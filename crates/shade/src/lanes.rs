@@ -1,4 +1,5 @@
-//! Lanes: values of `N` fragments side by side, with the operators of one (structure of arrays).
+//! Lanes: values of `N` fragments side by side, with the operators of a single value (structure of
+//! arrays).
 //!
 //! ```text
 //!             lane   0    1    2    3    4    5    6    7
@@ -15,26 +16,25 @@
 //! ```
 //!
 //! Shading is written once for any `N`: with one lane for the scalar path and with eight for the
-//! packets of the rasterizer. Each operator is a loop over the lanes of constant length and inlines
-//! into a kernel that is compiled for the processor's vector instructions, where it becomes one
-//! instruction. LLVM and browsers compile large functions slowly, so a kernel is cut in parts
-//! ([`kernel_part`](crate::kernel_part)), for WebAssembly and in debug builds in more of them.
+//! packets of the rasterizer. Each operator is a loop of constant length over the lanes. It is
+//! inlined into a kernel compiled for the processor's vector instructions, where it becomes one
+//! instruction. LLVM and browsers compile large functions slowly, so a kernel is split into parts
+//! ([`kernel_part`](crate::kernel_part)), and into more parts for WebAssembly and debug builds.
 //!
-//! `[f32; N]` inside is what the rasterizer hands over as `F32x8`; conversions cost nothing. Loops
-//! are over iterators of arrays and not over indices, which keeps them free of bounds checks.
+//! The inner `[f32; N]` is what the rasterizer passes as `F32x8`; conversions cost nothing. Loops
+//! are over array iterators, not indices, which avoids bounds checks.
 //!
-//! The bits of a lane depend neither on `N` nor on the instructions: every operator rounds as its
-//! scalar counterpart does, nothing is fused or reassociated, and [`Lanes::lerp`] is `a + (b −
-//! a)·t` in this order. A rewritten formula keeps the order of its operations, or the goldens
-//! change.
+//! The bits of a lane depend neither on `N` nor on the instructions: every operator rounds like its
+//! scalar counterpart, nothing is fused or reassociated, and [`Lanes::lerp`] is `a + (b − a)·t` in
+//! this order. A rewritten formula must keep the order of its operations, or the goldens change.
 
 use std::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, MulAssign, Neg, Sub};
 
-/// The lanes that a condition holds for. Both sides of a condition are computed, and selected
-/// between: lanes do not branch.
+/// The lanes for which a condition holds. Both branches of a condition are computed, and one is
+/// selected: lanes do not branch.
 pub(crate) type Mask<const N: usize> = [bool; N];
 
-/// One `f32` of each of `N` fragments.
+/// One `f32` for each of `N` fragments.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Lanes<const N: usize>(pub(crate) [f32; N]);
 
@@ -48,8 +48,8 @@ impl<const N: usize> Lanes<N> {
         Self([value; N])
     }
 
-    /// The lanes of a function of their index: for table lookups and functions of `libm`, which
-    /// have no vector counterpart.
+    /// The lanes from a function of their index: for table lookups and `libm` functions, which have
+    /// no vector counterpart.
     #[inline(always)]
     pub(crate) fn from_fn(mut lane: impl FnMut(usize) -> f32) -> Self {
         let mut lanes = [0.0; N];
@@ -59,7 +59,7 @@ impl<const N: usize> Lanes<N> {
         Self(lanes)
     }
 
-    /// A function of each lane by itself.
+    /// Applies a function to each lane separately.
     #[inline(always)]
     pub(crate) fn map(mut self, function: impl Fn(f32) -> f32) -> Self {
         for value in &mut self.0 {
@@ -68,8 +68,8 @@ impl<const N: usize> Lanes<N> {
         self
     }
 
-    /// A function of each lane that costs more than a branch: evaluated once where all lanes are
-    /// alike, as they are without a texture.
+    /// Applies a function that costs more than a branch to each lane: it is evaluated once if all
+    /// lanes are equal, as they are without a texture.
     #[inline(always)]
     pub(crate) fn map_expensive(self, function: impl Fn(f32) -> f32) -> Self {
         if self.0.iter().all(|lane| *lane == self.0[0]) {
@@ -78,7 +78,7 @@ impl<const N: usize> Lanes<N> {
         self.map(function)
     }
 
-    /// The square roots; NaN of numbers below 0.
+    /// The square roots; NaN for numbers below 0.
     #[inline(always)]
     pub(crate) fn sqrt(self) -> Self {
         self.map(f32::sqrt)
@@ -90,19 +90,19 @@ impl<const N: usize> Lanes<N> {
         self.map(f32::abs)
     }
 
-    /// The smaller of each lane and a bound; of NaN the bound.
+    /// The smaller of each lane and a bound; the bound for NaN.
     #[inline(always)]
     pub(crate) fn min(self, bound: f32) -> Self {
         self.map(|value| value.min(bound))
     }
 
-    /// The larger of each lane and a bound; of NaN the bound.
+    /// The larger of each lane and a bound; the bound for NaN.
     #[inline(always)]
     pub(crate) fn max(self, bound: f32) -> Self {
         self.map(|value| value.max(bound))
     }
 
-    /// The smaller of the lanes of two, lane by lane.
+    /// The smaller of two values, lane by lane.
     #[inline(always)]
     pub(crate) fn min_lanes(mut self, other: Self) -> Self {
         for (value, other) in self.0.iter_mut().zip(&other.0) {
@@ -111,7 +111,7 @@ impl<const N: usize> Lanes<N> {
         self
     }
 
-    /// The larger of the lanes of two, lane by lane.
+    /// The larger of two values, lane by lane.
     #[inline(always)]
     pub(crate) fn max_lanes(mut self, other: Self) -> Self {
         for (value, other) in self.0.iter_mut().zip(&other.0) {
@@ -120,15 +120,15 @@ impl<const N: usize> Lanes<N> {
         self
     }
 
-    /// Each lane within two bounds; NaN stays NaN.
+    /// Each lane clamped to two bounds; NaN stays NaN.
     #[inline(always)]
     pub(crate) fn clamp(self, least: f32, most: f32) -> Self {
         self.map(|value| value.clamp(least, most))
     }
 
-    /// Linear interpolation `a + (b − a)·t`: `self` at 0; at 1 `to` up to rounding.
+    /// Linear interpolation `a + (b − a)·t`: `self` at 0; `to` at 1, up to rounding.
     ///
-    /// Not `a·(1 − t) + b·t`, which is exact at both ends but has one more multiplication.
+    /// Not `a·(1 − t) + b·t`, which is exact at both ends but needs one more multiplication.
     #[inline(always)]
     pub(crate) fn lerp(self, to: Self, t: Self) -> Self {
         self + (to - self) * t
@@ -259,8 +259,8 @@ where
 
 /// Lanes from each item of an array.
 ///
-/// In kernels it stands for the `map` of arrays, which is too large to be inlined always, and is
-/// then a call to code without the kernel's vector instructions.
+/// In kernels it replaces the `map` of arrays, which is too large to be inlined always, and is then
+/// a call to code without the kernel's vector instructions.
 #[inline(always)]
 pub(crate) fn map_to_lanes<T: Copy, const N: usize, const K: usize>(
     items: &[T; K],
@@ -273,8 +273,8 @@ pub(crate) fn map_to_lanes<T: Copy, const N: usize, const K: usize>(
     lanes
 }
 
-/// Declares a type of three numbers of each of `N` fragments, with the componentwise operations
-/// that vectors and colors have in common.
+/// Declares a type of three numbers for each of `N` fragments, with the componentwise operations
+/// that vectors and colors share.
 macro_rules! three_components {
     ($(#[$doc:meta])* $Name:ident { $a:ident, $b:ident, $c:ident }) => {
         $(#[$doc])*
@@ -289,13 +289,13 @@ macro_rules! three_components {
             pub(crate) const ZERO: Self =
                 Self { $a: Lanes::ZERO, $b: Lanes::ZERO, $c: Lanes::ZERO };
 
-            /// Three numbers, alike in all lanes.
+            /// Three numbers, the same in all lanes.
             #[inline(always)]
             pub(crate) const fn splat([$a, $b, $c]: [f32; 3]) -> Self {
                 Self { $a: Lanes::splat($a), $b: Lanes::splat($b), $c: Lanes::splat($c) }
             }
 
-            /// The components from a function that is asked once for each lane.
+            /// The components from a function that is called once for each lane.
             #[inline(always)]
             pub(crate) fn from_fn(mut lane: impl FnMut(usize) -> [f32; 3]) -> Self {
                 let mut lanes = Self::ZERO;
@@ -311,10 +311,10 @@ macro_rules! three_components {
                 [self.$a[lane], self.$b[lane], self.$c[lane]]
             }
 
-            /// A function of each component.
+            /// Applies a function to each component.
             #[inline(always)]
             pub(crate) fn map(self, function: impl Fn(Lanes<N>) -> Lanes<N>) -> Self {
-                // A loop calls the function at one place, where it is inlined.
+                // A loop calls the function at a single place, where it is inlined.
                 let mut components = [self.$a, self.$b, self.$c];
                 for component in &mut components {
                     *component = function(*component);
@@ -322,7 +322,7 @@ macro_rules! three_components {
                 Self::from(components)
             }
 
-            /// A function of each two components.
+            /// Applies a function to each pair of components.
             #[inline(always)]
             pub(crate) fn zip(
                 self,
@@ -400,7 +400,7 @@ macro_rules! three_components {
 }
 
 three_components! {
-    /// A position or a vector of the world in each lane.
+    /// A position or vector in the world in each lane.
     Vec3Lanes { x, y, z }
 }
 
@@ -462,7 +462,7 @@ mod tests {
     const A: [f32; 4] = [0.1, -3.0, 7.7, f32::NAN];
     const B: [f32; 4] = [0.7, 0.3, -1e-3, 2.0];
 
-    /// The bits of lanes, as NaN is not equal to itself.
+    /// The bits of lanes, because NaN is not equal to itself.
     fn bits(lanes: Lanes<4>) -> [u32; 4] {
         lanes.0.map(f32::to_bits)
     }

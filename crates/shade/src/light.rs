@@ -16,20 +16,20 @@ use super::shadow_receiver::ShadowReceiver;
 pub enum Light {
     /// A directional light: parallel light from very far away.
     Sun {
-        /// The unit direction towards the light.
+        /// The unit direction toward the light.
         to_light: [f32; 3],
         /// The illuminance of a surface that faces it, in lux.
         lux: [f32; 3],
         /// Its shadows, if it casts any.
         shadow: Option<Shadow>,
     },
-    /// Light from a point, alike in all directions.
+    /// Light from a point, equal in all directions.
     Point {
         /// The position in the world.
         position: [f32; 3],
         /// The luminous intensity in candela: lux at distance 1.
         candela: [f32; 3],
-        /// The distance from which on nothing arrives; infinite for a light without a limit.
+        /// The distance beyond which no light arrives; infinite for a light without a limit.
         range: f32,
         /// Its shadows, if it casts any.
         shadow: Option<Shadow>,
@@ -42,15 +42,15 @@ pub enum Light {
         axis: [f32; 3],
         /// The luminous intensity along the axis in candela.
         candela: [f32; 3],
-        /// The distance from which on nothing arrives; infinite for a light without a limit.
+        /// The distance beyond which no light arrives; infinite for a light without a limit.
         range: f32,
-        /// The cosines of the inner cone's angle, within which the light is full, and of the outer
-        /// cone's, at which it ends.
+        /// The cosines of the inner cone's angle, within which the light has full strength, and of
+        /// the outer cone's, at which it ends.
         cosines: [f32; 2],
         /// Its shadows, if it casts any.
         shadow: Option<Shadow>,
     },
-    /// Ambient light: alike from all directions, reflected diffusely and without highlights.
+    /// Ambient light: equal from all directions, reflected diffusely and without highlights.
     Ambient {
         /// The illuminance of every surface, in lux.
         lux: [f32; 3],
@@ -59,20 +59,20 @@ pub enum Light {
 
 /// The light of one source at some fragments.
 ///
-/// It is what the BRDF sees of a light: no kind, no position, only a direction and an illuminance.
-/// Shadows reduce it, and so does sheen for the layers below.
+/// It is all that the BRDF sees of a light: not its kind or position, only a direction and an
+/// illuminance. Shadows reduce it, and so does sheen for the layers below.
 ///
-/// The cosine of Lambert's law is not in `lux`: each layer has normals of its own.
+/// The cosine of Lambert's law is not in `lux`: each layer has different normals.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct IncidentLight<const N: usize> {
-    /// The unit vectors towards the light.
+    /// The unit vectors toward the light.
     pub(super) to_light: Vec3Lanes<N>,
     /// The illuminance of surfaces that face it, in lux.
     pub(super) lux: Rgb<N>,
 }
 
 impl Light {
-    /// The illuminance of every surface, of an ambient light.
+    /// The illuminance of every surface, for an ambient light.
     pub(crate) const fn ambient_lux(&self) -> Option<[f32; 3]> {
         match self {
             Self::Ambient { lux } => Some(*lux),
@@ -91,8 +91,8 @@ impl Light {
         }
     }
 
-    /// The light that arrives at positions in the world, shadows not counted; none of ambient
-    /// light, which has no direction.
+    /// The light that arrives at positions in the world, ignoring shadows; none for ambient light,
+    /// which has no direction.
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
     #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn incident_at<const N: usize>(&self, positions: Vec3Lanes<N>) -> IncidentLight<N> {
@@ -121,15 +121,15 @@ impl<const N: usize> IncidentLight<N> {
     /// Multiplies the light by its visibility in its shadow maps.
     #[inline(always)]
     pub(super) fn apply_shadow(&mut self, shadow: &LightShadow, receiver: &ShadowReceiver<N>) {
-        // No light arrives from behind, but where a normal map pretends so: no need for a lookup.
+        // No light arrives from behind, except where a normal map suggests it: no lookup is needed.
         let is_facing = receiver.normals.dot(self.to_light).is_above(0.0);
         let visibility = shadow.visibility(receiver, is_facing);
         self.lux = self.lux * visibility;
     }
 }
 
-/// The light of a point: inverse-square falloff with a smooth window to its range, 1 − (d / range)⁴
-/// (KHR_lights_punctual). `attenuation` is the part that goes in a direction.
+/// The light from a point: inverse-square falloff with a smooth window to its range, 1 − (d /
+/// range)⁴ (KHR_lights_punctual). `attenuation` is the part that goes in a direction.
 #[inline(always)]
 fn light_from_point<const N: usize>(
     position: [f32; 3],
@@ -142,7 +142,7 @@ fn light_from_point<const N: usize>(
     let inv_range = 1.0 / range;
     let to_light = Vec3Lanes::splat(position) - positions;
     let square = to_light.dot(to_light);
-    // At the light itself there is no direction, and no light.
+    // At the light itself there is no direction, so no light.
     let inv_distance = square.map(|square| if square > 0.0 { 1.0 / square.sqrt() } else { 0.0 });
     let to_light = to_light * inv_distance;
     // Windowing function of the range, then the inverse-square law.

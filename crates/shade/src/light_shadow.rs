@@ -5,7 +5,7 @@ use super::shadow_cube::ShadowCube;
 use super::shadow_map::ShadowMap;
 use super::shadow_receiver::ShadowReceiver;
 
-/// The depths of a scene from a light, by which shading finds what is in its shadow.
+/// The scene depths seen from a light, which shading uses to find shadows.
 #[derive(Clone, Debug)]
 pub enum LightShadow {
     /// The map of a directional or spot light.
@@ -15,10 +15,10 @@ pub enum LightShadow {
 }
 
 impl LightShadow {
-    /// The visibility of the light, 0 to 1, from the receivers of the lanes that are `wanted`; 0 of
-    /// the others.
+    /// The visibility of the light, 0 to 1, from the receivers in the `wanted` lanes; 0 in the
+    /// others.
     ///
-    /// Where there is no map, beside the light's cone for instance, nothing is in shadow.
+    /// Outside the map, for instance outside the light's cone, nothing is in shadow.
     #[inline(always)]
     pub(super) fn visibility<const N: usize>(
         &self,
@@ -36,7 +36,7 @@ impl LightShadow {
         }
     }
 
-    /// Its maps, for their memory.
+    /// Its maps, so that their memory can be reused.
     pub fn into_maps(self) -> impl Iterator<Item = ShadowMap> {
         let (map, faces) = match self {
             Self::Map(map) => (Some(*map), Default::default()),

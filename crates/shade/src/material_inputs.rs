@@ -1,5 +1,5 @@
-//! Material inputs: the parameters of a material at some fragments, its factors times its textures
-//! and vertex colors (glTF 2.0 §3.9).
+//! Material inputs: the parameters of a material at some fragments, from its factors, textures and
+//! vertex colors (glTF 2.0 §3.9).
 //!
 //! ```text
 //!  base color = factor × vertex color × texture.rgb     roughness = factor × texture.g
@@ -8,7 +8,7 @@
 //!  normal     = (2 texture.rgb − 1) × (scale, scale, 1), in tangent space
 //! ```
 //!
-//! The BRDF sees nothing of factors, slots and channels: only these parameters.
+//! The BRDF does not see factors, slots or channels, only these parameters.
 
 use super::Draw;
 use super::attributes::{VertexIndices, interpolate};
@@ -21,7 +21,7 @@ use model::{MaterialExtensions, TextureSlot};
 /// The core parameters of a material. All numbers are linear.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MaterialInputs<const N: usize> {
-    /// The base color; in specular-glossiness the diffuse color.
+    /// The base color; in specular-glossiness, the diffuse color.
     pub(super) base_color: Rgb<N>,
     /// Alpha of the base color.
     pub(super) alpha: Lanes<N>,
@@ -33,8 +33,8 @@ pub(super) struct MaterialInputs<const N: usize> {
     pub(super) tangent_normal: Vec3Lanes<N>,
     /// Ambient occlusion: the fraction of light from all directions that arrives.
     pub(super) occlusion: Lanes<N>,
-    /// The ambient visibility that the picture shows, beside that of the material's texture; `None`
-    /// without screen-space ambient occlusion.
+    /// The ambient visibility computed from the picture, in addition to the material's texture;
+    /// `None` without screen-space ambient occlusion.
     pub(super) screen_visibility: Option<Lanes<N>>,
     /// The emitted radiance.
     pub(super) emitted: Rgb<N>,
@@ -42,13 +42,12 @@ pub(super) struct MaterialInputs<const N: usize> {
     pub(super) layers: LayerInputs<N>,
 }
 
-/// The parameters of a material's extensions; nothing reads those of an extension that the material
-/// does not have.
+/// The parameters of a material's extensions; parameters of absent extensions are never read.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LayerInputs<const N: usize> {
     /// The strength of the specular reflection of dielectrics.
     pub(super) specular: Lanes<N>,
-    /// The color of F0 of dielectrics; in specular-glossiness F0 of all surfaces.
+    /// The color of F0 for dielectrics; in specular-glossiness, F0 of all surfaces.
     pub(super) specular_color: Rgb<N>,
     /// The strength of the clearcoat.
     pub(super) clearcoat: Lanes<N>,
@@ -68,7 +67,7 @@ pub(super) struct LayerInputs<const N: usize> {
     pub(super) iridescence: Lanes<N>,
     /// The thickness of the thin film in nanometers.
     pub(super) iridescence_thickness: Lanes<N>,
-    /// In x and y the direction of anisotropy in tangent space, in z its strength.
+    /// The direction of anisotropy in tangent space in x and y, its strength in z.
     pub(super) anisotropy: Vec3Lanes<N>,
 }
 
@@ -76,7 +75,7 @@ impl<const N: usize> MaterialInputs<N> {
     /// Evaluates the inputs at fragments of a draw: vertex colors are interpolated, textures
     /// filtered.
     ///
-    /// Alpha is read from textures only where the material blends. Of an unlit draw only the base
+    /// Alpha is read from textures only if the material blends. For an unlit draw only the base
     /// color is evaluated.
     #[inline(always)]
     pub(super) fn evaluate(
@@ -87,7 +86,7 @@ impl<const N: usize> MaterialInputs<N> {
         kernel_part!(N, Self::sample(draw, vertices, fragments))
     }
 
-    /// As [`evaluate`](Self::evaluate), inlined.
+    /// Like [`evaluate`](Self::evaluate), but inlined.
     #[inline(always)]
     pub(super) fn sample(
         draw: &Draw<'_>,
@@ -131,7 +130,7 @@ impl<const N: usize> MaterialInputs<N> {
         }
     }
 
-    /// Multiplies the parameter that a texture belongs to by its texels.
+    /// Multiplies the parameter of a texture by its texels.
     #[inline(always)]
     fn apply_texture(&mut self, draw: &Draw<'_>, slot: TextureSlot, texel: TexelLanes<N>) {
         let material = draw.material;
@@ -169,7 +168,7 @@ impl<const N: usize> MaterialInputs<N> {
 }
 
 impl<const N: usize> LayerInputs<N> {
-    /// The factors of the extensions, without textures; those of absent extensions are any.
+    /// The factors of the extensions, without textures; they are arbitrary for absent extensions.
     #[inline(always)]
     fn from_factors(extensions: &MaterialExtensions) -> Self {
         let clearcoat = extensions.clearcoat.as_deref().copied().unwrap_or_default();
@@ -196,7 +195,7 @@ impl<const N: usize> LayerInputs<N> {
         }
     }
 
-    /// Multiplies the parameter that an extension's texture belongs to by its texels.
+    /// Multiplies the parameter of an extension's texture by its texels.
     #[inline(always)]
     fn apply_texture(
         &mut self,
@@ -222,7 +221,7 @@ impl<const N: usize> LayerInputs<N> {
             TextureSlot::Thickness => self.thickness *= g,
             TextureSlot::Iridescence => self.iridescence *= r,
             TextureSlot::IridescenceThickness => {
-                // Green chooses between the least and the greatest thickness.
+                // Green interpolates between the minimum and maximum thickness.
                 let film = extensions.iridescence.as_deref().copied().unwrap_or_default();
                 let range = film.thickness_maximum - film.thickness_minimum;
                 self.iridescence_thickness = film.thickness_minimum + range * g;

@@ -1,6 +1,6 @@
 //! The textures of a material, grouped by footprint.
 //!
-//! Textures of one size, with one sampler and the same coordinates are read at the same texels.
+//! Textures of the same size, with the same sampler and coordinates, are read at the same texels.
 //! They are sampled as a group: footprint, mip levels and texel indices are computed once for all
 //! of them. glTF's packed textures, such as occlusion, roughness and metalness in one image, are
 //! also fetched once.
@@ -9,7 +9,7 @@ use super::MipChain;
 use super::texture::{TexelLanes, UvLanes};
 use model::{AlphaMode, Material, TextureInfo, TextureSlot};
 
-/// The most textures that are sampled as one group.
+/// The maximum number of textures that are sampled as one group.
 const MAX_GROUP: usize = 4;
 
 /// A texture of a material.
@@ -17,15 +17,15 @@ const MAX_GROUP: usize = 4;
 pub struct MaterialTexture<'a> {
     /// The parameter that it multiplies.
     pub slot: TextureSlot,
-    /// The coordinates that it is sampled by.
+    /// The coordinates at which it is sampled.
     pub info: TextureInfo,
     /// Its texels.
     pub mip_chain: &'a MipChain<'a>,
     /// Whether shading reads its alpha.
     needs_alpha: bool,
-    /// Whether it is in one group with the texture before it.
+    /// Whether it is in the same group as the previous texture.
     joins_previous: bool,
-    /// Whether it also has the same texels as the texture before it.
+    /// Whether it also has the same texels as the previous texture.
     repeats_previous: bool,
 }
 
@@ -34,15 +34,16 @@ pub struct MaterialTexture<'a> {
 pub struct MaterialTextures<'a> {
     /// Group after group.
     textures: Vec<MaterialTexture<'a>>,
-    /// The most taps along the longer axis of a footprint.
+    /// The maximum number of taps along the longer axis of a footprint.
     pub(super) anisotropy: u32,
 }
 
 impl<'a> MaterialTextures<'a> {
-    /// Those textures of a material for which `mip_chain` returns texels. Of an unlit material only
+    /// The textures of a material for which `mip_chain` returns texels. For an unlit material only
     /// the base color is used.
     ///
-    /// `anisotropy` is the most texels that are read along the longer axis of a pixel's footprint.
+    /// `anisotropy` is the maximum number of texels read along the longer axis of a pixel's
+    /// footprint.
     pub fn new(
         material: &Material,
         anisotropy: u32,
@@ -60,12 +61,12 @@ impl<'a> MaterialTextures<'a> {
             })
         };
         let mut rest: Vec<_> = material.visible_textures().filter_map(texture).collect();
-        // Slots of one image side by side, so that a repeat directly follows what it repeats.
+        // Slots that share an image are adjacent, so that a repeat directly follows its original.
         rest.sort_by_key(|texture| (texture.info.texture, texture.slot));
         let mut textures: Vec<MaterialTexture<'a>> = Vec::with_capacity(rest.len());
         while let Some(&first) = rest.first() {
             let start = textures.len();
-            // Moves the textures with the first one's footprint over, as one group.
+            // Moves the textures that share the first one's footprint, as one group.
             rest.retain(|texture| {
                 let is_taken =
                     first.has_same_footprint(texture) && textures.len() < start + MAX_GROUP;
@@ -90,7 +91,7 @@ impl<'a> MaterialTextures<'a> {
 
     /// Samples the textures of one group at its coordinates: see [`MipChain::sample`].
     ///
-    /// The result has one entry for each texture of the group, in its order; further ones are zero.
+    /// The result has one entry for each texture of the group, in order; other entries are zero.
     #[inline(always)]
     pub(super) fn sample_group<const N: usize>(
         &self,
@@ -117,14 +118,15 @@ impl<'a> MaterialTextures<'a> {
         texels
     }
 
-    /// The texture that the alpha of the surface is read from.
+    /// The texture that provides the alpha of the surface.
     pub(super) fn base_color(&self) -> Option<&MaterialTexture<'a>> {
         self.textures.iter().find(|texture| is_base_color_slot(texture.slot))
     }
 }
 
 impl MaterialTexture<'_> {
-    /// Whether the sampled texels of this texture are all that another one needs, in one group.
+    /// Whether the sampled texels of this texture include everything that another one in the group
+    /// needs.
     fn covers_texels_of(&self, other: &Self) -> bool {
         std::ptr::eq(self.mip_chain, other.mip_chain) && (self.needs_alpha || !other.needs_alpha)
     }
@@ -137,12 +139,12 @@ impl MaterialTexture<'_> {
     }
 }
 
-/// Whether a slot holds the base color, of either workflow.
+/// Whether a slot holds the base color, in either workflow.
 const fn is_base_color_slot(slot: TextureSlot) -> bool {
     matches!(slot, TextureSlot::BaseColor | TextureSlot::Diffuse)
 }
 
-/// Whether the alpha of a texture is a parameter of its own, beside that of the base color.
+/// Whether the alpha of a texture is a separate parameter, apart from the base color's alpha.
 const fn slot_reads_alpha(slot: TextureSlot) -> bool {
     matches!(
         slot,
@@ -169,7 +171,7 @@ mod tests {
             emissive_texture: Some(info(3)),
             ..Material::default()
         };
-        // The last is of another size, and a group of its own.
+        // The last has another size, and forms a separate group.
         let image = |side: u32, factor: u32| {
             let texel = |n: u32| [n * factor, n * 31, n * 101, n * 59].map(|code| code as u8);
             Image { width: side, height: side, rgba: (0..side * side).map(texel).collect() }

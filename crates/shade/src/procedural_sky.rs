@@ -1,7 +1,7 @@
 //! A procedural clear sky: the Preetham model of daylight.
 //!
 //! Preetham, Shirley and Smits, *A practical analytic model for daylight*, 1999. Luminance and
-//! chromaticity by direction are those of the zenith times a ratio of Perez's distribution:
+//! chromaticity by direction are the zenith's values times a ratio of Perez's distribution:
 //!
 //! ```text
 //!  Y(θ, γ) = Y_zenith · F(θ, γ) / F(0, θ_sun)        θ  angle to the zenith
@@ -18,7 +18,8 @@ use std::f32::consts::PI;
 pub struct PreethamSky {
     /// The unit direction to the sun, which is above the horizon.
     to_sun: [f32; 3],
-    /// Luminance Y and chromaticities x, y of the zenith, over what the distribution has there.
+    /// Luminance Y and chromaticities x, y of the zenith, divided by the value of the distribution
+    /// there.
     zenith: [f32; 3],
     /// The color below the horizon.
     ground: [f32; 3],
@@ -47,7 +48,7 @@ const PEREZ: [[[f32; 2]; 5]; 3] = [
     ],
 ];
 
-/// The chromaticities x and y at the zenith: polynomials cubic in the sun's angle from the zenith,
+/// The chromaticities x and y at the zenith: polynomials, cubic in the sun's angle from the zenith
 /// and quadratic in the turbidity.
 const ZENITH: [[[f32; 4]; 3]; 2] = [
     [
@@ -63,7 +64,7 @@ const ZENITH: [[[f32; 4]; 3]; 2] = [
 ];
 
 impl PreethamSky {
-    /// The sky with the sun in a direction, a unit vector of the world with y up; a sun below the
+    /// The sky with the sun in a direction, a unit vector in the world with y up; a sun below the
     /// horizon is raised to it.
     #[must_use]
     pub fn new([x, y, z]: [f32; 3]) -> Self {
@@ -95,7 +96,7 @@ impl PreethamSky {
     /// The radiance from a direction, a unit vector, in linear sRGB.
     #[must_use]
     pub fn radiance(&self, direction: [f32; 3]) -> [f32; 3] {
-        // Bounded: the distribution goes to infinity at the horizon.
+        // Clamped, because the distribution diverges at the horizon.
         let cosine = direction[1].max(0.01);
         let gamma = libm::acosf(dot(direction, self.to_sun).clamp(-1.0, 1.0));
         let [luminance, x, y] =
@@ -110,7 +111,7 @@ impl PreethamSky {
     }
 }
 
-/// Perez's distribution of a component (Y, x or y), by the cosine to the zenith and the angle to
+/// Perez's distribution for a component (Y, x or y), from the cosine to the zenith and the angle to
 /// the sun in radians.
 ///
 /// Perez, Seals and Michalsky 1993: five coefficients, linear in the turbidity.
@@ -122,7 +123,7 @@ fn perez_distribution(component: usize, cosine: f32, gamma: f32) -> f32 {
     horizon * (1.0 + c * libm::expf(d * gamma) + e * sun_cosine * sun_cosine)
 }
 
-/// Hermite interpolation from 0 at `from` to 1 at `to`, as GLSL has it.
+/// Hermite interpolation from 0 at `from` to 1 at `to`, as in GLSL.
 pub(super) fn smoothstep(from: f32, to: f32, x: f32) -> f32 {
     let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)

@@ -7,10 +7,10 @@
 //!                                                            └   environment, occlusion
 //! ```
 //!
-//! The rasterizer asks [`Shading`] for the colors of eight fragments at once. Where these belong to
-//! several draws, they are shaded for one draw after the other, and each lane takes the color of
-//! its own. Shading comes after visibility: its cost does not grow with the triangles behind
-//! others.
+//! The rasterizer requests the colors of eight fragments at once from [`Shading`]. If these belong
+//! to several draws, they are shaded for one draw after another, and each lane takes the color for
+//! its draw. Shading comes after visibility: its cost does not grow with the number of hidden
+//! triangles.
 
 use super::ambient_occlusion::AmbientOcclusion;
 use super::attributes::{PrimitiveIndices, interpolate};
@@ -41,11 +41,11 @@ pub struct Shading<'a> {
     pub draws: &'a DrawList<'a>,
     /// The lights, in the world.
     pub lights: &'a [Light],
-    /// The shadow maps of the first lights, in their order; `None` for a light without shadows.
+    /// The shadow maps of the first lights, in order; `None` for a light without shadows.
     pub shadows: &'a [Option<LightShadow>],
     /// The occlusion of the ground by the models, if there is ground that shows shadows.
     pub ground_occlusion: Option<&'a GroundOcclusion>,
-    /// Screen-space ambient occlusion, if it is switched on.
+    /// Screen-space ambient occlusion, if it is enabled.
     pub occlusion: Option<&'a AmbientOcclusion>,
     /// The picture of the surfaces behind refracting and rough glass. Without it such glass is
     /// drawn like a smooth thin sheet.
@@ -54,12 +54,11 @@ pub struct Shading<'a> {
     pub environment: Option<&'a Environment>,
     /// Exposure and tone curve.
     pub tone_mapper: ToneMapper,
-    /// The viewer: the eye, or in parallel projection the direction towards it, a point at
-    /// infinity.
+    /// The viewer: the eye, or in parallel projection the direction toward it, a point at infinity.
     pub viewer: HPoint<World>,
-    /// Whether the picture has 8 bits a channel, in which a sky shows steps: they are dithered.
+    /// Whether the picture has 8 bits per channel, in which a sky shows steps: they are dithered.
     pub has_eight_bits: bool,
-    /// The vector instructions that eight fragments at once are shaded with.
+    /// The vector instructions used to shade eight fragments at once.
     pub simd_level: SimdLevel,
 }
 
@@ -111,8 +110,8 @@ impl Surface for Shading<'_> {
 pub(super) struct DrawSelection<'a> {
     /// The draw of the selected lanes.
     pub(super) draw: &'a Draw<'a>,
-    /// The ids of the fragments' primitives; in lanes of other draws that of the first fragment,
-    /// which is shaded there and ignored.
+    /// The ids of the fragments' primitives; lanes of other draws repeat the first fragment's id,
+    /// and their results are ignored.
     pub(super) ids: [u32; LANES],
     /// The lanes of this draw.
     pub(super) mask: Mask<LANES>,
@@ -120,7 +119,7 @@ pub(super) struct DrawSelection<'a> {
 
 impl<'d> DrawList<'d> {
     /// Calls `shade` with each draw that eight fragments belong to, the indices of their primitives
-    /// and the lanes of the draw; most often there is only one.
+    /// and the lanes of the draw; usually there is only one.
     #[inline(always)]
     pub(super) fn for_each_draw(
         &self,
@@ -138,7 +137,7 @@ impl<'d> DrawList<'d> {
         }
     }
 
-    /// Selects the draw of one lane, with all lanes that are of the same draw.
+    /// Selects the draw of one lane, with all lanes that belong to the same draw.
     ///
     /// Material, textures and flags are then uniform over the lanes, and need no select per lane.
     #[inline(always)]
@@ -225,7 +224,7 @@ struct SurfaceLight<const N: usize> {
 }
 
 impl Shading<'_> {
-    /// Shades one fragment by itself, with the bits that it has among eight.
+    /// Shades one fragment by itself, with the same bits as among eight.
     #[inline(never)]
     fn shade_one(&self, fragment: &Fragment<'_>) -> ShadedLanes<1> {
         let (draw, _) = self.draws.find_draw(fragment.id);
@@ -258,8 +257,8 @@ impl Shading<'_> {
 
     /// The colors of a model's surfaces: emitted and reflected light, tone mapped.
     ///
-    /// Unlit materials, lines and points show emission and base color alone. Alpha is coverage
-    /// where the material blends, and 1 otherwise; what is transmitted is taken from it, so that
+    /// Unlit materials, lines and points show only emission and base color. Alpha is coverage if
+    /// the material blends, and 1 otherwise; the transmitted part is subtracted from it, so that
     /// blending lets the background through.
     #[inline(always)]
     fn shade_surface<const N: usize>(
@@ -278,8 +277,8 @@ impl Shading<'_> {
             let radiance = inputs.emitted + inputs.base_color;
             SurfaceLight { radiance, transmission: None, behind: None }
         };
-        // Display: exposure and tone curve, then premultiplied alpha. Unlit colors are those of the
-        // picture already (KHR_materials_unlit): they are only exposed.
+        // Display: exposure and tone curve, then premultiplied alpha. Unlit colors already are
+        // display colors (KHR_materials_unlit): they are only exposed.
         let mut color = if draw.is_lit() {
             self.tone_mapper.map_colors(radiance)
         } else {
@@ -297,18 +296,18 @@ impl Shading<'_> {
         let Some(share) = transmission else {
             return ShadedLanes::over([r, g, b, coverage]);
         };
-        // What is behind shines through, beside the light that the surface itself sends.
+        // The background shines through, in addition to the light that the surface itself sends.
         let mut alpha = coverage * (1.0 - share.gray());
         let mut transmittance = share.channel_transmittances(coverage, alpha);
         if let Some((_, alpha_behind)) = behind {
-            // What is behind is in the color already, as opaque as it is.
+            // The background is already part of the color, with its own opacity.
             alpha = coverage - (coverage - alpha) * (1.0 - alpha_behind);
             transmittance = [1.0 - coverage; 3];
         }
         ShadedLanes { color: [r, g, b, alpha], transmittance }
     }
 
-    /// The framebuffer that a draw shows what is behind it from, if it does.
+    /// The framebuffer that shows the objects behind a draw, if it is needed.
     #[inline(always)]
     fn framebuffer_behind(&self, draw: &Draw<'_>) -> Option<&TransmissionFramebuffer> {
         self.transmission_framebuffer.filter(|_| draw.material.bends_transmitted_light())
@@ -335,8 +334,8 @@ impl Shading<'_> {
         colors
     }
 
-    /// Reflects lights and environment by the layered BRDF of a draw, and refracts what is behind
-    /// it; ambient occlusion darkens `inputs`.
+    /// Reflects lights and environment with the layered BRDF of a draw, and refracts the light from
+    /// behind; ambient occlusion darkens `inputs`.
     ///
     /// Geometry is computed with smooth normals; the BRDF applies normal maps to a copy, layer by
     /// layer.
@@ -376,7 +375,7 @@ impl Shading<'_> {
         SurfaceLight { radiance: brdf.finish(), transmission: brdf.transmission, behind }
     }
 
-    /// Positions, views and smooth normals at fragments; normal maps are not applied yet.
+    /// Positions, views and smooth normals at fragments; normal maps are not yet applied.
     #[inline(always)]
     pub(super) fn surface_geometry<const N: usize>(
         &self,
@@ -387,7 +386,7 @@ impl Shading<'_> {
         kernel_part!(N, self.find_geometry(draw, primitives, fragments))
     }
 
-    /// As [`surface_geometry`](Self::surface_geometry), inlined.
+    /// Like [`surface_geometry`](Self::surface_geometry), but inlined.
     #[inline(always)]
     pub(super) fn find_geometry<const N: usize>(
         &self,
@@ -400,7 +399,7 @@ impl Shading<'_> {
         let positions: Vec3Lanes<N> = interpolate(&vertex_positions, &fragments.weights()).into();
         let views = view_directions(positions, self.viewer_position());
         let is_double_sided = draw.material.double_sided;
-        // Backs of single-sided surfaces are culled: all that arrive here are fronts.
+        // Backs of single-sided surfaces have been culled: all that arrive here are fronts.
         let mut face_normals = Vec3Lanes::ZERO;
         if is_double_sided || !draw.is_smooth {
             face_normals = draw.face_normals(&vertex_positions);
@@ -416,7 +415,7 @@ impl Shading<'_> {
         SurfaceGeometry::new(positions, views, normals, is_back_facing, normal_variation)
     }
 
-    /// The viewer as a homogeneous point of `f32`.
+    /// The viewer as a homogeneous `f32` point.
     #[inline(always)]
     pub(super) fn viewer_position(&self) -> [f32; 4] {
         <[f64; 4]>::from(self.viewer).map(|c| c as f32)
@@ -424,8 +423,8 @@ impl Shading<'_> {
 }
 
 impl Draw<'_> {
-    /// Whether lights illuminate the draw: unlit materials, lines and points show their color as it
-    /// is.
+    /// Whether lights illuminate the draw: unlit materials, lines and points show their color
+    /// unchanged.
     pub fn is_lit(&self) -> bool {
         !self.material.unlit && self.primitive.topology == Topology::Triangles
     }

@@ -1,9 +1,9 @@
 //! Shading styles: clay, matcap, toon and x-ray surfaces, and false colors for normals, depth,
 //! texture coordinates and part ids.
 //!
-//! Styles take the same normals, weights and lights as shaded pictures; only the last step, from
-//! these to a color, is another one. False colors are decoded so that the sRGB code in the picture
-//! is the number, as long as a pixel has one sample's color.
+//! Styles use the same normals, weights and lights as shaded pictures; only the last step, from
+//! these to a color, differs. False colors are decoded so that the sRGB code in the picture is the
+//! number, as long as a pixel has the color of a single sample.
 
 mod false_colors;
 
@@ -29,28 +29,29 @@ pub enum ShadingStyle {
     Gouraud,
     /// Matte clay in the light of the scene.
     Clay,
-    /// Matcap: the color of a ball of glazed clay that faces the viewer as the surface does.
+    /// Matcap: the color of a glazed clay ball where it has the surface's orientation to the
+    /// viewer.
     Matcap,
     /// The normal in the world: red, green and blue are (n + 1) / 2.
     Normals,
     /// Depth along the view axis: 1 at `near`, falling linearly to 0.1 at `far`; or colors, from the
     /// last of a colormap at `near` to its first at `far`.
     Depth {
-        /// The depth of white, or of the last color.
+        /// The depth shown as white, or as the last color.
         near: f32,
-        /// The depth of the darkest gray, or of the first color.
+        /// The depth shown as the darkest gray, or as the first color.
         far: f32,
         /// The colors; `None` for grays.
         colormap: Option<Colormap>,
     },
-    /// A checkerboard of 8 × 8 squares for each unit of texture coordinates; red grows with u,
-    /// green with v.
+    /// A checkerboard of 8 × 8 squares per unit of texture coordinates; red increases with u, green
+    /// with v.
     UvChecker,
     /// A color for each part.
     Ids,
     /// Toon (cel) shading: the base color in three steps of light.
     Toon,
-    /// Translucent, the denser the more a surface lies along the line of sight.
+    /// Translucent, denser where a surface is closer to parallel with the line of sight.
     XRay,
 }
 
@@ -61,7 +62,7 @@ pub struct StyledShading<'a> {
     pub shading: &'a Shading<'a>,
     /// The look of the surfaces.
     pub style: ShadingStyle,
-    /// The rows of the rotation from the world to view space: right, up, backwards.
+    /// The rows of the rotation from the world to view space: right, up, backward.
     pub world_to_view: [[f32; 3]; 3],
     /// The position of the eye in the world.
     pub eye_position: [f32; 3],
@@ -69,7 +70,7 @@ pub struct StyledShading<'a> {
 
 /// The diffuse albedo of clay.
 const CLAY_ALBEDO: [f32; 3] = [0.58, 0.52, 0.46];
-/// The steps of toon light: the luminance up to which each reaches, and its brightness.
+/// The steps of toon light: the maximum luminance of each, and its brightness.
 const TOON_TONES: [(f32, f32); 3] = [(0.18, 0.3), (0.55, 0.62), (f32::INFINITY, 1.0)];
 /// The color of x-ray surfaces where they are densest.
 const XRAY_COLOR: [f32; 3] = [0.03, 0.22, 0.5];
@@ -107,8 +108,8 @@ impl Surface for StyledShading<'_> {
         self.shading.alpha_test_eight(fragments)
     }
 
-    // Not a part of the loops over eight fragments, of which there is one for each kind of pixel:
-    // a fragment in a style takes far longer than the call.
+    // Not inlined into the loops over eight fragments, of which there is one for each kind of
+    // pixel: shading a fragment in a style takes far longer than the call.
     #[inline(never)]
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
         let (draw, _) = self.shading.draws.find_draw(fragment.id);
@@ -128,7 +129,7 @@ impl Surface for StyledShading<'_> {
     }
 
     fn is_continuous(&self, first_id: u32, second_id: u32) -> bool {
-        // The steps of toon light may lie between two triangles of one surface.
+        // A step of toon light may fall between two triangles of one surface.
         self.style != ShadingStyle::Toon && self.shading.is_continuous(first_id, second_id)
     }
 
@@ -148,8 +149,8 @@ impl Surface for StyledShading<'_> {
 }
 
 impl ShadingStyle {
-    /// Whether textures of the material, or its alpha, have a part in the style. These styles are
-    /// shaded fragment by fragment.
+    /// Whether the style uses textures of the material, or its alpha. These styles are shaded
+    /// fragment by fragment.
     const fn needs_material(self) -> bool {
         matches!(self, Self::Gouraud | Self::Toon | Self::XRay)
     }
@@ -184,8 +185,8 @@ impl Kernel for StyleEight<'_> {
 }
 
 impl StyledShading<'_> {
-    /// Whether a draw has the style; the background and, but for false colors, lines and points
-    /// have not.
+    /// Whether a draw has the style; the background does not, nor, except in false colors, do lines
+    /// and points.
     fn is_styled(&self, draw: &Draw<'_>) -> bool {
         let is_surface = draw.primitive.topology == model::Topology::Triangles;
         let is_false_color = matches!(self.style, ShadingStyle::Depth { .. } | ShadingStyle::Ids);
@@ -246,7 +247,8 @@ impl StyledShading<'_> {
         })
     }
 
-    /// The radiance of white Lambert surfaces, by lights without their shadows and environment.
+    /// The radiance of white Lambert surfaces under the lights, without shadows, and the
+    /// environment.
     ///
     /// Σ E n·l / π over the lights, plus irradiance over π of the environment.
     #[inline(always)]
@@ -265,7 +267,7 @@ impl StyledShading<'_> {
     }
 
     /// The color of a material in some diffuse light, exposed and tone mapped, premultiplied by the
-    /// alpha of materials that blend. Unlit colors are those of the picture already: they are only
+    /// alpha of materials that blend. Unlit colors already are display colors: they are only
     /// exposed, and the light is ignored.
     fn material_color(
         &self,
@@ -304,7 +306,7 @@ impl StyledShading<'_> {
         self.material_color(draw, fragment, light)
     }
 
-    /// The base color in steps of light by its luminance.
+    /// The base color in steps of light according to its luminance.
     ///
     /// The luminance of the diffuse light is quantized to three tones; the base color keeps its
     /// hue.
@@ -322,12 +324,12 @@ impl StyledShading<'_> {
     }
 
     /// The matcap at the normal in a frame whose z points to the viewer of this pixel: in
-    /// perspective a sphere looks alike wherever it is in the picture.
+    /// perspective a sphere looks the same everywhere in the picture.
     #[inline(always)]
     fn matcap_color<const N: usize>(&self, geometry: &SurfaceGeometry<N>) -> Rgb<N> {
         let SurfaceGeometry { normals, views, .. } = *geometry;
         let right = Vec3Lanes::splat(self.world_to_view[1]).cross(views);
-        // Zero where the view is along the vertical.
+        // Zero if the view is vertical.
         let inv_length =
             right.dot(right).map(|square| if square > 0.0 { 1.0 / square.sqrt() } else { 0.0 });
         let right = right * inv_length;
@@ -351,7 +353,7 @@ impl StyledShading<'_> {
         if !self.passes_alpha_test(fragment) {
             return [0.0; 4];
         }
-        // Backs of single-sided surfaces are drawn here too, and their normals point away.
+        // Backs of single-sided surfaces are also drawn here, and their normals point away.
         let n_dot_v = dot(geometry.normals.lane(0), geometry.views.lane(0)).abs();
         let along = 1.0 - n_dot_v.min(1.0);
         let alpha = 0.07 + 0.73 * along * along * along;

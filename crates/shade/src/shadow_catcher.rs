@@ -1,12 +1,12 @@
-//! The shadow catcher: a ground plane that is transparent but for the shadows on it and the
-//! occlusion of light from all around.
+//! The shadow catcher: a ground plane that is transparent except for the shadows on it and the
+//! occlusion of light from all directions.
 //!
 //! ```text
 //!   alpha = 1 − E with shadows / E without        E: illuminance of the ground, all lights summed
 //! ```
 //!
-//! Composited over a picture of white ground, black with this alpha gives the ground as dark as the
-//! lights would leave it. Colored lights are summed over their channels: a shadow has no color.
+//! Composited over a picture of white ground, black with this alpha makes the ground as dark as the
+//! lights would. Colored lights are summed over their channels: a shadow has no color.
 
 use super::attributes::PrimitiveIndices;
 use super::fragment_lanes::FragmentLanes;
@@ -20,7 +20,7 @@ use std::f32::consts::PI;
 const UP: [f32; 3] = [0.0, 1.0, 0.0];
 
 impl Shading<'_> {
-    /// Black, with the alpha that makes a white matte ground below it as dark as its shadows do.
+    /// Black, with the alpha that makes white matte ground below it as dark as its shadows do.
     #[inline(always)]
     pub(super) fn shade_shadow_catcher<const N: usize>(
         &self,
@@ -36,13 +36,13 @@ impl Shading<'_> {
         if let Some(occlusion) = self.occlusion {
             visibility = occlusion.visibility(positions, normals);
         }
-        // Both see what is near; only one of them counts.
+        // Both detect nearby objects; only one of them is used.
         if let Some(occlusion) = self.ground_occlusion {
             let contact = Lanes::from_fn(|lane| occlusion.visibility_at(positions.lane(lane)));
             visibility = visibility.min_lanes(contact);
         }
-        // The illuminance with and without shadows, sums of the three channels. Occlusion takes
-        // only light from all directions.
+        // The illuminance with and without shadows, as sums of the three channels. Occlusion
+        // affects only light from all directions.
         let mut unshadowed = Lanes::splat(self.total_ambient_lux());
         let mut shadowed = unshadowed * visibility;
         for (index, light) in self.lights.iter().enumerate() {
@@ -55,13 +55,13 @@ impl Shading<'_> {
             }
             shadowed += channel_sum(incident.lux) * n_dot_l;
         }
-        // Without any light, where this is NaN, there is no shadow either.
+        // If there is no light, this is NaN, and there is no shadow either.
         let alpha = (1.0 - shadowed / unshadowed)
             .map(|alpha| if alpha > 0.0 { alpha.min(1.0) } else { 0.0 });
         [Lanes::ZERO, Lanes::ZERO, Lanes::ZERO, alpha]
     }
 
-    /// The illuminance of the ground by ambient lights and environment, summed over the channels.
+    /// The illuminance of the ground from ambient lights and environment, summed over the channels.
     fn total_ambient_lux(&self) -> f32 {
         let mut lux = 0.0;
         for [r, g, b] in self.lights.iter().filter_map(Light::ambient_lux) {

@@ -10,11 +10,11 @@
 //!        └────┘
 //! ```
 //!
-//! A disc of texels would be an ellipse of directions, of another shape beyond the border of a
-//! face. The disc is therefore one of directions, in a frame that varies continuously with them,
-//! and is projected onto the face; distances are measured along the direction of the receiver, and
-//! not along the face's axis. Both make the sides of a border agree. Depth planes, biases and the
-//! penumbra's growth are those of [`ShadowMap`].
+//! A disc of texels would be an ellipse of directions, with another shape beyond the border of a
+//! face. The disc is therefore defined in directions, in a frame that varies continuously with
+//! them, and is projected onto the face. Distances are measured along the direction of the
+//! receiver, not along the face's axis. Both make the two sides of a border agree. Depth planes,
+//! biases and the growth of the penumbra work as in [`ShadowMap`].
 
 use super::lanes::Vec3Lanes;
 use super::shadow_map::{ShadowMap, VOGEL_DISC};
@@ -27,11 +27,11 @@ pub struct ShadowCube {
     pub position: [f32; 3],
     /// The maps along +x, −x, +y, −y, +z and −z; `None` where nothing casts a shadow.
     ///
-    /// Each must reach beyond its 90° by the disc of [`MAX_PENUMBRA`](Self::MAX_PENUMBRA).
+    /// Each must extend beyond its 90° by the disc of [`MAX_PENUMBRA`](Self::MAX_PENUMBRA).
     pub faces: [Option<ShadowMap>; 6],
     /// The tangent of half the angle that the light subtends; 0 for sharp borders.
     pub spread: f32,
-    /// A distance from the light within which nothing casts a shadow, greater than 0.
+    /// A distance from the light, greater than 0, within which nothing casts a shadow.
     pub nearest: f32,
     /// The side of a texel at distance 1 along the axis of a face.
     pub texel: f32,
@@ -68,10 +68,10 @@ impl ProjectedDisc {
 }
 
 impl ShadowCube {
-    /// The greatest radius of a penumbra, seen from the light, at distance 1.
+    /// The maximum radius of a penumbra, seen from the light, at distance 1.
     ///
-    /// A wider one is cut off: the positions of the filter would be too far apart in it, and faces
-    /// would have to overlap by more.
+    /// A wider one is clamped: otherwise the filter positions would be too far apart in it, and
+    /// faces would have to overlap by more.
     pub const MAX_PENUMBRA: f32 = 1.0 / 16.0;
 
     /// The visibility of the light, 0 to 1, from a position in the world with this unit normal.
@@ -90,7 +90,7 @@ impl ShadowCube {
         }
         let distance = dot(from_light, from_light).sqrt();
         let disc = ProjectedDisc::new(map, from_light.map(|c| c / distance));
-        // Blocker search, within the penumbra that the nearest possible caster would have.
+        // Blocker search, within the penumbra of the nearest possible caster.
         let search_radius = (self.spread * (distance / self.nearest - 1.0))
             .clamp(1.5 * self.texel, Self::MAX_PENUMBRA);
         let (mut nearness_sum, mut blockers) = (0.0, 0.0);
@@ -122,7 +122,7 @@ impl ShadowCube {
     }
 }
 
-/// The face that a direction from the light meets: that of its longest coordinate.
+/// The face that a direction from the light meets, given by its longest coordinate.
 #[inline(always)]
 fn face_index([x, y, z]: [f32; 3]) -> usize {
     let (axis, along) = match [x.abs(), y.abs(), z.abs()] {
@@ -136,7 +136,7 @@ fn face_index([x, y, z]: [f32; 3]) -> usize {
 /// Two unit vectors perpendicular to a unit vector and to each other (Frisvad, *Building an
 /// orthonormal basis from a 3D unit vector without normalization*, 2012).
 ///
-/// They vary continuously but at +y, straight above the light, where shadows are seen least.
+/// They vary continuously except at +y, straight above the light, where shadows are least visible.
 #[inline(always)]
 fn perpendicular_frame([x, y, z]: [f32; 3]) -> [[f32; 3]; 2] {
     if y > 0.999_999 {

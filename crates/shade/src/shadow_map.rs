@@ -8,19 +8,19 @@
 //! ```
 //!
 //! A texel holds the plane of the nearest surface and not only its depth, and the receiver is a
-//! plane too. They are compared both at the texel's center and at the receiver's own position, and
-//! shade only if they do at both: a surface then never shadows itself (no acne), however flatly
-//! light falls on it, with a bias of a hundredth of a texel and no gap where a thing stands on
-//! another (no peter-panning).
+//! plane too. They are compared both at the texel's center and at the receiver's position, and the
+//! texel casts a shadow only if both comparisons agree. A surface then never shadows itself (no
+//! acne), even in grazing light, with a bias of a hundredth of a texel and no gap where one object
+//! rests on another (no peter-panning).
 //!
 //! The penumbra grows with the distance of the caster (Fernando, *Percentage-closer soft shadows*,
-//! 2005): a search for blockers gives its radius, a percentage-closer filter of that radius the
-//! shadow. Both use a fixed pattern of positions, so that pictures have no noise and always the
+//! 2005): a search for blockers gives its radius, and a percentage-closer filter with that radius
+//! the shadow. Both use a fixed pattern of positions, so that pictures have no noise and always the
 //! same bytes.
 //!
 //! Percentage-closer filtering (Reeves, Salesin and Cook, *Rendering antialiased shadows with depth
-//! maps*, 1987) averages the results of depth comparisons, not depths: a mean of depths would be
-//! the depth of no surface. Here the comparison is one of planes, and the average one over a disc.
+//! maps*, 1987) averages the results of depth comparisons, not depths: a mean depth would not be
+//! the depth of any surface. Here planes are compared, and the average is over a disc.
 
 mod blocker_search;
 mod nearest_depths;
@@ -38,18 +38,17 @@ pub(super) use receiver_planes::ReceiverPlane;
 /// The shadows of a light.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Shadow {
-    /// The texels of the longer side of the shadow map.
+    /// The number of texels along the longer side of the shadow map.
     pub resolution: u32,
-    /// The angular diameter of the light, seen from where its light falls, in radians; 0 for sharp
-    /// borders.
+    /// The angular diameter of the light, seen from the receiver, in radians; 0 for sharp borders.
     pub softness: f32,
 }
 
-/// The greatest radius in texels of blocker search and filter.
+/// The maximum radius in texels of blocker search and filter.
 ///
-/// A wider penumbra is cut off: the 48 positions of the filter would be too far apart in it.
+/// A wider penumbra is clamped: otherwise the 48 filter positions would be too far apart in it.
 const MAX_FILTER_RADIUS: f32 = 63.0;
-/// The bias for a step of depth per texel: vertices are snapped to a grid of 1/256 texel.
+/// The bias per unit of slope, in depth per texel: vertices are snapped to a grid of 1/256 texel.
 const SLOPE_BIAS: f32 = 1.0 / 96.0;
 /// The transform from the world to the texels of a shadow map.
 #[derive(Clone, Copy, Debug, Default)]
@@ -62,19 +61,19 @@ struct WorldToShadowMap {
     plane_rows: [[f32; 4]; 3],
 }
 
-/// The depths of a scene from a light.
+/// The scene depths seen from a light.
 ///
 /// Larger depth is nearer to the light, as in the rasterizer that draws the map.
 #[derive(Clone, Debug, Default)]
 pub struct ShadowMap {
-    /// Texels of a row, and rows.
+    /// Number of texels per row, and number of rows.
     size: [u32; 2],
     world_to_map: WorldToShadowMap,
-    /// In perspective the depth at infinite distance, relative to which depth is a multiple of 1/w;
+    /// The depth at infinite distance in perspective, relative to which depth is a multiple of 1/w;
     /// `None` in parallel light.
     depth_at_infinity: Option<f32>,
     /// The radius of the penumbra in texels: per difference of depth in parallel light, otherwise
-    /// per difference of distances over the nearer distance.
+    /// per difference of distances divided by the nearer distance.
     penumbra_scale: f32,
     /// The nearest surface of each texel, rows from the top.
     pub texels: Vec<SurfaceDepth>,
@@ -83,9 +82,9 @@ pub struct ShadowMap {
 }
 
 impl ShadowMap {
-    /// Empties the map for a light, and takes over its transform.
+    /// Clears the map for a light, and sets its transform.
     ///
-    /// `world_to_map` goes to texels and depth, 1 at the near plane; `origin` is a position near
+    /// `world_to_map` maps to texels and depth, 1 at the near plane; `origin` is a position near
     /// the scene.
     pub fn reset(&mut self, world_to_map: DMat4, size: [u32; 2], origin: DVec3) {
         let relative_to_map = world_to_map * DMat4::from_translation(origin.as_vec3().as_dvec3());
@@ -103,7 +102,7 @@ impl ShadowMap {
     }
 
     /// Computes the nearest depths of blocks of texels, once these are set: soft shadows then skip
-    /// the search for blockers where there are none.
+    /// the blocker search if there are none.
     pub fn find_nearest_depths(&mut self) {
         self.nearest_depths.find(&self.texels, self.size);
     }
@@ -111,8 +110,8 @@ impl ShadowMap {
     /// Sets the softness of the shadows.
     ///
     /// `scale` is the radius of the penumbra in texels: in parallel light per difference of depth,
-    /// in perspective per difference of distances over the nearer. `depth_at_infinity` is `None` in
-    /// parallel light.
+    /// in perspective per difference of distances divided by the nearer one. `depth_at_infinity` is
+    /// `None` in parallel light.
     pub fn set_penumbra(&mut self, scale: f64, depth_at_infinity: Option<f64>) {
         self.penumbra_scale = scale as f32;
         self.depth_at_infinity = depth_at_infinity.map(|depth| depth as f32);
@@ -120,7 +119,7 @@ impl ShadowMap {
 
     /// Texel coordinates of a direction from the eye of a perspective map: x·w, y·w and w.
     ///
-    /// Linear in the direction; positive w is ahead.
+    /// Linear in the direction; w is positive ahead.
     #[inline(always)]
     pub(super) fn project_direction(&self, direction: [f32; 3]) -> [f32; 3] {
         let rows = &self.world_to_map.rows;
@@ -134,7 +133,7 @@ impl ShadowMap {
         self.depth_at_infinity.map_or(1.0, |infinity| (depth - infinity).max(0.0))
     }
 
-    /// The depth of the surface that blocks the light of the receiver's plane at a position of the
+    /// The depth of the surface that blocks light from the receiver's plane at a position of the
     /// map.
     ///
     /// The planes of texel and receiver are compared twice: at the center of the texel, where the
@@ -153,11 +152,11 @@ impl ShadowMap {
         (at_center > bias && here > bias).then_some(texel.depth)
     }
 
-    /// The index of the texel in a column and a row; beyond the last texel outside of the map.
+    /// The index of the texel in a column and row; beyond the last texel if outside the map.
     #[inline(always)]
     fn texel_index(&self, column: i32, row: i32) -> usize {
         let [width, height] = self.size;
-        // Indices below 0 are far beyond the last.
+        // Negative indices wrap to values far beyond the last.
         let (column, row) = (column as u32, row as u32);
         let is_inside = (column < width) & (row < height);
         let index = row.wrapping_mul(width).wrapping_add(column);
@@ -171,8 +170,8 @@ mod tests {
     use crate::lanes::Vec3Lanes;
     use crate::shadow_receiver::ShadowReceiver;
 
-    /// A map of 100 × 100 texels of side 0.01 seen from above: x to the right, y is depth, z
-    /// downwards. Left of x = 0.6 there is a caster at a height.
+    /// A map of 100 × 100 texels of side 0.01 seen from above: x points right, y is depth, z points
+    /// down. To the left of x = 0.6 there is a caster at a height.
     pub(super) fn map(height: f32, spread: f64) -> ShadowMap {
         let mut map = ShadowMap::default();
         let world_to_map = DMat4::from_cols(
@@ -199,7 +198,7 @@ mod tests {
         map.visibility::<1>(&ShadowReceiver { positions, normals }, [true])[0]
     }
 
-    /// Receivers all over the map, at one height, tilted more and less.
+    /// Receivers all over the map, at one height, with varying tilt.
     fn scattered_receiver(step: usize, y: f32) -> ([f32; 3], [f32; 3]) {
         let [x, z] = [step * 37 % 1000, step * 91 % 1000].map(|c| c as f32 * 0.001);
         let tilt = (step % 7) as f32 * 0.1;
@@ -232,7 +231,7 @@ mod tests {
                 let (position, normal) = scattered_receiver(step, 0.1);
                 let expected = visibility(&searched, position, normal);
                 let actual = visibility(&bounded, position, normal);
-                // The search is narrower where they are known, and sees more.
+                // The search is narrower if they are known, and finds more.
                 assert!((actual - expected).abs() < 0.25, "{position:?} {actual} {expected}");
             }
         }

@@ -1,4 +1,4 @@
-//! Shadow receivers: offset positions against the shadow terminator artifact.
+//! Shadow receivers: offset positions that avoid the shadow terminator artifact.
 //!
 //! ```text
 //!               n              the smooth surface that the vertices' normals describe bulges
@@ -6,9 +6,9 @@
 //!   n  ●´────┴────`●  n        shadow map, not those of the triangle
 //! ```
 //!
-//! Normals are smooth and triangles are not: near the border of light and shade whole triangles
+//! Normals are smooth and triangles are not. Near the border of light and shade whole triangles
 //! face away from a light that their normals still see, and would shadow themselves, one by one.
-//! The position that is looked up is therefore moved onto the tangent planes of the vertices, where
+//! The position for the lookup is therefore moved onto the tangent planes of the vertices, where
 //! the surface bulges (Hanika, *Hacking the shadow terminator*, Ray Tracing Gems II, 2021).
 
 use super::Draw;
@@ -17,7 +17,7 @@ use super::fragment_lanes::FragmentLanes;
 use super::lanes::Vec3Lanes;
 use super::surface_geometry::SurfaceGeometry;
 
-/// The positions and unit normals by which surfaces are looked up in shadow maps.
+/// The positions and unit normals used to look up surfaces in shadow maps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShadowReceiver<const N: usize> {
     /// The positions in the world, moved off flat triangles onto the smooth surface.
@@ -44,14 +44,15 @@ impl<const N: usize> ShadowReceiver<N> {
         let weights = fragments.weights();
         let vertex_positions = draw.vertex_positions(vertices);
         let vertex_normals = vertices.fetch_attributes::<_, 3>(&draw.vertices, NORMAL);
-        // The vertices' normals are of the front; all of them point to the visible side, or none.
+        // The vertices' normals belong to the front; all of them point to the visible side, or
+        // none.
         let front = Vec3Lanes::from(interpolate(&vertex_normals, &weights));
         let sign = front.dot(normals).map(|cosine| if cosine < 0.0 { -1.0 } else { 1.0 });
         let mut moved = positions;
         for vertex in 0..3 {
             let normal = Vec3Lanes::from(vertex_normals[vertex]) * sign;
             let offset = positions - Vec3Lanes::from(vertex_positions[vertex]);
-            // How far the fragment is below the vertex's tangent plane, not above 0.
+            // The distance of the fragment below the vertex's tangent plane, not above 0.
             let depth = offset.dot(normal).min(0.0);
             // Onto the tangent plane, weighted like the vertex.
             moved = moved - normal * (weights[vertex] * depth);

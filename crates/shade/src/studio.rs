@@ -1,4 +1,4 @@
-//! The studio: a procedural environment of even light over a dark floor, with softboxes.
+//! The studio: a procedural environment with even light over a dark floor, and softboxes.
 //!
 //! ```text
 //!          ▬▬▬  overhead strip
@@ -8,8 +8,8 @@
 //!   ░░░░░░░░░░░░░░░░░░░░░░░   floor
 //! ```
 //!
-//! Matte surfaces see its irradiance, which is smooth. Metals see its contrast: narrow strips that
-//! are far brighter than the walls, and a floor that is far darker.
+//! Matte surfaces receive its irradiance, which is smooth. Metals reflect its contrast: narrow
+//! strips that are far brighter than the walls, and a floor that is far darker.
 
 use super::procedural_sky::smoothstep;
 use super::vector::{cross, dot, normalize};
@@ -32,14 +32,14 @@ const SOFTBOXES: [Softbox; 5] = [
     Softbox { direction: [0.35, 0.36, -0.87], half_size: [0.80, 0.22], radiance: 1.62 },
     Softbox { direction: [0.0, 1.0, 0.05], half_size: [0.65, 0.16], radiance: 1.5 },
 ];
-/// The part of a softbox's half width, and of its half height, over which its border fades.
+/// The fractions of a softbox's half width and half height over which its border fades.
 const SOFTBOX_FADE: [f32; 2] = [0.25, 0.15];
 
 /// The radiance of a photographer's studio from a direction, a unit vector with y up.
 ///
-/// Matte white, whose radiance is the irradiance over π, reaches 1.04 at most and 0.21 facing the
-/// floor. No direction is brighter than 2.17, so that a mirror at the strength of bare models,
-/// 0.45, does not clip.
+/// A matte white surface, whose radiance is the irradiance over π, reaches at most 1.04, and 0.21
+/// facing the floor. No direction is brighter than 2.17, so that a mirror at the strength of bare
+/// models, 0.45, does not clip.
 #[must_use]
 pub fn studio_radiance(direction: [f32; 3]) -> [f32; 3] {
     let height = direction[1];
@@ -54,7 +54,7 @@ pub fn studio_radiance(direction: [f32; 3]) -> [f32; 3] {
 }
 
 impl Softbox {
-    /// How much of a direction the rectangle fills, from 0 to 1.
+    /// The fraction of a direction that the rectangle fills, from 0 to 1.
     fn coverage(&self, direction: [f32; 3]) -> f32 {
         let center = normalize(self.direction);
         let across = normalize(cross([0.0, 1.0, 0.0], center));
@@ -77,7 +77,7 @@ impl Softbox {
 mod tests {
     use super::*;
 
-    /// Unit vectors evenly over the sphere (the Fibonacci spiral).
+    /// Unit vectors evenly distributed over the sphere (the Fibonacci spiral).
     fn sphere(count: usize) -> impl Iterator<Item = [f32; 3]> {
         (0..count).map(move |index| {
             let y = 1.0 - (2.0 * index as f32 + 1.0) / count as f32;

@@ -7,11 +7,11 @@
 //!   ────────●──────      ●  position in the world
 //! ```
 //!
-//! Normals of the file may be missing (then triangles are flat), cancel out between vertices (then
-//! the face normal stands in), or point to the side away from the viewer.
+//! Normals in the file may be missing (triangles are then flat), cancel out between vertices (the
+//! face normal is then used), or point away from the viewer.
 //!
-//! A face is back-facing by the normal of its triangle. The interpolated normal may lean away from
-//! the viewer near the silhouette of a body, and is right to do so.
+//! Whether a face is back-facing depends on its triangle's normal. The interpolated normal may
+//! correctly lean away from the viewer near the silhouette of a body.
 
 mod normal_mapping;
 
@@ -26,8 +26,9 @@ use normal_mapping::apply_normal_map;
 
 /// The surfaces at some fragments, relative to the viewer.
 ///
-/// All vectors are in the world. The geometry with smooth normals serves shadows, ambient occlusion
-/// and a clearcoat without a normal map; the one with mapped normals the rest of the BRDF.
+/// All vectors are in the world. The geometry with smooth normals is used for shadows, ambient
+/// occlusion and a clearcoat without a normal map; the one with mapped normals for the rest of the
+/// BRDF.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SurfaceGeometry<const N: usize> {
     /// The positions in the world.
@@ -94,8 +95,8 @@ impl Draw<'_> {
         interpolate(&self.vertex_positions(vertices), &fragments.weights()).into()
     }
 
-    /// The unit normals on the front side, and how much they vary from pixel to pixel; of a flat
-    /// draw those of the triangles, which vary nowhere.
+    /// The unit normals on the front side, and how much they vary from pixel to pixel; for a flat
+    /// draw, the constant normals of the triangles.
     #[inline(always)]
     pub(super) fn interpolate_normals<const N: usize>(
         &self,
@@ -108,7 +109,7 @@ impl Draw<'_> {
         if self.is_smooth {
             let attributes = vertices.fetch_attributes::<_, 3>(&self.vertices, NORMAL);
             normals = interpolate(&attributes, &fragments.weights()).into();
-            // The lengths shrink where normals diverge; derivatives are of the unnormalized
+            // The lengths shrink where normals diverge; the derivatives belong to the unnormalized
             // vectors.
             let squares = normals.dot(normals);
             let steps = [
@@ -128,8 +129,8 @@ impl Draw<'_> {
         (normals, variation)
     }
 
-    /// Puts the face normal, or any unit vector, where a normal is too short or too long to have a
-    /// direction: where opposite normals of vertices cancel out.
+    /// Substitutes the face normal, or any unit vector, for a normal that is too short or too long
+    /// to have a direction, for example where opposite vertex normals cancel out.
     #[cold]
     fn replace_degenerate_normals<const N: usize>(
         &self,
@@ -146,7 +147,7 @@ impl Draw<'_> {
         }
     }
 
-    /// The normals of triangles with these vertices, on their front side; as long as twice the
+    /// The normals of triangles with these vertices, on their front side; their length is twice the
     /// area.
     #[inline(always)]
     pub(super) fn face_normals<const N: usize>(
@@ -161,8 +162,8 @@ impl Draw<'_> {
     }
 }
 
-/// Brings vectors to length 1, given the squares of their lengths; returns whether all have a
-/// direction: none is too short or too long.
+/// Normalizes vectors, given their squared lengths; returns whether all have a direction: none is
+/// too short or too long.
 #[inline(always)]
 fn normalize_vectors<const N: usize>(vectors: &mut Vec3Lanes<N>, squares: Lanes<N>) -> bool {
     let lengths = squares.sqrt();
@@ -175,13 +176,13 @@ fn normalize_vectors<const N: usize>(vectors: &mut Vec3Lanes<N>, squares: Lanes<
     have_directions
 }
 
-/// The angle in radians between unit normals and those of the next pixels, at most 1.
+/// The angle in radians between unit normals and the normals at the next pixels, at most 1.
 ///
 /// `squares` are the squared lengths of the interpolated normals, `steps` their derivatives by
-/// column and row: a unit vector turns by the part of a step that is perpendicular to it.
+/// column and row: a unit vector turns by the component of a step that is perpendicular to it.
 ///
-/// It widens roughness in the BRDF (geometric specular antialiasing): without it a curved surface
-/// far away would sparkle.
+/// It increases roughness in the BRDF (geometric specular antialiasing): without it a distant
+/// curved surface would sparkle.
 #[inline(always)]
 fn normal_variation<const N: usize>(
     normals: Vec3Lanes<N>,
@@ -190,12 +191,12 @@ fn normal_variation<const N: usize>(
 ) -> Lanes<N> {
     let mut perpendicular = Lanes::ZERO;
     for step in steps {
-        // Only the perpendicular part of a step turns the normal.
+        // Only the perpendicular component of a step turns the normal.
         let along = normals.dot(step);
         perpendicular = perpendicular.max_lanes(step.dot(step) - along * along);
     }
     let angles = (perpendicular / squares).sqrt();
-    // NaN, of a normal without direction, is 1 too.
+    // NaN, from a normal without direction, also becomes 1.
     angles.map(|angle| if angle < 1.0 { angle } else { 1.0 })
 }
 
@@ -213,7 +214,7 @@ pub(super) fn view_directions<const N: usize>(
     directions * inv_length
 }
 
-/// Finds the faces whose back is visible, by the normals of the triangles.
+/// Finds the faces whose back is visible, from the normals of the triangles.
 #[inline(always)]
 pub(super) fn find_back_faces<const N: usize>(
     face_normals: Vec3Lanes<N>,
@@ -222,7 +223,7 @@ pub(super) fn find_back_faces<const N: usize>(
     face_normals.dot(views).is_below(0.0)
 }
 
-/// Vectors, negated in some lanes.
+/// Negates vectors in some lanes.
 #[inline(always)]
 pub(super) fn flip_vectors<const N: usize>(vectors: Vec3Lanes<N>, mask: &Mask<N>) -> Vec3Lanes<N> {
     vectors.map(|component| (-component).select(mask, component))

@@ -6,8 +6,8 @@
 //!   d/dx d/dy  the texture  it      texels        lerp          straight alpha
 //! ```
 //!
-//! Where a pixel of the picture covers many texels, a mip level is read in which it covers about
-//! one, so that the texture neither shimmers nor costs more than a few fetches.
+//! If a pixel covers many texels, the mip level is read in which it covers about one, so that the
+//! texture neither shimmers nor costs more than a few fetches.
 
 mod addressing;
 mod filtering;
@@ -23,14 +23,14 @@ use super::lanes::{Lanes, Rgb};
 pub(super) struct UvLanes<const N: usize> {
     /// u and v, 0 to 1 over the image from its upper left corner.
     pub(super) uv: [Lanes<N>; 2],
-    /// Their derivatives by the pixel's column.
+    /// Their derivatives with respect to the pixel's column.
     pub(super) dx: [Lanes<N>; 2],
-    /// Their derivatives by the pixel's row, downwards.
+    /// Their derivatives with respect to the pixel's row, downward.
     pub(super) dy: [Lanes<N>; 2],
 }
 
 impl<const N: usize> UvLanes<N> {
-    /// One point of the texture everywhere: the coordinates of a mesh that has none.
+    /// One point of the texture everywhere: the coordinates for a mesh without any.
     pub(super) const ZERO: Self =
         Self { uv: [Lanes::ZERO; 2], dx: [Lanes::ZERO; 2], dy: [Lanes::ZERO; 2] };
 }
@@ -40,7 +40,7 @@ impl<const N: usize> UvLanes<N> {
 pub(super) struct TexelLanes<const N: usize> {
     /// Linear color, not multiplied by alpha.
     pub(super) color: Rgb<N>,
-    /// Alpha, 1 where it was not asked for.
+    /// Alpha; 1 if it was not requested.
     pub(super) alpha: Lanes<N>,
 }
 
@@ -132,7 +132,7 @@ mod tests {
         }
     }
 
-    /// Sizes of a pixel from a thirtieth of a texel to all of the image, mixed in each eight.
+    /// Pixel sizes from a thirtieth of a texel to the whole image, mixed within each eight.
     fn eight_are_as_one_by_one(chain: &MipChain<'_>) {
         for round in 0..20 {
             let mut uvs = UvLanes::<8>::ZERO;

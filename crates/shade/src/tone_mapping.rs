@@ -9,12 +9,12 @@
 //!          └──────────────── light
 //! ```
 //!
-//! Each fragment is tone mapped by itself, before the samples of a pixel are averaged: edges
-//! against bright light stay smooth, backgrounds keep their colors, and a transparent picture laid
-//! over a color is the opaque one over that color.
+//! Each fragment is tone mapped separately, before the samples of a pixel are averaged. Edges
+//! against bright light stay smooth and backgrounds keep their colors. A transparent picture
+//! composited over a color equals the opaque one over that color.
 //!
-//! All three curves work on linear sRGB and return linear sRGB: the encoding to the picture's codes
-//! comes later. Values are unbounded above on the way in, and at most 1 on the way out.
+//! All three curves take linear sRGB and return linear sRGB: encoding to the picture's codes comes
+//! later. The input is unbounded above, and the output is at most 1.
 
 use super::approximations::{exp2_approx, log2_approx};
 use super::color::multiply_matrix;
@@ -23,19 +23,19 @@ use crate::kernel_part::kernel_part;
 
 /// The curve that brings light beyond 1 into the range of a display.
 ///
-/// The choice is one of look: Neutral keeps base colors, ACES adds contrast, AgX fades saturated
-/// highlights to white.
+/// The choice is a matter of look: Neutral keeps base colors, ACES adds contrast, AgX fades
+/// saturated highlights to white.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum ToneMapping {
     /// No curve: light beyond 1 is clipped.
     #[default]
     None,
-    /// Khronos PBR Neutral: colors below 0.8 stay as they are, highlights fade to white (Khronos
+    /// Khronos PBR Neutral: colors below 0.8 are unchanged, highlights fade to white (Khronos
     /// 2024).
     Neutral,
     /// The fit of the ACES reference transforms by Hill (2016).
     Aces,
-    /// The AgX of Sobotka (2022), with the fit of its curve by Wrensch (2023).
+    /// Sobotka's AgX (2022), with Wrensch's fit of its curve (2023).
     AgX,
 }
 
@@ -63,7 +63,7 @@ impl ToneMapper {
 
     /// Maps linear light to linear display colors. Without a curve they may be above 1.
     ///
-    /// Exposure is applied first. Light below 0, which filtering may leave, counts as 0 under a
+    /// Exposure is applied first. Negative light, which filtering may produce, becomes 0 under a
     /// curve.
     #[inline(always)]
     pub(super) fn map_colors<const N: usize>(&self, light: Rgb<N>) -> Rgb<N> {
@@ -89,7 +89,7 @@ impl ToneMapper {
     }
 }
 
-/// Khronos PBR Neutral tone mapper, as its specification has it.
+/// Khronos PBR Neutral tone mapper, as specified.
 ///
 /// ```text
 ///  color' = color − offset            offset = 0.04 where the least channel is above 0.08
@@ -97,13 +97,13 @@ impl ToneMapper {
 ///  result = mix(color' · peak' / peak, peak', 1 − 1 / (0.15 (peak − peak') + 1))
 /// ```
 ///
-/// Below the start of compression the curve is the identity less the offset.
+/// Below the start of compression the curve is the identity minus the offset.
 #[inline(always)]
 fn khronos_neutral<const N: usize>(light: Rgb<N>) -> Rgb<N> {
-    /// Where compression of highlights begins: 0.8, less the reflectance of dielectrics.
+    /// The start of highlight compression: 0.8 minus the reflectance of dielectrics.
     const START: f32 = 0.8 - 0.04;
     const DESATURATION: f32 = 0.15;
-    // Take away the Fresnel reflection of dielectrics, so that base colors come out as they are.
+    // Subtract the Fresnel reflection of dielectrics, so that base colors are reproduced exactly.
     let least = light.r.min_lanes(light.g).min_lanes(light.b);
     let is_dark = least.is_below(0.08);
     let offset = (least - 6.25 * least * least).select(&is_dark, Lanes::splat(0.04));
@@ -121,23 +121,25 @@ fn khronos_neutral<const N: usize>(light: Rgb<N>) -> Rgb<N> {
     })
 }
 
-/// sRGB to the primaries of the ACES fit, with the saturation of its reference rendering transform.
+/// sRGB to the primaries of the ACES fit, including the saturation of its reference rendering
+/// transform.
 const SRGB_TO_ACES: [[f32; 3]; 3] =
     [[0.59719, 0.35458, 0.04823], [0.07600, 0.90834, 0.01566], [0.02840, 0.13383, 0.83777]];
-/// Back from the output of the ACES fit to sRGB.
+/// From the output of the ACES fit back to sRGB.
 const ACES_TO_SRGB: [[f32; 3]; 3] =
     [[1.60475, -0.53108, -0.07367], [-0.10208, 1.10813, -0.00605], [-0.00327, -0.07276, 1.07602]];
 
 /// ACES filmic tone mapping: reference rendering and output transform, fitted by a rational
 /// function between two matrices (Hill 2016).
 ///
-/// The two matrices hold change of primaries and of saturation together; per channel it is a
-/// quotient of quadratics.
+/// Both matrices combine the change of primaries and of saturation; each channel is a quotient of
+/// quadratics.
 #[inline(always)]
 fn aces_filmic<const N: usize>(Rgb { r, g, b }: Rgb<N>) -> Rgb<N> {
     let [r, g, b] = multiply_matrix(&SRGB_TO_ACES, [r, g, b]);
     let mapped = Rgb { r, g, b }.map(|x| {
-        // Bounded, or the squares of very bright light would be infinite, and their quotient NaN.
+        // Clamped, because the squares of very bright light would be infinite, and their quotient
+        // NaN.
         let x = x.min(1e9);
         let numerator = x * (x + 0.024_578_6) - 0.000_090_537;
         numerator / (x * (0.983_729 * x + 0.432_951) + 0.238_081)
@@ -162,20 +164,20 @@ const AGX_TO_SRGB: [[f32; 3]; 3] = [
 /// AgX tone mapping: a sigmoid over the logarithm of light in inset primaries (Sobotka 2022),
 /// fitted by a polynomial (Wrensch 2023).
 ///
-/// 16.5 stops become 0 … 1. Channels mix through the inset, so saturated bright light fades to
-/// white by itself.
+/// 16.5 stops are mapped to [0, 1]. Channels mix through the inset, so saturated bright light fades
+/// to white naturally.
 #[inline(always)]
 fn agx_tone_map<const N: usize>(Rgb { r, g, b }: Rgb<N>) -> Rgb<N> {
     let [r, g, b] = multiply_matrix(&SRGB_TO_AGX, [r, g, b]);
     let mapped = Rgb { r, g, b }.map(agx_sigmoid);
     let [r, g, b] = multiply_matrix(&AGX_TO_SRGB, [mapped.r, mapped.g, mapped.b]);
-    // The curve ends in codes of a display with gamma 2.2; a picture needs linear light.
+    // The curve yields codes for a display with gamma 2.2; a picture needs linear light.
     Rgb { r, g, b }.map(|code| {
         code.clamp(0.0, 1.0).max(f32::MIN_POSITIVE).map(|code| exp2_approx(2.2 * log2_approx(code)))
     })
 }
 
-/// The curve of AgX from light to codes: a polynomial of the logarithm.
+/// The AgX curve from light to codes: a polynomial of the logarithm.
 #[inline(always)]
 fn agx_sigmoid<const N: usize>(light: Lanes<N>) -> Lanes<N> {
     /// The range of light in stops.

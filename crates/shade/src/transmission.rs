@@ -6,15 +6,15 @@
 //!              glass      tint = base color · attenuation color ^ (thickness / distance)
 //! ```
 //!
-//! Smooth thin sheets let light pass straight on: they are blended over what is behind them, in any
-//! number. Where thickness refracts the light or roughness scatters it, a surface shows the
-//! [`TransmissionFramebuffer`] instead, and hides what is behind it: opaque surfaces are seen
-//! through it, other glass and blended surfaces are not.
+//! Smooth thin sheets let light pass straight through: any number of them is blended over the
+//! objects behind. If thickness refracts the light or roughness scatters it, a surface shows the
+//! [`TransmissionFramebuffer`] instead, and hides the objects behind it: opaque surfaces are
+//! visible through it, other glass and blended surfaces are not.
 //!
-//! Red, green and blue have transmittances of their own. A fragment has one alpha all the same, for
-//! all that looks at alpha, above all a transparent background: that of a gray with the luminance
-//! of the tint. A transparent picture of tinted glass therefore shows that gray when it is laid
-//! over something; where what is behind is drawn with it, it has the tint.
+//! Red, green and blue have separate transmittances. A fragment still has a single alpha, above all
+//! for transparent backgrounds: the alpha of a gray with the luminance of the tint. A transparent
+//! picture of tinted glass therefore shows that gray when it is composited over something; objects
+//! drawn together with the glass are tinted.
 
 mod framebuffer;
 mod mip_levels;
@@ -27,12 +27,12 @@ use super::lanes::{Lanes, Rgb, map_to_lanes};
 use super::material_inputs::MaterialInputs;
 use model::MaterialExtensions;
 
-/// The light that passes through the surface of a draw, apart from where it comes from.
+/// The light that passes through the surface of a draw, regardless of its origin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TransmittedShare<const N: usize> {
-    /// The fraction that neither interface nor material keeps back.
+    /// The fraction that neither the interface nor the material blocks.
     fraction: Lanes<N>,
-    /// The color that white light has then.
+    /// The color of white light after passing through.
     tint: Rgb<N>,
 }
 
@@ -68,7 +68,7 @@ impl<const N: usize> TransmittedShare<N> {
         let white = (coverage - alpha) / luminance(self.tint);
         for lane in 0..N {
             let [r, g, b] = self.tint.lane(lane);
-            // A gray tint is what alpha says already; a black one leaves nothing to undo.
+            // Alpha already describes a gray tint; a black one leaves nothing to undo.
             if white[lane].is_finite() && (r != g || g != b) {
                 for (channel, tint) in transmittance.iter_mut().zip([r, g, b]) {
                     channel[lane] = (1.0 - coverage[lane] + white[lane] * tint).clamp(0.0, 1.0);
@@ -79,9 +79,9 @@ impl<const N: usize> TransmittedShare<N> {
     }
 }
 
-/// The color that white light has behind the surface: base color and absorption in the volume.
+/// The color of white light behind the surface: base color and absorption in the volume.
 ///
-/// `world_scale` is the scale from the mesh, in whose units the thickness is given, to the world.
+/// `world_scale` is the scale from the mesh, whose units the thickness uses, to the world.
 ///
 /// Beer-Lambert: transmittance over a length d is attenuation color ^ (d / attenuation distance),
 /// so that white light has the attenuation color after one attenuation distance.

@@ -1,8 +1,8 @@
-//! Vectors of three `f32`, for what is computed for one position or one direction at a time.
+//! Vectors of three `f32`, for computations on a single position or direction.
 //!
-//! A vector without length has no direction, and there is a function for each answer to that:
-//! [`normalize`] expects none, [`normalize_or_zero`] returns zero, [`try_normalize`] `None`. All
-//! three divide by the length; multiplying by its inverse would give other bits.
+//! A vector without length has no direction, and each function handles it differently:
+//! [`normalize`] expects none, [`normalize_or_zero`] returns zero, [`try_normalize`] returns
+//! `None`. All three divide by the length; multiplying by its inverse would give other bits.
 
 /// The dot product.
 #[inline(always)]
@@ -22,7 +22,7 @@ pub(crate) fn subtract(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-/// The unit vector of a vector that is known to have a length; NaN if it has none.
+/// The unit vector of a vector with nonzero length; NaN for zero length.
 pub(crate) fn normalize(vector: [f32; 3]) -> [f32; 3] {
     let length = dot(vector, vector).sqrt();
     vector.map(|c| c / length)

@@ -1,7 +1,7 @@
 //! The objects of core glTF 2.0 (§5, in the order of the specification).
 //!
-//! Each table is a static, so that tables may refer to each other in any order and cost no time at
-//! start-up. `extensions` and `extras` are not listed: every object may have them.
+//! Each table is a static, so that tables may refer to each other in any order without start-up
+//! cost. `extensions` and `extras` are not listed: every object may have them.
 
 use super::Collection::{
     Accessors, AnimationSamplers, BufferViews, Buffers, Cameras, Images, Materials, Meshes, Nodes,
@@ -18,7 +18,7 @@ use super::{
 
 /// An integer without maximum.
 ///
-/// JSON itself sets no bound on integers; the checks of ranges and the limits of the loader do.
+/// JSON itself sets no limit on integers; the range checks and the loader's limits do.
 const MAX_INTEGER: u64 = u64::MAX;
 /// Names are optional, need not be unique, and identify nothing: references are indices.
 const NAME: super::MemberSchema = optional("name", Text);
@@ -93,7 +93,7 @@ static SPARSE: ObjectSchema = object_schema(
     ],
 );
 
-/// `accessor.sparse.indices` (§5.3): which elements are replaced.
+/// `accessor.sparse.indices` (§5.3): the indices of the replaced elements.
 ///
 /// The component types are the unsigned ones: byte, short and int.
 static SPARSE_INDICES: ObjectSchema = object_schema(
@@ -184,7 +184,7 @@ static BUFFER_VIEW: ObjectSchema = object_schema(
 static CAMERA: ObjectSchema = object_schema(
     "camera",
     &[
-        // The object that `type` names is required; that is validated with the cameras.
+        // The object named by `type` is required; that is validated with the cameras.
         excludes("orthographic", "perspective", object_kind(&ORTHOGRAPHIC)),
         optional("perspective", object_kind(&PERSPECTIVE)),
         required("type", EnumString(&["perspective", "orthographic"])),
@@ -306,7 +306,7 @@ static PRIMITIVE: ObjectSchema = object_schema(
     ],
 );
 
-/// `node` (§5.25): a transform with children, and what hangs on it; a skin requires a mesh.
+/// `node` (§5.25): a transform with children and attached objects; a skin requires a mesh.
 ///
 /// The matrix is in column-major order. A rotation is a unit quaternion in the order x, y, z, w.
 static NODE: ObjectSchema = object_schema(

@@ -5,7 +5,7 @@
 //!
 //! To support an extension, add a row for each object that may contain its object, and a static for
 //! each nested object. The walk finds unknown members, missing members and values out of range
-//! without further code; rules about two members belong in the check of the parent object.
+//! without additional code; rules about two members belong in the check of the parent object.
 
 use super::Collection::{Accessors, BufferViews, Buffers, Images, Lights, Materials, Variants};
 use super::ValueKind::{
@@ -29,7 +29,7 @@ const QUARTER_TURN: NumberRange =
 
 /// The object of an extension: the extension's name, its parent object, and its members.
 ///
-/// One extension may have several: KHR_lights_punctual has a list of lights in the root, and an
+/// An extension may have several: KHR_lights_punctual has a list of lights in the root, and an
 /// index into it in nodes.
 pub(in super::super) struct ExtensionObject {
     /// The name of the extension.
@@ -162,7 +162,7 @@ extension_objects! {
     MSFT_texture_dds in "texture": [required("source", Index(Images))];
 }
 
-/// The index of refraction is 0, for metals, or at least 1; values between are rejected with the
+/// The index of refraction is 0, for metals, or at least 1; values in between are rejected with the
 /// materials.
 ///
 /// An interval with a gap cannot be expressed as a [`NumberRange`].
@@ -199,7 +199,7 @@ static SPOT: ObjectSchema = ObjectSchema {
 /// A variant of KHR_materials_variants.
 static VARIANT: ObjectSchema = ObjectSchema { name: "variant", members: &[required("name", Text)] };
 
-/// The material that a primitive has in some variants (KHR_materials_variants).
+/// The material of a primitive in some variants (KHR_materials_variants).
 ///
 /// A primitive without a mapping for the active variant has its default material.
 static MAPPING: ObjectSchema = ObjectSchema {

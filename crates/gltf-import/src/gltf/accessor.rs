@@ -2,7 +2,7 @@
 //!
 //! An accessor declares a byte offset, a number of elements, their type and, by its buffer view,
 //! the stride between them (glTF 2.0 §3.6.2). [`AccessorReader::resolve_accessor`] checks the
-//! declaration in 64-bit arithmetic against the bytes that exist. Arrays are made by
+//! declaration in 64-bit arithmetic against the existing bytes. Arrays are made by
 //! [`AccessorReader::read_floats`] and its siblings, which charge the memory budget: an accessor
 //! without bytes (zeros, by the specification), or the same bytes used a thousand times, must not
 //! exhaust memory.
@@ -17,8 +17,8 @@ use model::Diagnostic;
 
 /// Reader of the file's accessors.
 ///
-/// All readers of the import borrow it: it has no mutable state but the memory budget and the
-/// lazily loaded buffers.
+/// All readers of the import borrow it: its only mutable state is the memory budget and the lazily
+/// loaded buffers.
 pub(super) struct AccessorReader<'a> {
     /// The parsed document, whose indices have not been checked.
     pub(super) root: &'a Root,
@@ -121,7 +121,7 @@ impl<'a> AccessorReader<'a> {
         Ok(elements.to_indices())
     }
 
-    /// Charges the memory budget for an array that is about to be made of an accessor.
+    /// Charges the memory budget for an array that is about to be made from an accessor.
     ///
     /// `bytes` is the size of an element in the new array, not in the file.
     ///
@@ -139,7 +139,7 @@ impl<'a> AccessorReader<'a> {
 
     /// The bytes of elements that begin at an offset in a buffer view.
     ///
-    /// The last element needs its own size only, not a whole stride (glTF 2.0 §3.6.2.4):
+    /// The last element needs only its own size, not a whole stride (glTF 2.0 §3.6.2.4):
     /// interleaved attributes end before the stride of the last vertex is full. Overflow saturates
     /// and then exceeds any buffer, so that it is reported as missing bytes.
     ///
@@ -235,7 +235,7 @@ struct ElementLayout<'a> {
 /// Component type and element type of an accessor.
 ///
 /// # Errors
-/// One of them is not among the values of the specification (glTF 2.0 §3.6.2.2).
+/// One of them is not a value that the specification allows (glTF 2.0 §3.6.2.2).
 fn accessor_format(json: &Accessor, pointer: &str) -> Result<(ComponentType, Type), Diagnostic> {
     let Checked::Valid(component) = json.component_type else {
         let message = "the component type is not one of 5120, 5121, 5122, 5123, 5125 and 5126";

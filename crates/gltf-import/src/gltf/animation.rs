@@ -1,9 +1,9 @@
-//! Animations: channels and samplers become keyframe curves; invalid channels are left out with a
+//! Animations: channels and samplers become keyframe curves; invalid channels are skipped with a
 //! warning.
 //!
-//! A sampler has keyframe times (`input`) and values (`output`); a channel says which property of
-//! which node they set. LINEAR means slerp for rotations. Values may be normalized integers, which
-//! become floats here.
+//! A sampler has keyframe times (`input`) and values (`output`); a channel selects the node
+//! property that they set. LINEAR means slerp for rotations. Values may be normalized integers,
+//! which become floats here.
 
 use super::accessor::AccessorReader;
 use super::animation_pointer::{self, ChannelValueKind};
@@ -31,7 +31,7 @@ pub(super) struct AnimatedObjects<'a> {
     pub(super) lights: &'a [PunctualLight],
     /// Cameras.
     pub(super) cameras: &'a [ModelCamera],
-    /// Texture transforms that some channel animates; appended to on first use of each.
+    /// Texture transforms that any channel animates; each is appended on first use.
     pub(super) uv_transforms: &'a mut Vec<UvTransform>,
 }
 
@@ -41,7 +41,7 @@ pub(super) struct AnimatedObjects<'a> {
 /// keyframe over all channels, in seconds.
 ///
 /// # Errors
-/// Exceeded limits and unreadable files; faults in channels are warnings.
+/// Exceeded limits and unreadable files; errors in channels are warnings.
 pub(super) fn import_animations(
     source: &AccessorReader<'_>,
     pointers: &[PointerChannel],
@@ -120,10 +120,10 @@ impl AnimationReader<'_> {
         Ok(AnimationChannel { target: AnimationTarget::Node { node, property }, curve })
     }
 
-    /// Reads a channel that names its target by a JSON pointer (KHR_animation_pointer).
+    /// Reads a channel that gives its target as a JSON pointer (KHR_animation_pointer).
     ///
     /// # Errors
-    /// The pointer does not lead to a supported property, or the curve is invalid.
+    /// The pointer does not identify a supported property, or the curve is invalid.
     fn read_pointer_channel(
         &self,
         targets: &mut AnimatedObjects<'_>,
@@ -162,10 +162,10 @@ impl AnimationReader<'_> {
         self.read_curve(json, kind, &format!("/animations/{}/samplers/{sampler}", self.animation))
     }
 
-    /// Reads keyframes and values, and checks that their numbers agree.
+    /// Reads keyframes and values, and checks that their counts agree.
     ///
-    /// Values per keyframe follow from the target: 3 for translation and scale, 4 for rotation, and
-    /// for morph weights as many as there are targets. Cubic splines have three times as many:
+    /// The number of values per keyframe depends on the target: 3 for translation and scale, 4 for
+    /// rotation, and one per target for morph weights. Cubic splines have three times as many:
     /// in-tangent, value, out-tangent.
     ///
     /// # Errors
@@ -228,11 +228,11 @@ impl AnimationReader<'_> {
 
     /// Times of the keyframes: at least one, finite, strictly increasing.
     ///
-    /// Strictly increasing times are what makes the binary search and the division by their
-    /// difference safe.
+    /// Only strictly increasing times make the binary search and the division by their difference
+    /// safe.
     ///
     /// # Errors
-    /// The accessor is not SCALAR of floats, or the times violate the rules.
+    /// The accessor is not a SCALAR of floats, or the times violate the rules.
     fn read_key_times(&self, accessor: usize, pointer: &str) -> Result<Vec<f32>, Diagnostic> {
         let elements = self.source.resolve_accessor(accessor, pointer)?;
         if (elements.element_type, elements.component_type) != (Type::Scalar, ComponentType::F32) {

@@ -1,7 +1,7 @@
 //! Animation pointers (KHR_animation_pointer): resolves a JSON pointer to the property it animates.
 //!
-//! Supported are transforms and weights of nodes, numbers of materials, lights and cameras, and
-//! texture transforms.
+//! Supports node transforms and weights, properties of materials, lights and cameras, and texture
+//! transforms.
 //!
 //! ```text
 //!  /nodes/3/rotation                                         four numbers, a quaternion
@@ -18,14 +18,14 @@ use model::{AnimationTarget, NodeProperty, ObjectProperty, TextureSlot, UvTransf
 
 /// Type of a channel's values.
 ///
-/// It determines the accessor format and the number of components for each keyframe.
+/// It determines the accessor format and the number of components per keyframe.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum ChannelValueKind {
     /// Three floats.
     TranslationOrScale,
     /// Quaternions.
     Rotation,
-    /// All morph weights, as many as there are.
+    /// All morph weights, one per target.
     Weights,
     /// A fixed number of components.
     Numbers(usize),
@@ -42,8 +42,8 @@ impl ChannelValueKind {
     }
 }
 
-/// The target of a pointer and the type of its values; `None` if nothing that can be animated is
-/// there.
+/// The target of a pointer and the type of its values; `None` if it does not identify an animatable
+/// property.
 ///
 /// The object must exist and must have the property: a pointer into an absent extension or texture
 /// is not a target. Escapes of JSON pointers do not occur in the supported paths.
@@ -91,7 +91,7 @@ pub(super) fn resolve_pointer(
 
 /// An index in a JSON pointer: digits only.
 ///
-/// `+1` and an empty token are refused, which [`str::parse`] alone would not do for the former.
+/// `+1` and an empty token are rejected; [`str::parse`] would accept the former.
 fn parse_index(step: &str) -> Option<usize> {
     step.bytes().all(|byte| byte.is_ascii_digit()).then(|| step.parse().ok())?
 }
@@ -128,8 +128,8 @@ fn node_target(
 
 /// Morph target of `weights/N`, or `None` inside for `weights`, which means all of them.
 ///
-/// The number of targets is the largest among the primitives of the mesh. `None` outside stands for
-/// a path that is neither, or for a target that does not exist.
+/// The number of targets is the largest among the primitives of the mesh. The outer `None` means a
+/// path that is neither, or a target that does not exist.
 fn morph_target_index(root: &Root, mesh: usize, path: &str) -> Option<Option<usize>> {
     let mesh = root.meshes.get(mesh)?;
     if path == "weights" {
@@ -143,7 +143,7 @@ fn morph_target_index(root: &Root, mesh: usize, path: &str) -> Option<Option<usi
 
 /// A numeric property of a material.
 ///
-/// Access through the table tells whether the material has the extension that the number belongs
+/// Access through the table shows whether the material has the extension that the number belongs
 /// to.
 fn material_target(
     targets: &mut AnimatedObjects<'_>,
@@ -162,8 +162,8 @@ fn material_target(
 /// A property of a texture transform. The transform is added to the list, once for all its
 /// properties.
 ///
-/// The texture must exist in the material. A transform that the file gives is the initial value of
-/// the parts that are not animated.
+/// The texture must exist in the material. A transform in the file is the initial value of the
+/// parts that are not animated.
 fn texture_transform_target(
     root: &Root,
     targets: &mut AnimatedObjects<'_>,

@@ -1,7 +1,7 @@
-//! Vertex attributes: the formats each may have, and reading of those that are optional.
+//! Vertex attributes: the formats allowed for each, and reading of the optional ones.
 //!
-//! The formats listed here are wider than those of core glTF: files use quantized formats without
-//! declaring KHR_mesh_quantization, and their meaning is unambiguous. The validator reports them.
+//! The formats listed here go beyond core glTF: files use quantized formats without declaring
+//! KHR_mesh_quantization, and their meaning is unambiguous. The validator reports them.
 
 use super::accessor::AccessorReader;
 use super::draco::DracoData;
@@ -12,11 +12,11 @@ use gltf::json::accessor::Type;
 use model::Diagnostic;
 use std::ops::Range;
 
-/// Element and component types that an attribute or the values of an animation may have, including
-/// those of KHR_mesh_quantization.
+/// Element and component types allowed for an attribute or for animation values, including
+/// KHR_mesh_quantization.
 ///
-/// Whether integers are normalized is not restricted: the accessor says so, and conversion follows
-/// it.
+/// Whether integers are normalized is not restricted: the accessor specifies it, and conversion
+/// follows.
 pub(super) struct AllowedFormats {
     /// glTF's `type`.
     element_types: &'static [Type],
@@ -27,16 +27,16 @@ pub(super) struct AllowedFormats {
 /// Primitive indices, and vertices of edges.
 pub(super) const INDICES: AllowedFormats =
     AllowedFormats { element_types: &[Type::Scalar], component_types: &[U8, U16, U32] };
-/// Positions; the integers are those of KHR_mesh_quantization.
+/// Positions; the integers come from KHR_mesh_quantization.
 pub(super) const POSITION: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec3], component_types: &[F32, I8, U8, I16, U16] };
-/// Normals; the signed integers are those of KHR_mesh_quantization.
+/// Normals; the signed integers come from KHR_mesh_quantization.
 pub(super) const NORMAL: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec3], component_types: &[F32, I8, I16] };
 /// Tangents with the handedness of the bitangent in w.
 pub(super) const TANGENT: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec4], component_types: &[F32, I8, I16] };
-/// Texture coordinates, also beyond [0, 1].
+/// Texture coordinates, possibly outside [0, 1].
 pub(super) const TEXCOORD: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec2], component_types: &[F32, I8, U8, I16, U16] };
 /// Vertex colors, linear RGB with or without alpha.
@@ -47,10 +47,10 @@ pub(super) const CUSTOM_SCALAR: AllowedFormats = AllowedFormats {
     element_types: &[Type::Scalar],
     component_types: &[F32, I8, U8, I16, U16, U32],
 };
-/// Joint indices, four a vertex.
+/// Joint indices, four per vertex.
 pub(super) const JOINTS: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec4], component_types: &[U8, U16] };
-/// Joint weights, four a vertex; integers are normalized.
+/// Joint weights, four per vertex; integers are normalized.
 pub(super) const WEIGHTS: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec4], component_types: &[F32, U8, U16] };
 /// Keyframe values of translations and scales.
@@ -73,8 +73,8 @@ impl AllowedFormats {
     /// Checks that an accessor has one of the formats.
     ///
     /// # Errors
-    /// The message lists the allowed types by the names and numbers of the JSON, as a reader of the
-    /// file sees them.
+    /// The message lists the allowed types by their JSON names and numbers, as they appear in the
+    /// file.
     pub(super) fn check_elements(
         &self,
         elements: &ResolvedAccessor<'_>,
@@ -133,12 +133,12 @@ pub(super) struct AttributeReader<'a, 'w> {
 }
 
 impl AttributeReader<'_, '_> {
-    /// Reads an optional attribute: one that is invalid is left out with a warning.
+    /// Reads an optional attribute: an invalid one is skipped with a warning.
     ///
     /// Only the range of vertices that the indices use is converted.
     ///
     /// # Errors
-    /// Exceeded limits and unreadable files; faults in the content are warnings.
+    /// Exceeded limits and unreadable files; errors in the content are warnings.
     pub(super) fn read_attribute<T>(
         &mut self,
         accessor: Option<usize>,
@@ -176,10 +176,10 @@ impl AttributeReader<'_, '_> {
         }
     }
 
-    /// Reads a set of texture coordinates; those that are not finite become 0.
+    /// Reads a set of texture coordinates; coordinates that are not finite become 0.
     ///
     /// A single NaN would otherwise spread over the triangle and its mip level selection.
-    /// Coordinates beyond [0, 1] are valid: the sampler wraps them.
+    /// Coordinates outside [0, 1] are valid: the sampler wraps them.
     ///
     /// # Errors
     /// Exceeded limits and unreadable files.
@@ -204,10 +204,10 @@ impl AttributeReader<'_, '_> {
         Ok(Some(uvs))
     }
 
-    /// Reads colors of three or four components as four, each clamped to [0, 1].
+    /// Reads colors of three or four components as RGBA, each clamped to [0, 1].
     ///
-    /// Three components are opaque. Only the morph targets of colors may be negative, so that
-    /// clamping here loses nothing.
+    /// Three components are opaque. Only the morph targets of colors may be negative, so clamping
+    /// here loses nothing.
     ///
     /// # Errors
     /// Exceeded limits and unreadable files.

@@ -1,4 +1,4 @@
-//! Buffers and buffer views: read, and decompressed by meshopt, once and on first use.
+//! Buffers and buffer views: read, and decompressed with meshopt, once and on first use.
 //!
 //! ```text
 //!  uri ────────────┐
@@ -7,8 +7,8 @@
 //! ```
 //!
 //! Each buffer and each compressed view has a [`OnceLock`], which is filled through a shared
-//! reference: slices of one buffer remain valid while another is loaded, and buffers that nothing
-//! uses are never read.
+//! reference. Slices of one buffer stay valid while another is loaded, and unused buffers are never
+//! read.
 
 use super::meshopt::CompressedView;
 use crate::limits::Limits;
@@ -28,7 +28,7 @@ pub(super) struct Buffers<'a> {
     pub(super) resolver: &'a UriResolver<'a>,
     /// The binary chunk of a GLB file, which is buffer 0.
     binary_chunk: Option<&'a [u8]>,
-    /// Buffers that have been read from elsewhere.
+    /// Buffers that have been read from other sources.
     loaded: Vec<OnceLock<Vec<u8>>>,
     /// Buffer views that have been decompressed.
     decompressed: Vec<OnceLock<Vec<u8>>>,
@@ -64,7 +64,7 @@ impl<'a> Buffers<'a> {
         self.budget.charge_bytes(pointer, bytes, self.resolver.total_bytes())
     }
 
-    /// The bytes of a buffer view, decompressed if need be. `user` is the pointer to the member
+    /// The bytes of a buffer view, decompressed if necessary. `user` is the pointer to the member
     /// that refers to it.
     ///
     /// # Errors
@@ -90,11 +90,11 @@ impl<'a> Buffers<'a> {
         Ok(BufferView { bytes, stride: json.byte_stride.map(|stride| stride.0), pointer })
     }
 
-    /// The bytes of a compressed view. The buffer that the view itself refers to need not have any:
-    /// it is the fallback for readers without the extension.
+    /// The bytes of a compressed view. The buffer that the view itself refers to need not contain
+    /// any: it is the fallback for readers without the extension.
     ///
-    /// The budget is charged with the declared length before the stream is decoded. Later uses of
-    /// the view cost nothing.
+    /// The declared length is charged to the budget before the stream is decoded. Later uses of the
+    /// view cost nothing.
     fn decompressed_view(&self, view: usize, packed: &CompressedView) -> Result<&[u8], Diagnostic> {
         let slot = &self.decompressed[view];
         if let Some(bytes) = slot.get() {
@@ -107,7 +107,8 @@ impl<'a> Buffers<'a> {
         Ok(slot.get_or_init(|| bytes))
     }
 
-    /// `length` bytes of a buffer from `start` on; `user` is the location that refers to them.
+    /// `length` bytes of a buffer, beginning at `start`; `user` is the location that refers to
+    /// them.
     ///
     /// The whole range must exist: a partial view would shift the meaning of later bytes.
     fn buffer_range(
@@ -129,8 +130,8 @@ impl<'a> Buffers<'a> {
 
     /// The bytes of a whole buffer, read on first use.
     ///
-    /// Data beyond the declared `byteLength` is not visible; a buffer with less data than declared
-    /// is accepted, as long as no view reaches beyond it.
+    /// Data beyond the declared `byteLength` is not visible. A buffer with less data than declared
+    /// is accepted, as long as no view extends beyond it.
     fn buffer_bytes(&self, buffer: usize, view: &str) -> Result<&[u8], Diagnostic> {
         let (Some(json), Some(read)) = (self.root.buffers.get(buffer), self.loaded.get(buffer))
         else {
@@ -163,7 +164,7 @@ impl<'a> Buffers<'a> {
 }
 
 impl Buffers<'_> {
-    /// Reading leniently, a missing file means missing data, which costs what uses it and no more.
+    /// In lenient mode, a missing file means missing data, and only the items that use it are lost.
     fn soften_missing_file(&self, diagnostic: Diagnostic) -> Diagnostic {
         let is_file = matches!(diagnostic.code, codes::IO_ERROR | codes::FORBIDDEN_PATH);
         let code =
@@ -182,7 +183,7 @@ pub(super) struct BufferView<'a> {
     pub(super) pointer: String,
 }
 
-/// The `length` bytes from `start` on, if they all exist.
+/// The `length` bytes beginning at `start`, if they all exist.
 pub(super) fn checked_slice(bytes: &[u8], start: u64, length: u64) -> Option<&[u8]> {
     let start = usize::try_from(start).ok()?;
     let length = usize::try_from(length).ok()?;

@@ -1,8 +1,8 @@
-//! Cameras: projections with their parameters checked; an invalid one is left out with a warning.
+//! Cameras: projections with validated parameters; an invalid camera is skipped with a warning.
 //!
-//! Checked are the rules of glTF 2.0 §3.10.3: 0 < yfov < π, 0 < znear < zfar for perspective
-//! cameras, and magnifications other than 0 with 0 ≤ znear < zfar for orthographic ones. A
-//! perspective camera without `zfar` is infinite.
+//! The rules of glTF 2.0 §3.10.3 are checked: 0 < yfov < π, 0 < znear < zfar for perspective
+//! cameras, and nonzero magnifications with 0 ≤ znear < zfar for orthographic ones. A perspective
+//! camera without `zfar` is infinite.
 
 use crate::warnings::ImportWarnings;
 use gltf::json::Root;
@@ -11,9 +11,9 @@ use gltf::json::validation::Checked;
 use model::{CameraProjection, Diagnostic, ModelCamera};
 use std::f64::consts::PI;
 
-/// All cameras of a file, and for each whether its parameters are valid.
+/// Imports every camera of a file, and reports for each whether its parameters are valid.
 ///
-/// Invalid cameras remain in the list with a default projection, because nodes and animations refer
+/// Invalid cameras stay in the list with a default projection, because nodes and animations refer
 /// to cameras by index.
 pub(super) fn import_cameras(
     root: &Root,
@@ -33,9 +33,9 @@ pub(super) fn import_cameras(
     (lenses, usable)
 }
 
-/// Replaces the projection of an invalid camera.
+/// Placeholder for the projection of an invalid camera.
 ///
-/// It is never drawn with: references to the camera are cleared.
+/// It is never used for drawing: references to the camera are cleared.
 const DEFAULT_PROJECTION: CameraProjection =
     CameraProjection::Perspective { fov_y: PI / 4.0, aspect: None, near: 0.1, far: f64::INFINITY };
 
@@ -59,8 +59,8 @@ fn camera_projection(json: &Camera, pointer: &str) -> Result<CameraProjection, D
 
 /// Checks the parameters of a perspective camera.
 ///
-/// All comparisons are written so that NaN fails them. Depth has no upper limit of its own: `zfar`
-/// may be infinite.
+/// All comparisons are written so that NaN fails them. The depth has no upper limit: `zfar` may be
+/// infinite.
 fn perspective_projection(
     json: &Perspective,
     pointer: &str,
@@ -91,8 +91,8 @@ fn perspective_projection(
 
 /// Checks the parameters of an orthographic camera; negative magnifications are taken as positive.
 ///
-/// `xmag` and `ymag` are half of the view's width and height, in world units. Unlike a perspective
-/// camera, the near plane may contain the camera's position.
+/// `xmag` and `ymag` are half the width and height of the view, in world units. Unlike with a
+/// perspective camera, the near plane may contain the camera's position.
 fn orthographic_projection(
     json: &Orthographic,
     pointer: &str,
@@ -123,7 +123,7 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    /// The projection that is read, or location and message of the error.
+    /// The resulting projection, or the location and message of the error.
     fn read_camera(camera: serde_json::Value) -> Result<CameraProjection, (String, String)> {
         let camera = serde_json::from_value(camera).unwrap();
         camera_projection(&camera, "/cameras/0")

@@ -1,6 +1,6 @@
 //! GLB container: locates the JSON and the binary chunk of a `.gltf` or `.glb` file.
 //!
-//! The first bytes decide which of the two it is; the file's name is ignored. A binary file is
+//! The first bytes distinguish the two; the file's name is ignored. A binary file is
 //!
 //! ```text
 //!  0      4        8        12       16      20                 20+n
@@ -17,9 +17,9 @@ use crate::warnings::ImportWarnings;
 use model::{Diagnostic, codes};
 use std::ops::Range;
 
-/// Byte ranges of the JSON and of the binary chunk.
+/// Byte ranges of the JSON and the binary chunk.
 ///
-/// The JSON range is without a byte order mark.
+/// The JSON range excludes a byte order mark.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Container {
     /// The JSON text, within the file.
@@ -32,14 +32,14 @@ pub(super) struct Container {
 const HEADER: usize = 12;
 /// Size of a chunk header in bytes: length and type.
 const CHUNK_HEADER: usize = 8;
-/// The advice for files that end too early, mostly interrupted downloads.
+/// The advice for files that end too early, mostly because of interrupted downloads.
 const TRUNCATED: &str = "the file is cut off: copy or export it again";
 
 impl Container {
     /// Locates the JSON and the binary chunk, in text or GLB form.
     ///
-    /// A file in UTF-16, which some editors write, gets an error of its own: it starts with a byte
-    /// order mark of two bytes.
+    /// A file in UTF-16, which some editors write, gets a separate error: it starts with a two-byte
+    /// byte order mark.
     ///
     /// # Errors
     /// [`NOT_GLTF`](codes::NOT_GLTF) if the file is neither JSON nor a GLB, or its container is
@@ -92,8 +92,8 @@ impl Container {
 /// Checks version and length; returns the end of the file as declared.
 ///
 /// # Errors
-/// The file is shorter than 12 bytes or than it declares, or has another version than 2. Reading
-/// leniently, a truncated file is read as far as it goes.
+/// The file is shorter than 12 bytes or than its declared length, or its version is not 2. In
+/// lenient mode, the existing part of a truncated file is read.
 fn check_glb_header(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<usize, Diagnostic> {
     let (Some(version), Some(length)) = (read_u32(bytes, 4), read_u32(bytes, 8)) else {
         return Err(format_error(&format!("the file has only {} bytes", bytes.len()), TRUNCATED));
@@ -128,14 +128,14 @@ type GlbChunk<'a> = (&'a [u8; 4], Range<usize>);
 struct GlbChunks<'a> {
     /// The file, up to its declared end.
     bytes: &'a [u8],
-    /// Where the next chunk header starts.
+    /// Offset of the next chunk header.
     offset: usize,
 }
 
 impl<'a> GlbChunks<'a> {
     /// The next chunk; `None` at the end.
     ///
-    /// Reading leniently, a chunk that is too long ends with the file, and an incomplete header is
+    /// In lenient mode, a chunk that is too long ends with the file, and an incomplete header is
     /// ignored.
     fn next(&mut self, warnings: &mut ImportWarnings) -> Result<Option<GlbChunk<'a>>, Diagnostic> {
         let rest = &self.bytes[self.offset..];

@@ -1,9 +1,9 @@
-//! JSON parsing: from bytes to the `gltf` crate's JSON types, by way of `serde_json::Value`.
+//! JSON parsing: from bytes to the `gltf` crate's JSON types, via `serde_json::Value`.
 //!
-//! The types alone reject valid files (an integer written as `1.0`, a scene without nodes, an
-//! animation channel without a target) and accept invalid ones (an index of 2³² becomes 0). Both
-//! are corrected on the value, before the types see it. Nesting depth and number of values are
-//! limited before any value is built.
+//! On their own, the types reject valid files (an integer written as `1.0`, a scene without nodes,
+//! an animation channel without a target) and accept invalid ones (an index of 2³² becomes 0). Both
+//! are corrected in the value, before it is converted to the types. Nesting depth and number of
+//! values are limited before any value is built.
 //!
 //! ```text
 //!  bytes ─limits─► Value ─normalize─► Value ─┬─ transforms in f64
@@ -22,10 +22,11 @@ use serde_json::{Map, Number, Value};
 
 /// The parsed JSON of a file.
 ///
-/// Parsing is complete before any buffer is read: a file that is not glTF costs only its JSON.
+/// Parsing is complete before any buffer is read: for a file that is not glTF only the JSON is
+/// parsed.
 #[derive(Debug)]
 pub(super) struct GltfDocument {
-    /// Everything but the transforms of the nodes, as in the file: indices in it have not been
+    /// The file's content except for the transforms of the nodes; the indices in it have not been
     /// checked.
     pub(super) root: Root,
     /// Local transforms of the nodes, finite. The `gltf` crate would round them to single
@@ -36,13 +37,13 @@ pub(super) struct GltfDocument {
 }
 
 impl GltfDocument {
-    /// Parses and normalizes the JSON; reading leniently, members of wrong types are left out.
+    /// Parses and normalizes the JSON; in lenient mode, members with wrong types are skipped.
     ///
     /// The steps depend on each other: untyped members are collected before channels without a
     /// target node are dropped, because animation pointers are among them.
     ///
     /// # Errors
-    /// The text is not JSON, exceeds a limit, has an unsupported version, or has a member of a
+    /// The text is not JSON, exceeds a limit, has an unsupported version, or has a member with a
     /// wrong type.
     pub(super) fn parse_json(
         text: &[u8],
@@ -65,15 +66,14 @@ impl GltfDocument {
 
 /// Counts nesting and values against the limits without building anything.
 ///
-/// Text outside of strings is scanned for brackets and commas; that is exact for well-formed JSON,
-/// and an upper bound is all that is needed for the rest. `serde_json` itself stops at a depth of
-/// 128, whatever the limit says.
+/// Text outside strings is scanned for brackets and commas. This is exact for well-formed JSON, and
+/// for other text an upper bound is enough. `serde_json` itself always stops at a depth of 128.
 ///
 /// # Errors
 /// [`LIMIT_EXCEEDED`](model::codes::LIMIT_EXCEEDED) for `json_depth` or `json_values`.
 ///
-/// An object counts as ten values, which is about its cost in memory next to a number. The time is
-/// linear in the text, and strings are skipped in blocks.
+/// An object counts as ten values, which is roughly its memory cost compared with a number. The
+/// time is linear in the text, and strings are skipped in blocks.
 pub fn check_json_limits(text: &[u8], limits: &Limits) -> Result<(), Diagnostic> {
     let (mut depth, mut values) = (0usize, 1usize);
     let mut at = 0;
@@ -111,13 +111,13 @@ pub fn check_json_limits(text: &[u8], limits: &Limits) -> Result<(), Diagnostic>
     Ok(())
 }
 
-/// The position after the quote that ends the string which `at` is in.
+/// The position after the quote that ends the string containing `at`.
 ///
 /// A backslash skips the character after it, which may be a quote. An unterminated string ends with
 /// the text; the JSON parser then reports it.
 fn end_of_string(text: &[u8], mut at: usize) -> usize {
     loop {
-        // Data URIs are megabytes without a quote: whole blocks are skipped.
+        // Data URIs are megabytes without a quote, so whole blocks are skipped.
         while let Some(block) = text.get(at..at + 32) {
             if block.iter().fold(false, |found, &b| found | (b == b'"') | (b == b'\\')) {
                 break;
@@ -135,11 +135,11 @@ fn end_of_string(text: &[u8], mut at: usize) -> usize {
 
 /// Checks `asset.version` and `asset.minVersion`; only glTF 2.x is read.
 ///
-/// A newer minor version is accepted, as the specification demands, unless `minVersion` says that
-/// the file needs it; reading leniently that is only a warning.
+/// A newer minor version is accepted, as the specification requires, unless `minVersion` says that
+/// the file needs it; in lenient mode that is only a warning.
 ///
-/// It runs before the types are applied, because a glTF 1.0 file would otherwise fail with a
-/// message about some member.
+/// This check runs before conversion to the types, because a glTF 1.0 file would otherwise fail
+/// with a message about some member.
 fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<(), Diagnostic> {
     let asset = &value["asset"];
     let Some(version) = asset["version"].as_str() else {
@@ -181,10 +181,9 @@ fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<()
 /// Buffers may exceed 4 GiB; indices, which the `gltf` crate stores in 32 bits, may not.
 const WIDE_MEMBERS: [&str; 3] = ["byteLength", "byteOffset", "count"];
 
-/// Writes integers as integers wherever the file has `1.0`, and removes `extras`.
+/// Converts numbers such as `1.0` to integers, and removes `extras`.
 ///
-/// `extras` hold data of applications. They may be large and of any shape, and nothing here uses
-/// them.
+/// `extras` hold application data. They may be large and of any shape, and nothing here uses them.
 fn normalize_value(value: &mut Value) {
     match value {
         Value::Array(items) => items.iter_mut().for_each(normalize_value),
@@ -207,8 +206,8 @@ fn normalize_members(members: &mut Map<String, Value>) {
     }
 }
 
-/// An integral number as an integer if it fits, else as floating point: the types then reject it as
-/// an index instead of taking its lowest 32 bits.
+/// Converts an integral number to an integer if it fits, otherwise to floating point: as an index,
+/// the types then reject it instead of taking its lowest 32 bits.
 ///
 /// `1.0` is a valid integer in JSON schema, and some exporters write all numbers with a fraction.
 fn normalize_number(number: &Number, wide: bool) -> Number {
@@ -223,14 +222,15 @@ fn normalize_number(number: &Number, wide: bool) -> Number {
     }
 }
 
-/// Adds an empty `nodes` to scenes without: the specification makes it optional, the type does not.
+/// Adds an empty `nodes` to scenes without one: it is optional in the specification, but not in the
+/// type.
 fn insert_missing_scene_nodes(value: &mut Value) {
     for scene in objects_in(value, "scenes") {
         scene.entry("nodes").or_insert_with(|| Value::Array(Vec::new()));
     }
 }
 
-/// Removes animation channels without a target node: they are to be ignored (glTF 2.0 §3.11), or
+/// Removes animation channels without a target node: they must be ignored (glTF 2.0 §3.11), or
 /// belong to KHR_animation_pointer.
 fn drop_untargeted_channels(value: &mut Value) {
     for animation in objects_in(value, "animations") {
@@ -255,9 +255,9 @@ fn syntax_error(error: &serde_json::Error) -> Diagnostic {
     Diagnostic::error(codes::NOT_GLTF, "", message, "correct it there or export the file again")
 }
 
-/// The error for a member of the wrong type, with the JSON pointer to it.
+/// The error for a member with the wrong type, with the JSON pointer to it.
 ///
-/// The phrase of the `gltf` crate for an index is replaced by a plainer one.
+/// The `gltf` crate's phrase for an index is replaced by a plainer one.
 pub(super) fn type_error(pointer: &str, message: &str) -> Diagnostic {
     Diagnostic::invalid(pointer, message.replace("index into child of root", "an index"))
 }

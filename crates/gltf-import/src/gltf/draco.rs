@@ -1,9 +1,8 @@
 //! Draco mesh compression (KHR_draco_mesh_compression): indices and attributes in one stream.
 //!
-//! The crate `draco-core` decodes the stream, within limits that follow from the accessors; nothing
-//! in its result is trusted: counts are checked against the accessors, indices against the
-//! vertices. The accessors of a compressed primitive have no bytes of their own; [`DracoData`]
-//! supplies them.
+//! The crate `draco-core` decodes the stream, within limits derived from the accessors. Its result
+//! is not trusted: counts are checked against the accessors, indices against the vertices. The
+//! accessors of a compressed primitive do not have bytes; [`DracoData`] supplies them.
 //!
 //! ```text
 //!  primitive.attributes  POSITION: accessor 3      count and format
@@ -11,8 +10,8 @@
 //!  extension.bufferView  ──► stream ──decode──► bytes for accessor 3
 //! ```
 //!
-//! Readers of attributes do not see the compression: [`DracoData::attach_data`] replaces the bytes
-//! of a resolved accessor. Without the feature `draco` a compressed primitive is missing data.
+//! Attribute readers do not see the compression: [`DracoData::attach_data`] replaces the bytes of a
+//! resolved accessor. Without the feature `draco`, a compressed primitive counts as missing data.
 
 use super::accessor::AccessorReader;
 use super::elements::{ResolvedAccessor, StridedBytes};
@@ -39,8 +38,8 @@ pub(super) struct DracoData {
 impl DracoData {
     /// Attaches the decoded bytes to an accessor, if the stream had data for it.
     ///
-    /// The stride is the size of an element: decoded elements are tightly packed. Columns of
-    /// matrices, which would need padding, do not occur among vertex attributes.
+    /// The stride is the element size: decoded elements are tightly packed. Matrices, whose columns
+    /// would need padding, do not occur among vertex attributes.
     pub(super) fn attach_data<'a>(
         &'a self,
         elements: ResolvedAccessor<'a>,
@@ -63,23 +62,23 @@ fn draco_extension(json: &Primitive) -> Option<&Value> {
 
 /// A compressed stream, with the counts that the accessors declare.
 ///
-/// Everything that the decoder needs has been validated before it is built.
+/// Everything that the decoder needs is validated before this is built.
 #[cfg_attr(not(feature = "draco"), allow(dead_code, reason = "only the decoder reads the fields"))]
 struct DracoStream<'a> {
     source: &'a AccessorReader<'a>,
     bytes: &'a [u8],
-    /// For each accessor of the primitive the id of the attribute in the stream.
+    /// For each accessor of the primitive, the id of the attribute in the stream.
     attributes: Vec<(usize, u32)>,
     /// Number of vertices according to the accessors.
     vertices: usize,
-    /// Accessor of the indices, and their number.
+    /// Accessor of the indices, and the number of indices.
     indices: Option<(usize, usize)>,
     /// JSON pointer to the extension.
     pointer: String,
 }
 
-/// Decodes the stream of a primitive, its tangents only if they are needed, of its custom attributes
-/// that of `custom`; `pointer` is the location of the primitive. `None` if it is not compressed.
+/// Decodes the stream of a primitive: tangents only if they are needed, custom attributes only if
+/// they are `custom`. `pointer` is the location of the primitive. `None` if it is not compressed.
 ///
 /// # Errors
 /// A member of the extension is missing, an accessor is invalid, the counts of the attributes
@@ -125,10 +124,10 @@ pub(super) fn decode_draco(
     stream.decode_mesh().map(Some)
 }
 
-/// The attributes that are read: accessor and id in the stream.
+/// The attributes to read: accessor and id in the stream.
 ///
-/// Attributes without an id are not in the stream: they are uncompressed, or absent. Other
-/// custom attributes than `custom` and unneeded tangents are skipped, which saves their decoding.
+/// Attributes without an id are not in the stream: they are uncompressed, or absent. Custom
+/// attributes other than `custom`, and unneeded tangents, are skipped, which saves decoding them.
 fn stream_attributes(
     json: &Primitive,
     ids: &Map<String, Value>,
@@ -139,7 +138,7 @@ fn stream_attributes(
     use gltf::json::validation::Checked::Valid;
     let mut attributes = Vec::new();
     for (semantic, accessor) in &json.attributes {
-        // Attributes without effect on the picture are not decoded.
+        // Attributes that do not affect the picture are not decoded.
         let Valid(semantic) = semantic else { continue };
         let is_skipped = match semantic {
             Semantic::Extras(_) => custom != Some(semantic),
@@ -180,12 +179,12 @@ mod decoder {
         /// Decodes the stream and checks its counts against the accessors.
         ///
         /// The memory budget is charged first, with 16 bytes for each attribute of a vertex, and
-        /// the decoder's own limits are set from the accessors: a stream cannot make more vertices
+        /// the decoder's limits are set from the accessors: a stream cannot create more vertices
         /// than they declare.
         ///
         /// # Errors
-        /// The stream is malformed, or its counts of vertices, indices or components differ from
-        /// those of the accessors.
+        /// The stream is malformed, or its counts of vertices, indices or components do not match
+        /// the accessors.
         pub(super) fn decode_mesh(self) -> Result<DracoData, Diagnostic> {
             for &(accessor, _) in &self.attributes {
                 self.source.charge_array(accessor, self.vertices, 16)?;
@@ -215,10 +214,10 @@ mod decoder {
             Ok(DracoData { indices, attributes })
         }
 
-        /// Vertex indices, as many as the accessor declares.
+        /// Vertex indices, in the number that the accessor declares.
         ///
-        /// A primitive may be without an accessor for indices and still be compressed with faces;
-        /// these are used then.
+        /// A primitive may lack an accessor for indices and still be compressed with faces; their
+        /// indices are then used.
         fn decode_indices(&self, mesh: &Mesh) -> Result<Vec<u32>, Diagnostic> {
             let actual = 3 * mesh.num_faces();
             if let Some((accessor, count)) = self.indices
@@ -281,11 +280,11 @@ mod decoder {
         attribute.buffer().data().get(start..)?.get(..size)
     }
 
-    /// Appends a value in the component type of the accessor, which nearly always is the type it
-    /// has.
+    /// Appends a value in the component type of the accessor, which is almost always the type it
+    /// already has.
     ///
-    /// Numbers are converted by value with saturation, not by scale: quantization is undone by the
-    /// decoder.
+    /// Numbers are converted by value with saturation, not rescaled: the decoder undoes
+    /// quantization.
     fn append_converted(bytes: &mut Vec<u8>, value: &[u8], from: DataType, to: ComponentType) {
         let same = match to {
             ComponentType::I8 => from == DataType::Int8,

@@ -1,7 +1,7 @@
 //! Edges for line drawings: EXT_mesh_primitive_edge_visibility and CESIUM_primitive_outline.
 //!
 //! The first packs two bits for each edge of each triangle, lowest bits first, and may add edges as
-//! line strings; the second lists pairs of vertices. Invalid data is left out with a warning:
+//! line strings; the second lists pairs of vertices. Invalid data is skipped with a warning:
 //! drawings then find edges from the shape. The silhouette normals of the first are not read: the
 //! triangles have normals.
 //!
@@ -21,12 +21,12 @@ use serde_json::Value;
 
 /// Extension with visibility bits for the edges of triangles.
 const VISIBILITY_EXTENSION: &str = "EXT_mesh_primitive_edge_visibility";
-/// Older extension of Cesium with pairs of vertices.
+/// Older extension by Cesium with pairs of vertices.
 const OUTLINE_EXTENSION: &str = "CESIUM_primitive_outline";
 
 /// Reader of the edges of one primitive.
 ///
-/// The counts are those of the file, before invalid triangles are dropped: the bits refer to them.
+/// The counts are the file's, before invalid triangles are dropped: the bits refer to them.
 pub(super) struct EdgeReader<'a, 'w> {
     pub(super) source: &'a AccessorReader<'a>,
     pub(super) json: &'a Json,
@@ -42,7 +42,7 @@ pub(super) struct EdgeReader<'a, 'w> {
 impl EdgeReader<'_, '_> {
     /// The edges of a primitive of this topology, if the file marks any.
     ///
-    /// Only triangles have edges. Faults in the extensions are warnings; exceeded limits and
+    /// Only triangles have edges. Errors in the extensions are warnings; exceeded limits and
     /// unreadable files are errors, as everywhere.
     pub(super) fn read_edges(
         mut self,
@@ -67,9 +67,9 @@ impl EdgeReader<'_, '_> {
         Ok((!is_empty).then(|| Box::new(edges)))
     }
 
-    /// Downgrades faults in the file's content to a warning.
+    /// Downgrades errors in the file's content to a warning.
     ///
-    /// Edges are an addition to the triangles, so that a fault in them never costs the primitive.
+    /// Edges are an addition to the triangles, so an error in them never discards the primitive.
     fn warn_if_soft(&mut self, read: Result<(), Diagnostic>) -> Result<(), Diagnostic> {
         match read {
             Err(diagnostic) if diagnostic.is_downgradable() => {
@@ -135,7 +135,7 @@ impl EdgeReader<'_, '_> {
     /// 8, rounded up.
     ///
     /// # Errors
-    /// The accessor is not SCALAR of unsigned bytes, or has another number of bytes.
+    /// The accessor is not a SCALAR of unsigned bytes, or has a different number of bytes.
     fn read_visibility_bits(
         &self,
         accessor: usize,
@@ -177,7 +177,7 @@ impl EdgeReader<'_, '_> {
             ComponentType::U16 => u32::from(u16::MAX),
             _ => u32::MAX,
         };
-        // Indices and the pairs made of them: 8 bytes an index in all.
+        // Indices and the pairs made from them: 8 bytes per index in total.
         self.source.charge_array(accessor, elements.count, 8)?;
         Ok((self.source.read_indices(&elements)?, restart))
     }
@@ -209,14 +209,14 @@ impl EdgeReader<'_, '_> {
     }
 }
 
-/// A member that is an index; one too large for the machine becomes `usize::MAX`, which nothing
+/// A member that is an index; one too large for the machine becomes `usize::MAX`, which no item
 /// has.
 fn index_member(json: &Value, member: &str) -> Option<usize> {
     json.get(member).and_then(Value::as_u64).map(|at| usize::try_from(at).unwrap_or(usize::MAX))
 }
 
-/// Renumbers the vertices of edges from the first used vertex on, as those of the triangles are;
-/// edges with unused vertices are removed.
+/// Renumbers the vertices of edges from the first used vertex on, as for the triangles; edges with
+/// unused vertices are removed.
 pub(super) fn rebase_edges(edges: &mut PrimitiveEdges, used: &std::ops::Range<usize>) {
     for lines in &mut edges.lines {
         lines.vertex_pairs.retain(|ends| ends.iter().all(|&end| used.contains(&(end as usize))));

@@ -2,14 +2,14 @@
 //!
 //! Tightly packed floats, by far the most common case, become one loop over words that the compiler
 //! turns into a copy; other types and strides are converted element by element, with the type
-//! decided outside of the loop.
+//! chosen outside the loop.
 
 use gltf::json::accessor::{ComponentType, Type};
 use std::ops::Range;
 
 /// The elements of an accessor, or a range of them, whose bytes are known to exist.
 ///
-/// All checks are done when it is built, so that conversion cannot fail.
+/// All checks are made when it is built, so that conversion cannot fail.
 #[derive(Debug)]
 pub(super) struct ResolvedAccessor<'a> {
     /// Index of the accessor.
@@ -51,7 +51,7 @@ pub(super) struct SparseElements<'a> {
 }
 
 impl ResolvedAccessor<'_> {
-    /// The elements of a range; those that do not exist are left out.
+    /// The elements of a range; elements that do not exist are skipped.
     pub(super) fn slice_range(mut self, range: Range<usize>) -> Self {
         let end = range.end.min(self.count);
         self.first += range.start.min(end);
@@ -80,10 +80,10 @@ impl ResolvedAccessor<'_> {
         }
     }
 
-    /// The first `N` components of every element, of unsigned bytes or shorts; others saturate.
+    /// The first `N` components of every element, from unsigned bytes or shorts; others saturate.
     ///
-    /// Joint indices have these types; the others are refused before, by the table of allowed
-    /// formats.
+    /// Joint indices have these types; the table of allowed formats has already rejected the
+    /// others.
     pub(super) fn to_u16s<const N: usize>(&self) -> Vec<[u16; N]> {
         match self.component_type {
             ComponentType::U8 => self.convert_components(|x: u8| u16::from(x)),
@@ -107,7 +107,7 @@ impl ResolvedAccessor<'_> {
     ///
     /// Elements without data are zeros. The case of tightly packed components is one loop without
     /// bounds checks inside, which for floats is a copy. Sparse elements are written last, and
-    /// those outside of the range are skipped.
+    /// those outside the range are skipped.
     fn convert_components<const N: usize, C: Component, T: Copy + Default>(
         &self,
         convert: impl Fn(C) -> T,
@@ -153,13 +153,13 @@ fn convert_element<const N: usize, C: Component, T>(
 trait Component: Copy {
     /// The number's bytes.
     type Word: Copy;
-    /// The words in a slice of bytes; an incomplete last word is left out.
+    /// The words in a slice of bytes; an incomplete last word is skipped.
     fn words(bytes: &[u8]) -> &[Self::Word];
     /// Decodes a word.
     fn read(word: &Self::Word) -> Self;
 }
 
-/// Implements [`Component`] for number types by their `from_le_bytes`.
+/// Implements [`Component`] for number types with their `from_le_bytes`.
 macro_rules! component {
     ($($number:ty)*) => {$(
         impl Component for $number {
@@ -204,8 +204,8 @@ mod tests {
     #[test]
     fn every_component_type_has_its_value() {
         use ComponentType::{F32, I8, I16, U8, U16, U32};
-        // The two bytes of each component: the least and the greatest value of the type, or near
-        // it.
+        // The two bytes of each component: the smallest and the largest value of the type, or close
+        // to it.
         let table: [(ComponentType, bool, &[u8], [f32; 2]); 10] = [
             (I8, false, &[0x80, 0x7F], [-128.0, 127.0]),
             (I8, true, &[0x80, 0x7F], [-1.0, 1.0]),

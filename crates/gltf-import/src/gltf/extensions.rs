@@ -1,8 +1,8 @@
-//! Extension support: the extensions that are drawn, ignored or refused.
+//! Extension support: the extensions that are drawn, ignored or rejected.
 //!
-//! To add a material extension (KHR_materials_…), follow "How to add" in ARCHITECTURE.md; others
+//! To add a material extension (KHR_materials_…), follow "How to add" in ARCHITECTURE.md. Others
 //! are read in the module of their object (nodes in `scene_graph`). Then change the row in the
-//! table, which is what the program prints about a file's extensions.
+//! table, which the program uses to report a file's extensions.
 
 use crate::warnings::ImportWarnings;
 use gltf::json::Root;
@@ -17,11 +17,11 @@ enum ExtensionSupport {
     Full,
     /// It does not affect the picture.
     Harmless,
-    /// It is drawn with the limitation that the text names.
+    /// It is drawn with the limitation given in the text.
     Partly(&'static str),
-    /// It is ignored; the text names what is missing then.
+    /// It is ignored; the text gives the consequence.
     Without(&'static str),
-    /// Files that require it are refused; the text gives the reason.
+    /// Files that require it are rejected; the text gives the reason.
     None(&'static str),
 }
 
@@ -41,8 +41,8 @@ const WEBP_SUPPORT: ExtensionSupport =
 
 /// All known extensions, sorted by name.
 ///
-/// An extension that is not listed is ignored if a file merely uses it, without a warning, and
-/// refused if a file requires it.
+/// An extension that is not listed is ignored without a warning if a file merely uses it, and
+/// rejected if a file requires it.
 const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
     ("CESIUM_primitive_outline", Partly("the outlines are drawn in line drawings alone")),
     ("EXT_mesh_features", Harmless),
@@ -88,8 +88,8 @@ const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
     ("MSFT_texture_dds", Never("DDS images are not read")),
 ];
 
-/// Checks `extensionsRequired`: unsupported ones are an error, or a warning when reading leniently.
-/// Warns of extensions that are ignored or supported in part.
+/// Checks `extensionsRequired`: unsupported ones are an error, or a warning in lenient mode. Warns
+/// of extensions that are ignored or partly supported.
 ///
 /// Each extension is reported once, at its first mention.
 ///
@@ -136,17 +136,17 @@ pub enum ExtensionUse {
     Drawn,
     /// It does not affect the picture.
     Harmless,
-    /// It is drawn with the limitation that the text names.
+    /// It is drawn with the limitation given in the text.
     Partly(&'static str),
-    /// It is ignored; the text names what is missing then.
+    /// It is ignored; the text gives the consequence.
     Without(&'static str),
-    /// Files that require it are refused; the text gives the reason.
+    /// Files that require it are rejected; the text gives the reason.
     Refused(&'static str),
-    /// It is not known; files that require it are refused.
+    /// It is unknown; files that require it are rejected.
     Unknown,
 }
 
-/// Effect of the extension with this name.
+/// Effect of the named extension.
 #[must_use]
 pub fn extension_use(name: &str) -> ExtensionUse {
     match find_support(name) {

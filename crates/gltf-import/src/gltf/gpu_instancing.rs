@@ -1,8 +1,8 @@
 //! GPU instancing (EXT_mesh_gpu_instancing): meshes that one node draws many times.
 //!
-//! Translation, rotation and scale of the instances are accessors with one element for each;
-//! missing ones are the identity's. They are composed as T · R · S and apply before the node's own
-//! transform.
+//! Translation, rotation and scale of the instances are accessors with one element per instance;
+//! missing ones default to the identity. They are composed as T · R · S and apply before the node's
+//! own transform.
 
 use super::accessor::AccessorReader;
 use super::attribute::{AllowedFormats, ROTATION, TRANSLATION_OR_SCALE};
@@ -17,14 +17,14 @@ const EXTENSION: &str = "EXT_mesh_gpu_instancing";
 /// Transform of an instance relative to its node.
 type InstanceTransform = Affine<ModelSpace, ModelSpace>;
 
-/// Reads the instance transforms of all nodes. Where they are invalid the mesh is drawn once, at
-/// its node.
+/// Reads the instance transforms of all nodes. If they are invalid, the mesh is drawn once, at its
+/// node.
 ///
 /// The extension is ignored on a node with a skin, whose vertices follow the joints and not the
 /// node. Single instances whose transform is not finite are dropped.
 ///
 /// # Errors
-/// Exceeded limits and unreadable files; faults in the content are warnings.
+/// Exceeded limits and unreadable files; errors in the content are warnings.
 pub(super) fn import_instances(
     source: &AccessorReader<'_>,
     nodes: &mut [Node],
@@ -70,9 +70,9 @@ pub(super) fn import_instances(
     Ok(())
 }
 
-/// Composes the transforms from translation, rotation and scale; `None` for those that are invalid.
+/// Composes the transforms from translation, rotation and scale; `None` for invalid ones.
 ///
-/// An invalid transform has a quaternion of length 0, or numbers that are not finite.
+/// A transform is invalid if its quaternion has length 0, or if a number is not finite.
 ///
 /// # Errors
 /// An attribute is invalid, the counts differ, or the memory budget is spent.
@@ -126,7 +126,7 @@ impl InstanceAttributes<'_> {
     /// An attribute, if the file has it.
     ///
     /// # Errors
-    /// The member is not an index, or the accessor is invalid or of another format.
+    /// The member is not an index, or the accessor is invalid or has another format.
     fn read_attribute<const N: usize>(
         &self,
         name: &str,

@@ -1,7 +1,7 @@
 //! Images: the visible ones, read and checked against the limits, then decoded.
 //!
-//! Only images that a visible surface uses are read. A broken image costs a warning, never the
-//! model. The limit on texels is spent in the order of the file, by the sizes in the headers,
+//! Only images that a visible surface uses are read. A broken image causes a warning and never
+//! discards the model. The limit on texels is spent in file order, by the sizes in the headers,
 //! before any decoder runs.
 
 use super::accessor::AccessorReader;
@@ -18,14 +18,14 @@ use std::borrow::Cow;
 
 /// Images of a file that have been read but not decoded.
 ///
-/// Bytes are borrowed from buffers where the image is in a buffer view.
+/// Bytes are borrowed from buffers if the image is in a buffer view.
 #[derive(Default)]
 pub(super) struct EncodedImages<'a> {
-    /// For each image of the file, whether it was to be read.
+    /// For each image of the file, whether it should be read.
     needed: Vec<bool>,
     /// The images that could be read.
     pub(super) encoded: Vec<EncodedImage<'a>>,
-    /// Warnings about those that could not.
+    /// Warnings about the images that could not be read.
     warnings: ImportWarnings,
 }
 
@@ -40,7 +40,7 @@ impl<'a> EncodedImages<'a> {
 
 /// Images that the surfaces of the active scene will use, according to the JSON.
 ///
-/// Used before meshes are read, so that images can be decoded meanwhile.
+/// This is used before meshes are read, so that images can be decoded meanwhile.
 ///
 /// Materials of the active variant replace the default ones. The result may differ from
 /// [`needed_images`], which knows the primitives: one without items needs no images.
@@ -89,8 +89,7 @@ fn visible_meshes(model: &Model, meshes: usize) -> Vec<bool> {
 
 /// Marks the images of a material.
 ///
-/// Only textures that affect the picture count, which excludes those of unlit materials beyond the
-/// base color.
+/// Only textures that affect the picture count; an unlit material uses only its base color.
 fn mark_material_images(material: Option<usize>, model: &Model, needed: &mut [bool]) {
     let material = material.and_then(|at| model.materials.get(at));
     for (_, info) in material.into_iter().flat_map(Material::visible_textures) {
@@ -101,10 +100,10 @@ fn mark_material_images(material: Option<usize>, model: &Model, needed: &mut [bo
     }
 }
 
-/// Gives an otherwise complete model its images.
+/// Adds the images to an otherwise complete model.
 ///
-/// Those that were read early and `decoded` meanwhile are used, unless the meshes turned out to
-/// need other images than the file announced.
+/// Images that were read early and `decoded` meanwhile are used, unless the meshes turned out to
+/// need images other than those announced.
 pub(super) fn import_images(
     source: &AccessorReader<'_>,
     model: &mut Model,
@@ -125,7 +124,7 @@ pub(super) fn import_images(
             store_decoded(model, encoded_images, decoded, warnings);
         }
         ImageLoading::Headers => {
-            // The others are not visible, and need no warnings.
+            // The others are not visible, and do not need warnings.
             let others = needed.iter().map(|needed| !needed).collect();
             store_headers(
                 &EncodedImages::read_needed(source, others).encoded,
@@ -138,7 +137,7 @@ pub(super) fn import_images(
 
 /// Stores decoded images in the model, and adds a warning for each failure.
 ///
-/// A failed image costs its texture: the surface is drawn without it.
+/// A failed image loses its texture: the surface is drawn without it.
 fn store_decoded(
     model: &mut Model,
     encoded_images: EncodedImages<'_>,
@@ -207,7 +206,7 @@ fn read_encoded<'a>(
     encoded_images
 }
 
-/// The consequence that all warnings about images have.
+/// The consequence stated in all warnings about images.
 const SHOWN_WITHOUT_IMAGE: &str = "the surface is shown without it";
 
 /// The encoded bytes, from a file, a data URI or a buffer view.
@@ -235,7 +234,7 @@ fn image_bytes<'a>(
 
 /// Checks size and number of texels against the limits.
 ///
-/// `texels_left` is the rest of the limit for all images of the file, and is reduced by this one.
+/// `texels_left` is the rest of the limit for all images of the file, and is reduced by this image.
 ///
 /// # Errors
 /// The size is 0, or [`LIMIT_EXCEEDED`](model::codes::LIMIT_EXCEEDED) for `image_side` or

@@ -1,9 +1,8 @@
 //! Lenient JSON deserialization: removes members of the wrong type so that the rest can be loaded.
 //!
 //! The typed structs are all or nothing: one mesh without primitives makes the whole document fail.
-//! So the offending member is removed, or, where it is mandatory, the item that contains it is
-//! replaced by an empty one, so that all others keep their indices; then deserialization is tried
-//! again.
+//! So the offending member is removed. If it is mandatory, the item that contains it is replaced by
+//! an empty one, so that all others keep their indices. Then deserialization is tried again.
 
 use super::document::type_error;
 use crate::warnings::ImportWarnings;
@@ -12,21 +11,21 @@ use model::Diagnostic;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
-/// Bytes of JSON that are deserialized again in all: ten repairs of a file of six megabytes,
-/// hundreds of a small one.
+/// Total bytes of JSON that may be deserialized again: ten repairs of a six-megabyte file, hundreds
+/// of a small one.
 const REPAIR_BYTE_BUDGET: usize = 64 << 20;
 
-/// Repairs in one file, however small it is.
+/// Maximum number of repairs in one file, however small.
 const MAX_REPAIRS: usize = 500;
 
-/// Deserializes a document; reading leniently, leaves out what does not fit. `length` is that of
-/// its text.
+/// Deserializes a document; in lenient mode, skips the parts that do not fit. `length` is the
+/// length of its text.
 ///
-/// Reading strictly, the first fault is the error. Each pass finds one fault, so that the cost is
-/// the number of faults times the length of the text; the budget bounds it for hostile files.
+/// In strict mode, the first mistake is the error. Each pass finds one mistake, so the cost is the
+/// number of mistakes times the length of the text; the budget limits it for hostile files.
 ///
 /// # Errors
-/// A fault cannot be repaired, must not be, or the budget is spent.
+/// A mistake cannot or must not be repaired, or the budget is spent.
 pub(super) fn deserialize_document(
     value: &mut Value,
     length: usize,
@@ -45,16 +44,16 @@ pub(super) fn deserialize_document(
     }
 }
 
-/// Deserializes the value's text: the `gltf` crate has compiled that for its types already, and the
-/// column of an error leads back to the value.
+/// Deserializes the value's text: the `gltf` crate has already compiled that code for its types,
+/// and the column of an error leads back to the value.
 ///
 /// # Errors
-/// The first fault.
+/// The first mistake.
 fn deserialize_root(value: &Value) -> Result<Root, Diagnostic> {
     let text = value.to_string();
     Root::from_str(&text).map_err(|error| {
-        // The text is well-formed: only an array with too many items ends the parser early. It
-        // stops one byte into the first of them.
+        // The text is well-formed, so only an array with too many items ends the parser early. It
+        // stops one byte into the first extra item.
         let place = if error.is_syntax() {
             Place::Within(error.column() - 1)
         } else {
@@ -75,17 +74,18 @@ fn deserialize_root(value: &Value) -> Result<Root, Diagnostic> {
     })
 }
 
-/// A value in a text, by bytes from its start.
+/// A value in a text, given by a byte offset.
 enum Place {
     /// The value that ends here, or the array or object that begins here.
     At(usize),
-    /// The innermost value with something before and after this place.
+    /// The innermost value that extends to both sides of this offset.
     Within(usize),
 }
 
-/// Searches a value whose text begins at `start` for a place.
+/// Searches the value whose text begins at `start` for a place.
 ///
-/// Returns where the value ends, or `None` if it is the one, or contains it: `pointer` then leads to it.
+/// Returns the end of the value, or `None` if the value is or contains the place: `pointer` then
+/// leads to it.
 fn end_unless_found(
     value: &Value,
     start: usize,
@@ -102,7 +102,7 @@ fn end_unless_found(
         Value::Array(items) => {
             for (index, item) in items.iter().enumerate() {
                 let _ = write!(pointer, "/{index}");
-                // The comma, or the bracket, comes after each.
+                // A comma or the bracket follows each item.
                 end = end_unless_found(item, end, place, pointer)? + 1;
                 pointer.truncate(parent);
             }
@@ -123,10 +123,10 @@ fn end_unless_found(
     (offset <= start || offset > end).then_some(end)
 }
 
-/// Removes the member at a pointer, or empties the item that contains it; returns what was done,
-/// `None` if nothing can be.
+/// Removes the member at a pointer, or empties the item that contains it; returns a description of
+/// the repair, `None` if none is possible.
 ///
-/// The depth of the pointer decides: a fault in a whole collection removes it, one in an item
+/// The depth of the pointer decides: an error in a whole collection removes it, one in an item
 /// empties the item, and one below removes the member, or empties the item if that does not help.
 fn repair_at(document: &mut Value, pointer: &str) -> Option<&'static str> {
     let steps: Vec<&str> = pointer.split('/').skip(1).collect();
@@ -143,13 +143,13 @@ fn repair_at(document: &mut Value, pointer: &str) -> Option<&'static str> {
     }
 }
 
-/// Lists whose items nothing refers to by index, so that one of them can be removed.
+/// Lists whose items are not referred to by index, so that one of them can be removed.
 const UNREFERENCED_LISTS: [&str; 4] = ["primitives", "channels", "children", "nodes"];
 
 /// Removes a member of an object or an item of a list; other arrays are removed as a whole.
 ///
-/// Items of other lists are referred to by index or position, as in `joints`, so that the whole
-/// list is removed instead.
+/// Items of other lists are referred to by index or position, as in `joints`, so the whole list is
+/// removed instead.
 fn remove_member(document: &mut Value, pointer: &str) -> Option<&'static str> {
     let (parent, last) = pointer.rsplit_once('/')?;
     let name = parent.rsplit('/').next()?;
@@ -170,8 +170,8 @@ fn remove_member(document: &mut Value, pointer: &str) -> Option<&'static str> {
 
 /// Replaces an item of a top-level collection by an empty one.
 ///
-/// The empty items are the smallest that deserialize; using one is an error that is reported where
-/// it is used. `None` if the item is empty already, which ends the repair.
+/// The empty items are the smallest that deserialize; using one is an error that is reported at its
+/// use. `None` if the item is already empty, which ends the repair.
 fn replace_with_empty(document: &mut Value, collection: &str, at: &str) -> Option<&'static str> {
     let nothing = match collection {
         "accessors" => json!({"componentType": 5126, "count": 0, "type": "SCALAR"}),

@@ -1,8 +1,8 @@
-//! Punctual lights (KHR_lights_punctual), their parameters checked; an invalid one is left out with
-//! a warning.
+//! Punctual lights (KHR_lights_punctual) with validated parameters; an invalid light is skipped
+//! with a warning.
 //!
-//! The extension stores lights in the document's root, and each node refers to one. Defaults are
-//! its own: white, intensity 1, infinite range, cone angles 0 and π/4.
+//! The extension stores lights in the document's root, and each node refers to one. It defines the
+//! defaults: white, intensity 1, infinite range, cone angles 0 and π/4.
 
 use crate::warnings::ImportWarnings;
 use gltf::json::Root;
@@ -15,8 +15,8 @@ const EXTENSION: &str = "KHR_lights_punctual";
 
 /// Reads all lights of a file and attaches them to nodes.
 ///
-/// An invalid light remains in the list as a black one, so that the indices of all others are
-/// unchanged, and no node refers to it.
+/// An invalid light stays in the list as a black one, so that the indices of all others do not
+/// change, and no node refers to it.
 pub(super) fn import_lights(
     root: &Root,
     nodes: &mut [Node],
@@ -46,7 +46,7 @@ pub(super) fn import_lights(
 
 /// Sets the lights of nodes.
 ///
-/// A node without the extension is unchanged; an index out of range is a warning.
+/// A node without the extension is not changed; an index out of range is a warning.
 fn attach_lights(
     root: &Root,
     nodes: &mut [Node],
@@ -73,7 +73,7 @@ fn attach_lights(
 /// Reads and checks a light; numbers out of bounds are clamped with a warning.
 ///
 /// # Errors
-/// The light is not an object, or its type is unknown: without a type the numbers have no meaning.
+/// The light is not an object, or its type is unknown; without a type the numbers have no meaning.
 fn parse_light(
     json: &Value,
     pointer: &str,
@@ -84,7 +84,7 @@ fn parse_light(
     };
     let mut numbers = LightNumbers { json, pointer, warnings };
     let intensity = numbers.read_number("intensity", 1.0, [0.0, f32::MAX]);
-    // Without `range` the light has an infinite one.
+    // Without `range`, the range is infinite.
     let range = numbers.read_number("range", f32::INFINITY, [f32::MIN_POSITIVE, f32::INFINITY]);
     let kind = match json.get("type").and_then(Value::as_str) {
         Some("directional") => LightKind::Directional,
@@ -122,7 +122,7 @@ fn parse_light(
 
 /// Reader of the numbers in a JSON object.
 ///
-/// It serves the light itself, and its `spot` object with a pointer of its own.
+/// It reads the light itself, and its `spot` object with a separate pointer.
 struct LightNumbers<'a, 'w> {
     json: &'a Map<String, Value>,
     /// JSON pointer to the object.

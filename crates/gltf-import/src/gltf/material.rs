@@ -1,8 +1,7 @@
-//! Materials: factors and textures, including those of the KHR_materials extensions.
+//! Materials: factors and textures, including the KHR_materials extensions.
 //!
-//! Numbers of extensions are found by the table of [animatable
-//! properties](model::object_model), which has their JSON pointers and bounds; textures
-//! by the table of [`TextureSlot`]s.
+//! Numbers of extensions are found with the table of [animatable properties](model::object_model),
+//! which has their JSON pointers and bounds; textures with the table of [`TextureSlot`]s.
 //!
 //! ```text
 //!  core members ──────────────────────────► Material
@@ -10,7 +9,7 @@
 //!               └─ numbers by pointer ────► clamped to their bounds
 //! ```
 //!
-//! A material is never refused: it only affects the appearance, and a value out of range has an
+//! A material is never rejected: it affects only the appearance, and a value out of range has an
 //! obvious replacement.
 
 use crate::warnings::ImportWarnings;
@@ -24,14 +23,15 @@ use model::{
 };
 use serde_json::{Map, Value};
 
-/// Reads all materials of a file. Faults in them are warnings.
+/// Reads all materials of a file. Errors in them are warnings.
 pub(super) fn import_materials(root: &Root, warnings: &mut ImportWarnings) -> Vec<Material> {
     (0..root.materials.len())
         .map(|at| MaterialReader { root, at, warnings: &mut *warnings }.read_material())
         .collect()
 }
 
-/// The texture transform (KHR_texture_transform) in a slot; `None` if the file gives none.
+/// The texture transform (KHR_texture_transform) in a slot; `None` if the file does not specify
+/// one.
 ///
 /// The default is the identity: offset 0, rotation 0, scale 1. The rotation is in radians,
 /// counter-clockwise around the origin of the texture coordinates.
@@ -53,7 +53,7 @@ pub(super) fn texture_transform(
 
 /// Reader of one material.
 ///
-/// JSON pointers for warnings are composed on demand, as valid materials need none.
+/// JSON pointers for warnings are composed on demand, because valid materials need none.
 struct MaterialReader<'a, 'w> {
     root: &'a Root,
     /// Index of the material.
@@ -65,11 +65,10 @@ impl<'a> MaterialReader<'a, '_> {
     /// Reads core properties first, then the extensions.
     ///
     /// Factors out of range are clamped with a warning. Textures of specular-glossiness replace
-    /// those of the metallic-roughness workflow, which files have beside it for readers without the
-    /// extension.
+    /// the metallic-roughness textures, which files also contain for readers without the extension.
     ///
-    /// Fields that depend on several others are derived at the end, by `update_derived`, which
-    /// animations call as well.
+    /// Fields that depend on several others are computed at the end by `update_derived`, which
+    /// animations also call.
     fn read_material(mut self) -> Material {
         let json = &self.root.materials[self.at];
         let pbr = &json.pbr_metallic_roughness;
@@ -120,12 +119,12 @@ impl<'a> MaterialReader<'a, '_> {
         inside
     }
 
-    /// Clamps numbers to bounds, with a warning; what is not a number becomes the minimum.
+    /// Clamps numbers to bounds, with a warning; NaN becomes the minimum.
     ///
     /// The comparison is written so that NaN fails it.
     ///
-    /// The warning lists the numbers before and after the correction. A maximum of `f32::MAX`
-    /// stands for no maximum.
+    /// The warning lists the numbers before and after the correction. A maximum of `f32::MAX` means
+    /// none.
     fn clamp_numbers(&mut self, member: &str, numbers: &mut [f32], [min, max]: [f32; 2]) {
         let given = numbers.to_vec();
         for number in &mut *numbers {
@@ -141,7 +140,8 @@ impl<'a> MaterialReader<'a, '_> {
         }
     }
 
-    /// The alpha mode with its cutoff (0.5 by default); an unknown one is opaque, with a warning.
+    /// The alpha mode with its cutoff (0.5 by default); an unknown mode becomes opaque, with a
+    /// warning.
     ///
     /// The cutoff is not clamped: above 1 nothing is visible, which is valid (glTF 2.0 §3.9.4).
     fn read_alpha_mode(&mut self) -> AlphaMode {
@@ -160,12 +160,12 @@ impl<'a> MaterialReader<'a, '_> {
         }
     }
 
-    /// Reads the extensions: first the records with their textures, then the numbers by their
+    /// Reads the extensions: first the records with their textures, then the numbers with their
     /// table.
     ///
     /// The table of animatable properties lists each number of each extension with its bounds, so
-    /// that no number is handled here by name. A value of a wrong type or length leaves the default
-    /// in effect, with a warning.
+    /// that no number is handled here by name. If a value has the wrong type or length, the default
+    /// stays in effect, with a warning.
     fn read_extensions(&mut self, material: &mut Material) {
         self.create_extensions(material);
         for PropertyRow { path, bounds, numbers_mut: numbers, .. } in &MATERIAL_PROPERTIES {
@@ -203,9 +203,9 @@ impl<'a> MaterialReader<'a, '_> {
 
     /// Creates the record of each extension that is present, with its textures and default numbers.
     ///
-    /// A record exists if the extension's object does, even an empty one: KHR_materials_clearcoat
+    /// A record exists if the extension's object does, even if it is empty: KHR_materials_clearcoat
     /// without members, for instance, is a coating of factor 0. With specular-glossiness the base
-    /// color factor is reset first, because the core factor next to it belongs to the fallback.
+    /// color factor is reset first, because the core factor belongs to the fallback.
     fn create_extensions(&mut self, material: &mut Material) {
         use TextureSlot as Slot;
         let extensions = &mut material.extensions;
@@ -258,8 +258,7 @@ impl<'a> MaterialReader<'a, '_> {
 
     /// The normal map in a slot, with the scale of its x and y components.
     ///
-    /// The scale may be negative, which inverts the relief; one that is not finite is replaced by
-    /// 1.
+    /// The scale may be negative, which inverts the relief; if it is not finite it becomes 1.
     fn read_normal_texture(&mut self, slot: TextureSlot) -> Option<NormalTexture> {
         let texture = self.read_texture(slot)?;
         let scale = JsonTextureInfo::from_slot(self.root, self.at, slot)?.scale;
@@ -269,7 +268,7 @@ impl<'a> MaterialReader<'a, '_> {
 
     /// The texture in a slot; a reference to a texture that does not exist is a warning.
     ///
-    /// The `texCoord` of KHR_texture_transform, if present, overrides that of the texture
+    /// The `texCoord` of KHR_texture_transform, if present, overrides the one in the texture
     /// reference.
     fn read_texture(&mut self, slot: TextureSlot) -> Option<TextureInfo> {
         let JsonTextureInfo { texture, uv_set, transform, .. } =
@@ -311,8 +310,8 @@ struct JsonTextureInfo<'a> {
 impl<'a> JsonTextureInfo<'a> {
     /// The reference in a slot of a material; its texture may not exist.
     ///
-    /// The core types of the `gltf` crate differ for normal, occlusion and other textures, so that
-    /// each has a branch; extensions are read from raw JSON by the path of the slot.
+    /// The core types of the `gltf` crate differ for normal, occlusion and other textures, so each
+    /// has a branch; extensions are read from raw JSON at the path of the slot.
     fn from_slot(root: &'a Root, material: usize, slot: TextureSlot) -> Option<Self> {
         let json = root.materials.get(material)?;
         let pbr = &json.pbr_metallic_roughness;
@@ -366,14 +365,13 @@ impl<'a> JsonTextureInfo<'a> {
     }
 }
 
-/// Extension with the affine transform of texture coordinates; it may occur in any texture
-/// reference.
+/// Extension for affine transforms of texture coordinates; it may occur in any texture reference.
 const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
 
-/// Warns of primitives that lack the texture coordinates which their material uses.
+/// Warns of primitives that lack the texture coordinates their material uses.
 ///
 /// It runs when both materials and meshes are complete. Only the first missing set of a primitive
-/// is reported; a primitive without items is skipped, because nothing of it is drawn.
+/// is reported. A primitive without items is skipped, because none of it is drawn.
 pub(super) fn warn_of_missing_texcoords(model: &Model, warnings: &mut ImportWarnings) {
     for (at, mesh) in model.meshes.iter().enumerate() {
         for (primitive_index, primitive) in mesh.primitives.iter().enumerate() {

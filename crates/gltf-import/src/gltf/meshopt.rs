@@ -8,10 +8,10 @@
 //!                                                                           index_sequence_codec
 //! ```
 //!
-//! Written from the text of the extensions, whose appendices define the streams byte by byte. A
-//! stream has no lengths of its own: the JSON declares the length of the result, and a stream that
-//! ends earlier or later is invalid. Both names accept both versions of the streams and all
-//! filters.
+//! This is written from the text of the extensions, whose appendices define the streams byte by
+//! byte. A stream does not contain its length: the JSON declares the length of the result, and a
+//! stream that ends earlier or later is invalid. Both names accept both versions of the streams and
+//! all filters.
 
 mod byte_stream;
 mod index_codec;
@@ -53,7 +53,7 @@ enum CompressionMode {
     Indices,
 }
 
-/// The filter that is applied to each element of a stream of attributes after decompression.
+/// The filter applied to each element of an attribute stream after decompression.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum MeshoptFilter {
     None,
@@ -110,7 +110,8 @@ impl CompressedView {
         Ok(Self { pointer, buffer, offset, length, count, stride, mode })
     }
 
-    /// The extension of a buffer view given as JSON; `None` if it has none, or is no buffer view.
+    /// The extension of a buffer view given as JSON; `None` if there is none, or if this is not a
+    /// buffer view.
     ///
     /// # Errors
     /// The extension breaks a rule.

@@ -7,7 +7,7 @@
 //!  4. images         stored; read again if the meshes turned out to need others
 //! ```
 //!
-//! Each step needs only what earlier ones have made. Images come early because decoding takes
+//! Each step needs only the results of earlier ones. Images come early because decoding takes
 //! longest and is independent of everything else.
 
 use super::accessor::AccessorReader;
@@ -28,7 +28,7 @@ use model::{Diagnostic, Model, Node};
 /// The time of each step is added to the stopwatch of the options, as `geometry` or `images`.
 ///
 /// # Errors
-/// The first fault that prevents drawing.
+/// The first error that prevents drawing.
 pub(super) fn build_model(
     document: &GltfDocument,
     source: &AccessorReader<'_>,
@@ -51,7 +51,7 @@ pub(super) fn build_model(
     Ok(model)
 }
 
-/// Reads the images that the JSON says will be visible.
+/// Reads the images that will be visible according to the JSON.
 fn collect_announced_images<'a>(
     source: &'a AccessorReader<'_>,
     model: &Model,
@@ -66,10 +66,9 @@ fn collect_announced_images<'a>(
     }
 }
 
-/// Reads everything but meshes and images.
+/// Reads everything except meshes and images.
 ///
-/// References to skins and cameras that turned out to be invalid are cleared, so that every index
-/// in the nodes is valid.
+/// References to invalid skins and cameras are cleared, so that every index in the nodes is valid.
 ///
 /// The order follows the dependencies: lights are attached to nodes, animations check their targets
 /// against nodes, materials, lights and cameras.
@@ -109,7 +108,7 @@ fn build_scene_graph(
 
 /// Reads the animations; pointers of KHR_animation_pointer may add texture transforms to materials.
 ///
-/// Disjoint fields of the model are borrowed, some of them mutably, which a method of the model
+/// Disjoint fields of the model are borrowed, some of them mutably, which a method on the model
 /// could not do.
 fn build_animations(
     document: &GltfDocument,
@@ -158,7 +157,7 @@ fn build_meshes(
     scene_graph::check_scene_items(model, source.limits)
 }
 
-/// Clears references of nodes to skins and cameras that have been left out.
+/// Clears references from nodes to skipped skins and cameras.
 ///
 /// Lights need no such step: they are attached only if they are valid.
 fn drop_dangling_references(model: &mut Model, usable_cameras: &[bool]) {

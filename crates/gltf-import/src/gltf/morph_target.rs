@@ -1,8 +1,8 @@
-//! Morph targets: deltas of vertex attributes; an invalid one is left out with a warning.
+//! Morph targets: deltas of vertex attributes; an invalid one is skipped with a warning.
 //!
 //! Deltas have the formats of the attributes they change, except that tangents have three
-//! components: w, the handedness, does not morph. Texture coordinates and colors are rarely
-//! supported elsewhere, but allowed (glTF 2.0 §3.7.2.2).
+//! components: w, the handedness, does not morph. Deltas of texture coordinates and colors are
+//! rarely supported elsewhere, but allowed (glTF 2.0 §3.7.2.2).
 
 use super::attribute::{AllowedFormats, AttributeReader, COLOR, POSITION, TEXCOORD};
 use gltf::json;
@@ -39,7 +39,7 @@ impl MorphTargetReader<'_, '_, '_> {
         }
         for (name, accessor) in further {
             if name == "COLOR_0" {
-                // Deltas of three components do not change alpha.
+                // Deltas with three components do not change alpha.
                 target.colors = self.read_deltas(Some(*accessor), name, &COLOR)?;
             }
             let set = name.strip_prefix("TEXCOORD_").and_then(|set| set.parse::<usize>().ok());

@@ -1,7 +1,8 @@
 //! Node transforms, in the double precision of JSON numbers.
 //!
-//! The `gltf` crate stores them in single precision. Models far from the origin, as CAD and map
-//! data often are, would lose millimeters, so the transforms are taken out of the JSON beforehand.
+//! The `gltf` crate stores them in single precision. Models far from the origin, as is common in
+//! CAD and map data, would lose millimeters, so the transforms are removed from the JSON
+//! beforehand.
 
 use crate::warnings::ImportWarnings;
 use glam::{DMat4, DVec4};
@@ -9,7 +10,7 @@ use homog::{Affine, Model};
 use model::{Diagnostic, Trs};
 use serde_json::{Map, Value};
 
-/// A node's local transform as the file gives it; all numbers are finite.
+/// A node's local transform as given in the file; all numbers are finite.
 ///
 /// A matrix takes precedence over translation, rotation and scale in files that have both.
 #[derive(Clone, Debug)]
@@ -26,7 +27,7 @@ impl NodeTransform {
     /// The result has an entry for each node, in order.
     ///
     /// # Errors
-    /// A transform is not an array of the right length; reading leniently, it becomes the identity.
+    /// A transform is not an array of the right length; in lenient mode, it becomes the identity.
     pub(super) fn take_transforms(
         document: &mut Value,
         warnings: &mut ImportWarnings,
@@ -48,7 +49,7 @@ impl NodeTransform {
     /// Removes the transform from a node.
     ///
     /// # Errors
-    /// A member is present and not an array of the right number of numbers.
+    /// A member is present but is not an array of the right length.
     fn take_transform(
         node: &mut Map<String, Value>,
         node_index: usize,

@@ -1,7 +1,7 @@
-//! Mesh primitives: accessors become plain arrays, and what cannot be drawn is removed.
+//! Mesh primitives: accessors become plain arrays, and undrawable items are removed.
 //!
-//! Positions and indices define the shape; if they are invalid the file is refused. All other
-//! attributes change only the look: an invalid one is left out with a warning.
+//! Positions and indices define the shape; if they are invalid the file is rejected. All other
+//! attributes affect only the appearance: an invalid one is skipped with a warning.
 //!
 //! ```text
 //!  POSITION ──► number of vertices ─┐
@@ -10,9 +10,9 @@
 //!  positions of that range ─► drop items with vertices that are not finite ─► other attributes
 //! ```
 //!
-//! Only the range of vertices between the lowest and the highest index is read: exporters that
-//! share one array of vertices between all primitives would otherwise cost memory in proportion to
-//! the square of their number.
+//! Only the range of vertices between the lowest and the highest index is read. Otherwise exporters
+//! that share one array of vertices between all primitives would cost memory in proportion to the
+//! square of their number.
 
 use super::accessor::AccessorReader;
 use super::attribute::{
@@ -34,16 +34,16 @@ use model::{
 };
 use std::ops::Range;
 
-/// Sets of texture coordinates that are read.
+/// Maximum number of texture coordinate sets that are read.
 ///
-/// Materials seldom use more than two; the specification sets no maximum.
+/// Materials rarely use more than two; the specification sets no maximum.
 pub(super) const UV_SETS: u32 = 8;
-/// Sets of joints that are read.
+/// Maximum number of joint sets that are read.
 ///
-/// Each set has four influences, so that a vertex may follow 64 joints.
+/// Each set has four influences, so a vertex may follow 64 joints.
 const JOINT_SETS: u32 = 16;
 
-/// Context of primitives: other parts of the file that they refer to.
+/// Context of primitives: the other parts of the file that they refer to.
 #[derive(Clone, Copy)]
 pub(super) struct PrimitiveContext<'a> {
     /// The imported materials, which determine whether tangents are needed.
@@ -57,11 +57,11 @@ pub(super) struct PrimitiveContext<'a> {
 
 /// Reads all meshes of a file, and collects the values of a scalar attribute.
 ///
-/// A primitive that cannot be read becomes an empty one, because indices of primitives are part of
-/// JSON pointers and of the public interface: they must not shift.
+/// A primitive that cannot be read becomes an empty one: indices of primitives are part of JSON
+/// pointers and of the public interface, so they must not shift.
 ///
 /// # Errors
-/// Exceeded limits, unreadable files, and invalid positions or indices; reading leniently, the last
+/// Exceeded limits, unreadable files, and invalid positions or indices; in lenient mode, the last
 /// two are warnings.
 pub(super) fn import_meshes(
     source: &AccessorReader<'_>,
@@ -118,7 +118,7 @@ struct PrimitiveReader<'a, 'w> {
 
 impl<'a> PrimitiveReader<'a, '_> {
     /// Reads the primitive: decompresses it, expands strips and fans, removes invalid items, then
-    /// reads the attributes of the vertices that are used.
+    /// reads the attributes of the used vertices.
     ///
     /// The order of the steps matters. Invalid indices are removed before the range of used
     /// vertices is determined, because one wrong index would widen that range to the whole array;
@@ -169,7 +169,7 @@ impl<'a> PrimitiveReader<'a, '_> {
         Ok(primitive)
     }
 
-    /// Whether some material of the primitive needs a tangent frame; tangents are read only then.
+    /// Whether any material of the primitive needs a tangent frame; tangents are read only then.
     ///
     /// Tangents are 16 bytes for each vertex, and have no effect without a normal map or
     /// anisotropy. All material variants count: they can be selected after the import.
@@ -188,7 +188,7 @@ impl<'a> PrimitiveReader<'a, '_> {
         selection::variant_materials(root, self.json, &self.pointer, variants, self.warnings)
     }
 
-    /// Edges for line drawings, from the extensions that mark them; `None` without such an
+    /// Edges for line drawings, from the extensions that mark them; `None` if there is no such
     /// extension.
     ///
     /// They must be read before any triangle is dropped: the extension has bits for each triangle
@@ -211,8 +211,8 @@ impl<'a> PrimitiveReader<'a, '_> {
 
     /// Decoded data of a Draco-compressed primitive.
     ///
-    /// `None` if it is not compressed, or if the stream is broken and the file has uncompressed
-    /// data as a fallback for readers without the extension; a warning says so.
+    /// `None` if it is not compressed. Also `None`, with a warning, if the stream is broken and the
+    /// file has uncompressed data as a fallback for readers without the extension.
     fn decode_draco_data(&mut self, tangents: bool) -> Result<Option<DracoData>, Diagnostic> {
         let positions = self.attribute_accessor(Semantic::Positions);
         let has_other_data = positions.is_some_and(|accessor| !self.source.has_no_data(accessor));
@@ -229,10 +229,10 @@ impl<'a> PrimitiveReader<'a, '_> {
     /// The positions; `None` if the primitive has none.
     ///
     /// The specification allows a primitive without positions, for extensions that supply them
-    /// otherwise (glTF 2.0 §3.7.2.1); no such extension is supported.
+    /// in other ways (glTF 2.0 §3.7.2.1); no such extension is supported.
     ///
     /// # Errors
-    /// The accessor is invalid, or has another format than three floats or quantized integers.
+    /// The accessor is invalid, or its format is neither three floats nor quantized integers.
     fn position_elements<'e>(
         &mut self,
         decoded: Option<&'e DracoData>,
@@ -254,10 +254,10 @@ impl<'a> PrimitiveReader<'a, '_> {
         }))
     }
 
-    /// The vertices in drawing order: the indices, or without them the order of the file.
+    /// The vertices in drawing order: the indices, or the file order if there are none.
     ///
-    /// A primitive without indices gets them here: `0, 1, 2, …`. All later steps then have a single
-    /// case.
+    /// A primitive without indices gets them here: `0, 1, 2, …`, so that all later steps have a
+    /// single case.
     fn read_vertex_order(&self, vertices: usize) -> Result<Vec<u32>, Diagnostic> {
         let Some(accessor) = self.json.indices else {
             let accessor = self.attribute_accessor(Semantic::Positions).unwrap_or(0);
@@ -276,7 +276,7 @@ impl<'a> PrimitiveReader<'a, '_> {
     /// others.
     ///
     /// The test of the highest index comes first: it is one pass that the compiler vectorizes, and
-    /// nearly all files end there.
+    /// almost all files need no more.
     fn drop_items_without_vertices(&mut self, primitive: &mut Primitive, vertices: usize) {
         if used_range(&primitive.indices).end <= vertices {
             return;
@@ -288,8 +288,7 @@ impl<'a> PrimitiveReader<'a, '_> {
         self.warnings.push_warning(&format!("{}/indices", self.pointer), message);
     }
 
-    /// Removes items with a vertex at a position that is not finite: all remaining positions are
-    /// finite.
+    /// Removes items with a vertex position that is not finite: all remaining positions are finite.
     ///
     /// The positions themselves are set to 0, so that bounding boxes over all positions are finite
     /// too.
@@ -310,10 +309,10 @@ impl<'a> PrimitiveReader<'a, '_> {
         self.warnings.push_warning(&format!("{}/attributes/POSITION", self.pointer), message);
     }
 
-    /// Reads all attributes but the positions.
+    /// Reads all attributes except the positions.
     ///
-    /// Texture coordinates are read by set, up to the last set that the primitive has. A missing
-    /// set between two others becomes zeros, because materials refer to sets by number.
+    /// Texture coordinates are read set by set, up to the last set that the primitive has. A
+    /// missing set between two others becomes zeros, because materials refer to sets by number.
     ///
     /// # Errors
     /// Exceeded limits and unreadable files. An invalid attribute is dropped with a warning.
@@ -346,7 +345,7 @@ impl<'a> PrimitiveReader<'a, '_> {
         for set in 0..UV_SETS {
             let (texcoord, pointer) = named(Semantic::TexCoords(set));
             if let Some(uvs) = attributes.read_texcoords(texcoord, &pointer)? {
-                // A set that is missing between others is filled with zeros.
+                // A missing set between others is filled with zeros.
                 primitive.uvs.resize(set as usize, vec![[0.0; 2]; primitive.positions.len()]);
                 primitive.uvs.push(uvs);
             }
@@ -377,7 +376,7 @@ impl<'a> PrimitiveReader<'a, '_> {
 
     /// Normalizes the normals, with warnings.
     ///
-    /// Quantized normals are rarely of unit length; the warnings have counts and appear once for
+    /// Quantized normals rarely have unit length; the warnings include counts and appear once for
     /// each primitive.
     fn repair_normals(&mut self, primitive: &mut Primitive) {
         let normals::NormalRepairs { lengths, replaced } = normals::normalize_normals(primitive);
@@ -408,8 +407,8 @@ impl<'a> PrimitiveReader<'a, '_> {
 
 /// Reads the sets of joints and weights, up to the first that is missing or invalid.
 ///
-/// `named` gives the accessor of an attribute, if the primitive has it, and its location. A set of
-/// joints without weights means nothing, nor do weights without joints: both are dropped.
+/// `named` returns the accessor of an attribute, if the primitive has it, and its location. A set
+/// of joints without weights has no meaning, nor do weights without joints: both are dropped.
 ///
 /// Four influences are one set: `JOINTS_0` with `WEIGHTS_0`, `JOINTS_1` with `WEIGHTS_1`, and so on
 /// (glTF 2.0 §3.7.3.3).
@@ -432,7 +431,7 @@ fn read_joints(
     Ok(())
 }
 
-/// Renumbers indices from the lowest one on; returns the range they came from.
+/// Renumbers indices from the lowest one on; returns the original range.
 ///
 /// Exporters often store the vertices of all primitives in one array, of which each uses a range.
 fn rebase_indices(indices: &mut [u32]) -> Range<usize> {
@@ -453,7 +452,7 @@ fn used_range(indices: &[u32]) -> Range<usize> {
     if indices.is_empty() { 0..0 } else { low as usize..high as usize + 1 }
 }
 
-/// Retains the points, lines or triangles that `keep` accepts; returns the number of the others.
+/// Retains the points, lines or triangles that `keep` accepts; returns the number of removed ones.
 ///
 /// The visibility bits of edges are stored for each triangle and are filtered along with them.
 fn retain_items(primitive: &mut Primitive, keep: impl Fn(&[u32]) -> bool) -> usize {

@@ -1,8 +1,8 @@
 //! Scalar attributes of primitives: custom attributes such as `_TEMPERATURE` with accessors of type
 //! `SCALAR`.
 //!
-//! The range of the colors is that of the whole model. So the values of all primitives are collected
-//! while these are read, and become colors afterwards.
+//! The colors cover the range of the whole model. So the values of all primitives are collected
+//! first, and become colors afterwards.
 
 use super::attribute::{AttributeReader, CUSTOM_SCALAR};
 use crate::ScalarColors;
@@ -35,7 +35,7 @@ pub(super) struct CollectedScalars {
     primitives: Vec<PrimitiveScalars>,
 }
 
-/// The names of the scalar attributes of all primitives, each once, in alphabetical order.
+/// Names of the scalar attributes of all primitives, each once, in alphabetical order.
 pub(super) fn scalar_attributes(root: &Root) -> Vec<String> {
     let is_scalar = |accessor: &json::Index<json::Accessor>| {
         let accessor = root.accessors.get(accessor.value());
@@ -57,7 +57,7 @@ pub(super) fn scalar_attributes(root: &Root) -> Vec<String> {
 }
 
 impl CollectedScalars {
-    /// No values yet, of the attribute that the options name among those of the model.
+    /// An empty list of values, for the attribute that the options name.
     ///
     /// # Errors
     /// The model has no such attribute.
@@ -70,10 +70,10 @@ impl CollectedScalars {
 
     /// Reads the values of a primitive, if it has the attribute.
     ///
-    /// `named` gives the accessor of an attribute, if the primitive has it, and its location.
+    /// `named` returns the accessor of an attribute, if the primitive has it, and its location.
     ///
     /// # Errors
-    /// Exceeded limits and unreadable files. Invalid values are left out with a warning.
+    /// Exceeded limits and unreadable files. Invalid values are skipped with a warning.
     pub(super) fn read_values(
         &mut self,
         mesh: usize,
@@ -85,7 +85,7 @@ impl CollectedScalars {
         let (accessor, pointer) = named(attribute.clone());
         let values =
             attributes.read_attribute(accessor, &pointer, &CUSTOM_SCALAR, |source, elements| {
-                // The colors that the values become.
+                // Converts the values to colors.
                 source.charge_array(elements.accessor, elements.count, 16)?;
                 source.read_floats::<1>(&elements)
             })?;
@@ -95,7 +95,7 @@ impl CollectedScalars {
         Ok(())
     }
 
-    /// Gives the primitives that have values their colors, and a plain white material.
+    /// Gives the primitives with values their colors, and a plain white material.
     ///
     /// Variants of the material and morph targets of `COLOR_0` are removed there: they would change
     /// what a color means.

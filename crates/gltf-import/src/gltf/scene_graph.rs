@@ -1,10 +1,11 @@
-//! Scene graph import: nodes with their transforms, proof that they form a forest, and scene roots.
+//! Scene graph import: nodes with their transforms, a check that they form a forest, and scene
+//! roots.
 //!
 //! In glTF, children are listed by their parents. Nothing in the format prevents a node from having
 //! two parents or from being its own ancestor; both would make traversal of the model wrong or
-//! endless. The proof has two steps: each node gets at most one parent, and a traversal from the
-//! nodes without a parent must visit every node. Traversals use a stack of their own, so that depth
-//! costs memory and not the thread's stack; [`Limits::node_depth`] bounds it nevertheless.
+//! endless. The check has two steps: each node gets at most one parent, and a traversal from the
+//! nodes without a parent must visit every node. Traversals have an explicit stack, so depth costs
+//! memory and not the thread's stack; [`Limits::node_depth`] bounds it anyway.
 
 use super::document::GltfDocument;
 use super::node_transform::NodeTransform;
@@ -20,8 +21,8 @@ use model::{Diagnostic, Mesh, MeshInstance, Model, Node, Primitive, SceneRoots, 
 /// The time is linear in the number of nodes and children.
 ///
 /// # Errors
-/// There are too many nodes, or they are nested too deeply; an index is out of range, a node has
-/// two parents or is its own ancestor. Reading leniently, the last three are warnings.
+/// There are too many nodes, or they are nested too deeply; an index is out of range; a node has
+/// two parents or is its own ancestor. In lenient mode, the last three are warnings.
 pub(super) fn import_nodes(
     document: &GltfDocument,
     limits: &Limits,
@@ -43,8 +44,8 @@ pub(super) fn import_nodes(
 ///
 /// Its mesh, skin and camera are checked to exist; a skin without a mesh is dropped with a warning.
 ///
-/// A node whose matrix is not finite is placed at its parent when reading leniently. A node with a
-/// matrix has no `trs`, and cannot be animated.
+/// A node whose matrix is not finite is placed at its parent in lenient mode. A node with a matrix
+/// has no `trs`, and cannot be animated.
 fn read_node(
     document: &GltfDocument,
     at: usize,
@@ -92,7 +93,7 @@ fn read_node(
 /// `what` is the member's name and, in messages, the kind of object that it refers to.
 ///
 /// # Errors
-/// The index is out of range; reading leniently, the node is then without the object.
+/// The index is out of range; in lenient mode, the node then lacks the object.
 fn checked_index<T>(
     index: Option<Index<T>>,
     what: &str,
@@ -113,10 +114,10 @@ fn checked_index<T>(
 /// Sets the parent of every node; each may have only one.
 ///
 /// # Errors
-/// A child does not exist or has a parent already. Reading leniently, the first parent counts.
+/// A child does not exist or already has a parent. In lenient mode, the first parent is used.
 ///
-/// The children lists are rebuilt from the accepted links, so that parents and children agree
-/// afterwards whatever the file says.
+/// The children lists are rebuilt from the accepted links, so that parents and children always
+/// agree afterwards.
 fn link_parents(nodes: &mut [Node], warnings: &mut ImportWarnings) -> Result<(), Diagnostic> {
     let count = nodes.len();
     for parent in 0..count {
@@ -144,10 +145,10 @@ fn link_parents(nodes: &mut [Node], warnings: &mut ImportWarnings) -> Result<(),
 }
 
 /// Computes global transforms. With one parent each, the nodes form a forest if a traversal from
-/// the roots visits them all; what it misses are cycles.
+/// the roots visits them all; nodes that it misses are in cycles.
 ///
-/// Reading leniently, the first node that no root leads to becomes a root itself, which cuts the
-/// cycle above or around it.
+/// In lenient mode, the first node that cannot be reached from a root becomes a root itself, which
+/// breaks the cycle above or around it.
 ///
 /// # Errors
 /// A node is its own ancestor, a product of transforms overflows, or the limit of depth is
@@ -235,7 +236,7 @@ pub(super) fn import_scenes(root: &Root) -> Vec<SceneRoots> {
 /// `scene` is the index of the active scene, which has been checked or defaulted by the caller.
 ///
 /// # Errors
-/// A listed node does not exist; reading leniently, it is skipped.
+/// A listed node does not exist; in lenient mode, it is skipped.
 pub(super) fn scene_roots(
     root: &Root,
     scene: usize,
@@ -269,8 +270,8 @@ pub(super) fn scene_roots(
     Ok(roots)
 }
 
-/// Whether a node that a scene lists is to be drawn as a root: not if one of its ancestors is
-/// listed, which draws it already.
+/// Whether a node that a scene lists should be drawn as a root: not if one of its ancestors is
+/// listed, which already draws it.
 fn is_scene_root(
     nodes: &[Node],
     listed: &[bool],
@@ -293,11 +294,11 @@ fn is_scene_root(
 
 /// Checks the number of items that the active scene draws, each counted for every instance.
 ///
-/// A primitive counts as one more item, so that many empty ones are not free. For skinned meshes
-/// vertices and joints count as well, and for instanced meshes vertices.
+/// A primitive counts as one more item, so that many empty ones are not free. Vertices and joints
+/// of skinned meshes also count, and so do vertices of instanced meshes.
 ///
 /// # Errors
-/// The scene shows more than a limit allows.
+/// The scene contains more items than a limit allows.
 pub fn check_scene_items(model: &Model, limits: &Limits) -> Result<(), Diagnostic> {
     let sum = |count: fn(&Primitive) -> usize| -> Vec<u64> {
         let of_mesh = |mesh: &Mesh| mesh.primitives.iter().map(|p| count(p) as u64 + 1).sum();

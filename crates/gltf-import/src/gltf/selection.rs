@@ -1,8 +1,7 @@
 //! Active scene and material variants (KHR_materials_variants).
 //!
-//! Variants are named in the document's root; each primitive maps some of them to materials.
-//! Choosing a variant replaces the material of every primitive that maps it, once, when the file is
-//! loaded.
+//! The document's root names the variants; each primitive maps some of them to materials. Choosing
+//! a variant replaces the material of every primitive that maps it, once, when the file is loaded.
 
 use crate::NameOrIndex;
 use crate::warnings::ImportWarnings;
@@ -12,10 +11,10 @@ use serde_json::Value;
 
 /// The active scene: the requested one, else the default scene, else the first.
 ///
-/// The index is 0 for a file without scenes, whose root nodes are drawn then.
+/// The index is 0 for a file without scenes, whose root nodes are then drawn.
 ///
 /// # Errors
-/// The requested scene does not exist; the default scene does not exist, unless reading leniently.
+/// The requested scene does not exist; the default scene does not exist, unless in lenient mode.
 pub(super) fn select_scene(
     root: &Root,
     selector: Option<&NameOrIndex>,
@@ -40,7 +39,7 @@ const VARIANTS_EXTENSION: &str = "KHR_materials_variants";
 
 /// Names of the variants of a file.
 ///
-/// A variant without a name has an empty one: variants are identified by index.
+/// A variant without a name gets an empty one: variants are identified by index.
 pub(super) fn variant_names(root: &Root) -> Vec<String> {
     let extension =
         root.extensions.as_ref().and_then(|extensions| extensions.others.get(VARIANTS_EXTENSION));
@@ -52,7 +51,7 @@ pub(super) fn variant_names(root: &Root) -> Vec<String> {
 /// Index of the requested variant.
 ///
 /// # Errors
-/// The name is unknown or the index out of range; the error lists the names that exist.
+/// The name is unknown or the index out of range; the error lists the existing names.
 pub(super) fn select_variant(
     names: &[String],
     selector: &NameOrIndex,
@@ -61,7 +60,7 @@ pub(super) fn select_variant(
     selector.find_among(&names, "variant", &format!("/extensions/{VARIANTS_EXTENSION}/variants"))
 }
 
-/// Materials of a primitive in the variants. References to nothing are left out with a warning.
+/// Materials of a primitive in the variants. Invalid references are skipped with a warning.
 ///
 /// One mapping assigns a material to several variants; the result has an entry for each pair.
 pub(super) fn variant_materials(
@@ -102,8 +101,8 @@ pub(super) fn variant_materials(
 
 /// Material of a primitive in a variant, if the variant changes it.
 ///
-/// It serves the prediction of images, before primitives are imported, and discards warnings: the
-/// import adds them.
+/// It is used to predict images before primitives are imported, and discards warnings: the import
+/// adds them.
 pub(super) fn variant_material(
     root: &Root,
     json: &mesh::Primitive,
@@ -115,7 +114,7 @@ pub(super) fn variant_material(
         .map(|assignments| assignments.material)
 }
 
-/// Replaces the materials of primitives by those of a variant, where it changes them.
+/// Replaces the materials of the primitives that the variant changes.
 ///
 /// The time is linear in the number of primitives and their mappings.
 pub(super) fn apply_variant(meshes: &mut [Mesh], variant: usize) {

@@ -1,4 +1,4 @@
-//! Skins: joints and inverse bind matrices; an invalid skin is left out with a warning.
+//! Skins: joints and inverse bind matrices; an invalid skin is skipped with a warning.
 //!
 //! A skin needs at least one joint, every joint must be a node, and there must be a matrix for
 //! each. The `skeleton` member is ignored: it does not affect the joint matrices.
@@ -12,8 +12,8 @@ use model::{Diagnostic, Skin};
 
 /// Reads all skins of a file.
 ///
-/// An invalid skin remains in the list without joints, so that indices stay valid; the references
-/// of nodes to it are cleared later.
+/// An invalid skin stays in the list without joints, so that indices remain valid; nodes'
+/// references to it are cleared later.
 pub(super) fn import_skins(
     source: &AccessorReader<'_>,
     warnings: &mut ImportWarnings,
@@ -33,7 +33,7 @@ pub(super) fn import_skins(
 
 /// Reads and checks one skin. Missing matrices are identities (glTF 2.0 §3.7.3.1).
 ///
-/// More matrices than joints are accepted, and the rest is ignored.
+/// More matrices than joints are accepted, and the extra ones are ignored.
 ///
 /// # Errors
 /// A joint does not exist, there is none, or the matrices have another format, are too few or are

@@ -1,6 +1,6 @@
-//! Textures: the image each uses, and its sampler.
+//! Textures: the image and the sampler of each.
 //!
-//! glTF numbers filters and wrap modes by OpenGL's constants, with magnification, minification and
+//! glTF identifies filters and wrap modes by OpenGL constants, with magnification, minification and
 //! mipmap filter in two members; here each is an enum. Without a sampler, or without `minFilter`,
 //! textures repeat and are filtered trilinearly.
 
@@ -10,12 +10,12 @@ use gltf::json::texture::{MagFilter, MinFilter, WrappingMode};
 use gltf::json::validation::Checked;
 use model::{Diagnostic, MipmapMode, Sampler, Texture, TextureFilter, WrapMode};
 
-/// Value of `Texture::source` in the JSON type where the file has none.
+/// Value of `Texture::source` in the JSON type if the file has none.
 ///
 /// The `gltf` crate stores indices in 32 bits, and uses the largest as a marker.
 const NO_SOURCE: usize = u32::MAX as usize;
 
-/// Reads all textures of a file. Faults in them are warnings.
+/// Reads all textures of a file. Errors in them are warnings.
 ///
 /// A sampler that does not exist is replaced by the default one, with a warning.
 pub(super) fn import_textures(root: &Root, warnings: &mut ImportWarnings) -> Vec<Texture> {
@@ -40,10 +40,10 @@ pub(super) fn import_textures(root: &Root, warnings: &mut ImportWarnings) -> Vec
     textures
 }
 
-/// The image of a texture. That of a supported extension (KHR_texture_basisu, EXT_texture_webp)
-/// takes precedence over the fallback for readers without it.
+/// The image of a texture. An image from a supported extension (KHR_texture_basisu,
+/// EXT_texture_webp) takes precedence over the fallback for other readers.
 ///
-/// An index out of range leaves the texture without image, and the surface is drawn untextured.
+/// An index out of range leaves the texture without an image, and the surface is drawn untextured.
 fn texture_image(root: &Root, at: usize, warnings: &mut ImportWarnings) -> Option<usize> {
     let json = &root.textures[at];
     let extensions = json.extensions.as_ref().map(|extensions| &extensions.others);

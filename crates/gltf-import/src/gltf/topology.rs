@@ -9,15 +9,16 @@
 //! ```
 //!
 //! Every second triangle of a strip is flipped, so that all have the same winding. The vertex
-//! orders are those of glTF 2.0 §3.7.2.1.
+//! orders follow glTF 2.0 §3.7.2.1.
 
 use gltf::json::mesh::Mode;
 use model::Topology;
 
-/// Expands a sequence of vertices to a list. Vertices too few for another item are dropped.
+/// Expands a sequence of vertices to a list. Leftover vertices, too few for another item, are
+/// dropped.
 ///
-/// Lists cost up to three times the indices of a strip, and leave a single case for everything that
-/// follows. Degenerate triangles, which stitch strips together, remain: they cover no pixel.
+/// Lists cost up to three times the indices of a strip, and leave a single case for all later
+/// steps. Degenerate triangles, which stitch strips together, are kept: they cover no pixel.
 pub(super) fn expand_to_list(mode: Mode, mut vertices: Vec<u32>) -> (Topology, Vec<u32>) {
     let topology = match mode {
         Mode::Points => Topology::Points,
@@ -62,8 +63,8 @@ fn triangle_strip(vertices: &[u32]) -> Vec<u32> {
 
 /// Triangles around the first vertex, each with two consecutive vertices of the rim.
 ///
-/// The order `a b hub` is that of the specification; a cyclic permutation would have the same
-/// winding, but its edges would be numbered differently.
+/// The order `a b hub` follows the specification; a cyclic permutation would have the same winding,
+/// but would number its edges differently.
 fn triangle_fan(vertices: &[u32]) -> Vec<u32> {
     let Some((&hub, rim)) = vertices.split_first() else { return Vec::new() };
     rim.array_windows().flat_map(|&[a, b]: &[u32; 2]| [a, b, hub]).collect()

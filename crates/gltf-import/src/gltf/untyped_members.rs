@@ -1,8 +1,8 @@
 //! JSON members that the `gltf` crate's types do not have, collected before deserialization.
 //!
-//! These are animation channels that name their target by a pointer (KHR_animation_pointer), and
-//! attributes of morph targets beyond position, normal and tangent: glTF 2.0 §3.7.2.2 allows
-//! texture coordinates and colors as well.
+//! These are animation channels that give their target as a pointer (KHR_animation_pointer), and
+//! attributes of morph targets beyond position, normal and tangent: glTF 2.0 §3.7.2.2 also allows
+//! texture coordinates and colors.
 
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -12,18 +12,19 @@ use std::collections::BTreeMap;
 pub(super) struct UntypedMembers {
     /// Channels with pointers, in the order of the file.
     pub(super) pointer_channels: Vec<PointerChannel>,
-    /// For mesh, primitive and target index, further attributes by name with their accessors.
+    /// For each mesh, primitive and target index, additional attributes by name with their
+    /// accessors.
     pub(super) extra_morph_attributes: BTreeMap<(usize, usize, usize), Vec<(String, usize)>>,
 }
 
-/// An animation channel that names its target by a JSON pointer (KHR_animation_pointer).
+/// An animation channel that gives its target as a JSON pointer (KHR_animation_pointer).
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct PointerChannel {
     /// Index of the animation.
     pub(super) animation: usize,
     /// Index of the channel in it.
     pub(super) channel: usize,
-    /// Index of the sampler in the animation; too large where the file has none.
+    /// Index of the sampler in the animation; out of range if the file has none.
     pub(super) sampler: usize,
     /// JSON pointer to the property that changes.
     pub(super) target: String,
@@ -45,7 +46,7 @@ fn indexed_items<'a>(json: &'a Value, key: &str) -> impl Iterator<Item = (usize,
     json.get(key).and_then(Value::as_array).into_iter().flatten().enumerate()
 }
 
-/// The index in a JSON number; `usize::MAX`, which is out of every range, if it is absent.
+/// The index in a JSON number; if it is absent, `usize::MAX`, which is always out of range.
 fn index_or_max(value: Option<&Value>) -> usize {
     value.and_then(Value::as_u64).and_then(|at| usize::try_from(at).ok()).unwrap_or(usize::MAX)
 }

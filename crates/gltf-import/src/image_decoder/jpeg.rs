@@ -5,12 +5,12 @@
 //! ```
 //! Source: ITU-T T.81 (1992), §B.2.2.
 
-/// Refuses files in which a later component is sampled more finely than the first: the decoder
-/// sizes its buffers by the rows of the first and panics when another needs more. No camera and no
+/// Rejects files in which a later component is sampled more finely than the first: the decoder
+/// sizes its buffers by the rows of the first and panics if another needs more. No camera or
 /// program is known to write such files.
 ///
-/// Everything that looks like a frame header is checked, wherever it is: entropy-coded data cannot
-/// contain the marker, and which one the decoder finds in a broken file is not known here.
+/// Everything that looks like a frame header is checked, anywhere in the file: entropy-coded data
+/// cannot contain the marker, and it is unknown here which one the decoder finds in a broken file.
 pub(super) fn check_chroma_sampling(file: &[u8]) -> Result<(), String> {
     let headers = file.windows(2).enumerate().filter(|(_, mark)| is_frame_marker(mark));
     for (at, _) in headers {
@@ -38,11 +38,10 @@ fn is_frame_marker(mark: &[u8]) -> bool {
     matches!(mark, [0xFF, 0xC0..=0xC2])
 }
 
-/// Components of a frame header (id, sampling factors, table), if its length agrees with their
-/// number.
+/// Components of a frame header (id, sampling factors, table), if its length matches their number.
 ///
 /// `header` starts at the length, after the marker. Bytes that merely look like a marker rarely
-/// have a length that agrees with the number of components.
+/// have a length that matches the number of components.
 fn component_samplings(header: &[u8]) -> Option<&[[u8; 3]]> {
     let &[high, low, _, _, _, _, _, count] = header.first_chunk()?;
     let length = usize::from(u16::from_be_bytes([high, low]));

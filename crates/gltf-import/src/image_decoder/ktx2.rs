@@ -1,5 +1,5 @@
-//! KTX2 images (KHR_texture_basisu): ETC1S and UASTC blocks of Basis Universal to 8-bit RGBA, and
-//! RGB and RGBA of 8 bits as they are.
+//! KTX2 images (KHR_texture_basisu): decodes ETC1S and UASTC blocks of Basis Universal to 8-bit
+//! RGBA, and copies 8-bit RGB and RGBA.
 //!
 //! ```text
 //!  header ─► container ─┬─ BasisLZ ────────────► ETC1S blocks ─┐
@@ -7,7 +7,7 @@
 //!                       └─ Zstandard or plain ─► RGB or RGBA ──┘
 //! ```
 //! The container is read here, so that every size is checked before anything is allocated for it;
-//! the crate `basisu` decodes blocks. Of that crate only its two decoders to RGBA are called: its
+//! the crate `basisu` decodes blocks. Only that crate's two RGBA decoders are called: its
 //! `Transcoder` has a dozen more targets, which would all be linked, and reads more kinds of input
 //! than glTF allows.
 
@@ -23,7 +23,7 @@ pub(super) use container::{MAGIC, size};
 /// Decodes the first mip level.
 ///
 /// # Errors
-/// A message for people: the container is broken, of a kind that is not read, or its data is.
+/// A readable message: the container is broken or of an unsupported kind, or its data is broken.
 pub(super) fn decode(bytes: &[u8]) -> Result<model::Image, String> {
     let container = Ktx2File::read(bytes)?;
     let rgba = match container.encoding {
@@ -38,7 +38,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<model::Image, String> {
     let (width, height) = (container.width, container.height);
     let mut image = model::Image { width, height, rgba };
     if container.has_red_and_green_only {
-        // The second channel is stored where alpha is.
+        // The second channel is stored as alpha.
         image.rgba.iter_mut().for_each(|texel| *texel = [texel[0], texel[3], 0, 255]);
     }
     orient(&mut image, container.orientation);
@@ -90,8 +90,8 @@ fn decode_uastc(container: &Ktx2File<'_>) -> Result<Vec<[u8; 4]>, String> {
     Ok(rgba)
 }
 
-/// Turns an image that is stored from right to left, or from the bottom up, the way that glTF has
-/// images: from the upper left.
+/// Flips an image that is stored from right to left, or from the bottom up, so that it begins at
+/// the upper left as in glTF.
 fn orient(image: &mut model::Image, [from_the_right, from_below]: [bool; 2]) {
     let width = (image.width as usize).max(1);
     if from_the_right {

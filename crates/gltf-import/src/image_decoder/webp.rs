@@ -1,4 +1,4 @@
-//! WebP: frames larger than the image are refused before the decoder allocates for them.
+//! WebP: frames larger than the image are rejected before the decoder allocates for them.
 //!
 //! ```text
 //!  RIFF length WEBP │ VP8X canvas │ VP8 frame       chunks: id, length, bytes, padded to even
@@ -52,7 +52,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
     checked_image(width, height, rgba.collect())
 }
 
-/// Checks that all lossy frames fit into an image of this size.
+/// Checks that all lossy frames fit in an image of this size.
 ///
 /// A file of a few bytes may contain a frame that takes hundreds of megabytes; the decoder
 /// allocates before it compares the sizes.
@@ -72,7 +72,7 @@ fn check_frame_sizes(file: &[u8], size: (u32, u32)) -> Result<(), String> {
     Ok(())
 }
 
-/// Checks one chunk; all but `VP8 ` are accepted.
+/// Checks one chunk; all except `VP8 ` are accepted.
 ///
 /// The 14-bit width and height of a key frame follow its start code `9D 01 2A`.
 ///

@@ -1,12 +1,12 @@
-//! Elements of an OBJ file: points, lines and polygons as lists of references to vertices, and what
-//! holds for them.
+//! Elements of an OBJ file: points, lines and polygons as lists of vertex references, with their
+//! state.
 
 use model::Topology;
 
-/// Stands for a texture coordinate or a normal that a corner does not have.
+/// Marks missing texture coordinates or a missing normal of a corner.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// A corner of an element: indices of its position, texture coordinates and normal, from 0.
+/// A corner of an element: indices of its position, texture coordinates and normal, starting at 0.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Corner {
     /// Index of the position; may be out of range until the whole file has been read.
@@ -17,7 +17,7 @@ pub(super) struct Corner {
     pub(super) normal: u32,
 }
 
-/// The state that statements before an element set for it.
+/// The state that preceding statements set for an element.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct ElementState {
     /// Points, lines or polygons.
@@ -31,28 +31,28 @@ pub(super) struct ElementState {
     pub(super) smoothing: u32,
 }
 
-/// Elements in succession for which the same holds.
+/// Consecutive elements with the same state.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ElementRun {
-    /// Index of the first element; the next run has the end.
+    /// Index of the first element; the run ends where the next one begins.
     pub(super) first: usize,
-    /// The state that holds for them.
+    /// The state of these elements.
     pub(super) state: ElementState,
 }
 
-/// All elements of a file, in its order.
+/// All elements of a file, in file order.
 #[derive(Debug, Default)]
 pub(super) struct Elements {
-    /// The corners of one element after the other.
+    /// The corners of all elements, one element after another.
     pub(super) corners: Vec<Corner>,
-    /// For each element the end of its corners.
+    /// For each element, the end of its corners.
     pub(super) ends: Vec<u32>,
-    /// Runs of elements.
+    /// Runs of elements with the same state.
     pub(super) runs: Vec<ElementRun>,
 }
 
 impl Elements {
-    /// Makes an element of the corners that have been pushed since the last one.
+    /// Makes an element from the corners pushed since the last one.
     pub(super) fn finish_element(&mut self, state: ElementState) {
         if self.runs.last().is_none_or(|run| run.state != state) {
             self.runs.push(ElementRun { first: self.ends.len(), state });

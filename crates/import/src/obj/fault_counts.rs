@@ -1,15 +1,15 @@
-//! Counts of faults that leave the shape of a model as it is: each kind is reported once, with the
-//! place of the first.
+//! Counts of errors that do not affect the shape of a model: each kind is reported once, with the
+//! location of the first.
 
 use super::elements::NONE;
 use crate::text::LineCounter;
 use gltf_import::ImportWarnings;
 use std::collections::BTreeMap;
 
-/// Different statements that warnings name.
+/// Maximum number of different statements that warnings name.
 const MAX_NAMED_STATEMENTS: usize = 16;
 
-/// Number of occurrences of each kind of fault.
+/// Number of occurrences of each kind of error.
 #[derive(Default)]
 pub(super) struct FaultCounts<'a> {
     /// Elements with too few vertices.
@@ -26,7 +26,7 @@ pub(super) struct FaultCounts<'a> {
     further_statements: Occurrences,
 }
 
-/// Number of occurrences and offset of the first; 0 if it has no place.
+/// Number of occurrences and offset of the first; 0 if it has no location.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Occurrences {
     count: usize,
@@ -42,7 +42,7 @@ impl Occurrences {
         self.count += 1;
     }
 
-    /// Counts an attribute that does not exist, and returns the index that stands for none.
+    /// Counts an attribute that does not exist, and returns the index for a missing one.
     pub(super) fn count_none(&mut self, offset: usize) -> u32 {
         self.count_at(offset);
         NONE

@@ -1,25 +1,25 @@
-//! Materials of MTL libraries in terms of metallic-roughness shading.
+//! Converts materials of MTL libraries to metallic-roughness shading.
 //!
 //! | MTL | material |
 //! | --- | --- |
-//! | `Kd`, `Ke` | base color and emission, sRGB decoded; above 1 an emission has a strength |
+//! | `Kd`, `Ke` | base color and emission, sRGB decoded; an emission above 1 has a strength |
 //! | `Ns` | α² = 2 / (Ns + 2) |
-//! | `Ks` | reflectance at normal incidence 0.08 Ks; nothing for 0 |
+//! | `Ks` | reflectance at normal incidence 0.08 Ks; none for 0 |
 //! | `Kd` below 0.04, `Ks` not | a metal of the color `Ks` |
-//! | `illum` 0, 1 | unlit; matte and without reflections |
+//! | `illum` 0, 1 | unlit; matte without reflections |
 //! | `d`, else 1 − `Tr` | alpha |
 //! | `Ni` | index of refraction, for the reflectance of metallic-roughness materials |
-//! | `Pr`, `Pm`, `Ps`, `Pc`, `Pcr`, `aniso`, `anisor` | as they are; `Ns`, `Ks` do not count then |
+//! | `Pr`, `Pm`, `Ps`, `Pc`, `Pcr`, `aniso`, `anisor` | used as they are, without `Ns`, `Ks` |
 //!
-//! Beside a texture, which they multiply, black `Kd` and `Ke` are taken as white.
+//! Black `Kd` and `Ke` become white if a texture multiplies them.
 //!
-//! Files do not say how colors are encoded. They are picked on screens and shown unconverted by the
-//! programs of their time, so that they are sRGB.
+//! Files do not specify how colors are encoded. They are picked on screens and were shown
+//! unconverted by the programs of their time, so they are sRGB.
 //!
-//! `Ns` is the exponent of Blinn's distribution of half vectors, which Beckmann's and GGX's of
-//! α² = 2 / (Ns + 2) come close to (B. Walter et al., *Microfacet Models for Refraction through
-//! Rough Surfaces*, 2007, §5.2); the roughness is √α. The reflectance follows Blender, whose
-//! exporter writes `Ks` 0.5 for the 4 % of most dielectrics.
+//! `Ns` is the exponent of Blinn's distribution of half vectors. Beckmann's and GGX's distributions
+//! with α² = 2 / (Ns + 2) approximate it (B. Walter et al., *Microfacet Models for Refraction
+//! through Rough Surfaces*, 2007, §5.2); the roughness is √α. The reflectance follows Blender,
+//! whose exporter writes `Ks` 0.5 for the 4 % of most dielectrics.
 
 use super::mtl::MtlMaterial;
 use super::phong::{PhongMaterial, color_beside_texture, double_sided_matte, linear_color};
@@ -28,7 +28,7 @@ use super::textures::TextureTable;
 use gltf_import::ImportWarnings;
 use model::{AlphaMode, Anisotropy, Clearcoat, Emission, Material, NormalTexture, Sheen};
 
-/// A material of a library. Textures that it needs are entered in the table.
+/// Converts a material of a library. The textures it needs are added to the table.
 pub(super) fn to_material<'a>(
     mtl: &MtlMaterial<'a>,
     textures: &mut TextureTable<'a>,
@@ -53,7 +53,7 @@ pub(super) fn to_material<'a>(
     material
 }
 
-/// Emission; a color above 1 is one of at most 1 with a strength.
+/// Sets the emission; a color above 1 becomes one of at most 1 with a strength.
 fn set_emission(material: &mut Material, mtl: &MtlMaterial<'_>) {
     let color = color_beside_texture(mtl.emission, mtl.has_texture("map_Ke"), [0.0; 3]);
     let strength = color.into_iter().fold(1.0, f32::max);
@@ -62,7 +62,7 @@ fn set_emission(material: &mut Material, mtl: &MtlMaterial<'_>) {
     material.emissive = material.emission.scaled_color();
 }
 
-/// The keys of metallic-roughness materials. A texture multiplies a factor of 1 where none is
+/// Applies the keys of metallic-roughness materials. A texture multiplies a factor of 1 if none is
 /// given.
 fn set_metallic_roughness(material: &mut Material, mtl: &MtlMaterial<'_>) {
     let factor = |key: &str, map: &str, default: f32| {
@@ -75,7 +75,7 @@ fn set_metallic_roughness(material: &mut Material, mtl: &MtlMaterial<'_>) {
     }
 }
 
-/// Sheen, clearcoat and anisotropy.
+/// Applies sheen, clearcoat and anisotropy.
 fn set_layers(material: &mut Material, mtl: &MtlMaterial<'_>) {
     if let Some(sheen) = mtl.unit_number("Ps").filter(|sheen| *sheen > 0.0) {
         let layer = Sheen { color: [sheen; 3], roughness: 0.5, ..Sheen::default() };
@@ -94,7 +94,7 @@ fn set_layers(material: &mut Material, mtl: &MtlMaterial<'_>) {
     }
 }
 
-/// Blending of what is translucent; warnings of what would not be seen.
+/// Enables blending for translucent materials, and warns of invisible ones.
 fn set_alpha_mode(material: &mut Material, mtl: &MtlMaterial<'_>, warnings: &mut ImportWarnings) {
     let name = String::from_utf8_lossy(mtl.name);
     if material.base_color[3] == 0.0 {
@@ -108,7 +108,7 @@ fn set_alpha_mode(material: &mut Material, mtl: &MtlMaterial<'_>, warnings: &mut
     }
 }
 
-/// Textures of the material.
+/// Adds the textures of the material.
 fn set_textures<'a>(
     material: &mut Material,
     mtl: &MtlMaterial<'a>,
@@ -133,7 +133,7 @@ impl MtlMaterial<'_> {
         self.numbers.get(key).copied()
     }
 
-    /// The number of a keyword, clamped to 0 to 1.
+    /// The number of a keyword, clamped to [0, 1].
     fn unit_number(&self, key: &str) -> Option<f32> {
         self.number(key).map(|number| number.clamp(0.0, 1.0))
     }
@@ -151,7 +151,7 @@ impl MtlMaterial<'_> {
         }
     }
 
-    /// Whether the material has a texture of this keyword.
+    /// Whether the material has a texture for this keyword.
     fn has_texture(&self, key: &str) -> bool {
         self.textures.contains_key(key)
     }

@@ -9,7 +9,7 @@ use crate::text::{LineCounter, Token, parse_f32};
 use gltf_import::ImportWarnings;
 use std::collections::BTreeMap;
 
-/// A material as the library describes it; `None` for what it does not say.
+/// A material as described in the library; `None` for anything it does not specify.
 #[derive(Clone, Debug, Default)]
 pub(super) struct MtlMaterial<'a> {
     /// The name after `newmtl`.
@@ -20,9 +20,9 @@ pub(super) struct MtlMaterial<'a> {
     pub(super) specular: Option<[f32; 3]>,
     /// Emitted light, `Ke`.
     pub(super) emission: Option<[f32; 3]>,
-    /// Single numbers by keyword: `Ns`, `Ni`, `d`, `Tr`, `illum`, `Pr` …, of those that are read.
+    /// Single numbers by keyword: `Ns`, `Ni`, `d`, `Tr`, `illum`, `Pr` …; only the supported ones.
     pub(super) numbers: BTreeMap<&'static str, f32>,
-    /// Textures by keyword, in one spelling for each.
+    /// Textures by keyword, with one spelling for each.
     pub(super) textures: BTreeMap<&'static str, MtlTexture<'a>>,
 }
 
@@ -43,11 +43,11 @@ pub(super) struct MtlTexture<'a> {
     pub(super) channel: Option<u8>,
 }
 
-/// Keywords of numbers that are read.
+/// Supported keywords for numbers.
 const NUMBERS: [&str; 12] =
     ["Ns", "Ni", "d", "Tr", "illum", "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor"];
 
-/// Keywords of textures, and the one spelling for each. Those with an empty one are not read.
+/// Keywords for textures, each with its normalized spelling. Those with an empty one are not read.
 const TEXTURES: [(&str, &str); 23] = [
     ("map_kd", "map_Kd"),
     ("map_d", "map_d"),
@@ -74,10 +74,10 @@ const TEXTURES: [(&str, &str); 23] = [
     ("decal", ""),
 ];
 
-/// Statements without effect here: ambient light is that of the scene, filters are the renderer's.
+/// Statements without effect here: the scene sets the ambient light, and the renderer the filters.
 const IGNORED: [&str; 5] = ["Ka", "map_Ka", "map_aat", "sharpness", "Tf"];
 
-/// Parses a material library; `name` stands before the locations of warnings.
+/// Parses a material library; `name` precedes the locations of warnings.
 pub(super) fn parse_mtl<'a>(
     text: &'a [u8],
     name: &str,
@@ -102,7 +102,7 @@ pub(super) fn parse_mtl<'a>(
     parser.materials
 }
 
-/// The parser with what is left out so far.
+/// The parser with the statements skipped so far.
 struct MtlParser<'a> {
     reader: StatementReader<'a>,
     materials: Vec<MtlMaterial<'a>>,
@@ -110,11 +110,11 @@ struct MtlParser<'a> {
     unread: BTreeMap<String, (usize, usize)>,
 }
 
-/// Different statements and options that are counted by name.
+/// Maximum number of different statements and options that are counted by name.
 const MAX_NAMED_STATEMENTS: usize = 32;
 
 impl<'a> MtlParser<'a> {
-    /// Reads one statement. What comes before the first `newmtl` belongs to no material.
+    /// Reads one statement. Statements before the first `newmtl` belong to no material.
     fn read_statement(&mut self, keyword: Token<'a>) {
         if keyword.is_keyword("newmtl") {
             let name = self.reader.rest_of_line().bytes;
@@ -134,7 +134,7 @@ impl<'a> MtlParser<'a> {
         }
     }
 
-    /// Counts something that is not read.
+    /// Counts a statement or option that is not read.
     fn count_unread(&mut self, what: &str, offset: usize) {
         let mut what: String = format!("`{}`", what.chars().take(32).collect::<String>());
         if self.unread.len() >= MAX_NAMED_STATEMENTS && !self.unread.contains_key(&what) {
@@ -182,7 +182,7 @@ impl<'a> MtlParser<'a> {
         }
     }
 
-    /// Up to `N` finite numbers that come next.
+    /// Reads up to `N` finite numbers.
     fn read_numbers<const N: usize>(&mut self) -> Vec<f32> {
         let mut numbers = Vec::with_capacity(N);
         let mut ahead = self.reader;
@@ -196,7 +196,7 @@ impl<'a> MtlParser<'a> {
         numbers
     }
 
-    /// `map_Kd -s 2 2 file name.png`: options, and the rest of the line as file name.
+    /// `map_Kd -s 2 2 file name.png`: options, with the rest of the line as file name.
     fn read_texture(&mut self, keyword: Token<'a>, name: &'static str) {
         let mut texture = MtlTexture {
             file: keyword,
@@ -228,11 +228,11 @@ impl<'a> MtlParser<'a> {
         }
     }
 
-    /// Reads the arguments of an option of a texture; `false` if there is no such option.
+    /// Reads the arguments of a texture option; `false` if there is no such option.
     fn read_option(&mut self, option: Token<'a>, texture: &mut MtlTexture<'a>) -> bool {
         let is = |name: &str| option.is_keyword(name);
         if is("-o") || is("-s") || is("-t") {
-            // The third number is for textures in space.
+            // The third number is for 3D textures.
             let numbers = self.read_numbers::<3>();
             let pair = |default: f32| [0, 1].map(|at| numbers.get(at).copied().unwrap_or(default));
             match option.bytes {

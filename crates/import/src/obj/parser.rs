@@ -1,7 +1,7 @@
 //! Parser of OBJ files: statements become vertex data, elements and names.
 //!
 //! Source: Alias|Wavefront, *Object Files (.obj)*, Appendix B1 of the Advanced Visualizer manual;
-//! vertex colors are an extension of ZBrush and MeshLab.
+//! vertex colors are an extension by ZBrush and MeshLab.
 
 use super::elements::{Corner, ElementState, Elements, NONE};
 use super::fault_counts::FaultCounts;
@@ -12,16 +12,16 @@ use gltf_import::ImportWarnings;
 use model::{Diagnostic, Topology, codes};
 use std::collections::BTreeMap;
 
-/// Statements without effect on the picture of a polygon mesh.
+/// Statements that do not affect the picture of a polygon mesh.
 const IGNORED: [&[u8]; 6] =
     [b"lod", b"shadow_obj", b"trace_obj", b"c_interp", b"d_interp", b"bevel"];
 
-/// The content of an OBJ file. Names are parts of its text.
+/// The content of an OBJ file. Names are slices of its text.
 #[derive(Debug, Default)]
 pub(super) struct ObjFile<'a> {
-    /// Positions; not finite where the statement is broken.
+    /// Positions; not finite if the statement is broken.
     pub(super) positions: Vec<[f32; 3]>,
-    /// Vertex colors as the file has them, NaN for what it has not; shorter than `positions` if the
+    /// Vertex colors as in the file, NaN for missing components; shorter than `positions` if the
     /// last ones have none.
     pub(super) colors: Vec<[f32; 4]>,
     /// Texture coordinates, with v pointing up.
@@ -30,9 +30,9 @@ pub(super) struct ObjFile<'a> {
     pub(super) normals: Vec<[f32; 3]>,
     /// Points, lines and polygons.
     pub(super) elements: Elements,
-    /// Objects and groups that have elements, in their order.
+    /// Objects and groups that have elements, in file order.
     pub(super) groups: Vec<GroupName<'a>>,
-    /// Materials that elements have, in their order.
+    /// Materials that elements use, in file order.
     pub(super) material_names: Vec<&'a [u8]>,
     /// Material libraries.
     pub(super) libraries: Vec<Token<'a>>,
@@ -45,16 +45,16 @@ pub(super) struct ObjFile<'a> {
 /// Names of the object and the group of elements; empty for none.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
 pub(super) struct GroupName<'a> {
-    /// The object, by `o`.
+    /// The object, from `o`.
     pub(super) object: &'a [u8],
-    /// The groups, by `g`: several are one name.
+    /// The groups, from `g`: several form one name.
     pub(super) group: &'a [u8],
 }
 
 /// Parses an OBJ file in UTF-8.
 ///
 /// # Errors
-/// An element refers to a vertex that does not exist; it is left out when reading leniently.
+/// An element refers to a vertex that does not exist; in lenient mode it is skipped.
 pub(super) fn parse_obj<'a>(
     text: &'a [u8],
     warnings: &mut ImportWarnings,
@@ -70,7 +70,7 @@ pub(super) fn parse_obj<'a>(
     parser.finish()
 }
 
-/// The parser with what holds at the current statement.
+/// The parser with the state at the current statement.
 struct ObjParser<'a, 'w> {
     reader: StatementReader<'a>,
     lines: LineCounter<'a>,
@@ -88,7 +88,7 @@ struct ObjParser<'a, 'w> {
     material_indices: BTreeMap<&'a [u8], u32>,
     /// Whether there has been an element, broken or not.
     has_elements: bool,
-    /// References to vertices that have not been defined yet: element, offset and index.
+    /// References to vertices that are not yet defined: element, offset and index.
     forward: Vec<(usize, usize, u32)>,
     faults: FaultCounts<'a>,
 }
@@ -138,7 +138,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         Ok(())
     }
 
-    /// Up to `N` numbers of the statement and how many there were; those that are missing or broken
+    /// Reads at most `N` numeric arguments, and returns how many there were; missing or broken ones
     /// are NaN.
     #[inline]
     fn read_numbers<const N: usize>(&mut self) -> ([f32; N], usize) {
@@ -154,7 +154,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
 
     /// `v x y z`, with a weight, or with a color of three or four components.
     ///
-    /// The weight belongs to rational curves and leaves points where they are.
+    /// The weight is for rational curves and does not affect points.
     fn read_position(&mut self, offset: usize) {
         let (numbers, count) = self.read_numbers::<7>();
         let [x, y, z, r, g, b, a] = numbers;
@@ -169,7 +169,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         }
     }
 
-    /// `vt u v w`; v is 0 if there is none, w is for textures in space.
+    /// `vt u v w`; v is 0 if it is missing, w is for 3D textures.
     fn read_uv(&mut self, offset: usize) {
         let ([u, v], count) = self.read_numbers::<2>();
         let uv = [u, if count < 2 { 0.0 } else { v }];
@@ -179,14 +179,14 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         self.file.uvs.push(uv.map(|x| if x.is_finite() { x } else { 0.0 }));
     }
 
-    /// Changes the name of the next elements to the rest of the line.
+    /// Sets the name of the following elements from the rest of the line.
     fn set_name(&mut self, change: impl FnOnce(&mut GroupName<'a>, &'a [u8])) {
         let text = self.reader.rest_of_line().bytes;
         change(&mut self.name, text);
         self.group = None;
     }
 
-    /// `usemtl name`; without a name the default material.
+    /// `usemtl name`; without a name it selects the default material.
     fn set_material(&mut self) {
         let name = self.reader.rest_of_line().bytes;
         self.material = (!name.is_empty()).then(|| {
@@ -221,7 +221,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         ElementState { topology, group, material: self.material, smoothing: self.smoothing }
     }
 
-    /// `f`, `l` or `p`: an element of references to vertices.
+    /// `f`, `l` or `p`: an element made of vertex references.
     fn read_element(&mut self, offset: usize, topology: Topology) -> Result<(), Diagnostic> {
         self.has_elements = true;
         let start = self.file.elements.corners.len();
@@ -248,7 +248,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         Ok(())
     }
 
-    /// Reports an element that cannot be read; it is an error unless reading leniently.
+    /// Reports an element that cannot be read; an error unless in lenient mode.
     fn leave_out(&mut self, offset: usize, message: String) -> Result<(), Diagnostic> {
         let location = self.lines.locate(offset);
         let help = "export the file again, or load it with --lenient";
@@ -293,13 +293,13 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         }
     }
 
-    /// Checks references ahead, and reports what was counted.
+    /// Checks forward references, and reports the counts.
     fn finish(mut self) -> Result<ObjFile<'a>, Diagnostic> {
         let count = self.file.positions.len();
         for (element, offset, index) in std::mem::take(&mut self.forward) {
             if index as usize >= count {
                 self.leave_out(offset, missing_vertex(&(u64::from(index) + 1).to_string(), count))?;
-                // Marked for the builder, which leaves such elements out.
+                // Marked for the builder, which skips such elements.
                 let start = self.file.elements.corner_range(element).start;
                 self.file.elements.corners[start].position = NONE;
             }
@@ -312,7 +312,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         Ok(self.file)
     }
 
-    /// Makes a point of every vertex: a file without elements is a cloud of points.
+    /// Makes a point of every vertex: a file without elements is a point cloud.
     fn make_points(&mut self) {
         let is_finite = |position: &[f32; 3]| position.iter().all(|x| x.is_finite());
         for at in 0..self.file.positions.len() {
@@ -340,8 +340,8 @@ impl<'a, 'w> ObjParser<'a, 'w> {
     }
 }
 
-/// Takes a whole number with an optional sign from the beginning of some bytes; `None` if there is
-/// none or it has more than 18 digits.
+/// Takes an integer with an optional sign from the beginning of the bytes; `None` if there is none
+/// or it has more than 18 digits.
 #[inline]
 fn take_integer(rest: &mut &[u8]) -> Option<i64> {
     let is_negative = rest.first() == Some(&b'-');
@@ -361,8 +361,8 @@ fn take_integer(rest: &mut &[u8]) -> Option<i64> {
     Some(if is_negative { -value } else { value })
 }
 
-/// The index from 0 of a reference: from 1, or from −1 for the last of `count`. `None` if there can
-/// be no such item; one that is not less than `count` may come later.
+/// Converts a reference (from 1, or from −1 for the last of `count`) to an index from 0. `None` if
+/// there can be no such item; one that is not less than `count` may be defined later.
 #[inline]
 fn resolve_index(reference: i64, count: usize) -> Option<u32> {
     let index = if reference > 0 { reference - 1 } else { count as i64 + reference };
@@ -380,7 +380,7 @@ fn missing_vertex(reference: &str, count: usize) -> String {
     }
 }
 
-/// The message for a word that is no reference.
+/// The message for a word that is not a reference.
 fn not_a_reference(token: Token<'_>) -> String {
     let word: String = token.to_text().chars().take(32).collect();
     format!("{word:?} is not a reference to a vertex such as 1, 1/2, 1//3 or 1/2/3")

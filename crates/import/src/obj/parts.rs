@@ -1,5 +1,5 @@
 //! Parts: the elements of an OBJ file, cut into points, lines and triangles and sorted by group,
-//! material and attributes, each part to become a primitive.
+//! material and attributes. Each part becomes a primitive.
 
 use super::elements::{Corner, ElementState, NONE};
 use super::parser::ObjFile;
@@ -9,17 +9,17 @@ use gltf_import::ImportWarnings;
 use model::{Diagnostic, Topology, codes};
 use std::collections::BTreeMap;
 
-/// Smoothing groups from here on are those of single polygons.
+/// Smoothing groups from here on belong to single polygons.
 pub(super) const FLAT_GROUP: u32 = 1 << 31;
 
-/// Attributes that all items of a part have in common.
+/// Attributes shared by all items of a part.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) struct PartKey {
     /// The object and group, an index of the file's groups.
     pub(super) group: u32,
     /// The material, an index of the file's material names.
     pub(super) material: Option<u32>,
-    /// Indices of each item: 1 for points, 2 for lines, 3 for triangles.
+    /// Number of indices per item: 1 for points, 2 for lines, 3 for triangles.
     pub(super) corners_per_item: usize,
     /// Whether all corners have texture coordinates.
     pub(super) has_uvs: bool,
@@ -30,9 +30,9 @@ pub(super) struct PartKey {
 /// The points, lines or triangles of one primitive.
 #[derive(Debug)]
 pub(super) struct Part {
-    /// The attributes in common.
+    /// The shared attributes.
     pub(super) key: PartKey,
-    /// Corners of the items, as indices of the file's corners.
+    /// Corners of the items, as indices into the file's corners.
     pub(super) corners: Vec<u32>,
     /// The smoothing group of each item; empty in files without smoothing groups.
     pub(super) smoothing: Vec<u32>,
@@ -49,10 +49,10 @@ impl Part {
     }
 }
 
-/// Cuts and sorts the elements of a file; parts come in the order of their first elements.
+/// Cuts and sorts the elements of a file; parts are in the order of their first elements.
 ///
 /// # Errors
-/// An element has a vertex that is not three finite numbers; it is left out when reading leniently.
+/// An element has a vertex that is not three finite numbers; in lenient mode it is skipped.
 pub(super) fn split_elements(
     file: &ObjFile<'_>,
     text: &[u8],
@@ -69,7 +69,7 @@ pub(super) fn split_elements(
                 None => {}
                 Some(None) => continue,
                 Some(Some(offset)) => {
-                    // Counting lines takes time: only the first has a place.
+                    // Counting lines takes time, so only the first has a location.
                     if broken == 0 {
                         let fault = broken_vertex(&LineCounter::new(text).locate(offset));
                         warnings.downgrade_if_lenient(fault, "the element is left out")?;
@@ -86,7 +86,7 @@ pub(super) fn split_elements(
                 _ => cutter.part_of(state, has_uvs, has_normals),
             };
             latest = Some((attributes, part));
-            // A polygon that is not smooth is a group of its own, however it is cut.
+            // A polygon that is not smooth forms its own group, however it is cut.
             let smoothing = match state.smoothing {
                 0 => FLAT_GROUP | element as u32,
                 group => group,
@@ -116,17 +116,17 @@ fn broken_vertex(location: &str) -> Diagnostic {
     Diagnostic::error(codes::INVALID_DATA, location, message, help)
 }
 
-/// The parts so far, and what cutting needs.
+/// The parts so far, and the state of the cutting.
 struct ElementCutter<'a> {
     file: &'a ObjFile<'a>,
     parts: Vec<Part>,
     part_indices: BTreeMap<PartKey, usize>,
     triangulator: Triangulator,
-    /// Corners of the polygon that is cut.
+    /// Corners of the current polygon.
     polygon: Vec<[f32; 3]>,
     /// Its triangles.
     triangles: Vec<[u32; 3]>,
-    /// Number of polygons that became fans.
+    /// Number of polygons that were cut into fans.
     fans: usize,
 }
 
@@ -144,7 +144,7 @@ impl<'a> ElementCutter<'a> {
         }
     }
 
-    /// The part of elements, new if it is the first.
+    /// The part for an element; a new one if it is the first.
     fn part_of(&mut self, state: ElementState, has_uvs: bool, has_normals: bool) -> usize {
         let ElementState { group, material, topology, .. } = state;
         let corners_per_item = topology.vertices_per_item();
@@ -157,8 +157,8 @@ impl<'a> ElementCutter<'a> {
         })
     }
 
-    /// Whether an element has a vertex without position, and if it is not the mark of elements that
-    /// have been reported before, the offset of its statement.
+    /// Returns whether an element has a vertex without a position, with the offset of its statement
+    /// unless it has already been reported.
     fn find_broken_vertex(&self, corners: &[Corner]) -> Option<Option<usize>> {
         if corners.iter().any(|corner| corner.position as usize >= self.file.positions.len()) {
             return Some(None);

@@ -1,17 +1,17 @@
-//! Phong shading of MTL libraries as metallic-roughness materials.
+//! Converts Phong materials of MTL libraries to metallic-roughness materials.
 
 use gltf_import::linear_from_srgb;
 use model::{AlphaMode, Material, Specular};
 
-/// Diffuse color, sRGB encoded, where a library gives none.
+/// Diffuse color, sRGB encoded, if a library gives none.
 const PLAIN_COLOR: [f32; 3] = [0.8; 3];
-/// The largest diffuse color of a metal, and the least specular one.
+/// The largest diffuse color of a metal, and the smallest specular one.
 const METAL_THRESHOLD: f32 = 0.04;
 
-/// The keys of Phong shading of an MTL library; `None` for those that it lacks.
+/// The Phong shading keys of an MTL library; `None` for missing ones.
 ///
-/// Colors are sRGB encoded, from 0 to 1. The importer of OBJ files reads them from a library, and
-/// other programs may have them as numbers.
+/// Colors are sRGB encoded, from 0 to 1. The OBJ importer reads them from a library; other programs
+/// may have them as numbers.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct PhongMaterial {
     /// `Kd`, the diffuse color.
@@ -20,7 +20,7 @@ pub struct PhongMaterial {
     pub specular: Option<[f32; 3]>,
     /// `Ns`, the exponent of the specular highlight.
     pub exponent: Option<f32>,
-    /// `illum`, the model of illumination.
+    /// `illum`, the illumination model.
     pub illumination: Option<f32>,
     /// `d`, the opacity.
     pub dissolve: Option<f32>,
@@ -31,7 +31,7 @@ pub struct PhongMaterial {
 }
 
 impl PhongMaterial {
-    /// The double-sided metallic-roughness material that looks alike, without its textures.
+    /// The double-sided metallic-roughness material that looks similar, without its textures.
     #[must_use]
     pub fn to_material(&self) -> Material {
         let mut material = Material { base_color: self.base_color(), ..double_sided_matte() };
@@ -49,9 +49,9 @@ impl PhongMaterial {
         [r, g, b, self.alpha()]
     }
 
-    /// Alpha, by `d` or else `Tr`.
+    /// Alpha, from `d` or else `Tr`.
     ///
-    /// `Tr 1` alone would make everything invisible: programs that write it mean the opposite.
+    /// By itself, `Tr 1` would make everything invisible: programs that write it mean the opposite.
     pub(super) fn alpha(&self) -> f32 {
         let transparency = self.transparency.map(|transparency| transparency.clamp(0.0, 1.0));
         match (self.dissolve, transparency) {
@@ -61,12 +61,12 @@ impl PhongMaterial {
         }
     }
 
-    /// Whether nothing says how opaque it is but `Tr 1`.
+    /// Whether only `Tr 1` gives the opacity.
     pub(super) fn is_invisible_by_transparency(&self) -> bool {
         self.dissolve.is_none() && self.transparency.is_some_and(|transparency| transparency >= 1.0)
     }
 
-    /// Sets roughness and reflectance, and what makes a metal of it.
+    /// Sets roughness and reflectance, and the color of a metal.
     pub(super) fn set_reflection(&self, material: &mut Material) {
         material.unlit = self.illumination == Some(0.0);
         let is_matte = self.illumination == Some(1.0);
@@ -82,7 +82,7 @@ impl PhongMaterial {
             material.metallic = 1.0;
             return;
         }
-        // 0.04 · strength · color = 0.08 · Ks, with a color of at least 1 in its largest channel.
+        // 0.04 · strength · color = 0.08 · Ks; the largest channel of the color is at least 1.
         let strength = (2.0 * largest(specular)).min(1.0);
         let color =
             specular.map(|channel| if strength > 0.0 { 2.0 * channel / strength } else { 1.0 });
@@ -93,13 +93,13 @@ impl PhongMaterial {
     }
 }
 
-/// A material that reflects nothing but diffusely, seen from both sides.
+/// A purely diffuse material, seen from both sides.
 pub(super) fn double_sided_matte() -> Material {
     Material { double_sided: true, metallic: 0.0, roughness: 1.0, ..Material::plain() }
 }
 
-/// A color beside a texture that it multiplies: white where it is black or not given, as the
-/// texture would not be seen.
+/// A color multiplied by a texture: white if it is black or missing, because the texture would
+/// otherwise be invisible.
 pub(super) fn color_beside_texture(
     color: Option<[f32; 3]>,
     has_texture: bool,
@@ -112,7 +112,7 @@ pub(super) fn color_beside_texture(
     }
 }
 
-/// Linear light of an sRGB color; numbers beyond 0 to 1 are clamped.
+/// Converts an sRGB color to linear light; numbers outside [0, 1] are clamped.
 pub(super) fn linear_color(color: [f32; 3]) -> [f32; 3] {
     color.map(|channel| linear_from_srgb(channel.clamp(0.0, 1.0)))
 }

@@ -1,5 +1,4 @@
-//! Primitives of an OBJ file: parts get their normals where the file has none, and corners that are
-//! the same share a vertex.
+//! Primitives of an OBJ file: missing normals are computed, and identical corners share a vertex.
 
 use super::elements::{Corner, NONE};
 use super::parser::ObjFile;
@@ -11,7 +10,7 @@ use gltf_import::linear_from_srgb;
 use gltf_import::normalize_normals;
 use model::{Diagnostic, Primitive, Topology};
 
-/// A primitive with the group that it belongs to.
+/// A primitive with the group it belongs to.
 pub(super) struct GroupPrimitive {
     /// Index of the group in the file.
     pub(super) group: u32,
@@ -19,10 +18,10 @@ pub(super) struct GroupPrimitive {
     pub(super) primitive: Primitive,
 }
 
-/// Builds the primitives of a file, in the order in which their first elements come.
+/// Builds the primitives of a file, in the order of their first elements.
 ///
 /// # Errors
-/// An element has a vertex that is not three finite numbers; it is left out when reading leniently.
+/// An element has a vertex that is not three finite numbers; in lenient mode it is skipped.
 pub(super) fn build_primitives(
     mut file: ObjFile<'_>,
     text: &[u8],
@@ -58,18 +57,18 @@ fn is_computed(part: &Part) -> bool {
     part.topology() == Topology::Triangles && !part.key.has_normals
 }
 
-/// Computes the normals of all triangles without, over the whole file, so that a border between two
-/// groups or materials is no crease.
+/// Computes all missing normals over the whole file, so that a border between two groups or
+/// materials is not a crease.
 ///
-/// They are appended to the file's; the result has an index for each corner of those parts, one
-/// part after the other.
+/// They are appended to the file's normals; the result has an index for each corner of those parts,
+/// one part after another.
 fn compute_normals(file: &mut ObjFile<'_>, parts: &[Part], crease_angle: f64) -> Vec<u32> {
     let parts = || parts.iter().filter(|part| is_computed(part));
     let count: usize = parts().map(|part| part.corners.len()).sum();
     if count == 0 {
         return Vec::new();
     }
-    // Positions that are not finite have equal bits too; no triangle has them.
+    // Positions that are not finite have equal bits too, but no triangle uses them.
     let mut welder = VertexWelder::with_capacity(file.positions.len());
     let welded = welder.weld_all(&file.positions);
     let mut triangles: Vec<[u32; 3]> = Vec::with_capacity(count / 3);
@@ -88,14 +87,14 @@ fn compute_normals(file: &mut ObjFile<'_>, parts: &[Part], crease_angle: f64) ->
     computed.triangles.into_flattened().into_iter().map(|vertex| first + vertex).collect()
 }
 
-/// Vertex colors in linear light; empty if the file has none, else one for each position.
+/// Vertex colors in linear light; empty if the file has none, otherwise one for each position.
 ///
-/// They are sRGB encoded, from 0 to 1, or to 255 if one is above 1.
+/// They are sRGB encoded, from 0 to 1, or to 255 if any is above 1.
 fn linear_colors(file: &ObjFile<'_>, warnings: &mut ImportWarnings) -> Vec<[f32; 4]> {
     if file.colors.is_empty() {
         return Vec::new();
     }
-    // White is the color of vertices without.
+    // Vertices without a color are white.
     let is_of_bytes = file.colors.as_flattened().iter().any(|&channel| channel > 1.0);
     if is_of_bytes {
         warnings.push_warning("", "vertex colors exceed 1: they are taken as numbers up to 255");
@@ -111,7 +110,7 @@ fn linear_colors(file: &ObjFile<'_>, warnings: &mut ImportWarnings) -> Vec<[f32;
     colors
 }
 
-/// Builds the primitive of a part; `normals` has the computed normal of each corner, if they are
+/// Builds the primitive of a part; `normals` has the normal of each corner, if normals are
 /// computed.
 fn build_primitive(
     file: &ObjFile<'_>,

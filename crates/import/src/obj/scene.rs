@@ -5,7 +5,7 @@ use super::primitives::GroupPrimitive;
 use model::{Mesh, Model, Node};
 use std::collections::BTreeMap;
 
-/// Gives a model the meshes of groups, and nodes that have them.
+/// Adds the meshes of the groups to a model, with their nodes.
 ///
 /// A group of an object is a child of the object's node; groups without object, and objects, are
 /// roots.
@@ -41,7 +41,7 @@ pub(super) fn build_scene(
     }
 }
 
-/// A mesh without primitives that has the name of its group, or else of its object.
+/// A mesh without primitives, named after its group, or else its object.
 fn group_mesh(names: &GroupName<'_>) -> Mesh {
     let name = if names.group.is_empty() { names.object } else { names.group };
     Mesh { name: to_name(name), ..Mesh::default() }

@@ -1,13 +1,13 @@
-//! Statements of OBJ and MTL files: a keyword and its arguments, on one line or several that are
-//! joined by a backslash.
+//! Statements of OBJ and MTL files: a keyword and its arguments, on one line or on several joined
+//! by backslashes.
 
 use crate::text::Token;
 
-/// Reader of one statement after the other. It stays on the line of a statement until the next one
-/// is asked for.
+/// Reads one statement after another. It stays on the line of a statement until the next one is
+/// requested.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StatementReader<'a> {
-    /// The text in UTF-8, or in another encoding that has ASCII as a part.
+    /// The text in UTF-8, or in another encoding that contains ASCII.
     text: &'a [u8],
     /// Offset of the next byte.
     at: usize,
@@ -59,7 +59,7 @@ impl<'a> StatementReader<'a> {
         while text.get(end).is_some_and(|byte| *byte > b' ') {
             end += 1;
         }
-        // `7\` at the end of a line: the number, and the joint.
+        // `7\` at the end of a line: the number, and the continuation.
         if text[end - 1] == b'\\' && end - start > 1 && self.continuation_length(end - 1) > 0 {
             end -= 1;
         }
@@ -67,8 +67,7 @@ impl<'a> StatementReader<'a> {
         Some(Token { bytes: &text[start..end], offset: start })
     }
 
-    /// The rest of the line, for names, which may contain spaces; without the white space around
-    /// it.
+    /// The rest of the line, for names, which may contain spaces; without surrounding white space.
     pub(super) fn rest_of_line(&mut self) -> Token<'a> {
         let rest = self.text.get(self.at..).unwrap_or_default();
         let length = line_length(rest);
@@ -77,7 +76,7 @@ impl<'a> StatementReader<'a> {
         line.trim()
     }
 
-    /// Goes to the end of the statement. A comment ends with its line: `# C:\` joins nothing.
+    /// Goes to the end of the statement. A comment ends with its line: `# C:\` does not continue.
     fn skip_line(&mut self) {
         loop {
             let rest = self.text.get(self.at..).unwrap_or_default();
@@ -113,7 +112,7 @@ fn line_length(rest: &[u8]) -> usize {
 mod tests {
     use super::*;
 
-    /// Statements as words.
+    /// The statements, each as words.
     fn statements(text: &str) -> Vec<Vec<String>> {
         let mut reader = StatementReader::new(text.as_bytes());
         let mut all = Vec::new();
@@ -137,7 +136,7 @@ mod tests {
                 vec![vec!["v", "1", "2"], vec!["f", "3", "4"], vec!["end"]],
             ),
             ("f 1 \\\n 2\\\r\n3\nv", vec![vec!["f", "1", "2", "3"], vec!["v"]]),
-            // In the middle of a line, before the end of the file, and in a comment.
+            // In the middle of a line, at the end of the file, and in a comment.
             ("g a\\b\nf 1 \\", vec![vec!["g", "a\\b"], vec!["f", "1", "\\"]]),
             ("# C:\\\nv 1", vec![vec!["v", "1"]]),
             ("\\\n\\\nv \\\n", vec![vec!["v"]]),

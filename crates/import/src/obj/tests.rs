@@ -1,4 +1,4 @@
-//! Files as they are written by hand and by programs, read through the public interface.
+//! Files as written by hand and by programs, read through the public interface.
 
 mod materials;
 mod shapes;
@@ -29,7 +29,7 @@ fn triangle_count(model: &Model) -> usize {
     primitives(model).iter().filter(is_surface).map(|primitive| primitive.item_count()).sum()
 }
 
-/// Warnings as text, one a line.
+/// Warnings as text, one per line.
 fn warnings(model: &Model) -> String {
     model.warnings.iter().map(|warning| format!("{}\n", warning.sentence())).collect()
 }

@@ -1,5 +1,5 @@
-//! Textures of MTL libraries: which image files the materials need, and images that are made of
-//! several, as a material here has one texture where MTL has two.
+//! Textures of MTL libraries: the image files that the materials need, and images combined from
+//! several files, because a material here has one texture where MTL has two.
 
 use super::mtl::MtlTexture;
 use super::shorten;
@@ -12,15 +12,15 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// Image files that are looked for.
+/// Maximum number of image files.
 const MAX_IMAGES: usize = 4096;
 
-/// Images and textures that the materials so far need.
+/// Images and textures needed by the materials so far.
 #[derive(Debug, Default)]
 pub(super) struct TextureTable<'a> {
-    /// Folder of the current library, with a slash at its end; empty for that of the OBJ file.
+    /// Folder of the current library, with a slash at its end; empty for the OBJ file's folder.
     pub(super) folder: String,
-    /// Images: files, and what is made of several.
+    /// Images: files, and combinations of several.
     images: Vec<ImageSource<'a>>,
     files: BTreeMap<(String, &'a [u8]), usize>,
     textures: Vec<Texture>,
@@ -29,14 +29,14 @@ pub(super) struct TextureTable<'a> {
     bump_maps: BTreeSet<usize>,
 }
 
-/// Where an image comes from.
+/// The source of an image.
 #[derive(Clone, Debug)]
 enum ImageSource<'a> {
-    /// A file, by its folder and name.
+    /// A file, given by folder and name.
     File { folder: String, name: &'a [u8] },
-    /// Color of one image, opacity of another.
+    /// Color from one image, opacity from another.
     Opacity { color: Option<usize>, opacity: usize, channel: Option<u8> },
-    /// Roughness as green, metalness as blue; white where there is none.
+    /// Roughness as green, metalness as blue; white if missing.
     MetallicRoughness { roughness: Option<usize>, metallic: Option<usize> },
 }
 
@@ -47,14 +47,15 @@ impl<'a> TextureTable<'a> {
         self.texture_of(image, mtl)
     }
 
-    /// The texture of a bump map, which is read if it is a normal map.
+    /// The texture of a bump map, which is used only if it is a normal map.
     pub(super) fn use_bump_map(&mut self, mtl: &MtlTexture<'a>) -> TextureInfo {
         let image = self.file_image(mtl);
         self.bump_maps.insert(image);
         self.texture_of(image, mtl)
     }
 
-    /// The texture of color and opacity; the options of the color's count, if there is one.
+    /// The texture of color and opacity; the options of the color texture are used, if there is
+    /// one.
     ///
     /// A file that is both is used as it is, with its own alpha.
     pub(super) fn base_color(
@@ -80,7 +81,8 @@ impl<'a> TextureTable<'a> {
         Some(self.texture_of(image, options))
     }
 
-    /// The texture of roughness and metalness; the options of the roughness count, if there is one.
+    /// The texture of roughness and metalness; the options of the roughness texture are used, if
+    /// there is one.
     pub(super) fn metallic_roughness(
         &mut self,
         roughness: Option<&MtlTexture<'a>>,
@@ -93,7 +95,7 @@ impl<'a> TextureTable<'a> {
         Some(self.texture_of(image, options))
     }
 
-    /// Index of the image of a file.
+    /// Index of a file's image.
     fn file_image(&mut self, mtl: &MtlTexture<'a>) -> usize {
         let key = (self.folder.clone(), mtl.file.bytes);
         if let Some(image) = self.files.get(&key) {
@@ -112,7 +114,7 @@ impl<'a> TextureTable<'a> {
 
     /// A reference to an image with the options of a statement.
     ///
-    /// With v up, coordinates are scaled and then moved; here v is down.
+    /// With v up, coordinates are scaled and then translated; here v points down.
     fn texture_of(&mut self, image: usize, mtl: &MtlTexture<'a>) -> TextureInfo {
         let textures = &mut self.textures;
         let texture = *self.texture_indices.entry((image, mtl.is_clamped)).or_insert_with(|| {
@@ -128,7 +130,7 @@ impl<'a> TextureTable<'a> {
         TextureInfo { texture, uv_set: 0, uv_matrix }
     }
 
-    /// Reads and decodes the files, makes the images that need several, and gives all to the model.
+    /// Reads and decodes the files, combines images, and adds all of them to the model.
     pub(super) fn load_images(
         self,
         model: &mut Model,
@@ -137,7 +139,7 @@ impl<'a> TextureTable<'a> {
         warnings: &mut ImportWarnings,
     ) {
         let Self { images, textures, bump_maps, .. } = self;
-        // Files first, in an order of their own.
+        // Files come first, in a separate order.
         let mut file_indices = vec![None; images.len()];
         let mut files = Vec::new();
         for (image, source) in images.iter().enumerate() {
@@ -159,7 +161,7 @@ impl<'a> TextureTable<'a> {
     }
 }
 
-/// Makes the images that need several, and brings all into the order of the table.
+/// Combines images, and brings all of them into the order of the table.
 fn combine_all(
     model: &mut Model,
     images: &[ImageSource<'_>],
@@ -200,9 +202,9 @@ fn combine_all(
     model.images = Arc::from(all);
 }
 
-/// Reads the file of an image: below the library's folder, else below that of the OBJ file, else
-/// beside it by its last name alone, as many libraries have paths of the computer they were made
-/// on.
+/// Reads the file of an image: below the library's folder, else below the OBJ file's folder, else
+/// next to it by its file name only, because many libraries contain paths of the computer they were
+/// made on.
 fn read_image<'a>(
     folder: &str,
     name: &[u8],
@@ -228,7 +230,7 @@ fn read_image<'a>(
     TextureImage { name, location, bytes: Some(bytes.map(Cow::Owned)) }
 }
 
-/// An image beyond the number of those that are read.
+/// An image beyond the maximum number.
 fn unread_image<'a>(name: &[u8]) -> TextureImage<'a> {
     let name = String::from_utf8_lossy(name).into_owned();
     let location = format!("texture {}", shorten(&name));
@@ -237,7 +239,7 @@ fn unread_image<'a>(name: &[u8]) -> TextureImage<'a> {
     TextureImage { name, location, bytes: Some(bytes) }
 }
 
-/// Texels of images that are made of others.
+/// Limit on the number of texels in combined images.
 struct TexelLimit {
     left: u64,
 }
@@ -251,7 +253,8 @@ impl TexelLimit {
     }
 }
 
-/// An image of the size of `like`, of the texel of another at the same place, and its own.
+/// An image of the size of `like`; each texel is made from its own and the other image's texel at
+/// the same position.
 fn combine_images(
     like: &Image,
     other: Option<&Image>,
@@ -271,8 +274,8 @@ fn combine_images(
     Image { width, height, rgba }
 }
 
-/// The opacity of a texel: its alpha if the image has any, else its luminance; or the channel that
-/// `-imfchan` names.
+/// The opacity of a texel: its alpha if the image has any, else its luminance, or the channel named
+/// by `-imfchan`.
 fn opacity([r, g, b, a]: [u8; 4], channel: Option<u8>, has_alpha: bool) -> u8 {
     // Rec. 709 in 256ths.
     let luminance = (54 * u32::from(r) + 183 * u32::from(g) + 19 * u32::from(b)) / 256;
@@ -286,9 +289,9 @@ fn opacity([r, g, b, a]: [u8; 4], channel: Option<u8>, has_alpha: bool) -> u8 {
     }
 }
 
-/// Leaves out bump maps that are gray: heights need a scale, which no library gives.
+/// Removes gray bump maps: heights need a scale, which no library gives.
 ///
-/// A colored one is a normal map, which many programs write under this name.
+/// A colored one is a normal map, which many programs store under this name.
 fn remove_height_maps(
     model: &mut Model,
     bump_maps: &BTreeSet<usize>,

@@ -1,20 +1,20 @@
-//! Vertices of a primitive: corners with the same position, texture coordinates and normal share
-//! one.
+//! Shares vertices within a primitive: corners with the same position, texture coordinates and
+//! normal use one vertex.
 
 use super::elements::{Corner, NONE};
 
-/// Vertices at one position that are compared before another is made. A position with more of them
-/// would take quadratic time; corners beyond share less, which costs memory only.
+/// Maximum number of vertices at one position that are compared before another is made. A position
+/// with more would take quadratic time; further corners share less, which only costs memory.
 const MAX_COMPARISONS: usize = 32;
 
-/// The vertices of one primitive after the other, in the order in which corners first need them.
+/// The vertices of one primitive after another, in the order in which corners first need them.
 #[derive(Debug)]
 pub(super) struct VertexSharing {
     /// The last vertex at each position.
     latest: Vec<u32>,
-    /// For each vertex the one before it at the same position.
+    /// For each vertex, the previous one at the same position.
     before: Vec<u32>,
-    /// The corner that each vertex stands for.
+    /// The corner that each vertex represents.
     pub(super) corners: Vec<Corner>,
 }
 

@@ -1,25 +1,25 @@
-//! The body of a PLY file: numbers one after the other, as text or in binary.
+//! The body of a PLY file: a sequence of numbers, as text or in binary.
 //!
-//! Every number is read as `f64`, which holds each value of each type exactly.
+//! Every number is read as `f64`, which represents each value of each type exactly.
 
 use super::header::{Encoding, PlyElement, ScalarType};
 use crate::text::{LineCounter, TextScanner, Token, parse_f64};
 use model::Diagnostic;
 use std::cell::RefCell;
 
-/// Reads the numbers of a body in their order.
+/// Reads a body number by number.
 pub(super) struct Body<'a> {
     /// The whole file, for locations.
     bytes: &'a [u8],
-    /// Where the next number begins.
+    /// Offset of the next number.
     at: usize,
     encoding: Encoding,
-    /// Goes on from one fault to the next.
+    /// Continues from one error to the next.
     lines: RefCell<LineCounter<'a>>,
     /// Whether each record of a text begins a line; the rest of a line is then ignored.
     has_lines: bool,
-    /// The place of the first record with more numbers than the header declares, and how many there
-    /// are.
+    /// The location of the first record with more numbers than the header declares, and how many
+    /// there are.
     longer: Option<(String, usize)>,
 }
 
@@ -31,7 +31,8 @@ impl<'a> Body<'a> {
         Self { bytes, at, encoding, lines, has_lines: false, longer: None }
     }
 
-    /// The body of a file with this many records: if a text has as many lines, each is one.
+    /// The body of a file with this many records: if a text has the same number of lines, each line
+    /// is a record.
     pub(super) fn with_records(mut self, count: u64) -> Self {
         if self.encoding == Encoding::Ascii {
             let lines = self.bytes[self.at..].split(|byte| *byte == b'\n' || *byte == b'\r');
@@ -41,7 +42,7 @@ impl<'a> Body<'a> {
         self
     }
 
-    /// Ends a record: passes over what else is on its line, as other readers do.
+    /// Ends a record: skips the rest of its line, as other readers do.
     pub(super) fn end_record(&mut self) {
         if !self.has_lines {
             return;
@@ -50,7 +51,7 @@ impl<'a> Body<'a> {
         let end = rest.iter().position(|byte| *byte == b'\n' || *byte == b'\r');
         let end = end.unwrap_or(rest.len());
         let mut words = rest[..end].split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
-        // A word is an error, as anywhere.
+        // A word that is not a number is an error, as everywhere.
         if words.clone().any(|word| parse_f64(word).is_none()) {
             return;
         }
@@ -77,7 +78,7 @@ impl<'a> Body<'a> {
         Some((place, message))
     }
 
-    /// The number of records that the file can hold at most from here, for reserving memory.
+    /// The maximum number of records that the file can hold from here, for reserving memory.
     pub(super) fn plausible_records(&self, element: &PlyElement) -> usize {
         let left = self.bytes.len() - self.at;
         let possible = left / element.min_record_bytes(self.encoding).max(1) + 1;
@@ -87,7 +88,7 @@ impl<'a> Body<'a> {
     /// The next number.
     ///
     /// # Errors
-    /// The file ends, or what follows is no number.
+    /// The file ends, or the next word is not a number.
     pub(super) fn next_number(&mut self, scalar: ScalarType) -> Result<f64, Diagnostic> {
         if self.encoding == Encoding::Ascii {
             return self.next_decimal();
@@ -105,10 +106,10 @@ impl<'a> Body<'a> {
         Ok(to_number(u64::from_le_bytes(value), scalar))
     }
 
-    /// The length of a list, checked against the bytes that are left.
+    /// The length of a list, checked against the remaining bytes.
     ///
     /// # Errors
-    /// The length is negative, not whole, or more than the rest of the file can hold.
+    /// The length is negative, not an integer, or more than the rest of the file can hold.
     pub(super) fn next_list_length(
         &mut self,
         length: ScalarType,
@@ -129,7 +130,7 @@ impl<'a> Body<'a> {
         Err(self.fault(&message))
     }
 
-    /// Skips the records of an element that nothing is known about.
+    /// Skips the records of an unknown element.
     ///
     /// # Errors
     /// The file ends before its last record.
@@ -153,7 +154,7 @@ impl<'a> Body<'a> {
     /// Skips numbers.
     ///
     /// # Errors
-    /// The file ends before.
+    /// The file ends too early.
     pub(super) fn skip_numbers(
         &mut self,
         count: usize,
@@ -185,14 +186,14 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// An error at the place that has been reached.
+    /// An error at the current location.
     #[cold]
     #[inline(never)]
     pub(super) fn fault(&self, message: &str) -> Diagnostic {
         Diagnostic::invalid(&self.location(), message)
     }
 
-    /// The place that has been reached: line and column of a text, otherwise the byte.
+    /// The current location: line and column of a text, otherwise the byte.
     pub(super) fn location(&self) -> String {
         if self.encoding != Encoding::Ascii {
             return format!("byte {}", self.at);
@@ -201,7 +202,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// The number that the lowest bytes of a word hold.
+/// The number stored in the lowest bytes of a word.
 fn to_number(word: u64, scalar: ScalarType) -> f64 {
     match scalar {
         ScalarType::I8 => f64::from(word as i8),

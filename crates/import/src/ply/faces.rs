@@ -1,4 +1,4 @@
-//! The faces of a PLY file: polygons, triangle strips, and what a face or its corners carry.
+//! The faces of a PLY file: polygons, triangle strips, and the attributes of faces and corners.
 
 use super::body::Body;
 use super::header::{PlyElement, PlyProperty};
@@ -6,7 +6,7 @@ use super::vertices::{color_channel, linearize_colors};
 use gltf_import::ImportWarnings;
 use model::Diagnostic;
 
-/// Polygons, one after the other.
+/// Polygons, one after another.
 #[derive(Default, Debug)]
 pub(crate) struct Faces {
     /// The number of corners of each face.
@@ -17,9 +17,9 @@ pub(crate) struct Faces {
     pub(crate) uvs: Option<Vec<[f32; 2]>>,
     /// The linear color of each face.
     pub(crate) colors: Option<Vec<[f32; 4]>>,
-    /// The number of each face's texture among those of the file.
+    /// The index of each face's texture among the file's textures.
     pub(crate) textures: Option<Vec<u32>>,
-    /// Faces with less than three corners, which are left out.
+    /// Faces with fewer than three corners, which are skipped.
     pub(crate) without_area: usize,
 }
 
@@ -45,7 +45,7 @@ impl FaceProperty {
     }
 }
 
-/// One face while it is read.
+/// One face as it is being read.
 #[derive(Default)]
 struct FaceRecord {
     corners: Vec<u32>,
@@ -57,8 +57,8 @@ struct FaceRecord {
 /// Reads the polygons of an element.
 ///
 /// # Errors
-/// An index has no vertex, or the file ends before the last face. Reading leniently, the face or
-/// the rest is left out.
+/// An index has no vertex, or the file ends before the last face. In lenient mode the face or the
+/// rest is skipped.
 pub(super) fn read_faces(
     body: &mut Body<'_>,
     element: &PlyElement,
@@ -103,7 +103,7 @@ pub(super) fn read_faces(
 }
 
 impl FaceRecord {
-    /// Reads a face; a fault in the result is one of this face alone.
+    /// Reads a face; an error inside the result concerns only this face.
     ///
     /// # Errors
     /// Nothing after the fault can be read.
@@ -156,7 +156,7 @@ pub(super) fn no_such_vertex(body: &Body<'_>, vertex: f64, vertices: u64) -> Dia
 }
 
 impl Faces {
-    /// Adds a face, if it has three corners at least.
+    /// Adds a face, if it has at least three corners.
     fn push_face(&mut self, record: &FaceRecord) {
         let count = record.corners.len();
         if count < 3 {
@@ -184,7 +184,7 @@ impl Faces {
 
 /// Reads triangle strips: lists of vertices in which −1 begins a new strip.
 ///
-/// Every second triangle of a strip is turned round, so that all face the same way.
+/// Every second triangle of a strip is reversed, so that all face the same way.
 ///
 /// # Errors
 /// As for [`read_faces`].

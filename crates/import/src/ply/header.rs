@@ -1,4 +1,4 @@
-//! The header of a PLY file: lines of text that declare elements and the properties of each.
+//! The header of a PLY file: lines of text that declare the elements and their properties.
 //!
 //! ```text
 //!  ply
@@ -11,20 +11,20 @@
 //!  end_header
 //! ```
 //!
-//! Lines end with `\n`, `\r\n` or `\r`. After `end_header` exactly one such end is taken, because a
-//! binary body may begin with the byte 10 or 13; `\r` alone ends that line only where it ends the
-//! first one as well.
+//! Lines end with `\n`, `\r\n` or `\r`. After `end_header` exactly one line end is consumed,
+//! because a binary body may begin with byte 10 or 13. A bare `\r` ends that line only if it also
+//! ends the first one.
 
 use model::{Diagnostic, codes};
 
-/// How the values of the body are written.
+/// The encoding of the values in the body.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Encoding {
     /// As decimal numbers.
     Ascii,
-    /// In binary, the least significant byte first.
+    /// In binary, least significant byte first.
     LittleEndian,
-    /// In binary, the most significant byte first.
+    /// In binary, most significant byte first.
     BigEndian,
 }
 
@@ -42,7 +42,7 @@ pub(super) enum ScalarType {
 }
 
 impl ScalarType {
-    /// The type of a name, by the old convention (`uchar`) or the new one (`uint8`).
+    /// The type for a name, in the old convention (`uchar`) or the new one (`uint8`).
     fn from_name(name: &str) -> Option<Self> {
         Some(match name {
             "char" | "int8" => Self::I8,
@@ -57,7 +57,7 @@ impl ScalarType {
         })
     }
 
-    /// Bytes of a value in a binary body.
+    /// Size in bytes of a value in a binary body.
     pub(super) const fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -67,7 +67,7 @@ impl ScalarType {
         }
     }
 
-    /// The value that stands for 1 where colors are stored: the largest of an integer type.
+    /// The value that represents 1 in stored colors: the largest of an integer type.
     pub(super) const fn color_scale(self) -> f32 {
         match self {
             Self::I8 | Self::U8 => u8::MAX as f32,
@@ -89,19 +89,19 @@ pub(super) struct PlyProperty {
     pub(super) scalar: ScalarType,
 }
 
-/// A kind of record, and how many the body has of it.
+/// A kind of record, with its number of records in the body.
 #[derive(Clone, Debug)]
 pub(super) struct PlyElement {
     /// The name: `vertex`, `face`, `edge`, `tristrips` or any other.
     pub(super) name: String,
-    /// The declared number of records, which nothing has confirmed.
+    /// The declared number of records, not yet verified.
     pub(super) count: u64,
-    /// The properties of each record, in their order.
+    /// The properties of each record, in order.
     pub(super) properties: Vec<PlyProperty>,
 }
 
 impl PlyElement {
-    /// The fewest bytes that a record takes in the body; 0 only without properties.
+    /// The minimum number of bytes of a record in the body; 0 only without properties.
     pub(super) fn min_record_bytes(&self, encoding: Encoding) -> usize {
         let bytes = |property: &PlyProperty| match encoding {
             // A digit and a separator.
@@ -115,14 +115,14 @@ impl PlyElement {
 /// The declarations of the header.
 #[derive(Debug)]
 pub(super) struct Header {
-    /// How the body is written.
+    /// The encoding of the body.
     pub(super) encoding: Encoding,
     /// The elements in the order of the body.
     pub(super) elements: Vec<PlyElement>,
     /// Names of texture files from `comment TextureFile NAME`.
     pub(super) texture_files: Vec<String>,
-    /// The first lines that begin with no word of the format, with their numbers: comments that
-    /// lack the word.
+    /// The first lines that begin with an unknown word, with their numbers: comments without the
+    /// keyword.
     pub(super) stray_lines: Vec<(usize, String)>,
     /// The offset of the body.
     pub(super) body: usize,
@@ -132,7 +132,7 @@ impl Header {
     /// Reads the header of a file.
     ///
     /// # Errors
-    /// A line is not of the format, or there is no `end_header`.
+    /// A line does not follow the format, or there is no `end_header`.
     pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, Diagnostic> {
         let mut lines = Lines::new(bytes);
         let mut header = Self {
@@ -185,10 +185,10 @@ impl Header {
         Err(Diagnostic::invalid(&location, "the file ends before `end_header`"))
     }
 
-    /// Takes a line that begins with a word outside of the format for a comment.
+    /// Takes a line that begins with an unknown word as a comment.
     ///
     /// # Errors
-    /// If the word is nearly one of the format, or if there are too many such lines.
+    /// The word is almost one of the format, or there are too many such lines.
     fn add_stray_line(&mut self, number: usize, line: &str, word: &str) -> Result<(), Diagnostic> {
         if is_misspelled(word) || self.stray_lines.len() == MAX_STRAY_LINES {
             let message = format!(
@@ -203,22 +203,22 @@ impl Header {
     }
 }
 
-/// The most lines of a header that are taken for comments.
+/// The maximum number of header lines that are taken as comments.
 const MAX_STRAY_LINES: usize = 16;
 
-/// Whether a word could be meant as one of the format: what it says then matters.
+/// Whether a word could be a misspelled keyword of the format, so that its line matters.
 fn is_misspelled(word: &str) -> bool {
     let words = ["comment", "element", "end_header", "format", "obj_info", "property"];
     let word = word.to_ascii_lowercase();
     words.iter().any(|known| strsim::levenshtein(known, &word) <= 2)
 }
 
-/// The first characters of a text that is quoted in a message.
+/// The first characters of a text, for quoting in a message.
 fn shorten(text: &str) -> String {
     text.chars().take(32).collect()
 }
 
-/// The name of a texture in a comment of MeshLab's, without the spaces around it.
+/// The name of a texture in a MeshLab comment, without surrounding spaces.
 fn texture_file(line: &str) -> Option<String> {
     let rest = line.trim_start().strip_prefix("comment")?.trim_start();
     let name = rest.get(.."texturefile".len())?;
@@ -282,11 +282,11 @@ fn parse_property<'a>(
 /// The lines of a header.
 struct Lines<'a> {
     bytes: &'a [u8],
-    /// Where the next line begins.
+    /// Offset of the next line.
     at: usize,
     /// The number of the last line, from 1.
     number: usize,
-    /// Whether lines end with `\r` alone.
+    /// Whether lines end with a bare `\r`.
     ends_with_cr: bool,
 }
 
@@ -323,7 +323,7 @@ mod tests {
             let header = parse(&text).unwrap();
             assert_eq!(&text[header.body..], body, "{text:?}");
         }
-        // The last line alone ends as on Windows.
+        // Only the last line ends as on Windows.
         let text = "ply\nformat binary_big_endian 1.0\nend_header\r\n\n";
         assert_eq!(parse(text).unwrap().body, text.len() - 1);
     }

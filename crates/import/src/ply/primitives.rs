@@ -11,7 +11,7 @@ use gltf_import::ImportOptions;
 use gltf_import::ImportWarnings;
 use model::{Model, Primitive, Topology};
 
-/// Bytes that the arrays of the primitives take at most.
+/// Maximum number of bytes in the arrays of the primitives.
 pub(crate) fn array_bytes(contents: &Contents) -> u64 {
     let Contents { vertices, faces, strips, edges } = contents;
     let vertex =
@@ -24,13 +24,13 @@ pub(crate) fn array_bytes(contents: &Contents) -> u64 {
 /// The triangles of all faces.
 #[derive(Default)]
 struct Triangles {
-    /// The corners of each triangle, as numbers among the corners of all faces.
+    /// The corners of each triangle, as indices into the corners of all faces.
     corners: Vec<[u32; 3]>,
     /// The face of each triangle.
     faces: Vec<u32>,
 }
 
-/// Builds the primitives; what has positions that are not finite is left out.
+/// Builds the primitives; items with positions that are not finite are skipped.
 pub(crate) fn build_primitives(
     contents: Contents,
     model: &Model,
@@ -80,7 +80,7 @@ pub(crate) fn build_primitives(
 }
 
 impl Faces {
-    /// Adds the triangles of strips, which carry nothing but corners.
+    /// Adds the triangles of strips, which have only corners.
     fn append_strips(&mut self, strips: Self) {
         let Self { lengths, corners, .. } = strips;
         if let Some(uvs) = &mut self.uvs {
@@ -97,7 +97,7 @@ impl Faces {
     }
 }
 
-/// Cuts the faces into triangles; those with an unusable vertex are left out.
+/// Cuts the faces into triangles; faces with an unusable vertex are skipped.
 fn triangulate_faces(
     faces: &Faces,
     positions: &[[f32; 3]],
@@ -136,8 +136,8 @@ fn triangulate_faces(
 
 /// Builds the triangles of each texture.
 ///
-/// Texture coordinates of corners win over those of vertices, colors of vertices over those of
-/// faces; a surface with a texture has no colors besides.
+/// Texture coordinates of corners override texture coordinates of vertices, and vertex colors
+/// override face colors. A textured surface has no other colors.
 fn build_surface(
     faces: &Faces,
     triangles: &Triangles,

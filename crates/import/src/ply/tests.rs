@@ -1,4 +1,4 @@
-//! PLY files made by hand: what they are read as, and what is said about broken ones.
+//! Handmade PLY files: the models read from them, and the messages about broken ones.
 
 use crate::load_bytes;
 use gltf_import::linear_from_srgb;
@@ -36,7 +36,7 @@ const HEADER: &str = "element vertex 4\nproperty short flags\nproperty float z\n
                       property list int short words\nproperty uchar mark\nelement face 1\n\
                       property list uint8 uint16 vertex_index\nend_header\n";
 
-/// The square with properties in an odd order, and an element that means nothing.
+/// The square with properties in an unusual order, and an element without meaning.
 fn binary_square(is_big: bool) -> Vec<u8> {
     let name = if is_big { "binary_big_endian" } else { "binary_little_endian" };
     let mut file = format!("ply\nformat {name} 1.0\n{HEADER}").into_bytes();
@@ -81,7 +81,7 @@ fn all_encodings_are_read_alike() {
     }
 }
 
-/// A text with vertices at (0,0,0), (1,0,0), (0,1,0), and more properties of each.
+/// A text with vertices at (0,0,0), (1,0,0), (0,1,0), with additional properties.
 fn triangle(properties: &str, values: [&str; 3], rest: &str, faces: &str) -> String {
     let [a, b, c] = values;
     format!(
@@ -96,7 +96,7 @@ const FACE: &str = "element face 1\nproperty list uchar int vertex_indices\n";
 fn colors_of_every_type_are_srgb() {
     let names =
         |kind: &str| ["red", "green", "blue"].map(|c| format!("property {kind} {c}\n")).concat();
-    // The linear light of the sRGB value 0.5 or nearly so (IEC 61966-2-1).
+    // The linear light of an sRGB value at or near 0.5 (IEC 61966-2-1).
     for (kind, half, one, expected) in [
         ("uchar", "128", "255", 0.215_860_5),
         ("ushort", "32768", "65535", 0.214_048_1),
@@ -195,7 +195,7 @@ fn declared_counts_are_not_believed() {
             assert!(fault(file.as_bytes()).contains("the file ends"), "{file}");
         }
     }
-    // Without properties no record takes a byte.
+    // Without properties a record takes no bytes.
     let file = format!("ply\nformat ascii 1.0\nelement a {}\nend_header\n", u64::MAX);
     assert!(load(file.as_bytes()).meshes[0].primitives.is_empty());
 }
@@ -224,8 +224,8 @@ fn what_other_readers_accept_is_read_with_a_warning() {
     assert_eq!((corners(&model).len(), model.warnings.len()), (1, 0));
 }
 
-/// Three triangles beside each other; the vertices of each have one value of `quality`, the last
-/// one's is not a number.
+/// Three triangles side by side; all vertices of a triangle have the same `quality`; the last
+/// triangle's is not a number.
 const QUALITIES: &str = "ply\nformat ascii 1.0\nelement vertex 9\nproperty float x\n\
     property float y\nproperty float z\nproperty double quality\nproperty uchar red\n\
     property uchar green\nproperty uchar blue\nproperty short flags\nelement face 3\n\
@@ -257,7 +257,7 @@ fn a_scalar_property_replaces_colors() {
     let warnings: Vec<String> = model.warnings.iter().map(Diagnostic::sentence).collect();
     let expected = "element vertex: 3 of 9 values of `quality` are not finite; they are drawn gray";
     assert_eq!(warnings, [expected]);
-    // Without the option, the colors of the file.
+    // Without the option, the file's colors are used.
     assert_eq!(load(QUALITIES.as_bytes()).active_scalar_attribute, None);
 }
 

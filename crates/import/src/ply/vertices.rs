@@ -6,11 +6,11 @@ use gltf_import::ImportWarnings;
 use gltf_import::{linear_from_srgb, linear_table};
 use model::Diagnostic;
 
-/// Where in a row the value of a property that is not used goes.
+/// Index in a row for the value of an unused property.
 const UNUSED: usize = 15;
-/// Where in a row the colors begin: red, green, blue, alpha.
+/// Index in a row of the first color component: red, green, blue, alpha.
 const COLOR: usize = 8;
-/// Where in a row the base color of a Gaussian splat begins.
+/// Index in a row of the first base color component of a Gaussian splat.
 const SPLAT_COLOR: usize = 12;
 /// The spherical harmonic of degree 0: 1 / (2 √π).
 const SH_DEGREE_0: f32 = 0.282_094_8;
@@ -18,7 +18,7 @@ const SH_DEGREE_0: f32 = 0.282_094_8;
 /// Attributes of the vertices; arrays that are present have an entry for each.
 #[derive(Default, Debug)]
 pub(crate) struct Vertices {
-    /// Positions, as they are in the file: they may be infinite or not a number.
+    /// Positions, as in the file: they may be infinite or NaN.
     pub(crate) positions: Vec<[f32; 3]>,
     /// Normals of any length.
     pub(crate) normals: Option<Vec<[f32; 3]>>,
@@ -26,19 +26,19 @@ pub(crate) struct Vertices {
     pub(crate) uvs: Option<Vec<[f32; 2]>>,
     /// Linear colors with alpha.
     pub(crate) colors: Option<Vec<[f32; 4]>>,
-    /// Values of the property that colors are to show.
+    /// Values of the property to show as colors.
     pub(crate) scalars: Option<Vec<f64>>,
 }
 
-/// A vertex as it is in the file.
+/// A vertex as stored in the file.
 struct VertexRow {
-    /// The properties with a meaning, by their [place](row_place).
+    /// The known properties, by their [index](row_place).
     values: [f32; 16],
-    /// The property that colors are to show; NaN without one.
+    /// The property to show as colors; NaN without one.
     scalar: f64,
 }
 
-/// The place of a property in a row: x y z, nx ny nz, s t, red green blue alpha, f_dc_0 to f_dc_2.
+/// The index of a property in a row: x y z, nx ny nz, s t, red green blue alpha, f_dc_0 to f_dc_2.
 fn row_place(name: &str) -> usize {
     match name {
         "x" => 0,
@@ -56,7 +56,7 @@ fn row_place(name: &str) -> usize {
     }
 }
 
-/// The channel of a color that a property of vertices or faces is.
+/// The color channel of a vertex or face property.
 pub(super) fn color_channel(name: &str) -> Option<usize> {
     match name.strip_prefix("diffuse_").unwrap_or(name) {
         "red" | "r" => Some(0),
@@ -67,8 +67,7 @@ pub(super) fn color_channel(name: &str) -> Option<usize> {
     }
 }
 
-/// The names of the properties of vertices that are a number without a meaning here, each once, in
-/// alphabetical order.
+/// Names of the numeric vertex properties without a meaning here, each once, in alphabetical order.
 pub(super) fn scalar_attributes(header: &Header) -> Vec<String> {
     let elements = header.elements.iter().filter(|element| element.name == "vertex");
     let properties = elements.flat_map(|element| &element.properties);
@@ -82,8 +81,8 @@ pub(super) fn scalar_attributes(header: &Header) -> Vec<String> {
 /// Reads the vertices. `scalar` is the property that is read as the scalar of each vertex.
 ///
 /// # Errors
-/// They have no x, y and z, or the file ends before the last; reading leniently, those before the
-/// fault are left.
+/// They have no x, y and z, or the file ends before the last; in lenient mode, those before the
+/// error are kept.
 pub(super) fn read_vertices(
     body: &mut Body<'_>,
     element: &PlyElement,
@@ -129,7 +128,7 @@ pub(super) fn read_vertices(
     Ok(vertices)
 }
 
-/// Reads a record; `places` has an entry for each property, `scalar` is the index of one.
+/// Reads a record; `places` has an entry for each property, `scalar` is the index of a property.
 fn read_row(
     body: &mut Body<'_>,
     properties: &[PlyProperty],
@@ -178,7 +177,7 @@ impl Vertices {
         }
     }
 
-    /// Decodes the colors, which are values of the file still.
+    /// Decodes the colors, which are still values from the file.
     fn finish_colors(&mut self, properties: &[PlyProperty], warnings: &mut ImportWarnings) {
         if let Some(colors) = &mut self.colors {
             linearize_colors(colors, properties, warnings, "element vertex");
@@ -186,10 +185,10 @@ impl Vertices {
     }
 }
 
-/// Decodes colors from values of the file: sRGB of bytes, of other integers, or of fractions.
+/// Decodes colors from file values: sRGB as bytes, other integers, or fractions.
 ///
-/// Fractions above 1 are taken for values up to 255, which some programs write. Alpha is 1 where
-/// the file has none, and where it is 0 everywhere.
+/// Fractions above 1 are taken as values up to 255, which some programs write. Alpha is 1 if the
+/// file has none, or if it is 0 everywhere.
 pub(super) fn linearize_colors(
     colors: &mut [[f32; 4]],
     properties: &[PlyProperty],
@@ -217,7 +216,7 @@ pub(super) fn linearize_colors(
     let table = linear_table();
     for color in colors {
         for channel in &mut color[..3] {
-            // A cast takes what is not a number for 0.
+            // A cast maps NaN to 0.
             *channel = match scalar {
                 ScalarType::U8 => table[usize::from(*channel as u8)],
                 _ => linear_from_srgb(clamp_to_unit(*channel / scales[0])),
@@ -227,7 +226,7 @@ pub(super) fn linearize_colors(
     }
 }
 
-/// The nearest number from 0 to 1; 0 for what is not a number.
+/// The nearest number in [0, 1]; 0 for NaN.
 fn clamp_to_unit(value: f32) -> f32 {
     if value > 0.0 { value.min(1.0) } else { 0.0 }
 }

@@ -1,53 +1,54 @@
 //! Vertex normals by crease angle or smoothing group, for triangles over welded positions.
 //!
-//! The normal of a corner is the sum of the normals of the triangles around the vertex that are
-//! reached from its own across smooth edges, each weighted by its angle there (Thürmer and Wüthrich
-//! 1998): it does not depend on how flat faces are cut into triangles. A vertex with several such
-//! groups is split.
+//! The normal of a corner is the sum of the normals of all triangles around the vertex that can be
+//! reached from the corner's triangle across smooth edges. Each normal is weighted by its angle
+//! there (Thürmer and Wüthrich 1998), so the sum does not depend on how flat faces are cut into
+//! triangles. A vertex with several such groups is split.
 //!
-//! An edge is smooth if exactly two triangles have it and their [`Smoothing`] says so: boundaries,
-//! non-manifold edges and edges of triangles without area are creases. Where all triangles around a
-//! vertex are within half of the crease angle of their mean they are one group, whatever their
-//! edges: most vertices of fine meshes need no search for edges.
+//! An edge is smooth if exactly two triangles share it and their [`Smoothing`] allows it:
+//! boundaries, non-manifold edges and edges of triangles without area are creases. If all triangles
+//! around a vertex are within half the crease angle of their mean, they form one group, regardless
+//! of their edges: most vertices of fine meshes need no edge search.
 
 use glam::{DVec3, Vec3};
 
-/// Condition for the edge between two triangles to be smooth.
+/// Condition for smoothing the edge between two triangles.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Smoothing<'a> {
-    /// The normals of the triangles enclose at most this angle in degrees.
+    /// The normals of the triangles enclose at most this angle, in degrees.
     CreaseAngle(f64),
-    /// The triangles are in the same smoothing group, and not in 0: the group of each triangle.
+    /// The triangles are in the same smoothing group other than 0: the group of each triangle.
     Groups(&'a [u32]),
 }
 
-/// Normals of triangles, and the vertices that are split for them.
+/// Normals of triangles, and the vertices split for them.
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct CreaseNormals {
     /// Vertices of the triangles. Those beyond the given positions are new; every other vertex
-    /// stays where it is used.
+    /// is still used where it was.
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// For each new vertex, in order, the vertex that it is a copy of.
+    /// For each new vertex, in order, the vertex it is a copy of.
     pub(crate) copies: Vec<u32>,
     /// Unit normals of all vertices, the given and the new.
     pub(crate) normals: Vec<[f32; 3]>,
 }
 
-/// Cosines may be this much below that of the crease angle.
+/// Tolerance by which cosines may be below the crease angle's.
 ///
-/// Coordinates are rounded: all edges of a prism of twelve sides, whose normals are 30° apart,
-/// should be alike.
+/// Coordinates are rounded: all edges of a twelve-sided prism, whose normals are 30° apart, should
+/// be treated alike.
 const COSINE_TOLERANCE: f32 = 1e-5;
 
-/// Triangles this far from the mean at a vertex are looked at by their edges, in degrees.
+/// Maximum deviation in degrees from the mean at a vertex; beyond it, triangles are grouped by
+/// their edges.
 const MAX_SMOOTH_DEGREES: f64 = 45.0;
 
 impl CreaseNormals {
-    /// Computes the normals of triangles whose vertices are the same where they are in one place.
+    /// Computes the normals of triangles in which equal positions share a vertex.
     ///
-    /// The result depends on nothing but the arguments; the time is linear in the number of
-    /// triangles, but for a logarithm of the most triangles that one vertex has. Indices must be
-    /// those of positions, and vertices must be fewer than 2³² when they are split.
+    /// The result depends only on the arguments. The time is linear in the number of triangles,
+    /// apart from a factor logarithmic in the largest number of triangles at one vertex. Indices
+    /// must be valid for the positions, and there must be fewer than 2³² vertices after splitting.
     pub(crate) fn compute(
         positions: &[[f32; 3]],
         triangles: Vec<[u32; 3]>,
@@ -73,7 +74,7 @@ impl CreaseNormals {
         result
     }
 
-    /// Gives each group of corners of a vertex its normal; all but the first get a new vertex.
+    /// Assigns a normal to each group of corners of a vertex; all but the first get a new vertex.
     fn assign_normals(
         &mut self,
         vertex: u32,
@@ -107,18 +108,18 @@ impl CreaseNormals {
 
 /// Normals of the vertices around which the surface hardly bends.
 struct SmoothVertices {
-    /// The unit normals of all vertices; those of smooth ones are final.
+    /// The unit normals of all vertices; final for smooth ones.
     normals: Vec<[f32; 3]>,
-    /// Whether a vertex is smooth.
+    /// Whether each vertex is smooth.
     is_smooth: Vec<bool>,
-    /// How many are not.
+    /// The number of vertices that are not smooth.
     others: usize,
 }
 
 impl SmoothVertices {
-    /// Finds the vertices all of whose triangles are within half of the crease angle of the sum of
-    /// their weighted normals, and within 45°: no two of them enclose more than the whole, and none
-    /// is a fin. With smoothing groups there are none.
+    /// Finds the vertices whose triangles are all within half the crease angle of the sum of their
+    /// weighted normals, and within 45°: no two of them enclose more than the crease angle, and
+    /// none is a fin. With smoothing groups there are none.
     fn find(
         vertices: usize,
         triangles: &[[u32; 3]],
@@ -161,7 +162,7 @@ fn unit_or_z(sum: Vec3) -> Vec3 {
     sum.try_normalize().unwrap_or(Vec3::Z)
 }
 
-/// Normal and angles of a triangle.
+/// The normal and angles of a triangle.
 #[derive(Clone, Copy, Debug)]
 struct Face {
     /// Unit normal; zero if the triangle has no area.
@@ -173,8 +174,8 @@ struct Face {
 impl Face {
     /// Normal and angles of the triangle with these corners.
     ///
-    /// In double precision: single would lose small triangles far from the origin, and large ones
-    /// to overflow.
+    /// Computed in double precision: single would lose small triangles far from the origin, and
+    /// large ones would overflow.
     fn new(positions: &[[f32; 3]], corners: [u32; 3]) -> Self {
         let [a, b, c] = corners.map(|at| DVec3::from(positions[at as usize].map(f64::from)));
         let (ab, bc, ca) = (b - a, c - b, a - c);
@@ -190,15 +191,15 @@ impl Face {
         Self { normal, angles: [arc_cosine(at_a), arc_cosine(at_b)] }
     }
 
-    /// The normal as long as the angle at corner 0, 1 or 2.
+    /// The normal, scaled to the angle at corner 0, 1 or 2.
     fn weighted_normal(&self, corner: usize) -> Vec3 {
         let [a, b] = self.angles;
         self.normal * [a, b, (std::f32::consts::PI - a - b).max(0.0)][corner]
     }
 }
 
-/// The angle of a cosine in radians, within 7 · 10⁻⁵ (Abramowitz and Stegun 4.4.45): enough for
-/// weights.
+/// The angle of a cosine in radians, to within 7 · 10⁻⁵ (Abramowitz and Stegun 4.4.45): accurate
+/// enough for weights.
 fn arc_cosine(cosine: f32) -> f32 {
     let x = cosine.abs().min(1.0);
     let series = 1.570_728_8 + x * (-0.212_114_4 + x * (0.074_261 + x * -0.018_729_3));
@@ -208,7 +209,7 @@ fn arc_cosine(cosine: f32) -> f32 {
 
 /// The corners at each vertex: corner 3 t + k is the k-th of triangle t.
 struct CornersByVertex {
-    /// For each vertex the end of its corners in the list, after its beginning.
+    /// For each vertex, the end of its corners in the list; initially their beginning.
     ends: Vec<u32>,
     /// The corners, by vertex and then in the order of the triangles.
     corners: Vec<u32>,
@@ -225,7 +226,7 @@ impl CornersByVertex {
             sum += *end;
             *end = sum;
         }
-        // Each begin moves to its end while the corners are filled in.
+        // Each beginning moves to its end as the corners are filled in.
         let mut corners = vec![0u32; all.len()];
         for (corner, &vertex) in all.iter().enumerate() {
             let slot = &mut ends[vertex as usize];
@@ -242,18 +243,18 @@ impl CornersByVertex {
     }
 }
 
-/// Which edges are smooth, as far as the two triangles decide it.
+/// The part of the rule for smooth edges that depends on the two triangles.
 struct SmoothEdges<'a> {
     /// The triangles.
     faces: &'a [Face],
-    /// The least cosine between the normals of two triangles; `None` for groups.
+    /// The smallest cosine between the normals of two triangles; `None` for groups.
     cosine: Option<f32>,
     /// Smoothing groups of the triangles.
     groups: &'a [u32],
 }
 
 impl<'a> SmoothEdges<'a> {
-    /// The rule of a smoothing for some triangles.
+    /// The rule for a smoothing of some triangles.
     fn new(smoothing: Smoothing<'a>, faces: &'a [Face]) -> Self {
         match smoothing {
             Smoothing::CreaseAngle(degrees) => {
@@ -264,7 +265,7 @@ impl<'a> SmoothEdges<'a> {
         }
     }
 
-    /// Whether the common edge of two triangles with an area is smooth.
+    /// Whether the common edge of two triangles with area is smooth.
     fn joins(&self, one: u32, other: u32) -> bool {
         let (one, other) = (one as usize, other as usize);
         if let Some(least) = self.cosine {
@@ -280,22 +281,23 @@ impl<'a> SmoothEdges<'a> {
     }
 }
 
-/// Grouping of the corners around one vertex; its buffers serve one vertex after the other.
+/// Groups the corners around one vertex; its buffers are reused for each vertex.
 #[derive(Default)]
 struct VertexFans {
-    /// For each corner at the vertex the first corner of its group, as indices into the corners.
+    /// For each corner at the vertex, the first corner of its group, as indices into the corners.
     roots: Vec<u32>,
-    /// Edges from the vertex: the vertex at the other end, and a corner whose triangle has it.
+    /// Edges from the vertex: the vertex at the other end, and a corner whose triangle has the
+    /// edge.
     edges: Vec<(u32, u32)>,
-    /// For the first corner of each group the sum of weighted normals, and the group's vertex.
+    /// For the first corner of each group, the sum of weighted normals, and the group's vertex.
     sums: Vec<(Vec3, u32)>,
 }
 
 impl VertexFans {
     /// Groups the corners at a vertex that smooth edges connect.
     ///
-    /// Every triangle has two edges at the vertex; sorted by their other ends, those of one edge
-    /// are neighbors. Triangles without area have no edges, and join the first group.
+    /// Every triangle has two edges at the vertex; after sorting by their other ends, equal edges
+    /// are adjacent. Triangles without area have no edges, and join the first group.
     fn group_corners(&mut self, triangles: &[[u32; 3]], corners: &[u32], smooth: &SmoothEdges<'_>) {
         self.roots.clear();
         self.roots.extend(0..corners.len() as u32);
@@ -341,7 +343,8 @@ impl VertexFans {
 mod tests {
     use super::*;
 
-    /// A strip of `count` rectangles with a turn of `degrees` between each two, about the z axis.
+    /// A strip of `count` rectangles, each turned by `degrees` from the previous one about the z
+    /// axis.
     fn bent_strip(count: usize, degrees: f64) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
         let (mut at, mut positions, mut triangles) = (DVec3::ZERO, Vec::new(), Vec::new());
         for step in 0..=count {
@@ -405,7 +408,7 @@ mod tests {
             let [a, b, c] = now.map(|at| flat.normals[at as usize]);
             assert!(a == b && b == c && a.iter().filter(|x| x.abs() == 1.0).count() == 1, "{a:?}");
         }
-        // Weighted by angle, the three faces count alike, however they are cut.
+        // Weighted by angle, the three faces count equally, however they are cut.
         let round = crease(&positions, triangles, 180.0);
         for (position, normal) in positions.iter().zip(&round.normals) {
             let outward = (Vec3::from(*position) - 0.5).normalize();
@@ -443,7 +446,7 @@ mod tests {
         };
         assert_eq!(copies(&[1, 1, 1, 1]), 0);
         assert_eq!(copies(&[1, 1, 2, 2]), 2);
-        // Group 0 is flat: every corner has a vertex of its own.
+        // Group 0 is flat: every corner has its own vertex.
         assert_eq!(copies(&[0, 0, 0, 0]), 12 - 6);
         assert_eq!(copies(&[]), 12 - 6);
     }

@@ -1,9 +1,9 @@
-//! Orientation of three points in a plane, exact for coordinates in single precision.
+//! Orientation of three points in a plane, exact for single-precision coordinates.
 //!
 //! Source: J. R. Shewchuk, *Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
 //! Predicates*, 1997: the error bound of the filter (`ccwerrboundA`), TWO-SUM and GROW-EXPANSION.
 
-/// Relative error of the determinant as it is rounded: (3 + 16 ε) ε with ε = 2⁻⁵³.
+/// Relative error of the rounded determinant: (3 + 16 ε) ε with ε = 2⁻⁵³.
 const ERROR_BOUND: f64 = (3.0 + 16.0 * EPSILON) * EPSILON;
 /// Half the distance from 1 to the next number.
 const EPSILON: f64 = f64::EPSILON / 2.0;
@@ -26,7 +26,7 @@ pub(super) fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
 fn exact_orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     let products =
         [a[0] * b[1], -(a[1] * b[0]), b[0] * c[1], -(b[1] * c[0]), c[0] * a[1], -(c[1] * a[0])];
-    // A sum without rounding: components that do not overlap, the smallest first.
+    // A sum without rounding: components that do not overlap, smallest first.
     let mut expansion = [0.0; 6];
     for (length, product) in products.into_iter().enumerate() {
         let mut sum = product;
@@ -38,7 +38,7 @@ fn exact_orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     expansion.into_iter().rev().find(|component| *component != 0.0).unwrap_or(0.0)
 }
 
-/// The rounded sum of two numbers, and what the rounding lost.
+/// The rounded sum of two numbers, and the rounding error.
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let of_b = sum - a;
@@ -74,7 +74,8 @@ mod tests {
 
     #[test]
     fn one_unit_in_the_last_place_decides() {
-        // On the line y = x from very small to very large; then the last point is moved by one bit.
+        // On the line y = x, from very small to very large; then the last point is moved by one
+        // bit.
         let on = |x: f32| [f64::from(x), f64::from(x)];
         let (a, b, c) = (on(1e-30), on(3.0), on(2e30));
         assert_eq!(orient2d(a, b, c), 0.0);

@@ -1,10 +1,9 @@
-//! Triangulation of polygons in space by cutting ears.
+//! Triangulation of polygons in space by ear cutting.
 //!
-//! A polygon of n corners becomes n − 2 triangles whose corners are those of the polygon. It is
-//! projected along its normal's largest axis (Newell's method), where exact predicates decide; it
-//! may be concave, have collinear and repeated corners, holes that are joined by bridges, and be
-//! slightly bent. Polygons that cross themselves have no triangulation: they become, as far as no
-//! ear is left, fans.
+//! A polygon of n corners becomes n − 2 triangles that use its corners. It is projected along its
+//! normal's largest axis (Newell's method), where exact predicates decide. It may be concave or
+//! slightly bent, and may have collinear and repeated corners and holes joined by bridges. Polygons
+//! that cross themselves have no triangulation: once no ear is left, the rest becomes a fan.
 //!
 //! Source: G. H. Meisters, *Polygons Have Ears*, 1975; the normal by I. E. Sutherland, R. F.
 //! Sproull, R. A. Schumacker, *A Characterization of Ten Hidden-Surface Algorithms*, 1974, who
@@ -12,31 +11,30 @@
 
 use super::orientation::orient2d;
 
-/// Tests of a point in a triangle that all polygons of a file may take together:
-/// about a tenth of a second.
+/// Maximum number of point-in-triangle tests for all polygons of a file: about a tenth of a second.
 ///
-/// An ear is tested against the reflex corners within its range along the polygon's longer side
-/// only, so that ordinary polygons, and large ones too, take a few tests for each corner. Made-up
-/// ones can take n² of them.
+/// An ear is tested only against the reflex corners within its range along the polygon's longer
+/// side, so that ordinary polygons, even large ones, take a few tests per corner. Contrived
+/// polygons can take n² tests.
 const MAX_POINT_TESTS: u64 = 1 << 24;
 
-/// The cost of looking at a corner, whether it is an ear or not, in tests.
+/// The cost of examining a corner, whether or not it is an ear, in tests.
 const TESTS_PER_STEP: u64 = 4;
 
-/// How a polygon was cut into triangles.
+/// The outcome of cutting a polygon into triangles.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum PolygonKind {
     /// The triangles have the winding of the polygon and cover it, each part as often as the
-    /// polygon runs around it; some may have no area, where corners coincide or are collinear.
+    /// polygon winds around it. Some may have no area, where corners coincide or are collinear.
     Simple,
     /// The polygon has no area: a fan of triangles without area.
     Flat,
-    /// The polygon crosses itself, or is too intricate for the limit of tests: a fan at least in
-    /// part.
+    /// The polygon crosses itself, or is too intricate for the test limit: at least part of it is a
+    /// fan.
     Fan,
 }
 
-/// Cuts polygons into triangles; holds what one polygon after the other needs.
+/// Cuts polygons into triangles; its buffers are reused for each polygon.
 #[derive(Debug)]
 pub(crate) struct Triangulator {
     /// The corners in the plane, counter-clockwise.
@@ -49,9 +47,9 @@ pub(crate) struct Triangulator {
     is_reflex: Vec<bool>,
     /// The axis of the plane along which the polygon is longer.
     long_axis: usize,
-    /// Corners that were reflex at the beginning with their points, in order along that axis.
+    /// Corners that were reflex at the beginning, with their points, sorted along that axis.
     reflex_in_order: Vec<([f64; 2], u32)>,
-    /// The tests that are left for this file; see [`MAX_POINT_TESTS`].
+    /// The remaining tests for this file; see [`MAX_POINT_TESTS`].
     tests_left: u64,
 }
 
@@ -71,10 +69,10 @@ impl Default for Triangulator {
 }
 
 impl Triangulator {
-    /// Appends the triangles of a polygon, as numbers of its corners from 0, with its winding.
+    /// Appends the triangles of a polygon, as indices of its corners from 0, with its winding.
     ///
-    /// A polygon of n corners has n − 2 triangles whatever its shape, none if n is less than 3.
-    /// Positions must be finite.
+    /// A polygon of n corners always has n − 2 triangles, or none if n is less than 3. Positions
+    /// must be finite.
     pub(crate) fn triangulate(
         &mut self,
         corners: &[[f32; 3]],
@@ -119,10 +117,10 @@ impl Triangulator {
         true
     }
 
-    /// Whether the fan around the first corner is a triangulation: seen from there, the other
-    /// corners follow each other counter-clockwise within half a turn.
+    /// Whether the fan around the first corner is a triangulation: seen from it, the other corners
+    /// follow each other counter-clockwise within half a turn.
     ///
-    /// All convex polygons pass, which are nearly all there are.
+    /// This holds for all convex polygons, which are the vast majority.
     fn is_visible_from_first(&self) -> bool {
         let [first, second, rest @ ..] = self.points.as_slice() else { return false };
         let mut before = second;
@@ -133,7 +131,7 @@ impl Triangulator {
         })
     }
 
-    /// Makes the ring of corners, and the list of those that are reflex.
+    /// Builds the ring of corners, and the list of reflex ones.
     fn link_corners(&mut self) {
         let count = self.points.len() as u32;
         self.previous.clear();
@@ -153,7 +151,7 @@ impl Triangulator {
         reflex_in_order.sort_by(|(a, _), (b, _)| a[*axis].total_cmp(&b[*axis]));
     }
 
-    /// Cuts ears until a triangle is left. Where no ear is left, a collinear corner is cut; where
+    /// Cuts ears until one triangle is left. If there is no ear, a collinear corner is cut; if
     /// there is none either, the rest becomes a fan.
     fn cut_ears(&mut self, triangles: &mut Vec<[u32; 3]>) -> PolygonKind {
         let (mut at, mut remaining, mut since_cut) = (0_u32, self.points.len(), 0_usize);
@@ -169,7 +167,7 @@ impl Triangulator {
             if is_flat || (turn > 0.0 && self.is_ear(at)) {
                 triangles.push(self.cut(at));
                 (remaining, since_cut) = (remaining - 1, 0);
-                // Two steps on, so that a row of ears does not become a fan of slivers.
+                // Advances two steps, so that a row of ears does not become a fan of slivers.
                 at = self.next[at as usize];
             } else {
                 since_cut += 1;
@@ -181,14 +179,14 @@ impl Triangulator {
         if is_folded { PolygonKind::Fan } else { PolygonKind::Simple }
     }
 
-    /// Takes a corner out of the ring and returns its triangle.
+    /// Removes a corner from the ring and returns its triangle.
     fn cut(&mut self, at: u32) -> [u32; 3] {
         let (before, after) = (self.previous[at as usize], self.next[at as usize]);
         self.next[before as usize] = after;
         self.previous[after as usize] = before;
         self.is_reflex[at as usize] = false;
         for neighbor in [before, after] {
-            // A convex corner stays one; in a polygon that crosses itself nothing is certain.
+            // A convex corner stays convex; in a polygon that crosses itself nothing is certain.
             if self.is_reflex[neighbor as usize] {
                 self.is_reflex[neighbor as usize] = self.turn_at(neighbor) <= 0.0;
             }
@@ -202,23 +200,23 @@ impl Triangulator {
         orient2d(a, b, c)
     }
 
-    /// The triangle that cutting a corner would cut off.
+    /// The triangle that would be removed by cutting a corner.
     fn ear_triangle(&self, at: u32) -> [[f64; 2]; 3] {
         let around = [self.previous[at as usize], at, self.next[at as usize]];
         around.map(|corner| self.points[corner as usize])
     }
 
-    /// Whether the edge to a collinear corner comes back on itself, or has no length.
+    /// Whether the edge to a collinear corner doubles back on itself, or has no length.
     fn is_spike(&self, at: u32) -> bool {
         let [a, b, c] = self.ear_triangle(at);
         let is_between = |k: usize| a[k].min(c[k]) <= b[k] && b[k] <= a[k].max(c[k]);
         b == a || b == c || !is_between(0) || !is_between(1)
     }
 
-    /// Whether no other corner is in the triangle at a convex corner, its edges included.
+    /// Whether no other corner is in the triangle at a convex corner, including its edges.
     ///
-    /// Corners at the same place as one of the triangle's do not count: they are the ends of
-    /// bridges to holes. Only reflex corners need a test: of those in the triangle, the one
+    /// Corners at the same position as one of the triangle's are ignored: they are the ends of
+    /// bridges to holes. Only reflex corners need a test: of the corners in the triangle, the one
     /// farthest from the edge to be cut is reflex.
     fn is_ear(&mut self, at: u32) -> bool {
         let [a, b, c] = self.ear_triangle(at);
@@ -244,14 +242,14 @@ impl Triangulator {
         !is_blocked
     }
 
-    /// The remaining corners in order, from one of them.
+    /// The remaining corners in order, starting at one of them.
     fn ring(&self, from: u32) -> impl Iterator<Item = u32> + use<'_> {
         let after = move |at: &u32| Some(self.next[*at as usize]).filter(|next| *next != from);
         std::iter::successors(Some(from), after)
     }
 }
 
-/// The axis along which points are farther apart.
+/// The axis along which points spread farther.
 fn long_axis(points: &[[f64; 2]]) -> usize {
     let extent = |axis: usize| {
         let values = || points.iter().map(|point| point[axis]);

@@ -2,32 +2,32 @@
 
 use std::collections::BTreeMap;
 
-/// Finder of equal positions, by a hash table with open addressing.
+/// Finds equal positions, with an open-addressing hash table.
 ///
-/// Positions are equal if their bits are, after −0 has become 0; nothing is welded that is merely
-/// close. Vertices are numbered in the order in which they first appear.
+/// Positions are equal if their bits are, after −0 has become 0; positions that are merely close
+/// are not welded. Vertices are numbered in the order in which they first appear.
 #[derive(Debug, Default)]
 pub(crate) struct VertexWelder {
     /// Positions of the vertices.
     positions: Vec<[f32; 3]>,
-    /// Vertices by hash, or [`EMPTY`]; a power of two of them, at most half of them used.
+    /// Vertices by hash, or [`EMPTY`]; their number is a power of two, and at most half are used.
     slots: Vec<u32>,
-    /// Vertices whose neighborhood of slots was full.
+    /// Vertices whose nearby slots were all full.
     crowded: BTreeMap<[u32; 3], u32>,
 }
 
 /// A slot without a vertex.
 const EMPTY: u32 = u32::MAX;
-/// Slots that are searched before the search tree is: a file made for collisions is slower by a
-/// logarithm, and not quadratic.
+/// Number of slots probed before the search tree is used: a file made for collisions is slower by a
+/// logarithm, not quadratic.
 const PROBES: usize = 32;
-/// Positions whose slots are read ahead of their use.
+/// Number of positions whose slots are read ahead of their use.
 const BATCH: usize = 192;
-/// Slots of the smallest table.
+/// Number of slots in the smallest table.
 const LEAST_SLOTS: usize = 64;
 
 impl VertexWelder {
-    /// A welder with room for a number of vertices before it has to grow.
+    /// A welder that holds this number of vertices before it has to grow.
     pub(crate) fn with_capacity(vertices: usize) -> Self {
         let slots = (2 * vertices).next_power_of_two().max(LEAST_SLOTS);
         Self {
@@ -37,11 +37,11 @@ impl VertexWelder {
         }
     }
 
-    /// The vertices at some positions; those are new where there was none. Vertices must stay below
-    /// 2³² − 1.
+    /// The vertices at some positions; new positions get new vertices. There must be fewer than 2³²
+    /// − 1 vertices.
     ///
     /// Slots and vertices of a batch are read before they are needed: most of the time is spent
-    /// waiting for memory, and reads that do not depend on each other wait together.
+    /// waiting for memory, and independent reads wait together.
     pub(crate) fn weld_all(&mut self, positions: &[[f32; 3]]) -> Vec<u32> {
         let mut vertices = Vec::with_capacity(positions.len());
         let mut hashes = [0; BATCH];
@@ -63,7 +63,7 @@ impl VertexWelder {
         self.weld_hashed(position, hash_bits(canonical(position).map(f32::to_bits)))
     }
 
-    /// Reads the first slot of each hash, then the vertices there; what is read means nothing.
+    /// Reads the first slot of each hash, then the vertices there; the result has no meaning.
     #[inline]
     fn read_ahead(&self, hashes: &[usize]) -> u32 {
         let mask = self.slots.len().wrapping_sub(1);
@@ -113,7 +113,7 @@ impl VertexWelder {
         (self.positions.len() - 1) as u32
     }
 
-    /// Doubles the table and enters all vertices again.
+    /// Doubles the table and reinserts all vertices.
     #[cold]
     fn grow(&mut self) {
         let slots = (2 * self.slots.len()).max(LEAST_SLOTS);
@@ -134,13 +134,13 @@ impl VertexWelder {
     }
 }
 
-/// The position with 0 for −0: the sum leaves everything else.
+/// The position with 0 for −0: the addition leaves everything else unchanged.
 #[inline]
 fn canonical(position: [f32; 3]) -> [f32; 3] {
     position.map(|x| x + 0.0)
 }
 
-/// A hash of three words: multiplications by odd constants, whose upper bits are well mixed.
+/// A hash of three words: multiplications by odd constants, which mix the upper bits well.
 #[inline]
 fn hash_bits([x, y, z]: [u32; 3]) -> usize {
     let pair = u64::from(x) | u64::from(y) << 32;

@@ -1,4 +1,4 @@
-//! ASCII STL: solids of facets, in keywords and decimal numbers.
+//! ASCII STL: solids made of facets, in keywords and decimal numbers.
 //!
 //! ```text
 //!  solid NAME
@@ -12,7 +12,7 @@
 //!  endsolid NAME
 //! ```
 //!
-//! Keywords are read in upper and lower case, and white space of any kind separates them.
+//! Keywords may be in upper or lower case, separated by white space of any kind.
 
 use super::solid::Solid;
 use super::truncated;
@@ -24,8 +24,8 @@ use model::{Diagnostic, codes};
 /// Reads the solids of a text.
 ///
 /// # Errors
-/// The text has other words than those of the form, or facets that are not triangles, or ends
-/// within one; reading leniently, those are left out. There are more solids than nodes are allowed.
+/// The text has unexpected words or facets that are not triangles, or ends within one; in lenient
+/// mode these are skipped. There are more solids than allowed nodes.
 pub(super) fn read_solids(
     text: &[u8],
     limits: &Limits,
@@ -63,16 +63,16 @@ struct SolidReader<'a, 'w> {
     lines: LineCounter<'a>,
     limits: &'a Limits,
     warnings: &'w mut ImportWarnings,
-    /// Solids that are complete, but for those without triangles.
+    /// Completed solids, except for those without triangles.
     solids: Vec<Solid>,
     /// The solid that is being read.
     current: Solid,
-    /// Whether its end is still to come.
+    /// Whether its end has not been read yet.
     is_open: bool,
 }
 
 impl<'a> SolidReader<'a, '_> {
-    /// Reads what a keyword begins: a facet, or the beginning or end of a solid.
+    /// Reads the statement that a keyword begins: a facet, or the beginning or end of a solid.
     fn read_statement(&mut self, keyword: Token<'a>) -> Result<(), Diagnostic> {
         if keyword.is_keyword("facet") {
             return self.read_facet(keyword);
@@ -92,7 +92,7 @@ impl<'a> SolidReader<'a, '_> {
         Err(self.unexpected(keyword, "facet"))
     }
 
-    /// The rest of a line, or as much of it as is before a facet: some files have no line ends.
+    /// The rest of a line, up to a facet if there is one: some files have no line ends.
     fn read_name(&mut self) -> String {
         let mut rest = self.scanner.clone();
         let Some(line) = rest.next_line() else { return String::new() };
@@ -113,8 +113,7 @@ impl<'a> SolidReader<'a, '_> {
 
     /// Reads a facet from its normal to its end, and adds its triangle.
     ///
-    /// After a mistake, the text is read from there on: the rest of the facet is skipped up to the
-    /// next facet or the end of a solid.
+    /// After an error the rest of the facet is skipped, up to the next facet or the end of a solid.
     fn read_facet(&mut self, keyword: Token<'a>) -> Result<(), Diagnostic> {
         if let Some(corners) = self.read_usual_corners() {
             let lines = &mut self.lines;
@@ -130,8 +129,8 @@ impl<'a> SolidReader<'a, '_> {
         Ok(())
     }
 
-    /// The corners of a facet in the usual form, in lower case; `None` for any other, of which
-    /// nothing has been read.
+    /// The corners of a facet in the usual form, in lowercase; `None` for any other form, and then
+    /// nothing has been consumed.
     fn read_usual_corners(&mut self) -> Option<[[f32; 3]; 3]> {
         let mut scanner = self.scanner.clone();
         let skip = |scanner: &mut TextScanner<'a>, tokens: &[&[u8]]| {
@@ -154,11 +153,11 @@ impl<'a> SolidReader<'a, '_> {
         Some(corners)
     }
 
-    /// The corners of a facet. Its normal is skipped, whatever it consists of.
+    /// The corners of a facet. Its normal is skipped, even if it is malformed.
     fn read_corners(&mut self) -> Result<[[f32; 3]; 3], Diagnostic> {
         let mut token = self.require("normal")?;
         if token.is_keyword("normal") {
-            // A normal of fewer numbers does not swallow the loop.
+            // A normal with fewer numbers does not consume the loop.
             for _ in 0..4 {
                 token = self.require("outer")?;
                 if token.is_keyword("outer") {
@@ -182,7 +181,7 @@ impl<'a> SolidReader<'a, '_> {
         Ok(corners)
     }
 
-    /// The next token; `wanted` names what it should be.
+    /// The next token; `wanted` describes the expected one.
     fn require(&mut self, wanted: &str) -> Result<Token<'a>, Diagnostic> {
         self.scanner.next_token().ok_or_else(|| {
             let location = self.lines.locate(self.text.len());
@@ -196,7 +195,7 @@ impl<'a> SolidReader<'a, '_> {
         self.check_keyword(token, wanted)
     }
 
-    /// Checks that a token is the keyword that should be there.
+    /// Checks that a token is the expected keyword.
     fn check_keyword(&mut self, token: Token<'a>, wanted: &str) -> Result<(), Diagnostic> {
         if token.is_keyword(wanted) { Ok(()) } else { Err(self.unexpected(token, wanted)) }
     }
@@ -213,7 +212,7 @@ impl<'a> SolidReader<'a, '_> {
         }
     }
 
-    /// Adds the current solid to those that are complete, unless it is empty.
+    /// Adds the current solid to the completed ones, unless it is empty.
     fn finish_solid(&mut self) -> Result<(), Diagnostic> {
         let solid = std::mem::take(&mut self.current);
         solid.warn_of_omissions(self.warnings);
@@ -230,7 +229,7 @@ impl<'a> SolidReader<'a, '_> {
         Ok(())
     }
 
-    /// The error for a token that should be something else.
+    /// The error for an unexpected token.
     fn unexpected(&mut self, token: Token<'_>, wanted: &str) -> Diagnostic {
         let shown = token.bytes.get(..40).unwrap_or(token.bytes);
         let message = format!("{:?} is not {wanted}", String::from_utf8_lossy(shown));

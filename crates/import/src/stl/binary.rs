@@ -15,11 +15,11 @@ use gltf_import::MemoryBudget;
 use model::{Diagnostic, codes};
 use std::io::Read;
 
-/// Bytes of the arrays for a triangle, at most: while normals are computed, without any vertex in
-/// common.
+/// Maximum number of bytes in the arrays for a triangle: while normals are computed, without shared
+/// vertices.
 const ARRAY_BYTES: u64 = 140;
 
-/// Bytes of triangles that are read at a time: 1,024 of them.
+/// Number of bytes of triangles that are read at a time: 1,024 triangles.
 const CHUNK_BYTES: usize = 1024 * TRIANGLE_BYTES;
 
 /// A binary file from which the header has been read.
@@ -34,8 +34,8 @@ pub(super) struct BinaryFile<'a> {
 
 /// Reads a binary file.
 ///
-/// The number of triangles is that of the header, as far as the bytes go. Programs that cannot go
-/// back to write it leave 0; then it is as many as there are.
+/// The header gives the number of triangles, limited by the available bytes. Programs that cannot
+/// seek back to write it leave 0; then all triangles are read.
 ///
 /// # Errors
 /// The file is too short for its triangles, too large for the budget, or cannot be read to its end.
@@ -84,7 +84,7 @@ fn unreadable_body(triangle: usize, error: &std::io::Error) -> Diagnostic {
     Diagnostic::error(codes::IO_ERROR, &location, message, "copy or export it again")
 }
 
-/// The number of triangles to read: what the header declares, compared with what there is.
+/// The number of triangles to read: the header's, compared with the length of the file.
 fn count_triangles(
     header: &[u8; HEADER_BYTES],
     length: usize,
@@ -114,7 +114,7 @@ fn count_triangles(
     Ok(declared)
 }
 
-/// The error for a file that is too short to be binary, and no text either.
+/// The error for a file that is too short to be binary, and is not text either.
 pub(super) fn no_stl(bytes: &[u8]) -> Diagnostic {
     let message = match bytes.len() {
         0 => "the file is empty".to_owned(),

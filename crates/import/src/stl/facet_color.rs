@@ -3,32 +3,32 @@
 //! | program | bits 0–4, 5–9, 10–14 | bit 15 |
 //! | --- | --- | --- |
 //! | VisCAM, SolidView | blue, green, red | 1: the facet has this color |
-//! | Materialise Magics | red, green, blue | 0: the facet has this color; 1: that of the header |
+//! | Materialise Magics | red, green, blue | 0: the facet has this color; 1: the header's color |
 //!
-//! A file is of the second kind if its header has `COLOR=` and four bytes. Other programs write 0
-//! in all facets.
+//! A file follows the second convention if its header has `COLOR=` and four bytes. Other programs
+//! write 0 in all facets.
 
 use gltf_import::linear_from_srgb;
 use model::{Material, Primitive};
 use std::collections::BTreeMap;
 
-/// Code of facets without a color of their own.
+/// Code for facets without an individual color.
 const DEFAULT_CODE: u16 = 1 << 15;
 
 /// Colors of the facets of a binary file.
 #[derive(Debug, Default)]
 pub(super) struct FacetColors {
-    /// The color in the header, sRGB encoded, if the file is of Magics' convention.
+    /// The color in the header, sRGB encoded, if the file follows Magics' convention.
     header: Option<[u8; 3]>,
-    /// For each triangle its color, with red in the upper bits, or [`DEFAULT_CODE`]; those after
-    /// the last with a color are not listed.
+    /// For each triangle its color, with red in the upper bits, or [`DEFAULT_CODE`]; triangles
+    /// after the last colored one are not listed.
     codes: Vec<u16>,
-    /// Whether some facet has other bits than 0.
+    /// Whether any facet has bits other than 0.
     has_attributes: bool,
 }
 
 impl FacetColors {
-    /// The convention of a file, by the 80 bytes at its beginning.
+    /// The convention of a file, from the 80 bytes at its beginning.
     pub(super) fn from_header(header: &[u8]) -> Self {
         let key = b"COLOR=";
         let at = header.windows(key.len()).position(|window| window == key);
@@ -37,7 +37,7 @@ impl FacetColors {
         Self { header, ..Self::default() }
     }
 
-    /// Records the attribute of a triangle, the next of those that are kept.
+    /// Records the attribute of a triangle, the next one that is kept.
     #[inline]
     pub(super) fn record(&mut self, triangle: usize, attribute: u16) {
         if attribute == 0 && self.header.is_none() {
@@ -55,11 +55,11 @@ impl FacetColors {
         }
     }
 
-    /// Gives the vertices of a primitive the colors of their triangles; those of triangles of
-    /// several colors are split. Nothing happens without colors.
+    /// Gives the vertices of a primitive the colors of their triangles; vertices of differently
+    /// colored triangles are split. Without colors nothing happens.
     ///
     /// Some programs write a header with a color and 0 in all facets, which would be black: those
-    /// facets have the color of the header.
+    /// facets get the color of the header.
     pub(super) fn apply_to(mut self, primitive: &mut Primitive) {
         if !self.has_attributes {
             self.codes.clear();

@@ -5,15 +5,15 @@ use crate::polygons::{CreaseNormals, Smoothing, VertexWelder};
 use gltf_import::ImportWarnings;
 use model::Primitive;
 
-/// The most triangles that wait for their vertices.
+/// The maximum number of triangles that wait for their vertices.
 const WAITING_TRIANGLES: usize = 64;
 
-/// A solid of an STL file while it is read.
+/// A solid of an STL file as it is being read.
 #[derive(Debug, Default)]
 pub(super) struct Solid {
     /// The name after `solid`, if the file is text.
     pub(super) name: Option<String>,
-    /// Vertices of the triangles, but for those that wait.
+    /// Vertices of the triangles, except for those that wait.
     triangles: Vec<[u32; 3]>,
     /// Corners of the last triangles, which are welded together.
     waiting: Vec<[f32; 3]>,
@@ -21,15 +21,14 @@ pub(super) struct Solid {
     welder: VertexWelder,
     /// Colors of the triangles, if the file has some.
     pub(super) colors: FacetColors,
-    /// Number of triangles that were left out because of a corner at no finite place.
+    /// Number of triangles that were skipped because a corner is not finite.
     omitted: usize,
     /// Location of the first of them.
     first_omitted: Option<String>,
 }
 
 impl Solid {
-    /// A solid with room for a number of triangles. In a closed surface there are half as many
-    /// vertices.
+    /// A solid with room for a number of triangles. A closed surface has half as many vertices.
     pub(super) fn with_capacity(triangles: usize) -> Self {
         Self {
             triangles: Vec::with_capacity(triangles),
@@ -38,9 +37,9 @@ impl Solid {
         }
     }
 
-    /// Adds a triangle; returns false, and leaves it out, if a corner is at no finite place.
+    /// Adds a triangle; returns false, and skips it, if a corner is not finite.
     ///
-    /// `locate` makes the location of the triangle for the warning.
+    /// `locate` returns the location of the triangle for the warning.
     #[inline]
     pub(super) fn push_triangle(
         &mut self,
@@ -65,14 +64,14 @@ impl Solid {
         self.triangles.len() + self.waiting.len() / 3
     }
 
-    /// Gives the corners that wait their vertices.
+    /// Assigns vertices to the corners that wait.
     fn weld_waiting(&mut self) {
         let vertices = self.welder.weld_all(&self.waiting);
         self.triangles.extend(vertices.as_chunks::<3>().0);
         self.waiting.clear();
     }
 
-    /// Warns of triangles that were left out.
+    /// Warns of skipped triangles.
     pub(super) fn warn_of_omissions(&self, warnings: &mut ImportWarnings) {
         if let Some(location) = &self.first_omitted {
             let message = "triangles have corners at no finite place; they are left out";
@@ -80,7 +79,7 @@ impl Solid {
         }
     }
 
-    /// The primitive, with normals by crease angle and the vertices of differing colors split.
+    /// The primitive, with normals by crease angle and vertices split between colors.
     pub(super) fn into_primitive(mut self, crease_degrees: f64) -> Primitive {
         self.weld_waiting();
         let mut positions = self.welder.into_positions();

@@ -1,4 +1,4 @@
-//! STL files of every form, whole and broken, and what becomes of them.
+//! STL files of every form, intact and broken, and the models made from them.
 
 use super::*;
 use crate::load_bytes;
@@ -18,7 +18,7 @@ fn binary(header: &[u8], triangles: &[([[f32; 3]; 3], u16)]) -> Vec<u8> {
     file
 }
 
-/// Two triangles of a square, which have two vertices in common.
+/// Two triangles of a square, which share two vertices.
 const SQUARE: [[[f32; 3]; 3]; 2] = [
     [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]],
     [[-0.0, 0.0, 0.0], [1.0, 1.0, -0.0], [0.0, 1.0, 0.0]],
@@ -44,7 +44,7 @@ fn refusal(bytes: &[u8]) -> String {
     error.diagnostic.sentence()
 }
 
-/// Checks that a model is the square without anything to say about it.
+/// Checks that a model is the square, without warnings.
 fn assert_square(model: &Model) {
     assert_eq!(model.warnings, []);
     let primitive = &model.meshes[0].primitives[0];
@@ -52,7 +52,7 @@ fn assert_square(model: &Model) {
     assert_eq!(primitive.positions, [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
     assert_eq!(primitive.normals.as_deref(), Some(&[[0.0, 0.0, 1.0]; 4][..]));
     assert_eq!((model.length_unit, model.up_axis), (LengthUnit::Millimeter, UpAxis::Z));
-    // It lies on the ground, on the far side of the x axis.
+    // It is on the ground, on the far side of the x axis.
     let bounds = model.bounds().unwrap();
     assert_eq!((bounds.min().into(), bounds.max().into()), ([0.0, 0.0, -1.0], [1.0, 0.0, 0.0]));
 }

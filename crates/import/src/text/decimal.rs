@@ -1,8 +1,8 @@
-//! Decimal numbers: correctly rounded, and fast for those with few digits.
+//! Decimal numbers: correctly rounded, and fast for numbers with few digits.
 //!
-//! A number of at most 2⁵³ times a power of ten of at most 10²² is one exact integer times or
-//! divided by another (Clinger 1990): a single rounding, as IEEE 754 demands. All others take the
-//! parser of the standard library.
+//! An integer of at most 2⁵³ times a power of ten of at most 10²² is one exact number times or
+//! divided by another (Clinger 1990): there is a single rounding, as IEEE 754 requires. The
+//! standard library parses all others.
 
 /// Powers of ten that doubles hold exactly.
 const POWERS_OF_TEN: [f64; 23] = [
@@ -12,8 +12,8 @@ const POWERS_OF_TEN: [f64; 23] = [
 
 /// The double nearest to a decimal number; `None` if the token is not a number.
 ///
-/// Read are `1`, `-.5`, `+2.`, `1e-3`, `1.5D+2` (Fortran), `nan`, `inf`, and what the runtime of
-/// Microsoft's compiler writes for the last two: `1.#QNAN`, `-1.#IND`, `1.#INF`.
+/// Accepts `1`, `-.5`, `+2.`, `1e-3`, `1.5D+2` (Fortran), `nan`, `inf`, and the spellings of the
+/// last two by the runtime of Microsoft's compiler: `1.#QNAN`, `-1.#IND`, `1.#INF`.
 #[inline]
 pub(crate) fn parse_f64(token: &[u8]) -> Option<f64> {
     fast_decimal(token).or_else(|| slow_decimal(token))
@@ -21,15 +21,16 @@ pub(crate) fn parse_f64(token: &[u8]) -> Option<f64> {
 
 /// The float nearest to a decimal number, as for [`parse_f64`].
 ///
-/// A double that lies halfway between two floats may itself have been rounded there: then the
-/// digits decide.
+/// A double halfway between two floats may itself be the result of rounding; then the digits
+/// decide.
 #[inline]
 pub(crate) fn parse_f32(token: &[u8]) -> Option<f32> {
     let value = parse_f64(token)?;
     round_to_f32(value).or_else(|| standard_form(token).parse().ok())
 }
 
-/// A whole number with an optional sign; `None` if the token is none, or beyond 64 bits.
+/// An integer with an optional sign; `None` if the token is not an integer, or does not fit in 64
+/// bits.
 #[inline]
 pub(crate) fn parse_integer(token: &[u8]) -> Option<i64> {
     let (is_negative, digits) = match token {
@@ -51,7 +52,7 @@ pub(crate) fn parse_integer(token: &[u8]) -> Option<i64> {
 }
 
 /// The float at the beginning of a text and the length of its token, in one pass; `None` unless it
-/// has few digits and a small exponent, and white space follows.
+/// has few digits and a small exponent, and is followed by white space.
 #[inline]
 pub(super) fn simple_decimal(text: &[u8]) -> Option<(f32, usize)> {
     let (value, length) = scan_decimal(text)?;
@@ -59,8 +60,8 @@ pub(super) fn simple_decimal(text: &[u8]) -> Option<(f32, usize)> {
     round_to_f32(value).filter(|_| is_token).map(|number| (number, length))
 }
 
-/// The float nearest to a correctly rounded double; `None` where the double may have been rounded
-/// to the middle between two floats.
+/// The float nearest to a correctly rounded double; `None` if the double may have been rounded to
+/// the midpoint of two floats.
 #[inline]
 fn round_to_f32(value: f64) -> Option<f32> {
     let is_halfway = value.to_bits() & 0x1FFF_FFFF == 0x1000_0000;
@@ -68,7 +69,8 @@ fn round_to_f32(value: f64) -> Option<f32> {
     (!(is_halfway || is_subnormal) || !value.is_finite()).then_some(value as f32)
 }
 
-/// A number of few digits and a small exponent, by one exact operation; `None` for any other token.
+/// A number with few digits and a small exponent, by one exact operation; `None` for any other
+/// token.
 #[inline]
 fn fast_decimal(token: &[u8]) -> Option<f64> {
     scan_decimal(token).filter(|(_, length)| *length == token.len()).map(|(value, _)| value)
@@ -97,7 +99,7 @@ fn scan_decimal(text: &[u8]) -> Option<(f64, usize)> {
         digits += at - point - 1;
         power = -i32::try_from(at - point - 1).ok()?;
     }
-    // Nineteen digits cannot overflow 64 bits; more may have.
+    // Nineteen digits cannot overflow 64 bits; more might.
     if digits == 0 || digits > 19 || mantissa > 1 << 53 {
         return None;
     }
@@ -106,7 +108,7 @@ fn scan_decimal(text: &[u8]) -> Option<(f64, usize)> {
         let sign = text.get(at).copied();
         at += usize::from(matches!(sign, Some(b'-' | b'+')));
         let (start, mut exponent) = (at, 0);
-        // A fourth digit is left, and no token ends there.
+        // A fourth digit remains, and no token ends there.
         while let Some(digit) = digit_at(at).filter(|_| at < start + 3) {
             exponent = 10 * exponent + i32::from(digit);
             at += 1;
@@ -121,7 +123,7 @@ fn scan_decimal(text: &[u8]) -> Option<(f64, usize)> {
     Some((if is_negative { -magnitude } else { magnitude }, at))
 }
 
-/// Any number, by the standard library; then the words for what is not finite.
+/// Any number, parsed by the standard library; then the words for NaN and infinity.
 #[cold]
 fn slow_decimal(token: &[u8]) -> Option<f64> {
     if let Ok(value) = standard_form(token).parse() {
@@ -137,7 +139,7 @@ fn slow_decimal(token: &[u8]) -> Option<f64> {
     (begins_with(b"1.#") || begins_with(b"nan")).then_some(f64::NAN)
 }
 
-/// The number as the standard library reads it: with `e` for the exponent.
+/// The number in the standard library's form: with `e` for the exponent.
 fn standard_form(token: &[u8]) -> String {
     let letter = |byte: &u8| if matches!(byte, b'd' | b'D') { 'e' } else { char::from(*byte) };
     token.iter().map(letter).collect()

@@ -1,11 +1,11 @@
-//! Lines and tokens of a text, by their byte offsets, and lines and columns for messages.
+//! Lines and tokens of a text by byte offset, with lines and columns for messages.
 
 use super::decimal::simple_decimal;
 
 /// Reader of the lines or tokens of a text.
 ///
-/// Lines end with LF, CR or both. Every byte up to the blank, except for line ends, is white space:
-/// exporters have been seen to write tabs, form feeds and NUL.
+/// Lines end with LF, CR or both. Every byte up to and including the space, except for line ends,
+/// is white space: some exporters write tabs, form feeds and NUL.
 #[derive(Clone, Debug)]
 pub(crate) struct TextScanner<'a> {
     text: &'a [u8],
@@ -39,7 +39,7 @@ impl<'a> TextScanner<'a> {
 
     /// The rest of the current line, without its end; `None` at the end of the text.
     ///
-    /// A carriage return and a line feed after it are one line end.
+    /// A carriage return followed by a line feed is one line end.
     pub(crate) fn next_line(&mut self) -> Option<Token<'a>> {
         let rest = self.text.get(self.at..).filter(|rest| !rest.is_empty())?;
         let length =
@@ -50,7 +50,7 @@ impl<'a> TextScanner<'a> {
         Some(Token { bytes: &rest[..length], offset })
     }
 
-    /// Skips a token if it is next, in these letters; otherwise nothing.
+    /// Skips a token if it is next, with this exact spelling; otherwise does nothing.
     #[inline]
     pub(crate) fn skip_token(&mut self, token: &[u8]) -> bool {
         let start = self.skip_space();
@@ -62,8 +62,8 @@ impl<'a> TextScanner<'a> {
         is_next
     }
 
-    /// Reads a number of the usual form, faster than by its token; `None` for any other token,
-    /// which is still the next.
+    /// Reads a number in the usual form, faster than as a token; `None` for any other token, which
+    /// is not consumed.
     #[inline]
     pub(crate) fn next_simple_number(&mut self) -> Option<f32> {
         let start = self.skip_space();
@@ -108,14 +108,14 @@ impl<'a> Token<'a> {
         })
     }
 
-    /// The piece without white space at either end.
+    /// The piece without leading and trailing white space.
     pub(crate) fn trim(self) -> Self {
         let start = self.bytes.iter().position(|byte| *byte > b' ').unwrap_or(self.bytes.len());
         let end = self.bytes.iter().rposition(|byte| *byte > b' ').map_or(start, |last| last + 1);
         Self { bytes: &self.bytes[start..end], offset: self.offset + start }
     }
 
-    /// Whether this is a keyword in lower case, in whatever case it is written.
+    /// Whether this is the given lowercase keyword, ignoring case.
     pub(crate) fn is_keyword(self, keyword: &str) -> bool {
         self.bytes.eq_ignore_ascii_case(keyword.as_bytes())
     }
@@ -128,8 +128,7 @@ impl<'a> Token<'a> {
 
 /// Counter of lines up to an offset, for the locations of messages.
 ///
-/// It goes on from the last offset that it was asked for, so that many messages in the order of the
-/// text take a single pass.
+/// It continues from the last offset, so that many messages in text order take a single pass.
 #[derive(Debug)]
 pub(crate) struct LineCounter<'a> {
     text: &'a [u8],

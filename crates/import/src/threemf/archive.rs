@@ -1,28 +1,29 @@
-//! Zip archives (APPNOTE 6.3.10): the central directory, and entries that are stored or deflated.
+//! Zip archives (APPNOTE 6.3.10): the central directory, and stored or deflated entries.
 //!
-//! Only what 3MF needs: no encryption, no other compression, no archive in several volumes. Nothing
-//! is written anywhere: an entry's name is compared with other names and is never a path. What is
-//! decompressed is bounded twice, by the size that the directory declares and by the memory budget,
-//! so that no archive is larger than its limits whatever its entries say.
+//! Supports only what 3MF needs: no encryption, no other compression, no multi-volume archives.
+//! Nothing is written anywhere: an entry's name is compared with other names and is never a path.
+//! Decompressed data is bounded twice, by the size that the directory declares and by the memory
+//! budget. So no archive exceeds its limits, regardless of its entries.
 
 use fdeflate::Decompressor;
 use gltf_import::MemoryBudget;
 use model::{Diagnostic, codes};
 use std::borrow::Cow;
 
-/// The most entries of an archive; 3MF files of the largest print beds have some hundreds.
+/// The maximum number of entries in an archive; 3MF packages for the largest print beds have a few
+/// hundred.
 const MAX_ENTRIES: u64 = 65_536;
-/// Bytes before the data of a local entry, without its name and extra field.
+/// Number of bytes before the data of a local entry, without its name and extra field.
 const LOCAL_HEADER: usize = 30;
-/// A record of the central directory without name, extra field and comment.
+/// Size of a central directory record without name, extra field and comment.
 const DIRECTORY_RECORD: usize = 46;
-/// The record at the end without its comment.
+/// Size of the end record without its comment.
 const END_RECORD: usize = 22;
 
 /// An entry of the central directory.
 #[derive(Debug)]
 pub(super) struct Entry {
-    /// The name with `/` between folders, as it is in the archive otherwise.
+    /// The name with `/` between folders, otherwise as in the archive.
     pub(super) name: String,
     /// Whether a password protects it.
     is_encrypted: bool,
@@ -34,7 +35,7 @@ pub(super) struct Entry {
     compressed: u64,
     /// Bytes of the content.
     size: u64,
-    /// Where the local header begins.
+    /// Offset of the local header.
     offset: u64,
 }
 
@@ -50,7 +51,7 @@ impl<'a> Archive<'a> {
     /// Reads the central directory of an archive.
     ///
     /// # Errors
-    /// The archive is truncated or none, or has too many entries.
+    /// The archive is truncated, is not a zip archive, or has too many entries.
     pub(super) fn from_bytes(bytes: &'a [u8]) -> Result<Self, Diagnostic> {
         let (mut at, count) = find_directory(bytes).ok_or_else(|| {
             let message = "the zip archive has no directory: it is truncated";
@@ -74,7 +75,7 @@ impl<'a> Archive<'a> {
         Ok(Self { bytes, entries })
     }
 
-    /// Bytes of the whole archive.
+    /// Size of the whole archive in bytes.
     pub(super) const fn byte_count(&self) -> u64 {
         self.bytes.len() as u64
     }
@@ -118,7 +119,7 @@ impl<'a> Archive<'a> {
         Ok(content)
     }
 
-    /// The bytes of an entry as they are in the archive.
+    /// The bytes of an entry as stored in the archive.
     fn compressed_bytes(&self, entry: &Entry) -> Option<&'a [u8]> {
         let local = self.bytes.get(usize::try_from(entry.offset).ok()?..)?;
         if !local.starts_with(b"PK\x03\x04") {
@@ -130,12 +131,13 @@ impl<'a> Archive<'a> {
     }
 }
 
-/// Decompresses deflated data (RFC 1951) of a known size.
+/// Decompresses deflated data (RFC 1951) of known size.
 ///
-/// The decoder is that of PNG images, which expects zlib's frame (RFC 1950) around the data: two
-/// bytes before, and a checksum after that it is told to ignore; the archive has its own.
+/// The decoder is the one for PNG images. It expects a zlib frame (RFC 1950) around the data: two
+/// bytes before, and after it a checksum, which it is set to ignore because the archive has its
+/// own.
 fn inflate(data: &[u8], size: usize) -> Result<Vec<u8>, String> {
-    // A byte of deflated data makes 1,032 bytes at most.
+    // One byte of deflated data expands to at most 1,032 bytes.
     if size / 1032 > data.len() {
         return Err(format!("{size} bytes cannot be in {} compressed ones", data.len()));
     }
@@ -161,7 +163,7 @@ fn inflate(data: &[u8], size: usize) -> Result<Vec<u8>, String> {
 
 /// Offset of the central directory, and its number of entries.
 ///
-/// The record at the end is searched from behind, as a comment may follow it.
+/// The search for the end record runs backward, because a comment may follow it.
 fn find_directory(bytes: &[u8]) -> Option<(usize, u64)> {
     let last = bytes.len().checked_sub(END_RECORD)?;
     let first = last.saturating_sub(usize::from(u16::MAX));
@@ -171,7 +173,7 @@ fn find_directory(bytes: &[u8]) -> Option<(usize, u64)> {
     if count != u32::from(u16::MAX) && offset != u32::MAX {
         return Some((offset as usize, u64::from(count)));
     }
-    // Zip64 has a record of its own, and a locator of that record before this one.
+    // Zip64 has a separate record, and a locator for it before this one.
     let locator = bytes.get(end.checked_sub(20)?..end)?;
     if !locator.starts_with(b"PK\x06\x07") {
         return Some((offset as usize, u64::from(count)));
@@ -183,7 +185,7 @@ fn find_directory(bytes: &[u8]) -> Option<(usize, u64)> {
     Some((usize::try_from(read_u64(record, 48)?).ok()?, read_u64(record, 32)?))
 }
 
-/// The record of the central directory at an offset, and where the next one begins.
+/// The central directory record at an offset, and the offset of the next one.
 fn read_entry(bytes: &[u8], at: usize) -> Option<(Entry, usize)> {
     let record = bytes.get(at..)?;
     if !record.starts_with(b"PK\x01\x02") {
@@ -209,7 +211,7 @@ fn read_entry(bytes: &[u8], at: usize) -> Option<(Entry, usize)> {
     Some((entry, at + extra_at + extra_length + comment_length))
 }
 
-/// Fields of 32 bits, of which those that are full are in the extra field with the number 1.
+/// Fields of 32 bits; a field with all bits set has its value in the extra field numbered 1.
 fn zip64_fields(fields: [u32; 3], mut extra: &[u8]) -> Option<[u64; 3]> {
     let mut wide: &[u8] = &[];
     while let (Some(id), Some(length)) = (read_u16(extra, 0), read_u16(extra, 2)) {

@@ -1,7 +1,7 @@
 //! Assembly of 3MF: items and components become nodes, each of which may show an object's mesh.
 //!
-//! Components share objects, so that the number of nodes can grow exponentially with the size of
-//! the file: it is computed, and compared with the limits, before any node is made.
+//! Components share objects, so the number of nodes can grow exponentially with the size of the
+//! file. It is computed, and compared with the limits, before any node is made.
 
 use super::model_part::ObjectReference;
 use super::package::Package;
@@ -11,25 +11,25 @@ use homog::{Affine, Model as ModelSpace};
 use model::{Diagnostic, Model, Node};
 use std::collections::BTreeMap;
 
-/// The object of a placement that is left out.
+/// The object index of a removed placement.
 const REMOVED: usize = usize::MAX;
 
-/// An object at a place.
+/// An object at a position.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placement {
     /// Index of the object.
     object: usize,
-    /// From its coordinates to those around it.
+    /// The transform from its coordinates to the surrounding ones.
     transform: Affine<ModelSpace, ModelSpace>,
 }
 
-/// The objects of all parts, and how they are put together.
+/// The objects of all parts, and their hierarchy.
 #[derive(Debug, Default)]
 pub(super) struct Assembly {
     objects: Vec<AssemblyObject>,
-    /// For each part its objects by their ids.
+    /// For each part, its objects by id.
     by_id: Vec<BTreeMap<u32, u32>>,
-    /// The number of references to what is not shown.
+    /// The number of references to objects that are not shown.
     hidden: usize,
 }
 
@@ -44,9 +44,9 @@ struct AssemblyObject {
     components: Vec<Placement>,
     /// Whether its components have been counted, or are being counted.
     progress: Progress,
-    /// Nodes of the object and everything below it.
+    /// Number of nodes of the object and everything below it.
     nodes: u64,
-    /// Levels of the tree of its nodes.
+    /// Number of levels in the tree of its nodes.
     depth: usize,
 }
 
@@ -60,7 +60,8 @@ enum Progress {
 }
 
 impl Assembly {
-    /// Adds an object; its index. Of two with the same part and id the first is referred to.
+    /// Adds an object and returns its index. Of two with the same part and id, references use the
+    /// first.
     pub(super) fn push_object(&mut self, part: usize, object: &super::object::Object) -> usize {
         let at = self.objects.len();
         if self.by_id.len() <= part {
@@ -76,10 +77,10 @@ impl Assembly {
         at
     }
 
-    /// The objects that references in a part lead to; those that are not shown are left out.
+    /// Resolves the references in a part to objects; those that are not shown are skipped.
     ///
     /// # Errors
-    /// There is no such object; reading leniently, the reference is left out.
+    /// There is no such object; in lenient mode the reference is skipped.
     pub(super) fn resolve(
         &mut self,
         references: &[ObjectReference],
@@ -123,7 +124,7 @@ impl Assembly {
         self.objects[object].progress == Progress::Counted
     }
 
-    /// All shown objects that are no components, for files that build nothing.
+    /// All shown objects that are not components, for files that build nothing.
     pub(super) fn top_objects(&self) -> Vec<Placement> {
         let mut is_top: Vec<bool> = self.objects.iter().map(|object| object.is_shown).collect();
         for component in self.objects.iter().flat_map(|object| &object.components) {
@@ -136,8 +137,8 @@ impl Assembly {
     /// Counts the nodes that the items will have, before any of them is made.
     ///
     /// # Errors
-    /// An object contains itself (reading leniently, it is left out there), or the nodes are more
-    /// or deeper than the limits allow.
+    /// An object contains itself (in lenient mode it is skipped there), or there are more nodes or
+    /// deeper levels than the limits allow.
     pub(super) fn count_nodes(
         &mut self,
         items: &[Placement],
@@ -204,7 +205,7 @@ impl Assembly {
         Ok(())
     }
 
-    /// The numbers of an object whose components have theirs.
+    /// Finishes the counts of an object whose components have been counted.
     fn finish_count(&mut self, at: usize) {
         self.objects[at].components.retain(|component| component.object != REMOVED);
         let components = self.objects[at].components.iter();
@@ -218,10 +219,10 @@ impl Assembly {
         object.progress = Progress::Counted;
     }
 
-    /// Makes the nodes of the items; several get a common root.
+    /// Creates the nodes of the items; several get a common root.
     ///
     /// # Errors
-    /// A product of transforms overflows; reading leniently, the node is where its parent is.
+    /// A product of transforms overflows; in lenient mode the node is placed at its parent.
     pub(super) fn build_nodes(
         &self,
         items: &[Placement],

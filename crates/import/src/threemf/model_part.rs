@@ -1,4 +1,4 @@
-//! A model part of 3MF: objects, the groups of properties they refer to, and the items to build.
+//! A model part of 3MF: objects, the property groups they refer to, and the items to build.
 
 use super::namespaces::{Namespaces, Support};
 use super::object::{Object, ObjectContent};
@@ -11,7 +11,7 @@ use gltf_import::ImportWarnings;
 use homog::{Affine, Model as ModelSpace};
 use model::{Diagnostic, LengthUnit, Material};
 
-/// Memory that an object takes besides its mesh and its components: tags are shorter.
+/// Memory for an object in addition to its mesh and components; tags are shorter.
 const OBJECT_BYTES: u64 = 256;
 
 /// A reference to an object: an item to build, or a component of an object.
@@ -21,9 +21,9 @@ pub(super) struct ObjectReference {
     pub(super) path: Option<String>,
     /// The id of the object in its part.
     pub(super) id: u32,
-    /// From the object's coordinates to those that the reference is in.
+    /// The transform from the object's coordinates to the coordinates of the reference.
     pub(super) transform: Affine<ModelSpace, ModelSpace>,
-    /// Where the reference is, for messages.
+    /// Location of the reference, for messages.
     pub(super) location: String,
 }
 
@@ -32,7 +32,7 @@ pub(super) struct ObjectReference {
 pub(super) struct ModelPart {
     /// The unit of its lengths.
     pub(super) unit: LengthUnit,
-    /// Its objects in their order.
+    /// Its objects in order.
     pub(super) objects: Vec<Object>,
     /// The build items.
     pub(super) items: Vec<ObjectReference>,
@@ -44,16 +44,16 @@ pub(super) struct ModelPart {
 pub(super) struct PartReader<'a, 'w> {
     pub(super) xml: XmlReader<'a>,
     pub(super) namespaces: Namespaces<'a>,
-    /// Counts the memory of what is read.
+    /// Counts the memory of the parsed data.
     package: &'w Package<'w>,
     pub(super) palette: &'w mut Palette,
     pub(super) warnings: &'w mut ImportWarnings,
-    /// Names of what has been left out already, so that each is said once.
+    /// Subjects of the warnings given so far, so that each is given once.
     said: Vec<&'static str>,
 }
 
 impl<'a, 'w> PartReader<'a, 'w> {
-    /// A reader of the part of a name.
+    /// A reader of the part with a name.
     pub(super) fn new(
         text: &'a [u8],
         name: &'a str,
@@ -68,8 +68,8 @@ impl<'a, 'w> PartReader<'a, 'w> {
     /// Reads the part.
     ///
     /// # Errors
-    /// It is not XML, is no model, breaks a rule, or requires an unknown extension. Reading
-    /// leniently, what precedes the fault is left.
+    /// It is not XML, is not a model, breaks a rule, or requires an unknown extension. In lenient
+    /// mode the content before the error is kept.
     pub(super) fn read_part(&mut self) -> Result<ModelPart, Diagnostic> {
         let mut part = ModelPart { unit: LengthUnit::Millimeter, ..ModelPart::default() };
         let Some(root) = self.xml.next_child(0)?.filter(|root| root.local_name() == "model") else {
@@ -102,7 +102,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
         }
     }
 
-    /// Reads what is in the root element.
+    /// Reads the content of the root element.
     fn read_model(&mut self, part: &mut ModelPart) -> Result<(), Diagnostic> {
         while let Some(child) = self.xml.next_child(1)? {
             match child.local_name() {
@@ -116,7 +116,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
         Ok(())
     }
 
-    /// Whether an element is of a namespace that is read; says so if it is left out.
+    /// Whether the namespace of an element is read; warns if it is skipped.
     pub(super) fn is_read(&mut self, element: &Element<'_>) -> bool {
         if self.namespaces.is_read(element) {
             return true;
@@ -128,7 +128,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
         false
     }
 
-    /// Adds a warning at an element, unless one of the same subject has been added.
+    /// Adds a warning at an element, unless there already is one on the same subject.
     pub(super) fn say_once(&mut self, element: &Element<'_>, subject: &'static str, message: &str) {
         if !self.said.contains(&subject) {
             self.said.push(subject);
@@ -296,8 +296,8 @@ impl<'a, 'w> PartReader<'a, 'w> {
     }
 }
 
-/// The map of twelve numbers, the rows of a matrix of four rows and three columns that is applied
-/// to row vectors: the rows are the images of the axes, and the last is the translation.
+/// Parses a transform of twelve numbers, the rows of a 4×3 matrix that is applied to row vectors:
+/// the rows are the images of the axes, and the last is the translation.
 fn parse_transform(text: &[u8]) -> Option<Affine<ModelSpace, ModelSpace>> {
     let mut scanner = TextScanner::new(text);
     let mut rows = [[0.0; 3]; 4];
@@ -318,7 +318,7 @@ mod tests {
     fn transforms_are_rows_of_a_matrix() {
         let map = parse_transform(b"0 1 0  -1 0 0  0 0 2  10 20 30").unwrap();
         let image = map.transform_point([1.0, 2.0, 3.0].into());
-        // x goes to y, y to −x, z to 2 z; then the last row is added.
+        // x maps to y, y to −x, z to 2 z; then the last row is added.
         assert_eq!(image.raw().to_array(), [10.0 - 2.0, 20.0 + 1.0, 30.0 + 6.0]);
         for wrong in
             ["1 0 0 0 1 0 0 0 1 0 0", "1 0 0 0 1 0 0 0 1 0 0 0 0", "1 0 0 0 1 0 0 0 1 0 0 nan"]

@@ -1,23 +1,23 @@
-//! Namespaces of 3MF: the core specification, its extensions, and which of them are read.
+//! Namespaces of 3MF: the core specification, its extensions, and the support for each.
 
 use super::xml::Element;
 use gltf_import::ImportWarnings;
 use model::{Diagnostic, codes};
 
-/// How far a namespace is read.
+/// The level of support for a namespace.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Support {
     /// Its elements are read.
     Read,
-    /// Its elements say nothing about the picture.
+    /// Its elements do not affect the picture.
     Ignored,
-    /// Its elements are left out, with a warning.
+    /// Its elements are skipped, with a warning.
     LeftOut,
-    /// Without its elements nothing can be shown as it is meant.
+    /// Without its elements nothing can be shown as intended.
     Refused,
 }
 
-/// Namespaces by a part of their URI, the name in messages, and how far each is read.
+/// Namespaces, each with part of its URI, its name in messages, and its level of support.
 const EXTENSIONS: [(&str, &str, Support); 11] = [
     ("3dmanufacturing/core/", "the core specification", Support::Read),
     ("3dmanufacturing/2013/", "the core specification", Support::Read),
@@ -35,7 +35,7 @@ const EXTENSIONS: [(&str, &str, Support); 11] = [
 /// The prefixes of a model part.
 #[derive(Debug, Default)]
 pub(super) struct Namespaces<'a> {
-    /// Each prefix with the URI it stands for.
+    /// Each prefix with its URI.
     prefixes: Vec<(&'a [u8], &'a [u8])>,
 }
 
@@ -47,11 +47,11 @@ impl<'a> Namespaces<'a> {
             (b"", b"xmlns") => Some((&b""[..], uri)),
             _ => None,
         });
-        // A part has a handful; more would make each look-up slow.
+        // A part has a handful; more would make each lookup slow.
         Self { prefixes: declared.take(64).collect() }
     }
 
-    /// The name of a prefix's namespace in messages, and how far it is read; an undeclared prefix
+    /// The name of a prefix's namespace in messages, and its level of support; an undeclared prefix
     /// counts as read.
     pub(super) fn support_of(&self, prefix: &[u8]) -> (&'static str, Support) {
         let Some(uri) = self.prefixes.iter().find(|(p, _)| *p == prefix).map(|(_, uri)| *uri)
@@ -65,14 +65,14 @@ impl<'a> Namespaces<'a> {
 
     /// Whether elements of a prefix are read.
     pub(super) fn is_read(&self, element: &Element<'_>) -> bool {
-        // Most elements have no prefix, and every other is asked for here.
+        // Most elements have no prefix, and all elements are checked here.
         element.prefix().is_empty() || self.support_of(element.prefix()).1 == Support::Read
     }
 
     /// Checks the extensions that a part requires.
     ///
     /// # Errors
-    /// One is unknown, or encrypts the content; reading leniently, it is ignored.
+    /// An extension is unknown, or encrypts the content; in lenient mode it is ignored.
     pub(super) fn check_required(
         &self,
         root: &Element<'_>,

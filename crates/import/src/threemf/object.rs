@@ -1,4 +1,4 @@
-//! Objects of 3MF: a mesh, or components that are other objects; and the mesh as primitives.
+//! Objects of 3MF: a mesh, or components that refer to other objects; and the mesh as primitives.
 
 use super::model_part::{ObjectReference, PartReader};
 use super::properties::{Palette, PartProperties, Property};
@@ -11,7 +11,7 @@ use gltf_import::ImportWarnings;
 use model::{Diagnostic, Mesh, Primitive};
 use std::collections::BTreeMap;
 
-/// Stands for a property that a triangle does not name.
+/// Marks a property that a triangle does not name.
 const NONE: u32 = u32::MAX;
 
 /// An object.
@@ -21,13 +21,13 @@ pub(super) struct Object {
     pub(super) id: u32,
     /// The name, if it has one.
     pub(super) name: Option<String>,
-    /// Whether it is part of what is made, and neither support nor a helper of the slicer's.
+    /// Whether it is part of the printed object, rather than a support or a slicer helper.
     pub(super) is_shown: bool,
-    /// The group of the property of triangles that name none.
+    /// The default property group, for triangles that name none.
     pub(super) group: Option<u32>,
-    /// The index of that property.
+    /// The index of the default property.
     pub(super) property: Option<u32>,
-    /// Where the object is, for messages.
+    /// Location of the object, for messages.
     pub(super) location: String,
     /// The mesh or the components.
     pub(super) content: ObjectContent,
@@ -79,7 +79,7 @@ impl PartReader<'_, '_> {
         Ok(mesh)
     }
 
-    /// Reads the vertices. Reading leniently, one without finite coordinates keeps its place.
+    /// Reads the vertices. In lenient mode a vertex without finite coordinates keeps its index.
     fn read_vertices(&mut self, mesh: &mut ObjectMesh) -> Result<(), Diagnostic> {
         let depth = self.xml.depth();
         while let Some(vertex) = self.xml.next_child(depth)? {
@@ -103,7 +103,7 @@ impl PartReader<'_, '_> {
         Ok(())
     }
 
-    /// Reads the triangles. Reading leniently, those without vertices are left out.
+    /// Reads the triangles. In lenient mode those without vertices are skipped.
     fn read_triangles(&mut self, mesh: &mut ObjectMesh) -> Result<(), Diagnostic> {
         let depth = self.xml.depth();
         while let Some(element) = self.xml.next_child(depth)? {
@@ -137,7 +137,7 @@ impl PartReader<'_, '_> {
         Ok(())
     }
 
-    /// Vertices and properties of a triangle; [`NONE`] for what it does not name.
+    /// Vertices and properties of a triangle; [`NONE`] for any it does not name.
     fn parse_triangle(&mut self, element: &Element<'_>) -> ([u32; 3], TriangleProperties) {
         let (mut corners, mut properties) = ([NONE; 3], TriangleProperties::NONE);
         for (_, name, value) in element.attributes() {
@@ -169,7 +169,7 @@ fn is_finite(position: &[f32; 3]) -> bool {
 }
 
 impl ObjectMesh {
-    /// Bytes that the primitives of the mesh take at most.
+    /// Maximum number of bytes in the primitives of the mesh.
     pub(super) fn array_bytes(&self) -> u64 {
         let (vertices, triangles) = (self.positions.len() as u64, self.triangles.len() as u64);
         let corner = if self.properties.is_empty() { 0 } else { 3 * 80 };
@@ -234,16 +234,16 @@ impl ObjectMesh {
 struct PropertyLookup<'a> {
     /// The properties of each triangle; empty if none names any.
     properties: &'a [TriangleProperties],
-    /// The properties of the object, for triangles without their own.
+    /// The properties of the object, for triangles that name none.
     default: TriangleProperties,
     part: &'a PartProperties,
 }
 
-/// The properties of the triangles of an object.
+/// Summary of the properties of an object's triangles.
 struct PropertySummary {
-    /// The materials of the model that they have, in the order of their first use.
+    /// The materials of the model that they use, in order of first use.
     numbers: Vec<u32>,
-    /// For each triangle its entry in that list; empty if there is one only.
+    /// For each triangle, its entry in that list; empty if there is only one.
     materials: Vec<u32>,
     has_uvs: bool,
     has_colors: bool,
@@ -260,8 +260,8 @@ impl PropertyLookup<'_> {
         let named = self.properties.get(triangle).unwrap_or(&self.default);
         let [group, default_group] = [named.group, self.default.group];
         let group = if group == NONE { default_group } else { group };
-        // A corner without an index has that of the first; a triangle without any that of the
-        // object.
+        // A corner without an index uses the first corner's; a triangle without any uses the
+        // object's.
         let indices = [named.indices[corner], named.indices[0], self.default.indices[0]];
         let index = indices.into_iter().find(|&index| index != NONE);
         let Some(index) = index.filter(|_| group != NONE) else { return Ok(None) };
@@ -269,12 +269,12 @@ impl PropertyLookup<'_> {
         group.entries.get(index as usize).copied().map(Some).ok_or(())
     }
 
-    /// Looks at all triangles.
+    /// Summarizes all triangles.
     fn summarize(&self, triangles: usize, palette: &mut Palette) -> PropertySummary {
         let (mut numbers, mut number_of) = (Vec::new(), BTreeMap::new());
         let (mut has_uvs, mut has_colors, mut missing) = (false, false, 0);
         let mut materials = Vec::new();
-        // Without properties of their own all triangles are like the first.
+        // If no triangle names properties, all are like the first.
         let distinct = if self.properties.is_empty() { triangles.min(1) } else { triangles };
         for triangle in 0..distinct {
             let mut first = None;

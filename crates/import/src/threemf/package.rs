@@ -1,5 +1,5 @@
 //! The package of a 3MF file (Open Packaging Conventions): parts in a zip archive, and the
-//! relationship that says which of them is the model.
+//! relationship that identifies the model.
 
 use super::archive::{Archive, Entry};
 use super::xml::{Element, XmlReader};
@@ -12,14 +12,14 @@ use model::{Diagnostic, codes};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// The end of the type of the relationship to the model; what precedes it differs by the year.
+/// The end of the relationship type for the model; the part before it depends on the year.
 const MODEL_RELATIONSHIP: &str = "/3dmodel";
 
 /// The parts of a 3MF file.
 #[derive(Debug)]
 pub(super) struct Package<'a> {
     archive: Archive<'a>,
-    /// Entries of the archive by their names in lower case: OPC compares them so.
+    /// Entries of the archive by their lowercase names, because OPC ignores case.
     parts: BTreeMap<String, usize>,
     budget: MemoryBudget<'a>,
 }
@@ -28,7 +28,7 @@ impl<'a> Package<'a> {
     /// Opens the package in an archive.
     ///
     /// # Errors
-    /// The archive is broken, or two parts have the same name; reading leniently, the first counts.
+    /// The archive is broken, or two parts have the same name; in lenient mode the first is used.
     pub(super) fn from_bytes(
         bytes: &'a [u8],
         limits: &'a Limits,
@@ -48,14 +48,14 @@ impl<'a> Package<'a> {
         Ok(Self { archive, parts, budget: MemoryBudget::new(limits) })
     }
 
-    /// The entry of a part by its name, with or without `/` before it, escaped or not.
+    /// The entry of a part by name, with or without a leading `/`, escaped or not.
     fn find_part(&self, name: &str) -> Option<&Entry> {
         let name = name.trim_start_matches('/').to_ascii_lowercase();
         let at = self.parts.get(&name).or_else(|| self.parts.get(&percent_decode(&name)?));
         at.and_then(|&at| self.archive.entries.get(at))
     }
 
-    /// The name of a part as the archive has it, if there is one.
+    /// The name of a part as stored in the archive, if it exists.
     pub(super) fn part_name(&self, name: &str) -> Option<&str> {
         self.find_part(name).map(|entry| entry.name.as_str())
     }
@@ -77,16 +77,16 @@ impl<'a> Package<'a> {
         self.archive.read_entry(entry, &self.budget)
     }
 
-    /// Counts memory that is made of the file beyond its parts.
+    /// Counts memory for data derived from the file, in addition to its parts.
     ///
     /// # Errors
-    /// There is more than the limits allow.
+    /// The limits are exceeded.
     pub(super) fn charge_bytes(&self, location: &str, bytes: u64) -> Result<(), Diagnostic> {
         self.budget.charge_bytes(location, bytes, self.archive.byte_count())
     }
 
     /// The name of the model part: the target of the package's relationship, or else the only part
-    /// that is called so.
+    /// with the name of a model.
     ///
     /// # Errors
     /// There is none: the archive is not 3MF.

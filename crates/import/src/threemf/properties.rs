@@ -8,8 +8,8 @@
 //!  multiproperties       layers: the last texture, or the mixture of colors
 //! ```
 //!
-//! Groups are resolved when they are read, as each may refer to earlier ones only: what a triangle
-//! then needs is one look-up. Colors are sRGB in the file and linear here.
+//! Groups are resolved when they are read, because each may refer only to earlier ones: a triangle
+//! then needs a single lookup. Colors are sRGB in the file and linear here.
 
 use super::xml::Element;
 use crate::text::{TextScanner, parse_f32, parse_integer};
@@ -17,21 +17,22 @@ use gltf_import::linear_table;
 use model::{AlphaMode, Material, Sampler, Texture, TextureFilter, TextureInfo, WrapMode};
 use std::collections::BTreeMap;
 
-/// The most layers of multiproperties; each entry of a group is mixed from all of them.
+/// The maximum number of layers in multiproperties; each entry of a group is mixed from all of
+/// them.
 const MAX_LAYERS: usize = 64;
 
-/// The property of a corner of a triangle.
+/// The property at a corner of a triangle.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Property {
     /// Index of the material in the model.
     pub(super) material: u32,
-    /// Linear color that multiplies that of the material.
+    /// Linear color that multiplies the material's color.
     pub(super) color: [f32; 4],
     /// Texture coordinates with (0, 0) at the upper left.
     pub(super) uv: [f32; 2],
 }
 
-/// The kind of a group, as far as others that refer to it need to know.
+/// The kind of a group, as needed by groups that refer to it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum GroupKind {
     Base,
@@ -48,17 +49,17 @@ pub(super) struct PropertyGroup {
     pub(super) entries: Vec<Property>,
 }
 
-/// The groups and textures of one model part, by their ids.
+/// The groups and textures of one model part, by id.
 #[derive(Debug, Default)]
 pub(super) struct PartProperties {
     groups: Vec<PropertyGroup>,
-    /// The index of each group by its id.
+    /// The index of each group, by id.
     group_of: BTreeMap<u32, u32>,
-    /// The material that shows each texture, by the texture's id.
+    /// The material that shows each texture, by texture id.
     textures: BTreeMap<u32, u32>,
     /// Lists of metalness and roughness.
     metallic: Vec<Vec<[f32; 2]>>,
-    /// The index of each list by its id.
+    /// The index of each list, by id.
     metallic_of: BTreeMap<u32, u32>,
 }
 
@@ -67,9 +68,9 @@ pub(super) struct PartProperties {
 pub(super) struct Palette {
     pub(super) materials: Vec<Material>,
     pub(super) textures: Vec<Texture>,
-    /// The images of textures: the name of the part, and where the file names it first.
+    /// The images of textures: the part name, and where the file first mentions it.
     pub(super) images: Vec<(String, String)>,
-    /// The index of each image by the name of its part.
+    /// The index of each image, by part name.
     image_of: BTreeMap<String, usize>,
     /// The material of surfaces without properties, if there are any.
     plain: Option<u32>,
@@ -78,13 +79,13 @@ pub(super) struct Palette {
 }
 
 impl Palette {
-    /// Adds a material; its index.
+    /// Adds a material and returns its index.
     pub(super) fn push_material(&mut self, material: Material) -> u32 {
         self.materials.push(material);
         self.materials.len() as u32 - 1
     }
 
-    /// Adds an image, unless it has been added already; its index.
+    /// Adds an image, unless it has already been added, and returns its index.
     fn push_image(&mut self, path: String, location: String) -> usize {
         *self.image_of.entry(path).or_insert_with_key(|path| {
             self.images.push((path.clone(), location));
@@ -104,7 +105,7 @@ impl Palette {
         material.is_some_and(|material| material.base_color_texture.is_some())
     }
 
-    /// The material whose colors are those of corners.
+    /// The material that shows the colors of corners.
     fn colored_material(&mut self, is_blended: bool) -> u32 {
         if let Some(material) = self.colored[usize::from(is_blended)] {
             return material;
@@ -123,13 +124,13 @@ impl Palette {
     }
 }
 
-/// The material of surfaces whose colors are those of corners or of a texture.
+/// The material of surfaces colored by corners or by a texture.
 fn white() -> Material {
     Material { base_color: [1.0; 4], ..Material::plain() }
 }
 
-/// Parses `#RRGGBB` or `#RRGGBBAA`; an alpha of 0 is taken for 1, as programs that write it mean
-/// (nobody prints what cannot be seen).
+/// Parses `#RRGGBB` or `#RRGGBBAA`. An alpha of 0 is read as 1, which is what programs that write
+/// it mean (nobody prints invisible parts).
 pub(super) fn parse_color(text: &[u8]) -> Option<[f32; 4]> {
     let digits = text.strip_prefix(b"#")?;
     if !matches!(digits.len(), 6 | 8) {
@@ -157,18 +158,18 @@ pub(super) fn parse_number(element: &Element<'_>, name: &str) -> Option<f32> {
     element.attribute(name).and_then(parse_f32).filter(|number| number.is_finite())
 }
 
-/// The numbers of a list.
+/// Parses a list of numbers.
 fn parse_list<T>(text: &[u8], parse: impl Fn(&[u8]) -> Option<T>) -> Option<Vec<T>> {
     let mut scanner = TextScanner::new(text);
     std::iter::from_fn(|| scanner.next_token()).map(|token| parse(token.bytes)).collect()
 }
 
-/// Indices of a list.
+/// Parses a list of indices.
 fn parse_indices(text: &[u8]) -> Option<Vec<u32>> {
     parse_list(text, |token| parse_integer(token)?.try_into().ok())
 }
 
-/// A group that is being read: what its start tag says.
+/// A group that is being read, with the content of its start tag.
 #[derive(Debug)]
 pub(super) enum OpenGroup {
     Base { metallic: Option<u32> },
@@ -227,7 +228,7 @@ impl PartProperties {
         self.textures.insert(id, material);
     }
 
-    /// The group that a start tag begins; a message if it refers to nothing.
+    /// The group that a start tag begins; an error message if its references are invalid.
     pub(super) fn open_group(
         &self,
         element: &Element<'_>,
@@ -293,7 +294,7 @@ impl PartProperties {
         self.metallic.push(entries);
     }
 
-    /// The mixture of the properties that an entry of multiproperties names.
+    /// The mixture of the properties named by an entry of multiproperties.
     fn blend_layers(&self, layers: &[Layer], indices: &[u32], palette: &mut Palette) -> Property {
         let mut mixed: Option<Property> = None;
         let mut color = [1.0; 4];
@@ -310,7 +311,7 @@ impl PartProperties {
             } else if layer.multiplies {
                 color = std::array::from_fn(|c| color[c] * own[c]);
             } else {
-                // Over what is below; over a texture as far as a factor can.
+                // Over the layers below; over a texture, to the extent that a factor can.
                 let below = color;
                 color = std::array::from_fn(|c| below[c] + (own[c] - below[c]) * own[3]);
                 color[3] = own[3] + below[3] * (1.0 - own[3]);
@@ -330,7 +331,7 @@ impl PartProperties {
 }
 
 impl OpenGroup {
-    /// The kind of the group; `None` for what is no group of properties.
+    /// The kind of the group; `None` for anything other than a property group.
     pub(super) const fn kind(&self) -> Option<GroupKind> {
         Some(match self {
             Self::Base { .. } => GroupKind::Base,

@@ -1,10 +1,10 @@
-//! 3MF files made by hand: what they are read as, and what is said about broken and hostile ones.
+//! Handmade 3MF files: the models read from them, and the messages about broken and hostile ones.
 
 use crate::load_bytes;
 use gltf_import::{ImportError, ImportOptions, Limits};
 use model::{AlphaMode, LengthUnit, Model, UpAxis};
 
-/// A zip archive of entries that are stored (method 0) or deflated (8).
+/// A zip archive of stored (method 0) or deflated (8) entries.
 fn zip(entries: &[(&str, &[u8])], method: u16) -> Vec<u8> {
     let (mut file, mut directory) = (Vec::new(), Vec::new());
     for (name, content) in entries {
@@ -38,7 +38,7 @@ fn zip(entries: &[(&str, &[u8])], method: u16) -> Vec<u8> {
 const RELATIONSHIPS: &[u8] = br#"<Relationships><Relationship Target="/3D/3dmodel.model" Id="r"
     Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>"#;
 
-/// The names of the namespaces of a model.
+/// The namespace declarations of a model.
 const XMLNS: &str = r#"xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
     xmlns:m="http://schemas.microsoft.com/3dmanufacturing/material/2015/02"
     xmlns:p="http://schemas.microsoft.com/3dmanufacturing/production/2015/06"
@@ -54,7 +54,7 @@ fn object(id: u32, x: u32, attributes: &str, triangle: &str) -> String {
     )
 }
 
-/// A model of resources and what it builds.
+/// A model with resources and build items.
 fn model_text(attributes: &str, resources: &str, build: &str) -> String {
     format!(
         "<?xml version=\"1.0\"?><model {XMLNS} {attributes}><resources>{resources}</resources>\
@@ -250,7 +250,7 @@ fn extensions_are_named() {
     let file = package(r#"requiredextensions="x""#, &object(1, 1, "", ""), ITEM);
     assert!(fault(&file).contains("the required extension \"x\" is not known"));
     assert_eq!(load_leniently(&file).meshes.len(), 1);
-    // What is not required is ignored.
+    // Extensions that are not required are ignored.
     let unknown = format!("<x:object id=\"9\"/>{}", object(1, 1, "x:v1=\"2\"", ""));
     assert!(load(&package("", &unknown, ITEM)).unwrap().warnings.is_empty());
 }
@@ -310,7 +310,7 @@ fn exponential_assemblies_are_refused_before_they_are_built() {
     let file = package("", &resources, r#"<item objectid="59"/>"#);
     let message = fault(&file);
     assert!(message.contains("more than the limit of 1000000"), "{message}");
-    // Fewer nodes, but more than so small a file may have.
+    // Fewer nodes, but more than such a small file may have.
     let message = fault(&package("", &resources, r#"<item objectid="18"/>"#));
     assert!(message.contains("array_growth"), "{message}");
     let mut deep = object(1, 1, "", "");
@@ -360,7 +360,7 @@ fn short_tags_that_take_memory_are_counted() {
 
 #[test]
 fn a_great_many_objects_are_read() {
-    // An id and a row of items beyond 16 bits.
+    // An id and a number of items beyond 16 bits.
     let count = 65_537;
     let ids = || 1..=count;
     let resources: String = ids().map(|id| object(id, id, "", "")).collect();

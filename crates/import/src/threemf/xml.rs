@@ -1,7 +1,8 @@
-//! XML, as far as 3MF uses it: elements with attributes, in one pass and without allocation.
+//! A parser for the subset of XML that 3MF uses: elements with attributes, in one pass and without
+//! allocation.
 //!
-//! There are no entities but the five of XML and numbers, and a document type declaration is an
-//! error, as OPC demands: nothing can expand. Text between elements is skipped.
+//! Only the five predefined entities and numeric references are known, and a document type
+//! declaration is an error, as OPC requires: nothing can expand. Text between elements is skipped.
 
 use crate::text::LineCounter;
 use model::Diagnostic;
@@ -15,22 +16,22 @@ pub(super) struct Element<'a> {
     name: &'a [u8],
     /// Everything between the name and the end of the tag.
     attributes: &'a [u8],
-    /// Where the tag begins.
+    /// Offset of the tag.
     offset: usize,
 }
 
-/// Reads the elements of a document in their order.
+/// Reads the elements of a document in order.
 #[derive(Debug)]
 pub(super) struct XmlReader<'a> {
     text: &'a [u8],
     at: usize,
     /// Names of the open elements.
     open: Vec<&'a [u8]>,
-    /// Whether the last element was empty: its end follows although there is no tag.
+    /// Whether the last element was empty: it ends next, although there is no end tag.
     closes_next: bool,
-    /// The name of the document, which begins every location.
+    /// The name of the document, which precedes every location.
     document: &'a str,
-    /// Goes on from one location to the next, as every object has one.
+    /// Continues from one location to the next, because every object has one.
     lines: RefCell<LineCounter<'a>>,
 }
 
@@ -47,13 +48,13 @@ impl<'a> XmlReader<'a> {
         Self { text, at: 0, open: Vec::new(), closes_next: false, document, lines }
     }
 
-    /// The number of open elements: the depth of the element that was returned last.
+    /// The number of open elements: the depth of the last returned element.
     pub(super) const fn depth(&self) -> usize {
         self.open.len()
     }
 
-    /// The next child of the open element at a depth, 0 for the document; what is left of the
-    /// child before is skipped. `None` at the end of the element.
+    /// The next child of the open element at a depth, 0 for the document; the rest of the previous
+    /// child is skipped. `None` at the end of the element.
     ///
     /// # Errors
     /// The text is not XML, or has a document type declaration.
@@ -104,7 +105,7 @@ impl<'a> XmlReader<'a> {
         }
     }
 
-    /// An end tag, which must be that of the innermost element.
+    /// Parses an end tag, which must match the innermost element.
     fn end_tag(&mut self, rest: &'a [u8]) -> Result<Tag<'a>, Diagnostic> {
         let length = rest.iter().position(|&byte| byte == b'>');
         let name = length.map(|length| rest[2..length].trim_ascii());
@@ -115,7 +116,7 @@ impl<'a> XmlReader<'a> {
         Ok(Tag::End)
     }
 
-    /// A start tag, or that of an empty element.
+    /// Parses a start tag or an empty-element tag.
     fn start_tag(&mut self, rest: &'a [u8]) -> Result<Tag<'a>, Diagnostic> {
         let Some(length) = tag_length(rest) else {
             return Err(self.fault(self.at, "the tag has no end"));
@@ -145,19 +146,19 @@ impl<'a> XmlReader<'a> {
         Diagnostic::invalid(&self.location(offset), message)
     }
 
-    /// Name of the document, line and column of an offset.
+    /// Document name, line and column of an offset.
     #[inline(never)]
     pub(super) fn location(&self, offset: usize) -> String {
         format!("{}: {}", self.document, self.lines.borrow_mut().locate(offset))
     }
 
-    /// Name of the document, line and column of an element.
+    /// Document name, line and column of an element.
     pub(super) fn location_of(&self, element: &Element<'_>) -> String {
         self.location(element.offset)
     }
 }
 
-/// The offset of the `>` that ends a tag: one that is not within quotation marks.
+/// The offset of the `>` that ends a tag: one that is not inside quotation marks.
 fn tag_length(rest: &[u8]) -> Option<usize> {
     let mut quote = 0;
     rest.iter().position(|&byte| {
@@ -182,13 +183,12 @@ impl<'a> Element<'a> {
         std::str::from_utf8(split_name(self.name).1).unwrap_or("")
     }
 
-    /// The attributes in their order: prefix and local name, and the value as it is written.
+    /// The attributes in order: prefix and local name, and the raw value.
     pub(super) fn attributes(&self) -> Attributes<'a> {
         Attributes { rest: self.attributes }
     }
 
-    /// The value of the first attribute of a local name, as it is written, without white space
-    /// around it.
+    /// The raw value of the first attribute with a local name, without surrounding white space.
     #[inline(never)]
     pub(super) fn attribute(&self, name: &str) -> Option<&'a [u8]> {
         let found = self.attributes().find(|(_, local, _)| *local == name.as_bytes());
@@ -202,7 +202,7 @@ impl<'a> Element<'a> {
     }
 }
 
-/// Prefix and local name.
+/// Splits a name into prefix and local name.
 fn split_name(name: &[u8]) -> (&[u8], &[u8]) {
     match name.iter().position(|&byte| byte == b':') {
         Some(colon) => (&name[..colon], &name[colon + 1..]),
@@ -230,7 +230,7 @@ impl<'a> Iterator for Attributes<'a> {
     }
 }
 
-/// Text with its character references resolved; unknown ones stay as they are.
+/// Text with its character references resolved; unknown ones are kept.
 pub(super) fn unescape(value: &[u8]) -> Cow<'_, str> {
     let text = String::from_utf8_lossy(value);
     if !text.contains('&') {

@@ -16,8 +16,8 @@
 //!  CubicSpline  (2t³ − 3t² + 1) v₀ + Δ (t³ − 2t² + t) out₀ + (−2t³ + 3t²) v₁ + Δ (t³ − t²) in₁
 //! ```
 //!
-//! Values are constant before the first keyframe and after the last. Sines and arccosines are
-//! `libm`'s, so that all machines compute equal bits.
+//! Values are constant before the first keyframe and after the last. Sines and arccosines come from
+//! `libm`, so that all machines compute identical bits.
 
 /// A keyframe curve (glTF's animation sampler). All numbers are finite.
 #[derive(Clone, PartialEq, Debug)]
@@ -40,8 +40,8 @@ pub enum Interpolation {
     Step,
     /// Linear interpolation.
     Linear,
-    /// Spherical linear interpolation of quaternions, along the shorter arc. Files call it LINEAR
-    /// too.
+    /// Spherical linear interpolation of quaternions, along the shorter arc. Files also call it
+    /// LINEAR.
     Spherical,
     /// Cubic Hermite spline.
     CubicSpline,
@@ -50,8 +50,8 @@ pub enum Interpolation {
 impl AnimationCurve {
     /// The value at a time in seconds.
     ///
-    /// A rotation is a quaternion of any length but 0, or 0 halfway between two opposite ones,
-    /// which have no shorter arc.
+    /// A rotation is a quaternion of any nonzero length. Halfway between two opposite rotations,
+    /// which have no shorter arc, it is 0.
     ///
     /// The keyframe is found by binary search, in O(log n). A time at or after the last keyframe
     /// gives the last value.
@@ -107,8 +107,8 @@ fn weighted_sum(rows: &[(f64, Vec<f64>)]) -> Vec<f64> {
 
 /// Spherical linear interpolation along the shorter arc (Shoemake 1985), at `t` in [0, 1].
 ///
-/// Both quaternions are normalized first, as files round them. With a negative dot product the
-/// second is negated, which is the same rotation by the shorter arc.
+/// Both quaternions are normalized first, because files round them. If the dot product is negative,
+/// the second is negated: the same rotation, reached by the shorter arc.
 fn slerp(from: &[f64], to: &[f64], t: f64) -> Vec<f64> {
     let unit = |q: &[f64]| {
         let length = libm::sqrt(q.iter().map(|x| x * x).sum());
@@ -119,7 +119,7 @@ fn slerp(from: &[f64], to: &[f64], t: f64) -> Vec<f64> {
     let sign = if cosine < 0.0 { -1.0 } else { 1.0 };
     let angle = libm::acos(cosine.abs().min(1.0));
     let sine = libm::sin(angle);
-    // Nearly equal rotations: linear interpolation is as accurate, and avoids a division by nearly
+    // Nearly equal rotations: linear interpolation is as accurate, and avoids dividing by almost
     // zero.
     let (first, second) = if sine < 1e-6 {
         (1.0 - t, t)
@@ -175,7 +175,7 @@ mod tests {
 
     #[test]
     fn splines_are_the_cubics_they_were_made_of() {
-        // x³ at 1 and 3: slopes 3 and 27; the tangents outside are never looked at.
+        // x³ at 1 and 3 has slopes 3 and 27; the outer tangents are never read.
         let keys = [99.0, 1.0, 3.0, 27.0, 27.0, 99.0];
         let spline = curve(Interpolation::CubicSpline, &[1.0, 3.0], &keys, 1);
         for x in [1.0, 1.25, 2.0, 2.75, 3.0] {
@@ -189,7 +189,8 @@ mod tests {
     fn rotations_turn_at_constant_speed_on_the_shorter_way() {
         let (c, s) = (FRAC_1_SQRT_2 as f32, FRAC_1_SQRT_2 as f32);
         for sign in [1.0, -1.0] {
-            // From rest to a quarter about y, written as one quaternion and as its opposite.
+            // From the identity to a quarter turn about y, given as one quaternion and as its
+            // negative.
             let values = [0.0, 0.0, 0.0, 1.0, 0.0, sign * s, 0.0, sign * c];
             let rotation = curve(Interpolation::Spherical, &[0.0, 2.0], &values, 4);
             let expected = [0.0, libm::sin(FRAC_PI_8), 0.0, libm::cos(FRAC_PI_8)];

@@ -1,9 +1,9 @@
 //! Animatable properties of materials, lights and cameras, by their JSON pointers (glTF Object
 //! Model).
 //!
-//! KHR_animation_pointer names its targets by these pointers. The same tables tell the importer
-//! where the numbers of the KHR_materials extensions are, and the bounds they must be within, so
-//! that each property is declared once:
+//! KHR_animation_pointer names its targets with these pointers. The same tables tell the importer
+//! the location and bounds of each number in the KHR_materials extensions, so that each property is
+//! declared once:
 //!
 //! ```text
 //!  row("extensions/KHR_materials_sheen/sheenColorFactor", 3, UNIT_RANGE, |m| …)
@@ -11,8 +11,8 @@
 //!                                                 components  bounds
 //! ```
 //!
-//! A value set by an animation is clamped to the bounds, and fields that follow from it are
-//! updated. To add a property, add a row.
+//! A value set by an animation is clamped to the bounds, and dependent fields are updated. To add a
+//! property, add a row.
 
 use crate::{AlphaMode, CameraProjection, LightKind, Material, PunctualLight};
 use std::f32::consts::FRAC_PI_2;
@@ -36,14 +36,13 @@ pub struct PropertyRow<T> {
     pub path: &'static str,
     /// Number of components.
     pub component_count: usize,
-    /// The least and the greatest value.
+    /// The smallest and largest allowed values.
     pub bounds: [f32; 2],
-    /// Access to the numbers; `None` where the object lacks the extension or texture they belong
-    /// to.
+    /// Access to the numbers; `None` if the object lacks the extension or texture they belong to.
     pub numbers_mut: fn(&mut T) -> Option<&mut [f32]>,
 }
 
-/// A row of a property table; the order of the arguments is that of the figure above.
+/// Makes a row of a property table; the arguments are in the order of the figure above.
 const fn property_row<T>(
     path: &'static str,
     width: usize,
@@ -61,7 +60,7 @@ const NON_NEGATIVE: [f32; 2] = [0.0, f32::MAX];
 const UNBOUNDED: [f32; 2] = [f32::MIN, f32::MAX];
 /// A larger strength is a mistake, and products with it would overflow.
 const EMISSIVE_STRENGTH_RANGE: [f32; 2] = [0.0, 1e6];
-/// Zero itself is excluded: the smallest normal number stands for it.
+/// Zero itself is excluded; the smallest normal number replaces it.
 const STRICTLY_POSITIVE: [f32; 2] = [f32::MIN_POSITIVE, f32::MAX];
 
 /// Access to a property of one component, as a slice of length 1.
@@ -190,11 +189,11 @@ impl ObjectProperty {
 
 /// Sets the numbers of a property, each clamped to its bounds.
 ///
-/// `None` where the object lacks the property; values that are not finite or of another length
-/// change nothing.
+/// `None` if the object lacks the property. Values that are not finite or of another length change
+/// nothing.
 ///
-/// Clamping keeps materials valid whatever an animation contains; a cubic spline overshoots its
-/// keyframes even in a valid file.
+/// Clamping keeps materials valid for every animation; a cubic spline overshoots its keyframes even
+/// in a valid file.
 fn set_clamped<T>(
     table: &[PropertyRow<T>],
     row_index: usize,
@@ -218,8 +217,8 @@ impl Material {
         self.update_derived();
     }
 
-    /// Recomputes fields that follow from others: emitted radiance, valid indices of refraction,
-    /// and the metallic-roughness approximation of specular-glossiness.
+    /// Recomputes dependent fields: emitted radiance, valid indices of refraction, and the
+    /// metallic-roughness approximation of specular-glossiness.
     pub fn update_derived(&mut self) {
         self.emissive = self.emission.scaled_color();
         if self.extensions.ior > 0.0 {
@@ -256,7 +255,7 @@ impl PunctualLight {
 impl CameraProjection {
     /// Sets a number, unless the projection would become invalid.
     ///
-    /// The change is made on a copy and validated as a whole, because validity depends on two
+    /// The change is made on a copy and validated as a whole, because validity involves two
     /// numbers: near must remain less than far.
     pub fn set_property(&mut self, row_index: usize, value: f64) {
         let mut changed = *self;

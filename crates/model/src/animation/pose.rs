@@ -1,8 +1,9 @@
-//! Posing: applies an animation at a time to the nodes, morph weights and materials of a model.
+//! Posing: applies an animation at a given time to the nodes, morph weights and materials of a
+//! model.
 //!
-//! Channels are sampled and set in the order of the file; then all global transforms are computed
-//! anew. Deformed vertices are not stored: [`Model::skin_primitive`] computes them from the posed
-//! nodes when a primitive is drawn.
+//! Channels are sampled and applied in file order; then all global transforms are recomputed.
+//! Deformed vertices are not stored: [`Model::skin_primitive`] computes them from the posed nodes
+//! when a primitive is drawn.
 
 use crate::{
     Animation, AnimationChannel, AnimationTarget, Model, NodeProperty, ObjectProperty, Trs,
@@ -13,8 +14,8 @@ impl Model {
     /// Sets the model to the pose of an animation at a time in seconds.
     ///
     /// Everything that the animation does not change stays as it is, and so do nodes whose
-    /// transforms would overflow. An index that is out of range changes nothing. Times outside of
-    /// the animation give its first or last pose: to loop, take the remainder by
+    /// transforms would overflow. An index that is out of range changes nothing. Times outside the
+    /// animation give its first or last pose; to loop, take the remainder by
     /// [`Animation::duration_seconds`].
     ///
     /// ```
@@ -37,8 +38,8 @@ impl Model {
 
     /// Sets the target of a channel to a value.
     ///
-    /// Indices out of range are ignored, as models can also be composed by programs. A weight of a
-    /// node that has none starts from the weights of its mesh.
+    /// Indices out of range are ignored, because programs can compose models too. A weight of a
+    /// node without weights starts from the weights of its mesh.
     fn apply_channel(&mut self, target: AnimationTarget, value: &[f64]) {
         match target {
             AnimationTarget::Node { node, property } => {
@@ -109,8 +110,8 @@ impl Model {
     /// A local transform that is invalid or would overflow falls back to the previous one, then to
     /// the identity.
     ///
-    /// The time is linear in the number of nodes; the traversal has its own stack, so that the
-    /// depth of the hierarchy does not matter.
+    /// The time is linear in the number of nodes. The traversal has its own stack, so the depth of
+    /// the hierarchy does not matter.
     fn update_node_transforms(&mut self) {
         let mut stack: Vec<usize> =
             (0..self.nodes.len()).filter(|&index| self.nodes[index].parent.is_none()).collect();

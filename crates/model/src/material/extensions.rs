@@ -1,9 +1,9 @@
 //! KHR_materials extensions: clearcoat, sheen, transmission, volume, iridescence, anisotropy and
 //! more.
 //!
-//! One record for each extension, absent where the file has none. Names, units and texture channels
-//! are those of the extensions' specifications. Factors are linear; a texture multiplies the factor
-//! beside it. Records are boxed because most materials have none.
+//! One record for each extension, absent if the file does not use it. Names, units and texture
+//! channels follow the extensions' specifications. Factors are linear; a texture multiplies the
+//! factor beside it. Records are boxed because most materials have none.
 
 use crate::{NormalTexture, TextureInfo};
 
@@ -17,7 +17,7 @@ pub struct MaterialExtensions {
     pub dispersion: f32,
     /// Strength and color of the specular reflection of dielectrics.
     pub specular: Option<Box<Specular>>,
-    /// Specular-glossiness workflow, in place of metalness and roughness.
+    /// Specular-glossiness workflow, instead of metalness and roughness.
     pub specular_glossiness: Option<Box<SpecularGlossiness>>,
     /// Clear layer on top of the surface.
     pub clearcoat: Option<Box<Clearcoat>>,
@@ -29,7 +29,7 @@ pub struct MaterialExtensions {
     pub volume: Option<Box<Volume>>,
     /// Thin film on the surface.
     pub iridescence: Option<Box<Iridescence>>,
-    /// Anisotropic roughness: highlights that are stretched along one direction.
+    /// Anisotropic roughness: highlights stretched along one direction.
     pub anisotropy: Option<Box<Anisotropy>>,
 }
 
@@ -67,7 +67,7 @@ pub struct Specular {
 /// Specular-glossiness workflow (KHR_materials_pbrSpecularGlossiness).
 ///
 /// Its diffuse factor and texture are stored as the material's base color, with metalness 0 and
-/// roughness 1 − glossiness: shading that ignores this record shows a fair approximation.
+/// roughness 1 − glossiness. Shading that ignores this record gives a fair approximation.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct SpecularGlossiness {
     /// Reflectance at normal incidence (F0), each in [0, 1]. Default: 1.

@@ -110,7 +110,7 @@ impl Material {
     }
 
     /// Textures that affect the image, each with its slot: only their images are decoded. An unlit
-    /// material shows nothing but its base color.
+    /// material shows only its base color.
     pub fn visible_textures(&self) -> impl Iterator<Item = (TextureSlot, TextureInfo)> {
         let unlit = self.unlit;
         self.all_textures().filter(move |(slot, _)| match slot {
@@ -119,9 +119,9 @@ impl Material {
         })
     }
 
-    /// The texture in a slot, to be changed.
+    /// The texture in a slot, for changes.
     ///
-    /// `None` where the slot is empty or its extension absent.
+    /// `None` if the slot is empty or its extension is absent.
     pub fn texture_mut(&mut self, slot: TextureSlot) -> Option<&mut TextureInfo> {
         let extensions = &mut self.extensions;
         // The specular-glossiness workflow stores its diffuse texture as the base color texture.

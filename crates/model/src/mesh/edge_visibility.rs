@@ -1,7 +1,7 @@
 //! Edge visibility: the edges that a file marks for line drawings
 //! (EXT_mesh_primitive_edge_visibility, CESIUM_primitive_outline).
 //!
-//! Drawings find feature edges from the shape where a file marks none.
+//! If a file does not mark edges, drawings find feature edges from the shape.
 
 /// Marked edges of the triangles of a primitive.
 ///
@@ -13,7 +13,7 @@ pub struct PrimitiveEdges {
     pub visibility: Option<Vec<[EdgeVisibility; 3]>>,
     /// Edges that are always drawn, as pairs of vertices: outlines and line strings.
     pub lines: Vec<EdgeList>,
-    /// Material of the edges; `None` for that of the primitive.
+    /// Material of the edges; `None` for the primitive's material.
     pub material: Option<usize>,
 }
 
@@ -22,7 +22,7 @@ pub struct PrimitiveEdges {
 pub struct EdgeList {
     /// Two vertex indices for each edge.
     pub vertex_pairs: Vec<[u32; 2]>,
-    /// The material; `None` for that of [`PrimitiveEdges::material`].
+    /// The material; `None` for [`PrimitiveEdges::material`].
     pub material: Option<usize>,
 }
 
@@ -32,7 +32,7 @@ pub enum EdgeVisibility {
     /// Never.
     #[default]
     Hidden,
-    /// Where it separates a front face from a back face.
+    /// If it separates a front face from a back face.
     Silhouette,
     /// Always.
     Hard,

@@ -1,12 +1,12 @@
-//! Tangent generation by MikkTSpace, as glTF 2.0 §3.7.2.1 demands for primitives without tangents.
+//! Tangent generation by MikkTSpace, as glTF 2.0 §3.7.2.1 requires for primitives without tangents.
 //!
-//! Tangents belong to the vertices of triangles and not to shared vertices: two triangles that
-//! share a vertex may need two tangents there, at a seam of the texture or where it is mirrored. So
-//! there is one for each index.
+//! Tangents belong to triangle corners, not to shared vertices: two triangles that share a vertex
+//! may need two tangents there, at a seam of the texture or where it is mirrored. So there is one
+//! tangent for each index.
 //!
-//! Source: M. S. Mikkelsen, *Simulation of Wrinkled Surfaces Revisited*, 2008, by the crate
-//! `bevy_mikktspace`, which works in single precision; its one arccosine is `libm`'s here, so that
-//! all machines compute equal bits.
+//! Source: M. S. Mikkelsen, *Simulation of Wrinkled Surfaces Revisited*, 2008, implemented by the
+//! crate `bevy_mikktspace`, which works in single precision. Its one arccosine comes from `libm`
+//! here, so that all machines compute identical bits.
 
 use crate::{Primitive, Topology};
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
@@ -19,9 +19,9 @@ impl Primitive {
     /// [`indices`](Self::indices), with the handedness of the bitangent (1 or −1) in w.
     ///
     /// `uv_set` is the set of texture coordinates that the normal map uses. Flat normals replace
-    /// missing ones. `None` for points and lines, without such a set, and for shapes that the
+    /// missing ones. `None` for points and lines, if there is no such set, and for shapes that the
     /// algorithm rejects. The result for the first requested set is cached with the primitive, so
-    /// that the frames of an animation share it.
+    /// that all frames of an animation share it.
     #[must_use]
     pub fn mikktspace_tangents(&self, uv_set: usize) -> Option<Cow<'_, [[f32; 4]]>> {
         let (cached_set, cached) =
@@ -59,7 +59,7 @@ struct MikktspaceInput<'a> {
 }
 
 impl MikktspaceInput<'_> {
-    /// The vertex of a triangle's corner 0, 1 or 2.
+    /// The vertex at corner 0, 1 or 2 of a triangle.
     fn vertex_index(&self, face: usize, corner: usize) -> usize {
         self.primitive.indices[3 * face + corner] as usize
     }
@@ -90,8 +90,8 @@ impl Geometry<PortableMath> for MikktspaceInput<'_> {
         self.primitive.normals.as_ref().map_or_else(|| self.face_normal(face), |all| all[vertex])
     }
 
-    /// MikkTSpace has v upwards, glTF downwards: with v negated, bitangents point up in the image,
-    /// as normal maps mean them.
+    /// In MikkTSpace v points up, in glTF down. With v negated, bitangents point up in the image,
+    /// as normal maps expect.
     fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
         let [u, v] = self.uvs[self.vertex_index(face, corner)];
         [u, -v]
@@ -104,7 +104,7 @@ impl Geometry<PortableMath> for MikktspaceInput<'_> {
     }
 }
 
-/// Square root and arccosine with equal bits on all machines.
+/// Square root and arccosine with identical bits on all machines.
 struct PortableMath;
 
 impl Ops for PortableMath {
@@ -136,15 +136,16 @@ mod tests {
 
     #[test]
     fn tangents_follow_u_and_bitangents_go_up_in_the_image() {
-        // cross(normal, tangent) · w must point to where v falls (glTF 2.0 §3.7.2.1, §3.9.3).
+        // cross(normal, tangent) · w must point in the direction in which v decreases (glTF 2.0
+        // §3.7.2.1, §3.9.3).
         for (uvs, tangent) in [
-            // The image as it is: u along x, v falls along y.
+            // The image as it is: u increases along x, v decreases along y.
             ([[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]], [1.0, 0.0, 0.0, 1.0]),
-            // Mirrored: u falls along x.
+            // Mirrored: u decreases along x.
             ([[1.0, 1.0], [0.0, 1.0], [0.0, 0.0], [1.0, 0.0]], [-1.0, 0.0, 0.0, -1.0]),
             // Upside down.
             ([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], [1.0, 0.0, 0.0, -1.0]),
-            // A quarter turn: u along y, v falls along −x.
+            // A quarter turn: u increases along y, v decreases along −x.
             ([[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]], [0.0, 1.0, 0.0, 1.0]),
         ] {
             let square = textured_square(uvs);

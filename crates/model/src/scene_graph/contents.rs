@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use homog::{Bounds, Model as ModelSpace, Point};
 
 impl Model {
-    /// The primitives of the active scene, each once for every instance of its mesh.
+    /// The primitives of the active scene, once for every instance of their mesh.
     pub fn scene_primitives(&self) -> impl Iterator<Item = (MeshInstance, &Primitive)> {
         self.primitives_below(&self.roots)
     }
@@ -25,8 +25,8 @@ impl Model {
 
     /// Positions of all vertices that a visible point, line or triangle uses, in the current pose.
     ///
-    /// A large model has millions; [`for_each_scene_point`](Self::for_each_scene_point) needs no
-    /// memory.
+    /// A large model has millions of them; [`for_each_scene_point`](Self::for_each_scene_point)
+    /// needs no memory.
     #[must_use]
     pub fn scene_points(&self) -> Vec<Point<ModelSpace>> {
         let mut points = Vec::new();
@@ -40,7 +40,8 @@ impl Model {
         self.for_each_point_below(&self.roots, visit);
     }
 
-    /// Calls `visit` with the deformed position of every used vertex at the given nodes and below.
+    /// Calls `visit` with the deformed position of every used vertex of the given nodes and their
+    /// descendants.
     ///
     /// Vertices that no index uses are skipped: some files have stray ones far from the shape.
     fn for_each_point_below(&self, roots: &[usize], mut visit: impl FnMut(Point<ModelSpace>)) {
@@ -57,8 +58,8 @@ impl Model {
 
     /// Axis-aligned bounding box of the active scene in model space; `None` if nothing is visible.
     ///
-    /// Every visible vertex is skinned and transformed, so that the box is tight in the current
-    /// pose. The time is linear in the number of vertices of all instances.
+    /// Every visible vertex is skinned and transformed, so the box is tight in the current pose.
+    /// The time is linear in the number of vertices of all instances.
     #[must_use]
     pub fn bounds(&self) -> Option<Bounds<ModelSpace>> {
         self.bounds_below(&self.roots)
@@ -67,8 +68,8 @@ impl Model {
     /// Axis-aligned bounding box of a scene of the file in the current pose; `None` if it shows
     /// nothing.
     ///
-    /// Unlike [`bounds`](Self::bounds) this works for scenes that are not active, whose root
-    /// indices have not been checked: those out of range are skipped.
+    /// Unlike [`bounds`](Self::bounds) this works for scenes that are not active. Their root
+    /// indices have not been checked, so those out of range are skipped.
     #[must_use]
     pub fn scene_bounds(&self, scene: &SceneRoots) -> Option<Bounds<ModelSpace>> {
         let exists = |node: &usize| *node < self.nodes.len();
@@ -76,7 +77,7 @@ impl Model {
         self.bounds_below(&roots)
     }
 
-    /// Bounding box of everything at the given nodes and below.
+    /// Bounding box of the given nodes and their descendants.
     fn bounds_below(&self, roots: &[usize]) -> Option<Bounds<ModelSpace>> {
         let mut extent: Option<[DVec3; 2]> = None;
         self.for_each_point_below(roots, |point| {
@@ -87,9 +88,9 @@ impl Model {
     }
 }
 
-/// For each vertex of a primitive, whether some index refers to it.
+/// For each vertex of a primitive, whether any index refers to it.
 ///
-/// Every index is less than the number of vertices, as the importer has checked.
+/// Every index is less than the number of vertices; the importer has checked this.
 fn used_vertices(primitive: &Primitive) -> Vec<bool> {
     let mut used = vec![false; primitive.positions.len()];
     for &index in &primitive.indices {

@@ -3,8 +3,8 @@
 use crate::Model;
 use homog::{Affine, Model as ModelSpace};
 
-/// A node of the active scene with its global transform: one occurrence of the mesh, camera or
-/// light that the node carries.
+/// A node of the active scene with its global transform: one occurrence of its mesh, camera or
+/// light.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshInstance {
     /// Index of the node in [`Model::nodes`].
@@ -17,7 +17,7 @@ impl Model {
     /// All nodes of the active scene, parents before their children, otherwise in the order of the
     /// file.
     ///
-    /// The traversal has its own stack, so that a deep hierarchy cannot exhaust the thread's.
+    /// The traversal has its own stack, so a deep hierarchy cannot overflow the thread's.
     #[must_use]
     pub fn node_instances(&self) -> Vec<MeshInstance> {
         self.instances_below(&self.roots)
@@ -66,7 +66,7 @@ impl Model {
         })
     }
 
-    /// The node with its local transform concatenated to that of its parent.
+    /// The node with its local transform concatenated to its parent's global transform.
     fn child_instance(&self, node: usize, parent: Affine<ModelSpace, ModelSpace>) -> MeshInstance {
         MeshInstance { node, node_to_model: self.nodes[node].to_parent.then(parent) }
     }

@@ -1,7 +1,7 @@
 //! Inputs of screen-space ambient occlusion: the nearest surface of each pixel of the picture.
 //!
 //! The occlusion itself is `shade::AmbientOcclusion`; it reads depths of neighboring pixels, and so
-//! needs the depth buffer of the whole picture even where a region of it is rendered.
+//! needs the depth buffer of the whole picture even if only a region is rendered.
 
 use super::RenderError;
 use super::context::RenderContext;
@@ -15,7 +15,7 @@ use raster::SurfaceDepth;
 use scene::Ground;
 use shade::{AmbientOcclusion, ScreenSpace};
 
-/// The memory that the occlusion of a picture leaves to the next.
+/// The memory for occlusion that one picture passes on to the next.
 #[derive(Debug, Default)]
 pub(super) struct OcclusionBuffers {
     /// The depth buffer.
@@ -26,10 +26,10 @@ pub(super) struct OcclusionBuffers {
 
 /// The ambient occlusion of a frame that holds the whole picture; `None` if the scene has none.
 ///
-/// `buffers` lends its memory: a depth buffer, and the last picture's occlusion.
+/// `buffers` provides memory for reuse: a depth buffer, and the last picture's occlusion.
 ///
 /// # Errors
-/// If the picture is larger than the rasterizer's grid.
+/// The picture is larger than the rasterizer's grid.
 pub(super) fn compute_occlusion(
     context: &RenderContext<'_>,
     memory: &FrameMemory<'_>,
@@ -59,8 +59,8 @@ pub(super) fn compute_occlusion(
     Ok(Some(AmbientOcclusion::compute(nearest, space, simd_level, context.threads, last.take())))
 }
 
-/// Adds the ground to a depth buffer, which as a translucent surface it is not in: it occludes, and
-/// is occluded.
+/// Adds the ground to a depth buffer, which omits it as a translucent surface: it occludes and is
+/// occluded.
 fn add_ground(
     ground: Ground,
     world_to_screen: DMat4,
@@ -83,10 +83,11 @@ fn add_ground(
     }
 }
 
-/// The ambient occlusion of the whole picture for rendering a region of it: a frame of its own.
+/// The ambient occlusion of the whole picture, computed in a separate frame when only a region is
+/// rendered.
 ///
 /// # Errors
-/// If the picture is larger than one image tile, or the scene has too many primitives.
+/// The picture is larger than one image tile, or the scene has too many primitives.
 pub(super) fn compute_full_occlusion(
     context: &RenderContext<'_>,
 ) -> Result<Option<AmbientOcclusion>, RenderError> {

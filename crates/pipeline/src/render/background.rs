@@ -1,9 +1,9 @@
 //! The background of a frame: environment or backdrop as two triangles that fill the picture behind
 //! everything.
 //!
-//! Both are draw calls like any other: behind all else by their depth, so that translucent surfaces
-//! blend over them, and shaded for visible fragments only. The far plane is not far enough: the
-//! ground is not clipped against it.
+//! Both are ordinary draw calls: their depth puts them behind everything else, so that translucent
+//! surfaces blend over them, and only visible fragments are shaded. The far plane is not far
+//! enough, because the ground is not clipped against it.
 //!
 //! | kind | vertices carry | shading |
 //! | --- | --- | --- |
@@ -38,7 +38,7 @@ impl PrimitiveAssembler<'_> {
     }
 
     /// Adds a backdrop. The vertices carry fractions of the whole picture's width and height, so
-    /// that its image tiles fit together.
+    /// that its image tiles match at their borders.
     pub(super) fn add_backdrop(
         &mut self,
         backdrop: &Backdrop,
@@ -53,7 +53,7 @@ impl PrimitiveAssembler<'_> {
         self.add_screen_quad(DrawKind::Backdrop, uvs, [[0.0; 2]; 4], opacity)
     }
 
-    /// Adds a rectangle that fills the picture at the least depth, with a position and texture
+    /// Adds a rectangle that fills the picture at the minimum depth, with a position and texture
     /// coordinates at each corner.
     fn add_screen_quad(
         &mut self,
@@ -65,8 +65,8 @@ impl PrimitiveAssembler<'_> {
         let first_id = self.next_id;
         self.next_id = first_id.checked_add(2).ok_or(RenderError::TooManyPrimitives)?;
         let ndc_to_screen = self.transform.ndc_to_screen();
-        // With w = 1 at all corners the attributes are linear on the screen, as positions on a
-        // plane parallel to the picture are.
+        // With w = 1 at all corners the attributes are linear on the screen, as are positions on a
+        // plane parallel to the picture.
         let corners = NDC_CORNERS.map(|(x, y)| {
             let corner = ndc_to_screen.transform_point(Point::<Ndc>::new(x, y, -1.0));
             let least_depth = -f64::from(raster::MAX_DEPTH);

@@ -10,7 +10,8 @@ use picture::Channel;
 use scene::{ImageSpec, Scene};
 use shade::color::SrgbEncoder;
 
-/// The height of capitals, and the room at each end of the text, as parts of the strip's height.
+/// The height of capital letters, and the margin at each end of the text, as fractions of the
+/// strip's height.
 const LETTER_HEIGHT: f64 = 12.0 / 28.0;
 const TEXT_MARGIN: f64 = 0.25;
 
@@ -31,8 +32,8 @@ pub(super) fn caption_layer(scene: &Scene) -> Option<Layer> {
     Some(layer)
 }
 
-/// Draws the caption of a scene over a region of its picture: the strip in the color of the
-/// background, and the text.
+/// Draws the caption of a scene over a region of its picture: the strip in the background color,
+/// and the text.
 pub(super) fn draw_caption_over<C: Channel>(
     scene: &Scene,
     region: PixelRect,
@@ -60,14 +61,14 @@ pub(super) const fn strip_rect(image: ImageSpec) -> PixelRect {
     PixelRect { x: 0, y: height - caption_height, width, height: caption_height }
 }
 
-/// The warnings about the texts of a scene: labels beyond the picture, characters without a glyph.
+/// The warnings about the texts of a scene: labels outside the picture, characters without a glyph.
 pub(super) fn text_warnings(scene: &Scene) -> Vec<Warning> {
     let mut warnings = label_warnings(&scene.drawing_subject(), &scene.overlays);
     warnings.extend(scene.caption.as_deref().and_then(missing_glyph_warning));
     warnings
 }
 
-/// The background as the color of the paper; `None` unless it is opaque.
+/// The background as the paper color; `None` unless it is opaque.
 pub(super) fn paper_color(background: [f32; 4]) -> Option<Ink> {
     let [r, g, b, alpha] = SrgbEncoder::shared().encode_pixel(background);
     (alpha == 255).then_some([r, g, b])

@@ -6,7 +6,7 @@ use raster::{Monitor, Workers};
 use scene::Scene;
 use std::sync::Arc;
 
-/// All that a rendering depends on besides the pixels it fills.
+/// The inputs of a rendering, apart from the pixels it fills.
 ///
 /// It only borrows and is cheap to copy: one per picture, or one per frame of a sequence.
 ///
@@ -25,13 +25,14 @@ pub struct RenderContext<'a> {
     /// Models, camera, lights and style.
     pub scene: &'a Scene,
     /// The mip chains of the scene's models. A scene whose models are clones of others, posed
-    /// differently, takes the chains of those.
+    /// differently, uses the original models' chains.
     pub textures: &'a Textures<'a>,
-    /// The most threads to render with, at least 1. Their number changes no bit of the result.
+    /// The maximum number of threads for rendering, at least 1. It does not change any bit of the
+    /// result.
     pub threads: usize,
     /// The stopwatch of the stages.
     timings: Option<&'a Timings>,
-    /// Who is told of progress, and may end the rendering.
+    /// The receiver of progress, which may end the rendering.
     pub(super) monitor: Option<&'a Arc<dyn Monitor>>,
 }
 
@@ -48,9 +49,9 @@ impl<'a> RenderContext<'a> {
         Self { timings: Some(timings), ..self }
     }
 
-    /// Tells `monitor` of the pixels that are rendered and of the edges that are drawn, and ends the
-    /// rendering with [`RenderError::Canceled`](crate::RenderError::Canceled) once it says so. The
-    /// picture is incomplete then. A [`CancelToken`](crate::CancelToken) is a monitor.
+    /// Reports rendered pixels and drawn edges to `monitor`, and ends the rendering with
+    /// [`RenderError::Canceled`](crate::RenderError::Canceled) when it requests so. The picture is
+    /// then incomplete. A [`CancelToken`](crate::CancelToken) is a monitor.
     #[must_use]
     pub const fn with_monitor(self, monitor: &'a Arc<dyn Monitor>) -> Self {
         Self { monitor: Some(monitor), ..self }
@@ -69,7 +70,7 @@ impl<'a> RenderContext<'a> {
         [self.scene.image.width, self.scene.image.height]
     }
 
-    /// Runs a stage, and adds its time to the stopwatch, if there is one.
+    /// Runs a stage, and adds its time to the stopwatch, if any.
     pub(super) fn measure<T>(&self, stage: &'static str, work: impl FnOnce() -> T) -> T {
         match self.timings {
             Some(timings) => timings.measure(stage, work),
@@ -77,7 +78,7 @@ impl<'a> RenderContext<'a> {
         }
     }
 
-    /// The stopwatch; one that measures nothing if there is none.
+    /// The stopwatch; one that measures nothing if none was set.
     pub(super) fn timings(&self) -> Timings {
         self.timings.cloned().unwrap_or_default()
     }

@@ -1,12 +1,12 @@
-//! Submission of one draw call: back-face culling, clipping, snapping, and hand-over to the frame.
+//! Submission of one draw call: back-face culling, clipping, snapping, and transfer to the frame.
 //!
 //! ```text
 //!  clusters inside the guard band ───────────────────────────────────────────► frame
 //!  clusters that cross it ─► back-face culling ─► clip_triangle ─► ÷ w, snap ─► frame
 //! ```
 //!
-//! Clipping happens in homogeneous space, before the divide (CL-3): a triangle that reaches behind
-//! the eye has no meaningful picture after it.
+//! Clipping happens in homogeneous space, before the divide (CL-3): after it, a triangle that
+//! extends behind the eye has no meaningful picture.
 
 use super::projected_mesh::ProjectedMesh;
 use super::screen_transform::ScreenTransform;
@@ -15,10 +15,11 @@ use model::{Primitive, Topology};
 use raster::{CullMode, Frame, MeshTriangles, Opacity, signed_area};
 use std::ops::Range;
 
-/// The width of line primitives in pixels. glTF leaves it open.
+/// The width of line primitives in pixels. glTF does not specify it.
 const LINE_WIDTH_PIXELS: f64 = 1.5;
 
-/// The state of one draw call: its projected vertices and how its triangles enter the frame.
+/// The state of one draw call: its projected vertices, and the settings for adding its triangles to
+/// the frame.
 pub(super) struct DrawCall<'a> {
     /// The raster's transform and guard band.
     pub(super) transform: &'a ScreenTransform,
@@ -35,9 +36,9 @@ pub(super) struct DrawCall<'a> {
 }
 
 impl DrawCall<'_> {
-    /// Submits the selected points, lines and triangles of a primitive in their order, with
-    /// consecutive ids from `first_id`: runs of triangles as they are, and between them those that
-    /// may need clipping.
+    /// Submits the selected points, lines and triangles of a primitive in order, with consecutive
+    /// ids from `first_id`: runs of unclipped triangles, and between them those that may need
+    /// clipping.
     pub(super) fn submit(&mut self, primitive: &Primitive, first_id: u32) {
         let mesh = self.mesh;
         let triangles = primitive.indices.as_chunks::<3>().0;

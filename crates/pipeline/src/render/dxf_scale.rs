@@ -1,11 +1,12 @@
-//! The scale of a drawing of a scene in DXF: 1:1 in the units of the models where that exists.
+//! The scale of a scene's drawing in DXF: 1:1 in the units of the models if such a scale exists.
 //!
 //! ```text
 //!   one parallel view     units of the models; (0, 0) is the image of the world's origin
 //!   perspective, insets   millimeters of the page, from its lower left corner
 //! ```
-//! In a parallel view lengths parallel to the picture plane are true, so that the front view of a
-//! plate is the plate. Others are shortened as the projection says; the file is not enlarged by that.
+//! In a parallel view, lengths parallel to the picture plane are true, so that the front view of a
+//! plate is the plate. Others are shortened according to the projection; the file is not enlarged
+//! to compensate.
 
 use drawing::Page;
 use glam::DVec2;
@@ -30,10 +31,10 @@ pub fn dxf_options(scene: &Scene, page: &Page) -> DxfOptions {
     }
 }
 
-/// The image of the world's origin in millimeters of the page; `None` if it is too far away for
-/// coordinates to have digits left.
+/// The image of the world's origin in millimeters on the page; `None` if it is too far away for
+/// coordinates to keep any digits.
 fn origin_on_page(scene: &Scene, page: &Page) -> Option<DVec2> {
-    /// The greatest distance in sides of the page.
+    /// The maximum distance, as a multiple of the page's side.
     const MAX_DISTANCE: f64 = 1e6;
     let image = scene.view_projection.world_to_clip().transform_point(Point::ORIGIN).raw();
     let ndc = image.truncate().truncate() / image.w;
@@ -41,7 +42,7 @@ fn origin_on_page(scene: &Scene, page: &Page) -> Option<DVec2> {
     (origin.abs().max_element() <= MAX_DISTANCE * page.size.max_element()).then_some(origin)
 }
 
-/// The unit that the files of all models have; `None` if they differ.
+/// The common unit of all model files; `None` if they differ.
 fn common_unit(scene: &Scene) -> Option<LengthUnit> {
     let mut units = scene.models.iter().map(|placed| placed.model.length_unit);
     let first = units.next().unwrap_or_default();

@@ -1,9 +1,9 @@
 //! Fragment shading: the scene's lights, environment and style as a [`Surface`](raster::Surface)
 //! that the rasterizer calls for each visible fragment.
 //!
-//! The rasterizer calls the surface for each visible triangle of a pixel, not for each that covers
-//! it: shading is deferred until the visibility buffer of a tile is complete. Styles wrap the
-//! physically based shading and use only its alpha test and geometry.
+//! The rasterizer calls the surface for each visible triangle of a pixel, not for every triangle
+//! that covers it: shading is deferred until the visibility buffer of a tile is complete. Styles
+//! wrap the physically based shading and use only its alpha test and geometry.
 
 use super::renderer::FrameMemory;
 use super::shadow_maps::ShadowMapRenderer;
@@ -68,6 +68,6 @@ fn depth_style(scene: &Scene, colormap: Option<Colormap>) -> ShadingStyle {
         let depth = -world_to_view.transform_point(point).z();
         (near, far) = (near.min(depth), far.max(depth));
     }
-    // Nothing behind the eye is visible: the ramp starts at the eye at the earliest.
+    // Nothing behind the eye is visible, so the ramp starts no earlier than the eye.
     ShadingStyle::Depth { near: near.max(0.0) as f32, far: far as f32, colormap }
 }

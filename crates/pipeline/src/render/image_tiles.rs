@@ -1,4 +1,4 @@
-//! Image tiles: how pictures beyond the rasterizer's grid are divided, and regions of pictures.
+//! Image tiles: division of pictures larger than the rasterizer's grid, and regions of pictures.
 //!
 //! ```text
 //!   ┌───────────────┬──────┐   The rasterizer's grid ends at 16,384 pixels. A larger picture is
@@ -8,8 +8,8 @@
 //!   ├───────────────┼──────┤
 //!   └───────────────┴──────┘
 //! ```
-//! The pixels depend on the scene, on the size of the whole picture and on the tile, and never on
-//! the region: regions therefore fit together bit for bit.
+//! The pixels depend on the scene, on the size of the whole picture and on the tile, never on the
+//! region, so regions match bit for bit.
 
 use super::RenderError;
 use homog::{Clip, ClipRange, PixelRect, Projective, World};
@@ -17,10 +17,10 @@ use raster::MAX_SIDE as TILE_SIDE;
 use scene::{ImageSpec, MAX_IMAGE_SIDE, Scene};
 use viewport::Viewport;
 
-/// The most pixels of one region: a full tile.
+/// The maximum number of pixels in one region: a full tile.
 const MAX_PIXELS_IN_MEMORY: u64 = (TILE_SIDE as u64) * (TILE_SIDE as u64);
 
-/// Checks that a region lies inside the picture and fits into memory.
+/// Checks that a region is inside the picture and fits in memory.
 ///
 /// # Errors
 /// [`RasterError::Size`](raster::RasterError::Size) with the region.
@@ -38,12 +38,12 @@ pub(crate) fn validate_region(image: ImageSpec, region: PixelRect) -> Result<(),
     Ok(())
 }
 
-/// One tile of a picture, at most 16,384 pixels a side.
+/// One tile of a picture, at most 16,384 pixels per side.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct ImageTile {
     /// Its pixels in the picture.
     pub(super) rect: PixelRect,
-    /// Width and height of the picture, unless this tile is all of it.
+    /// Width and height of the picture, unless this tile covers all of it.
     image_size: Option<[u32; 2]>,
 }
 
@@ -77,7 +77,7 @@ impl TileRegion {
         Self { tile: tile_at(image, [x / TILE_SIDE, y / TILE_SIDE]), rect }
     }
 
-    /// All of a picture that is not larger than a tile.
+    /// The whole of a picture that is not larger than a tile.
     pub(super) fn for_whole(image: ImageSpec) -> Self {
         Self { tile: tile_at(image, [0, 0]), rect: image.pixel_rect() }
     }
@@ -97,7 +97,7 @@ impl TileRegion {
         self.rect.area()
     }
 
-    /// Copies its pixels into those of the region, row by row.
+    /// Copies its pixels into the region, row by row.
     pub(super) fn copy_into_region<P: Copy>(&self, pixels: &[P], region: PixelRect, all: &mut [P]) {
         let (width, region_width) = (self.rect.width as usize, region.width as usize);
         let left = (self.rect.x - region.x) as usize;
@@ -109,7 +109,7 @@ impl TileRegion {
     }
 }
 
-/// The parts of a region by tiles, in rows from the upper left; one for most pictures.
+/// The parts of a region, tile by tile, in rows from the upper left; one part for most pictures.
 pub(super) fn tile_regions(image: ImageSpec, region: PixelRect) -> Vec<TileRegion> {
     let (columns, rows) = (image.width.div_ceil(TILE_SIDE), image.height.div_ceil(TILE_SIDE));
     let tile_indices = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
@@ -150,7 +150,7 @@ mod tests {
         assert_eq!([at(383, 83), at(384, 83), at(383, 84), at(384, 84)], [1, 2, 3, 4]);
     }
 
-    /// The rectangle that an error complains about; `None` if the region is valid.
+    /// The rectangle to report as an error; `None` if the region is valid.
     fn refused(image: ImageSpec, region: PixelRect) -> Option<PixelRect> {
         match validate_region(image, region) {
             Ok(()) => None,

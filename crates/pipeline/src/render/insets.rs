@@ -1,4 +1,4 @@
-//! Insets: pictures of other cameras composited into rectangles of a picture.
+//! Insets: pictures from other cameras, composited into rectangles of a picture.
 //!
 //! ```text
 //!  ┌──────────────┐   Insets are rendered like pictures of their own and composited in scene
@@ -22,7 +22,7 @@ pub(super) fn visible_rects(inset: &Inset, region: PixelRect) -> Option<[PixelRe
     Some([in_picture, PixelRect { x, y, ..in_picture }])
 }
 
-/// Whether insets hide a region completely, so that the picture below needs no rendering.
+/// Whether insets hide a region completely, so that the picture below need not be rendered.
 ///
 /// The test is conservative: one inset covers the region, or disjoint ones cover it together.
 /// An inset drawn in cyan for anaglyphs leaves the red channel of the picture below visible.
@@ -41,11 +41,11 @@ pub(super) fn covers_region(insets: &[Inset], region: PixelRect) -> bool {
     covered == region.area() || opaque().any(|rect| rect == region)
 }
 
-/// Composites the pixels of an inset into a region of the picture. `rect` is the part of the
-/// picture that they cover.
+/// Composites the pixels of an inset into a region of the picture. `rect` is the covered part of
+/// the picture.
 ///
 /// The border replaces pixels at the inset's edge. A cyan inset replaces green and blue and
-/// keeps red (anaglyph); the more opaque of both pixels gives alpha.
+/// keeps red (anaglyph); alpha comes from the more opaque of both pixels.
 pub(super) fn composite_into<C: Channel>(
     inset: &Inset,
     pixels: &Picture<C>,

@@ -1,13 +1,11 @@
-//! Line drawings of a scene: hidden-line removal to a vector page, and the lines drawn over
-//! surfaces.
+//! Line drawings of a scene: hidden-line removal to a vector page, and lines drawn over surfaces.
 //!
 //! ```text
 //!  models ─► welded edges ─► exact visibility ─► chains ─► Page: layers of strokes, warnings
 //! ```
-//! The engines are the crates `hidden_line` and `drawing`; this module gives it the scene, and adds
-//! what belongs to the picture: paper, backdrop, overlays, insets, caption. Shaded styles with
-//! outlines (toon) and the overlay of edges take the layers of such a drawing and put them over the
-//! surfaces.
+//! The engines are the crates `hidden_line` and `drawing`. This module gives them the scene, and
+//! adds the other parts of the picture: paper, backdrop, overlays, insets, caption. Shaded styles
+//! with outlines (toon) and the edge overlay put the layers of such a drawing over the surfaces.
 
 use super::RenderError;
 use super::captions::{caption_layer, paper_color, strip_rect, text_warnings};
@@ -24,18 +22,18 @@ use raster::Workers;
 use scene::{ImageSpec, Inset, Scene, Style};
 use shade::Backdrop;
 
-/// The longest side in pixels of a backdrop embedded in a vector page.
+/// The maximum side in pixels of a backdrop embedded in a vector page.
 const MAX_BACKDROP_PIXELS: u32 = 4096;
 
-/// The color of lines over surfaces: nearly black.
+/// The color of lines over surfaces: almost black.
 const OVERLAY_INK: Ink = [20, 24, 30];
 
-/// Draws the lines of a scene on a page of the picture's size, at 96 pixels to the inch.
+/// Draws the lines of a scene on a page of the picture's size, at 96 pixels per inch.
 ///
 /// Styles that show surfaces are drawn with hidden lines removed, in viewports too. An anaglyph is
-/// left out, with a warning. Blank paper is left out as well, so that the page can be laid over
-/// others. `workers` is the number of threads, which does not change the page, or that with a
-/// [monitor](raster::Monitor), which is told of each drawing's edges.
+/// skipped, with a warning. Blank paper is skipped as well, so that the page can be placed over
+/// others. `workers` is the number of threads, which does not change the page, optionally with a
+/// [monitor](raster::Monitor) that receives the edge count of each drawing.
 ///
 /// ```
 /// # use pipeline::scene::file::{CameraFile, LightFile};
@@ -98,7 +96,7 @@ pub(super) fn draw_view(
         page.images
             .extend(scene.backdrop.as_ref().map(|backdrop| backdrop_image(backdrop, scene.image)));
         let overlays = overlay_layers(scene);
-        // Lines end before labels, as on drawings.
+        // Lines end at labels, as in technical drawings.
         for [low, high] in drawing::label_rectangles(&overlays) {
             page.erase_rectangle(low, high);
         }
@@ -109,7 +107,7 @@ pub(super) fn draw_view(
     Ok(timings.measure("chains", page))
 }
 
-/// Puts the drawing of an inset over what is in its rectangle, with its background and border.
+/// Puts the drawing of an inset over the contents of its rectangle, with its background and border.
 fn paste_inset(page: &mut Page, mut view: Page, inset: &Inset, number: usize) {
     let PixelRect { x, y, width, height } = inset.rect;
     let [low, size] =
@@ -139,8 +137,7 @@ fn write_caption(page: &mut Page, scene: &Scene) {
     page.layers.push(layer);
 }
 
-/// A rectangle in the color of paper, as an image of one pixel: it lies over the images before it
-/// and under all lines.
+/// A rectangle in the paper color, as a one-pixel image: above earlier images and below all lines.
 fn paper_image(id: String, low: DVec2, high: DVec2, [r, g, b]: Ink) -> PlacedImage {
     let [corner, end] = [low, high].map(to_micrometers);
     let mut picture = Picture::default();
@@ -149,7 +146,7 @@ fn paper_image(id: String, low: DVec2, high: DVec2, [r, g, b]: Ink) -> PlacedIma
     PlacedImage { id, corner, size: [end[0] - corner[0], end[1] - corner[1]], picture }
 }
 
-/// A border of a width in pixels, inside of a rectangle in millimeters.
+/// A border with a width in pixels, inside a rectangle in millimeters.
 fn border_layer(id: String, low: DVec2, size: DVec2, color: Ink, width: u32) -> Layer {
     let width = to_page_millimeters(width);
     let half = DVec2::splat(0.5 * width);
@@ -162,13 +159,13 @@ fn border_layer(id: String, low: DVec2, size: DVec2, color: Ink, width: u32) -> 
     layer
 }
 
-/// A number of pixels in millimeters of the page.
+/// Converts a number of pixels to millimeters on the page.
 fn to_page_millimeters(pixels: u32) -> f64 {
     f64::from(pixels) * MILLIMETERS_PER_PIXEL
 }
 
 /// The lines drawn over shaded surfaces: silhouettes of the toon style, and the overlay of feature
-/// edges; with a warning if they are left out. None for styles that draw lines only.
+/// edges, with a warning if they are skipped. None for styles that draw only lines.
 pub(super) fn surface_line_layers(
     scene: &Scene,
     workers: Workers<'_>,
@@ -185,14 +182,14 @@ pub(super) fn surface_line_layers(
         _ => return Ok(Default::default()),
     };
     let options = DrawOptions {
-        // The picture shows leaves, and lines would show the rectangles that they are cut out of.
+        // The picture shows leaves, and lines would show the rectangles they are cut from.
         leaves_out_cut_outs: true,
         is_unlimited: scene.unlimited_lines,
         ..style.to_draw_options()
     };
     match drawing::draw(&scene.drawing_subject(), &options, &style.to_fill_options(), workers) {
         Ok(drawing) => Ok((drawing.to_page(&style, "", None).layers, None)),
-        // The surfaces are there without them.
+        // The surfaces are drawn without them.
         Err(DrawError::TooManyCopies { .. }) => Ok((Vec::new(), Some(Warning::OutlinesLeftOut))),
         Err(error) => Err(error.into()),
     }

@@ -1,5 +1,5 @@
-//! Mip chains: the textures of a scene's models prefiltered at all levels, built once and shared by
-//! all renderings.
+//! Mip chains: the textures of a scene's models, prefiltered at all levels, built once and shared
+//! by all renderings.
 //!
 //! ```text
 //!  level 0  64 × 64   the image, decoded
@@ -7,8 +7,8 @@
 //!  …
 //!  level 6   1 × 1
 //! ```
-//! A chain costs a third of the image's memory. One image can need two: as a color texture its
-//! texels are decoded from sRGB before they are averaged, as data they are averaged as they are.
+//! A chain costs a third of the image's memory. One image may need two: as a color texture its
+//! texels are decoded from sRGB before they are averaged; as data they are averaged directly.
 
 use model::{Image, Material, Model, ModelInstance, Texture, TextureSlot};
 use scene::Scene;
@@ -17,24 +17,24 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Two chains of a texture: decoded from sRGB for colors, and linear for data such as normals and
-/// roughness. `None` where no material reads it so.
+/// roughness. `None` if no material needs it.
 type ColorAndData<'a> = [Option<MipChain<'a>>; 2];
 
 /// The mip chains of all textures of a scene's models.
 ///
 /// They belong to the models and not to a picture: several renderings of the same models share
-/// them. Building them takes about as long as a small picture.
+/// them. Building them takes about as long as rendering a small picture.
 #[derive(Debug)]
 pub struct Textures<'a> {
     /// The chains of each distinct model, by texture index.
     mip_chains: Vec<Vec<ColorAndData<'a>>>,
-    /// For each model of the scene the index into `mip_chains`: instances of one model share them.
+    /// For each model of the scene, the index into `mip_chains`: instances of one model share them.
     chain_indices: Vec<usize>,
 }
 
 impl<'a> Textures<'a> {
-    /// Builds the chains that the pictures of a scene need: none if the scene and its insets are
-    /// line drawings.
+    /// Builds the chains needed to render a scene: none if the scene and its insets are line
+    /// drawings.
     #[must_use]
     pub fn for_scene(scene: &'a Scene) -> Self {
         let insets = scene.insets.iter().map(|inset| &inset.scene);
@@ -58,8 +58,8 @@ impl<'a> Textures<'a> {
         Self { mip_chains, chain_indices }
     }
 
-    /// The chains with copies of the full images, so that a program can keep them beside the models
-    /// they belong to.
+    /// The chains with copies of the full images, so that a program can keep them together with
+    /// their models.
     #[must_use]
     pub fn into_owned(self) -> Textures<'static> {
         let own = |chains: ColorAndData<'_>| chains.map(|chain| chain.map(MipChain::into_owned));
@@ -80,7 +80,8 @@ impl<'a> Textures<'a> {
     }
 }
 
-/// Builds the chains of one model's textures, as colors or data by the slots that refer to them.
+/// Builds the chains of one model's textures, as colors or data depending on the slots that refer
+/// to them.
 fn build_mip_chains(model: &Model) -> Vec<ColorAndData<'_>> {
     let mut used = vec![[false; 2]; model.textures.len()];
     for (slot, texture) in model.materials.iter().flat_map(Material::visible_textures) {

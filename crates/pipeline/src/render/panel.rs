@@ -1,7 +1,7 @@
 //! Panels: a scene drawn as one of several pictures on a page.
 //!
-//! Lessons put panels side by side: the same models in several projections, or steps of a sweep.
-//! Lines stay vectors; surfaces become an image of twice the panel's resolution.
+//! Lessons put panels side by side: the same models in several projections, or the steps of a
+//! sweep. Lines stay vectors; surfaces become an image with twice the panel's resolution.
 
 use super::{RenderContext, RenderError, Renderer, Textures, draw_lines};
 use crate::{Picture, Timings};
@@ -10,11 +10,11 @@ use glam::DVec2;
 use page::{MILLIMETERS_PER_PIXEL, PlacedImage, to_micrometers};
 use scene::Scene;
 
-/// Pixels of a raster picture along each pixel of its panel, for sharp prints.
+/// Number of raster pixels per panel pixel along a side, for sharp prints.
 const PICTURE_SCALE: u32 = 2;
 
-/// Draws a scene as a panel of its picture's size at 96 pixels to the inch: as lines, or as a
-/// raster picture in styles that show surfaces. The number of threads does not change it.
+/// Draws a scene as a panel of its picture's size at 96 pixels per inch: as lines, or as a raster
+/// picture in styles that show surfaces. The number of threads does not change it.
 ///
 /// # Errors
 /// As [`render`](crate::render()).
@@ -32,7 +32,7 @@ pub fn render_panel(
     Ok(Panel { id: id.into(), title: title.into(), notes: Vec::new(), page })
 }
 
-/// A page filled by a raster picture of the scene.
+/// A page filled with a raster picture of the scene.
 fn picture_page(scene: &Scene, threads: usize) -> Result<Page, RenderError> {
     let mut enlarged = scene.clone();
     let [width, height] = [scene.image.width, scene.image.height];

@@ -4,11 +4,11 @@
 //!   primitives of the frame ─► nearest at each pixel's center ─► triangle id, barycentric weights
 //!                                                             ─► depth, position, normal, uv, …
 //! ```
-//! One sample at the pixel's center decides by the rasterizer's own rules: the nearest surface,
-//! opaque or translucent, without the holes of masked materials. The weights are then computed anew
-//! at the exact center, in f64, on the triangle before snapping to 1/256 pixel (IN-2; Olano and
-//! Greer, 1997, homogeneous barycentric coordinates). Where snapping puts a center outside the
-//! exact triangle, the weights are those of a point on its border.
+//! One sample at the pixel's center decides by the rasterizer's rules: the nearest surface, opaque
+//! or translucent, without the holes of masked materials. The weights are then recomputed at the
+//! exact center, in f64, on the triangle before snapping to 1/256 pixel (IN-2; Olano and Greer,
+//! 1997, homogeneous barycentric coordinates). If snapping puts a center outside the exact
+//! triangle, its weights refer to a point on the border.
 
 mod buffer;
 mod exr;
@@ -35,10 +35,10 @@ use scene::{Scene, Style};
 use shade::FrameChannel;
 
 /// Renders passes of a region of a scene's picture, in the order of `wanted`, with up to `threads`
-/// threads, whose number does not change them.
+/// threads; their number does not change the passes.
 ///
-/// Passes show the surfaces of the models, also of a scene whose style draws lines; overlays,
-/// environment, backdrop and ground are not in them.
+/// Passes show the surfaces of the models, even if the style of the scene draws lines; they exclude
+/// overlays, environment, backdrop and ground.
 ///
 /// ```
 /// # use pipeline::scene::file::{CameraFile, LightFile};
@@ -75,8 +75,8 @@ pub fn render_passes(
 }
 
 impl Renderer {
-    /// Renders passes of a region of a scene's picture, in the order of `wanted`: the function
-    /// [`render_passes`] with the memory of this renderer, and textures at hand.
+    /// Renders passes of a region of a scene's picture, in the order of `wanted`: like the function
+    /// [`render_passes`], but with this renderer's memory and existing textures.
     ///
     /// # Errors
     /// As [`render`](Self::render).
@@ -107,7 +107,7 @@ impl Renderer {
 
 /// The passes of one image tile.
 struct TilePasses<'a, 'r> {
-    /// The scene as it is; each frame draws a variant of it.
+    /// The original scene; each frame draws a variant of it.
     context: RenderContext<'a>,
     /// The part of the tile that the region needs.
     tile_region: TileRegion,
@@ -116,7 +116,8 @@ struct TilePasses<'a, 'r> {
 }
 
 impl TilePasses<'_, '_> {
-    /// Renders passes. All but overdraw and coverage share one buffer of triangle ids and weights.
+    /// Renders passes. All except overdraw and coverage share one buffer of triangle ids and
+    /// weights.
     fn render_all(&mut self, wanted: &[Pass]) -> Result<Vec<PassBuffer>, RenderError> {
         let threads = self.context.threads;
         let needs_hits = wanted.iter().any(|pass| !matches!(pass, Pass::Overdraw | Pass::Coverage));
@@ -148,8 +149,8 @@ impl TilePasses<'_, '_> {
         Ok(hits)
     }
 
-    /// Overdraw: the number of fragments at each pixel's center, hidden ones included. All
-    /// primitives are drawn as translucent, since opaque ones would replace each other.
+    /// Overdraw: the number of fragments at each pixel's center, including hidden ones. All
+    /// primitives are drawn as translucent, because opaque ones would replace each other.
     fn count_overdraw(&mut self, counts: &mut [u32]) -> Result<(), RenderError> {
         let threads = self.context.threads;
         self.with_frame(Samples::One, Some(Opacity::Translucent), |frame, surface| {
@@ -163,7 +164,8 @@ impl TilePasses<'_, '_> {
         self.with_frame(scene.image.samples, None, |frame, surface| {
             let mut pixels = vec![[0; 4]; coverage.len()];
             u16::draw_frame(frame, &CoverageMask(surface), [0.0; 4], threads, &mut pixels);
-            // Alpha is the mean of the samples; rounded to a whole number of them it is exact.
+            // Alpha is the mean of the samples; rounded to an integer number of samples it is
+            // exact.
             let count = scene.image.samples.count() as f32;
             for (coverage, [.., alpha]) in coverage.iter_mut().zip(pixels) {
                 *coverage = (f32::from(alpha) * count / f32::from(u16::MAX)).round() / count;
@@ -171,8 +173,8 @@ impl TilePasses<'_, '_> {
         })
     }
 
-    /// Assembles a frame of the models alone, with another number of samples, and with another
-    /// opacity if one is given.
+    /// Assembles a frame of only the models, with another number of samples and, if given, another
+    /// opacity.
     fn with_frame(
         &mut self,
         samples: Samples,
@@ -198,7 +200,7 @@ impl TilePasses<'_, '_> {
     }
 }
 
-/// A surface that is white wherever another passes its alpha test.
+/// A surface that is white everywhere that another passes its alpha test.
 struct CoverageMask<'a>(&'a dyn Surface);
 
 impl Surface for CoverageMask<'_> {

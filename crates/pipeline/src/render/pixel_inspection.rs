@@ -1,10 +1,10 @@
 //! Inspection of one pixel: its fragments, their triangles, barycentric weights and colors.
 //!
-//! The pixel is rendered once more as a region of 1 × 1 pixel, whose bits are those of the picture,
-//! with a surface that records each shading call.
+//! The pixel is rendered again as a region of 1 × 1 pixel, bit for bit as in the picture, with a
+//! surface that records each shading call.
 //!
-//! It answers "why has this pixel this color?": which triangles of which nodes are in it, with
-//! which barycentric weights, and with which linear color each contributes.
+//! It answers "why does this pixel have this color?": the triangles and nodes visible in it, their
+//! barycentric weights, and the linear color that each contributes.
 
 use super::RenderError;
 use super::context::RenderContext;
@@ -21,14 +21,14 @@ use scene::Scene;
 use shade::FrameChannel;
 use std::sync::{Mutex, PoisonError};
 
-/// One pixel of a picture and the fragments behind it.
+/// One pixel of a picture and its fragments.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PixelFragments {
     /// The color in the picture: sRGB with straight alpha.
     pub color: [u8; 4],
     /// The shaded fragments in scene order; of neighbors in one smooth surface, which share a
-    /// color, the one that is shaded. With several samples per pixel, a fragment may be hidden in
-    /// some of them.
+    /// color, only the shaded one. With several samples per pixel, a fragment may be hidden in some
+    /// of them.
     pub fragments: Vec<ShadedFragment>,
 }
 
@@ -43,7 +43,7 @@ pub struct ShadedFragment {
     pub color: [f32; 4],
 }
 
-/// The indices that lead from a scene to one point, line or triangle.
+/// The indices that identify one point, line or triangle in a scene.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct FragmentSource {
     /// Index of the model in the scene.
@@ -96,7 +96,8 @@ pub fn inspect_pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelFragme
     let styled = style_shading(scene, &shading);
     let surface: &dyn Surface = styled.as_ref().map_or(&shading as _, |styled| styled as _);
     let (color, mut recorded) = record_fragments(frame, surface, offset, image.background);
-    // A triangle split by clipping, or several samples of one pixel, shade a fragment repeatedly.
+    // A triangle split by clipping, or several samples of one pixel, can shade a fragment
+    // repeatedly.
     recorded.sort_by_key(|(id, ..)| *id);
     recorded.dedup_by_key(|(id, ..)| *id);
     let fragments = recorded.into_iter().map(|(id, weights, color)| {
@@ -124,7 +125,7 @@ fn record_fragments(
 
 /// A surface that forwards to another and records the fragments shaded in one pixel.
 ///
-/// The rasterizer shades from several threads through a shared reference, hence the mutex.
+/// The rasterizer shades from several threads through a shared reference, so there is a mutex.
 struct Recorder<'a> {
     /// The surface that shades.
     surface: &'a dyn Surface,
@@ -160,7 +161,7 @@ impl Surface for Recorder<'_> {
 }
 
 /// The primitive that a primitive id belongs to. Ids count points, lines and triangles in scene
-/// order, culled ones included.
+/// order, including culled ones.
 fn find_source(scene: &Scene, id: u32) -> Option<FragmentSource> {
     let mut first_id = 0;
     for (model, model_instance) in scene.models.iter().enumerate() {

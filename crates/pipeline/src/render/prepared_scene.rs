@@ -1,8 +1,9 @@
 //! A scene prepared for rendering region by region: pictures larger than memory, crops, bands.
 //!
-//! Shared by all regions and computed once: mip chains, shadow maps, the depth buffer of ambient
-//! occlusion, the page of a line drawing, the layers of overlays. Each region then runs from the
-//! models on, so that memory is bounded by the region and not by the picture.
+//! The mip chains, shadow maps, the depth buffer of ambient occlusion, the page of a line drawing
+//! and the overlay layers are computed once and shared by all regions. The rest is repeated for
+//! each region, beginning with the models, so that memory is bounded by the region and not by the
+//! picture.
 //!
 //! ```text
 //!  scene ─► prepare ─► region: surfaces of its image tiles, or lines ─► overlays ─► insets, caption
@@ -32,51 +33,51 @@ use shade::FrameChannel;
 use shade::{AmbientOcclusion, TransmissionFramebuffer};
 use std::sync::Arc;
 
-/// A scene of which any region can be rendered; made by [`Renderer::prepare`].
+/// A scene prepared so that any region can be rendered; made by [`Renderer::prepare`].
 ///
-/// Regions are parts of the picture bit for bit, whatever their size and order.
+/// Regions match the picture bit for bit, for any size and order.
 #[derive(Debug)]
 pub struct PreparedScene<'a> {
     /// Scene, textures and threads.
     pub(super) context: RenderContext<'a>,
     /// The renderer's memory, borrowed until the picture is finished.
     buffers: &'a mut RenderBuffers,
-    /// The drawing of a style that shows lines only.
+    /// The drawing, for a style that shows only lines.
     page: Option<Page>,
     /// Outlines and overlays, drawn over surfaces.
     overlay_layers: Vec<Layer>,
     /// Whether the buffers hold this scene's shadow maps.
     has_shadow_maps: bool,
-    /// The occlusion buffer of the whole picture, for regions that are a part of it and for
-    /// pictures with a transmission framebuffer.
+    /// The occlusion buffer of the whole picture, for partial regions and for pictures with a
+    /// transmission framebuffer.
     full_occlusion: Option<AmbientOcclusion>,
-    /// The picture behind refracting and rough glass, once it is needed.
+    /// The picture behind refracting and rough glass, rendered when needed.
     transmission_framebuffer: Option<TransmissionFramebuffer>,
-    /// The color of the picture as long as all that was rendered of it has one.
+    /// The color of the picture, as long as everything rendered so far has a single one.
     only_color: OnlyColor,
-    /// How many pixels were rendered.
+    /// The number of pixels rendered.
     pixels_seen: usize,
-    /// The pixels of all regions that will be asked for, as progress counts them.
+    /// The number of pixels in all requested regions, for progress.
     pub(super) pixels_due: u64,
-    /// Warnings about this scene, without those of its insets.
+    /// Warnings about this scene, excluding its insets.
     warnings: Vec<Warning>,
-    /// The insets of the scene, in their order.
+    /// The insets of the scene, in order.
     insets: Vec<Self>,
 }
 
 /// Whether the pixels of a picture differ.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum OnlyColor {
-    /// There are none yet.
+    /// There are no pixels yet.
     Unknown,
-    /// All have this color so far, in 8 bits a channel.
+    /// All have this color so far, with 8 bits per channel.
     One([u8; 4]),
     /// They differ.
     Several,
 }
 
 impl OnlyColor {
-    /// Takes the pixels of a further region into account, up to the first that differs.
+    /// Adds the pixels of another region, up to the first that differs.
     fn add_pixels<C: FrameChannel>(&mut self, picture: &Picture<C>) {
         if *self == Self::Several {
             return;
@@ -92,7 +93,7 @@ impl OnlyColor {
 }
 
 impl<'a> PreparedScene<'a> {
-    /// Draws the lines of a scene and of its insets, each inset with a renderer of its own.
+    /// Draws the lines of a scene and of its insets, each inset with a separate renderer.
     pub(super) fn new(
         renderer: &'a mut Renderer,
         context: RenderContext<'a>,
@@ -135,7 +136,7 @@ impl<'a> PreparedScene<'a> {
         })
     }
 
-    /// The warnings about what the picture lacks, those of the insets included; each once.
+    /// The warnings about missing parts of the picture, including the insets, each once.
     #[must_use]
     pub fn into_warnings(self) -> Vec<Warning> {
         let mut all = self.warnings;
@@ -155,8 +156,8 @@ impl<'a> PreparedScene<'a> {
     /// Renders a region of the picture, which takes the region's size.
     ///
     /// # Errors
-    /// If the region is empty, too large or outside the picture, if the scene has too many
-    /// primitives, or the context's monitor asked for the end.
+    /// The region is empty, too large or outside the picture, the scene has too many primitives, or
+    /// the context's monitor requested the end.
     pub fn render_region<C: FrameChannel>(
         &mut self,
         region: PixelRect,
@@ -164,7 +165,7 @@ impl<'a> PreparedScene<'a> {
     ) -> Result<(), RenderError> {
         let scene = self.context.scene;
         validate_region(scene.image, region)?;
-        // The caption covers its strip, the insets may cover the view above it.
+        // The caption covers its strip, and the insets may cover the view above it.
         let view = region.intersection(view_rect(scene.image));
         if view.is_none_or(|view| covers_region(&scene.insets, view)) {
             picture.resize(region.width, region.height);
@@ -200,7 +201,7 @@ impl<'a> PreparedScene<'a> {
         Ok(())
     }
 
-    /// Renders the surfaces of a region, one image tile after the other.
+    /// Renders the surfaces of a region, one image tile after another.
     fn render_surfaces<C: FrameChannel>(
         &mut self,
         region: PixelRect,
@@ -250,7 +251,7 @@ impl<'a> PreparedScene<'a> {
         Ok(())
     }
 
-    /// Renders what glass shows behind it. Like shadow maps it is of the whole picture.
+    /// Renders the picture behind glass. Like shadow maps, it covers the whole picture.
     fn render_transmission_framebuffer(&mut self) -> Result<(), RenderError> {
         let Self { context, buffers, full_occlusion, .. } = self;
         self.transmission_framebuffer = context.measure("transmission", || {
@@ -259,7 +260,7 @@ impl<'a> PreparedScene<'a> {
         Ok(())
     }
 
-    /// The monitor of the frame of a region, which counts the pixels of the whole work.
+    /// The monitor for the frame of a region, which counts the pixels of the whole work.
     fn frame_monitor(&self, region: TileRegion) -> Option<PartMonitor> {
         let outer = Arc::clone(self.context.monitor?);
         let pixels = region.pixel_count() as u64;

@@ -8,8 +8,8 @@
 //!                                                       └► attributes in the world ─► Draw
 //! ```
 //!
-//! The frame gets positions on the screen, the [`Draw`] the vertex attributes for shading; a
-//! primitive id ties them together.
+//! The frame gets screen positions, the [`Draw`] the vertex attributes for shading; a primitive id
+//! links them.
 
 use super::RenderError;
 use super::context::RenderContext;
@@ -30,7 +30,7 @@ use std::sync::LazyLock;
 /// Assembles the visible parts of a scene into an empty frame.
 ///
 /// # Errors
-/// If the scene has more primitives than ids.
+/// The scene has more primitives than ids.
 pub(super) fn assemble_scene<'a>(
     context: &RenderContext<'a>,
     memory: FrameMemory<'a>,
@@ -38,8 +38,8 @@ pub(super) fn assemble_scene<'a>(
     PrimitiveAssembler::new(context, memory, None)?.assemble_all(context)
 }
 
-/// [`assemble_scene`] with what refracting glass shows behind it alone: opaque surfaces, the ground
-/// with its shadows, and the environment if it is visible.
+/// Like [`assemble_scene`], but only for the parts visible behind refracting glass: opaque
+/// surfaces, the ground with its shadows, and the environment if it is visible.
 pub(super) fn assemble_behind_glass<'a>(
     context: &RenderContext<'a>,
     memory: FrameMemory<'a>,
@@ -49,8 +49,8 @@ pub(super) fn assemble_behind_glass<'a>(
     assembler.assemble_all(context)
 }
 
-/// [`assemble_scene`] with all primitives opaque, masked or translucent as `opacity` says, whatever
-/// their materials.
+/// Like [`assemble_scene`], but all primitives are opaque, masked or translucent according to
+/// `opacity`, regardless of their materials.
 pub(super) fn assemble_with_opacity<'a>(
     context: &RenderContext<'a>,
     memory: FrameMemory<'a>,
@@ -65,21 +65,21 @@ pub(super) struct PrimitiveAssembler<'a> {
     pub(super) transform: ScreenTransform,
     /// The eye, or the direction to it.
     viewer: HPoint<World>,
-    /// The needs of the style.
+    /// The inputs required by the style.
     inputs: VertexInputs,
-    /// Whether glass, blended surfaces and the backdrop are left out.
+    /// Whether glass, blended surfaces and the backdrop are skipped.
     only_behind_glass: bool,
-    /// The most texture samples per fragment along the longer axis of its footprint.
+    /// The maximum number of texture samples per fragment along the longer axis of its footprint.
     anisotropy: u32,
     /// The side of points in pixels.
     point_size: f64,
-    /// The most threads for large meshes.
+    /// The maximum number of threads for large meshes.
     threads: usize,
     /// The frame and its draw calls.
     pub(super) memory: FrameMemory<'a>,
     /// The id of the next point, line or triangle.
     pub(super) next_id: u32,
-    /// The number of the next draw call, culled ones included.
+    /// The number of the next draw call, including culled ones.
     pub(super) next_part_id: u32,
 }
 
@@ -91,7 +91,8 @@ pub(super) static QUAD: LazyLock<Primitive> =
     LazyLock::new(|| Primitive { indices: vec![0, 1, 2, 0, 2, 3], ..Primitive::default() });
 
 impl<'a> PrimitiveAssembler<'a> {
-    /// An assembly of all primitives into an empty frame; `opacity` overrides theirs.
+    /// An assembly of all primitives into an empty frame; `opacity` overrides the primitives'
+    /// opacity.
     fn new(
         context: &RenderContext<'a>,
         memory: FrameMemory<'a>,
@@ -119,7 +120,7 @@ impl<'a> PrimitiveAssembler<'a> {
         for (index, model_instance) in scene.models.iter().enumerate() {
             for (instance, primitive) in model_instance.model.scene_primitives() {
                 if is_repeated[index] {
-                    // The ids of what follows stay.
+                    // The ids of later draw calls do not change.
                     self.allocate_ids(primitive)?;
                     continue;
                 }
@@ -128,7 +129,7 @@ impl<'a> PrimitiveAssembler<'a> {
                 self.draw_primitive(model_instance, instance, primitive, texture)?;
             }
         }
-        // In a picture of numbers a shadow would be a false one.
+        // In a picture of numbers a shadow would falsify the values.
         if let Some(ground) = scene.ground.filter(|_| !scene.style.is_false_color()) {
             self.add_ground(ground)?;
         }
@@ -141,7 +142,7 @@ impl<'a> PrimitiveAssembler<'a> {
         Ok(self.memory)
     }
 
-    /// Issues the draw call of one primitive, unless all of it is culled.
+    /// Issues the draw call of one primitive, unless it is culled entirely.
     fn draw_primitive(
         &mut self,
         model_instance: &'a ModelInstance,
@@ -233,8 +234,8 @@ impl<'a> PrimitiveAssembler<'a> {
             .submit(draw.primitive, draw.first_id);
     }
 
-    /// Writes the vertex attributes that the shading reads. Positions and normals are left out
-    /// where neither light nor style asks for them.
+    /// Writes the vertex attributes needed for shading. Positions and normals are skipped if
+    /// neither light nor style needs them.
     fn write_attributes(
         &self,
         draw: &mut Draw<'_>,

@@ -1,9 +1,9 @@
 //! Frustum culling and the vertex transform of one draw call.
 //!
 //! A mesh is divided into clusters of neighboring triangles, each with a bounding box and a cone of
-//! normals. Clusters outside the view volume and clusters that show only back faces are left out as
-//! a whole. Vertices of the others are projected; only where a cluster crosses the guard band are
-//! they also stored in clip space, to be clipped.
+//! normals. Clusters outside the view volume, and clusters that show only back faces, are skipped
+//! entirely. The vertices of the others are projected; only if a cluster crosses the guard band are
+//! they also stored in clip space, for clipping.
 //!
 //! ```text
 //!  clusters ─► frustum culling ─► back-face culling by normal cones ─► unclipped │ to_clip
@@ -24,7 +24,7 @@ pub(super) struct ProjectedMesh {
     pub(super) unclipped: MeshSelection,
     /// Points, lines and triangles that may need clipping.
     pub(super) to_clip: MeshSelection,
-    /// Vertices in clip space, valid for those of `to_clip`.
+    /// Vertices in clip space, valid for the vertices of `to_clip`.
     pub(super) clip_positions: Vec<HPoint<Clip>>,
     /// Outcodes against the guard band, valid for the vertices of `to_clip`.
     pub(super) outcodes: Vec<Outcode>,
@@ -36,8 +36,8 @@ impl ProjectedMesh {
     /// Frustum culling and back-face culling of a primitive's clusters.
     ///
     /// `viewer` is the viewer in model space, or `None` if back faces are visible. Skinned and
-    /// morphed meshes have no clusters: their positions change with the pose, and one box around
-    /// them all decides.
+    /// morphed meshes have no clusters, because their positions change with the pose; they are
+    /// culled by a single box.
     pub(super) fn cull_clusters(
         &mut self,
         transform: &ScreenTransform,
@@ -50,7 +50,7 @@ impl ProjectedMesh {
         self.unclipped.clear(positions.len());
         self.to_clip.clear(positions.len());
         if primitive.topology != Topology::Triangles {
-            // Points and lines are wider than the box around their vertices.
+            // Points and lines extend beyond the box around their vertices.
             return self.to_clip.add_all(primitive.item_count());
         }
         let Cow::Borrowed(_) = positions else {
@@ -109,7 +109,7 @@ impl ProjectedMesh {
             guard_band.project_positions(model_to_clip, &positions[run.clone()], clip, outcodes);
             let screen = &mut self.screen_vertices[run];
             ScreenVertex::divide_and_snap_points(clip, ndc_to_screen, simd_level, screen);
-            // Outside the guard band a snapped position is off the grid, or wrong behind the eye.
+            // Outside the guard band a snapped position is off the grid, or, behind the eye, wrong.
             for (vertex, code) in screen.iter_mut().zip(outcodes) {
                 *vertex = vertex.filter(|_| code.is_inside());
             }
@@ -117,9 +117,9 @@ impl ProjectedMesh {
     }
 
     /// The runs of selected triangles in mesh order: pairs of unclipped runs and the run to clip
-    /// that follows them. The last pair has an empty run at `usize::MAX`.
+    /// that follows. The last pair has an empty run at `usize::MAX`.
     ///
-    /// Mesh order keeps translucent triangles of equal depth in the order of the file.
+    /// Mesh order keeps translucent triangles of equal depth in file order.
     pub(super) fn triangle_runs(&self) -> impl Iterator<Item = (&[Range<usize>], Range<usize>)> {
         let mut remaining = self.unclipped.triangles();
         let to_clip = self.to_clip.triangles().iter().cloned();
@@ -132,7 +132,7 @@ impl ProjectedMesh {
     }
 }
 
-/// The bounding box of positions: least and greatest coordinates.
+/// The bounding box of positions: minimum and maximum coordinates.
 fn position_bounds(positions: &[[f32; 3]]) -> [[f32; 3]; 2] {
     let (mut min, mut max) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
     for position in positions {

@@ -1,5 +1,4 @@
-//! The renderer: draws all that a scene describes, again and again in the memory of the first
-//! picture.
+//! The renderer: draws complete scenes repeatedly, reusing the memory of the first picture.
 
 use super::RenderError;
 use super::ambient_occlusion::OcclusionBuffers;
@@ -18,9 +17,9 @@ use std::sync::Arc;
 
 /// Renders whole pictures: surfaces or lines, outlines, overlays and insets.
 ///
-/// It is the one renderer behind single pictures, batches, frame sequences and pictures that are
-/// rendered in bands. A second picture reuses the buffers of the first: apart from lists of nodes
-/// and textures, from tangents, and from skinned or morphed vertices, surfaces allocate nothing.
+/// It is the single renderer behind single pictures, batches, frame sequences and pictures rendered
+/// in bands. A second picture reuses the buffers of the first: apart from lists of nodes and
+/// textures, from tangents, and from skinned or morphed vertices, surfaces allocate nothing.
 /// Pictures do not depend on those rendered before.
 ///
 /// ```no_run
@@ -40,12 +39,12 @@ use std::sync::Arc;
 pub struct Renderer {
     /// The buffers of the picture without its insets.
     pub(super) buffers: RenderBuffers,
-    /// One renderer for each inset, in their order.
+    /// One renderer for each inset, in order.
     pub(super) insets: Vec<Self>,
 }
 
 impl Renderer {
-    /// Renders a whole picture, and returns the warnings about what it lacks: each once, none for
+    /// Renders a whole picture, and returns the warnings about missing parts: each once, none for
     /// most pictures. The picture takes the size of the scene's image.
     ///
     /// ```
@@ -69,7 +68,7 @@ impl Renderer {
     /// ```
     ///
     /// # Errors
-    /// If the picture's size is out of range, the scene has too many primitives, or the context was
+    /// The picture's size is out of range, the scene has too many primitives, or the context was
     /// canceled.
     pub fn render<C: FrameChannel>(
         &mut self,
@@ -83,8 +82,8 @@ impl Renderer {
         Ok(prepared.into_warnings())
     }
 
-    /// Renders a whole picture of 8 bits a channel as the bytes of a PNG file, and returns them
-    /// with the warnings about what it lacks.
+    /// Renders a whole picture with 8 bits per channel as the bytes of a PNG file, and returns them
+    /// with the warnings about missing parts.
     ///
     /// # Errors
     /// As [`render`](Self::render).
@@ -97,12 +96,12 @@ impl Renderer {
         Ok((picture.to_png(), warnings))
     }
 
-    /// Computes what all regions of a picture share: the page of a line drawing, the layers of
-    /// outlines and overlays. Shadow maps and occlusion follow with the first region that needs
-    /// them.
+    /// Computes the parts shared by all regions of a picture: the page of a line drawing, the
+    /// layers of outlines and overlays. Shadow maps and occlusion follow with the first region that
+    /// needs them.
     ///
     /// # Errors
-    /// If the lines cannot be drawn.
+    /// The lines cannot be drawn.
     pub fn prepare<'a>(
         &'a mut self,
         context: &RenderContext<'a>,
@@ -111,18 +110,18 @@ impl Renderer {
     }
 }
 
-/// The memory that pictures leave to the next.
+/// The memory that one picture passes on to the next.
 #[derive(Debug, Default)]
 pub(super) struct RenderBuffers {
     /// The rasterizer's frame; `None` before the first picture and after an error.
     frame: Option<Frame>,
     /// Vertices of one draw call.
     mesh: ProjectedMesh,
-    /// Always empty; it lends its capacity.
+    /// Always empty; kept for its capacity.
     draws: Vec<Draw<'static>>,
     /// Vertex lists of the last picture's draw calls.
     vertex_pool: Vec<Vec<Vertex>>,
-    /// The shadow maps of the scene at hand, and their memory.
+    /// The shadow maps of the current scene, and their memory.
     pub(super) shadow_maps: ShadowMapRenderer,
     /// The memory of screen-space ambient occlusion.
     pub(super) occlusion: OcclusionBuffers,
@@ -133,18 +132,18 @@ pub(super) struct RenderBuffers {
 pub(super) struct FrameMemory<'a> {
     /// The rasterizer's triangle and visibility buffers.
     pub(super) frame: Frame,
-    /// The image tile that the frame shows, wholly or in part.
+    /// The image tile that the frame shows entirely or partly.
     pub(super) tile: ImageTile,
     /// The draw calls so far, by ascending primitive id.
     pub(super) draws: DrawList<'a>,
-    /// The vertices of the draw call at hand.
+    /// The vertices of the current draw call.
     pub(super) mesh: ProjectedMesh,
-    /// Vertex lists for the draw calls to come.
+    /// Vertex lists for later draw calls.
     pub(super) vertex_pool: Vec<Vec<Vertex>>,
 }
 
 impl FrameMemory<'_> {
-    /// This frame, with a monitor that is told of its progress, if there is one.
+    /// This frame, with a monitor that receives its progress, if any.
     pub(super) fn with_monitor(self, monitor: Option<PartMonitor>) -> Self {
         match monitor {
             Some(monitor) => Self { frame: self.frame.with_monitor(Arc::new(monitor)), ..self },
@@ -154,9 +153,9 @@ impl FrameMemory<'_> {
 }
 
 impl RenderBuffers {
-    /// Takes the buffers out, with an empty frame for a region of a tile.
+    /// Takes the buffers, with an empty frame for a region of a tile.
     ///
-    /// A frame that begins elsewhere than at its tile's corner is allocated anew: only
+    /// A frame that does not begin at its tile's corner is allocated anew: only
     /// [`Frame::for_region`] has an offset.
     pub(super) fn take_frame<'a>(
         &mut self,
@@ -173,7 +172,7 @@ impl RenderBuffers {
             _ => Frame::for_region(PixelRect { x, y, width, height }, samples)?,
         };
         let frame = frame.with_threads(context.threads);
-        // It is told of nothing, until somebody counts its pixels.
+        // It receives nothing until its pixels are counted.
         let monitor = context.monitor.map(|monitor| CancelOnly(Arc::clone(monitor)));
         Ok(FrameMemory {
             frame: with_monitor(frame, monitor),
@@ -187,8 +186,8 @@ impl RenderBuffers {
     /// Puts the buffers of a finished frame back.
     pub(super) fn recycle_frame(&mut self, memory: FrameMemory<'_>) {
         let FrameMemory { frame, mut draws, mesh, mut vertex_pool, .. } = memory;
-        // Reversed, so that the first list taken next time is the one of the first draw call,
-        // which has the right capacity if the scene is the same.
+        // Reversed, so that the first list taken next time belongs to the first draw call, which
+        // has the right capacity if the scene is the same.
         vertex_pool.extend(draws.draws.drain(..).rev().map(|draw| draw.vertices));
         self.frame = Some(frame);
         self.mesh = mesh;
@@ -197,14 +196,14 @@ impl RenderBuffers {
     }
 }
 
-/// Empties a list and gives its capacity to draws of another lifetime: in-place collection reuses
-/// the allocation of `into_iter` when the item types have one layout.
+/// Empties a list and reuses its capacity for draws of another lifetime: in-place collection reuses
+/// the allocation of `into_iter` if the item types have the same layout.
 fn retype_empty_draws<'b>(mut draws: Vec<Draw<'_>>) -> Vec<Draw<'b>> {
     draws.clear();
     draws.into_iter().map_while(|_| None).collect()
 }
 
-/// The frame with a monitor, if there is one.
+/// The frame with a monitor, if any.
 fn with_monitor(frame: Frame, monitor: Option<CancelOnly>) -> Frame {
     match monitor {
         Some(monitor) => frame.with_monitor(Arc::new(monitor)),

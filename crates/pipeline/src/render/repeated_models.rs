@@ -1,7 +1,8 @@
-//! Models that stand where they stand already, and need not be drawn again.
+//! Repeated models: those that coincide with an earlier model need not be drawn again.
 //!
-//! A scene that names one model a hundred thousand times has two megabytes, and filled the picture
-//! as often. Of opaque surfaces at one depth the first stays: drawing the others changes nothing.
+//! A scene that names one model a hundred thousand times takes two megabytes, and would fill the
+//! picture as often. Of opaque surfaces at the same depth the first stays: drawing the others
+//! changes nothing.
 
 use super::vertex_inputs::material_opacity;
 use model::ModelInstance;
@@ -9,11 +10,11 @@ use raster::Opacity;
 use scene::Style;
 use std::sync::Arc;
 
-/// For each model of a scene, whether the same one stands at the same place before it, and shows no
-/// translucent surface, which would be denser for being drawn twice.
+/// For each model of a scene, whether an identical earlier one has the same transform and shows no
+/// translucent surface, which would become denser if drawn twice.
 pub(super) fn find_repeated(models: &[ModelInstance], style: Style) -> Vec<bool> {
     let mut is_repeated = vec![false; models.len()];
-    // X-ray surfaces are all translucent.
+    // In the X-ray style all surfaces are translucent.
     if models.len() < 2 || style == Style::XRay {
         return is_repeated;
     }
@@ -22,7 +23,7 @@ pub(super) fn find_repeated(models: &[ModelInstance], style: Style) -> Vec<bool>
         (Arc::as_ptr(model).addr(), model_to_world.raw().to_cols_array().map(f64::to_bits))
     };
     let mut order: Vec<usize> = (0..models.len()).collect();
-    // Addresses only bring equal ones together; the first of them is that of the scene's order.
+    // Addresses only group equal ones; the first in each group is the first in scene order.
     order.sort_by_key(|index| place(*index));
     for pair in order.windows(2) {
         if place(pair[0]) == place(pair[1]) {

@@ -4,9 +4,9 @@
 //!  Model ──model_to_clip──► Clip ──clip against near, far, guard band──► ÷ w ──viewport──► snap
 //! ```
 //!
-//! Triangles are not clipped against the sides of the view volume: a *guard band* far beyond them
-//! takes their place (CL-4), and the rasterizer's tiles discard what lies between. Only the near
-//! and far planes and the limits of the rasterizer's fixed-point grid cost geometric clipping.
+//! Triangles are not clipped against the sides of the view volume. A *guard band* far outside
+//! replaces them (CL-4), and the rasterizer's tiles discard anything in between. Only the near and
+//! far planes and the limits of the rasterizer's fixed-point grid need geometric clipping.
 
 use super::RenderError;
 use super::image_tiles::ImageTile;
@@ -21,9 +21,9 @@ use viewport::Viewport;
 /// World → clip → screen for one raster, and the volume that geometry is clipped against.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ScreenTransform {
-    /// For an image tile: with the tile in the whole of the view volume.
+    /// For an image tile: with the tile filling the view volume.
     view: ViewTransform,
-    /// Clipping against near and far plane and the guard band, divide, viewport and snapping.
+    /// Clipping against the near and far planes and the guard band, divide, viewport and snapping.
     pub(super) screen: ScreenProjection,
     /// The inverse viewport transform.
     screen_to_ndc: Affine<Screen, Ndc>,
@@ -38,7 +38,7 @@ pub(super) enum Containment {
     Inside,
     /// Outside one plane of the view volume: nothing is visible.
     Outside,
-    /// Neither is certain: its vertices are tested one by one.
+    /// Neither is certain: the vertices are tested one by one.
     Intersecting,
 }
 
@@ -67,7 +67,7 @@ impl ScreenTransform {
         })
     }
 
-    /// World to clip space, with the tile in the whole of the view volume.
+    /// World to clip space, with the tile filling the view volume.
     pub(super) fn world_to_clip(&self) -> Projective<World, Clip> {
         self.view.world_to_clip()
     }
@@ -95,10 +95,10 @@ impl ScreenTransform {
         model_to_world.then_project(self.view.world_to_clip())
     }
 
-    /// Frustum culling of a box given by its least and greatest coordinates.
+    /// Frustum culling of a box given by its minimum and maximum coordinates.
     ///
-    /// The eight corners decide: a box is convex and stays convex in clip space, so a plane that
-    /// has all corners on one side has the whole box there.
+    /// The eight corners decide: a box is convex and stays convex in clip space, so if all corners
+    /// are on one side of a plane, the whole box is.
     pub(super) fn classify_bounds(
         &self,
         model_to_clip: Projective<Model, Clip>,
@@ -107,7 +107,7 @@ impl ScreenTransform {
         let coordinate = |corner: usize, axis: usize| bounds[corner >> axis & 1][axis];
         let corners: [[f32; 3]; 8] =
             std::array::from_fn(|corner| [0, 1, 2].map(|axis| coordinate(corner, axis)));
-        // Corners at infinity are outside all planes, whatever lies between them.
+        // Corners at infinity are always outside all planes.
         if !corners.iter().flatten().all(|c| c.abs() < 1e30) {
             return Containment::Intersecting;
         }
@@ -131,15 +131,15 @@ fn summarize_outcodes(
     volume.project_positions(model_to_clip, corners, &mut points, &mut [Outcode::INSIDE; 8])
 }
 
-/// A vertex position in f64. All geometry before the rasterizer is f64: the models are f32, and
-/// products of matrices and positions shall not lose a bit of them.
+/// A vertex position in f64. All geometry before the rasterizer uses f64: the models are f32, and
+/// products of matrices and positions must not lose any of their bits.
 pub(super) fn model_point(position: [f32; 3]) -> Point<Model> {
     Point::from_raw(Vec3::from_array(position).as_dvec3())
 }
 
 /// The center of a view volume in the world; the eye if the volume is infinite.
 ///
-/// It is near everything visible: positions relative to it lose few bits in `f32`.
+/// It is close to everything visible: positions relative to it lose few bits in `f32`.
 pub(super) fn volume_center(view: &ViewProjection) -> DVec3 {
     let center = view.world_to_clip().raw().inverse() * DVec4::new(0.0, 0.0, 0.0, 1.0);
     let center = center.truncate() / center.w;

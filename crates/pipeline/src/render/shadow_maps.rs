@@ -29,25 +29,25 @@ pub(super) struct ShadowMapRenderer {
     frame: Option<Frame>,
     /// Vertices of one draw call.
     mesh: ProjectedMesh,
-    /// The maps of each light, in their order; empty if no light casts shadows.
+    /// The maps of each light, in order; empty if no light casts shadows.
     pub(super) maps: Vec<Option<LightShadow>>,
-    /// The occlusion of the ground in light from all around; `None` without any.
+    /// The occlusion of the ground in light from all directions; `None` if there is none.
     pub(super) ground_occlusion: Option<GroundOcclusion>,
-    /// Maps of earlier pictures, for their memory.
+    /// Maps of earlier pictures, kept to reuse their memory.
     map_pool: Vec<ShadowMap>,
 }
 
 impl ShadowMapRenderer {
     /// Discards all maps and keeps their memory.
     pub(super) fn recycle_maps(&mut self) {
-        // Reversed, so that the next picture's first map takes the memory of the first light's.
+        // Reversed, so that the next picture's first map reuses the memory of the first light's.
         self.ground_occlusion = None;
         let maps = self.maps.drain(..).rev().flatten();
         self.map_pool.extend(maps.flat_map(LightShadow::into_maps));
     }
 
-    /// Renders the maps of a scene's lights; `None` for lights without shadows, and for those whose
-    /// light reaches no triangle.
+    /// Renders the maps of a scene's lights; `None` for lights without shadows, and for lights that
+    /// reach no triangle.
     pub(super) fn render_maps(&mut self, context: &RenderContext<'_>) -> Result<(), RenderError> {
         let scene = context.scene;
         self.recycle_maps();
@@ -65,7 +65,7 @@ impl ShadowMapRenderer {
         Ok(())
     }
 
-    /// Renders the maps of one light; `None` if its light reaches no triangle.
+    /// Renders the maps of one light; `None` if it reaches no triangle.
     fn render_light(
         &mut self,
         context: &RenderContext<'_>,

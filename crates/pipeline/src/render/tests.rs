@@ -1,4 +1,4 @@
-//! SIMD shading against scalar shading: eight fragments at once have the bits of one by one.
+//! SIMD shading against scalar shading: eight fragments at once get the same bits as one at a time.
 
 use super::context::RenderContext;
 use super::fragment_shading::fragment_shading;
@@ -46,7 +46,7 @@ fn load_scene(name: &str) -> Scene {
     let origin = Origin::from_text(name, text, folder);
     let mut scene =
         Scene::resolve(&origin, &file, &Default::default()).expect("a scene that makes sense");
-    // The ball of glass becomes rough, and shows the transmission framebuffer.
+    // The glass ball becomes rough, and shows the transmission framebuffer.
     for material in
         scene.models.iter_mut().flat_map(|of| &mut Arc::make_mut(&mut of.model).materials)
     {

@@ -1,9 +1,8 @@
-//! Rendering of the transmission framebuffer: all that refracting and rough glass may show behind
-//! it, as one picture of light.
+//! Rendering of the transmission framebuffer: everything that may be visible behind refracting and
+//! rough glass, as one picture of light.
 //!
-//! It is of the whole picture, even where a region of it is rendered: rays are refracted, and rough
-//! glass looks around, beyond the borders of the region. The lookup is
-//! `shade::TransmissionFramebuffer`.
+//! It covers the whole picture, even if only a region is rendered: refracted rays and rough glass
+//! reach beyond the borders of the region. The lookup is `shade::TransmissionFramebuffer`.
 
 use super::RenderError;
 use super::ambient_occlusion::{OcclusionBuffers, compute_full_occlusion, compute_occlusion};
@@ -19,15 +18,15 @@ use raster::Surface;
 use scene::{ImageSpec, Scene};
 use shade::{AmbientOcclusion, ScreenProjection, ToneMapper, TransmissionFramebuffer};
 
-/// The longest side of a framebuffer in texels. Behind larger pictures it is halved until it fits:
-/// it takes 21 bytes for each texel.
+/// The maximum side of a framebuffer in texels. For larger pictures it is halved until it fits: it
+/// takes 21 bytes per texel.
 const MAX_FRAMEBUFFER_SIDE: u32 = 4096;
 
 /// Whether a scene's picture needs a transmission framebuffer: some glass refracts or is rough, and
 /// the style shows materials.
 pub(super) fn needs_framebuffer(scene: &Scene) -> bool {
     let bends_light = |model: &model::Model| {
-        // Most models have no such material: no need to look for where it is used.
+        // Most models have no such material, so its uses need not be searched.
         model.materials.iter().any(Material::bends_transmitted_light)
             && model.scene_primitives().any(|(_, primitive)| {
                 let material = primitive.material.map(|index| &model.materials[index]);
@@ -38,10 +37,10 @@ pub(super) fn needs_framebuffer(scene: &Scene) -> bool {
         && scene.models.iter().any(|instance| bends_light(&instance.model))
 }
 
-/// The ambient occlusion of the whole picture, by all surfaces but glass and blended ones.
+/// The ambient occlusion of the whole picture, from all surfaces except glass and blended ones.
 ///
 /// # Errors
-/// If the picture is larger than one image tile, or the scene has too many primitives.
+/// The picture is larger than one image tile, or the scene has too many primitives.
 pub(super) fn compute_whole_occlusion(
     context: &RenderContext<'_>,
 ) -> Result<Option<AmbientOcclusion>, RenderError> {
@@ -61,7 +60,7 @@ pub(super) fn compute_whole_occlusion(
 /// Renders the framebuffer of a scene's whole picture; `None` if none is needed.
 ///
 /// # Errors
-/// If the scene has too many primitives.
+/// The scene has too many primitives.
 pub(super) fn render_framebuffer(
     context: &RenderContext<'_>,
     shadows: &ShadowMapRenderer,
@@ -72,7 +71,7 @@ pub(super) fn render_framebuffer(
     }
     let mut scene = context.scene.clone();
     [scene.image.width, scene.image.height] = framebuffer_size(scene.image);
-    // Light, not the picture's colors: glass is tone mapped together with what it shows.
+    // Light, not the picture's colors: glass is tone mapped together with the light behind it.
     scene.tone_mapper = ToneMapper::default();
     let context = context.with_scene(&scene);
     let whole = TileRegion::for_whole(scene.image);
@@ -89,7 +88,7 @@ pub(super) fn render_framebuffer(
     Ok(Some(TransmissionFramebuffer::new(projection, texels, backdrop, background, threads)))
 }
 
-/// The size of the framebuffer in texels: that of the picture, or of a fraction of it.
+/// The size of the framebuffer in texels: the picture's size, or a fraction of it.
 fn framebuffer_size(image: ImageSpec) -> [u32; 2] {
     let longer = image.width.max(image.height);
     let halvings = longer.div_ceil(MAX_FRAMEBUFFER_SIDE).next_power_of_two();

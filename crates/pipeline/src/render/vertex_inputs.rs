@@ -1,9 +1,9 @@
-//! The vertex attributes, opacity and faces that a style needs of each draw call.
+//! The vertex attributes, opacity and faces that a style needs for each draw call.
 //!
 //! A style that overrides materials (clay, normals, ids …) still needs some of their properties:
-//! their alpha, and whether surfaces are double-sided. Styles that show the base color blend what
-//! is blended; the others have one color for each fragment, and holes in its place. The X-ray style
-//! makes everything translucent and shows back faces as well.
+//! their alpha, and whether surfaces are double-sided. Styles that show the base color blend
+//! blended materials; the others have one color for each fragment, and holes instead. The X-ray
+//! style makes everything translucent and also shows back faces.
 
 use super::vertex_processing::material_uv_set;
 use model::{AlphaMode, Material, Primitive};
@@ -13,33 +13,33 @@ use scene::Style;
 /// The needs of a style.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct VertexInputs {
-    /// Whether triangles have one normal each (flat shading).
+    /// Whether each triangle has a single normal (flat shading).
     pub(super) is_flat: bool,
-    /// Whether positions and normals are needed also for unlit materials.
+    /// Whether positions and normals are also needed for unlit materials.
     pub(super) forces_lit_inputs: bool,
     /// Whether back faces of single-sided materials are visible.
     pub(super) shows_back_faces: bool,
-    /// How the opacity follows from the material.
+    /// The rule that derives the opacity from the material.
     opacity_rule: OpacityRule,
-    /// Whether the first set of texture coordinates is needed, whatever the material reads.
+    /// Whether the first set of texture coordinates is always needed.
     needs_first_uv_set: bool,
 }
 
 /// The opacity of primitives under a style.
 #[derive(Clone, Copy, Debug)]
 enum OpacityRule {
-    /// By the alpha mode and transmission of their materials.
+    /// From the alpha mode and transmission of their materials.
     FromMaterial,
-    /// By their alpha modes alone.
+    /// Only from their alpha modes.
     AlphaMode,
-    /// Opaque, with holes where masked materials and the textures of blended ones have them.
+    /// Opaque, with holes from masked materials and the textures of blended ones.
     CutOut,
     /// One opacity for all primitives.
     Force(Opacity),
 }
 
 impl VertexInputs {
-    /// The needs of a style; `opacity` overrides that of all primitives.
+    /// The needs of a style; `opacity` overrides the opacity of all primitives.
     pub(super) fn for_style(style: Style, opacity: Option<Opacity>) -> Self {
         let default_rule = match style {
             Style::XRay => OpacityRule::Force(Opacity::Translucent),
@@ -62,20 +62,20 @@ impl VertexInputs {
             (OpacityRule::Force(opacity), _) => opacity,
             (OpacityRule::AlphaMode | OpacityRule::CutOut, AlphaMode::Opaque) => Opacity::Opaque,
             (OpacityRule::CutOut, AlphaMode::Blend) => Opacity::Masked,
-            // Its color holds what is behind it already: it hides that, and is shaded where it is
-            // visible alone, without the cost of layers.
+            // Its color already includes the background, which it hides; so only visible fragments
+            // are shaded, without the cost of layers.
             (_, AlphaMode::Opaque) if material.bends_transmitted_light() => Opacity::Opaque,
             _ => material_opacity(material),
         }
     }
 
-    /// Whether a material's surfaces are in the transmission framebuffer, the picture of what is
-    /// behind glass: all but glass and blended surfaces.
+    /// Whether a material's surfaces are in the transmission framebuffer, the picture behind glass:
+    /// all except glass and blended surfaces.
     pub(super) fn is_behind_glass(&self, material: &Material) -> bool {
         self.opacity(material) != Opacity::Translucent && !material.bends_transmitted_light()
     }
 
-    /// The index of the texture coordinates that vertices carry, if any.
+    /// The index of the texture coordinate set that vertices carry, if any.
     pub(super) fn uv_set(&self, material: &Material, primitive: &Primitive) -> Option<usize> {
         if self.needs_first_uv_set {
             (!primitive.uvs.is_empty()).then_some(0)

@@ -1,9 +1,9 @@
-//! PNG files rendered in bands of rows: the picture is never in memory as a whole.
+//! PNG files rendered in bands of rows: the whole picture is never in memory.
 //!
 //! ```text
 //!  region ─► band of rows ─► render_region ─► rows to the PNG encoder ─► next band, same memory
 //! ```
-//! A band is a region like any other: the file has the bytes of one that is encoded from memory.
+//! A band is an ordinary region: the file has the same bytes as one encoded from memory.
 
 use super::RenderError;
 use super::prepared_scene::PreparedScene;
@@ -13,18 +13,18 @@ use picture::encode_png;
 use shade::FrameChannel;
 use std::io::{self, Write};
 
-/// The bytes of pixels that a band holds at most, for pictures of reasonable width.
+/// The maximum number of pixel bytes in a band, for pictures of reasonable width.
 const BAND_BYTES: u64 = 64 << 20;
 
-/// The rows of a band for a picture of this width: some 64 MiB of 8-bit pixels, in whole rows of
-/// the rasterizer's 64-pixel tiles, between 64 and 2048.
+/// The number of rows in a band for a picture of this width: about 64 MiB of 8-bit pixels, in whole
+/// rows of the rasterizer's 64-pixel tiles, between 64 and 2048.
 #[must_use]
 pub fn rows_per_band(width: u32) -> u32 {
     let rows = BAND_BYTES / (4 * u64::from(width.max(1)));
     (rows as u32 / 64 * 64).clamp(64, 2048)
 }
 
-/// The bits of a channel of a PNG file.
+/// The bits per channel of a PNG file.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum BitDepth {
     /// 8 bits.
@@ -35,16 +35,16 @@ pub enum BitDepth {
 
 impl PreparedScene<'_> {
     /// Writes a region as a PNG file, rendered in bands of `rows` rows. The bytes do not depend on
-    /// their number. `copy` becomes the region's picture in 8 bits; without one, only a band is in
-    /// memory.
+    /// the number of rows. `copy` becomes the region's picture in 8 bits; without it, only a band
+    /// is in memory.
     ///
-    /// PNG declares in its header whether there is an alpha channel. A picture over a translucent
+    /// The PNG header declares whether there is an alpha channel. A picture over a translucent
     /// background is therefore rendered up to its first translucent band before anything is
     /// written, and then again.
     ///
     /// # Errors
-    /// If a band cannot be rendered (see [`render_region`](Self::render_region)), or the file
-    /// cannot be written.
+    /// A band cannot be rendered (see [`render_region`](Self::render_region)), or the file cannot
+    /// be written.
     pub fn write_png(
         &mut self,
         out: &mut dyn Write,
@@ -90,8 +90,8 @@ impl PreparedScene<'_> {
         })
     }
 
-    /// Whether all bands are opaque. Over an opaque background all are; else they are rendered up
-    /// to the first translucent pixel.
+    /// Whether all bands are opaque. Over an opaque background they are; otherwise they are
+    /// rendered up to the first translucent pixel.
     fn bands_are_opaque<C: FrameChannel>(
         &mut self,
         bands: impl Iterator<Item = PixelRect>,

@@ -1,4 +1,4 @@
-//! Pictures with a closed form: each pixel is held against the formula that the scene was made of.
+//! Pictures with a closed form: each pixel is compared with the formula behind the scene.
 
 mod glass;
 mod refraction;
@@ -14,7 +14,7 @@ use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures, render
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// A glTF file of one mesh: triangles with normals, each part with a material of its own.
+/// A glTF file of one mesh: triangles with normals, each part with a separate material.
 fn build_glb(parts: &[TestPart]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let (mut views, mut accessors, mut primitives, mut materials) =
@@ -58,7 +58,7 @@ fn build_glb(parts: &[TestPart]) -> Vec<u8> {
     .into_bytes()
 }
 
-/// Triangles of one material.
+/// Triangles with one material.
 #[derive(Clone)]
 struct TestPart {
     positions: Vec<[f32; 3]>,
@@ -66,7 +66,7 @@ struct TestPart {
     material: String,
 }
 
-/// The square from −1 to 1 at a height, which faces +z.
+/// The square from −1 to 1 at a height, facing +z.
 fn square_part(z: f32, material: &str) -> TestPart {
     let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let positions = [0, 1, 2, 0, 2, 3].map(|n: usize| [corners[n][0], corners[n][1], z]);
@@ -77,7 +77,7 @@ fn square_part(z: f32, material: &str) -> TestPart {
     }
 }
 
-/// A sphere of radius 1, fine enough that its normals are those of a sphere to four digits.
+/// A sphere of radius 1, fine enough that its normals match a sphere's to four digits.
 fn sphere_part(material: &str) -> TestPart {
     let (rows, columns) = (96, 192);
     let point = |row: usize, column: usize| {
@@ -93,13 +93,13 @@ fn sphere_part(material: &str) -> TestPart {
     TestPart { normals: positions.clone(), positions, material: material.to_owned() }
 }
 
-/// The picture of some parts by the rest of a scene file, from (0, 0, 5) with a picture of 2.2
-/// units' height.
+/// The picture of some parts, completed by the rest of a scene file, seen from (0, 0, 5), with a
+/// picture height of 2.2 units.
 fn render_parts(parts: &[TestPart], rest: &str) -> Picture {
     render_parts_larger(parts, 1.0, rest)
 }
 
-/// Renders the parts with everything `size` times as large.
+/// Renders the parts with everything scaled by `size`.
 fn render_parts_larger(parts: &[TestPart], size: f64, rest: &str) -> Picture {
     render(&test_scene(parts, size, rest), 2).expect("a picture")
 }
@@ -119,7 +119,7 @@ fn test_scene(parts: &[TestPart], size: f64, rest: &str) -> Scene {
     Scene::from_models(&origin, &file, &[placed]).expect("a scene that makes sense")
 }
 
-/// The scene of a bare model: what the program makes of a file without a scene around it.
+/// The scene of a bare model: the program's defaults for a file without a scene.
 fn bare_scene(parts: &[TestPart], change: impl FnOnce(&mut SceneFile)) -> Scene {
     let (origin, mut file) = Origin::from_model_bytes("made.gltf", build_glb(parts));
     file.image.size = (120, 120);
@@ -132,7 +132,7 @@ fn framed_from(from: FromFile) -> ViewFile {
     ViewFile::Frame { from: Some(from), padding_percent: DEFAULT_PADDING }
 }
 
-/// The codes of the pixels that are wholly covered.
+/// The codes of the fully covered pixels.
 fn covered_codes(picture: &Picture) -> impl Iterator<Item = [u8; 3]> {
     let covered = picture.pixels.iter().filter(|pixel| pixel[3] == 255);
     covered.map(|&[r, g, b, _]| [r, g, b])
@@ -144,7 +144,7 @@ const WHITE: &str = r#"{"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,1],"met
 fn matte_white_does_not_clip_in_the_default_light_with_shadows_and_without() {
     let most_allowed = encode_srgb(0.95).round() as u8;
     let mut brightest = 0;
-    // From above and from all around: the key light moves with the view.
+    // From above and all around: the key light moves with the view.
     let around = (0..12).map(|twelfth| {
         let angle = f64::from(twelfth) * PI / 6.0;
         let [x, z] = [libm::sin(angle), libm::cos(angle)];
@@ -163,7 +163,7 @@ fn matte_white_does_not_clip_in_the_default_light_with_shadows_and_without() {
             brightest = brightest.max(most);
         }
     }
-    // The README's sentence on the studio.
+    // The sentence in the README about the studio.
     let readme = include_str!("../../../../README.md");
     let told = readme.split_once("matte white reaches ").expect("the sentence").1;
     let told: f64 = told.split_once(' ').expect("a word").0.parse().expect("a number");
@@ -183,7 +183,7 @@ fn lit_styles_of_a_bare_sphere_are_bright_towards_the_key_light_and_dark_below()
             let at = |x, y| u32::from(picture.pixel(x, y).expect("a pixel")[1]);
             let (towards, below) = (at(45, 30), at(70, 100));
             assert!(towards > below + 25, "{style:?} {environment:?}: {towards}, {below}");
-            // The night is dark where no ambient light is; the studio and the sky are not.
+            // Night is dark without ambient light; the studio and the sky are not.
             assert!(below > 30, "{style:?} {environment:?}: {below}");
         }
     }
@@ -214,9 +214,9 @@ fn normalize(v: [f64; 3]) -> [f64; 3] {
     v.map(|c| c / dot(v, v).sqrt())
 }
 
-/// The light that a dielectric of this color and roughness reflects to +z, per lux, by Appendix B
-/// of the specification; what highlights lose at one bounce is left out, which is less than a code
-/// for them.
+/// The light that a dielectric of this color and roughness reflects to +z, per lux, according to
+/// Appendix B of the specification; the single-bounce loss of highlights is ignored, which is less
+/// than one code.
 fn expected_reflection(base: [f64; 3], roughness: f64, n: [f64; 3], l: [f64; 3]) -> [f64; 3] {
     let v = [0.0, 0.0, 1.0];
     let h = normalize([0, 1, 2].map(|k: usize| l[k] + v[k]));
@@ -278,7 +278,7 @@ fn a_lit_sphere_has_the_colours_of_the_formula() {
             continue;
         }
         let n = [at[0], at[1], (1.0 - square).sqrt()];
-        // A pixel's normals spread by how far they turn from one to the next, which widens
+        // The normals within a pixel spread as they turn from one pixel to the next, which widens
         // highlights.
         let turn = 2.2 / side / n[2];
         let expected = expected_reflection([0.8, 0.4, 0.1], 0.6 + turn, n, l).map(|c| c * 2.5);
@@ -325,8 +325,8 @@ fn a_transparent_picture_laid_over_a_colour_is_the_opaque_one_over_it() {
         let lights = "lights: [Directional(direction: (-1, -2, -2), intensity: 2.5), Ambient(intensity: 0.5)]";
         format!("{lights}, image: (size: (60, 60), background: {background}, samples: 4)")
     };
-    // In 16 bits, for where sRGB is steep half a code of an alpha of 8 bits is more than one of
-    // colour.
+    // In 16 bits, because where sRGB is steep, half a code of 8-bit alpha is more than one code of
+    // color.
     let clear = test_scene(&parts(), 1.0, &rest("Transparent"));
     let textures = Textures::for_scene(&clear);
     let context = RenderContext::new(&clear, &textures, 2);
@@ -351,7 +351,7 @@ fn a_transparent_picture_laid_over_a_colour_is_the_opaque_one_over_it() {
     }
 }
 
-/// The light that surroundings of 1 leave a sphere with: none is made, and little lost.
+/// The light that a sphere reflects in surroundings of 1: none is created, and little is lost.
 #[test]
 fn white_surroundings_are_no_brighter_on_any_surface() {
     let material = |metallic: f64, roughness: f64| {
@@ -366,9 +366,9 @@ fn white_surroundings_are_no_brighter_on_any_surface() {
         let picture = render_parts(&[sphere_part(&material(metallic, roughness))], rest);
         let inside = picture.pixels.iter().filter(|pixel| pixel[3] == 255);
         let codes: Vec<u8> = inside.map(|pixel| pixel[1]).collect();
-        // sRGB of 0.5 is 188. White scatters all that is not mirrored, and metal mirrors all:
-        // nothing may be lost but by rounding. What is half of both loses, at each bounce but the
-        // first, what a reflectance of a half does not reflect.
+        // sRGB of 0.5 is 188. White scatters everything that is not mirrored, and metal mirrors
+        // everything: only rounding may lose light. A half-and-half material loses, at each bounce
+        // except the first, the part not reflected by a reflectance of one half.
         let (least, most) = (codes.iter().min().unwrap(), codes.iter().max().unwrap());
         let lost = if metallic == 0.5 { 8 } else { 1 };
         let holds = codes.len() > 5000 && *least >= 188 - lost && *most <= 188;

@@ -1,4 +1,4 @@
-//! White furnace: a white metal in uniform light sends back what it receives, however anisotropic.
+//! White furnace: a white metal in uniform light returns all light it receives, at any anisotropy.
 
 use homog::Affine;
 use model::{
@@ -33,7 +33,7 @@ fn ball_mesh(rows: u32) -> Primitive {
     Primitive { normals: Some(normals), tangents: Some(tangents), ..primitive }
 }
 
-/// The picture of a white metal ball in uniform light of half the range, seen in parallel.
+/// The picture of a white metal ball in uniform light of half the range, in parallel projection.
 fn furnace_picture(strength: f32, roughness: f32) -> Picture<u16> {
     let anisotropy =
         (strength > 0.0).then(|| Box::new(Anisotropy { strength, ..Anisotropy::default() }));
@@ -64,7 +64,7 @@ fn furnace_picture(strength: f32, roughness: f32) -> Picture<u16> {
     picture
 }
 
-/// The linear light of a code of 16 bits.
+/// The linear light of a 16-bit code.
 fn linear(code: u16) -> f64 {
     let srgb = f64::from(code) / 65535.0;
     if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
@@ -77,7 +77,7 @@ fn anisotropic_metal_reflects_as_much_as_isotropic_metal() {
         for strength in [0.5, 1.0] {
             let picture = furnace_picture(strength, roughness);
             for (x, y) in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))) {
-                // From the center of the ball to where it is seen under 80°.
+                // From the center of the ball to where it is seen at an angle of 80°.
                 let from_center = |at: u32| (2.0 * f64::from(at) + 1.0) / f64::from(SIDE) - 1.0;
                 let sine = libm::hypot(from_center(x), from_center(y));
                 if sine > libm::sin(80_f64.to_radians()) {

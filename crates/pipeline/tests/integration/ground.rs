@@ -1,4 +1,4 @@
-//! The ground that shows shadows: what a framed picture shows of it.
+//! The ground that shows shadows: its appearance in a framed picture.
 
 use camera::{NamedView, Slopes, frame_perspective};
 use homog::PixelRect;
@@ -7,14 +7,14 @@ use pipeline::scene::parse_scene;
 use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
 use std::path::PathBuf;
 
-/// The alpha from which on something at the picture's border is seen to be cut off: 3 %.
+/// The alpha above which something visibly ends at the picture's border: 3 %.
 const MAX_BORDER_ALPHA: u8 = 8;
 
 fn model_path(name: &str) -> PathBuf {
     PathBuf::from(format!("{}/../../scenes/models/{name}.glb", env!("CARGO_MANIFEST_DIR")))
 }
 
-/// A bare model as the program draws it, at this size, on ground that shows shadows or without.
+/// A bare model as drawn by the program, at this size, with or without ground that shows shadows.
 fn bare_model(name: &str, size: (u32, u32), ground: Option<GroundFile>) -> Scene {
     let (origin, mut file) = Origin::from_model_path(&model_path(name));
     (file.ground, file.image.size) = (ground, size);
@@ -33,7 +33,7 @@ fn shadows_of_bare_models_are_inside_of_the_picture() {
             let is_border = |x: u32, y: u32| x == 0 || y == 0 || x + 1 == width || y + 1 == height;
             let on_border = all.clone().filter(|&(x, y)| is_border(x, y));
             let most = on_border.map(|(x, y)| alpha(x, y)).max();
-            // The shadow of the key light is not there; light from all around fades slowly.
+            // The key light's shadow is missing; ambient occlusion fades slowly.
             assert!(most < Some(MAX_BORDER_ALPHA), "{name} {size:?}: {most:?}");
             let shadow = |&(x, y): &(u32, u32)| {
                 let [r, g, b, a] = picture.pixels[(y * width + x) as usize];
@@ -56,7 +56,7 @@ fn without_ground_only_the_model_is_framed() {
         assert_eq!(scene.view_projection.camera, framing.camera, "{name}");
         let on_ground = bare_model(name, size, Some(GroundFile::DEFAULT));
         assert_ne!(on_ground.view_projection.camera, framing.camera, "{name}");
-        // Nor where its shadows may leave the picture; they are seen where they do not.
+        // Nor where its shadows may extend beyond the picture; they are visible where they do not.
         let cropped = GroundFile::Shadow { height: None, framed: false };
         let cropped = bare_model(name, size, Some(cropped));
         assert_eq!(cropped.view_projection.camera, framing.camera, "{name}");
@@ -85,7 +85,7 @@ fn shadows_of_low_light_do_not_push_the_model_away() {
     assert!(distance("(1, 0.2, -0.5)") < high);
 }
 
-/// A bare model in light from all around alone.
+/// A bare model only in light from all directions.
 fn model_in_uniform_light(name: &str, size: (u32, u32), shadows: Option<ShadowsFile>) -> Scene {
     let (origin, mut file) = Origin::from_model_path(&model_path(name));
     (file.ground, file.image.size) = (Some(GroundFile::DEFAULT), size);
@@ -128,7 +128,7 @@ fn parts_of_a_picture_with_a_contact_shadow_unite() {
     }
 }
 
-/// A lamp in the light from its left on ground that shows shadows, with more fields of the scene.
+/// A lamp lit from its left on ground that shows shadows, with additional fields in the scene.
 fn lamp_picture(fields: &str) -> Picture {
     let text = format!(
         r#"Scene(models: [(path: "lamp.glb")], ground: Shadow(), shadows: On(),
@@ -141,7 +141,7 @@ fn lamp_picture(fields: &str) -> Picture {
     render(&scene, 2).expect("a picture")
 }
 
-/// The shadow reaches behind the models, beyond the far plane that encloses them.
+/// The shadow extends behind the models, beyond the far plane that encloses them.
 #[test]
 fn shadows_behind_the_models_darken_every_kind_of_background() {
     let camera = |projection: &str| {
@@ -164,12 +164,12 @@ fn shadows_behind_the_models_darken_every_kind_of_background() {
         [("Perspective()", "Perspective(far: 1000)"), ("Orthographic()", "Orthographic(far: 1000)")]
     {
         let differing = count_differing(&around(tight), &around(wide));
-        // Depths are rounded otherwise, where surfaces meet.
+        // Depths are rounded differently where surfaces meet.
         assert!(differing < 20, "{tight}: {differing}");
     }
 }
 
-/// How many pixels differ by more than rounding.
+/// The number of pixels that differ by more than rounding.
 fn count_differing(one: &Picture, other: &Picture) -> usize {
     let differs = |(a, b): &(&[u8; 4], &[u8; 4])| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 2);
     one.pixels.iter().zip(&other.pixels).filter(differs).count()

@@ -8,10 +8,10 @@ use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures};
 use std::path::Path;
 use std::sync::Arc;
 
-/// The directions in which the reference looks for occluders.
+/// The number of directions in which the reference looks for occluders.
 const DIRECTION_COUNT: usize = 128;
 
-/// Makes all surfaces matte and nearly black: no light comes back from what occludes.
+/// Makes all surfaces matte and nearly black: occluders reflect no light.
 fn blacken_materials(scene: &mut Scene) {
     for ModelInstance { model, .. } in &mut scene.models {
         let materials = model.materials.iter().map(|material| Material {
@@ -26,7 +26,7 @@ fn blacken_materials(scene: &mut Scene) {
     }
 }
 
-/// A model of the project in light from everywhere, with or without occlusion.
+/// A model of the project in light from all directions, with or without occlusion.
 fn load_scene(model: &str, image: &str, occlusion: &str) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let text = format!(
@@ -59,8 +59,8 @@ fn linear_light(scene: &Scene, threads: usize) -> Vec<f64> {
     picture.pixels.iter().map(linear).collect()
 }
 
-/// The fraction of the light from everywhere that the picture shows at each pixel; NaN where there
-/// is no surface.
+/// The fraction of the light from all directions that the picture shows at each pixel; NaN for
+/// background pixels.
 fn drawn_visibility(model: &str, image: &str, radius: f64) -> (Scene, Vec<f64>) {
     let without = linear_light(&load_scene(model, image, ""), 2);
     let scene = load_scene(model, image, &format!("ambient_occlusion: (radius: {radius})"));
@@ -109,8 +109,8 @@ fn cast_ray(triangles: &[[DVec3; 3]], origin: DVec3, direction: DVec3) -> Option
     nearest
 }
 
-/// The visibility at the surface that a pixel shows, by rays: each occluder takes its direction's
-/// light, less the farther away it is.
+/// The visibility at the surface visible in a pixel, by ray casting: each occluder blocks the light
+/// from its direction, less with distance.
 fn reference_visibility(
     triangles: &[[DVec3; 3]],
     scene: &Scene,
@@ -135,7 +135,7 @@ fn reference_visibility(
     let bitangent = normal.cross(tangent);
     let mut visible = 0.0;
     for k in 0..DIRECTION_COUNT {
-        // Directions with the density of the cosine: a spiral over the disc below them.
+        // Directions with cosine density: a spiral over the disc below them.
         let squared = (k as f64 + 0.5) / DIRECTION_COUNT as f64;
         let angle = k as f64 * 2.399_963_229_728_653;
         let (r, up) = (squared.sqrt(), (1.0 - squared).sqrt());
@@ -166,7 +166,7 @@ fn occlusion_is_that_of_rays() {
     assert!(faults.is_empty(), "{faults:#?}");
 }
 
-/// Compares the occlusion of a model, up to an eighth of its size, with that of rays.
+/// Compares the occlusion of a model, up to an eighth of its size, with ray casting.
 fn judge_model(model: &str) -> Result<(), String> {
     let image = "size: (160, 120), samples: 1";
     let points = load_scene(model, image, "").world_points();

@@ -1,4 +1,4 @@
-//! Inspected pixels have the colors of their pictures, from the triangles that are there.
+//! Inspected pixels have the colors of their pictures, from the triangles visible there.
 
 use pipeline::render::inspect_pixel;
 use pipeline::scene::ResolveOptions;
@@ -21,7 +21,7 @@ const SCENES: [&str; 10] = [
 #[test]
 fn a_thousand_pixels_have_the_colours_of_their_pictures() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    // A generator of places that is the same everywhere (Lehmer, 1951).
+    // A position generator that gives the same results everywhere (Lehmer, 1951).
     let mut state = 20_261_121_u64;
     let mut below = |count: u32| {
         state = state * 48_271 % 2_147_483_647;

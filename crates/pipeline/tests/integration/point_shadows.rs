@@ -1,4 +1,4 @@
-//! Shadows of point lights: where rays from the lamp say, on all six faces and across their seams.
+//! Shadows of point lights: they match rays from the lamp, on all six faces and across their seams.
 
 use glam::{DVec3, DVec4};
 use homog::{Affine, PixelRect};
@@ -7,11 +7,11 @@ use pipeline::scene::parse_scene;
 use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
 use std::sync::Arc;
 
-/// The lamp, a little off the middle of the room.
+/// The lamp, slightly off the center of the room.
 const LAMP: DVec3 = DVec3::new(0.11, -0.07, 0.05);
 /// Half of the side of the room.
 const ROOM: f64 = 3.0;
-/// The walls, as directions from the middle.
+/// The walls, as directions from the center.
 const DIRECTIONS: [[f64; 3]; 6] = [
     [1.0, 0.0, 0.0],
     [-1.0, 0.0, 0.0],
@@ -21,10 +21,10 @@ const DIRECTIONS: [[f64; 3]; 6] = [
     [0.0, 0.0, -1.0],
 ];
 
-/// A box by its least and greatest coordinates.
+/// A box given by its minimum and maximum coordinates.
 type Box3 = [DVec3; 2];
 
-/// A box of half side 0.3 before each wall, and one across the borders of three faces.
+/// A box of half side 0.3 in front of each wall, and one across the borders of three faces.
 fn boxes() -> Vec<Box3> {
     let around = |center: DVec3, half: f64| [center - half, center + half];
     let mut boxes: Vec<Box3> =
@@ -83,7 +83,7 @@ fn meet_box([low, high]: Box3, from: DVec3, along: DVec3) -> Option<[f64; 2]> {
     (enter < leave).then_some([enter, leave])
 }
 
-/// Whether a place of a wall is in the light of the lamp.
+/// Whether a position on a wall is lit by the lamp.
 fn is_lit(boxes: &[Box3], place: DVec3) -> bool {
     let along = LAMP - place;
     !boxes.iter().any(|&b| {
@@ -117,7 +117,7 @@ fn shadows_in_all_six_directions_lie_where_rays_from_the_lamp_say() {
             let along = (seen.truncate() / seen.w - eye).normalize();
             let Some([_, leave]) = meet_box(room, eye, along) else { panic!("in the room") };
             let place = eye + along * leave;
-            // The wall at hand, away from its edges, and nothing before it.
+            // The current wall, away from its edges, with nothing in front of it.
             let is_hidden = boxes.iter().any(|&b| {
                 meet_box([b[0] - 0.02, b[1] + 0.02], eye, along)
                     .is_some_and(|[_, leave]| leave > 0.0)
@@ -141,7 +141,7 @@ fn shadows_in_all_six_directions_lie_where_rays_from_the_lamp_say() {
     }
 }
 
-/// A ball around a place seen from within, with smooth normals that point inwards.
+/// A ball around a position, seen from inside, with smooth normals that point inward.
 fn hollow_ball(radius: f32, rows: u32) -> Primitive {
     let columns = 2 * rows;
     let mut primitive = Primitive::default();
@@ -165,7 +165,8 @@ fn hollow_ball(radius: f32, rows: u32) -> Primitive {
 
 #[test]
 fn a_ball_around_the_lamp_is_lit_as_without_shadows() {
-    // A wide filter takes the ball's surface for its tangent plane, beside which it is hollow.
+    // A wide filter treats the ball's surface as its tangent plane, although it is hollow next to
+    // it.
     for (position, shadows, tolerance) in [
         ("(0, 0, 0)", "On()", 0),
         ("(0.5, 0.3, -0.8)", "On()", 0),
@@ -221,7 +222,8 @@ fn linear(code: u8) -> f64 {
 
 #[test]
 fn penumbras_have_no_seams_where_faces_meet() {
-    // The borders of the faces run elsewhere over the floor when all but the light's faces turns.
+    // The borders of the faces cross the floor elsewhere when everything but the light's faces is
+    // turned.
     let rest =
         "lights: [Point(position: (0, 0, 0), intensity: 8, shadows: On(softness_degrees: 6))],
         image: (size: (400, 300))";
@@ -234,8 +236,8 @@ fn penumbras_have_no_seams_where_faces_meet() {
         differences.sort_unstable_by(f64::total_cmp);
         let (most, last) =
             (differences[differences.len() * 999 / 1000], differences[differences.len() - 1]);
-        // The pattern of 48 positions lies otherwise in the penumbra; where a face ended, half of
-        // the light and more would be missing.
+        // The pattern of 48 positions falls differently in the penumbra; if a face ended there, at
+        // least half of the light would be missing.
         assert!(most < 0.05 && last < 0.15, "{degrees}: {most} {last}");
     }
 }

@@ -1,4 +1,4 @@
-//! A renderer's second picture: the bits of a picture rendered alone, without new allocations.
+//! A renderer's second picture: bit for bit as if rendered separately, without new allocations.
 
 use pipeline::{
     CancelToken, Monitor, Origin, Picture, RenderContext, RenderError, Renderer, Scene, Textures,
@@ -37,9 +37,9 @@ fn a_second_picture_allocates_but_short_lists() {
         let second = allocation_counter::measure(&mut draw);
         assert!(first.bytes_total > 100_000, "{name}: {first:?}");
         // Lists of nodes and of each draw's textures: nothing that grows with vertices or pixels.
-        // Each shadow map walks the nodes anew.
+        // Each shadow map traverses the nodes again.
         let maps = scene.lights.iter().filter(|light| light.shadow().is_some()).count() as u64;
-        // The occlusion of the ground has a grid of at most 192 × 192 cells, whatever the picture.
+        // The occlusion of the ground has a grid of at most 192 × 192 cells for every picture.
         let has_grid = scene.ground.is_some_and(|ground| ground.occlusion.is_some());
         let grid = if has_grid { 192 * 192 * 24 } else { 0 };
         assert!(second.bytes_total < 20_000 + 4000 * maps + grid, "{name}: {second:?}");

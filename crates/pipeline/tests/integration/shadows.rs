@@ -1,4 +1,4 @@
-//! Shadows: tight where things stand, none of a surface on itself, no light through walls.
+//! Shadows: tight at contacts, no self-shadowing, no light through walls.
 
 use homog::Affine;
 use homog::PixelRect;
@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 type Position = [f32; 3];
 
-/// A model of parts, each with its material.
+/// A model made of parts, each with its material.
 fn build_model(parts: Vec<(Primitive, Material)>) -> Model {
     let (primitives, materials): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
     let primitives = primitives.into_iter().enumerate();
@@ -30,7 +30,7 @@ fn matte_material(red: f32, green: f32, blue: f32) -> Material {
     Material { base_color, metallic: 0.0, roughness: 1.0, ..Material::default() }
 }
 
-/// Black in any light but for what it gives off.
+/// Black in any light except for its emission.
 fn emissive_material(emissive: [f32; 3]) -> Material {
     Material { emissive, double_sided: true, ..matte_material(0.0, 0.0, 0.0) }
 }
@@ -99,7 +99,7 @@ fn pixel_at(picture: &Picture, x: u32, y: u32) -> [u8; 4] {
     picture.pixels[(y * picture.width + x) as usize]
 }
 
-/// A box on a floor in 1080 lines, seen from one side.
+/// A box on a floor at 1080 lines, seen from one side.
 fn render_box_on_floor(eye: &str, lights: &str) -> Picture {
     let parts = vec![
         (floor_quad(4.0), matte_material(0.8, 0.8, 0.8)),
@@ -114,8 +114,8 @@ fn render_box_on_floor(eye: &str, lights: &str) -> Picture {
     )
 }
 
-/// For each column through the middle of the box: the codes of the floor below it, from the first
-/// pixel that is not the box's.
+/// For each column through the middle of the box, the codes of the floor below it, starting at the
+/// first pixel outside the box.
 fn pixels_below_box(picture: &Picture) -> Vec<Vec<u8>> {
     let is_box =
         |x: u32, y: u32| pixel_at(picture, x, y)[2] > 250 && pixel_at(picture, x, y)[0] < 250;
@@ -138,7 +138,7 @@ fn a_box_and_its_shadow_touch_and_its_lit_side_stays_lit() {
         "Point(position: (-4, 4, -0.4), intensity: 90, shadows: On(softness_degrees: 3))",
     ] {
         for column in pixels_below_box(&render_box_on_floor("(5, 3, 0)", lights)) {
-            // Black from the second pixel on, and light again where the shadow ends.
+            // Black from the second pixel on, and lit again where the shadow ends.
             assert!(column[1..40].iter().all(|&code| code == 0), "{lights}: {:?}", &column[..40]);
             assert!(column.iter().any(|&code| code > 100), "{lights}");
         }
@@ -154,7 +154,7 @@ fn a_box_and_its_shadow_touch_and_its_lit_side_stays_lit() {
     }
 }
 
-/// The greatest difference of codes between a scene with shadows and without.
+/// The maximum difference in codes between a scene with and without shadows.
 fn greatest_difference(parts: &[(Primitive, Material)], rest: &str, shadows: &str) -> u8 {
     let without = render_parts(parts.to_vec(), &format!("{rest}, shadows: Off"));
     let with = render_parts(parts.to_vec(), &format!("{rest}, shadows: {shadows}"));
@@ -165,7 +165,7 @@ fn greatest_difference(parts: &[(Primitive, Material)], rest: &str, shadows: &st
 
 #[test]
 fn balls_do_not_shade_themselves_in_grazing_light() {
-    // A row of balls across the light, from coarse to fine: none is in another's shadow.
+    // A row of balls perpendicular to the light, from coarse to fine: none is in another's shadow.
     let balls: Vec<_> = [(-4.0, 12), (-2.0, 24), (0.0, 48), (2.0, 96), (4.0, 192)]
         .map(|(x, rows)| (ball_mesh([x, 0.0, 0.0], 0.9, rows), matte_material(0.8, 0.8, 0.8)))
         .into();
@@ -195,7 +195,7 @@ fn a_floor_and_a_bowl_do_not_shade_themselves() {
         );
         assert_eq!(difference, 0, "{direction}");
     }
-    // The inside of a ball, of which nothing is cut off: lit by a spot in its middle.
+    // The inside of a complete ball, lit by a spot at its center.
     let mut bowl = ball_mesh([0.0; 3], 5.0, 40);
     bowl.indices =
         bowl.indices.as_chunks::<3>().0.iter().flat_map(|&[a, b, c]| [a, c, b]).collect();
@@ -280,7 +280,7 @@ fn shadows_are_the_same_for_any_number_of_threads() {
     assert!(one == render(&scene, 3).expect("a picture"));
 }
 
-/// A ball over the ground that only shows shadows, under a sun straight above.
+/// A ball above a shadow-catching ground, with the sun directly overhead.
 fn render_over_ground(background: &str, rest: &str) -> Picture {
     let ball = (ball_mesh([0.0, 1.0, 0.0], 0.5, 60), matte_material(0.8, 0.8, 0.8));
     render_parts(
@@ -292,7 +292,7 @@ fn render_over_ground(background: &str, rest: &str) -> Picture {
     )
 }
 
-/// Where a place of the ground is in that picture.
+/// The pixel of a ground position in that picture.
 fn pixel_of_ground_point(x: f64, z: f64) -> (u32, u32) {
     let scene = shadow_scene(
         vec![(ball_mesh([0.0, 1.0, 0.0], 0.5, 60), matte_material(0.8, 0.8, 0.8))],
@@ -309,8 +309,9 @@ fn pixel_of_ground_point(x: f64, z: f64) -> (u32, u32) {
 
 #[test]
 fn the_ground_shows_the_share_of_light_that_shadows_take() {
-    // 3 lux from the sun, 1 from everywhere: where the sun is hidden, three quarters are missing,
-    // and of the last what the ball hides: its solid angle, weighted with the cosine.
+    // 3 lux from the sun, 1 from all directions: where the sun is hidden, three quarters are
+    // missing, and of the last quarter the part hidden by the ball: its solid angle, weighted by
+    // the cosine.
     let lights =
         "lights: [Directional(direction: (0, -1, 0), intensity: 3), Ambient(intensity: 1)]";
     let clear = render_over_ground("Transparent", lights);
@@ -327,7 +328,7 @@ fn the_ground_shows_the_share_of_light_that_shadows_take() {
             "{x} {z} {alpha} {expected}"
         );
     }
-    // Beside the ball nearly all arrives, and far away all.
+    // Next to the ball almost all light arrives, and far away all.
     for (x, z, most) in [(0.0, 0.8, 8), (-0.8, 0.0, 8), (-1.3, 1.0, 0)] {
         assert!(at(&clear, x, z)[3] <= most, "{x} {z}");
     }
@@ -380,7 +381,7 @@ fn occlusion_darkens_corners_and_nothing_that_is_open() {
     let least = least.fold(1.0, f64::min);
     assert!((0.35..0.62).contains(&least), "{least}");
     assert_eq!(pixel_at(&with, 150, 199), pixel_at(&without, 150, 199));
-    // What a sun gives stays.
+    // Sunlight is unaffected.
     let sun = "Directional(direction: (0, -1, -1), intensity: 3)";
     let (without, with) = draw_both(wall_on_floor(0.8), sun);
     assert!(without == with);
@@ -388,8 +389,8 @@ fn occlusion_darkens_corners_and_nothing_that_is_open() {
 
 #[test]
 fn occlusion_has_no_stripes_beside_sharp_edges() {
-    // A box in 1080 lines, whose surroundings reach far over the screen; on the ground to the left
-    // of it.
+    // A box at 1080 lines, whose occlusion radius covers much of the screen; on the ground to the
+    // left of it.
     let parts = vec![
         (floor_quad(6.0), matte_material(0.05, 0.05, 0.05)),
         (box_sides([-0.5, 0.0, -0.5], [0.5, 1.0, 0.5], true), matte_material(0.05, 0.05, 0.05)),
@@ -409,8 +410,8 @@ fn occlusion_has_no_stripes_beside_sharp_edges() {
         |x: u32, y: u32| f64::from(picture.pixels[(y * region.width + x) as usize][0]) / 257.0;
     let (mut step, mut back) = (0.0_f64, 0.0_f64);
     for (x, y) in (0..region.height).flat_map(|y| (1..region.width - 1).map(move |x| (x, y))) {
-        // How far a pixel is from the mean of its neighbours, and how much lighter than the one
-        // farther away.
+        // The difference between a pixel and the mean of its neighbors, and its increase over the
+        // pixel farther away.
         step = step.max((code(x, y) - 0.5 * (code(x - 1, y) + code(x + 1, y))).abs());
         back = back.max(code(x + 1, y) - code(x, y));
     }

@@ -5,8 +5,8 @@ use super::screen_space::{PixelGrid, ScreenSpace};
 use crate::lanes::Lanes;
 use raster::{Kernel, LANES};
 
-/// The weights of a pixel and its neighbors along an axis: a box of four pixels, centered, so that
-/// each turn of the pattern has the same weight.
+/// The weights of a pixel and its neighbors along an axis: a centered box of four pixels, so that
+/// each rotation of the pattern has the same weight.
 const BOX: [f32; 5] = [0.5, 1.0, 1.0, 1.0, 0.5];
 /// The distance from the plane of the surface, in radii, at which a neighbor has no weight.
 const SURFACE_DISTANCE: f32 = 0.1;
@@ -51,7 +51,7 @@ impl Kernel for DenoiseEight<'_> {
 }
 
 impl DenoiseEight<'_> {
-    /// The change of depth over the distance at which a neighbor has no weight, toward the viewer.
+    /// The change of depth, toward the viewer, over the distance at which a neighbor has no weight.
     #[inline(always)]
     fn depth_distances(&self, depths: Lanes<LANES>) -> Lanes<LANES> {
         let space = self.space;
@@ -59,7 +59,7 @@ impl DenoiseEight<'_> {
         let positions = space.unproject_pixels([columns, Lanes::splat(self.y as f32)], depths);
         let nearer = positions + space.views(positions) * (SURFACE_DISTANCE * space.radius());
         let distances = (space.project(nearer).z - depths).abs();
-        // A viewer within that distance sees nothing but this surface.
+        // A viewer within that distance sees only this surface.
         distances.max(f32::MIN_POSITIVE)
     }
 }

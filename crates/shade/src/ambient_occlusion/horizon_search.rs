@@ -6,27 +6,28 @@ use crate::kernel_part::kernel_part;
 use crate::lanes::{Lanes, Vec3Lanes};
 use raster::{Kernel, LANES};
 
-/// The planes through the view in which horizons are searched at each pixel.
+/// Number of planes through the view direction in which horizons are searched at each pixel.
 const SLICE_COUNT: usize = 4;
-/// The steps to either side of a slice.
+/// Number of steps to either side of a slice.
 const STEP_COUNT: usize = 6;
-/// The cosine by which something must be above the surface: what is lower is the surface itself.
+/// The minimum cosine by which an occluder must rise above the surface; anything lower is the
+/// surface itself.
 const SURFACE_TOLERANCE: f32 = 0.002;
-/// The least weight of a slice, by which others are divided.
+/// The minimum weight of a slice, to avoid dividing by zero.
 const LEAST_WEIGHT: f32 = 1e-3;
-/// The side of the pattern by which slices are turned.
+/// The side of the pattern that rotates the slices.
 const PATTERN_SIDE: usize = 4;
-/// The order of the turns in the pattern: neighbors differ much (a Bayer matrix).
+/// The order of the rotations in the pattern: neighbors differ greatly (a Bayer matrix).
 const TURNS: [[u8; PATTERN_SIDE]; PATTERN_SIDE] =
     [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
 
-/// The pattern by which slices are turned and steps are moved from pixel to pixel.
+/// The pattern that rotates slices and shifts steps from pixel to pixel.
 ///
-/// Rows repeat after four, and so do columns: two of its periods are eight pixels.
+/// Rows repeat after four, and so do columns: eight pixels are two periods.
 pub(super) struct Pattern {
-    /// The directions of the slices on the screen, x and y, for each row of the pattern.
+    /// The screen directions of the slices, x and y, for each row of the pattern.
     directions: [[[[f32; LANES]; 2]; SLICE_COUNT]; PATTERN_SIDE],
-    /// The fraction of a step by which the steps of a pixel are ahead.
+    /// The fraction of a step by which the steps of a pixel are shifted.
     step_offsets: [[f32; LANES]; PATTERN_SIDE],
 }
 
@@ -43,15 +44,15 @@ impl Pattern {
                 direction[0][lane] = libm::cos(angle) as f32;
                 direction[1][lane] = libm::sin(angle) as f32;
             }
-            // In another order than the turns, so that no direction has long steps only.
+            // In another order than the rotations, so that no direction has only long steps.
             step_offsets[row][lane] = ((u32::from(turn) * 5 + 8) % 16) as f32 / 16.0 + 1.0 / 32.0;
         }
         Self { directions, step_offsets }
     }
 }
 
-/// The kernel that computes the visibilities of pixels from (x, y) to the right: of eight, where x is
-/// a multiple of eight, or of one.
+/// The kernel that computes the visibilities of pixels from (x, y) to the right: eight, where x is
+/// a multiple of eight, or one.
 pub(super) struct HorizonSearch<'a, const N: usize> {
     pub(super) space: &'a ScreenSpace,
     pub(super) pattern: &'a Pattern,
@@ -62,7 +63,7 @@ pub(super) struct HorizonSearch<'a, const N: usize> {
 
 /// The surfaces of some pixels.
 struct Surfaces<const N: usize> {
-    /// Columns and rows.
+    /// Column and row.
     pixels: [Lanes<N>; 2],
     /// Positions relative to the origin.
     positions: Vec3Lanes<N>,
@@ -78,17 +79,17 @@ struct Surfaces<const N: usize> {
 
 /// The plane of a slice at each of some pixels.
 struct Slice<const N: usize> {
-    /// The direction on the screen: x and y.
+    /// The screen direction: x and y.
     direction: [Lanes<N>; 2],
     /// The length of the normal's projection into the slice: the slice's weight.
     weight: Lanes<N>,
     /// The cosine of the angle from the view to the projected normal.
     cosine: Lanes<N>,
-    /// Its sine, positive where the normal leans along the direction.
+    /// Its sine, positive if the normal leans along the direction.
     sine: Lanes<N>,
     /// The unit normal of the slice.
     slice_normal: Vec3Lanes<N>,
-    /// A vector on the surface that leads out of the slice by one unit.
+    /// A vector on the surface that leads one unit out of the slice.
     out_of_slice: Vec3Lanes<N>,
 }
 
@@ -126,17 +127,17 @@ impl<const N: usize> Kernel for HorizonSearch<'_, N> {
             let slice = self.project_normals(&surfaces, index);
             let [ahead, behind] = kernel_part!(N, self.find_horizons(&surfaces, &slice));
             visible += slice.weight * slice.visible_arc([ahead, behind]);
-            // By the same expression, so that what nothing occludes is exactly open.
+            // Computed with the same expression, so that an unoccluded surface is exactly open.
             open += slice.weight * slice.visible_arc(slice.surface_horizons());
         }
         let visibility = (visible / open).max(0.0).min(1.0);
-        // Also where a surface is seen from its edge, and nothing is known.
+        // This also covers surfaces seen edge-on, about which nothing is known.
         visibility.select(&open.is_above(0.0), Lanes::ONE).0
     }
 }
 
 impl<const N: usize> HorizonSearch<'_, N> {
-    /// The part of the pattern that lies over the pixels.
+    /// The part of the pattern for the pixels.
     #[inline(always)]
     fn lanes_of(&self, pattern: &[f32; LANES]) -> Lanes<N> {
         let start = self.x % LANES;
@@ -152,7 +153,7 @@ impl<const N: usize> HorizonSearch<'_, N> {
         let columns = Lanes::from_fn(|lane| (self.x + lane) as f32);
         let pixels = [columns, Lanes::splat(self.y as f32)];
         let positions = space.unproject_pixels(pixels, depths);
-        // The surface's plane, from the pixel beside that continues it best.
+        // The surface's plane, from the neighboring pixel that continues it best.
         let [dx, dy] = depth_slopes(self.depths, [self.x, self.y], depths);
         let right = space.unproject_pixels([pixels[0] + 1.0, pixels[1]], depths + dx) - positions;
         let down = space.unproject_pixels([pixels[0], pixels[1] + 1.0], depths + dy) - positions;
@@ -192,9 +193,9 @@ impl<const N: usize> HorizonSearch<'_, N> {
 
     /// The cosines from the view down to the horizons, ahead and behind.
     ///
-    /// Each surface takes the light between its height and that of those before it, less the
-    /// farther away it is: occlusion falls off with the square of the distance. Where a surface
-    /// faces the viewer, the light below a height is proportional to the height's square.
+    /// Each surface takes the light between its height and the height of earlier ones, reduced with
+    /// distance: occlusion falls off with the square of the distance. If a surface faces the
+    /// viewer, the light below a height is proportional to the height's square.
     #[inline(always)]
     fn find_horizons(&self, surfaces: &Surfaces<N>, slice: &Slice<N>) -> [Lanes<N>; 2] {
         let inv_radius = 1.0 / self.space.radius();
@@ -203,7 +204,7 @@ impl<const N: usize> HorizonSearch<'_, N> {
         let mut occluded = [Lanes::ZERO; 2];
         let mut highest = [Lanes::splat(SURFACE_TOLERANCE * SURFACE_TOLERANCE); 2];
         for step in 0..STEP_COUNT {
-            // Steps are short nearby, where they have most weight.
+            // Steps are short nearby, where they have the most weight.
             let t = (step as f32 + step_offsets) * (1.0 / STEP_COUNT as f32);
             let distance = 1.0 + t * t * (surfaces.radii - 1.0);
             for (side, sign) in [1.0, -1.0].into_iter().enumerate() {
@@ -212,7 +213,8 @@ impl<const N: usize> HorizonSearch<'_, N> {
                 let height = found.dot(surfaces.views) / squared.sqrt() - surface_horizons[side];
                 let light = height.max(0.0) * height;
                 let radii = squared * (inv_radius * inv_radius);
-                // Of what is too far away, or not there, no light is taken: less than the highest.
+                // Surfaces that are missing or too far away take no light: they count as lower than
+                // the highest.
                 let is_near = radii.is_below(1.0);
                 let light = light.select(&depths.is_above(0.0), Lanes::ZERO);
                 let light = light.select(&is_near, Lanes::ZERO);
@@ -224,8 +226,8 @@ impl<const N: usize> HorizonSearch<'_, N> {
         [0, 1].map(|side| surface_horizons[side] + occluded[side].sqrt())
     }
 
-    /// The surfaces at some pixels along a slice: their positions relative to those from which the
-    /// slice starts, and their depths.
+    /// The surfaces at pixels along a slice: their positions relative to the start of the slice,
+    /// and their depths.
     #[inline(always)]
     fn surface_at(
         &self,
@@ -241,13 +243,13 @@ impl<const N: usize> HorizonSearch<'_, N> {
         let columns = Lanes::from_fn(|lane| x[lane] as f32);
         let rows = Lanes::from_fn(|lane| y[lane] as f32);
         let found = self.space.unproject_pixels([columns, rows], depths) - surfaces.positions;
-        // The pixel's center lies beside the slice. Moved into it along the surface, what is on the
-        // surface stays on it.
+        // The pixel's center is not exactly in the slice. It is moved into it along the surface, so
+        // that points on the surface stay on it.
         (found - slice.out_of_slice * found.dot(slice.slice_normal), depths)
     }
 }
 
-/// The pixels that contain coordinates; those beyond the picture move to the margin.
+/// The pixels that contain coordinates; coordinates outside the picture move to the margin.
 #[inline(always)]
 fn containing_pixels<const N: usize>(coordinates: Lanes<N>, side: u32) -> [i32; N] {
     let mut pixels = [0; N];
@@ -260,9 +262,8 @@ fn containing_pixels<const N: usize>(coordinates: Lanes<N>, side: u32) -> [i32; 
 
 /// The change of depth per pixel to the right and down, on the surface of each pixel.
 ///
-/// Depth is linear on a plane: of the two neighbors, the one is taken that lies on a line with the
-/// next beyond it. Beside a silhouette that is the neighbor on the surface, and at a crease one of
-/// the two faces.
+/// Depth is linear on a plane: of the two neighbors, the one collinear with the next beyond it is
+/// used. At a silhouette that is the neighbor on the surface, and at a crease one of the two faces.
 #[inline(always)]
 pub(super) fn depth_slopes<const N: usize>(
     grid: &PixelGrid,
@@ -295,15 +296,15 @@ fn integrate_arc<const N: usize>(horizon: Lanes<N>, cosine: Lanes<N>, sine: Lane
     let horizon = horizon.max(-1.0).min(1.0);
     let angle = arc_cosines(horizon);
     let horizon_sine = (1.0 - horizon * horizon).sqrt();
-    // The cosine of 2h − n, from those of h and n.
+    // The cosine of 2h − n, from the cosines of h and n.
     let double_cosine = 2.0 * horizon * horizon - 1.0;
     let double_sine = 2.0 * horizon * horizon_sine;
     let difference = double_cosine * cosine + double_sine * sine;
     0.25 * (cosine - difference + 2.0 * angle * sine)
 }
 
-/// Arc cosines of numbers from −1 to 1, off by at most 7 · 10⁻⁵ (Abramowitz and Stegun 1964,
-/// 4.4.45).
+/// Arc cosines of numbers from −1 to 1, with an error of at most 7 · 10⁻⁵ (Abramowitz and Stegun
+/// 1964, 4.4.45).
 #[inline(always)]
 fn arc_cosines<const N: usize>(cosines: Lanes<N>) -> Lanes<N> {
     let x = cosines.abs();

@@ -13,7 +13,7 @@ use std::ops::{Add, Mul};
 pub struct ScreenSpace {
     /// Width and height in pixels.
     size: [u32; 2],
-    /// The place of the depth in each pixel, from its upper left corner.
+    /// The position in each pixel at which depth was sampled, from the upper left corner.
     sample_offset: [f32; 2],
     /// The position that others are relative to.
     origin: [f32; 3],
@@ -23,19 +23,19 @@ pub struct ScreenSpace {
     screen_to_world: [[f32; 4]; 4],
     /// The viewer, relative and homogeneous.
     viewer: [f32; 4],
-    /// A vector across the view, as long as the radius.
+    /// A vector perpendicular to the view, whose length is the radius.
     radius_across_view: [f32; 3],
-    /// The distance in the world from which on nothing occludes.
+    /// The distance in the world beyond which nothing occludes.
     radius: f32,
 }
 
 impl ScreenSpace {
-    /// The mapping of a picture of this size, whose depths are at `sample_offset` in each pixel.
+    /// The mapping for a picture of this size, whose depths are at `sample_offset` in each pixel.
     ///
-    /// `world_to_screen` maps the world to pixels and depth; `origin` is a position near the
-    /// surfaces; `viewer` is the eye or, in parallel projection, the direction to it;
-    /// `radius_across_view` is a vector in the world across the view, as long as the distance
-    /// within which surfaces occlude.
+    /// `world_to_screen` maps the world to pixels and depth. `origin` is a position near the
+    /// surfaces. `viewer` is the eye or, in parallel projection, the direction to it.
+    /// `radius_across_view` is a vector in the world, perpendicular to the view, whose length is
+    /// the distance within which surfaces occlude.
     pub fn new(
         size: [u32; 2],
         sample_offset: [f32; 2],
@@ -66,7 +66,7 @@ impl ScreenSpace {
         self.size
     }
 
-    /// The distance in the world from which on nothing occludes.
+    /// The distance in the world beyond which nothing occludes.
     #[inline(always)]
     pub(super) fn radius(&self) -> f32 {
         self.radius
@@ -99,7 +99,7 @@ impl ScreenSpace {
         } * inv_w
     }
 
-    /// The relative positions of places on the screen with a depth.
+    /// The relative positions of screen positions with a depth.
     #[inline(always)]
     pub(super) fn unproject<const N: usize>(
         &self,
@@ -115,7 +115,7 @@ impl ScreenSpace {
         } * inv_w
     }
 
-    /// The relative positions of the surfaces that pixels show, given their columns, rows and
+    /// The relative positions of the surfaces visible at pixels, given their columns, rows and
     /// depths.
     #[inline(always)]
     pub(super) fn unproject_pixels<const N: usize>(
@@ -127,8 +127,8 @@ impl ScreenSpace {
         self.unproject([columns + x, rows + y], depths)
     }
 
-    /// The columns and rows of the pixels that show positions; beyond the picture or behind the eye
-    /// a pixel of the margin.
+    /// The columns and rows of the pixels that show positions; outside the picture or behind the
+    /// eye, a pixel of the margin.
     #[inline(always)]
     pub(super) fn pixels_at<const N: usize>(&self, positions: Vec3Lanes<N>) -> [[i32; 2]; N] {
         let projected = self.project(positions);
@@ -136,7 +136,7 @@ impl ScreenSpace {
         let [width, height] = self.size.map(|side| side as f32);
         for (lane, pixel) in pixels.iter_mut().enumerate() {
             let [x, y, depth] = projected.lane(lane);
-            // `&` instead of `&&`: all conditions are computed, without branches.
+            // `&` instead of `&&`: all conditions are evaluated, without branches.
             let is_inside = (x >= 0.0) & (x < width) & (y >= 0.0) & (y < height) & (depth > 0.0);
             *pixel = [x, y].map(|c| if is_inside { floor_to_int(c) } else { -2 });
         }
@@ -166,23 +166,23 @@ where
     x * row[0] + y * row[1] + z * row[2] + row[3]
 }
 
-/// A number for each pixel of a picture, with a margin of zeros around it, so that pixels beside
+/// A number for each pixel of a picture, with a margin of zeros around it, so that pixels outside
 /// its border are read without a test.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PixelGrid {
     /// Width and height of the picture.
     size: [usize; 2],
-    /// Numbers in a row, with its margins; a multiple of eight.
+    /// Number of values in a row, including its margins; a multiple of eight.
     stride: usize,
-    /// Rows from the top, those of the margin first.
+    /// Rows from the top, beginning with the margin.
     values: Vec<f32>,
 }
 
-/// The pixels of the margin on each side: what denoising reads beyond the border.
+/// The width of the margin in pixels on each side: the reach of denoising beyond the border.
 const MARGIN: usize = LANES;
 
 impl PixelGrid {
-    /// Becomes zeros for a picture of this size.
+    /// Resets to zeros for a picture of this size.
     pub(super) fn reset(&mut self, size: [u32; 2]) {
         self.size = size.map(|side| side as usize);
         let [width, height] = self.size;
@@ -191,7 +191,7 @@ impl PixelGrid {
         self.values.resize(self.stride * (height + 2 * MARGIN), 0.0);
     }
 
-    /// Sets the pixels from the numbers of the picture, row by row.
+    /// Sets the pixels from the values of the picture, row by row.
     pub(super) fn fill_from(&mut self, mut numbers: impl Iterator<Item = f32>) {
         let width = self.size[0];
         for y in 0..self.size[1] {
@@ -202,15 +202,15 @@ impl PixelGrid {
         }
     }
 
-    /// The rows of the picture with their numbers, each extended to a multiple of eight pixels.
+    /// The rows of the picture with their indices, each extended to a multiple of eight pixels.
     pub(super) fn rows_mut(&mut self) -> impl ExactSizeIterator<Item = (usize, &mut [f32])> + Send {
         let width = self.stride - 2 * MARGIN;
         let rows = self.values.chunks_exact_mut(self.stride).skip(MARGIN).take(self.size[1]);
         rows.map(move |row| &mut row[MARGIN..MARGIN + width]).enumerate()
     }
 
-    /// The number of the pixel at an offset from another, which lies in the picture or up to two
-    /// pixels beside it.
+    /// The value of the pixel at an offset from another, which is in the picture or up to two
+    /// pixels outside it.
     #[inline(always)]
     pub(super) fn at(&self, [x, y]: [i32; 2], [dx, dy]: [i32; 2]) -> f32 {
         let (column, row) = ((x + dx) as isize, (y + dy) as isize);
@@ -218,7 +218,7 @@ impl PixelGrid {
             [((row + MARGIN as isize) * self.stride as isize + column + MARGIN as isize) as usize]
     }
 
-    /// The numbers of pixels to the right of one, moved by an offset of at most eight.
+    /// The values of pixels to the right of one, moved by an offset of at most eight.
     #[inline(always)]
     pub(super) fn lanes_at<const N: usize>(
         &self,

@@ -1,4 +1,4 @@
-//! Linear gradients, interpolated in sRGB as web pages interpolate them (CSS Images 3, §3.1).
+//! Linear gradients, interpolated in sRGB as on web pages (CSS Images 3, §3.1).
 //!
 //! ```text
 //!   ┌───────────┐     The gradient line runs through the center at an angle. Colors are
@@ -11,7 +11,7 @@
 
 use crate::color::srgb_to_linear;
 
-/// Steps of the table: joined by straight lines they are finer than 16 bits can resolve.
+/// Number of steps in the table: joined by straight lines they are finer than 16 bits can resolve.
 const TABLE_STEPS: usize = 1024;
 
 /// A linear gradient through equally spaced colors.
@@ -19,7 +19,8 @@ const TABLE_STEPS: usize = 1024;
 pub struct Gradient {
     /// Linear colors at equal distances along the gradient line, from its beginning to its end.
     table: Vec<[f32; 3]>,
-    /// The fractions of the gradient line that a step across the whole picture and one down it go.
+    /// The fractions of the gradient line covered by a step across the whole picture and one down
+    /// it.
     axis: [f32; 2],
 }
 

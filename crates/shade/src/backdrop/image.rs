@@ -3,14 +3,14 @@
 use crate::color::srgb_to_linear_table;
 use model::Image;
 
-/// How an image fills a picture of another shape.
+/// The way in which an image fills a picture with another aspect ratio.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ImageFit {
     /// Stretched to the picture's width and height.
     Stretch,
-    /// As large as covers all of the picture; two sides are cropped.
+    /// Large enough to cover the whole picture; two sides are cropped.
     Cover,
-    /// As large as is visible whole; beside it is the background.
+    /// Large enough to be just completely visible; the background fills the rest.
     Contain,
 }
 
@@ -25,7 +25,7 @@ pub struct BackdropImage {
     upper_left: [f32; 2],
     /// Width and height, in the same fractions.
     extent: [f32; 2],
-    /// The color beside and behind the image: linear, multiplied by alpha.
+    /// The color around and behind the image: linear, multiplied by alpha.
     background: [f32; 4],
 }
 
@@ -38,7 +38,8 @@ impl std::fmt::Debug for BackdropImage {
 impl BackdropImage {
     /// An image over a background (linear, multiplied by alpha) in a picture of this size.
     ///
-    /// An image much larger than it is shown is downsampled first, so that no texel is skipped.
+    /// An image much larger than its displayed size is downsampled first, so that no texel is
+    /// skipped.
     #[must_use]
     pub fn new(image: &Image, fit: ImageFit, picture: [u32; 2], background: [f32; 4]) -> Self {
         let image_size = [image.width, image.height].map(f64::from);
@@ -96,8 +97,8 @@ impl BackdropImage {
     }
 }
 
-/// Downsamples an image by a box filter over blocks of so many columns and rows, in linear light
-/// with premultiplied alpha. Returns the size and the texels.
+/// Downsamples an image with a box filter over blocks of the given columns and rows, in linear
+/// light with premultiplied alpha. Returns the size and the texels.
 fn box_downsample(image: &Image, [columns, rows]: [usize; 2]) -> ([usize; 2], Vec<[u16; 4]>) {
     let (width, height) = (image.width as usize, image.height as usize);
     let linear = srgb_to_linear_table();

@@ -1,4 +1,4 @@
-//! Anisotropic GGX: highlights that are long in one direction, as of brushed metal
+//! Anisotropic GGX: highlights stretched in one direction, as on brushed metal
 //! (KHR_materials_anisotropy).
 //!
 //! ```text
@@ -6,11 +6,11 @@
 //!  V = ½ / (n·l Λ(v) + n·v Λ(l)),  Λ(w)² = (αt t·w)² + (αb b·w)² + (n·w)²  Heitz 2014
 //! ```
 //!
-//! α along the bitangent is that of the roughness; along the tangent it grows to 1 with the square
+//! α along the bitangent comes from the roughness; along the tangent it grows to 1 with the square
 //! of the strength.
 //!
 //! α along the tangent is αt = α + (1 − α) · strength², as KHR_materials_anisotropy defines it.
-//! With strength 0 both formulas are those of isotropic GGX.
+//! With strength 0 both formulas reduce to isotropic GGX.
 
 use super::microfacet::ShadingAngles;
 use crate::lanes::{Lanes, Vec3Lanes};
@@ -20,16 +20,16 @@ use std::f32::consts::FRAC_1_PI;
 
 /// The anisotropy frame at some fragments, and the α along its tangent.
 ///
-/// Tangent, bitangent and normal are orthonormal where the mesh has tangents.
+/// Tangent, bitangent and normal are orthonormal if the mesh has tangents.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Anisotropy<const N: usize> {
-    /// Unit vectors along which highlights are stretched; 0 where the surface has no tangent.
+    /// Unit vectors along which highlights are stretched; 0 if the surface has no tangent.
     tangents: Vec3Lanes<N>,
-    /// Unit vectors across, perpendicular to tangent and normal.
+    /// Unit vectors perpendicular to tangent and normal.
     bitangents: Vec3Lanes<N>,
-    /// The α of GGX along the tangents, not below that of the roughness.
+    /// The α of GGX along the tangents, not below the α of the roughness.
     tangent_alpha: Lanes<N>,
-    /// The strength of the anisotropy, from 0 to 1; 0 where the surface has no tangent.
+    /// The strength of the anisotropy, from 0 to 1; 0 if the surface has no tangent.
     strength: Lanes<N>,
 }
 
@@ -45,7 +45,7 @@ impl<const N: usize> Anisotropy<N> {
         alpha: Lanes<N>,
     ) -> Self {
         let n = geometry.normals;
-        // Gram-Schmidt: the tangent, perpendicular to the normal of the normal map.
+        // Gram-Schmidt: the tangent, made perpendicular to the normal of the normal map.
         let t = tangents.vectors - n * n.dot(tangents.vectors);
         let inv_length =
             t.dot(t).map(|square| if square > 1e-12 { 1.0 / square.sqrt() } else { 0.0 });
@@ -66,10 +66,10 @@ impl<const N: usize> Anisotropy<N> {
         }
     }
 
-    /// The bent normals at which an environment is mirrored, for a perceptual roughness.
+    /// The bent normals for environment reflections, for a perceptual roughness.
     ///
     /// A stretched lobe mirrors a fan of directions, and the prefiltered environment has only round
-    /// lobes. So the normal is bent towards the plane of the bitangent and the view, in which the
+    /// lobes. So the normal is bent toward the plane of the bitangent and the view, in which the
     /// lobe is narrow: `n' ∝ mix((b × v) × b, n, (1 − strength (1 − roughness))⁴)`
     /// (KHR_materials_anisotropy, after Revie 2012).
     #[inline(always)]
@@ -87,7 +87,7 @@ impl<const N: usize> Anisotropy<N> {
     }
 
     /// The anisotropic GGX lobe without Fresnel, times the cosine of the light: `D · V · n·l`, with
-    /// `alpha` across the frame.
+    /// `alpha` along the bitangent.
     ///
     /// The isotropic lobe is `ShadingAngles::ggx_lobe` in `microfacet.rs`.
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
@@ -102,8 +102,8 @@ impl<const N: usize> Anisotropy<N> {
         let (t, b) = (self.tangents, self.bitangents);
         let (alpha_t, alpha_b) = (self.tangent_alpha, alpha);
         let ShadingAngles { n_dot_l, n_dot_v, n_dot_h, .. } = *angles;
-        // Anisotropic GGX distribution, Burley 2012.
-        // The half vector, as its components in the frame over αt and αb.
+        // Anisotropic GGX distribution, Burley 2012: the half vector's components in the frame,
+        // divided by αt and αb.
         let sum = l + v;
         let inv_length = 1.0 / sum.dot(sum).max(1e-12).sqrt();
         let t_dot_h = t.dot(sum) * inv_length / alpha_t;
@@ -143,12 +143,12 @@ mod tests {
 
     #[test]
     fn the_environment_is_mirrored_at_bent_normals() {
-        // Wholly bent: the view without its part along the bitangent, at length 1.
+        // Fully bent: the view without its component along the bitangent, normalized.
         let [x, y, z] = bent_normal(1.0, 0.0);
         let length = (0.6_f32 * 0.6 + 0.64 * 0.64).sqrt();
         assert!((x - 0.6 / length).abs() < 1e-6 && y.abs() < 1e-6, "{x} {y} {z}");
         assert!((z - 0.64 / length).abs() < 1e-6, "{z}");
-        // In between, always towards the view along x, and less for rougher surfaces.
+        // In between, always toward the view along x, and less for rougher surfaces.
         assert!(bent_normal(0.5, 0.2)[0] > bent_normal(0.5, 0.6)[0]);
         assert!(bent_normal(0.5, 0.2)[0] > bent_normal(0.3, 0.2)[0]);
     }

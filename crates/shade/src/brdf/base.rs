@@ -8,12 +8,12 @@
 //!
 //! Specular reflection is multiplied by the energy compensation of
 //! [`directional_albedo`](super::directional_albedo), for the energy that a single bounce loses.
-//! Under light from all directions, diffuse reflection is what the specular albedo leaves of it, as
-//! it is what F leaves under light from one direction.
+//! Under light from all directions, diffuse reflection is the energy left by the specular albedo,
+//! just as F leaves it under light from one direction.
 //!
-//! The dielectric's F0 is ((n − 1) / (n + 1))² of its index of refraction n, 0.04 for the default
-//! 1.5; the metal's is the base color. F is Schlick's approximation of Fresnel's equations for
-//! both.
+//! The dielectric's F0 is ((n − 1) / (n + 1))² for its index of refraction n, 0.04 for the default
+//! 1.5; the metal's is the base color. For both, F is Schlick's approximation of Fresnel's
+//! equations.
 
 use super::anisotropy::Anisotropy;
 use super::directional_albedo::{DirectionalAlbedo, energy_compensation};
@@ -31,13 +31,13 @@ use std::f32::consts::FRAC_1_PI;
 /// The parameters of the base BRDF at some fragments, resolved from the material.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BaseBrdf<const N: usize> {
-    /// The diffuse albedo, before Fresnel takes its part.
+    /// The diffuse albedo, before subtracting the Fresnel reflection.
     pub(super) diffuse: Rgb<N>,
     /// The specular reflectance at normal incidence, mixed from dielectric and metal.
     f0: Rgb<N>,
     /// The specular reflectance at grazing angles.
     f90: Lanes<N>,
-    /// F0 of the dielectric interface over the diffuse part; of colors the largest channel.
+    /// F0 of the dielectric interface over the diffuse part; for colors, the largest channel.
     dielectric_f0: Lanes<N>,
     /// F90 of the dielectric interface over the diffuse part.
     dielectric_f90: Lanes<N>,
@@ -54,19 +54,19 @@ pub(super) struct BaseBrdf<const N: usize> {
 }
 
 impl<const N: usize> BaseBrdf<N> {
-    /// Resolves the BRDF of a material, with the workflow (metallic-roughness or
-    /// specular-glossiness) that the material is written in.
+    /// Resolves the BRDF of a material, in the material's workflow (metallic-roughness or
+    /// specular-glossiness).
     ///
-    /// In this order: roughness and α, F0 and F90 of the workflow, the thin film over F0, then all
-    /// that depends on the directional albedo.
+    /// In this order: roughness and α, F0 and F90 of the workflow, the thin film over F0, then
+    /// everything that depends on the directional albedo.
     #[inline(always)]
     pub(super) fn new(
         material: &Material,
         inputs: &MaterialInputs<N>,
         geometry: &SurfaceGeometry<N>,
     ) -> Self {
-        // Geometric specular antialiasing: where a pixel sees many normals of a curved surface, its
-        // highlight is as wide as they are.
+        // Geometric specular antialiasing: if a pixel covers many normals of a curved surface, its
+        // highlight is widened accordingly.
         let roughness = inputs.roughness.clamp(MIN_ROUGHNESS, 1.0);
         let roughness = (roughness + geometry.normal_variation).min(1.0);
         let mut brdf = Self {
@@ -99,8 +99,8 @@ impl<const N: usize> BaseBrdf<N> {
     /// The metallic-roughness workflow: mixes dielectric and metal by metalness
     /// (KHR_materials_ior, KHR_materials_specular).
     ///
-    /// F0 and F90 are mixed, not two BRDFs: one lobe instead of two. F is the mix of the two
-    /// exactly, because Schlick's approximation is linear in F0 and F90.
+    /// F0 and F90 are mixed, not two BRDFs: one lobe instead of two. F is exactly the mix of the
+    /// two, because Schlick's approximation is linear in F0 and F90.
     #[inline(always)]
     fn set_metallic_roughness(
         &mut self,
@@ -117,14 +117,14 @@ impl<const N: usize> BaseBrdf<N> {
         let dielectric_f0 = specular_color.map(|color| (ior_f0 * color).min(1.0) * specular);
         self.dielectric_f0 = dielectric_f0.max_channel().max(0.0);
         self.dielectric_f90 = specular;
-        // Metals have no diffuse part, and the base color as F0.
+        // Metals have no diffuse part, and the base color is their F0.
         self.diffuse = base_color * (1.0 - metallic);
         self.f0 = dielectric_f0.zip(base_color, |dielectric, base| dielectric.lerp(base, metallic));
         self.f90 = specular.lerp(Lanes::ONE, metallic);
     }
 
-    /// The specular-glossiness workflow: F0 is given as a color, and diffuse is what its largest
-    /// channel leaves (KHR_materials_pbrSpecularGlossiness).
+    /// The specular-glossiness workflow: F0 is given as a color, and diffuse is the energy left by
+    /// its largest channel (KHR_materials_pbrSpecularGlossiness).
     ///
     /// Glossiness is 1 − roughness; the workflow has no metalness and no index of refraction.
     #[inline(always)]
@@ -136,11 +136,11 @@ impl<const N: usize> BaseBrdf<N> {
         self.f0 = specular.map(|channel| channel.min(1.0));
     }
 
-    /// Replaces a fraction of F0 by that of a thin film over the interface
+    /// Replaces a fraction of F0 by the F0 of a thin film over the interface
     /// (KHR_materials_iridescence).
     ///
-    /// Fresnel of a film varies with the angle in its own way: the F0 found here is that which
-    /// Schlick's approximation needs to give the film's reflectance at this view.
+    /// The Fresnel reflectance of a film varies with the angle in a special way: the F0 found here
+    /// makes Schlick's approximation yield the film's reflectance at this view.
     #[inline(always)]
     fn apply_thin_film(
         &mut self,
@@ -152,17 +152,17 @@ impl<const N: usize> BaseBrdf<N> {
         // Thin-film interference, Belcour and Barla 2017.
         let film_f0 = thin_film_f0(self.f0, film_ior, iridescence_thickness, geometry.n_dot_v);
         self.f0 = self.f0.zip(film_f0, |bare, film| bare.lerp(film, iridescence));
-        // The film covers the dielectric part of a surface too, which lets less light through to
-        // the diffuse part where the film reflects more.
+        // The film also covers the dielectric part of a surface: where the film reflects more, less
+        // light reaches the diffuse part.
         let dielectric = 1.0 - inputs.metallic;
         let film = self.f0.map(|f0| f0.min_lanes(self.dielectric_f90) * dielectric);
         self.dielectric_f0 = self.dielectric_f0.max_lanes(film.max_channel());
     }
 
     /// Makes diffuse reflection translucent, and returns the share of the light behind the surface
-    /// that is seen through it (KHR_materials_transmission).
+    /// that is visible through it (KHR_materials_transmission).
     ///
-    /// Light passes only where the surface is dielectric, and only what Fresnel lets in.
+    /// Light passes only if the surface is dielectric, and only the part that Fresnel lets in.
     #[inline(always)]
     pub(super) fn transmit_diffuse(
         &mut self,
@@ -211,7 +211,7 @@ impl<const N: usize> BaseBrdf<N> {
             Some(anisotropy) => anisotropy.ggx_lobe(&angles, self.alpha, views, light.to_light),
             None => angles.ggx_lobe(self.alpha),
         };
-        // Schlick Fresnel, of the mixed surface and of the interface over the diffuse part.
+        // Schlick Fresnel, for the mixed surface and for the interface over the diffuse part.
         let schlick = pow5(1.0 - angles.v_dot_h);
         let fresnel = self.f0.map(|f0| f0.lerp(self.f90, schlick));
         let dielectric_fresnel = self.dielectric_f0.lerp(self.dielectric_f90, schlick);

@@ -4,8 +4,8 @@
 //!  result = mix(below, GGX lobe, clearcoat · F(n·v))      F with F0 = 0.04, of index 1.5
 //! ```
 //!
-//! The layer attenuates what is below by the Fresnel reflectance of the view alone, as the
-//! extension specifies it; a path refracted by the layer is not followed.
+//! The layer attenuates everything below by its Fresnel reflectance for the view only, as the
+//! extension specifies it; refraction by the layer is not followed.
 
 use super::microfacet::{ShadingAngles, pow5, roughness_to_alpha};
 use crate::environment::Environment;
@@ -14,14 +14,14 @@ use crate::light::IncidentLight;
 use crate::material_inputs::LayerInputs;
 use crate::surface_geometry::SurfaceGeometry;
 
-/// F0 of an index of refraction of 1.5.
+/// F0 for an index of refraction of 1.5.
 ///
 /// ((1.5 − 1) / (1.5 + 1))² = 0.04, fixed by the extension.
 const CLEARCOAT_F0: f32 = 0.04;
 
 /// The clear layer at some fragments, and the light that it has reflected so far.
 ///
-/// Its lobe is isotropic GGX whatever the base is, with a normal map of its own.
+/// Its lobe is always isotropic GGX, with a separate normal map.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clearcoat<const N: usize> {
     /// The surface with the clearcoat's own normals.
@@ -55,7 +55,7 @@ impl<const N: usize> Clearcoat<N> {
 
     /// Adds the GGX reflection of light from one direction.
     ///
-    /// Without Fresnel: the layer's reflectance is that of the view, and is applied once in
+    /// Without Fresnel: the layer's reflectance depends on the view, and is applied once in
     /// [`composite_over`](Self::composite_over).
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
     #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
@@ -67,8 +67,8 @@ impl<const N: usize> Clearcoat<N> {
 
     /// Adds the prefiltered radiance of the environment in the mirror direction.
     ///
-    /// Split sum with a Fresnel factor in the place of the directional albedo: the layer is smooth
-    /// most often, where both agree.
+    /// Split sum with a Fresnel factor instead of the directional albedo: the layer is usually
+    /// smooth, and then both agree.
     #[inline(always)]
     pub(super) fn add_environment(&mut self, environment: &Environment) {
         let SurfaceGeometry { normals, views, .. } = self.geometry;
@@ -83,8 +83,8 @@ impl<const N: usize> Clearcoat<N> {
 
     /// Composites the layer over the light from below.
     ///
-    /// Linear interpolation conserves energy: the light that the layer reflects is taken from
-    /// below.
+    /// Linear interpolation conserves energy: the light that the layer reflects is subtracted from
+    /// the light below.
     #[inline(always)]
     pub(super) fn composite_over(&self, below: Rgb<N>) -> Rgb<N> {
         below.zip(self.specular_light, |below, light| below.lerp(light, self.reflectance))

@@ -1,7 +1,7 @@
 //! The directional albedo of the GGX microfacet BRDF: the second sum of the split-sum
 //! approximation, and energy compensation.
 //!
-//! The fraction of the light of a uniform white environment that a rough surface reflects to the
+//! The fraction of the light from a uniform white environment that a rough surface reflects to the
 //! viewer, by roughness and viewing angle:
 //!
 //! ```text
@@ -10,12 +10,12 @@
 //! ```
 //!
 //! `A` and `B` are the scale and bias of Karis (*Real shading in Unreal Engine 4*, 2013), often
-//! kept as a DFG or BRDF integration texture. They have three uses here: the weight of the
-//! prefiltered radiance of an environment, the light that is left for what lies below, and the
-//! energy that the single-bounce model loses. With everything reflected, `A + B` should be 1; what
-//! is missing, up to six tenths, is multiple scattering between facets. It is given back by a
-//! factor (Turquin, *Practical multiple scattering compensation for microfacet models*, 2019), so
-//! that rough metals are not too dark:
+//! stored as a DFG or BRDF integration texture. They have three uses here: the weight of an
+//! environment's prefiltered radiance, the light left for the layers below, and the energy that the
+//! single-bounce model loses. If everything were reflected, `A + B` would be 1; the rest, up to six
+//! tenths, is multiple scattering between facets. A factor restores it (Turquin, *Practical
+//! multiple scattering compensation for microfacet models*, 2019), so that rough metals are not too
+//! dark:
 //!
 //! ```text
 //!  energy compensation = 1 + F0 · (1 / (A + B) − 1)
@@ -29,7 +29,7 @@ use table::TABLE;
 
 /// `A` and `B` of the split sum at some fragments.
 ///
-/// `A + B` is the albedo of a white mirror of the roughness.
+/// `A + B` is the albedo of a white mirror with this roughness.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DirectionalAlbedo<const N: usize> {
     /// `A`, the factor of F0.
@@ -41,17 +41,17 @@ pub(super) struct DirectionalAlbedo<const N: usize> {
 impl<const N: usize> DirectionalAlbedo<N> {
     /// Bilinear lookup at a perceptual roughness and a cosine n·v, both from 0 to 1.
     ///
-    /// The table's columns are equal steps of the root of the cosine, its rows the middles of
-    /// sixteenths of the roughness. Before the first row and behind the last the value is that of
-    /// the row, as in the textures of other renderers. (Rows at the ends, which would be exact, put
-    /// three of the reference pictures out of their limits.)
+    /// The table's columns are equal steps of the square root of the cosine, its rows the midpoints
+    /// of sixteenths of the roughness. Beyond the first and last rows the value is clamped, as in
+    /// the textures of other renderers. (Rows at the ends, which would be exact, push three of the
+    /// reference pictures beyond their limits.)
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
     #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn lookup(roughness: Lanes<N>, n_dot_v: Lanes<N>) -> Self {
         let (rows, s) = locate_entries(roughness * 16.0 - 0.5);
         let (columns, t) = locate_entries(n_dot_v.sqrt() * 15.0);
         // Gather `A` and `B` of the four entries around each lane: upper left and right, then
-        // lower. One index and one bound for the quad of each lane.
+        // lower. One index and one bounds check for the quad of each lane.
         let mut entries = [[Lanes::ZERO; 2]; 4];
         for lane in 0..N {
             let quad = &QUADS[(rows[lane] * 15 + columns[lane]) as usize & 255];
@@ -74,7 +74,7 @@ impl<const N: usize> DirectionalAlbedo<N> {
 }
 
 /// The four entries around each position of the table, side by side: upper left and right, then
-/// lower. The table has 15 × 15 of them, and padding that makes any byte an index.
+/// lower. The table has 15 × 15 of them, padded so that any byte is a valid index.
 static QUADS: [[[f32; 2]; 4]; 256] = quads();
 
 const fn quads() -> [[[f32; 2]; 4]; 256] {
@@ -89,10 +89,10 @@ const fn quads() -> [[[f32; 2]; 4]; 256] {
     quads
 }
 
-/// Splits positions in a table of 16 entries into the entry before and the fraction to the next;
+/// Splits positions in a table of 16 entries into the preceding entry and the fraction to the next;
 /// positions beyond the ends are clamped.
 ///
-/// The entry before is 14 at most, so that the next one exists.
+/// The preceding entry is at most 14, so that the next one exists.
 #[inline(always)]
 pub(super) fn locate_entries<const N: usize>(positions: Lanes<N>) -> ([i32; N], Lanes<N>) {
     let positions = positions.clamp(0.0, 15.0);
@@ -104,11 +104,11 @@ pub(super) fn locate_entries<const N: usize>(positions: Lanes<N>) -> ([i32; N], 
     (entries, fractions)
 }
 
-/// Energy compensation: the factor that gives back what single scattering loses, for a surface with
+/// Energy compensation: the factor that restores the loss of single scattering, for a surface with
 /// the normal reflectance `f0`, whose albedo as a white mirror is `white_albedo` = `A + B`.
 ///
 /// For F0 = 1 the factor makes the albedo exactly 1 (white furnace test); for F0 = 0 it is 1. Kulla
-/// and Conty (2017) add a lobe for the lost energy; Turquin's factor scales the lobe that is there.
+/// and Conty (2017) add a lobe for the lost energy; Turquin's factor scales the existing lobe.
 #[inline(always)]
 pub(super) fn energy_compensation<const N: usize>(
     f0: Lanes<N>,
@@ -122,8 +122,8 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// `A` and `B`, integrated over half vectors that are importance sampled by the GGX
-    /// distribution (Walter et al. 2007), which takes D out of the sum.
+    /// `A` and `B`, integrated over half vectors importance sampled from the GGX distribution
+    /// (Walter et al. 2007), which eliminates D from the sum.
     fn integrate_albedo(roughness: f64, cosine: f64) -> [f64; 2] {
         let square = {
             let alpha = roughness.max(0.045) * roughness.max(0.045);

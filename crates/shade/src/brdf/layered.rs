@@ -8,8 +8,8 @@
 //!  base        ───▼──────────────▼───       GGX specular and Lambert diffuse
 //! ```
 //!
-//! Each layer is attenuated by those above it with a scalar per fragment (albedo scaling), so that
-//! layers take light from each other and add none.
+//! Each layer is attenuated by the layers above with a scalar per fragment (albedo scaling), so
+//! that layers take light from each other without adding any.
 
 use super::anisotropy::Anisotropy;
 use super::base::BaseBrdf;
@@ -29,7 +29,7 @@ use std::f32::consts::FRAC_1_PI;
 
 /// The BRDF of the surfaces at some fragments, and the radiance that it has reflected so far.
 ///
-/// It is made once for a fragment; then lights are added one by one, the environment last, and
+/// It is created once for a fragment; then lights are added one by one, the environment last, and
 /// [`finish`](Self::finish) puts the clearcoat over the sum.
 ///
 /// Layers that the material does not have are `None` and cost a branch for all lanes together.
@@ -47,14 +47,15 @@ pub(crate) struct LayeredBrdf<'a, const N: usize> {
     anisotropy: Option<Anisotropy<N>>,
     /// The GGX lobe of KHR_materials_clearcoat, composited last.
     clearcoat: Option<Clearcoat<N>>,
-    /// The share of light from behind that is seen through the surface.
+    /// The share of light from behind that is visible through the surface.
     pub(crate) transmission: Option<TransmittedShare<N>>,
-    /// The light sent to the viewer from below the clearcoat: emitted, then reflected.
+    /// The light sent to the viewer from below the clearcoat: first emitted, then reflected light.
     radiance: Rgb<N>,
 }
 
 impl<'a, const N: usize> LayeredBrdf<'a, N> {
-    /// The BRDF of a draw's material on surfaces with these smooth normals; so far they only emit.
+    /// The BRDF of a draw's material on surfaces with these smooth normals; at first they only
+    /// emit.
     ///
     /// The normal map bends base, sheen and anisotropy; shadows and ambient occlusion keep the
     /// smooth normals.
@@ -68,7 +69,7 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         let material = draw.material;
         let extensions = &material.extensions;
         let has_tangents = !matches!(draw.tangents, Tangents::None);
-        // The clearcoat has a normal map of its own; without one it stays smooth over a bumpy base.
+        // The clearcoat has a separate normal map; without one it stays smooth over a bumpy base.
         let clearcoat = extensions.clearcoat.as_deref().map(|clearcoat| {
             let mut geometry = smooth;
             if clearcoat.normal_texture.is_some() && has_tangents {
@@ -93,13 +94,13 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         Self { inputs, geometry, base, sheen, anisotropy, clearcoat, transmission, radiance }
     }
 
-    /// Adds the light of a scene's lights, less where they are in shadow.
+    /// Adds the light of a scene's lights, reduced in shadow.
     ///
-    /// `shadows` holds the shadow maps of the first lights, in their order; `receiver` is there if
+    /// `shadows` holds the shadow maps of the first lights, in order; `receiver` is present if
     /// there are any.
     ///
     /// Lights have no size, so each is one evaluation of the BRDF. The sum is in the order of the
-    /// scene's lights, which fixes its bits.
+    /// scene's lights, which determines its bits.
     #[inline(always)]
     pub(crate) fn add_lights(
         &mut self,
@@ -117,7 +118,7 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
             if let (Some(Some(shadow)), Some(receiver)) = (shadows.get(index), receiver) {
                 incident.apply_shadow(shadow, receiver);
             }
-            // From the top layer down; sheen takes its part of the light before the base.
+            // From the top layer down; sheen takes its share of the light before the base.
             if let Some(clearcoat) = &mut self.clearcoat {
                 clearcoat.add_direct_light(&incident);
             }
@@ -137,11 +138,11 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
     /// radiance specularly.
     ///
     /// The split-sum approximation: `Σ L · BRDF` becomes `prefiltered L(r, roughness)` times the
-    /// specular albedo `F0 · A + F90 · B`. It is exact for a uniform environment, and else as good
-    /// as light around the mirror direction is representative.
+    /// specular albedo `F0 · A + F90 · B`. It is exact for a uniform environment; otherwise it is
+    /// as good as the light around the mirror direction is representative.
     ///
-    /// Ambient occlusion dims the diffuse part as it is, and the specular part by a fit that
-    /// depends on the angle of view.
+    /// Ambient occlusion multiplies the diffuse part directly, and the specular part by a fit that
+    /// depends on the viewing angle.
     #[inline(always)]
     pub(crate) fn add_environment(&mut self, environment: &Environment) {
         let SurfaceGeometry { normals, views, n_dot_v, .. } = self.geometry;
@@ -174,13 +175,14 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
 
     /// Adds diffuse light from all directions, given as the radiance of a white Lambert surface.
     ///
-    /// Sheen has a part of its own: it reflects its albedo of light from all directions.
+    /// Sheen is separate: it reflects light from all directions by its albedo.
     #[inline(always)]
     fn add_diffuse(&mut self, white: Rgb<N>) {
         let MaterialInputs { occlusion, screen_visibility, .. } = *self.inputs;
         // Lambert, below the specular interface and below sheen.
         let reflectance = self.base.diffuse * self.base.diffuse_transmittance * self.base_scale();
-        // Screen-space occlusion is geometry: light that it takes may come back from there.
+        // Screen-space occlusion comes from geometry: the light that it removes may be reflected
+        // back from there.
         let mut light = white * occlusion;
         if let Some(visibility) = screen_visibility {
             light = light * add_bounces(visibility, reflectance);
@@ -191,9 +193,8 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         }
     }
 
-    /// Adds the light that refracting or rough glass shows of what is behind it, and returns what
-    /// is to be added after tone mapping: background and backdrop, and the alpha behind the
-    /// surface.
+    /// Adds the light from behind that is visible through refracting or rough glass. Returns the
+    /// part to add after tone mapping: background and backdrop, and the alpha behind the surface.
     #[inline(always)]
     pub(crate) fn add_light_behind(
         &mut self,

@@ -21,15 +21,15 @@ use crate::lanes::{Lanes, Vec3Lanes};
 use std::f32::consts::FRAC_1_PI;
 use std::ops::Mul;
 
-/// The least perceptual roughness: below it the highlight of a light without size would have no
+/// The minimum perceptual roughness: below it the highlight of a light without size would have no
 /// size either.
 ///
 /// The GGX peak 1 / (π α²) is then about 78,000: well within `f32`.
 pub(super) const MIN_ROUGHNESS: f32 = 0.045;
 
-/// The cosines between normal, view, light and half vector that BRDF terms are functions of.
+/// The cosines between normal, view, light and half vector that BRDF terms depend on.
 ///
-/// They are computed once for a light and shared by all terms of one normal.
+/// They are computed once per light and shared by all terms with one normal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShadingAngles<const N: usize> {
     /// n·l, not below 0.
@@ -40,17 +40,18 @@ pub(super) struct ShadingAngles<const N: usize> {
     pub(super) n_dot_h: Lanes<N>,
     /// v·h, not below 0.
     pub(super) v_dot_h: Lanes<N>,
-    /// 1 − (n·h)², without cancellation where that is small: the squared length of n × h.
+    /// 1 − (n·h)², without cancellation if it is small: the squared length of n × h.
     pub(super) sin_squared_h: Lanes<N>,
 }
 
 impl<const N: usize> ShadingAngles<N> {
-    /// The angles between unit vectors: the normal, to the viewer, to the light.
+    /// The angles between unit vectors: the normal, the direction to the viewer, the direction to
+    /// the light.
     ///
     /// The half vector is the normal of the microfacets that mirror l to v.
     #[inline(always)]
     pub(super) fn new(n: Vec3Lanes<N>, v: Vec3Lanes<N>, l: Vec3Lanes<N>) -> Self {
-        // The half vector; zero instead of NaN where light and view are opposite.
+        // The half vector; zero instead of NaN if light and view are opposite.
         let sum = l + v;
         let h = sum * (1.0 / sum.dot(sum).max(1e-12).sqrt());
         let n_cross_h = n.cross(h);
@@ -66,9 +67,9 @@ impl<const N: usize> ShadingAngles<N> {
     /// The GGX specular lobe without Fresnel, times the cosine of the light: `D · V · n·l`.
     #[inline(always)]
     pub(super) fn ggx_lobe(&self, alpha: Lanes<N>) -> Lanes<N> {
-        // GGX is a function of α² alone.
+        // GGX depends only on α².
         let alpha_squared = alpha * alpha;
-        // GGX distribution, with (n·h)² (α² − 1) + 1 written as sin² + (n·h)² α²: the form of the
+        // GGX distribution, with (n·h)² (α² − 1) + 1 written as sin² + (n·h)² α²: the form in the
         // specification loses all digits in the highlight of a smooth surface.
         let width = (self.sin_squared_h + self.n_dot_h * self.n_dot_h * alpha_squared).max(1e-9);
         let distribution = FRAC_1_PI * alpha_squared / (width * width);
@@ -77,23 +78,23 @@ impl<const N: usize> ShadingAngles<N> {
         // cosθ √(1 + α² tan²θ), the root in Smith's Λ of GGX.
         let lambda = |cosine: Lanes<N>| (alpha_squared + one_minus * cosine * cosine).sqrt();
         let masking = self.n_dot_l * lambda(self.n_dot_v) + self.n_dot_v * lambda(self.n_dot_l);
-        // V = G₂ / (4 n·l n·v), bounded where both directions graze the surface.
+        // V = G₂ / (4 n·l n·v), bounded if both directions graze the surface.
         distribution * (0.5 * self.n_dot_l) / masking.max(1e-6)
     }
 }
 
 /// x⁵, the weight of F90 in Schlick's Fresnel approximation, at x = 1 − cosine.
 ///
-/// Three multiplications, in an order that every lane and every level of instructions shares.
+/// Three multiplications, in the same order for every lane and every level of instructions.
 #[inline(always)]
 pub(super) fn pow5<T: Copy + Mul<Output = T>>(x: T) -> T {
     let square = x * x;
     square * square * x
 }
 
-/// GGX α of a perceptual roughness: its square, bounded from below by [`MIN_ROUGHNESS`].
+/// GGX α for a perceptual roughness: its square, bounded from below by [`MIN_ROUGHNESS`].
 ///
-/// The square makes equal steps of the parameter look alike (Burley 2012; glTF 2.0, Appendix B).
+/// Squaring makes equal steps of the parameter look equal (Burley 2012; glTF 2.0, Appendix B).
 #[inline(always)]
 pub(super) fn roughness_to_alpha<const N: usize>(roughness: Lanes<N>) -> Lanes<N> {
     let bounded = roughness.clamp(MIN_ROUGHNESS, 1.0);
@@ -110,7 +111,7 @@ mod tests {
         ShadingAngles::new(n, v, l).ggx_lobe(Lanes([alpha]))[0]
     }
 
-    /// The formulas as they stand in the specification, in double precision.
+    /// The formulas as written in the specification, in double precision.
     fn specified_lobe(n: [f64; 3], v: [f64; 3], l: [f64; 3], alpha: f64) -> f64 {
         let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         let unit = |a: [f64; 3]| a.map(|c| c / dot(a, a).sqrt());

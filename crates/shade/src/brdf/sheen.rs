@@ -23,21 +23,21 @@ use crate::surface_geometry::SurfaceGeometry;
 use std::f32::consts::FRAC_1_PI;
 use table::TABLE;
 
-/// The least perceptual roughness, below which the lobe is too narrow for `f32` and the table.
+/// The minimum perceptual roughness, below which the lobe is too narrow for `f32` and the table.
 const MIN_SHEEN_ROUGHNESS: f32 = 0.07;
 
 /// The sheen layer at some fragments.
 ///
-/// It keeps base and sheen together below the energy that arrives.
+/// It keeps the sum of base and sheen below the incoming energy.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sheen<const N: usize> {
     /// The reflectance of the fibers, by channel.
     color: Rgb<N>,
     /// The perceptual roughness, not below [`MIN_SHEEN_ROUGHNESS`]; α is its square.
     roughness: Lanes<N>,
-    /// The largest channel of the color: what is below is dimmed alike in all channels.
+    /// The largest channel of the color: the layers below are dimmed equally in all channels.
     max_color: Lanes<N>,
-    /// The directional albedo of white sheen towards the viewer.
+    /// The directional albedo of white sheen toward the viewer.
     albedo: Lanes<N>,
 }
 
@@ -54,8 +54,8 @@ impl<const N: usize> Sheen<N> {
         }
     }
 
-    /// Adds the sheen of light from one direction, and leaves of the light what passes to the
-    /// layers below.
+    /// Adds the sheen from light from one direction, and reduces the light to the part that passes
+    /// to the layers below.
     #[inline(always)]
     pub(super) fn add_direct_light(
         &self,
@@ -89,8 +89,8 @@ impl<const N: usize> Sheen<N> {
 
 /// The Charlie lobe of white sheen, times the cosine of the light: `D · V · n·l`.
 ///
-/// The distribution of Estevez and Kulla 2017 has its maximum at grazing half vectors: fibers stand
-/// upright, and light up at silhouettes.
+/// The distribution of Estevez and Kulla 2017 has its maximum at grazing half vectors: fibers are
+/// perpendicular to the surface, and light up at silhouettes.
 #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
 #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
 fn charlie_lobe<const N: usize>(roughness: Lanes<N>, angles: &ShadingAngles<N>) -> Lanes<N> {
@@ -101,7 +101,7 @@ fn charlie_lobe<const N: usize>(roughness: Lanes<N>, angles: &ShadingAngles<N>) 
     let exponent = 0.5 * inv_alpha;
     let sine_power = Lanes::from_fn(|lane| libm::powf(sine_squared[lane], exponent[lane]));
     let distribution = (2.0 + inv_alpha) * sine_power * (0.5 * FRAC_1_PI);
-    // Visibility, bounded where view and light graze the surface.
+    // Visibility, bounded if view and light graze the surface.
     let alpha = 1.0 / inv_alpha;
     let lambda =
         |cosine: Lanes<N>| Lanes::from_fn(|lane| charlie_lambda(cosine[lane], alpha[lane]));
@@ -127,7 +127,8 @@ fn charlie_lambda(cosine: f32, alpha: f32) -> f32 {
 /// The directional albedo of white sheen: the integral of the lobe over the hemisphere, at most 1.
 /// Bilinear in the table.
 ///
-/// Sixteen roughnesses by sixteen roots of cosines; the root puts more entries near grazing angles.
+/// Sixteen roughnesses by sixteen square roots of cosines; the root puts more entries near grazing
+/// angles.
 #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
 #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
 fn sheen_albedo<const N: usize>(cosine: Lanes<N>, roughness: Lanes<N>) -> Lanes<N> {

@@ -1,8 +1,8 @@
-//! Thin-film interference: iridescence, as of soap bubbles and oil (KHR_materials_iridescence).
+//! Thin-film interference: iridescence, as on soap bubbles and oil (KHR_materials_iridescence).
 //!
 //! Belcour and Barla, *A practical extension to microfacet theory for the modeling of varying
-//! iridescence*, 2017. Light is reflected by the top of the film, and after one, two, … passes by
-//! the surface below; the parts interfere with a phase that grows with the path through the film:
+//! iridescence*, 2017. Light is reflected by the top of the film and, after one, two, … passes, by
+//! the surface below. The parts interfere with a phase that grows with the path through the film:
 //!
 //! ```text
 //!   ╲   ╱   ╱   ╱      R = R₀ + Σ Cₘ · cos(m · phase)      air
@@ -12,8 +12,8 @@
 //!                                                           base
 //! ```
 //!
-//! The sum over the spectrum is done in Fourier space, where the sensitivity curves of the eye are
-//! Gaussians. The result is handed on as the F0 that leads to it under Schlick's approximation.
+//! The sum over the spectrum is computed in Fourier space, where the sensitivity curves of the eye
+//! are Gaussians. The result is returned as the F0 that leads to it under Schlick's approximation.
 
 use super::microfacet::pow5;
 use crate::approximations::{cosine_of_turns, exp2_approx};
@@ -23,8 +23,8 @@ use std::f32::consts::{LOG2_E, PI};
 
 /// The F0 of surfaces under a thin film, at the cosines of the view.
 ///
-/// `f0` is that of the surface without the film, `ior` the film's index of refraction, `thickness`
-/// in nanometers. As the thickness goes to 0 the film's index goes to that of air.
+/// `f0` is the surface's F0 without the film, `ior` the film's index of refraction, `thickness` in
+/// nanometers. As the thickness approaches 0, the film's index approaches 1, as in air.
 ///
 /// Each channel of F0 gives the index of refraction of the base, so a colored metal interferes by
 /// channel. The cost is two harmonics with four Gaussians and cosines each.
@@ -36,10 +36,10 @@ pub(super) fn thin_film_f0<const N: usize>(
     thickness: Lanes<N>,
     cosine: Lanes<N>,
 ) -> Rgb<N> {
-    // Without a film its index of refraction is that of air.
+    // As the film vanishes, its index of refraction becomes 1.
     let start = (thickness / 0.03).clamp(0.0, 1.0);
     let ior = 1.0 + (ior - 1.0) * start * start * (3.0 - 2.0 * start);
-    // Snell's law: the cosine within the film.
+    // Snell's law: the cosine inside the film.
     let sine_squared = (1.0 - cosine * cosine) / (ior * ior);
     let film_cosine = (1.0 - sine_squared).max(0.0).sqrt();
     // First interface, air to film.
@@ -56,7 +56,7 @@ pub(super) fn thin_film_f0<const N: usize>(
     let rs = r23.zip(r123, |r23, r123| t121 * t121 * r23 / (1.0 - r123));
     let root = r123.map(Lanes::sqrt);
     let first = rs.map(|rs| rs - t121) * root;
-    // Half a wave is lost where light is reflected by a denser medium: in turns.
+    // Half a wave is lost when light is reflected by a denser medium: in turns.
     let half = Lanes::splat(0.5);
     let shifts = base_ior.map(|base| Lanes::ONE.select(&(base - ior).is_below(0.0), half));
     // Airy summation in Fourier space: each harmonic times the eye's response to its optical path
@@ -90,11 +90,11 @@ fn schlick_fresnel<const N: usize>(f0: Lanes<N>, cosine: Lanes<N>) -> Lanes<N> {
 /// The response of the eye to waves with an optical path difference in nanometers, in linear sRGB:
 /// the Fourier transform of the CIE 1931 curves, fitted by Gaussians (Belcour and Barla 2017).
 ///
-/// XYZ are weighted by their own phase shifts, in turns, one per channel of the base, then
+/// XYZ are weighted with separate phase shifts, in turns, one per channel of the base, then
 /// converted to sRGB.
 #[inline(always)]
 fn spectral_sensitivity<const N: usize>(path: Lanes<N>, shifts: Rgb<N>) -> Rgb<N> {
-    // In waves per meter of wave number; the phase is 2π times as large.
+    // In waves per meter of wave number; the phase is 2π times this.
     let path = path * 1e-9;
     let gaussian = |value: f32, center: f32, variance: f32, shift: Lanes<N>| {
         let wave = (path * center + shift).map(cosine_of_turns);

@@ -1,8 +1,8 @@
 //! Linear light to 16-bit sRGB: the nearest of 65,536 codes, exactly.
 //!
-//! The thresholds between codes are a table. A float's exponent and the first seven bits of its
+//! The thresholds between codes are in a table. A float's exponent and the first seven bits of its
 //! mantissa are one of 128 steps of each octave, and a second table holds the code at the beginning
-//! of each step: at most some 180 thresholds are left for a binary search.
+//! of each step: at most about 180 thresholds are left for a binary search.
 
 use super::srgb_to_linear;
 use raster::Encode;
@@ -10,13 +10,13 @@ use std::sync::OnceLock;
 
 /// The bits of 2⁻²¹, below the threshold of the first code, which is 2⁻²⁰·⁷ of light.
 const MIN_LIGHT_BITS: u32 = (127 - 21) << 23;
-/// The steps from there to 1, 128 for each octave.
+/// The number of steps from there to 1, 128 for each octave.
 const STEP_COUNT: usize = 21 * 128 + 1;
 
 /// Encodes linear light as the nearest 16-bit sRGB code.
 #[derive(Debug)]
 pub struct Srgb16Encoder {
-    /// For each code but the first, the least linear light whose nearest code it is.
+    /// For each code except the first, the smallest linear light for which it is the nearest code.
     thresholds: Box<[f32]>,
     /// For each step, the code at its beginning.
     step_codes: Box<[u16]>,
@@ -58,7 +58,7 @@ impl Srgb16Encoder {
 
 impl Encode<[u16; 4]> for &Srgb16Encoder {
     fn encode_pixel(&self, [r, g, b, alpha]: [f32; 4]) -> [u16; 4] {
-        // As the 8-bit encoder has it: transparent where alpha is NaN or not above 0.
+        // As in the 8-bit encoder: transparent if alpha is NaN or not above 0.
         if alpha.is_nan() || alpha <= 0.0 {
             return [0; 4];
         }

@@ -1,9 +1,9 @@
-//! Irradiance by spherical harmonics: the diffuse light of an environment in nine numbers a
+//! Irradiance by spherical harmonics: the diffuse light of an environment in nine numbers per
 //! channel.
 //!
 //! Ramamoorthi and Hanrahan, *An efficient representation for irradiance environment maps*, 2001. A
-//! Lambert surface convolves its environment with a cosine, which leaves of each degree of the
-//! harmonics a constant; what is beyond the second degree adds less than three per cent.
+//! Lambert surface convolves its environment with a cosine, which multiplies each degree of the
+//! harmonics by a constant; the degrees beyond the second contribute less than three percent.
 //!
 //! ```text
 //!  E(n) / π = Σ Aₗ / π · Lₗₘ · Yₗₘ(n)        Aₗ / π = 1, 2/3, 1/4
@@ -37,8 +37,8 @@ fn basis_functions([x, y, z]: [f64; 3]) -> [f64; 9] {
 
 /// Irradiance over π by direction: for each channel the coefficients of the nine functions.
 ///
-/// The factors of projection, convolution and reconstruction are all in them, so that a lookup is a
-/// polynomial of the normal: 15 multiplications a channel.
+/// They include the factors of projection, convolution and reconstruction, so that a lookup is a
+/// polynomial of the normal: 15 multiplications per channel.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct IrradianceHarmonics {
     coefficients: [[f32; 9]; 3],
@@ -52,7 +52,7 @@ impl IrradianceHarmonics {
             let (column, row) = (node % map.side, node / map.side);
             let [u, v] = [column, row].map(|index| node_coordinate(index, map.side));
             let point = decode_octahedral(u, v).map(f64::from);
-            // The solid angle of a node: the octahedron's faces are at 1/√3 and seen at a slant.
+            // The solid angle of a node: the octahedron's faces are at 1/√3 and seen at an angle.
             let square = point[0] * point[0] + point[1] * point[1] + point[2] * point[2];
             let length = square.sqrt();
             let is_border = |index: usize| index == 0 || index == map.side - 1;
@@ -80,7 +80,8 @@ impl IrradianceHarmonics {
         Self { coefficients: sums.map(coefficients) }
     }
 
-    /// Irradiance over π for unit normals; never below 0, where the truncated series rings.
+    /// Irradiance over π for unit normals; never below 0, despite the ringing of the truncated
+    /// series.
     #[inline(always)]
     pub(super) fn irradiance_over_pi<const N: usize>(&self, normals: Vec3Lanes<N>) -> Rgb<N> {
         let [r, g, b] = &self.coefficients;
@@ -92,7 +93,7 @@ impl IrradianceHarmonics {
     }
 }
 
-/// The sum of the nine functions with these coefficients, or 0 where it is below.
+/// The sum of the nine functions with these coefficients, clamped below at 0.
 #[inline(always)]
 fn sum_harmonics<const N: usize>(f: &[f32; 9], normals: Vec3Lanes<N>) -> Lanes<N> {
     let Vec3Lanes { x, y, z } = normals;

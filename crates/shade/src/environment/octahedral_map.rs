@@ -14,13 +14,13 @@ use crate::approximations::floor_to_int;
 use crate::lanes::{Lanes, Vec3Lanes, map_to_lanes};
 use crate::vector::normalize;
 
-/// Red, green and blue, and padding: four numbers are loaded at once.
+/// Red, green and blue, and padding, so that four numbers are loaded at once.
 pub(super) type Texel = [f32; 4];
 
 /// Colors by direction, at the nodes of a square grid.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct OctahedralMap {
-    /// Nodes along a side: a power of two and one.
+    /// Number of nodes along a side: a power of two plus one.
     pub(super) side: usize,
     /// `side` × `side` nodes, row by row.
     pub(super) texels: Vec<Texel>,
@@ -29,7 +29,7 @@ pub(super) struct OctahedralMap {
 /// Trilinear lookup between mip levels `near` and `near + 1` of each lane; directions need not be
 /// normalized.
 ///
-/// `level` is not called for a next level that has no weight: levels may be computed on demand.
+/// `level` is not called for a next level without weight: levels may be computed on demand.
 #[inline(always)]
 pub(super) fn sample_trilinear<'a, const N: usize>(
     level: impl Fn(usize) -> &'a OctahedralMap,
@@ -37,7 +37,7 @@ pub(super) fn sample_trilinear<'a, const N: usize>(
     fractions: Lanes<N>,
     directions: Vec3Lanes<N>,
 ) -> [Texel; N] {
-    // The two maps of each lane: most often the same in all, as roughness seldom varies much.
+    // The two maps of each lane: usually the same in all, because roughness rarely varies much.
     let first = near_levels[0];
     let has_next = fractions.0.iter().any(|fraction| *fraction != 0.0);
     let mut maps = [[level(first); N], [level(first + usize::from(has_next)); N]];
@@ -47,7 +47,7 @@ pub(super) fn sample_trilinear<'a, const N: usize>(
             maps[1][lane] = level(near_level + usize::from(fractions[lane] != 0.0));
         }
     }
-    // Their sizes become lanes too.
+    // Their sizes are also stored in lanes.
     let last_nodes =
         map_to_lanes(&maps, |maps| Lanes::from_fn(|lane| (maps[lane].side - 1) as f32));
     let positions = encode_octahedral(directions);
@@ -79,7 +79,7 @@ pub(super) fn encode_octahedral<const N: usize>(directions: Vec3Lanes<N>) -> [La
 }
 
 /// The four nodes around a position, in all lanes: column and row of the first, and the fractions
-/// of the way to the next.
+/// toward the next.
 pub(super) struct BilinearNodes<const N: usize> {
     columns: [i32; N],
     rows: [i32; N],
@@ -124,7 +124,7 @@ impl OctahedralMap {
 
     /// The next mip level, with half as many nodes along a side: a tent filter over 3 × 3 nodes.
     ///
-    /// Nodes stay where they are, so that levels differ in sharpness and not in position.
+    /// Nodes keep their positions, so that levels differ in sharpness and not in position.
     pub(super) fn downsample(&self) -> Self {
         let side = self.side / 2 + 1;
         let texel = |node: usize| {
@@ -140,7 +140,7 @@ impl OctahedralMap {
         Self { side, texels: (0..side * side).map(texel).collect() }
     }
 
-    /// The index of a node; one a step beyond a border is the mirror image on the same border.
+    /// The index of a node; a node one step beyond a border is mirrored along that border.
     fn wrap_node(&self, x: i32, y: i32) -> usize {
         let last = self.side as i32 - 1;
         // Beyond the left or right border: back inside, with the row mirrored; likewise for rows.
@@ -167,8 +167,8 @@ pub(super) fn node_coordinate(node: usize, side: usize) -> f32 {
     2.0 * node as f32 / (side - 1) as f32 - 1.0
 }
 
-/// The direction at a position of the square, coordinates from −1 to 1: a point on the octahedron,
-/// not normalized.
+/// The direction at a position in the square, with coordinates from −1 to 1: a point on the
+/// octahedron, not normalized.
 pub(super) fn decode_octahedral(u: f32, v: f32) -> [f32; 3] {
     let y = 1.0 - u.abs() - v.abs();
     if y >= 0.0 {
@@ -184,9 +184,9 @@ fn sign_not_zero(x: f32) -> f32 {
     if x < 0.0 { -1.0 } else { 1.0 }
 }
 
-/// The nodes before positions between 0 and 1, and the fractions of the way to the next.
+/// The nodes before positions between 0 and 1, and the fractions toward the next.
 ///
-/// `max` and `min` instead of `clamp`, which checks its bounds: the loops are vectorized.
+/// `max` and `min` instead of `clamp`, which checks its bounds, so that the loops are vectorized.
 #[inline(always)]
 fn split_coordinates<const N: usize>(
     positions: Lanes<N>,

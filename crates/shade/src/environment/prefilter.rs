@@ -1,15 +1,15 @@
-//! Prefiltered radiance: the mip levels of an environment for growing roughness.
+//! Prefiltered radiance: the mip levels of an environment for increasing roughness.
 //!
-//! The first sum of the split-sum approximation (Karis 2013). For each direction r, taken for
-//! normal and view alike:
+//! The first sum of the split-sum approximation (Karis 2013). For each direction r, used as both
+//! normal and view:
 //!
 //! ```text
 //!  L(r) = Σ radiance(lᵢ) · (r·lᵢ) / Σ (r·lᵢ)        lᵢ = reflection of r about half vectors hᵢ,
 //!                                                   importance sampled by GGX
 //! ```
 //!
-//! Few samples suffice, because each reads the environment from a mip level whose texels are as
-//! large as the solid angle of the sample (filtered importance sampling: Křivánek and Colbert
+//! A few samples are enough, because each reads the environment from a mip level whose texels are
+//! as large as the solid angle of the sample (filtered importance sampling: Křivánek and Colbert
 //! 2008).
 
 use super::octahedral_map::{BilinearNodes, OctahedralMap, encode_octahedral};
@@ -19,23 +19,23 @@ use raster::{Kernel, SimdLevel};
 use std::f32::consts::PI;
 use std::sync::OnceLock;
 
-/// The number of prefiltered levels: of roughness 0, 0.2 and so on to 1.
+/// The number of prefiltered levels: for roughness 0, 0.2 and so on to 1.
 pub(super) const LEVEL_COUNT: usize = 6;
-/// Nodes along the sides of the levels but the first, which is the environment itself. A node of
-/// the sharpest is half as far from the next as the lobe of its roughness is wide.
+/// Number of nodes along the sides of the levels except the first, which is the environment itself.
+/// In the sharpest one, the distance between nodes is half the width of the lobe of its roughness.
 const LEVEL_SIDES: [usize; LEVEL_COUNT - 1] = [65, 65, 33, 33, 17];
-/// Levels of the mip chain that samples are read from.
+/// Number of mip chain levels that samples are read from.
 const MIP_COUNT: usize = 7;
-/// Samples for each texel of a level.
+/// Number of samples for each texel of a level.
 const SAMPLE_COUNT: u32 = 64;
 
 /// The prefiltered levels of an environment, from sharp to blurred.
 ///
-/// Each is computed when a surface first asks for it: most models are of few roughnesses, and the
+/// Each is computed when a surface first needs it: most models have few roughnesses, and the
 /// sharpest of the blurred levels takes longer than all the others.
 #[derive(Clone, Debug)]
 pub(super) struct PrefilteredLevels {
-    /// The environment, with all sides halved from one level to the next.
+    /// The environment, with its sides halved from one level to the next.
     mip_chain: Vec<OctahedralMap>,
     /// The levels from 1 on, each computed on demand by the first thread that needs it.
     filtered: [OnceLock<OctahedralMap>; LEVEL_COUNT - 1],
@@ -49,7 +49,7 @@ impl PartialEq for PrefilteredLevels {
 }
 
 impl PrefilteredLevels {
-    /// The levels of an environment, none but the first computed yet.
+    /// The levels of an environment; only the first is already computed.
     pub(super) fn new(environment: OctahedralMap) -> Self {
         let mut mip_chain = vec![environment];
         while mip_chain.len() < MIP_COUNT {
@@ -58,7 +58,7 @@ impl PrefilteredLevels {
         Self { mip_chain, filtered: Default::default() }
     }
 
-    /// A level by its index, from 0 for mirrors on; computed if it is asked for the first time.
+    /// A level by index, starting at 0 for mirrors; computed on the first request.
     #[inline(always)]
     pub(super) fn level(&self, index: usize) -> &OctahedralMap {
         match index.checked_sub(1) {
@@ -81,13 +81,13 @@ impl PrefilteredLevels {
     }
 }
 
-/// How many samples are read at once.
+/// The number of samples that are read at once.
 const SAMPLE_LANES: usize = 8;
 
-/// Directions of light around the normal, which is z, and the mip levels in which they read the
+/// Directions of light around the normal, which is z, and the mip levels at which they read the
 /// environment.
 struct SamplePacket {
-    /// How many lanes are in use.
+    /// The number of lanes in use.
     count: usize,
     directions: Vec3Lanes<SAMPLE_LANES>,
     /// The mip level of each sample.
@@ -97,8 +97,8 @@ struct SamplePacket {
 }
 
 impl SamplePacket {
-    /// Up to eight directions, each with its mip level in a chain: the nearest one, as the samples
-    /// of a lobe blend their levels by themselves.
+    /// Up to eight directions, each with its mip level in a chain: the nearest one, because the
+    /// samples of a lobe blend the levels anyway.
     fn new(samples: &[([f32; 3], f32)], mip_chain: &[OctahedralMap]) -> Self {
         let mut levels = [0; SAMPLE_LANES];
         for (lane, (_, level)) in samples.iter().enumerate() {
@@ -111,19 +111,19 @@ impl SamplePacket {
     }
 }
 
-/// Directions in which a surface of this α reflects the view along its normal, with their mip
+/// Directions in which a surface with this α reflects the view along its normal, with their mip
 /// levels.
 ///
-/// The level is half the logarithm of the sample's solid angle over that of a texel, and one more:
-/// a bias against noise, which costs no sharpness that the next level of roughness would show.
+/// The level is half the logarithm of the sample's solid angle divided by the texel's, plus one: a
+/// bias against noise, which loses no sharpness that the next level of roughness would show.
 ///
-/// The sample set is computed once for a level, in the frame of the normal: with n = v = r the lobe
-/// has no preferred azimuth, at the price of the stretched highlights at grazing angles.
+/// The sample set is computed once per level, in the frame of the normal: with n = v = r the lobe
+/// has no preferred azimuth, at the cost of the stretched highlights at grazing angles.
 fn importance_sample_ggx(alpha: f32, mip_chain: &[OctahedralMap]) -> Vec<SamplePacket> {
     let alpha_squared = alpha * alpha;
     let texel_solid_angle = 4.0 * PI / (mip_chain[0].side * mip_chain[0].side) as f32;
     let sample = |n: u32| {
-        // The points of Hammersley: even steps, and the radical inverse in base 2.
+        // Hammersley points: even steps, and the radical inverse in base 2.
         let u = (n as f32 + 0.5) / SAMPLE_COUNT as f32;
         let azimuth = (n.reverse_bits() >> 8) as f32 / (1 << 24) as f32 * 2.0 * PI;
         // A half vector, distributed as D · n·h (Walter et al. 2007).
@@ -131,7 +131,8 @@ fn importance_sample_ggx(alpha: f32, mip_chain: &[OctahedralMap]) -> Vec<SampleP
         let sine = (1.0 - n_dot_h * n_dot_h).max(0.0).sqrt();
         let h = [sine * libm::cosf(azimuth), sine * libm::sinf(azimuth), n_dot_h];
         let direction = [2.0 * n_dot_h * h[0], 2.0 * n_dot_h * h[1], 2.0 * n_dot_h * n_dot_h - 1.0];
-        // The density of directions: that of half vectors, D n·h, over four times v·h = n·h.
+        // The density of directions: the half vectors' density D n·h, divided by four times v·h =
+        // n·h.
         let width = n_dot_h * n_dot_h * (alpha_squared - 1.0) + 1.0;
         let density = alpha_squared / (PI * width * width) / 4.0;
         let solid_angle = 1.0 / (SAMPLE_COUNT as f32 * density.max(1e-9));
@@ -155,7 +156,7 @@ impl Kernel for PrefilterKernel<'_> {
     #[inline(always)]
     fn run(self) -> [f32; 3] {
         let Self { mip_chain, normal, samples } = self;
-        // Any frame around the normal: the samples have no preferred azimuth.
+        // Any frame around the normal will do: the samples have no preferred azimuth.
         let aside = if normal[1].abs() < 0.9 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
         let tangent = normalize(cross(aside, normal));
         let bitangent = cross(normal, tangent);

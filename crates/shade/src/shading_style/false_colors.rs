@@ -9,15 +9,15 @@ use crate::lanes::{Lanes, Rgb, Vec3Lanes};
 use crate::vector::normalize_or_zero;
 use model::{Colormap, TextureInfo};
 
-/// The squares of a checkerboard in a unit of texture coordinates.
+/// The number of checkerboard squares per unit of texture coordinates.
 const CHECKER_SQUARES: f32 = 8.0;
 
-/// The color of a ball of glazed clay at normals, z towards the viewer: light from the upper left,
+/// The color of a glazed clay ball at normals with z toward the viewer: light from the upper left,
 /// a highlight and a rim.
 #[inline(always)]
 pub(super) fn matcap_ball_color<const N: usize>(normals: Vec3Lanes<N>) -> Rgb<N> {
     let light = [-0.4, 0.64, 0.656];
-    // Half Lambert: the cosine mapped to 0 … 1, then squared.
+    // Half Lambert: the cosine mapped to [0, 1], then squared.
     let wrapped = 0.5 + 0.5 * normals.dot(Vec3Lanes::splat(light));
     let diffuse = 0.06 + 0.94 * wrapped * wrapped;
     // Blinn-Phong highlight.
@@ -31,7 +31,7 @@ pub(super) fn matcap_ball_color<const N: usize>(normals: Vec3Lanes<N>) -> Rgb<N>
     Rgb { r: color(0.5, 0.5), g: color(0.24, 0.7), b: color(0.16, 1.0) }
 }
 
-/// A checkerboard, whose squares fade where they are smaller than pixels; gray without texture
+/// A checkerboard whose squares fade if they are smaller than pixels; gray without texture
 /// coordinates.
 #[inline(always)]
 pub(super) fn checker_color<const N: usize>(
@@ -50,7 +50,7 @@ pub(super) fn checker_color<const N: usize>(
     // Odd squares: the integer parts add up to an odd number.
     let squares = whole_part(u * CHECKER_SQUARES) + whole_part(v * CHECKER_SQUARES);
     let is_even = (squares - 2.0 * whole_part(squares * 0.5)).is_below(1.0);
-    // Squares per pixel, by which the contrast fades.
+    // Squares per pixel, for fading the contrast.
     let [dx, dy] = [uvs.dx, uvs.dy].map(|[du, dv]| du.abs().max_lanes(dv.abs()));
     let step = dx.max_lanes(dy) * CHECKER_SQUARES;
     let contrast = 0.35 * (1.5 - step).clamp(0.0, 1.0);
@@ -59,15 +59,15 @@ pub(super) fn checker_color<const N: usize>(
     decode_codes(Rgb { r: ramp(u) * shade, g: ramp(v) * shade, b: 0.55 * shade })
 }
 
-/// The largest whole numbers that are not above some numbers.
+/// The largest integers that are not above the numbers.
 #[inline(always)]
 fn whole_part<const N: usize>(numbers: Lanes<N>) -> Lanes<N> {
     numbers.map(|x| floor_to_int(x) as f32)
 }
 
-/// Colors far apart for consecutive parts: hues by multiples of the golden section.
+/// Clearly different colors for consecutive parts: hues at multiples of the golden section.
 pub(super) fn part_color(part: u32) -> [f32; 3] {
-    // 2³² over the golden ratio: the fraction of a product is what is left of it in 32 bits.
+    // 2³² over the golden ratio: the low 32 bits of a product are its fraction.
     let hue = (part.wrapping_add(1).wrapping_mul(2_654_435_769) >> 8) as f32 / 16_777_216.0;
     let [low, high] = if part.is_multiple_of(2) { [0.35, 0.95] } else { [0.2, 0.75] };
     // HSV to RGB.
@@ -77,7 +77,7 @@ pub(super) fn part_color(part: u32) -> [f32; 3] {
     })
 }
 
-/// The colors of numbers from 0 to 1 in a colormap, as sRGB codes from 0 to 1.
+/// Maps numbers from 0 to 1 to a colormap, as sRGB codes from 0 to 1.
 #[inline(always)]
 pub(super) fn map_colors<const N: usize>(colormap: Colormap, numbers: Lanes<N>) -> Rgb<N> {
     let mut colors = Rgb::ZERO;

@@ -6,12 +6,13 @@ use crate::lanes::Lanes;
 use raster::{LANES, SurfaceDepth};
 use std::sync::LazyLock;
 
-/// Positions in a disc of radius 1, evenly spread, for the search and the filter of point lights.
+/// Positions in a disc of radius 1, evenly distributed, for the search and the filter of point
+/// lights.
 pub(crate) static VOGEL_DISC: LazyLock<[[f32; 2]; 48]> =
     LazyLock::new(|| std::array::from_fn(|index| vogel_position(index, 48)));
 
-/// One of `count` evenly spread positions in a disc of radius 1: Vogel's spiral (1979), with the
-/// golden angle.
+/// One of `count` evenly distributed positions in a disc of radius 1: Vogel's spiral (1979), with
+/// the golden angle.
 fn vogel_position(index: usize, count: usize) -> [f32; 2] {
     let radius = ((index as f64 + 0.5) / count as f64).sqrt();
     let angle = index as f64 * 2.399_963_229_728_653;
@@ -23,14 +24,14 @@ fn vogel_position(index: usize, count: usize) -> [f32; 2] {
 pub(super) struct Disc<'a>(&'a [[Lanes<LANES>; 2]]);
 
 impl Disc<'_> {
-    /// How many positions there are.
+    /// The number of positions.
     #[inline(always)]
     pub(super) fn position_count(self) -> f32 {
         (self.0.len() * LANES) as f32
     }
 }
 
-/// Discs of 8, 16, 24 and 48 positions, one after the other.
+/// Discs of 8, 16, 24 and 48 positions, one after another.
 static DISCS: LazyLock<[[Lanes<LANES>; 2]; 12]> = LazyLock::new(|| {
     let counts = [8, 16, 24, 48];
     let mut positions = counts
@@ -64,7 +65,7 @@ pub(super) fn filter_disc(radius: f32) -> Disc<'static> {
     Disc(DISCS.get(range).unwrap_or_default())
 }
 
-/// The blockers that were found.
+/// The blockers found.
 pub(super) struct Blockers {
     pub(super) count: f32,
     pub(super) depth_sum: f32,
@@ -94,7 +95,7 @@ impl ShadowMap {
             let columns = Lanes::from_fn(|lane| columns[lane] as f32);
             let rows = Lanes::from_fn(|lane| rows[lane] as f32);
             let at_center = depths - plane_depths(receiver, columns + 0.5, rows + 0.5);
-            // Slopes are looked at only where something is above the plane.
+            // Slopes are read only if something is above the plane.
             if !at_center.is_above(receiver.bias).contains(&true) {
                 continue;
             }
@@ -111,7 +112,7 @@ impl ShadowMap {
     }
 }
 
-/// The sum of all lanes, by halves.
+/// The sum of all lanes, computed by halves.
 #[inline(always)]
 fn sum_lanes(Lanes([a, b, c, d, e, f, g, h]): Lanes<LANES>) -> f32 {
     ((a + e) + (c + g)) + ((b + f) + (d + h))
@@ -164,7 +165,7 @@ mod tests {
         for (radius, count) in [(2.0, 16.0), (4.0, 24.0), (60.0, 48.0)] {
             let disc = filter_disc(radius);
             assert_eq!(disc.position_count(), count);
-            // The mean of x² + y² over a disc of radius 1 is ½, that of x and y is 0.
+            // Over a disc of radius 1 the mean of x² + y² is ½, and x and y have mean 0.
             let (mut sums, mut squares) = ([0.0; 2], 0.0);
             for [x, y] in disc.0 {
                 for lane in 0..LANES {

@@ -1,4 +1,4 @@
-//! The nearest depths around blocks of texels: a bound on what can shade a receiver.
+//! The nearest depths around blocks of texels: a bound on the possible casters for a receiver.
 //!
 //! ```text
 //!   ┌──┬──┬──┬──┐
@@ -17,8 +17,8 @@ const BLOCK_SIDE: usize = 16;
 /// The side of a neighborhood in texels.
 const NEIGHBORHOOD_SIDE: f32 = 3.0 * BLOCK_SIDE as f32;
 
-// Texels are compared at their centers, up to a texel beyond the radius; farther than three
-// neighborhoods in a row reach, nothing is looked up.
+// Texels are compared at their centers, up to a texel beyond the radius; nothing is looked up
+// beyond the reach of three neighborhoods in a row.
 const _: () = assert!(MAX_FILTER_RADIUS + 1.0 <= NEIGHBORHOOD_SIDE + BLOCK_SIDE as f32);
 
 /// The nearest depth in the neighborhood of each block of a shadow map.
@@ -26,14 +26,14 @@ const _: () = assert!(MAX_FILTER_RADIUS + 1.0 <= NEIGHBORHOOD_SIDE + BLOCK_SIDE 
 pub(super) struct NearestDepths {
     /// Columns and rows of blocks.
     size: [usize; 2],
-    /// The greatest depth of a block and the eight around it, rows from the top.
+    /// The maximum depth of a block and the eight around it, rows from the top.
     depths: Vec<f32>,
-    /// The depths before the last step of their computation, for their memory.
+    /// The depths before the last step of the computation, kept to reuse their memory.
     earlier: Vec<f32>,
 }
 
 impl NearestDepths {
-    /// Computes the depths from the texels of a map, which are rows from the top.
+    /// Computes the depths from the texels of a map, in rows from the top.
     pub(super) fn find(&mut self, texels: &[SurfaceDepth], size: [u32; 2]) {
         let [columns, rows] = size.map(|side| (side as usize).div_ceil(BLOCK_SIDE));
         self.size = [columns, rows];
@@ -50,7 +50,7 @@ impl NearestDepths {
         self.dilate([0, 1]);
     }
 
-    /// Replaces each depth by the greatest of it and its two neighbors along one axis.
+    /// Replaces each depth by the maximum of it and its two neighbors along one axis.
     fn dilate(&mut self, step: [usize; 2]) {
         let [columns, rows] = self.size;
         std::mem::swap(&mut self.depths, &mut self.earlier);
@@ -65,13 +65,13 @@ impl NearestDepths {
         self.depths.extend((0..columns * rows).map(greatest));
     }
 
-    /// Forgets all depths.
+    /// Discards all depths.
     pub(super) fn clear(&mut self) {
         self.depths.clear();
     }
 
-    /// The nearest depth within `reach` texels of a position, or one nearer; 1, the nearest there
-    /// is, if depths are not known.
+    /// The nearest depth within `reach` texels of a position, or a nearer one; 1, the nearest
+    /// possible, if depths are not known.
     #[inline(always)]
     pub(super) fn depth_around(&self, [x, y]: [f32; 2], reach: f32) -> f32 {
         if reach <= BLOCK_SIDE as f32 {
@@ -86,7 +86,7 @@ impl NearestDepths {
         nearest
     }
 
-    /// The nearest depth in the neighborhood of a position, which is moved onto the map.
+    /// The nearest depth in the neighborhood of a position, which is clamped to the map.
     #[inline(always)]
     fn depth_at(&self, x: f32, y: f32) -> f32 {
         let [columns, rows] = self.size;

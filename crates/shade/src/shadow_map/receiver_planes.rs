@@ -5,7 +5,7 @@ use crate::lanes::{Lanes, Mask, Vec3Lanes, map_to_lanes};
 
 /// The bias for rounding, relative to the depth of the whole scene.
 const DEPTH_BIAS: f32 = 2e-6;
-/// The steepest receiver plane in depth per texel: light that falls more flatly has no weight.
+/// The steepest receiver plane in depth per texel: more grazing light has no weight.
 const MAX_PLANE_SLOPE: f32 = 4.0;
 
 /// Surfaces on a shadow map: their positions in texels and depth, and their planes.
@@ -17,13 +17,13 @@ pub(crate) struct ReceiverPlanes<const N: usize> {
     pub(super) depth: Lanes<N>,
     /// The growth of depth per texel, by column and row.
     pub(super) slope: [Lanes<N>; 2],
-    /// The difference of depth from which on something is a blocker.
+    /// The minimum difference of depth for a blocker.
     pub(super) bias: Lanes<N>,
     /// The lanes that are on the map, and not behind the light.
     pub(crate) is_on_map: Mask<N>,
 }
 
-/// One of them.
+/// A single receiver.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ReceiverPlane {
     pub(super) x: f32,
@@ -31,7 +31,7 @@ pub(crate) struct ReceiverPlane {
     pub(crate) depth: f32,
     /// The growth of depth per texel, by column and row.
     pub(super) slope: [f32; 2],
-    /// The difference of depth from which on something is a blocker.
+    /// The minimum difference of depth for a blocker.
     pub(super) bias: f32,
 }
 
@@ -61,8 +61,8 @@ impl<const N: usize> ReceiverPlanes<N> {
 impl ShadowMap {
     /// Projects surfaces onto the map, with their planes.
     ///
-    /// Positions and planes transform by a matrix and by its inverse transpose; both are of `f32`
-    /// relative to the middle of the scene, where rounding is least.
+    /// Positions and planes are transformed by a matrix and its inverse transpose; both are in
+    /// `f32` relative to the middle of the scene, where rounding is smallest.
     #[inline(always)]
     pub(crate) fn project_receivers<const N: usize>(
         &self,
@@ -84,7 +84,7 @@ impl ShadowMap {
             slope.clamp(-MAX_PLANE_SLOPE, MAX_PLANE_SLOPE).select(&is_finite, Lanes::ZERO)
         });
         // Rounding moves positions by a fraction of the scene's size; near a spot light that is a
-        // larger fraction of its range of depth.
+        // larger fraction of its depth range.
         let bias = DEPTH_BIAS * self.nearness_lanes(depth).max(0.1)
             + SLOPE_BIAS * (slope[0].abs() + slope[1].abs());
         let [width, height] = self.size.map(|side| side as f32);

@@ -9,11 +9,11 @@ use crate::shadow_receiver::ShadowReceiver;
 use raster::{Kernel, SimdLevel, SurfaceDepth};
 
 impl ShadowMap {
-    /// The visibility of the light, 0 to 1, from the receivers of the lanes that are `wanted`; 0 of
-    /// the others.
+    /// The visibility of the light, 0 to 1, from the receivers in the `wanted` lanes; 0 in the
+    /// others.
     ///
-    /// Without softness four texels are compared, with softness up to 24, and within a penumbra up
-    /// to 48 more. Beside the map and behind the light nothing is in shadow.
+    /// Without softness four texels are compared; with softness up to 24, and within a penumbra up
+    /// to 48 more. Outside the map and behind the light nothing is in shadow.
     #[inline(always)]
     pub(crate) fn visibility<const N: usize>(
         &self,
@@ -24,7 +24,8 @@ impl ShadowMap {
             return Lanes::ZERO;
         }
         let kernel = FindVisibility { map: self, receiver, wanted };
-        // Eight receivers are a part of a wide kernel. One may have no such kernel around it.
+        // Eight receivers are part of a wide kernel. A single one may not have such a kernel around
+        // it.
         if const { N == 1 } {
             SimdLevel::best().run_kernel(kernel)
         } else {
@@ -66,7 +67,7 @@ impl<const N: usize> Kernel for FindVisibility<'_, N> {
 }
 
 impl ShadowMap {
-    /// The visibility within or outside of a penumbra; `None` where it is too narrow to be seen.
+    /// The visibility inside or outside a penumbra; `None` if it is too narrow to be visible.
     #[inline(always)]
     fn soft_visibility(&self, receiver: &ReceiverPlane) -> Option<f32> {
         let search_radius = self.search_radius(receiver)?;
@@ -81,7 +82,7 @@ impl ShadowMap {
         if radius <= 1.0 {
             return None;
         }
-        // What is blocked all over the wider disc is so in the narrower one.
+        // If everything in the wider disc is blocked, so is the narrower one.
         if found.count == disc.position_count() {
             return Some(0.0);
         }
@@ -92,8 +93,8 @@ impl ShadowMap {
         Some((positions - blocked) / positions)
     }
 
-    /// The radius of the search for blockers: that of the penumbra which the nearest possible one
-    /// would have. `None` if nothing can shade the receiver.
+    /// The radius of the blocker search: the penumbra radius of the nearest possible blocker.
+    /// `None` if nothing can shade the receiver.
     #[inline(always)]
     fn search_radius(&self, receiver: &ReceiverPlane) -> Option<f32> {
         let widest = self.penumbra_radius(receiver.depth, 1.0).clamp(1.5, MAX_FILTER_RADIUS);
@@ -105,10 +106,11 @@ impl ShadowMap {
         (nearest > least).then_some(radius)
     }
 
-    /// The radius in texels of the penumbra at one depth of a caster at another.
+    /// The radius in texels of the penumbra at one depth, from a caster at another.
     ///
-    /// By similar triangles: the size of the light times the distance of receiver and caster over
-    /// that of caster and light. In parallel light it grows with the difference of depth alone.
+    /// By similar triangles: the size of the light times the distance between receiver and caster,
+    /// divided by the distance between caster and light. In parallel light it grows only with the
+    /// difference of depth.
     #[inline(always)]
     fn penumbra_radius(&self, receiver: f32, caster: f32) -> f32 {
         let distance = match self.depth_at_infinity {
@@ -119,7 +121,7 @@ impl ShadowMap {
     }
 
     /// Percentage-closer filtering over the four nearest texels, with bilinear weights; the plane
-    /// of each is continued to the receiver.
+    /// of each is extended to the receiver.
     #[inline(always)]
     pub(crate) fn filter_bilinear<const N: usize>(
         &self,
@@ -151,7 +153,7 @@ impl ShadowMap {
         visible
     }
 
-    /// Depth and slopes of texels; those of an empty one beyond the last.
+    /// Depth and slopes of texels; beyond the last, the values of an empty one.
     #[inline(always)]
     fn fetch_texels<const N: usize>(&self, indices: [usize; N]) -> [Lanes<N>; 3] {
         let mut texels = [Lanes::ZERO; 3];
@@ -165,7 +167,7 @@ impl ShadowMap {
     }
 }
 
-/// The largest integers not above some numbers.
+/// The largest integers not above the numbers.
 #[inline(always)]
 pub(super) fn floor_lanes<const N: usize>(numbers: Lanes<N>) -> [i32; N] {
     let mut integers = [0; N];

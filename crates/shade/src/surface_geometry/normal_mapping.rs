@@ -14,17 +14,17 @@ use crate::lanes::{Lanes, Vec3Lanes};
 /// The interpolated tangents of some fragments.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TangentLanes<const N: usize> {
-    /// The direction of growing u on the surface, of any length; zero where it is not known.
+    /// The direction of increasing u on the surface, of any length; zero if unknown.
     pub(crate) vectors: Vec3Lanes<N>,
     /// The fourth component, whose sign is the handedness of the frame.
     pub(crate) w: Lanes<N>,
 }
 
 impl<const N: usize> TangentLanes<N> {
-    /// Tangents where a mesh has none.
+    /// Tangents for a mesh without any.
     pub(crate) const NONE: Self = Self { vectors: Vec3Lanes::ZERO, w: Lanes::ZERO };
 
-    /// 1 where the bitangent is n × t, −1 where it is opposite.
+    /// 1 if the bitangent is n × t, −1 if it is opposite.
     #[inline(always)]
     pub(crate) fn handedness(&self) -> Lanes<N> {
         self.w.map(|w| if w < 0.0 { -1.0 } else { 1.0 })
@@ -33,8 +33,8 @@ impl<const N: usize> TangentLanes<N> {
 
 /// Transforms the normals of a normal map from tangent space to the world.
 ///
-/// The frame is made of unit vectors, as MikkTSpace asks for, but not orthogonalized. The surface's
-/// own normals stay where it has no tangent, or where the sum has no direction.
+/// The frame consists of unit vectors, as MikkTSpace requires, but is not orthogonalized. The
+/// surface's normal is kept if it has no tangent, or if the sum has no direction.
 #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
 #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
 pub(super) fn apply_normal_map<const N: usize>(

@@ -1,4 +1,4 @@
-//! Texel addressing: the mip levels and the texels that fragments read (Vulkan 1.3 §16.5–16.9).
+//! Texel addressing: the mip levels and texels that fragments read (Vulkan 1.3 §16.5–16.9).
 //!
 //! ```text
 //!   derivatives ─► level of detail λ = log2(texels per pixel) ─► levels ⌊λ⌋ and ⌊λ⌋ + 1, fraction
@@ -6,21 +6,21 @@
 //! ```
 //!
 //! This depends on the size of an image and on its sampler, not on its texels, so that the textures
-//! of a material, most often alike in both, share the work.
+//! of a material, which usually share both, share the work.
 
 use crate::approximations::{floor_to_int, log2_approx};
 use crate::lanes::Lanes;
 use model::{MipmapMode, Sampler, TextureFilter, WrapMode};
 
-/// All of a texture that decides which texels are read.
+/// The properties of a texture that determine which texels are read.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct TexelAddressing {
-    /// Texels of a row of the full image.
+    /// Number of texels per row of the full image.
     pub(super) width: i32,
-    /// Texels of a column of the full image.
+    /// Number of texels per column of the full image.
     pub(super) height: i32,
     /// The index of the smallest mip level. The full image is level 0, and each level has half the
-    /// size of the one before.
+    /// size of the previous one.
     pub(super) last_level: i32,
     /// Filters and wrap modes.
     pub(super) sampler: Sampler,
@@ -28,12 +28,12 @@ pub(crate) struct TexelAddressing {
 
 /// The mip levels that each lane reads: 0 is the full image magnified, n is level n − 1 minified.
 ///
-/// Magnification has a number of its own because its filter may be another one.
+/// Magnification has a separate number because its filter may differ.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LevelOfDetail<const N: usize> {
     /// The level at or above the level of detail.
     pub(super) near_levels: [i32; N],
-    /// The next coarser level; the near one where it has no weight.
+    /// The next coarser level; the same as the near one if it has no weight.
     pub(super) far_levels: [i32; N],
     /// The weights of the far levels in a linear interpolation from the near ones.
     pub(super) far_weights: Lanes<N>,
@@ -41,7 +41,7 @@ pub(super) struct LevelOfDetail<const N: usize> {
     pub(super) is_trilinear: bool,
 }
 
-/// The four texels around a position on a mip level, which is each lane's own.
+/// The four texels around a position on a mip level, which may differ between lanes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TexelQuads<const N: usize> {
     /// The mip levels, from 0 for the full image.
@@ -52,19 +52,19 @@ pub(super) struct TexelQuads<const N: usize> {
     pub(super) column_fractions: Lanes<N>,
     /// The fraction of the way from the upper texels to the lower ones.
     pub(super) row_fractions: Lanes<N>,
-    /// Whether the filter is nearest in all lanes: only the upper left texel has a weight.
+    /// Whether all lanes use the nearest filter: only the upper left texel then has a weight.
     pub(super) are_nearest: bool,
 }
 
 impl TexelAddressing {
-    /// Whether it matters how many texels a pixel covers.
+    /// Whether the number of texels covered by a pixel matters.
     #[inline(always)]
     fn needs_derivatives(&self) -> bool {
         self.last_level > 0 || self.sampler.mag_filter != self.sampler.min_filter
     }
 
-    /// Mip level selection: the level of detail from the derivatives of the texture coordinates by
-    /// the pixel's column and row (glTF 2.0 leaves the formula to OpenGL, 8.14.1).
+    /// Mip level selection: the level of detail from the derivatives of the texture coordinates
+    /// with respect to the pixel's column and row (glTF 2.0 leaves the formula to OpenGL, 8.14.1).
     #[inline(always)]
     pub(super) fn select_levels<const N: usize>(
         &self,
@@ -82,15 +82,14 @@ impl TexelAddressing {
         let Sampler { mag_filter, min_filter, mipmap_mode, .. } = self.sampler;
         let (width, height) = (self.width as f32, self.height as f32);
         let round = if mipmap_mode == MipmapMode::Nearest { 0.5 } else { 0.0 };
-        // Conditions with `&` instead of `&&`, and values instead of branches: the loop is
+        // Conditions with `&` instead of `&&`, and values instead of branches, so that the loop is
         // vectorized.
         for lane in 0..N {
             let (xu, xv) = (dx[0][lane] * width, dx[1][lane] * height);
             let (yu, yv) = (dy[0][lane] * width, dy[1][lane] * height);
-            // The texels that a pixel covers along its longer side, squared.
+            // The number of texels that a pixel covers along its longer side, squared.
             let square = (xu * xu + xv * xv).max(yu * yu + yv * yv);
-            // Not minified where a texel is larger than the pixel, or where derivatives are not
-            // finite.
+            // Not minified if a texel is larger than the pixel, or if derivatives are not finite.
             let is_minified = (square > 1.0) & (square < f32::INFINITY);
             let lambda = 0.5 * log2_approx(if is_minified { square } else { 1.0 });
             // Level of detail, rounded down for trilinear filtering and to nearest for one level.
@@ -109,8 +108,8 @@ impl TexelAddressing {
 
     /// Locates the texels around a position, on levels in the numbering of [`LevelOfDetail`].
     ///
-    /// With nearest filtering all four are computed too, for the sake of lanes that filter
-    /// linearly; their fractions are then 0.
+    /// With nearest filtering all four are computed too, for lanes that filter linearly; the
+    /// fractions are then 0.
     #[inline(always)]
     pub(super) fn locate_texels<const N: usize>(
         &self,
@@ -146,21 +145,21 @@ impl TexelAddressing {
     }
 }
 
-/// Positions among the texels of a row or of a column: the two neighbors along one axis of a quad.
+/// Positions among the texels of a row or column: the two neighbors along one axis of a quad.
 struct TexelAxis<const N: usize> {
     /// Texels of the level along this axis.
     sizes: [i32; N],
     /// The wrapped index of the texel before the position.
     first: [i32; N],
-    /// The wrapped index of the texel behind the position.
+    /// The wrapped index of the texel after the position.
     second: [i32; N],
     /// The fraction of the way from the first to the second.
     fractions: Lanes<N>,
 }
 
 impl<const N: usize> TexelAxis<N> {
-    /// Locates coordinates on an image of a size, each on a level of its own; those that are not
-    /// filtered linearly are on a texel.
+    /// Locates coordinates on an image of a given size, each on a separate level; coordinates that
+    /// are not filtered linearly fall on a texel.
     #[inline(always)]
     fn locate(
         coordinates: Lanes<N>,
@@ -173,7 +172,7 @@ impl<const N: usize> TexelAxis<N> {
         let mut fractions = Lanes::ZERO;
         for lane in 0..N {
             sizes[lane] = (size >> levels[lane]).max(1);
-            // Linear filtering passes through the centers of texels, at half coordinates.
+            // Linear filtering passes through the texel centers, at half-integer coordinates.
             let to_center = if are_linear[lane] { 0.5 } else { 0.0 };
             let x = coordinates[lane] * sizes[lane] as f32 - to_center;
             let texel = floor_to_int(x);
@@ -189,7 +188,7 @@ impl<const N: usize> TexelAxis<N> {
     }
 }
 
-/// Applies a wrap mode: indices of texels, anywhere, to indices within rows of these sizes.
+/// Applies a wrap mode: maps arbitrary texel indices to indices within rows of these sizes.
 #[inline(always)]
 fn wrap_texels<const N: usize>(
     texels: &[i32; N],
@@ -198,7 +197,7 @@ fn wrap_texels<const N: usize>(
     mode: WrapMode,
 ) -> [i32; N] {
     let mut wrapped = *texels;
-    // Clamp to edge: the border texel goes on for ever.
+    // Clamp to edge: the border texel continues forever.
     if mode == WrapMode::ClampToEdge {
         for (texel, size) in wrapped.iter_mut().zip(sizes) {
             *texel = (*texel).max(0).min(size - 1);
@@ -207,13 +206,13 @@ fn wrap_texels<const N: usize>(
     }
     // Mirrored repeat has a period of two images, the second mirrored.
     let images = if mode == WrapMode::MirroredRepeat { 2 } else { 1 };
-    // Repeat: the remainder, which of a power of two is a mask.
+    // Repeat: the remainder, which for a power of two is a mask.
     if are_powers {
         for (texel, size) in wrapped.iter_mut().zip(sizes) {
             *texel &= images * size - 1;
         }
     } else {
-        // A division is slow: most often all texels are within the image already.
+        // A division is slow, and usually all texels are already within the image.
         let mut are_inside = true;
         for (texel, size) in texels.iter().zip(sizes) {
             are_inside &= (*texel >= 0) & (*texel < images * size);
@@ -224,7 +223,7 @@ fn wrap_texels<const N: usize>(
             }
         }
     }
-    // Mirrored repeat: the second half of the period runs backwards.
+    // Mirrored repeat: the second half of the period runs backward.
     if mode == WrapMode::MirroredRepeat {
         for (texel, size) in wrapped.iter_mut().zip(sizes) {
             *texel = (*texel).min(2 * size - 1 - *texel);

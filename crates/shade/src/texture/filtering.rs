@@ -7,12 +7,12 @@
 //!    c ──○──── d        ◆ = lerp(●, ○, t)
 //! ```
 //!
-//! Colors are decoded from sRGB before they are mixed, by a table (the formats `*_SRGB` of Vulkan).
-//! Alpha is straight, not premultiplied, as glTF has it, and is filtered by itself: the color of
-//! transparent texels bleeds into their neighbors, which exporters pad against.
+//! Colors are decoded from sRGB before they are mixed, using a table (the `*_SRGB` formats of
+//! Vulkan). Alpha is straight, not premultiplied, as in glTF, and is filtered separately: the color
+//! of transparent texels bleeds into their neighbors, so exporters add padding.
 //!
-//! With eight lanes a texel is fetched lane by lane, as one number of 32 bits, and all arithmetic
-//! is done on all lanes.
+//! With eight lanes a texel is fetched lane by lane, as one 32-bit number, and all arithmetic uses
+//! all lanes.
 
 use super::addressing::TexelQuads;
 use super::footprint::Tap;
@@ -41,7 +41,7 @@ impl MipChain<'_> {
         sum
     }
 
-    /// Adds what is read at one tap of a footprint, times its weight.
+    /// Adds the texel read at one tap of a footprint, times its weight.
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
     #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(crate) fn accumulate_tap<const N: usize>(
@@ -50,7 +50,8 @@ impl MipChain<'_> {
         needs_alpha: bool,
         sum: &mut TexelLanes<N>,
     ) {
-        // Trilinear: from the first level on to the second; the first has the weight 1.
+        // Trilinear: interpolates from the first level toward the second; the first starts with
+        // weight 1.
         let mut texel = TexelLanes::ZERO;
         for level in 0..tap.level_count {
             let next = self.filter_texels(&tap.quads[level], needs_alpha);
@@ -83,8 +84,8 @@ impl MipChain<'_> {
 
     /// Bilinear interpolation of colors, decoded from sRGB before they are mixed.
     ///
-    /// The codes go from the texel to the table byte by byte: packed into vectors they would have
-    /// to be extracted again.
+    /// The codes go from the texel to the table byte by byte: if they were packed into vectors they
+    /// would have to be extracted again.
     #[inline(always)]
     fn filter_srgb_texels<const N: usize>(
         &self,
@@ -115,7 +116,7 @@ impl MipChain<'_> {
     #[inline(always)]
     fn fetch_texels<const N: usize>(&self, quads: &TexelQuads<N>) -> [[u32; N]; 4] {
         let mut packed = [[0; N]; 4];
-        // A gather: each lane has a mip level of its own.
+        // A gather: each lane has a separate mip level.
         for lane in 0..N {
             let texels: &[[u8; 4]] = &self.levels[quads.levels[lane] as usize].texels;
             for (packed, indices) in packed.iter_mut().zip(&quads.texels) {
@@ -133,14 +134,14 @@ fn channel_code(texel: u32, channel: usize) -> u32 {
 }
 
 /// One channel that is stored linearly, from 0 to 1. The division by 255 comes after the
-/// interpolation: one instead of four.
+/// interpolation: one division instead of four.
 #[inline(always)]
 fn filter_linear_channel<const N: usize>(
     texels: &[[u32; N]; 4],
     channel: usize,
     quads: &TexelQuads<N>,
 ) -> Lanes<N> {
-    // By way of `i32`, which vector instructions convert to `f32` where they do not convert `u32`.
+    // Via `i32`, which vector instructions can convert to `f32`, unlike `u32`.
     let codes = map_to_lanes(texels, |texels| {
         Lanes::from_fn(|lane| channel_code(texels[lane], channel) as i32 as f32)
     });

@@ -20,15 +20,15 @@ use super::addressing::{LevelOfDetail, TexelAddressing, TexelQuads};
 use crate::approximations::floor_to_int;
 use crate::lanes::Lanes;
 
-/// The footprints of pixels on textures with one addressing: taps on a line, all on the same
+/// The footprints of pixels on textures with common addressing: taps on a line, all on the same
 /// levels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Footprint<const N: usize> {
     /// The middle of the line, in texture coordinates.
     center: [Lanes<N>; 2],
-    /// The number of taps, from 1 on.
+    /// The number of taps, at least 1.
     tap_counts: Lanes<N>,
-    /// The line in texture coordinates, from end to end; zero where there is one tap.
+    /// The line in texture coordinates, from end to end; zero if there is one tap.
     major_axis: [Lanes<N>; 2],
     /// The mip levels of each tap.
     lod: LevelOfDetail<N>,
@@ -37,18 +37,18 @@ pub(crate) struct Footprint<const N: usize> {
 /// One tap of the footprints, in all lanes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tap<const N: usize> {
-    /// The texels of the nearer mip level, and those of the next.
+    /// The texels of the nearer mip level, and of the next.
     pub(super) quads: [TexelQuads<N>; 2],
-    /// How many of the two levels have a weight in some lane.
+    /// The number of levels, 1 or 2, that have a weight in any lane.
     pub(super) level_count: usize,
-    /// The weights of the levels, each against the levels before.
+    /// The weights of the levels, each relative to the levels before.
     pub(super) level_weights: [Lanes<N>; 2],
-    /// The weight of the tap in its footprint: 0 in lanes that have fewer.
+    /// The weight of the tap in its footprint: 0 in lanes with fewer taps.
     pub(super) tap_weights: Lanes<N>,
 }
 
 impl<const N: usize> Footprint<N> {
-    /// The number of taps in the lane that has most.
+    /// The largest number of taps in any lane.
     #[inline(always)]
     pub(crate) fn max_tap_count(&self) -> u32 {
         let mut count = 1.0_f32;
@@ -58,8 +58,7 @@ impl<const N: usize> Footprint<N> {
         count as u32
     }
 
-    /// The tap with this index, from 0 on: taps divide the line into equal parts and lie in their
-    /// middles.
+    /// The tap at an index starting at 0: taps are at the midpoints of equal parts of the line.
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
     #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(crate) fn tap(&self, addressing: &TexelAddressing, index: u32) -> Tap<N> {
@@ -94,7 +93,7 @@ impl TexelAddressing {
         let mut tap_counts = Lanes::ONE;
         let mut major_axis = [Lanes::ZERO; 2];
         let mut steps = [uvs.dx, uvs.dy];
-        // Without mip levels every tap would read texels of full size: one tap, and aliasing.
+        // Without mip levels every tap would read full-size texels: one tap, and aliasing.
         if anisotropy > 1 && self.last_level > 0 {
             let most = anisotropy as f32;
             self.fit_anisotropy(most, &mut tap_counts, &mut major_axis, &mut steps);
@@ -102,11 +101,11 @@ impl TexelAddressing {
         Footprint { center: uvs.uv, tap_counts, major_axis, lod: self.select_levels(&steps) }
     }
 
-    /// Fits the ellipse of a pixel's footprint: lays long ones along a line, and replaces their
-    /// derivatives by steps that stand for one tap.
+    /// Fits the ellipse of a pixel's footprint: long ellipses become a line of taps, and the
+    /// derivatives are replaced by steps for a single tap.
     ///
-    /// The axes of the ellipse are those of J Jᵀ: J, the derivatives in texels, maps the unit
-    /// circle to it. Their squared lengths are the eigenvalues; the longer axis is an eigenvector.
+    /// The ellipse has the axes of J Jᵀ: J, the derivatives in texels, maps the unit circle to it.
+    /// The squared lengths of the axes are the eigenvalues; the longer axis is an eigenvector.
     #[inline(always)]
     fn fit_anisotropy<const N: usize>(
         &self,
@@ -128,17 +127,16 @@ impl TexelAddressing {
             let root = ((uu - vv) * (uu - vv) + 4.0 * uv * uv).sqrt();
             let longer = (0.5 * (trace + root)).sqrt();
             let shorter = area.abs() / longer;
-            // An axis shorter than a texel is magnified and asks for no more taps.
+            // An axis shorter than a texel is magnified and does not add taps.
             let ratio = (longer / shorter.max(1.0) + 0.5).max(0.0);
             let count = (floor_to_int(ratio) as f32).min(most);
             let is_long = (count > 1.0) & (longer < 1e6);
-            // Of the two forms of the eigenvector the one that does not vanish.
+            // Of the two forms of the eigenvector, the one that does not vanish.
             let x = if uu > vv { 0.5 * (uu - vv + root) } else { uv };
             let y = if uu > vv { uv } else { 0.5 * (vv - uu + root) };
             let inv_length = 1.0 / (x * x + y * y).sqrt();
             let (x, y) = (x * inv_length / width, y * inv_length / height);
-            // The distance between taps, where the limit of taps makes it longer than the minor
-            // axis.
+            // The distance between taps, if the tap limit makes it longer than the minor axis.
             let step = (longer / count).max(shorter);
             tap_counts[lane] = if is_long { count } else { 1.0 };
             major_axis[0][lane] = if is_long { x * longer } else { 0.0 };
@@ -161,7 +159,7 @@ mod tests {
     fn a_long_footprint_is_the_ellipse_of_its_derivatives() {
         let image = Image { width: 64, height: 64, rgba: vec![[0; 4]; 64 * 64] };
         let mip_chain = MipChain::new(&image, Sampler::default(), TexelEncoding::Linear);
-        // Axes of 12 and 3 texels, rotated by an angle; the pixel's own axes are rotated too.
+        // Axes of 12 and 3 texels, rotated by an angle; the pixel's axes are rotated too.
         for (angle, pixel_angle) in [(0.0, 0.0), (0.4, 0.0), (1.2, 0.7), (2.5, 1.9), (1.5, 0.3)] {
             let rotate = |x: f32, y: f32, angle: f32| {
                 let (sine, cosine) = (libm::sinf(angle), libm::cosf(angle));

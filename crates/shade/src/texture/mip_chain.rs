@@ -1,4 +1,4 @@
-//! Mip chains: an image at full size, at half, at a quarter and so on (Williams 1983).
+//! Mip chains: an image at full size, half size, quarter size and so on (Williams 1983).
 //!
 //! ```text
 //!   level 0        level 1     2    …
@@ -14,12 +14,12 @@ use model::{Image, MipmapMode, Sampler};
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
-/// A texture: an image with its mip levels, and the sampler that it is read with.
+/// A texture: an image with its mip levels, and the sampler used to read it.
 #[derive(Clone, Debug)]
 pub struct MipChain<'a> {
     pub(super) levels: Vec<MipLevel<'a>>,
     pub(super) addressing: TexelAddressing,
-    /// The linear light of each code, of textures that hold colors.
+    /// The linear light of each code, for textures that hold colors.
     pub(super) srgb_table: Option<&'static [f32; 256]>,
 }
 
@@ -41,9 +41,9 @@ pub(super) struct MipLevel<'a> {
 }
 
 impl<'a> MipChain<'a> {
-    /// Builds the levels of an image; only the first if the sampler asks for no others.
+    /// Builds the levels of an image; only the first if the sampler needs no others.
     ///
-    /// The full image is borrowed: several chains, with other samplers, may share it.
+    /// The full image is borrowed: several chains with different samplers may share it.
     ///
     /// Colors are averaged in linear light. The levels take a third of the image's memory.
     #[must_use]
@@ -86,7 +86,7 @@ impl<'a> MipChain<'a> {
         MipChain { levels, addressing: self.addressing, srgb_table: self.srgb_table }
     }
 
-    /// All that decides which texels are read.
+    /// The properties that determine which texels are read.
     #[inline(always)]
     pub(crate) const fn addressing(&self) -> &TexelAddressing {
         &self.addressing
@@ -95,7 +95,7 @@ impl<'a> MipChain<'a> {
 
 impl MipLevel<'_> {
     /// The next level, of half the size, by a box filter over 2 × 2 texels; `None` after a single
-    /// texel. Of an odd number of rows or columns the last one is left out.
+    /// texel. If the number of rows or columns is odd, the last one is skipped.
     fn downsample<'b>(&self, average: impl Fn([[u8; 4]; 4]) -> [u8; 4]) -> Option<MipLevel<'b>> {
         if self.width == 1 && self.height == 1 {
             return None;
@@ -108,7 +108,7 @@ impl MipLevel<'_> {
         };
         for y in 0..height {
             let (upper, lower) = (row(2 * y), row(2 * y + 1));
-            // A level one texel wide is halved in its height alone.
+            // Only the height of a one-texel-wide level is halved.
             if let ([a], [b]) = (upper, lower) {
                 texels.push(average([*a, *a, *b, *b]));
                 continue;
@@ -129,12 +129,12 @@ fn average_texels(four: [[u8; 4]; 4]) -> [u8; 4] {
     })
 }
 
-/// Tables for means of sRGB colors in linear light.
+/// Tables for averaging sRGB colors in linear light.
 #[derive(Debug)]
 struct SrgbAverager {
     /// The 16-bit linear light of each code.
     linear: [u32; 256],
-    /// The nearest code to each 16-bit linear light.
+    /// The nearest code for each 16-bit linear light.
     codes: Vec<u8>,
 }
 
@@ -150,7 +150,7 @@ impl SrgbAverager {
         })
     }
 
-    /// The mean of four colors in linear light; alpha is linear already.
+    /// The mean of four colors in linear light; alpha is already linear.
     fn average(&self, four: [[u8; 4]; 4]) -> [u8; 4] {
         let color = |k: usize| {
             // Mean in linear light, in 16 bits, then back to the nearest sRGB code.

@@ -1,5 +1,5 @@
-//! The transmission framebuffer: a picture of all opaque surfaces, in which refracting and rough
-//! glass finds what is behind it (as in the Khronos sample viewer and three.js).
+//! The transmission framebuffer: a picture of all opaque surfaces, which refracting and rough glass
+//! reads to show the objects behind it (as in the Khronos sample viewer and three.js).
 //!
 //! ```text
 //!   opaque surfaces ─► linear radiance, alpha ──┐
@@ -8,10 +8,10 @@
 //!   no surface is
 //! ```
 //!
-//! Surfaces and a visible environment are light, and are tone mapped with what the glass reflects.
-//! Backdrop and background color are colors of the picture already and take no part in tone
-//! mapping; they are kept apart. All of it is premultiplied: where nothing is drawn over a
-//! transparent background, glass is transparent too.
+//! Surfaces and a visible environment are light, and are tone mapped with the light that the glass
+//! reflects. Backdrop and background already are display colors and are not tone mapped, so they
+//! are kept separate. Everything is premultiplied: over an empty part of a transparent background,
+//! glass is transparent too.
 
 use super::mip_levels::MipLevels;
 use super::refraction::{blur_levels, channel_iors, refracted_exits};
@@ -22,18 +22,18 @@ use crate::{Backdrop, Draw};
 use glam::{DMat4, DVec3};
 use raster::for_each_parallel;
 
-/// The brightest light of a texel, the greatest of half floats: one texel beyond it, of a sun or
+/// The maximum light of a texel, the largest half float: a single texel beyond it, from a sun or
 /// its reflection, would be infinite in all levels.
 const MAX_RADIANCE: f32 = 65_504.0;
 
 /// A picture of the opaque surfaces of a scene with its mip levels.
 #[derive(Clone, Debug)]
 pub struct TransmissionFramebuffer {
-    /// The place of positions in the picture.
+    /// The projection of positions to the picture.
     projection: ScreenProjection,
     /// Radiance of surfaces and of a visible environment.
     surfaces: MipLevels,
-    /// Display colors of the backdrop over the background, less what surfaces hide.
+    /// Display colors of the backdrop over the background, without the parts that surfaces hide.
     backdrop: Option<MipLevels>,
     /// The display color of the background, premultiplied.
     background: [f32; 4],
@@ -50,24 +50,24 @@ pub struct ScreenProjection {
     rows: [[f32; 4]; 3],
 }
 
-/// The light that arrives through a surface from what is behind it.
+/// The light that arrives through a surface from behind.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightBehind<const N: usize> {
     /// Radiance of surfaces, premultiplied.
     pub(crate) radiance: Rgb<N>,
-    /// Colors of backdrop and background as the picture has them, premultiplied.
+    /// Colors of backdrop and background as in the picture, premultiplied.
     pub(crate) display: Rgb<N>,
-    /// Alpha of both together.
+    /// Combined alpha of both.
     pub(crate) alpha: Lanes<N>,
 }
 
 impl<const N: usize> LightBehind<N> {
-    /// No light, and nothing that hides it.
+    /// No light, and nothing that blocks it.
     const NONE: Self = Self { radiance: Rgb::ZERO, display: Rgb::ZERO, alpha: Lanes::ZERO };
 }
 
 impl ScreenProjection {
-    /// The view of a framebuffer of `size` texels.
+    /// The view for a framebuffer of `size` texels.
     ///
     /// `world_to_screen` maps the world to texels from the upper left corner. Positions are taken
     /// relative to `origin`, which should be near the surfaces, for precision in `f32`.
@@ -79,7 +79,7 @@ impl ScreenProjection {
         Self { size, origin: origin.to_array(), rows }
     }
 
-    /// The places of positions in texels; of positions behind the eye anywhere.
+    /// The positions in texels; arbitrary for positions behind the eye.
     #[inline(always)]
     fn project<const N: usize>(&self, positions: Vec3Lanes<N>) -> [Lanes<N>; 2] {
         let Vec3Lanes { x, y, z } = positions - Vec3Lanes::splat(self.origin);
@@ -90,7 +90,7 @@ impl ScreenProjection {
 }
 
 impl TransmissionFramebuffer {
-    /// The framebuffer of a picture of all opaque surfaces.
+    /// The framebuffer for a picture of all opaque surfaces.
     ///
     /// `surfaces` is linear radiance, premultiplied by alpha, rows from the top; behind it are the
     /// backdrop and the `background`, a linear display color premultiplied by alpha. Uses up to
@@ -119,8 +119,8 @@ impl TransmissionFramebuffer {
 
     /// The light behind surfaces of a draw, refracted and blurred; not yet tinted.
     ///
-    /// Not inlined into the kernel of shading: it is a gather from memory that wider instructions
-    /// do not hasten, and most fragments have no need of it.
+    /// This is not inlined into the shading kernel: it is a gather from memory that wider
+    /// instructions do not speed up, and most fragments do not need it.
     #[inline(never)]
     pub(crate) fn light_behind<const N: usize>(
         &self,
@@ -133,8 +133,8 @@ impl TransmissionFramebuffer {
         let levels = blur_levels(inputs.roughness, ior, width.max(height) as f32);
         let lengths = inputs.layers.thickness * draw.world_scale;
         let [red, green, blue] = channel_iors(draw);
-        // Dispersion: each channel is refracted by itself; alpha is that of green. One loop, so that
-        // there is one copy of the lookup.
+        // Dispersion: each channel is refracted separately; alpha uses the green ray. A single
+        // loop, so that there is one copy of the lookup.
         let iors = [green, red, blue];
         let count = if red == blue { 1 } else { iors.len() };
         let mut light = LightBehind::NONE;
@@ -170,7 +170,7 @@ impl TransmissionFramebuffer {
     }
 }
 
-/// The backdrop over the background at each texel, less what surfaces hide of it.
+/// The backdrop over the background at each texel, without the parts that surfaces hide.
 fn visible_backdrop(
     backdrop: &Backdrop,
     background: [f32; 4],

@@ -7,12 +7,12 @@
 //!                B-spline: bilinear sampling of so few texels would show them as diamonds
 //! ```
 //!
-//! Texel (i, j) of level k covers the pixels from (i, j) · 2ᵏ on: sizes are halved upwards, so that
-//! no level is shifted against another. Alpha is premultiplied.
+//! Texel (i, j) of level k covers the pixels from (i, j) · 2ᵏ on: halved sizes are rounded up, so
+//! that levels are not shifted against each other. Alpha is premultiplied.
 
 use raster::for_each_parallel;
 
-/// A picture at full size, at half, at a quarter and so on.
+/// A picture at full size, half size, quarter size and so on.
 #[derive(Clone, Debug)]
 pub(super) struct MipLevels {
     /// From the full size to a single texel.
@@ -24,7 +24,7 @@ pub(super) struct MipLevels {
 struct FramebufferLevel {
     /// Width and height in texels.
     size: [usize; 2],
-    /// Pixels of the full size per texel, along a side, inverted: a power of two.
+    /// The inverse of the number of full-size pixels per texel along a side: a power of two.
     scale: f32,
     texels: Vec<[f32; 4]>,
 }
@@ -40,10 +40,10 @@ impl MipLevels {
         Self { levels }
     }
 
-    /// The trilinear mean around a position in pixels of the full size.
+    /// The trilinear mean around a position in full-size pixels.
     ///
-    /// Positions beyond the border have the value of the border. `level` is 0 for the full size; it
-    /// is clamped to the levels there are.
+    /// Positions beyond the border have the value at the border. `level` is 0 for the full size; it
+    /// is clamped to the existing levels.
     #[inline(always)]
     pub(super) fn sample(&self, position: [f32; 2], level: f32) -> [f32; 4] {
         let level = level.max(0.0).min((self.levels.len() - 1) as f32);
@@ -65,7 +65,7 @@ impl MipLevels {
 
 impl FramebufferLevel {
     /// The level of half the size by a box filter; `None` after a single texel. A last row or
-    /// column without a partner is its own.
+    /// column without a partner is paired with itself.
     fn downsample(&self, threads: usize) -> Option<Self> {
         let [width, height] = self.size;
         if self.texels.len() <= 1 {
@@ -86,7 +86,7 @@ impl FramebufferLevel {
         Some(Self { size, scale: self.scale * 0.5, texels })
     }
 
-    /// Bilinear interpolation between the centers of texels.
+    /// Bilinear interpolation between texel centers.
     #[inline(always)]
     fn sample_bilinear(&self, position: [f32; 2]) -> [f32; 4] {
         let [width, height] = self.size;
@@ -117,7 +117,8 @@ impl FramebufferLevel {
     }
 }
 
-/// The two texels whose centers lie about a coordinate, and its fraction of the way between them.
+/// The two texels whose centers are on either side of a coordinate, and the fraction of the way
+/// between them.
 #[inline(always)]
 fn locate_pair(coordinate: f32, count: usize) -> ([usize; 2], f32) {
     let from_center = (coordinate - 0.5).max(0.0).min((count - 1) as f32);

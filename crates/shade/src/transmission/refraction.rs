@@ -1,5 +1,5 @@
-//! Refraction by Snell's law, dispersion, and blur by roughness: where in the transmission
-//! framebuffer a surface shows what is behind it.
+//! Refraction by Snell's law, dispersion, and blur by roughness: the positions in the transmission
+//! framebuffer that a surface reads to show the objects behind it.
 //!
 //! ```text
 //!   v ╲  │ n            sin θᵢ = ior · sin θₜ
@@ -9,8 +9,8 @@
 //!       │θₜ ●           exit: looked up where it is seen on the screen
 //! ```
 //!
-//! As in the Khronos sample viewer: one refraction, at the entry, and the thickness that the
-//! material states as the length of the path within.
+//! As in the Khronos sample viewer: one refraction, at the entry, with the material's thickness as
+//! the length of the path inside.
 
 use crate::Draw;
 use crate::lanes::{Lanes, Vec3Lanes};
@@ -26,7 +26,7 @@ pub(super) fn channel_iors(draw: &Draw<'_>) -> [f32; 3] {
     [extensions.ior - half_spread, extensions.ior, extensions.ior + half_spread]
 }
 
-/// The places where refracted rays of these lengths end, in the world.
+/// The positions where refracted rays with these lengths end, in the world.
 #[inline(always)]
 pub(super) fn refracted_exits<const N: usize>(
     geometry: &SurfaceGeometry<N>,
@@ -34,27 +34,27 @@ pub(super) fn refracted_exits<const N: usize>(
     lengths: Lanes<N>,
 ) -> Vec3Lanes<N> {
     let SurfaceGeometry { positions, views, normals, n_dot_v, .. } = *geometry;
-    // Snell's law in vectors; no total reflection, as light enters the denser medium. Dispersion
-    // may bring an index below 1.
+    // Snell's law in vector form; no total reflection, because light enters the denser medium.
+    // Dispersion may bring an index below 1.
     let eta = 1.0 / ior.max(1.0);
     let cos_squared = (1.0 - eta * eta * (1.0 - n_dot_v * n_dot_v)).max(0.0);
     let rays = normals * (eta * n_dot_v - cos_squared.sqrt()) - views * eta;
-    // Normals that lean away from the viewer leave rays that are not quite unit vectors.
+    // Normals that lean away from the viewer produce rays that are not quite unit vectors.
     positions + rays * (lengths / rays.dot(rays).sqrt().max(1e-6))
 }
 
-/// The side of the Khronos sample viewer's framebuffer in texels, and its mip levels: the
+/// The side of the Khronos sample viewer's framebuffer in texels, and its number of mip levels: the
 /// logarithm.
 const REFERENCE_SIDE: f32 = 1024.0;
 const REFERENCE_LEVELS: f32 = 10.0;
 
-/// The mip levels of a framebuffer with this longer side, in texels, that blur as these
-/// roughnesses do.
+/// The mip levels of a framebuffer with this longer side, in texels, that give the blur of these
+/// roughnesses.
 ///
-/// The Khronos sample viewer takes the level log₂(size) · roughness in a framebuffer of 1024
-/// texels. Taken at other sizes it would blur by another part of the picture, so the width of its
-/// filter is scaled: at 1024 texels the levels are the viewer's, and a roughness of 0 is level 0 at
-/// any size. Roughness is damped towards an index of refraction of 1, which scatters nothing.
+/// The Khronos sample viewer uses the level log₂(size) · roughness in a framebuffer of 1024 texels.
+/// At other sizes this would blur by another fraction of the picture, so the width of its filter is
+/// scaled: at 1024 texels the levels equal the viewer's, and a roughness of 0 is level 0 at any
+/// size. Roughness is reduced as the index of refraction approaches 1, which scatters nothing.
 #[inline(always)]
 pub(super) fn blur_levels<const N: usize>(
     roughness: Lanes<N>,

@@ -1,12 +1,12 @@
 //! Byte streams of the meshopt codecs: bounds-checked reading from both ends.
 //!
-//! Streams are untrusted: every read is checked, and each error is a variant of its own, because
-//! the message is all that helps to find the faulty encoder.
+//! Streams are untrusted: every read is checked, and each error is a separate variant, because the
+//! message is the only clue to the faulty encoder.
 
 /// The reason why a stream is invalid.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 pub(super) enum StreamError {
-    /// The first byte is not that of the codec.
+    /// The first byte does not match the codec.
     #[error("the stream begins with {0:#04x}, which is no version of its mode that is known")]
     Header(u8),
     /// There are fewer bytes than the elements need.
@@ -64,12 +64,12 @@ impl<'a> ByteStream<'a> {
         Ok(bytes)
     }
 
-    /// A variable-length integer (LEB128): seven bits a byte, the lowest first; the highest bit of
-    /// a byte says that another follows.
+    /// A variable-length integer (LEB128): seven bits per byte, lowest first; the highest bit of a
+    /// byte means that another follows.
     ///
     /// # Errors
-    /// [`StreamError::Number`] if a fifth byte announces a sixth; [`StreamError::Short`] at the
-    /// end.
+    /// [`StreamError::Number`] if the fifth byte says that a sixth follows; [`StreamError::Short`]
+    /// at the end.
     pub(super) fn read_varint(&mut self) -> Result<u32, StreamError> {
         let mut number = 0;
         for shift in [0, 7, 14, 21, 28] {
@@ -87,7 +87,7 @@ impl<'a> ByteStream<'a> {
         if self.0.is_empty() { Ok(()) } else { Err(StreamError::Long(self.0.len())) }
     }
 
-    /// Number of bytes that are left.
+    /// Number of remaining bytes.
     pub(super) fn len(&self) -> usize {
         self.0.len()
     }
@@ -95,7 +95,7 @@ impl<'a> ByteStream<'a> {
 
 /// Decodes a zigzag-coded difference, whose sign is its lowest bit: 0, −1, 1, −2, 2, …
 ///
-/// The result is the two's complement of a negative difference, for a wrapping addition.
+/// A negative difference is returned as its two's complement, for a wrapping addition.
 pub(super) fn decode_zigzag(number: u32) -> u32 {
     if number & 1 == 0 { number >> 1 } else { !(number >> 1) }
 }

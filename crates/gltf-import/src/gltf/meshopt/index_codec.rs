@@ -1,4 +1,4 @@
-//! meshopt mode TRIANGLES: most triangles share an edge with a recent one and take a single byte.
+//! meshopt mode TRIANGLES: most triangles share an edge with a recent one and take one byte.
 //!
 //! ```text
 //!  code  X Y    X < 15: edge X, counted back from        a ───► b     edges pushed: c b, a c
@@ -15,8 +15,7 @@ use super::byte_stream::{ByteStream, StreamError, decode_zigzag, push_index};
 
 /// Decodes indices of `stride` bytes, which is 2 or 4; `count` is a multiple of three.
 ///
-/// The 16 bytes at the end are the table of common codes for two vertices. The time is linear in
-/// `count`.
+/// The last 16 bytes are the table of common codes for two vertices. The time is linear in `count`.
 ///
 /// # Errors
 /// The header or the table is invalid, a code refers to an edge or vertex before the first, or the
@@ -63,7 +62,7 @@ struct TriangleDecoder<'a> {
     data: ByteStream<'a>,
     /// The next index if vertices are used in order of their first appearance.
     next_index: u32,
-    /// The last index that was stored explicitly, the base of the next delta.
+    /// The last explicitly stored index, the base of the next delta.
     last_index: u32,
     /// The last sixteen edges.
     edge_fifo: RecentFifo<(u32, u32)>,
@@ -74,8 +73,8 @@ struct TriangleDecoder<'a> {
 impl TriangleDecoder<'_> {
     /// Decodes the triangle of one code byte.
     ///
-    /// The high half of the code decides between a shared edge and three vertices; see the figure
-    /// of the module.
+    /// The high half of the code distinguishes a shared edge from three vertices; see the figure of
+    /// the module.
     fn decode_triangle(&mut self, code: u8, table: &[u8]) -> Result<[u32; 3], StreamError> {
         match (code >> 4, code & 15) {
             (15, 14) => {
@@ -108,8 +107,8 @@ impl TriangleDecoder<'_> {
 
     /// A triangle on a recent edge.
     ///
-    /// Two edges are pushed, those that the next triangle can share: the third is the shared one. A
-    /// vertex that comes from the FIFO is not pushed again.
+    /// Two edges are pushed, the ones that the next triangle can share: the third is the shared
+    /// one. A vertex from the FIFO is not pushed again.
     fn decode_edge_triangle(&mut self, edge: u8, third: u8) -> Result<[u32; 3], StreamError> {
         let (a, b) = self.edge_fifo.nth_newest(edge)?;
         let c = match third {
@@ -130,8 +129,7 @@ impl TriangleDecoder<'_> {
     /// A triangle without a shared edge; the two halves of `corners` encode its second and third
     /// vertex.
     ///
-    /// All three edges are pushed, in the opposite direction, in which a neighbouring triangle has
-    /// them.
+    /// All three edges are pushed, in the opposite direction, as in a neighboring triangle.
     fn decode_free_triangle(&mut self, a: u32, corners: u8) -> Result<[u32; 3], StreamError> {
         let (second, third) = (corners >> 4, corners & 15);
         let b = self.decode_corner(second)?;
@@ -164,13 +162,13 @@ impl TriangleDecoder<'_> {
         fresh
     }
 
-    /// The explicit index that follows the last one by a difference.
+    /// The explicit index at a given difference from the last one.
     fn advance_last(&mut self, difference: u32) -> u32 {
         self.last_index = self.last_index.wrapping_add(difference);
         self.last_index
     }
 
-    /// An index stored as a zigzag-coded difference to the last explicit one.
+    /// An index stored as a zigzag-coded difference from the last explicit one.
     fn read_explicit_index(&mut self) -> Result<u32, StreamError> {
         let number = self.data.read_varint()?;
         Ok(self.advance_last(decode_zigzag(number)))
@@ -209,7 +207,7 @@ impl<T: Copy> RecentFifo<T> {
 mod tests {
     use super::*;
 
-    /// A table as encoders write it, with an entry of our own for two old vertices.
+    /// A table as written by encoders, with one custom entry for two old vertices.
     const TABLE: [u8; 16] =
         [0x00, 0x76, 0x87, 0x56, 0x67, 0x78, 0xA9, 0x86, 0x65, 0x89, 0x68, 0x98, 0x01, 0x69, 0, 0];
 
@@ -228,16 +226,16 @@ mod tests {
         type Row<'a> = (&'a [u8], &'a [u8], &'a [[u8; 3]]);
         let table: [Row<'_>; 8] = [
             (&[0xF0], &[], &[[0, 1, 2]]),
-            // The newest edge is a c; then the second newest of those that follow.
+            // The newest edge is a c; then the second newest of the edges that follow.
             (&[0xF0, 0x00], &[], &[[0, 1, 2], [0, 2, 3]]),
             (&[0xF0, 0x10], &[], &[[0, 1, 2], [2, 1, 3]]),
-            // A vertex seen before: one before the newest is 1.
+            // A vertex seen before: the one before the newest is 1.
             (&[0xF0, 0x01], &[], &[[0, 1, 2], [0, 2, 1]]),
-            // Up from the last index written out, and down again.
+            // Up from the last explicit index, and down again.
             (&[0xF0, 0x0F, 0x0E, 0x0D], &[20], &[[0, 1, 2], [0, 2, 10], [0, 10, 11], [0, 11, 10]]),
             // From the table: the third corner is the newest vertex.
             (&[0xF0, 0xFC], &[], &[[0, 1, 2], [3, 4, 2]]),
-            // Everything written out; and a restart of the counting.
+            // Everything explicit; and the numbering restarts.
             (&[0xFF], &[0xFF, 14, 2, 1], &[[7, 8, 7]]),
             (&[0xF0, 0xFE], &[0], &[[0, 1, 2], [0, 1, 2]]),
         ];

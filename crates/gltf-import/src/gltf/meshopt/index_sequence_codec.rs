@@ -1,7 +1,7 @@
-//! meshopt mode INDICES: each index is the difference to one of two baselines.
+//! meshopt mode INDICES: each index is the difference from one of two baselines.
 //!
-//! Line lists and strips alternate between distant vertices; two baselines follow one each. A
-//! number has the baseline in its lowest bit and a zigzag-coded difference above it:
+//! Line lists and strips alternate between distant vertices; each of two baselines follows one of
+//! them. A number has the baseline in its lowest bit and a zigzag-coded difference above it:
 //!
 //! ```text
 //!  varint  d d d d d s b     b: baseline 0 or 1    s: sign    d: difference
@@ -11,10 +11,10 @@ use super::byte_stream::{ByteStream, StreamError, decode_zigzag, push_index};
 
 /// Decodes indices of `stride` bytes, which is 2 or 4.
 ///
-/// The last four bytes are padding of the format, which lets other decoders read beyond an index.
+/// The last four bytes are padding, which lets other decoders read beyond an index.
 ///
 /// # Errors
-/// The header is unknown, the stream ends too early, or bytes are left at its end.
+/// The header is unknown, the stream ends too early, or bytes remain at its end.
 pub(super) fn decode_index_sequence(
     stream: &[u8],
     count: usize,

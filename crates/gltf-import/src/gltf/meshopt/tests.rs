@@ -108,8 +108,8 @@ fn changed_bytes_do_no_harm() {
                 let at = random() % changed.len();
                 changed[at] = random() as u8;
             }
-            // The first byte chooses the version: version 1 reads the bytes of version 0 in quite
-            // another way.
+            // The first byte selects the version: version 1 reads the bytes of version 0 quite
+            // differently.
             for (mode, first) in
                 [("ATTRIBUTES", 0xA0), ("ATTRIBUTES", 0xA1), ("TRIANGLES", 0xE1), ("INDICES", 0xD1)]
             {

@@ -7,33 +7,33 @@
 //!  bytes n: two bits a group │ group of 16 │ group of 16 │ …
 //! ```
 //!
-//! A group stores its differences with 0, 1, 2, 4 or 8 bits each; one of all ones is an escape: the
-//! difference follows in a byte after the group. Version 1 adds channels of four bytes whose deltas
-//! are bytes, 16-bit words or 32-bit exclusive ors, and controls that store bytes uncompressed or
-//! not at all.
+//! A group stores its differences with 0, 1, 2, 4 or 8 bits each. A difference of all ones is an
+//! escape: its value follows in a byte after the group. Version 1 adds channels of four bytes whose
+//! deltas are bytes, 16-bit words or 32-bit exclusive ors, and controls that store bytes
+//! uncompressed or not at all.
 //!
 //! The format is specified in KHR_meshopt_compression and EXT_meshopt_compression (version 0 of the
 //! attribute codec is EXT, version 1 is KHR). Storing by byte position instead of by element groups
-//! similar values: high bytes change rarely, so that most of their groups take 0 bits a difference.
+//! similar values: high bytes change rarely, so most of their groups take 0 bits per difference.
 
 use super::byte_stream::{ByteStream, StreamError};
 
-/// Elements of one group.
+/// Number of elements in a group.
 ///
 /// It is fixed by the format; with four bits each, a group is one 64-bit word.
 const BYTE_GROUP_SIZE: usize = 16;
 
-/// The most elements of one block.
+/// The maximum number of elements in a block.
 ///
-/// A block has at most 8192 bytes, so that long elements have fewer in a block.
+/// A block has at most 8192 bytes, so blocks of long elements hold fewer.
 const VERTEX_BLOCK_MAX_SIZE: usize = 256;
 
 /// Decodes elements of `stride` bytes: a multiple of four up to 256.
 ///
-/// The time and memory are linear in `count * stride`, which the caller has charged to the budget.
+/// Time and memory are linear in `count * stride`, which the caller has charged to the budget.
 ///
 /// # Errors
-/// The header or a channel mode is unknown, the stream is too short, or bytes are left at its end.
+/// The header or a channel mode is unknown, the stream is too short, or bytes remain at its end.
 pub(super) fn decode_vertices(
     stream: &[u8],
     count: usize,
@@ -71,10 +71,10 @@ pub(super) fn decode_vertices(
     Ok(elements)
 }
 
-/// Decodes one block into `elements`; `before` is the element before it.
+/// Decodes one block into `elements`; `before` is the preceding element.
 ///
-/// The deltas of four neighbouring bytes are decoded together, because a channel combines them.
-/// Deltas accumulate: each element is decoded from the one before it.
+/// The deltas of four adjacent bytes are decoded together, because a channel combines them. Deltas
+/// accumulate: each element is decoded from the previous one.
 ///
 /// # Errors
 /// The stream ends within the block.
@@ -112,8 +112,8 @@ fn decode_vertex_block(
 /// Reads the deltas of one byte of all elements of a block; `deltas` has space for whole groups.
 ///
 /// `control` is the two-bit control of version 1: 0 and 1 choose between two sets of bit widths, 2
-/// means all zeros, 3 uncompressed bytes. Version 0 has none, and a set of widths of its own. The
-/// header has two bits for each group, padded to whole bytes.
+/// means all zeros, 3 uncompressed bytes. Version 0 has no control and a separate set of widths.
+/// The header has two bits for each group, padded to whole bytes.
 fn decode_byte_deltas(
     stream: &mut ByteStream<'_>,
     control: Option<u8>,
@@ -172,7 +172,7 @@ fn decode_byte_group(
 /// Interpretation of a delta of four bytes.
 ///
 /// Version 0 has only bytes. 16-bit words suit quantized attributes, and exclusive ors suit floats,
-/// in which neighbours share sign and exponent.
+/// in which adjacent values share sign and exponent.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum DeltaChannel {
     /// Four zigzag-coded differences of bytes.
@@ -196,10 +196,10 @@ impl DeltaChannel {
         }
     }
 
-    /// The value that a delta makes of the one before it.
+    /// Applies a delta to the previous value.
     ///
     /// Zigzag coding maps 0, −1, 1, −2, … to 0, 1, 2, 3, …, so that small differences of either
-    /// sign have few bits. All arithmetic wraps, as in the encoder.
+    /// sign need few bits. All arithmetic wraps, as in the encoder.
     fn apply_delta(self, before: [u8; 4], delta: [u8; 4]) -> [u8; 4] {
         match self {
             Self::Bytes8 => std::array::from_fn(|at| {
@@ -257,8 +257,8 @@ mod tests {
 
     #[test]
     fn version_0_adds_up_the_deltas_of_each_byte() {
-        // Byte 0 of 17 elements is the example and one more group of zeros; byte 1 rises by 1;
-        // bytes 2 and 3 stay.
+        // Byte 0 of 17 elements is the example and one more group of zeros; byte 1 increases by 1;
+        // bytes 2 and 3 are constant.
         let mut stream = vec![0xA0, 0b0010];
         stream.extend(NIBBLES);
         stream.extend([0b0101, 0xAA, 0xAA, 0xAA, 0xAA, 0x80, 0, 0, 0, 0, 0]);
@@ -304,7 +304,8 @@ mod tests {
         assert_eq!(elements[12..20], [103, 101, 7, 8, 0x00, 0x0F, 1, 2]);
         assert_eq!(elements[20..], two);
         for end in 0..stream.len() {
-            // The channel modes are at the end: cut elsewhere, other bytes take their part.
+            // The channel modes are at the end: if the stream is cut elsewhere, other bytes take
+            // their role.
             let cut = decode_vertices(&stream[..end], 2, 12).unwrap_err();
             let is_expected = matches!(cut, StreamError::Short | StreamError::Channel(_));
             assert!(is_expected, "cut at {end}: {cut}");
@@ -317,7 +318,7 @@ mod tests {
 
     #[test]
     fn blocks_go_on_where_the_last_one_ended() {
-        // 300 elements of 64 bytes: blocks of 128, 128 and 44, every byte rises by one.
+        // 300 elements of 64 bytes: blocks of 128, 128 and 44, with every byte increasing by one.
         let mut stream = vec![0xA1];
         for groups in [8usize, 8, 3] {
             stream.extend([0; 16]);

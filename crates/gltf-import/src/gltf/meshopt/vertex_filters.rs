@@ -1,8 +1,8 @@
-//! meshopt filters: octahedral vectors, quaternions, exponential floats and YCoCg colors to full
-//! width.
+//! meshopt filters: expand octahedral vectors, quaternions, exponential floats and YCoCg colors to
+//! full width.
 //!
-//! The specification leaves open what values out of its range become; here they become some number
-//! of the type, without a panic.
+//! The specification leaves the result of out-of-range values open; here they become some number of
+//! the type, without a panic.
 //!
 //! A filter is applied after decompression, and widens quantized values to the component type of
 //! the accessor:
@@ -19,8 +19,7 @@ use super::MeshoptFilter;
 impl MeshoptFilter {
     /// Applies the filter to all elements in place.
     ///
-    /// `stride` is the size of an element in bytes, and decides between 8 and 16 bits where a
-    /// filter has both.
+    /// `stride` is the element size in bytes, and selects 8 or 16 bits if a filter supports both.
     pub(super) fn apply_filter(self, bytes: &mut [u8], stride: usize) {
         match (self, stride) {
             (Self::None, _) => {}
@@ -50,8 +49,8 @@ impl MeshoptFilter {
 /// A unit vector from octahedral coordinates (Meyer et al. 2010); `full_scale` represents 1 in the
 /// result.
 ///
-/// The octahedron |x| + |y| + |z| = 1 is unfolded into a square; `unit` is the value that stands
-/// for 1 in x and y. The fourth component passes through.
+/// The octahedron |x| + |y| + |z| = 1 is unfolded into a square; `unit` is the value that
+/// represents 1 in x and y. The fourth component passes through.
 fn decode_octahedral([x, y, unit, fourth]: [i16; 4], full_scale: f32) -> [i16; 4] {
     let unit_length = f32::from(unit);
     let (x, y) = (f32::from(x) / unit_length, f32::from(y) / unit_length);
@@ -88,9 +87,9 @@ fn decode_exponential(number: i32) -> f32 {
     (power * f64::from(mantissa)) as f32
 }
 
-/// RGBA from YCoCg and alpha; the highest bit set in alpha gives the common bit depth of all four.
+/// RGBA from YCoCg and alpha; the highest set bit in alpha gives the common bit depth of all four.
 ///
-/// YCoCg decorrelates colors with additions alone: R = Y + Co − Cg, G = Y + Cg, B = Y − Co − Cg.
+/// YCoCg decorrelates colors using only additions: R = Y + Co − Cg, G = Y + Cg, B = Y − Co − Cg.
 fn decode_color([y, co, cg, alpha]: [i32; 4], full_scale: f32) -> [u16; 4] {
     let all = match alpha {
         ..=0 => 1,
@@ -103,7 +102,7 @@ fn decode_color([y, co, cg, alpha]: [i32; 4], full_scale: f32) -> [u16; 4] {
         .map(|x| (x as f32 * scale).round().min(full_scale) as u16)
 }
 
-/// Replaces each `N` numbers in a slice of bytes.
+/// Replaces each group of `N` numbers in a slice of bytes.
 ///
 /// Incomplete bytes at the end are left unchanged. Both arrays of `N` numbers have the same size in
 /// bytes.
@@ -119,9 +118,9 @@ fn map_elements<const N: usize, A: Number, B: Number>(
     }
 }
 
-/// A number as it is stored in a buffer, little-endian.
+/// A number as stored in a buffer, little-endian.
 trait Number: Copy {
-    /// Its bytes.
+    /// Its size in bytes.
     const SIZE: usize;
     /// Decodes a number from the first bytes of a slice.
     fn read(bytes: &[u8]) -> Self;
@@ -188,7 +187,7 @@ mod tests {
             let axis = filtered(MeshoptFilter::Quaternion, 8, &[0, 0, 0, 1020 | largest]);
             assert_eq!(axis[usize::from(largest.cast_unsigned())], 32_767);
         }
-        // The others follow the largest in a circle.
+        // The others follow the largest in cyclic order.
         let actual = filtered(MeshoptFilter::Quaternion, 8, &[100, 0, 0, 1022]);
         assert_eq!((actual[3], actual[0], actual[1]), (2265, 0, 0));
     }
@@ -214,8 +213,8 @@ mod tests {
 
     #[test]
     fn colors_of_all_widths() {
-        // Red, green, blue, white, grey of seven bits: 127 is one, and alpha has six bits below the
-        // marker.
+        // Red, green, blue, white, and gray with seven bits: 127 is one, and alpha has six bits
+        // below the marker.
         for ([r, g, b], alpha) in [
             ([127, 0, 0], 0x7F),
             ([0, 127, 0], 0x7F),
@@ -223,7 +222,7 @@ mod tests {
             ([127, 127, 127], 0x60),
             ([64, 32, 16], 0x41),
         ] {
-            // The transform of the encoder, in integers that it can undo.
+            // The encoder's transform, in integers that it can invert.
             let co = (r - b) / 2;
             let t = b + co;
             let cg = (g - t) / 2;

@@ -1,4 +1,4 @@
-//! The container KTX2: header, data format descriptor, key/value data, the first level.
+//! The KTX2 container: header, data format descriptor, key/value data, and the first level.
 //!
 //! ```text
 //!  identifier │ header │ level index │ descriptor │ key/value data │ global data │ levels
@@ -13,16 +13,16 @@ use std::borrow::Cow;
 /// The identifier at the beginning of a KTX2 file (KTX 2.0 §3.1).
 pub(in super::super) const MAGIC: [u8; 12] = *b"\xABKTX 20\xBB\r\n\x1A\n";
 
-/// Most texels of an image: `basisu` counts their bytes in 32 bits.
+/// Maximum number of texels in an image: `basisu` counts their bytes in 32 bits.
 const MAX_TEXELS: u64 = 1 << 28;
 
-/// Most mip levels: an image of 2^31 texels a side has no more.
+/// Maximum number of mip levels: an image of 2^31 texels per side has no more.
 const MAX_LEVELS: u32 = 32;
 
-/// Width and height of the first mip level, from the header alone (KTX 2.0 §3).
+/// Width and height of the first mip level, from the header (KTX 2.0 §3).
 ///
 /// # Errors
-/// A message: the header is cut off, or there are no texels or too many.
+/// A message: the header is truncated, or there are no texels or too many.
 pub(in super::super) fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
     // One-dimensional textures have a height of 0.
     let (width, height) = (word(bytes, 20)?, word(bytes, 24)?.max(1));
@@ -42,29 +42,29 @@ pub(super) enum TexelEncoding {
     Etc1s,
     /// Basis Universal's UASTC, blocks of 16 bytes.
     Uastc,
-    /// Three bytes a texel.
+    /// Three bytes per texel.
     Rgb8,
-    /// Four bytes a texel.
+    /// Four bytes per texel.
     Rgba8,
 }
 
-/// A KTX2 file whose parts are within it.
+/// A KTX2 file whose parts are all inside it.
 pub(super) struct Ktx2File<'a> {
-    /// Texels from left to right.
+    /// Width in texels.
     pub(super) width: u32,
-    /// Texels from top to bottom.
+    /// Height in texels.
     pub(super) height: u32,
     /// The encoding of the texels.
     pub(super) encoding: TexelEncoding,
     /// Whether there is a second slice of ETC1S data, for alpha or for green.
     has_second_slice: bool,
-    /// Whether red and green alone are stored, as gray and alpha.
+    /// Whether only red and green are stored, as gray and alpha.
     pub(super) has_red_and_green_only: bool,
-    /// Whether rows go from right to left, and whether the lowest is the first.
+    /// Whether rows run from right to left, and whether the bottom row is first.
     pub(super) orientation: [bool; 2],
-    /// Whether the level is compressed by Zstandard.
+    /// Whether the level is compressed with Zstandard.
     is_zstandard: bool,
-    /// Mip levels that the file says it has.
+    /// Number of mip levels according to the file.
     level_count: u32,
     /// The bytes of the first, largest, level.
     level: &'a [u8],
@@ -72,7 +72,7 @@ pub(super) struct Ktx2File<'a> {
     global_data: &'a [u8],
 }
 
-/// The slices of an ETC1S image, and what decodes them.
+/// The slices of an ETC1S image, with the data to decode them.
 pub(super) struct Etc1sImage<'a> {
     /// Shared by all images of the file.
     pub(super) codebooks: Codebooks<'a>,
@@ -84,7 +84,7 @@ pub(super) struct Etc1sImage<'a> {
 
 /// Codebooks of ETC1S data, still compressed.
 pub(super) struct Codebooks<'a> {
-    /// Counts and data of the endpoints and of the selectors.
+    /// Counts and data of the endpoints and selectors.
     pub(super) palettes: [(u32, &'a [u8]); 2],
     /// Huffman tables of the slices.
     pub(super) tables: &'a [u8],
@@ -135,15 +135,15 @@ impl<'a> Ktx2File<'a> {
         })
     }
 
-    /// Blocks of 4 x 4 texels, across and down.
+    /// Number of blocks of 4 x 4 texels, across and down.
     pub(super) const fn block_counts(&self) -> [u32; 2] {
         [self.width.div_ceil(4), self.height.div_ceil(4)]
     }
 
-    /// The data of the level, decompressed: so many bytes a block of UASTC, or a texel.
+    /// The data of the level, decompressed: `unit` bytes per UASTC block or per texel.
     ///
     /// # Errors
-    /// A message: it is broken, or of another length.
+    /// A message: the data is broken, or has another length.
     pub(super) fn level_data(&self, unit: usize) -> Result<Cow<'a, [u8]>, String> {
         let [columns, rows] = match self.encoding {
             TexelEncoding::Etc1s | TexelEncoding::Uastc => self.block_counts(),
@@ -198,12 +198,12 @@ impl<'a> Ktx2File<'a> {
     }
 }
 
-/// Channels of ETC1S slices and UASTC blocks that need attention (Khronos data format
+/// Channels of ETC1S slices and UASTC blocks that need special handling (Khronos data format
 /// specification §5.6).
 const CHANNEL_ETC1S_GREEN: u8 = 4;
 const CHANNEL_UASTC_RED_GREEN: u8 = 5;
 
-/// Refuses volumes, arrays and cube maps, which no texture of glTF is.
+/// Rejects volumes, arrays and cube maps, which glTF textures never are.
 fn check_shape(bytes: &[u8]) -> Result<(), String> {
     let [depth, layers, faces] = [word(bytes, 28)?, word(bytes, 32)?, word(bytes, 36)?];
     let (count, what) = match (depth, layers, faces) {
@@ -217,7 +217,8 @@ fn check_shape(bytes: &[u8]) -> Result<(), String> {
 
 /// The encoding, and the channel of each sample (for Basis Universal).
 ///
-/// `format` is a number of Vulkan's; 0 leaves it to the color model of the data format descriptor.
+/// `format` is a Vulkan format number; 0 leaves it to the color model of the data format
+/// descriptor.
 ///
 /// # Errors
 /// A message with the number of the format or of the color model.
@@ -246,8 +247,8 @@ fn read_encoding(format: u32, descriptor: &[u8]) -> Result<(TexelEncoding, Vec<u
     Ok((encoding, channels))
 }
 
-/// Whether rows go from right to left, and whether the lowest is the first: `KTXorientation` of the
-/// key/value data, usually `rd` or missing. What is broken is as good as missing.
+/// Whether rows run from right to left, and whether the bottom row is first: `KTXorientation` of
+/// the key/value data, usually `rd` or missing. A broken value counts as missing.
 fn read_orientation(mut entries: &[u8]) -> [bool; 2] {
     const KEY: &[u8] = b"KTXorientation\0";
     while let Some((length, rest)) = entries.split_first_chunk() {
@@ -261,18 +262,18 @@ fn read_orientation(mut entries: &[u8]) -> [bool; 2] {
     [false; 2]
 }
 
-/// A number of 32 bits, little endian.
+/// A little-endian number of 32 bits.
 fn word(bytes: &[u8], at: usize) -> Result<u32, String> {
     let word = bytes.get(at..).and_then(<[u8]>::first_chunk);
     word.map(|word| u32::from_le_bytes(*word)).ok_or_else(|| "the KTX2 image is cut off".to_owned())
 }
 
-/// A number of 64 bits, little endian.
+/// A little-endian number of 64 bits.
 fn long(bytes: &[u8], at: usize) -> Result<u64, String> {
     Ok(u64::from(word(bytes, at)?) | u64::from(word(bytes, at + 4)?) << 32)
 }
 
-/// A part of some bytes.
+/// Part of a slice of bytes.
 fn part(bytes: &[u8], offset: u64, length: u64) -> Result<&[u8], String> {
     let part = || {
         let start = usize::try_from(offset).ok()?;
@@ -291,7 +292,7 @@ fn part(bytes: &[u8], offset: u64, length: u64) -> Result<&[u8], String> {
 pub(super) mod tests {
     use super::*;
 
-    /// Fields of a header; the defaults are those of a texture.
+    /// Fields of a header; the defaults describe a plain texture.
     #[derive(Clone)]
     pub(in super::super) struct HeaderFields {
         pub(in super::super) format: u32,

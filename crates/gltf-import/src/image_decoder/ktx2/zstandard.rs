@@ -1,20 +1,20 @@
-//! Zstandard frames of a known length, within memory that follows from it.
+//! Zstandard frames of known length, decoded within memory derived from it.
 
 use ruzstd::frame::read_frame_header;
 use ruzstd::io::Read;
 use ruzstd::streaming_decoder::StreamingDecoder;
 
-/// The largest window that is allocated for less data than that. What KTX tools write has a window
-/// of the data's length.
+/// The largest window that is allocated for data shorter than that. KTX tools write a window of the
+/// data's length.
 const MAX_WINDOW_BYTES: u64 = 8 << 20;
 
-/// Bytes that are taken from the decoder at a time: one block.
+/// Number of bytes taken from the decoder at a time: one block.
 const STEP_BYTES: usize = 128 << 10;
 
-/// Decompresses a frame that must have `length` bytes. A checksum is not compared.
+/// Decompresses a frame that must have `length` bytes. A checksum is not verified.
 ///
 /// # Errors
-/// A message: the frame is broken, wants more memory than its data needs, or has another length.
+/// A message: the frame is broken, needs more memory than its data, or has another length.
 pub(super) fn decompress(frame: &[u8], length: usize) -> Result<Vec<u8>, String> {
     let broken = || "the Zstandard data of the KTX2 image is broken".to_owned();
     let (header, _) = read_frame_header(frame).map_err(|_| broken())?;
@@ -39,7 +39,7 @@ pub(super) fn decompress(frame: &[u8], length: usize) -> Result<Vec<u8>, String>
 mod tests {
     use super::*;
 
-    /// A frame of one block that is not compressed (RFC 8878 §3.1).
+    /// A frame with one uncompressed block (RFC 8878 §3.1).
     fn frame(window_or_length: [u8; 2], block: &[u8]) -> Vec<u8> {
         let header = (block.len() as u32) << 3 | 1;
         let magic = [0x28, 0xB5, 0x2F, 0xFD];

@@ -1,4 +1,4 @@
-//! Material libraries and their textures, in folders that the tests make.
+//! Material libraries and their textures, in folders created by the tests.
 
 use super::{SQUARE, primitives, warnings};
 use crate::load;
@@ -6,7 +6,7 @@ use gltf_import::{ImageLoading, ImportOptions};
 use model::{AlphaMode, Material, Model, TextureInfo, WrapMode};
 use std::path::{Path, PathBuf};
 
-/// A folder that is removed with its content.
+/// A folder that is removed with its contents.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -79,7 +79,7 @@ fn phong_becomes_metallic_roughness() {
     let material = material_of("phong", "Kd 1 0.5 0\nKs 0.5 0.5 0.5\nNs 30\nillum 2\nd 1.0");
     let [r, g, b, a] = material.base_color;
     assert!(is_near(r, 1.0) && is_near(g, 0.214_041) && b == 0.0 && a == 1.0);
-    // α² = 2 / 32: α is 1/4, and the roughness its root.
+    // α² = 2 / 32: α is 1/4, and the roughness is its square root.
     assert!(is_near(material.roughness, 0.5), "{}", material.roughness);
     assert_eq!((material.metallic, material.alpha_mode), (0.0, AlphaMode::Opaque));
     assert!(material.double_sided && !material.unlit);
@@ -205,7 +205,7 @@ fn images_of_opacity_roughness_and_metalness_are_combined() {
     assert_eq!((material.roughness, material.metallic), (1.0, 1.0));
     assert_eq!(material.alpha_mode, AlphaMode::Blend);
 
-    // A file with both needs no other; a mask alone is white.
+    // A file with both needs no other; a mask by itself is white.
     folder.write("a.mtl", "newmtl m\nmap_Kd leaf.png\nmap_d leaf.png\n");
     let model = folder.load("a.obj");
     assert_eq!(model.images.len(), 1);
@@ -265,7 +265,7 @@ fn libraries_are_found_by_whole_names_by_several_and_once() {
         assert_eq!(model.materials[0].roughness, roughness, "{library}");
         assert_eq!(warnings(&model), "", "{library}");
     }
-    // The file that is missing, and the materials that nobody defines.
+    // The missing file, and the undefined materials.
     folder.write("a.obj", square().replace("a.mtl", "gone.mtl"));
     let model = folder.load("a.obj");
     assert!(

@@ -17,7 +17,7 @@ fn references_count_from_one_or_backwards() {
         assert_eq!(square.normals.as_ref().unwrap(), &[[0.0, 0.0, 1.0]; 4]);
         assert_eq!(warnings(model), "");
     }
-    // Backwards from where they stand, and not from the end of the file.
+    // Backward from the current statement, not from the end of the file.
     let two = read(format!("{SQUARE}f -4 -3 -2\nv 9 9 9\nf -4 -3 -2")).unwrap();
     assert_eq!(
         primitives(&two)[0].positions,
@@ -76,7 +76,7 @@ fn corners_with_the_same_references_share_a_vertex() {
     assert_eq!(part.positions[4], part.positions[0]);
     assert_eq!(part.normals.as_ref().unwrap()[4], [0.0, 1.0, 0.0]);
     assert_eq!(part.normals.as_ref().unwrap()[0], [0.0, 0.0, 1.0], "of unit length");
-    // OBJ has v pointing up, images here have it pointing down.
+    // In OBJ v points up; in images here it points down.
     assert_eq!(part.uvs[0][..3], [[0.0, 1.0], [1.0, 0.75], [1.0, 0.0]]);
 }
 
@@ -119,7 +119,7 @@ fn lines_and_points() {
     assert_eq!((points.topology, points.item_count()), (Topology::Points, 2));
     assert_eq!(points.positions[1], [0.0, 1.0, 0.0]);
     assert_eq!((lines.normals.is_none(), surface.item_count()), (true, 1));
-    // A file of vertices only is a cloud of points; one whose elements are all broken is not.
+    // A file with only vertices is a point cloud; one whose elements are all broken is not.
     let cloud = read(format!("{SQUARE}v nan 0 0")).unwrap();
     let [points] = primitives(&cloud)[..] else { panic!() };
     assert_eq!((points.topology, points.item_count()), (Topology::Points, 4));
@@ -138,7 +138,7 @@ fn vertex_colors_are_srgb_and_may_be_of_bytes() {
     let bytes = read("v 0 0 0 255 0 0\nv 1 0 0 0 0 255\nv 0 1 0 0 0 0\nf 1 2 3").unwrap();
     assert_eq!(primitives(&bytes)[0].colors.as_ref().unwrap()[0], [1.0, 0.0, 0.0, 1.0]);
     assert!(warnings(&bytes).contains("numbers up to 255"));
-    // A weight is no color, and moves nothing.
+    // A weight is not a color, and moves nothing.
     let weights = read("v 2 0 0 2\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3").unwrap();
     assert_eq!(primitives(&weights)[0].colors, None);
     assert_eq!(primitives(&weights)[0].positions[0], [2.0, 0.0, 0.0]);
@@ -226,7 +226,7 @@ fn normals_follow_smoothing_groups_or_else_the_crease_angle() {
         let model = load_bytes("fold.obj", text.as_bytes(), &options).unwrap();
         primitives(&model).iter().map(|part| part.positions.len()).sum::<usize>()
     };
-    // Smooth: the edge's two vertices are common; creased: they are doubled.
+    // Smooth: the edge's two vertices are shared; creased: they are duplicated.
     for (faces, crease_angle, expected) in [
         ("f 1 2 3 4\nf 1 4 6 5", None, 8),
         ("f 1 2 3 4\nf 1 4 6 5", Some(95.0), 6),
@@ -238,7 +238,7 @@ fn normals_follow_smoothing_groups_or_else_the_crease_angle() {
     ] {
         assert_eq!(vertex_count(&format!("{FOLD}{faces}"), crease_angle), expected, "{faces}");
     }
-    // Across groups and materials, whose vertices are their own, the normals are the same.
+    // Across groups and materials, whose vertices are separate, the normals are the same.
     let model = read(format!("{FOLD}s 7\nusemtl a\nf 1 2 3 4\nusemtl b\nf 1 4 6 5")).unwrap();
     let half = std::f32::consts::FRAC_1_SQRT_2;
     for part in primitives(&model) {
@@ -246,7 +246,7 @@ fn normals_follow_smoothing_groups_or_else_the_crease_angle() {
         let normal = part.normals.as_ref().unwrap()[corner];
         assert!((normal[0] - half).abs() < 1e-6 && (normal[2] - half).abs() < 1e-6, "{normal:?}");
     }
-    // Equal positions of several vertices are one place.
+    // Several vertices at the same position count as one.
     let soup = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0.2\nf 1 2 3\nf 4 5 6\n";
     let model = read(soup).unwrap();
     let normals = primitives(&model)[0].normals.clone().unwrap();

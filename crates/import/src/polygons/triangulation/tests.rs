@@ -1,4 +1,4 @@
-//! Triangulations are judged by area and by which points they cover, not by which ears were cut.
+//! Triangulations are judged by area and by the points they cover, not by which ears were cut.
 
 use super::*;
 
@@ -26,8 +26,8 @@ fn doubled_polygon_area(corners: &[[f32; 3]]) -> f64 {
         .fold(0.0, |sum, [a, b]| sum + a[0] * b[1] - a[1] * b[0])
 }
 
-/// Checks that a counter-clockwise polygon of small integers is covered exactly once: n − 2
-/// triangles, none of them turned over, with the area of the polygon.
+/// Checks that a counter-clockwise polygon with small integer coordinates is covered exactly once:
+/// n − 2 triangles, none of them reversed, with the area of the polygon.
 fn assert_covered(plane: &[[f32; 2]]) -> Vec<[u32; 3]> {
     let corners: Vec<[f32; 3]> = plane.iter().map(|&[x, y]| [x, y, 0.0]).collect();
     let (triangles, kind) = triangulate(&corners);
@@ -129,7 +129,7 @@ fn collinear_and_repeated_corners_leave_triangles_with_area_where_there_can_be_s
     let corners = square.map(|[x, y]| [x, y, 0.0]);
     let triangles = assert_covered(&square);
     assert!(doubled_areas(&corners, &triangles).iter().all(|area| *area > 0.0));
-    // A corner twice, and one three times in a row; a needle that goes out and comes back.
+    // A corner twice, and one three times in a row; a needle that goes out and back.
     assert_covered(&[[0.0, 0.0], [2.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]);
     assert_covered(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [0.0, 2.0], [0.0, 2.0]]);
     assert_covered(&[[0.0, 0.0], [2.0, 0.0], [5.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]);
@@ -153,7 +153,7 @@ fn a_hole_that_is_joined_by_a_bridge_stays_open() {
         let mut turned = keyhole;
         turned.rotate_left(first);
         let triangles = assert_covered(&turned);
-        // The middle of the hole is in no triangle.
+        // The center of the hole is in no triangle.
         for triangle in triangles {
             let [a, b, c] = triangle.map(|at| turned[at as usize].map(f64::from));
             let middle = [2.0, 2.0];
@@ -194,7 +194,7 @@ fn polygons_that_cross_themselves_have_their_triangles_and_say_so() {
         .to_vec();
     let (triangles, kind) = triangulate(&pentagram);
     assert_eq!((triangles.len(), kind), (3, PolygonKind::Fan));
-    // A square that is walked around five times.
+    // A square that is traversed five times.
     let square = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
     let (triangles, _) = triangulate(&square.repeat(5));
     assert_eq!(triangles.len(), 18);
@@ -227,7 +227,7 @@ fn ten_thousand_corners_are_cut_within_the_limit() {
         .chain([[0.0, 0.0], [5000.0, 0.0]])
         .collect();
     assert_covered(&comb);
-    // The same on its side: its teeth are far apart in y and not in x.
+    // The same comb on its side: its teeth are far apart in y and not in x.
     assert_covered(&comb.iter().map(|[x, y]| [y * 0.01, -x]).collect::<Vec<_>>());
     // A star around the origin: a quarter of a turn of integer directions in four copies.
     let star: Vec<[f32; 2]> = (0..10_000)

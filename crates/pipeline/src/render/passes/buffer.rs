@@ -111,7 +111,7 @@ impl PassBuffer {
         }
     }
 
-    /// Copies the pass of one image tile into that of a region.
+    /// Copies the pass of one image tile into the pass of a region.
     pub(super) fn copy_tile(&mut self, patch: &Self, part: TileRegion, region: PixelRect) {
         match (&mut self.values, &patch.values) {
             (PassValues::Integers(all), PassValues::Integers(patch)) => {

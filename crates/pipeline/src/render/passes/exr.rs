@@ -1,16 +1,17 @@
 //! Passes as OpenEXR files, for compositing programs.
 //!
 //! The format (*OpenEXR file layout*, Academy Software Foundation): a magic number and a version, the
-//! attributes of the header, a table of the offsets of all rows, and the rows, in each of which one
-//! channel follows the other in the order of their names. Nothing is compressed, so that the values
-//! are exact and the bytes the same everywhere. The package `exr` brings a second deflate along.
+//! attributes of the header, a table of all row offsets, and the rows, in each of which the
+//! channels follow each other in alphabetical order. Nothing is compressed, so the values are exact
+//! and the bytes are the same everywhere. The package `exr` would add a second deflate
+//! implementation.
 
 use super::buffer::{PassBuffer, PassValues};
 use scene_file::Pass;
 
 /// The magic number, and version 2: one image in rows.
 const MAGIC_AND_VERSION: [u8; 8] = [0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0];
-/// The codes of the types of channels.
+/// The codes for channel types.
 const UINT: i32 = 0;
 const FLOAT: i32 = 2;
 
@@ -48,7 +49,7 @@ impl PassBuffer {
         bytes
     }
 
-    /// Writes the attributes that every file has.
+    /// Writes the attributes common to all files.
     fn write_header(&self, names: &[&str], bytes: &mut Vec<u8>) {
         let mut attribute = |name: &str, kind: &str, value: &[u8]| {
             for text in [name, kind] {
@@ -63,7 +64,7 @@ impl PassBuffer {
         for name in names {
             channels.extend(name.as_bytes());
             channels.push(0);
-            // Type; linear or not, and three bytes without meaning; every column and row has a value.
+            // Type, linear flag, and three reserved bytes; every column and row has a value.
             channels.extend([kind, 0, 1, 1].into_iter().flat_map(i32::to_le_bytes));
         }
         channels.push(0);
@@ -82,7 +83,7 @@ impl PassBuffer {
     }
 }
 
-/// The names of the channels of a pass, in the order of its values, which is that of the alphabet.
+/// The channel names of a pass, in value order, which is alphabetical.
 fn channel_names(pass: Pass) -> Vec<&'static str> {
     match (pass, pass.channels()) {
         (Pass::Depth, _) => vec!["Z"],
@@ -110,7 +111,7 @@ mod tests {
         let word = |at: usize| {
             u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
         };
-        // Two rows of two pixels with three channels, each row after its number and its length.
+        // Two rows of two pixels with three channels, each row preceded by its number and length.
         let rows = bytes.len() - 2 * (8 + 24);
         let table = rows - 16;
         assert_eq!([word(table), word(table + 8)], [rows as u32, rows as u32 + 32]);

@@ -1,9 +1,9 @@
-//! Attribute interpolation for passes: exact barycentric weights of a pixel's center, and position,
-//! normal and texture coordinates by them, in f64.
+//! Attribute interpolation for passes: exact barycentric weights of a pixel's center, and the
+//! position, normal and texture coordinates computed from them, in f64.
 //!
-//! The rasterizer's own weights are f32 and belong to vertices snapped to 1/256 pixel: good for
-//! colors, not for positions that are to agree with the unprojection of a depth. Everything is
-//! therefore computed again for the one visible triangle of each pixel.
+//! The rasterizer's weights are f32 and refer to vertices snapped to 1/256 pixel: good for colors,
+//! but not for positions that must agree with the unprojection of a depth. Everything is therefore
+//! recomputed for the one visible triangle of each pixel.
 
 use crate::render::RenderError;
 use crate::render::image_tiles::ImageTile;
@@ -21,7 +21,7 @@ use std::borrow::Cow;
 pub(super) struct Hit {
     /// Its primitive id; `u32::MAX` for none.
     pub(super) id: u32,
-    /// Barycentric weights on the snapped triangle, as the shading uses them.
+    /// Barycentric weights on the snapped triangle, as used by shading.
     pub(super) weights: [f32; 3],
 }
 
@@ -44,7 +44,7 @@ pub(super) struct SceneGeometry<'a> {
     is_flat: bool,
 }
 
-/// One primitive of one mesh instance: the draw call that the frame has for it.
+/// One primitive of one mesh instance: its draw call in the frame.
 struct DrawGeometry<'a> {
     /// The id of its first point, line or triangle.
     first_id: u32,
@@ -111,7 +111,7 @@ impl<'a> SceneGeometry<'a> {
         self.draws.get(after.checked_sub(1)?)
     }
 
-    /// The value of an integer pass in a pixel; 0 where nothing is visible.
+    /// The value of an integer pass at a pixel; 0 for background pixels.
     pub(super) fn id_value(&self, pass: Pass, hit: &Hit) -> u32 {
         let Some(draw) = self.draw_of_hit(hit) else { return 0 };
         let [model, node, mesh, material] = draw.owner_ids;
@@ -125,9 +125,9 @@ impl<'a> SceneGeometry<'a> {
     }
 
     /// Writes the values of a floating-point pass for the pixel at `pixel` of the tile; leaves them
-    /// as they are where nothing is visible.
+    /// unchanged for background pixels.
     ///
-    /// `last` is the item of the pixel before: neighbors mostly show the same triangle.
+    /// `last` is the item of the previous pixel: neighbors mostly show the same triangle.
     pub(super) fn write_value<'s>(
         &'s self,
         pass: Pass,
@@ -176,7 +176,7 @@ impl<'a> SceneGeometry<'a> {
     }
 
     /// The surface point at a pixel's center. Points and lines keep the rasterizer's weights: their
-    /// fragments lie beside them.
+    /// fragments extend beyond the primitive itself.
     fn surface_point(&self, item: &HitItem<'_, '_>, hit: &Hit, [x, y]: [u32; 2]) -> SurfacePoint {
         let weights = if item.draw.primitive.topology == Topology::Triangles {
             let center = Point::new(f64::from(x) + 0.5, f64::from(y) + 0.5, 0.0);
@@ -190,7 +190,7 @@ impl<'a> SceneGeometry<'a> {
         SurfacePoint { weights, position }
     }
 
-    /// The unit normal of the visible side: the interpolated one, or that of the triangle for flat
+    /// The unit normal of the visible side: interpolated, or the triangle's normal for flat
     /// surfaces; zero for points and lines.
     fn visible_normal(&self, item: &HitItem<'_, '_>, point: &SurfacePoint) -> DVec3 {
         let draw = item.draw;
@@ -217,7 +217,7 @@ impl DrawGeometry<'_> {
     }
 }
 
-/// A point, line or triangle that pixels show.
+/// A point, line or triangle that is visible in pixels.
 pub(super) struct HitItem<'s, 'a> {
     /// Its primitive id.
     id: u32,
@@ -225,7 +225,7 @@ pub(super) struct HitItem<'s, 'a> {
     draw: &'s DrawGeometry<'a>,
     /// Vertex indices.
     vertices: [usize; 3],
-    /// Edge normals in (x, y, w), by which weights at a point of the picture are computed.
+    /// Edge normals in (x, y, w), used to compute weights at a point of the picture.
     edge_normals: [DVec3; 3],
     /// Vertex positions in the world.
     corners: [Point<World>; 3],
@@ -243,7 +243,7 @@ impl HitItem<'_, '_> {
         interpolate(vertex_normals, point.weights).try_normalize()
     }
 
-    /// The interpolated texture coordinates, with a third 0.
+    /// The interpolated texture coordinates, with 0 as third component.
     fn uv(&self, point: &SurfacePoint) -> [f64; 3] {
         let Some(uvs) = self.draw.uvs.as_deref() else { return [0.0; 3] };
         let uv = self.vertices.map(|vertex| {
@@ -268,7 +268,7 @@ fn interpolate([a, b, c]: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
 }
 
 /// Normals of the planes through the origin and each edge of a triangle, in (x, y, w): q × r
-/// opposite of p, and so on, all on the side of the triangle.
+/// opposite p, and so on, all on the side of the triangle.
 ///
 /// Their products with a point (x, y, 1) of the picture are its weights, up to a factor.
 fn edge_normals(corners: [HPoint<Clip>; 3]) -> [DVec3; 3] {
@@ -283,7 +283,7 @@ fn edge_normals(corners: [HPoint<Clip>; 3]) -> [DVec3; 3] {
 /// `None` if the triangle is seen edge-on.
 ///
 /// The point is, up to a factor, the sum of the vertices' (x, y, w) times their weights, so the
-/// weights are its products with the edge normals. No vertex is divided by its w, and some may lie
+/// weights are its products with the edge normals. No vertex is divided by its w, and some may be
 /// behind the eye. Negative weights, of points just outside, become 0.
 fn perspective_weights(edge_normals: &[DVec3; 3], point: DVec3) -> Option<[f64; 3]> {
     let weights = edge_normals.map(|normal| normal.dot(point).max(0.0));

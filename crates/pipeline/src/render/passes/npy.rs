@@ -2,7 +2,7 @@
 //!
 //! The format is NPY 1.0 (`numpy.lib.format`): a magic string, the length of the header, a Python
 //! literal that describes the array, padded so that the data begins at a multiple of 64 bytes, and
-//! the values, little-endian.
+//! the little-endian values.
 
 use super::buffer::{PassBuffer, PassValues};
 use std::fmt::Write;
@@ -42,7 +42,7 @@ mod tests {
     use super::*;
     use scene_file::Pass;
 
-    /// Splits header and data as `numpy.lib.format` reads version 1.0.
+    /// Splits header and data like `numpy.lib.format` for version 1.0.
     fn parse_npy(bytes: &[u8]) -> (&str, &[u8]) {
         assert_eq!(&bytes[..8], b"\x93NUMPY\x01\x00");
         let length = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));

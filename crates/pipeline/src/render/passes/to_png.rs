@@ -1,15 +1,15 @@
-//! Passes as 16-bit PNG files, for image viewers and for tools that read nothing else.
+//! Passes as 16-bit PNG files, for image viewers and for tools that read no other format.
 //!
 //! | pass | meaning of a code c from 0 to 65,535 |
 //! | --- | --- |
-//! | depth, distance | 0: nothing visible; else min + (c − 1) / 65,534 · (max − min), gray |
-//! | position, uv | likewise for each of red, green and blue; all 0 where nothing is visible |
-//! | normal, view-normal | c / 65,535 · 2 − 1; all 0 where nothing is visible |
+//! | depth, distance | 0: background; else min + (c − 1) / 65,534 · (max − min), gray |
+//! | position, uv | likewise for each of red, green and blue; all 0 for background pixels |
+//! | normal, view-normal | c / 65,535 · 2 − 1; all 0 for background pixels |
 //! | barycentric, coverage | c / 65,535 |
-//! | integers | themselves in gray; if one exceeds 65,535, c / 65,536 in red, the rest in green |
+//! | integers | the value in gray; if any exceeds 65,535, c / 65,536 in red, the rest in green |
 //!
-//! min and max are those of the file. They stand in its text chunk `Description`, with the pass and
-//! its unit.
+//! min and max are the file's minimum and maximum. They are in its text chunk `Description`, with
+//! the pass and its unit.
 
 use super::buffer::{PassBuffer, PassValues};
 use png::{BitDepth, ColorType, Compression, Encoder};
@@ -20,8 +20,8 @@ use std::fmt::Write;
 const MAX_CODE: f64 = 65_535.0;
 
 impl PassBuffer {
-    /// Encodes the pass as a PNG file with 16 bits per channel: gray for one value per pixel, else
-    /// red, green and blue.
+    /// Encodes the pass as a PNG file with 16 bits per channel: gray for one value per pixel,
+    /// otherwise red, green and blue.
     #[must_use]
     pub fn to_png(&self) -> Vec<u8> {
         match &self.values {
@@ -30,7 +30,7 @@ impl PassBuffer {
         }
     }
 
-    /// Encodes floating-point values, each channel in a range of its own.
+    /// Encodes floating-point values, each channel in a separate range.
     fn floats_to_png(&self, values: &[f32]) -> Vec<u8> {
         let count = self.pass.channels();
         let mut text = format!("{}: {}", self.pass.name(), unit_description(self.pass));
@@ -52,7 +52,7 @@ impl PassBuffer {
         )
     }
 
-    /// The range of values that the codes of a channel span, which is also added to the
+    /// The range of values spanned by the codes of a channel, which is also added to the
     /// description.
     fn code_range(&self, values: &[f32], channel: usize, text: &mut String) -> CodeRange {
         match self.pass {
@@ -112,7 +112,7 @@ struct CodeRange {
     min: f64,
     /// The value of the last code, 65,535.
     max: f64,
-    /// The first code that stands for a value: 0, or 1 where 0 marks empty pixels.
+    /// The first code used for a value: 0, or 1 if 0 marks empty pixels.
     first_code: f64,
 }
 

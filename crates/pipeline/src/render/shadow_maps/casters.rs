@@ -6,8 +6,7 @@
 //! | masked (alpha test) | where its alpha passes the cutoff |
 //! | blended or transmissive | never: no colored or partial shadows |
 //!
-//! Points and lines cast no shadows either. The pass has ids of its own, since it leaves primitives
-//! out.
+//! Points and lines cast no shadows either. The pass has separate ids, because it skips primitives.
 
 use crate::render::RenderError;
 use crate::render::context::RenderContext;
@@ -52,7 +51,7 @@ pub(super) struct CasterPass<'a, 'b> {
     pub(super) draws: &'b mut DrawList<'a>,
 }
 
-/// A primitive of a model, in one of the places of its mesh.
+/// A primitive of a model, in one instance of its mesh.
 #[derive(Clone, Copy)]
 struct PlacedPrimitive<'a> {
     model_instance: &'a ModelInstance,
@@ -64,7 +63,7 @@ impl<'a> CasterPass<'a, '_> {
     /// Draws the opaque and masked triangles of all models.
     ///
     /// # Errors
-    /// If the scene has more triangles than ids.
+    /// The scene has more triangles than ids.
     pub(super) fn draw_scene(&mut self, context: &RenderContext<'a>) -> Result<(), RenderError> {
         let RenderContext { scene, textures, threads, .. } = *context;
         let mut first_id = 0_u32;
@@ -86,7 +85,7 @@ impl<'a> CasterPass<'a, '_> {
     }
 
     /// Draws both faces of a primitive's triangles, and returns their number; 0 if it casts no
-    /// shadow. Back faces cast too: open surfaces have no other side to do it.
+    /// shadow. Back faces cast too, because open surfaces have no other side.
     fn draw_primitive(
         &mut self,
         placed: PlacedPrimitive<'a>,
@@ -119,8 +118,8 @@ impl<'a> CasterPass<'a, '_> {
     }
 }
 
-/// The draw call of a masked primitive: its material with the texture coordinates and vertex colors
-/// that the alpha test reads, and nothing else.
+/// The draw call of a masked primitive: its material with only the texture coordinates and vertex
+/// colors that the alpha test reads.
 fn masked_draw<'a>(
     model: &'a Model,
     instance: MeshInstance,

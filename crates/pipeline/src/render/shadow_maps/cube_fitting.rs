@@ -1,4 +1,4 @@
-//! Cube shadow map fitting: the six cameras of a point light, cropped to its casters.
+//! Cube shadow map fitting: the six cameras for a point light, cropped to its casters.
 //!
 //! ```text
 //!   ╲           ╱    a face sees 90° and, beyond them, what the filter's disc reaches from a
@@ -7,7 +7,7 @@
 //!     └──────●───    then looks the same from both sides.
 //!            │ light
 //! ```
-//! A face without casters has no map, and neither has one of which nothing is in the view.
+//! A face without casters has no map, nor does a face with nothing in the view.
 
 use super::light_fitting::{BORDER_TEXELS, LightCamera, ViewBounds, view_volume_corners};
 use camera::{Basis, Camera, ViewProjection};
@@ -27,15 +27,15 @@ const FACE_DIRECTIONS: [[f64; 3]; 6] = [
     [0.0, 0.0, 1.0],
     [0.0, 0.0, -1.0],
 ];
-/// The most texels of the faces of all point lights together: 0.8 GB. More lights have smaller
-/// faces each.
+/// The maximum total number of texels in the faces of all point lights: 0.8 GB. With more lights
+/// the faces are smaller.
 const MAX_CUBE_TEXELS: f64 = (1_u32 << 26) as f64;
-/// The greatest distance of the far plane in distances of the near plane, for precision.
+/// The maximum ratio of the far plane's distance to the near plane's, for precision.
 const MAX_DEPTH_RATIO: f64 = 1e3;
 
-/// The cameras of a point light.
+/// The cameras for a point light.
 pub(super) struct CubeCameras {
-    /// The cameras of the faces, in the order of [`ShadowCube::faces`].
+    /// The cameras for the faces, in the order of [`ShadowCube::faces`].
     pub(super) faces: [Option<LightCamera>; 6],
     /// The position of the light.
     position: [f32; 3],
@@ -73,7 +73,7 @@ impl CubeCameras {
         Some(Self { faces, position, spread, near, texel })
     }
 
-    /// The cube of the maps that were rendered with these cameras.
+    /// The cube of the maps rendered with these cameras.
     pub(super) fn to_cube(&self, faces: [Option<shade::ShadowMap>; 6]) -> ShadowCube {
         let (position, spread) = (self.position, self.spread as f32);
         let (nearest, texel) = (self.near as f32, self.texel as f32);
@@ -83,14 +83,14 @@ impl CubeCameras {
 
 /// The slope of the outermost direction on a disc of this radius around one at 45° from the axis.
 ///
-/// Worst at the corner of a face: there the disc moves x by r/√2 and the axis by −r/√2, beside
-/// coordinates of 1/√3 each.
+/// The worst case is at the corner of a face: there the disc moves x by r/√2 and the axis by −r/√2,
+/// from coordinates of 1/√3 each.
 fn overlap_slope(radius: f64) -> f64 {
     let part = 1.5_f64.sqrt() * radius;
     (1.0 + part) / (1.0 - part)
 }
 
-/// The texels of 90° of a face: as asked for, or what is left for one of many lights.
+/// The texels per 90° of a face: the requested number, or less if there are many lights.
 fn face_resolution(scene: &Scene, shadow: Shadow) -> f64 {
     let is_cube = |light: &&Light| matches!(light, Light::Point { shadow: Some(_), .. });
     let cubes = scene.lights.iter().filter(is_cube).count().max(1) as f64;
@@ -117,13 +117,13 @@ fn fit_face(
         },
         size: cropped.size,
         center: eye + gaze.raw() * (0.5 * (near + far)),
-        // The cube has the penumbra of all its faces.
+        // The cube has one penumbra for all faces.
         penumbra: 0.0,
         depth_at_infinity: Some(-near / (far - near)),
     })
 }
 
-/// A window on the grid of texels of a whole face.
+/// A window on the texel grid of a whole face.
 struct CroppedWindow {
     /// The window at distance 1.
     window: Window,
@@ -148,7 +148,7 @@ impl CroppedWindow {
     }
 }
 
-/// A face's coordinates of a position relative to the light: to the right, up, along its axis.
+/// The face coordinates of a position relative to the light: right, up, and along its axis.
 fn face_coordinates(face: usize, p: DVec3) -> DVec3 {
     // The axes of `Basis::from_gaze_or_fallback` for these directions.
     match face {
@@ -163,7 +163,8 @@ fn face_coordinates(face: usize, p: DVec3) -> DVec3 {
 
 /// The sides of the six faces that a position is outside of, five bits for each face.
 ///
-/// Anything with a bit in common is outside of the face: a triangle, or a volume by its corners.
+/// Anything whose points share a bit is outside the face: a triangle, or a volume given by its
+/// corners.
 fn outside_bits(p: DVec3, slope: f64) -> u32 {
     (0..6).fold(0, |bits, face| {
         let DVec3 { x, y, z } = face_coordinates(face, p);
@@ -174,14 +175,14 @@ fn outside_bits(p: DVec3, slope: f64) -> u32 {
     })
 }
 
-/// Whether bits that positions have in common leave a face free.
+/// Whether the bits common to all positions place them outside a face.
 const fn is_outside_of(face: usize, common_bits: u32) -> bool {
     common_bits >> (5 * face) & 31 != 0
 }
 
-/// The faces that light something in the view.
+/// The faces that light anything in the view.
 ///
-/// The ground is drawn beyond the far plane of the view, so that it counts as a whole.
+/// The ground is drawn beyond the far plane of the view, so all of it counts.
 fn visible_faces(scene: &Scene, eye: DVec3, slope: f64) -> [bool; 6] {
     let Some(corners) = view_volume_corners(scene) else { return [true; 6] };
     let ground = scene.ground.iter().flat_map(|ground| ground.corners);
@@ -190,19 +191,19 @@ fn visible_faces(scene: &Scene, eye: DVec3, slope: f64) -> [bool; 6] {
     std::array::from_fn(|face| !is_outside_of(face, common))
 }
 
-/// The triangles around a point light: where they are on each face, and how far away.
+/// The triangles around a point light: their extent on each face, and their distances.
 struct CubeCasters {
     /// The slopes of the triangles on each face; empty without triangles.
     slopes: [ViewBounds; 6],
-    /// A distance along the axes within which there is no triangle.
+    /// A distance along the axes within which there are no triangles.
     nearest: f64,
-    /// The greatest distance of a vertex along the axes.
+    /// The maximum distance of a vertex along the axes.
     farthest: f64,
 }
 
 impl CubeCasters {
-    /// The triangles of the models that begin within the range of a light at `eye`; `None` without
-    /// any.
+    /// The triangles of the models that begin within the range of a light at `eye`; `None` if there
+    /// are none.
     ///
     /// Slopes are bounded by `max_slope`.
     fn from_models(
@@ -237,7 +238,7 @@ impl CubeCasters {
         is_lit.then_some(casters)
     }
 
-    /// Adds a triangle by its vertices and what they are outside of.
+    /// Adds a triangle, given its vertices and their outside bits.
     fn add_triangle(&mut self, triangle: [(DVec3, u32); 3], range: f64, max_slope: f64) {
         let positions = triangle.map(|(position, _)| position);
         let [a, b, c] = positions;
@@ -253,7 +254,7 @@ impl CubeCasters {
             }
             let own = positions.map(|p| face_coordinates(face, p));
             let least = own.iter().fold(f64::INFINITY, |least, p| least.min(p.z));
-            // On the face, no point is farther away than √(1 + 2 slope²) of its depth.
+            // On the face, the distance of a point is at most √(1 + 2 slope²) times its depth.
             let by_plane = plane_distance / (1.0 + 2.0 * max_slope * max_slope).sqrt();
             self.nearest = self.nearest.min(by_plane.max(least));
             self.farthest = own.iter().fold(self.farthest, |most, p| most.max(p.z));
@@ -295,7 +296,7 @@ mod tests {
             let seen: Vec<usize> = (0..6).filter(|&at| !is_outside_of(at, bits)).collect();
             assert_eq!(seen, [face]);
         }
-        // Beside a border within the overlap: two faces.
+        // Next to a border within the overlap: two faces.
         let bits = outside_bits(DVec3::new(1.0, 1.1, 0.0), 1.2);
         assert!(!is_outside_of(0, bits) && !is_outside_of(2, bits) && is_outside_of(4, bits));
     }

@@ -17,21 +17,21 @@ use projection::{Convention, Orthographic, Window};
 use scene::OcclusionArea;
 use shade::{GroundGrid, GroundOcclusion, HeightSlab, ShadowMap};
 
-/// The most cells of the grid's longer side.
+/// The maximum number of cells along the grid's longer side.
 const MAX_GRID_CELLS: u32 = 192;
-/// The pixels of the picture's longer side for each of them: a contact shadow is smooth, and small
-/// pictures need not wait for more.
+/// The number of pixels along the picture's longer side per cell: a contact shadow is smooth, so
+/// small pictures do not need more cells.
 const PIXELS_PER_CELL: u32 = 3;
 
-/// The depths of a height map, and the planes between which they count.
+/// The depths of a height map, with the planes that bound them.
 struct HeightMap {
     map: ShadowMap,
-    /// The heights above the ground of depth 1 and depth 0.
+    /// The heights above the ground at depth 1 and depth 0.
     heights: [f64; 2],
 }
 
 impl HeightMap {
-    /// The height above the ground of a texel; `None` where there is nothing.
+    /// The height of a texel above the ground; `None` if it is empty.
     fn height(&self, index: usize) -> Option<f32> {
         let depth = f64::from(self.map.texels[index].depth);
         let [near, far] = self.heights;
@@ -40,7 +40,7 @@ impl HeightMap {
 }
 
 impl ShadowMapRenderer {
-    /// The occlusion of the scene's ground in light from all around; `None` if it shows none.
+    /// The occlusion of the scene's ground in light from all directions; `None` if it shows none.
     pub(super) fn render_ground_occlusion(
         &mut self,
         context: &RenderContext<'_>,
@@ -59,22 +59,22 @@ impl ShadowMapRenderer {
             return Ok(None);
         };
         let [columns, rows] = grid.size;
-        // Seen from below, rows run the other way.
+        // Seen from below, rows run in the opposite direction.
         let mirrored = |index: usize| (rows - 1 - index / columns) * columns + index % columns;
         let slab = |index: usize| {
             let (low, high) = (lowest.height(mirrored(index))?, highest.height(index)?);
             let low = low.max(0.0);
-            // A single sheet is thin, but not nothing.
+            // A single sheet is thin, but not of zero thickness.
             Some(HeightSlab { low, high: high.max(low * (1.0 + 1e-4) + 1e-4 * grid.cell) })
         };
         let slabs: Vec<_> =
             (0..columns * rows).map(|index| slab(index).unwrap_or(HeightSlab::EMPTY)).collect();
-        // Reversed, so that each map finds its memory again.
+        // Reversed, so that each map gets its memory back.
         self.map_pool.extend([highest.map, lowest.map]);
         Ok(Some(GroundOcclusion::compute(grid, &slabs, context.threads)))
     }
 
-    /// Renders the surfaces nearest to the ground, or those farthest from it.
+    /// Renders the surfaces nearest to the ground, or the farthest.
     fn render_heights(
         &mut self,
         context: &RenderContext<'_>,
@@ -91,12 +91,12 @@ impl ShadowMapRenderer {
     }
 }
 
-/// The grid of an area, with so many square cells along its longer side; `None` if the area is too
+/// The grid of an area, with `cells` square cells along its longer side; `None` if the area is too
 /// large or small for `f32`.
 fn occlusion_grid(area: OcclusionArea, cells: u32) -> Option<GroundGrid> {
     let (low, extent) = (area.low.raw(), area.high.raw() - area.low.raw());
     let cell = extent.x.max(extent.z) / f64::from(cells);
-    // Frames have 16 pixels a side at least.
+    // Frames have at least 16 pixels per side.
     let count = |side: f64| ((side / cell).ceil() as usize).clamp(16, cells as usize);
     let (cell_f32, fade) = (cell as f32, area.margin as f32);
     let corner = [low.x as f32, low.z as f32];
@@ -105,11 +105,11 @@ fn occlusion_grid(area: OcclusionArea, cells: u32) -> Option<GroundGrid> {
     is_usable.then_some(GroundGrid { corner, cell: cell_f32, size, fade })
 }
 
-/// The orthographic camera over a grid that looks from the first to the second height.
+/// The orthographic camera over a grid, looking from the first to the second height.
 fn height_camera(area: OcclusionArea, grid: GroundGrid, heights: [f64; 2]) -> Option<LightCamera> {
     let [near, far] = heights;
     let gaze = if near < far { Vector::Y } else { -Vector::Y };
-    // Straight up and down: x to the right, z up or down the picture.
+    // Straight up and down: x to the right, z up or down in the picture.
     let basis = Basis::from_gaze_or_fallback(gaze, Vector::Y).ok()?;
     let cell = f64::from(grid.cell);
     let [half_x, half_z] = grid.size.map(|count| 0.5 * count as f64 * cell);

@@ -1,4 +1,4 @@
-//! Shadow map fitting: the camera of a light, with a view volume as small as possible, so that
+//! Shadow map fitting: the camera for a light, with a view volume as small as possible, so that
 //! texels are small.
 //!
 //! ```text
@@ -8,7 +8,7 @@
 //!   rays  │ │    └───────┘ │ │
 //!        near     scene     far
 //! ```
-//! A spot's volume is its cone, or the part of the cone that holds the scene if that is less.
+//! A spot's volume is its cone, or, if smaller, the part of the cone that contains the scene.
 
 use camera::{Basis, Camera, ViewProjection};
 use glam::{DVec3, Vec3};
@@ -18,7 +18,7 @@ use projection::{Convention, Frustum, Orthographic, Window};
 use scene::Scene;
 use shade::{Light, Shadow};
 
-/// The camera of a light, fitted to the scene.
+/// The camera for a light, fitted to the scene.
 #[derive(Debug)]
 pub(super) struct LightCamera {
     /// Camera and projection of the light.
@@ -37,12 +37,12 @@ pub(super) struct LightCamera {
 
 /// The tangent of the widest half angle of a spot's map. Beyond it everything is lit.
 const MAX_SPOT_SLOPE: f64 = 8.0;
-/// Empty texels around the casters, for filtering across the border.
+/// Number of empty texels around the casters, for filtering across the border.
 pub(super) const BORDER_TEXELS: f64 = 3.0;
 
 impl LightCamera {
-    /// Fits a camera to a light that casts shadows; `None` for lights without direction, and if no
-    /// triangle is in the light.
+    /// Fits a camera to a light that casts shadows; `None` for lights without direction, and if the
+    /// light reaches no triangle.
     pub(super) fn fit_to_light(scene: &Scene, light: &Light, shadow: Shadow) -> Option<Self> {
         match *light {
             Light::Sun { to_light: towards, .. } => {
@@ -51,7 +51,7 @@ impl LightCamera {
             Light::Spot { position, axis, cosines, .. } => {
                 fit_spot(scene, position.map(f64::from), axis.map(f64::from), cosines[1], shadow)
             }
-            // A point light has six cameras, of `cube_fitting`.
+            // A point light has six cameras, from `cube_fitting`.
             Light::Point { .. } | Light::Ambient { .. } => None,
         }
     }
@@ -60,9 +60,9 @@ impl LightCamera {
 /// An axis-aligned bounding box in a light's view space.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ViewBounds {
-    /// The least coordinates.
+    /// The minimum coordinates.
     pub(super) min: DVec3,
-    /// The greatest coordinates.
+    /// The maximum coordinates.
     pub(super) max: DVec3,
 }
 
@@ -85,7 +85,7 @@ impl ViewBounds {
     }
 }
 
-/// A window on square texels: the raster of a shadow map.
+/// A window of square texels: the raster of a shadow map.
 struct FittedWindow {
     /// The window on the light's picture plane.
     window: Window,
@@ -97,7 +97,7 @@ struct FittedWindow {
 
 impl FittedWindow {
     /// The window around x and y of the bounds, with a border; its longer side has `resolution`
-    /// texels, and is at least `min_side` long.
+    /// texels and a length of at least `min_side`.
     fn around(bounds: ViewBounds, min_side: f64, resolution: u32) -> Option<Self> {
         let (width, height) = (bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
         let longest = width.max(height).max(min_side);
@@ -114,7 +114,7 @@ impl FittedWindow {
     }
 }
 
-/// Calls `each` with every vertex of the models in a light's view space.
+/// Calls `each` with every vertex of the models, in a light's view space.
 fn for_each_vertex(models: &[ModelInstance], camera: Camera, mut each: impl FnMut(DVec3)) {
     let world_to_view = camera.world_to_view();
     for ModelInstance { model, model_to_world } in models {
@@ -131,7 +131,7 @@ fn for_each_vertex(models: &[ModelInstance], camera: Camera, mut each: impl FnMu
 /// Fits an orthographic camera to a directional light that travels along `travel`.
 ///
 /// The size in texels follows the shape of the window: texels are square, and the longer side has
-/// the resolution asked for.
+/// the requested resolution.
 fn fit_directional(scene: &Scene, travel: [f64; 3], shadow: Shadow) -> Option<LightCamera> {
     let gaze = Vector::<World>::from(travel);
     let basis = Basis::from_gaze_or_fallback(gaze, Vector::Y).ok()?;
@@ -146,7 +146,7 @@ fn fit_directional(scene: &Scene, travel: [f64; 3], shadow: Shadow) -> Option<Li
         .max(1e-30);
     let mut visible_bounds = scene_bounds;
     if let Some(view) = view_volume_bounds(scene, camera) {
-        // A margin for soft shadows: their casters may lie just outside the view.
+        // A margin for soft shadows: their casters may be just outside the view.
         let blur_margin = depth * (0.5 * f64::from(shadow.softness)).min(0.5);
         visible_bounds.min = scene_bounds.min.max(view.min - blur_margin).min(scene_bounds.max);
         visible_bounds.max = scene_bounds.max.min(view.max + blur_margin).max(scene_bounds.min);
@@ -190,13 +190,13 @@ pub(super) fn view_volume_corners(scene: &Scene) -> Option<[DVec3; 8]> {
     corners.iter().all(|corner| corner.is_finite()).then_some(corners)
 }
 
-/// A point of a light's view space in the world.
+/// Converts a point from a light's view space to the world.
 fn view_to_world_point(camera: Camera, point: DVec3) -> DVec3 {
     let offset = camera.basis().to_world(Vector::<View>::from_raw(point));
     camera.eye().raw() + offset.raw()
 }
 
-/// Fits a perspective camera to a spot light; `cosine` is that of its outer half angle.
+/// Fits a perspective camera to a spot light; `cosine` is the cosine of its outer half angle.
 fn fit_spot(
     scene: &Scene,
     position: [f64; 3],

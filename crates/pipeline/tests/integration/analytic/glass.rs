@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Glass that mirrors nothing, with more in the extension of its body.
+/// Glass without mirror reflection, with additional members in its volume extension.
 fn glass_material(color: [f64; 3], volume: &str) -> String {
     let [r, g, b] = color;
     format!(
@@ -15,8 +15,7 @@ fn glass_material(color: [f64; 3], volume: &str) -> String {
 
 #[test]
 fn glass_tints_what_is_behind_it_by_channels() {
-    // Over white, a product of what each lets through, in whatever order; over colours, of theirs
-    // as well.
+    // Over white, the product of all transmittances, in any order; over colors, times those too.
     let colors = [[0.9, 0.3, 0.2], [0.5, 0.8, 1.0], [0.7, 0.7, 0.7]];
     let mut expected = [1.0; 3];
     for color in colors {
@@ -40,8 +39,8 @@ fn glass_tints_what_is_behind_it_by_channels() {
 
 #[test]
 fn bodies_of_glass_tint_by_their_thickness_in_the_world() {
-    // Beer's law: the attenuation colour to the power of thickness over distance, times the base
-    // colour.
+    // Beer's law: the attenuation color to the power of thickness over distance, times the base
+    // color.
     let volume =
         r#""thicknessFactor":0.5,"attenuationDistance":0.8,"attenuationColor":[0.9,0.5,0.1]"#;
     let base = [1.0, 0.8, 0.9];
@@ -57,14 +56,15 @@ fn bodies_of_glass_tint_by_their_thickness_in_the_world() {
 
 #[test]
 fn glass_that_is_partly_there_lets_the_rest_pass_untinted() {
-    // KHR_materials_transmission: alpha is coverage; what is not covered is seen as it is.
+    // KHR_materials_transmission: alpha is coverage; the uncovered part shows the background
+    // unchanged.
     let material = glass_material([0.9, 0.3, 0.2], "")
         .replace(r#"{"extensions""#, r#"{"alphaMode":"BLEND","extensions""#);
     let material = material.replace(",1]", ",0.6]");
     let rest = r##"lights: [], image: (size: (40, 40), background: Color("#fff"))"##;
     let found = render_parts(&[square_part(0.0, &material)], rest).pixel(20, 20).unwrap();
     assert_near(found, [0.9, 0.3, 0.2].map(|c| 0.4 + 0.6 * c), "coverage 0.6");
-    // Over nothing there is one alpha: that of a grey as bright.
+    // Over a transparent background there is one alpha: the alpha of an equally bright gray.
     let rest = "lights: [], image: (size: (40, 40))";
     let found = render_parts(&[square_part(0.0, &glass_material([0.9, 0.3, 0.2], ""))], rest)
         .pixel(20, 20)

@@ -3,7 +3,7 @@
 use super::*;
 use homog::PixelRect;
 
-/// Glass of this roughness that mirrors nothing, with more extensions.
+/// Glass of this roughness without mirror reflection, with additional extensions.
 fn bending_glass(roughness: f64, color: [f64; 3], extensions: &str) -> String {
     let [r, g, b] = color;
     format!(
@@ -23,7 +23,7 @@ fn thick_glass(ior: f64, thickness: f64, dispersion: f64) -> String {
     bending_glass(0.0, [1.0; 3], &extensions)
 }
 
-/// An opaque surface whose color is shown as it is.
+/// An opaque surface whose color is shown unchanged.
 fn opaque_material([r, g, b]: [f64; 3]) -> String {
     format!(
         r#"{{"extensions":{{"KHR_materials_unlit":{{}}}},
@@ -51,13 +51,14 @@ fn tilted_square(material: &str) -> TestPart {
     part
 }
 
-/// Black on the left and white on the right, seen through a part; 2.2 units are `side` pixels.
+/// Black on the left and white on the right, seen through a part; `side` pixels correspond to 2.2
+/// units.
 fn render_edge(part: TestPart, side: u32) -> Picture {
     let image = format!(r##"size: ({side}, {side}), background: Color("#000"), samples: 4"##);
     render_parts(&[part, white_half()], &format!("lights: [], image: ({image})"))
 }
 
-/// The column, in pixels from the left, at which a channel of the middle row rises above a light.
+/// The column, in pixels from the left, at which a channel of the middle row exceeds a threshold.
 fn rising_column(picture: &Picture, channel: usize, threshold: f64) -> f64 {
     let light = |x: u32| {
         let pixel = picture.pixel(x, picture.height / 2).expect("a pixel");
@@ -70,7 +71,7 @@ fn rising_column(picture: &Picture, channel: usize, threshold: f64) -> f64 {
     f64::from(x) - 0.5 + (threshold - before) / (after - before)
 }
 
-/// The columns by which Snell's law moves what is seen through the tilted square.
+/// The number of columns by which Snell's law shifts the background seen through the tilted square.
 fn expected_shift(ior: f64, thickness: f64, side: u32) -> f64 {
     let incident = PI / 4.0;
     let refracted = libm::asin(libm::sin(incident) / ior);
@@ -99,7 +100,8 @@ fn dispersion_refracts_blue_more_than_green_and_green_more_than_red() {
     }
 }
 
-/// The columns over which an edge behind glass of this roughness rises from a quarter to three.
+/// The number of columns over which an edge behind glass of this roughness rises from one quarter
+/// to three quarters.
 fn edge_width(roughness: f64, side: u32) -> f64 {
     let glass = bending_glass(roughness, [1.0; 3], "");
     let picture = render_edge(square_part(0.0, &glass), side);
@@ -114,7 +116,7 @@ fn rough_glass_blurs_an_edge_the_more_the_rougher_it_is() {
         assert!(width > 1.1 * last, "{roughness}: {width} after {last}");
         last = width;
     }
-    // The blur is a part of the picture, whatever its size.
+    // The blur is a constant fraction of the picture at every size.
     let (small, large) = (edge_width(0.5, 150), edge_width(0.5, 600));
     assert!((large / small / 4.0 - 1.0).abs() < 0.2, "{small} {large}");
 }
@@ -174,7 +176,8 @@ fn a_transparent_background_is_as_transparent_behind_rough_glass() {
     let found = render_parts(&parts(), "lights: [], image: (size: (40, 40))");
     let gray = 0.2126 * tint[0] + 0.7152 * tint[1] + 0.0722 * tint[2];
     assert_eq!(found.pixel(20, 20), Some([0, 0, 0, (255.0 * (1.0 - gray) + 0.5) as u8]));
-    // Before a color, and before an image of it, the tint is colored, whatever the tone mapping.
+    // In front of a color, and of an image with that color, the tint is colored under every tone
+    // mapping.
     for background in ["Color(\"#fff\")", "Gradient(colors: [\"#fff\", \"#fff\"])"] {
         let image = format!("size: (40, 40), background: {background}, tone_mapping: Aces");
         let found = render_parts(&parts(), &format!("lights: [], image: ({image})"));
@@ -191,7 +194,7 @@ fn regions_of_pictures_with_rough_and_thick_glass_unite_for_any_number_of_thread
         square_part(1.2, &bending_glass(0.6, [0.5, 1.0, 0.9], "")),
         white_half(),
     ];
-    // The longer one is beyond the largest framebuffer.
+    // The longer one exceeds the maximum framebuffer.
     for (width, height) in [(150, 90), (5000, 30)] {
         let rest = format!(
             "environment: Sky(), ambient_occlusion: (radius: 0.5), ground: Shadow(),

@@ -1,4 +1,4 @@
-//! Passes of scenes: against unprojection, `pixel`, the picture's alpha, and each other.
+//! Scene passes, compared with unprojection, `pixel`, the picture's alpha, and each other.
 
 use super::load_scene;
 use homog::PixelRect;
@@ -34,8 +34,8 @@ fn places_are_the_unprojections_of_pixels_and_depths() {
         for (x, y) in (0..120).flat_map(|y| (0..160).map(move |x| (x, y))) {
             let at = |n: usize| buffers[n].float_values(x, y).expect("a pixel");
             let &[depth] = at(1) else { panic!("one number") };
-            // At borders of triangles the center may lie outside by the 1/256 pixel that corners
-            // are moved; lines and points are wider than they are.
+            // At triangle borders the center may be outside by the 1/256 pixel that corners are
+            // moved; lines and points extend beyond themselves.
             if depth.is_infinite() || at(3).iter().any(|weight| *weight <= 1e-6) {
                 continue;
             }
@@ -126,7 +126,7 @@ fn panes_are_counted_and_the_nearest_of_them_is_what_is_seen() {
         let told = inspect_pixel(&scene, x, y).expect("a picture").expect("a pixel");
         let shown = told.fragments.iter().filter(|seen| seen.source.is_some()).count() as u32;
         let count = buffers[0].integer_value(x, y).expect("a pixel");
-        // What is hidden behind something solid is counted too.
+        // Surfaces hidden behind something solid are also counted.
         assert!(count >= shown, "({x}, {y}): {count} of {shown}");
         assert_eq!(count == 0, buffers[2].integer_value(x, y) == Some(0));
         most = most.max(count);

@@ -1,4 +1,4 @@
-//! Passes of a plane, each pixel against the ray that meets it.
+//! Passes of a plane, each pixel compared with the ray that meets it.
 
 use base64::Engine;
 use homog::PixelRect;
@@ -14,7 +14,8 @@ const GAZE: [f64; 3] = [0.1, -0.35, -1.0];
 /// Half of the plane's side.
 const PLANE_EXTENT: f32 = 60.0;
 
-/// A square on the ground of two triangles, its texture coordinates a hundredth of x and z.
+/// A square on the ground made of two triangles; its texture coordinates are a hundredth of x and
+/// z.
 fn plane_glb() -> Vec<u8> {
     let corners = [
         [-PLANE_EXTENT, 0.0, -PLANE_EXTENT],
@@ -68,14 +69,14 @@ fn normalize(v: [f64; 3]) -> [f64; 3] {
     v.map(|c| c / dot(v, v).sqrt())
 }
 
-/// Right, up and backwards of the camera.
+/// The camera's right, up and backward axes.
 fn camera_axes() -> [[f64; 3]; 3] {
     let back = normalize(GAZE.map(|c| -c));
     let right = normalize(cross([0.0, 1.0, 0.0], back));
     [right, cross(back, right), back]
 }
 
-/// How far ahead the plane is in a pixel, and where; `None` if it is not there.
+/// The depth and position of the plane at a pixel; `None` if it is not visible there.
 fn intersect_plane(x: u32, y: u32, width: u32, height: u32) -> Option<(f64, [f64; 3])> {
     let [right, up, back] = camera_axes();
     let half = libm::tan(25.0_f64.to_radians());
@@ -90,7 +91,7 @@ fn intersect_plane(x: u32, y: u32, width: u32, height: u32) -> Option<(f64, [f64
     (depth > 0.1 && within(place[0]) && within(place[2])).then_some((depth, place))
 }
 
-/// How far from the border of the plane it is in the picture does not matter beyond this.
+/// Whether a pixel is near the border of the plane in the picture, where it is not compared.
 fn is_near_border(x: u32, y: u32, width: u32, height: u32) -> bool {
     let around = [(0, 0), (2, 0), (0, 2), (2, 2)];
     let met: Vec<bool> = around
@@ -123,8 +124,8 @@ fn assert_pass_values(buffers: &[PassBuffer], region: PixelRect, size: [u32; 2])
             continue;
         };
         seen += 1;
-        // On the diagonal the snapped triangle may reach 1/256 pixel beyond the true one; the place
-        // is then on the diagonal.
+        // On the diagonal the snapped triangle may extend 1/256 pixel beyond the true one; the
+        // position is then on the diagonal.
         let weights = at(barycentric);
         let inner = weights.iter().all(|w| *w > 0.0);
         let tolerance = if inner { 2e-6 } else { 2e-4 };

@@ -1,5 +1,5 @@
-//! Regions, bands and sheets: parts of a picture are the whole, bit for bit, and 16 bits are the 8
-//! bits and more.
+//! Regions, bands and sheets: parts match the whole picture bit for bit, and 16 bits refine the 8
+//! bits.
 
 use super::load_scene;
 use homog::PixelRect;
@@ -9,8 +9,7 @@ use pipeline::scene::{ResolveOptions, parse_scene};
 use pipeline::{FrameChannel, Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
 use std::path::Path;
 
-/// Scenes with thin lines, layers, an environment behind everything, overlays, letters and line
-/// drawings.
+/// Scenes with thin lines, layers, a background environment, overlays, text and line drawings.
 const SCENES: [&str; 7] =
     ["floor", "panes", "primitives", "finishes", "two_point", "technical", "view_volume"];
 
@@ -61,12 +60,13 @@ fn regions_and_bands_are_parts_of_the_whole() {
     }
 }
 
-/// That the nearest of 8 bits are those of the picture, but for what drawings over it round.
+/// Checks that the nearest 8-bit codes match the picture, except for the rounding of drawings over
+/// it.
 fn assert_sixteen_bits_agree(whole: &Picture, deep: &Picture<u16>, name: &str) {
     let mut drawn = 0;
     for (flat, deep) in whole.pixels.iter().zip(&deep.pixels) {
         let far = (0..4).any(|k| (f64::from(deep[k]) / 257.0 - f64::from(flat[k])).abs() > 0.503);
-        // What little a pixel that is hardly there keeps of a colour is not told from 8 bits.
+        // The little color that a nearly transparent pixel keeps cannot be recovered from 8 bits.
         drawn += usize::from(far && flat[3] > 8);
         let near = (0..4).all(|k| (f64::from(deep[k]) / 257.0 - f64::from(flat[k])).abs() <= 4.01);
         assert!(near || flat[3] < 160, "{name}: {flat:?} {deep:?}");
@@ -122,7 +122,7 @@ fn regions_of_a_giant_picture_fit_together_across_its_tiles() {
             file.image.size = (20_000, 20_000);
             file.image.samples = 4;
         });
-        // Where four tiles meet.
+        // At the corner shared by four tiles.
         let whole = PixelRect { x: 16_200, y: 16_300, width: 400, height: 200 };
         let picture: Picture = render_region(&scene, whole);
         for (x, y, width, height) in
@@ -137,8 +137,8 @@ fn regions_of_a_giant_picture_fit_together_across_its_tiles() {
 }
 
 /// Textures, glass, soft and sharp shadows, a ground that catches them, occlusion, an environment,
-/// an overlay, and a view with a camera of its own: all that looks beyond a pixel, in a tall
-/// picture.
+/// an overlay, and a view with a separate camera: every feature that depends on more than one
+/// pixel, in a tall picture.
 const EVERYTHING_SCENE: &str = r#"Scene(
     models: [
         (path: "models/table.glb"),

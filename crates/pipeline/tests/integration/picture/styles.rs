@@ -1,4 +1,4 @@
-//! Styles: pixels against the formulas of each, by what the passes say of them.
+//! Styles: pixels compared with the formula of each, using the passes.
 
 use super::load_scene;
 use model::Colormap;
@@ -27,7 +27,7 @@ fn render_wanted_passes(scene: &Scene, wanted: &[Pass]) -> Vec<PassBuffer> {
     render_passes(scene, scene.image.pixel_rect(), wanted, 2, &Timings::default()).expect("passes")
 }
 
-/// Calls `each` with the place of each pixel that shows a surface, and tells how many do.
+/// Calls `each` with the position of each pixel that shows a surface, and returns their number.
 fn for_each_covered_pixel(ids: &PassBuffer, mut each: impl FnMut(u32, u32)) -> usize {
     let mut seen = 0;
     for (x, y) in (0..IMAGE_SIZE.1).flat_map(|y| (0..IMAGE_SIZE.0).map(move |x| (x, y))) {
@@ -69,7 +69,7 @@ fn normals_are_the_codes_of_the_pass() {
         let pixel = picture.pixel(x, y).expect("a pixel");
         for k in 0..3 {
             let expected = 255.0 * (0.5 * normal[k] + 0.5);
-            // Shading weighs the corners as they were snapped to 1/256 pixel, which tells on small
+            // Shading uses the corners as snapped to 1/256 pixel, which matters for small
             // triangles.
             let off = (f64::from(pixel[k]) - expected).abs();
             assert!(off < 6.0, "({x}, {y}) {pixel:?} {normal:?}");
@@ -119,7 +119,7 @@ fn depth_in_a_colormap_has_its_last_color_at_the_nearest_vertex() {
     assert!(seen > 3000, "{seen}");
 }
 
-/// The light that a white Lambertian surface reflects, of suns and ambient light.
+/// The light that a white Lambertian surface reflects from suns and ambient light.
 fn expected_light(scene: &Scene, normal: [f64; 3]) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for light in &scene.lights {
@@ -158,7 +158,7 @@ fn clay_is_matt_in_the_light_of_the_scene() {
 
 #[test]
 fn gouraud_is_clay_at_the_vertices_and_even_on_flat_faces() {
-    // On a crate all normals of a face are one: its light is even, as that of every matt surface in
+    // On a crate all normals of a face are equal: its light is even, as on every matte surface in
     // the sun.
     let (gouraud, clay) =
         (styled_scene("crates", Style::Gouraud), styled_scene("crates", Style::Clay));
@@ -213,7 +213,7 @@ fn checkers_change_where_texture_coordinates_pass_an_eighth() {
         }
         let odd = (libm::floor(place[0]) + libm::floor(place[1])).rem_euclid(2.0) as usize;
         let [r, _, b, _] = picture.pixel(x, y).expect("a pixel");
-        // Blue does not depend on the place; red over blue grows with u.
+        // Blue does not depend on the position; the ratio of red to blue increases with u.
         let share = f64::from(r) / f64::from(b) * 0.55;
         let expected = 0.35 + 0.65 * (u - libm::floor(u));
         assert!((share - expected).abs() < 0.02, "({x}, {y}): {share} {expected}");
@@ -261,7 +261,7 @@ fn glass_shows_what_is_behind_and_backs_too() {
     let told = render_wanted_passes(&glass, &[Pass::Id, Pass::ViewNormal, Pass::Distance]);
     let seen = for_each_covered_pixel(&told[0], |x, y| {
         let [.., alpha] = picture.pixel(x, y).expect("a pixel");
-        // At least two layers, front and back, of 7 to 80 per cent.
+        // At least two layers, front and back, of 7 to 80 percent.
         assert!(alpha > 30 && alpha < 255, "({x}, {y}): {alpha}");
     });
     assert!(seen > 500);
