@@ -1,7 +1,7 @@
-//! Sheets of assemblies: parts counted, pages legible, parts of exploded views apart.
+//! Assembly sheets: parts are counted, pages are legible, exploded parts do not overlap.
 //!
-//! The models are those of `$ASSETS` or of `shared/assets` beside the repository that have several
-//! nodes with meshes. Arguments that are not flags select models by a part of their path.
+//! Uses the models in `$ASSETS`, or in `shared/assets` next to the repository, that have several
+//! nodes with meshes. Arguments that are not flags select models by part of their path.
 
 #[path = "../crates/sheet/tests/integration/balloons.rs"]
 mod balloons;
@@ -24,11 +24,12 @@ use viewport::Paper;
 /// Models with more triangles are left to the benchmarks.
 const MAX_TRIANGLES: usize = 60_000;
 
-/// Models with more parts are drawn on the smaller paper alone: one of 1,900 takes as long as all
+/// Models with more parts are drawn only on the smaller paper: one with 1,900 takes as long as all
 /// others together.
 const MANY_PARTS: usize = 500;
 
-/// The diagonal of every model in millimeters: what they measure differs by a factor of a million.
+/// The diagonal of every model in millimeters: their original sizes differ by a factor of a
+/// million.
 const DIAGONAL: f64 = 700.0;
 
 pub fn run() -> ExitCode {
@@ -69,10 +70,10 @@ fn listed_models(folder: &Path) -> Result<Vec<(PathBuf, String)>, String> {
     Ok(wanted.map(|row| (folder.join(&row.path), row.path)).collect())
 }
 
-/// Draws the pages of a model with several parts, and says how many balloons, pages and crossings of
-/// leaders they have; `None` for others.
+/// Draws the pages of a model with several parts, and counts its balloons, pages and leader
+/// crossings; `None` for other models.
 fn check_model(path: &Path) -> Result<Option<String>, String> {
-    // Which models are refused is a question of the corpus.
+    // Refusals are checked by the suite `corpus`.
     let Ok(model) = load(path, &ImportOptions::default()) else { return Ok(None) };
     let nodes = model.mesh_instances().count();
     let models = [ModelInstance { model: Arc::new(model), model_to_world: Affine::IDENTITY }];
@@ -125,7 +126,7 @@ fn check_model(path: &Path) -> Result<Option<String>, String> {
     Ok(Some(summary))
 }
 
-/// Whether no two objects intersect, by their triangles.
+/// Whether no triangles of different objects intersect.
 fn check_apart(models: &[ModelInstance]) -> Result<(), String> {
     match separation::intersecting_parts(&separation::part_triangles(models)).first() {
         Some([part, other]) => Err(format!("parts {part} and {other} meet")),

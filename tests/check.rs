@@ -1,13 +1,12 @@
-//! `check` against the Khronos glTF validator: every file of a corpus, the errors of both side by
-//! side.
+//! `check` against the Khronos glTF validator: the errors of both, side by side, for every file in
+//! a corpus.
 //!
-//! Two corpora are checked: the one that [`alberti_tests::samples`] generates, and, if it exists,
-//! the folder `$ASSETS` or `shared/assets` beside the repository. The column
-//! `validator_error_codes` of a manifest lists the codes of the validator's errors. Where it lists
-//! none, the check must find none; where it lists some, the check must find them and locate each by
-//! a JSON pointer. Differences that are intended stand in [`expected`]. Broken files are also
-//! loaded leniently. Arguments that are not flags select files by a part of their path; `--all`
-//! prints every diagnostic.
+//! Two corpora are checked: the one that [`alberti_tests::samples`] generates and, if it exists,
+//! the folder `$ASSETS` or `shared/assets` next to the repository. The manifest column
+//! `validator_error_codes` lists the codes of the validator's errors. If it is empty, the check
+//! must find no errors; otherwise it must find them and locate each by a JSON pointer. Intended
+//! differences are listed in [`expected`]. Broken files are also loaded leniently. Arguments that
+//! are not flags select files by part of their path; `--all` prints every diagnostic.
 
 mod expected;
 mod lenient;
@@ -38,7 +37,7 @@ pub fn run() -> ExitCode {
     })
 }
 
-/// Checks the files of a folder and loads its broken files leniently.
+/// Checks the files in a folder and loads its broken files leniently.
 fn check_corpus(folder: &Path, arguments: &Arguments) -> Result<Tally, String> {
     println!("{}", folder.display());
     let mut rows = read_manifest(folder)?;

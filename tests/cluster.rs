@@ -7,10 +7,10 @@
 //!                 every picture is there and right, every bad model is one record
 //! ```
 //! A controller and three nodes run in namespaces of this machine, with `deploy/slurm/batch.sh` as
-//! the script of the job. All of it ends with the test, however that ends. Where Slurm is not
-//! installed, or without the rights to create namespaces, the step is skipped, by name; `.ci/run`
-//! installs Slurm if it can. `CLUSTER_RUNS=3` repeats the disturbed run. Its time is held against that of
-//! the undisturbed one, unless others use the processors meanwhile.
+//! the job script. Everything ends with the test, however that ends. If Slurm is not installed or
+//! the test may not create namespaces, the step is reported as skipped; `.ci/run` installs Slurm if
+//! it can. `CLUSTER_RUNS=3` repeats the disturbed run. Its time is compared with the undisturbed
+//! run's, unless others use the processors meanwhile.
 
 mod batch_run;
 mod checks;
@@ -29,11 +29,11 @@ use std::time::{Duration, Instant};
 
 /// The name of the test in its output.
 const NAME: &str = "cluster";
-/// The argument of the process inside of the namespaces; the folder of the test follows.
+/// The argument of the process inside the namespaces; the test folder follows.
 const INSIDE: &str = "--inside";
 
 pub fn run() -> ExitCode {
-    // The name of the suite goes before.
+    // The suite name comes first.
     let mut words = std::env::args().skip(2);
     if words.next().as_deref() == Some(INSIDE) {
         let folder = words.next().map(PathBuf::from);
@@ -43,7 +43,7 @@ pub fn run() -> ExitCode {
     outcome.unwrap_or_else(|reason| run_program(NAME, |_| Err(reason)))
 }
 
-/// Runs the test in namespaces of its own, if this machine can.
+/// Runs the test in separate namespaces, if this machine can.
 fn run_sandbox(arguments: &Arguments) -> Result<ExitCode, String> {
     if !arguments.select(NAME) {
         return Ok(ExitCode::SUCCESS);
@@ -65,7 +65,7 @@ fn run_sandbox(arguments: &Arguments) -> Result<ExitCode, String> {
     Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// The whole test, inside of the namespaces.
+/// The whole test, inside the namespaces.
 fn test_cluster(folder: &Path) -> Result<Tally, String> {
     let mut tally = Tally::default();
     let mut load = foreign_load()?;
@@ -102,17 +102,17 @@ fn test_cluster(folder: &Path) -> Result<Tally, String> {
     Ok(tally)
 }
 
-/// The share of the processors that others may use where times are compared: the nodes then have what
-/// they would have for themselves.
+/// The maximum share of the processors that others may use while times are compared: the nodes then
+/// have what they would have for themselves.
 const MAX_LOAD: f64 = 0.25;
 
-/// The share of the processors that is in use, for a second in which this test does nothing.
+/// The share of the processors in use during a second in which this test does nothing.
 fn foreign_load() -> Result<f64, String> {
     let read_ticks = || -> Result<(u64, u64), String> {
         let text = std::fs::read_to_string("/proc/stat").map_err(|error| error.to_string())?;
         let numbers = text.lines().next().unwrap_or_default().split_whitespace().skip(1);
         let ticks: Vec<u64> = numbers.filter_map(|word| word.parse().ok()).collect();
-        // The fourth and the fifth: idle, and idle with a disk at work.
+        // The fourth and fifth fields: idle, and idle while a disk is working.
         Ok((ticks.iter().skip(3).take(2).sum(), ticks.iter().take(8).sum()))
     };
     let (idle, all) = read_ticks()?;
@@ -122,7 +122,7 @@ fn foreign_load() -> Result<f64, String> {
     Ok(1.0 - idle as f64 / all as f64)
 }
 
-/// How often the disturbed run is repeated.
+/// The number of times the disturbed run is repeated.
 fn run_count() -> u32 {
     std::env::var("CLUSTER_RUNS").ok().and_then(|runs| runs.parse().ok()).unwrap_or(1)
 }
@@ -151,8 +151,8 @@ fn test_disturbed(
     Ok(time)
 }
 
-/// Kills a node when a third is done, cuts another off when half is; returns the time until the
-/// job is through.
+/// Kills a node when a third is done and cuts another off when half is; returns the time until the
+/// job ends.
 fn disturb(
     cluster: &mut Cluster,
     watcher: &watcher::Watcher,
@@ -178,10 +178,10 @@ fn disturb(
     Ok(time)
 }
 
-/// Runs a command to its end; returns its output.
+/// Runs a command to its end and returns its output.
 ///
 /// # Errors
-/// If it does not start or does not end well, with what it says.
+/// If it does not start or fails, with its output.
 pub fn run_command(command: &mut Command) -> Result<String, String> {
     let name = command.get_program().to_string_lossy().into_owned();
     let output = command.output().map_err(|error| format!("{name}: {error}"))?;

@@ -1,13 +1,13 @@
-//! Every file of a corpus, rendered by the real program: it yields a picture, or is refused with a
+//! Every file of a corpus, rendered by the real program: it gives a picture, or is refused with a
 //! reason.
 //!
-//! Two corpora are rendered: the one that [`alberti_tests::samples`] generates, whose manifest
-//! states the outcome of each file, and, if it exists, the folder `$ASSETS` or `shared/assets`
-//! beside the repository, for which the tables of [`expected`] do. Each file is rendered in a
-//! process of its own, two at a time, within thirty seconds. There are two legal outcomes: exit
-//! code 0 and a PNG of the right size, or exit code 1, a message that names the file and the
-//! reason, and no PNG. The numbers of triangles of files under `models` are those of the manifest.
-//! Arguments that are not flags select files by a part of their path.
+//! Two corpora are rendered. [`alberti_tests::samples`] generates one, and its manifest states the
+//! outcome of each file. The other, if it exists, is the folder `$ASSETS` or `shared/assets` next
+//! to the repository; the tables of [`expected`] state its outcomes. Each file is rendered in a
+//! separate process, two at a time, within thirty seconds. There are two legal outcomes: exit code
+//! 0 and a PNG of the right size, or exit code 1, a message that names the file and the reason, and
+//! no PNG. Triangle counts of files under `models` must match the manifest. Arguments that are not
+//! flags select files by part of their path.
 
 mod expected;
 mod program;
@@ -53,7 +53,7 @@ pub fn run() -> ExitCode {
     })
 }
 
-/// Renders the files of a folder and prints the outcomes. `known` is true for the folder that the
+/// Renders the files in a folder and prints the outcomes. `known` is true for the folder that the
 /// tables describe.
 fn render_corpus(
     program: &Program,
@@ -88,8 +88,8 @@ fn render_corpus(
     Ok(tally)
 }
 
-/// Why an outcome is wrong: by the manifest where it states one, else by the tables of a known
-/// folder.
+/// The reason why an outcome is wrong: by the manifest if it states one, otherwise by the tables of
+/// a known folder.
 fn failure_message(row: &Row, verdict: &Verdict, known: bool) -> Option<String> {
     match verdict {
         Verdict::Broken(problem) => Some(problem.clone()),

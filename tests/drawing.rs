@@ -1,10 +1,10 @@
 //! Line drawings against z-buffer images: at most 0.2 percent of the visible length may disagree.
 //!
-//! The models are those of the scenes and, if it exists, the listed ones of `$ASSETS` or of
-//! `shared/assets` beside the repository. Each is drawn from six directions in perspective, in
-//! isometric and in cavalier projection. Then come random scenes over all projections
-//! (`random.rs`). Arguments that are not flags select models by a part of
-//! their path; a path below the folder's `models` names one that is not listed.
+//! Uses the scene models and, if it exists, the listed models in `$ASSETS` or in `shared/assets`
+//! next to the repository. Each is drawn from six directions in perspective, isometric and cavalier
+//! projection. Random scenes over all projections follow (`random.rs`). Arguments that are not
+//! flags select models by part of their path; a path below the folder's `models` names one that is
+//! not listed.
 
 mod bits;
 mod random;
@@ -24,17 +24,17 @@ use views::{DIRECTIONS, ViewKind, build_scene};
 /// The fraction of the visible length that may disagree.
 const MAX_DISAGREEMENT: f64 = 0.002;
 
-/// Models that may disagree more, and why.
+/// Models that may disagree more, and the reason.
 const EXCEPTIONS: &[(&str, f64, &str)] = &[(
     "ship-light-draco/model.gltf",
     0.005,
     "lines where quantized planks cross are visible through cracks a twentieth of a pixel wide, which contain no sample",
 )];
 
-/// Models of the scenes that consist of lines alone.
+/// Scene models that consist only of lines.
 const WITHOUT_FACES: &[&str] = &["house_edges.glb", "mexican_hat_lines.glb"];
 
-/// Models below the folder `models` of the assets.
+/// Models in the folder `models` of the assets.
 const MODELS: &[&str] = &[
     "alien/alien.glb",
     "armor/armor.gltf",
@@ -76,7 +76,7 @@ pub fn run() -> ExitCode {
         if let Some(assets) = data_folder("ASSETS", "assets")? {
             let folder = assets.join("models");
             let listed = MODELS.iter().map(|name| (*name).to_owned());
-            // Any other model of the folder can be named by its path.
+            // Any other model in the folder can be named by its path.
             let others = arguments.filters().iter().filter(|name| folder.join(name).is_file());
             models.extend(listed.chain(others.cloned()).map(|name| (folder.join(&name), name)));
         }
@@ -91,7 +91,7 @@ pub fn run() -> ExitCode {
     })
 }
 
-/// Path and name of the models of the scenes that have faces.
+/// Path and name of the scene models that have faces.
 fn glb_files(folder: &Path) -> Result<Vec<(PathBuf, String)>, String> {
     let entries = std::fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
@@ -119,7 +119,7 @@ fn check_models(models: &[(PathBuf, String)]) -> Tally {
     tally
 }
 
-/// Draws a model from all directions; the worst disagreement of each kind of view.
+/// Draws a model from all directions; returns the worst disagreement of each kind of view.
 fn check_model(path: &Path, allowed: f64) -> Result<String, String> {
     let model = load(path, &ImportOptions::default()).map_err(|error| error.to_string())?;
     let model = Arc::new(model);
@@ -138,7 +138,7 @@ fn check_model(path: &Path, allowed: f64) -> Result<String, String> {
     Ok(summary)
 }
 
-/// The fraction that the z-buffer contradicts, and the lines with most of it.
+/// The fraction that the z-buffer contradicts, and the lines that contribute most to it.
 fn describe_disagreement(
     kind: ViewKind,
     direction: usize,
@@ -156,7 +156,7 @@ fn describe_disagreement(
     message
 }
 
-/// Draws a model without its hidden edges and compares with the z-buffer.
+/// Draws a model without its hidden edges and compares the drawing with the z-buffer.
 fn measure_agreement(
     model: &Arc<Model>,
     kind: ViewKind,

@@ -1,4 +1,4 @@
-//! Small glTF documents for tests: JSON and one buffer, to be changed at will.
+//! Small glTF documents for tests: JSON and one buffer, which tests change as they like.
 
 #![allow(clippy::missing_panics_doc, reason = "a test that misuses its own document should stop")]
 
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 /// A glTF document and the bytes of its only buffer.
 #[derive(Clone, Debug)]
 pub struct Document {
-    /// The document as it is written, valid or not.
+    /// The document as written, valid or not.
     pub json: Value,
     /// Buffer 0, stored in the binary chunk.
     pub bytes: Vec<u8>,
@@ -207,7 +207,7 @@ impl Document {
         views.len() - 1
     }
 
-    /// Adds an accessor with a buffer view of its own and returns its index.
+    /// Adds an accessor with a new buffer view and returns its index.
     pub fn add_accessor(&mut self, bytes: &[u8], mut accessor: Value) -> usize {
         accessor["bufferView"] = json!(self.add_buffer_view(bytes));
         let accessors = self.json["accessors"].as_array_mut().expect("the document has accessors");

@@ -1,10 +1,10 @@
 //! Golden images: the real program renders every scene of `scenes/` to exactly the pixels of
 //! `tests/goldens/NAME.png`.
 //!
-//! Pixels are compared, not bytes, so that a new release of the PNG encoder changes nothing. Where
-//! they differ, the new picture and a map of the differences are left as `NAME.actual.png` and
-//! `NAME.diff.png` in the folder of the goldens. `cargo xtask golden --bless NAME` makes a picture
-//! golden after someone has looked at it. Arguments that are not flags select scenes by a part of
+//! Pixels are compared, not bytes, so that a new release of the PNG encoder changes nothing. If
+//! they differ, the new picture and a map of the differences are saved as `NAME.actual.png` and
+//! `NAME.diff.png` in the folder of goldens. `cargo xtask golden --bless NAME` makes a picture
+//! golden after someone has looked at it. Arguments that are not flags select scenes by part of
 //! their name.
 
 mod picture;
@@ -27,7 +27,7 @@ pub fn run() -> ExitCode {
     })
 }
 
-/// The scenes by name. Goldens that no scene makes are found by `cargo xtask tidy`.
+/// The scenes by name. `cargo xtask tidy` finds goldens without a scene.
 fn scene_names() -> Result<Vec<String>, String> {
     let entries =
         fs::read_dir(project_root().join("scenes")).map_err(|error| format!("scenes: {error}"))?;

@@ -1,11 +1,11 @@
-//! What twice as much input costs: instructions and memory at n, 2n and 4n, for each way through the
-//! program.
+//! The cost of doubling the input: instructions and memory at n, 2n and 4n, for each path through
+//! the program.
 //!
 //! ```text
 //!   (cost(4n) − cost(2n)) / (cost(2n) − cost(n))     2 if linear, 2.2 for n log n, 4 if quadratic
 //! ```
-//! Differences leave out what a start of the program costs. Valgrind counts the same on every
-//! machine, so this is no measurement of time.
+//! Differences cancel the cost of starting the program. Valgrind counts the same on every machine,
+//! so this does not measure time.
 
 use alberti_tests::harness::{Tally, TemporaryFolder, map_parallel, run_program};
 use alberti_tests::program_path;
@@ -13,16 +13,16 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
 
-/// The greatest growth that passes: more than that of n log n, far less than that of n².
+/// The largest growth that passes: more than n log n grows, far less than n².
 const GREATEST_GROWTH: f64 = 2.6;
 
-/// Memory that grows by less than this many bytes is not judged: growing lists double.
+/// Memory growth below this many bytes is not judged: growing lists double.
 const LEAST_MEMORY: u64 = 4 << 20;
 
-/// A way through the program.
+/// A path through the program.
 struct Workload {
     name: &'static str,
-    /// The file that is given to the program, and its text of this size.
+    /// The file given to the program, and its text for a size.
     file: &'static str,
     text: fn(usize) -> String,
     /// The smallest size.
@@ -32,7 +32,7 @@ struct Workload {
     after: &'static [&'static str],
 }
 
-/// The ways, of which each takes a second or so.
+/// The paths, each of which takes a second or so.
 const WORKLOADS: &[Workload] = &[
     Workload {
         name: "mistakes of grammar",
@@ -183,7 +183,7 @@ impl Workload {
         Ok(())
     }
 
-    /// Instructions, and the most bytes that were allocated at once.
+    /// Instructions, and the peak of the allocated bytes.
     fn cost(&self, folder: &Path, size: usize) -> Result<[u64; 2], String> {
         let path = folder.join(self.file);
         std::fs::write(&path, (self.text)(size)).map_err(|error| error.to_string())?;
@@ -196,7 +196,7 @@ impl Workload {
         Ok([total.ok_or("nothing was counted")?, most.ok_or("nothing was weighed")?])
     }
 
-    /// Runs the program under a tool of valgrind and returns what that wrote.
+    /// Runs the program under a valgrind tool and returns the tool's output.
     fn run(&self, folder: &Path, path: &Path, tool: &str) -> Result<String, String> {
         let profile = folder.join(tool);
         let mut command = Command::new("valgrind");
@@ -208,7 +208,7 @@ impl Workload {
         }
         command.current_dir(folder).stdout(Stdio::null()).stderr(Stdio::null());
         let status = command.status().map_err(|error| error.to_string())?;
-        // A scene with mistakes ends with 1: that is the answer, not a failure.
+        // A scene with mistakes exits with 1: that is the answer, not a failure.
         if !matches!(status.code(), Some(0 | 1)) {
             return Err(format!("the program ended with {status}"));
         }
@@ -216,7 +216,7 @@ impl Workload {
     }
 }
 
-/// A scene with these lights, whose model is not there.
+/// A scene with these lights, whose model does not exist.
 fn scene_of(lights: &str) -> String {
     format!("Scene(models: [(path: \"missing.glb\")], lights: [{lights}])")
 }
@@ -230,7 +230,7 @@ fn random_numbers() -> impl FnMut() -> f64 {
     }
 }
 
-/// Triangles at random, each a tenth of the whole in size.
+/// Random triangles, each a tenth of the whole in size.
 fn soup(count: usize) -> String {
     let mut next = random_numbers();
     let mut text = "solid soup\n".to_owned();
@@ -266,7 +266,7 @@ fn surface(count: usize) -> String {
     text
 }
 
-/// Points at random.
+/// Random points.
 fn points(count: usize) -> String {
     let mut next = random_numbers();
     let mut text = format!(

@@ -1,9 +1,9 @@
 //! Harness of the table-driven test programs: arguments, folders, a tally, the exit code.
 //!
-//! The cases of a table-driven suite are files that are found at run time. All suites behave alike:
-//! arguments that are not flags select cases by a part of their name, as in `cargo test`; a failed
-//! case prints a line that begins with `FAILED`; what cannot be tested is reported as skipped (see
-//! `skip.rs`); the last line counts.
+//! The cases of a table-driven suite are files found at run time. All suites behave alike.
+//! Arguments that are not flags select cases by part of their name, as in `cargo test`. A failed
+//! case prints a line that begins with `FAILED`. Parts that cannot be tested are reported as
+//! skipped (see `skip.rs`). The last line counts.
 
 use crate::skip::report_skip;
 use std::ffi::OsString;
@@ -27,13 +27,13 @@ impl Arguments {
         Self::from_words(std::env::args().skip(2))
     }
 
-    /// Words that begin with a dash are flags, all others are filters.
+    /// Words that begin with a dash are flags; all others are filters.
     pub fn from_words(words: impl Iterator<Item = String>) -> Self {
         let (flags, filters) = words.partition(|word| word.starts_with('-'));
         Self { filters, flags }
     }
 
-    /// Whether a case is selected: no filter is given, or one of them is a part of its name.
+    /// Whether a case is selected: there is no filter, or one of them is part of its name.
     #[must_use]
     pub fn select(&self, name: &str) -> bool {
         self.filters.is_empty() || self.filters.iter().any(|filter| name.contains(filter.as_str()))
@@ -45,14 +45,14 @@ impl Arguments {
         self.flags.iter().any(|given| given == flag)
     }
 
-    /// The filters as they are written.
+    /// The filters as written.
     #[must_use]
     pub fn filters(&self) -> &[String] {
         &self.filters
     }
 }
 
-/// Counts of a run.
+/// The counts of a run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Tally {
     passed: usize,
@@ -72,7 +72,7 @@ impl Tally {
         println!("FAILED {name}: {reason}");
     }
 
-    /// Counts a part of the test that cannot run here and reports why.
+    /// Counts a part of the test that cannot run here and reports the reason.
     pub fn skip(&mut self, name: &str, reason: &str) {
         self.skipped += 1;
         report_skip(name, reason);
@@ -97,7 +97,7 @@ impl std::ops::AddAssign for Tally {
 
 /// Runs a test program, prints its counts, and turns them into the exit code.
 ///
-/// Filters that select nothing are no failure: `cargo test NAME` passes its filter to every test
+/// Filters that select nothing are not a failure: `cargo test NAME` passes its filter to every test
 /// program.
 pub fn run_program(name: &str, run: impl FnOnce(&Arguments) -> Result<Tally, String>) -> ExitCode {
     let tally = run(&Arguments::from_env()).unwrap_or_else(|reason| {
@@ -110,10 +110,10 @@ pub fn run_program(name: &str, run: impl FnOnce(&Arguments) -> Result<Tally, Str
     if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// The cases of this run: all with the environment variable `THOROUGH`, else about a tenth.
+/// The cases of this run: all with the environment variable `THOROUGH`, otherwise about a tenth.
 ///
-/// The number in `TEST_SEED` chooses them, or else the day, so that a fault that a change brings in is
-/// found within days. It is printed, so that a failure can be repeated.
+/// The number in `TEST_SEED` chooses them; by default it is the day, so that a fault introduced by
+/// a change is found within days. It is printed, so that a failure can be repeated.
 #[must_use]
 pub fn sample_cases<T>(name: &str, cases: Vec<T>) -> Vec<T> {
     if std::env::var_os("THOROUGH").is_some() {
@@ -135,7 +135,7 @@ pub fn sample_cases<T>(name: &str, cases: Vec<T>) -> Vec<T> {
     chosen
 }
 
-/// A tenth of some items, in which each is as likely as any other.
+/// A tenth of some items, each equally likely.
 fn choose_tenth<T>(seed: u64, items: Vec<T>) -> Vec<T> {
     let is_chosen = |index: u64| {
         // splitmix64
@@ -147,8 +147,8 @@ fn choose_tenth<T>(seed: u64, items: Vec<T>) -> Vec<T> {
     (0..).zip(items).filter(|(index, _)| is_chosen(*index)).map(|(_, item)| item).collect()
 }
 
-/// A folder of test data beside this repository: the one that the environment variable names, else
-/// `../shared/NAME`. `None` if neither exists.
+/// A folder of test data next to this repository: the one that the environment variable names,
+/// otherwise `../shared/NAME`. `None` if neither exists.
 ///
 /// # Errors
 /// If the variable names a folder that does not exist.
@@ -169,7 +169,7 @@ fn choose_folder(
     if folder.is_dir() { Ok(Some(folder)) } else { Err(missing()) }
 }
 
-/// A folder of this process in the system's folder of temporary files, removed when it is dropped.
+/// A folder of this process in the system's temporary folder, removed when dropped.
 #[derive(Debug)]
 pub struct TemporaryFolder {
     path: PathBuf,
@@ -186,7 +186,7 @@ impl TemporaryFolder {
         Ok(Self { path })
     }
 
-    /// Where it is.
+    /// Its path.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
@@ -199,10 +199,10 @@ impl Drop for TemporaryFolder {
     }
 }
 
-/// Applies `work` to the index and the value of every item on two threads; results are in the order
-/// of the items.
+/// Applies `work` to the index and value of every item on two threads; results keep the order of
+/// the items.
 ///
-/// A panic in `work` ends the program: work that may panic catches it itself.
+/// A panic in `work` ends the program: work that may panic must catch it.
 pub fn map_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(usize, &T) -> R + Sync) -> Vec<R> {
     let results: Vec<Mutex<Option<R>>> = items.iter().map(|_| Mutex::new(None)).collect();
     let next = AtomicUsize::new(0);

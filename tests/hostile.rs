@@ -1,9 +1,9 @@
-//! Hostile files, built here and loaded in this process.
+//! Malicious files, built here and loaded in this process.
 //!
-//! Whatever a file contains, loading and checking it return without a panic, in bounded time and
-//! memory; and a model that is returned, from strict or lenient import, keeps every promise of its
-//! documentation. The expected outcome is stated wherever the message matters. Arguments that are
-//! not flags select cases by a part of their name; `--write DIR` writes all files and loads none.
+//! For any content, loading and checking return without a panic, in bounded time and memory. A
+//! returned model, from strict or lenient import, keeps every promise of its documentation. The
+//! expected outcome is stated if the message matters. Arguments that are not flags select cases by
+//! part of their name; `--write DIR` writes all files and loads none.
 
 mod accessors;
 mod animations;
@@ -35,7 +35,7 @@ const MAX_MEMORY_MIB: u64 = 200;
 /// Time limit of a case, generous enough for a busy machine.
 const TIME_LIMIT: Duration = Duration::from_secs(10);
 
-/// The extremes of a run, with the names of their cases.
+/// The extremes of a run, with their case names.
 #[derive(Default)]
 struct Extremes {
     slowest: (Duration, String),
@@ -57,7 +57,7 @@ pub fn run() -> ExitCode {
     })
 }
 
-/// Writes the files of all cases to a folder, as seeds for the fuzzer.
+/// Writes the files for all cases to a folder, as seeds for the fuzzer.
 fn write_files(folder: &Path) -> std::io::Result<usize> {
     let mut count = 0;
     for (group, cases) in case_groups() {
@@ -77,8 +77,8 @@ fn run_groups(folder: &Path, arguments: &Arguments) -> Result<Tally, String> {
             cases().into_iter().filter(|case| arguments.select(&case.name)).collect();
         println!("{group}: {} files", cases.len());
         let all: Vec<usize> = (0..cases.len()).collect();
-        // Reading a file is one path for all of them: in the first tier a tenth is enough. Cases that
-        // are named are run in full.
+        // All cases share one path for reading files: in the first tier a tenth is enough. Cases
+        // selected by name run in full.
         let is_named = !arguments.filters().is_empty();
         let from_files = if is_named { all } else { sample_cases(group, all) };
         for (index, case) in cases.iter().enumerate() {
@@ -145,7 +145,7 @@ impl Extremes {
     }
 }
 
-/// Peak memory of this process in MiB; 0 where the system does not report it.
+/// The peak memory of this process in MiB; 0 if the system does not report it.
 fn peak_memory_mib() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

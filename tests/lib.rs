@@ -1,6 +1,6 @@
-//! Shared by the tests across crates: the [harness] of the table-driven programs, a corpus of
-//! [samples] with its [manifest], small [glTF documents](gltf) and [3MF files](threemf), the path of
-//! the program under test, and a PNG reader.
+//! Shared by the cross-crate tests: the [harness] of the table-driven programs, a corpus of
+//! [samples] with its [manifest], small [glTF documents](gltf) and [3MF files](threemf), the path
+//! of the program under test, and a PNG reader.
 
 #![allow(clippy::print_stdout, reason = "the harness prints for test programs")]
 
@@ -28,11 +28,11 @@ pub fn project_root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
 }
 
-/// The program `alberti`: `$ALBERTI` if that is set, else a fresh build in the profile of the
-/// calling test.
+/// The program `alberti`: `$ALBERTI` if set, otherwise a fresh build in the profile of the calling
+/// test.
 ///
 /// # Errors
-/// If `$ALBERTI` names no file, or if the program does not build.
+/// If `$ALBERTI` does not name a file, or if the program does not build.
 pub fn program_path() -> Result<PathBuf, String> {
     if let Some(path) = std::env::var_os("ALBERTI").map(PathBuf::from) {
         let missing = || format!("ALBERTI names {}, which is not a file", path.display());

@@ -1,11 +1,10 @@
-//! What users see first: every model, bare, in every style, has light and contrast, and its default
-//! picture neither clips nor drowns; ambient occlusion leaves no dots; no style loses a model, and
-//! alpha counts in all of them.
+//! A user's first impression: every bare model has light and contrast in every style, and its
+//! default picture neither clips nor drowns. Ambient occlusion leaves no dots. No style loses a
+//! model, and alpha counts in all styles.
 //!
-//! The models are those of the scenes and, if it exists, those of the folder `$ASSETS` or
-//! `shared/assets` beside the repository. Pictures of scenes do not find such faults, because
-//! scenes have lights of their own. Arguments that are not flags select models by a part of their
-//! name.
+//! Uses the scene models and, if it exists, the folder `$ASSETS` or `shared/assets` next to the
+//! repository. Scene pictures do not reveal such faults, because scenes have their own lights.
+//! Arguments that are not flags select models by part of their name.
 
 mod films;
 mod leaves;
@@ -24,11 +23,11 @@ use std::process::ExitCode;
 
 /// The size of the pictures.
 const SIZE: (u32, u32) = (160, 120);
-/// The greatest share of pixels with code 255 in all channels, in the default picture.
+/// The maximum share of pixels with code 255 in all channels, in the default picture.
 const MAX_WHITE: f64 = 0.02;
-/// The greatest share of pixels below code 5 in all channels, in the default picture.
+/// The maximum share of pixels below code 5 in all channels, in the default picture.
 const MAX_BLACK: f64 = 0.05;
-/// The least difference between dark and bright of a surface that is not flat, in codes.
+/// The minimum difference between dark and bright on a surface that is not flat, in codes.
 const MIN_CONTRAST: u8 = 10;
 
 /// The styles that show the shape of surfaces by light or depth, with their names.
@@ -42,7 +41,7 @@ const SHAPED_STYLES: [(&str, StyleFile); 7] = [
     ("normals", StyleFile::Normals),
 ];
 
-/// Models whose own emission, unlit colors or lines are white, and why.
+/// Models whose own emission, unlit colors or lines are white, and the reason.
 const WHITE_MODELS: [(&str, &str); 13] = [
     ("anisotropy-strength-test", "labels that emit light"),
     ("blender-emission-strength", "spheres that emit light"),
@@ -59,7 +58,7 @@ const WHITE_MODELS: [(&str, &str); 13] = [
     ("primitives", "unlit points and lines"),
 ];
 
-/// Models whose materials are black, and why.
+/// Models whose materials are black, and the reason.
 const BLACK_MODELS: [(&str, &str); 4] = [
     ("black-cube-zerobuffer", "base color 0"),
     ("blender-texture-wrapping", "base color 0"),
@@ -67,7 +66,7 @@ const BLACK_MODELS: [(&str, &str); 4] = [
     ("sphere-with-circle-texture", "base color 0"),
 ];
 
-/// Models without contrast in some styles, and why.
+/// Models without contrast in some styles, and the reason.
 const EVEN_MODELS: [(&str, &str); 2] = [
     ("blender-gpu-instancing", "at this size outlines are wider than its cubes"),
     ("normal-tangent-mirror-test", "plates of one plane"),
@@ -116,8 +115,7 @@ fn judge_models(models: &[PathBuf], arguments: &Arguments) -> Tally {
     tally
 }
 
-/// What is wrong with the pictures of a model; nothing if it cannot be drawn, which is the matter
-/// of other tests.
+/// The faults in a model's pictures; none if it cannot be drawn, which other tests cover.
 fn judge_model(model: &Path) -> Vec<String> {
     let name = model_name(model);
     let mut faults = occlusion::find_dots(model, &name);
@@ -133,10 +131,10 @@ fn judge_model(model: &Path) -> Vec<String> {
     faults
 }
 
-/// What is wrong with the light and the contrast of a model.
+/// The faults in a model's light and contrast.
 fn judge_light(model: &BareModel<'_>, name: &str) -> Vec<String> {
     let mut faults = Vec::new();
-    // A plane has one normal: there is nothing that light could show.
+    // A plane has one normal: light has nothing to show.
     let has_shape = || {
         let normals = model.statistics(&StyleFile::Normals);
         normals.is_ok_and(|normals| normals.contrast >= MIN_CONTRAST)
@@ -182,7 +180,7 @@ struct BareModel<'a> {
 }
 
 impl BareModel<'_> {
-    /// The model's picture in a style, and the scene and the warnings that come with it.
+    /// The model's picture in a style, with its scene and warnings.
     fn render(
         &self,
         style: StyleFile,
@@ -206,12 +204,12 @@ impl BareModel<'_> {
     }
 }
 
-/// Whether a model is in a list.
+/// Whether a list contains a model.
 fn is_exempt(name: &str, list: &[(&str, &str)]) -> bool {
     list.iter().any(|(known, _)| name == *known)
 }
 
-/// The name of a model: that of its file, or of the folder which it is alone in.
+/// The name of a model: its file's, or its folder's if the folder has no other model.
 fn model_name(model: &Path) -> String {
     let folder = model.parent().filter(|folder| !folder.ends_with("scenes/models"));
     let named = folder.map_or_else(|| model.file_stem(), Path::file_name);
@@ -225,7 +223,7 @@ fn list_models(folder: &Path) -> Result<Vec<PathBuf>, String> {
     Ok(files)
 }
 
-/// What is in a folder, by name.
+/// The contents of a folder, by name.
 fn list_folder(folder: &Path) -> Result<Vec<PathBuf>, String> {
     let in_folder = |error: std::io::Error| format!("{}: {error}", folder.display());
     let entries = std::fs::read_dir(folder).map_err(in_folder)?;

@@ -1,7 +1,7 @@
 //! Manifest of a corpus: a table of model files with the facts that tests compare against.
 //!
 //! `MANIFEST.tsv` has one row per file, columns separated by tabs and named in the first row. Only
-//! `path` is required; other columns than those of [`Row`] are ignored.
+//! `path` is required; columns that [`Row`] does not have are ignored.
 
 use std::path::Path;
 
@@ -15,8 +15,8 @@ pub struct Row {
     /// Column `validator_error_codes`: the codes of the errors that the Khronos glTF validator
     /// reports, separated by commas.
     pub validator_errors: Vec<String>,
-    /// Column `expected`: what rendering must do with the file. `drawn`, `blank` (a picture of one
-    /// color), or a part of the reason for which it is refused.
+    /// Column `expected`: the required outcome of rendering the file. `drawn`, `blank` (a picture
+    /// of one color), or part of the reason for its refusal.
     pub expected: Option<String>,
 }
 

@@ -1,12 +1,11 @@
 //! Every mesh of a folder of STL, OBJ, PLY and 3MF files has the triangles and bounds of its
 //! manifest.
 //!
-//! The folder is `$ASSETS` or `shared/assets` beside the repository, or `meshes` in it. Its
-//! `MANIFEST.tsv` begins with a comment (`#`) and says what another reader made of each file: path,
-//! origin, triangles (polygons cut), bounds in the coordinates of the file, and what became of it.
-//! Files that differ are in the table of
-//! [`expected`], with the reason. Arguments that are not flags select files by a part of their
-//! path.
+//! The folder is `$ASSETS` or `shared/assets` next to the repository, or `meshes` in it. Its
+//! `MANIFEST.tsv` begins with a comment (`#`) and lists the findings of another reader for each
+//! file: path, origin, triangles (polygons cut), bounds in file coordinates, and the outcome. Files
+//! that differ are in the table of [`expected`], with the reason. Arguments that are not flags
+//! select files by part of their path.
 
 mod expected;
 
@@ -34,13 +33,13 @@ pub fn run() -> ExitCode {
     })
 }
 
-/// Whether a folder has a manifest of meshes; those of other corpora begin with a heading.
+/// Whether a folder has a mesh manifest; manifests of other corpora begin with a heading.
 fn has_meshes(folder: &Path) -> bool {
     let manifest = std::fs::read_to_string(folder.join("MANIFEST.tsv"));
     manifest.is_ok_and(|text| text.starts_with('#'))
 }
 
-/// A file of the folder with what the manifest says of it.
+/// A file in the folder, with its manifest entry.
 struct Row {
     /// The path below the folder.
     path: String,
@@ -69,7 +68,7 @@ fn read_manifest(folder: &Path) -> Result<Vec<Row>, String> {
     rows.map(parse).collect()
 }
 
-/// Six numbers, the least corner first; `-` for a file without vertices.
+/// Six numbers, the minimum corner first; `-` for a file without vertices.
 #[allow(clippy::option_option, reason = "no numbers, or no bounds")]
 fn parse_bounds(text: &str) -> Option<Option<[f64; 6]>> {
     if text == "-" {
@@ -79,9 +78,9 @@ fn parse_bounds(text: &str) -> Option<Option<[f64; 6]>> {
     Some(Some(numbers.ok()?.try_into().ok()?))
 }
 
-/// Loads a file and compares it with the manifest, or with the table of known differences.
+/// Loads a file and compares it with the manifest or with the table of known differences.
 fn check_file(folder: &Path, row: &Row, known: bool) -> Result<(), String> {
-    // In the coordinates of the file, whatever axis is up.
+    // In the coordinates of the file, for any up axis.
     let options = ImportOptions { up: Some(UpAxis::Y), ..ImportOptions::default() };
     let found = match load(&folder.join(&row.path), &options) {
         Ok(model) => Ok(mesh_facts(&model)),
@@ -103,7 +102,7 @@ fn check_file(folder: &Path, row: &Row, known: bool) -> Result<(), String> {
     }
 }
 
-/// Triangles and bounds of what a model shows.
+/// Triangles and bounds of the visible parts of a model.
 fn mesh_facts(model: &Model) -> MeshFacts {
     let shown = model.scene_primitives().map(|(_, primitive)| primitive);
     let triangles = shown.filter(|primitive| primitive.topology == Topology::Triangles);

@@ -1,12 +1,12 @@
-//! Reference pictures: ours must be equal but for differences that cannot be seen.
+//! Reference pictures: ours must be equal except for invisible differences.
 //!
-//! There are two sets. [`analytic`] computes its own, by ray tracing and the formulas of the
-//! specification. The other was made by three.js: the folder `$REFERENCES`, or `shared/references`
-//! beside the repository, with its models below `$ASSETS` or `shared/assets`. Each `NAME.json`
-//! states the camera, lights and time of `NAME.png`. The real program renders the same scene, the
-//! two pictures are scored, and `NAME.png` in the folder that is printed shows ours, the reference
-//! and the difference side by side. The limits are in `limits.rs`. Arguments that are not flags
-//! select pictures by a part of their name.
+//! There are two sets. [`analytic`] computes one by ray tracing and the formulas of the
+//! specification. The other was made with three.js: the folder `$REFERENCES`, or
+//! `shared/references` next to the repository, with its models below `$ASSETS` or `shared/assets`.
+//! Each `NAME.json` states the camera, lights and time of `NAME.png`. The real program renders the
+//! same scene, and the two pictures are scored. `NAME.png` in the printed folder shows ours, the
+//! reference and the difference side by side. The limits are in `limits.rs`. Arguments that are not
+//! flags select pictures by part of their name.
 
 mod analytic;
 mod limits;
@@ -36,7 +36,7 @@ pub fn run() -> ExitCode {
     })
 }
 
-/// Renders all selected pictures of a folder and prints their scores.
+/// Renders all selected pictures in a folder and prints their scores.
 fn compare_references(
     program: &Path,
     references: &Path,
@@ -62,7 +62,7 @@ fn compare_references(
     Ok(tally)
 }
 
-/// The names of the references in a folder, sorted.
+/// The reference names in a folder, sorted.
 fn reference_names(references: &Path) -> Result<Vec<String>, String> {
     let entries = std::fs::read_dir(references)
         .map_err(|error| format!("{}: {error}", references.display()))?;
@@ -84,8 +84,8 @@ struct Job<'a> {
 }
 
 impl Job<'_> {
-    /// Renders the picture and scores it; the score, its limits and why they are not the default
-    /// ones.
+    /// Renders the picture and scores it; returns the score, its limits, and the reason if they are
+    /// not the default ones.
     fn run(&self) -> Result<(Score, limits::Limits, &'static str), String> {
         let file = |ending: &str| self.references.join(format!("{}.{ending}", self.name));
         let setup = Setup::read_json(&file("json"))?;

@@ -14,16 +14,16 @@ use crate::manifest::{Row, format_manifest};
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// One model of the corpus, in a folder of its own.
+/// One model of the corpus, in a separate folder.
 #[derive(Clone, Debug)]
 pub struct Sample {
     row: Row,
-    /// File names and bytes; the first is the one that the row names.
+    /// File names and bytes; the row names the first file.
     files: Vec<(String, Vec<u8>)>,
 }
 
 impl Sample {
-    /// A valid file that is drawn; `triangles` as they are counted in a manifest.
+    /// A valid file that is drawn; `triangles` as a manifest counts them.
     fn valid(name: &str, file_name: &str, bytes: Vec<u8>, triangles: usize) -> Self {
         let row = Row {
             path: format!("models/{name}/{file_name}"),
@@ -44,13 +44,13 @@ impl Sample {
         Self { row, files: vec![(file_name.to_owned(), bytes)] }
     }
 
-    /// Adds a file that the model names by a URI.
+    /// Adds a file that the model refers to by URI.
     fn beside(mut self, name: &str, bytes: Vec<u8>) -> Self {
         self.files.push((name.to_owned(), bytes));
         self
     }
 
-    /// States another outcome of rendering: `drawn`, `blank`, or a part of the reason of a refusal.
+    /// States a different rendering outcome: `drawn`, `blank`, or part of the reason for a refusal.
     fn expect(mut self, outcome: &str) -> Self {
         self.row.expected = Some(outcome.to_owned());
         self

@@ -1,6 +1,6 @@
-//! JSON documents of the program against the JSON Schemas that are shipped, by a validator of the
-//! draft 2020-12. Commands run over all scenes, models of all formats, broken files and the
-//! explorer; `validate.py` does the rest.
+//! The program's JSON documents against the published JSON Schemas, with a validator for draft
+//! 2020-12. Commands run over all scenes, models in all formats, broken files and the explorer;
+//! `validate.py` does the rest.
 
 mod documents;
 mod server;
@@ -26,7 +26,7 @@ pub fn run() -> ExitCode {
         tally.record("reference --schema nonsense", check_unknown_name(&program));
         tally.record("embedded schemas", check_embedded());
         let documents = collect_documents(&program, arguments, &mut tally)?;
-        // Filters leave some schemas without a document.
+        // Filters leave some schemas without documents.
         if arguments.filters().is_empty() {
             validate_documents(&documents, &mut tally)?;
         }
@@ -38,7 +38,7 @@ fn schema_folder() -> PathBuf {
     project_root().join("docs/schemas")
 }
 
-/// Names and files of all schemas.
+/// All schemas, by name and file.
 fn schema_files() -> Result<Vec<(String, PathBuf)>, String> {
     let folder = schema_folder();
     let entries =
@@ -70,7 +70,7 @@ fn check_printed(program: &Path, name: &str, path: &Path) -> Result<(), String> 
     Ok(())
 }
 
-/// A name that there is not is wrong usage, and the message lists those that there are.
+/// An unknown name is wrong usage, and the message lists the known ones.
 fn check_unknown_name(program: &Path) -> Result<(), String> {
     let output = Command::new(program).args(["reference", "--schema", "nonsense"]).output();
     let output = output.map_err(|error| error.to_string())?;
@@ -80,7 +80,7 @@ fn check_unknown_name(program: &Path) -> Result<(), String> {
     is_right.then_some(()).ok_or_else(|| format!("{}: {said}", output.status))
 }
 
-/// The explanation within the answers of the explorer is the schema of `explain`.
+/// The explanation in the explorer's answers has the schema of `explain`.
 fn check_embedded() -> Result<(), String> {
     let read = |name: &str| read_json(&schema_folder().join(format!("{name}.schema.json")));
     let mut explain = read("explain")?;
@@ -123,7 +123,7 @@ fn collect_documents(
     Ok(documents)
 }
 
-/// Hands all documents to the validator.
+/// Passes all documents to the validator.
 fn validate_documents(documents: &[Document], tally: &mut Tally) -> Result<(), String> {
     let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("schemas/documents.jsonl");
     let lines: String = documents
@@ -153,7 +153,7 @@ fn validate_documents(documents: &[Document], tally: &mut Tally) -> Result<(), S
     Ok(())
 }
 
-/// A Python that has the validator: that of the path, or the system's.
+/// A Python that has the validator: the one in the path, or the system's.
 fn python_with_validator() -> Option<&'static str> {
     let has_validator = |python: &&str| {
         let call = "from jsonschema import Draft202012Validator";

@@ -1,21 +1,21 @@
-//! What a test could not do here, reported where nobody can miss it.
+//! Reports what a test could not do here, where nobody can miss it.
 
 use std::fs::OpenOptions;
 use std::io::Write;
 
 /// Reports a part of a test that cannot run here.
 ///
-/// The line goes to the standard error stream and, if the environment variable `SKIP_LOG` names a
-/// file, to its end: `cargo xtask test` repeats those lines in its summary, even where a harness
-/// captures what a test prints.
+/// The line goes to standard error and, if the environment variable `SKIP_LOG` names a file, to the
+/// end of that file. `cargo xtask test` repeats those lines in its summary, even if a harness
+/// captures the output of a test.
 pub fn report_skip(name: &str, reason: &str) {
-    // A reason may be the output of another program: its first line must do.
+    // A reason may be the output of another program: its first line is enough.
     let reason = reason.lines().next().unwrap_or_default();
     let line = format!("SKIPPED {name}: {reason}\n");
-    // Not `eprint!`, which the harness of Rust's tests captures.
+    // Not `eprint!`, which Rust's test harness captures.
     let _ = std::io::stderr().write_all(line.as_bytes());
     let Some(path) = std::env::var_os("SKIP_LOG") else { return };
     let log = OpenOptions::new().create(true).append(true).open(path);
-    // One call, so that lines of other processes do not come between.
+    // One call, so that lines from other processes do not come between.
     let _ = log.and_then(|mut log| log.write_all(line.as_bytes()));
 }

@@ -1,8 +1,8 @@
-//! Statistics of a picture: what can be wrong with its light, in five numbers.
+//! Picture statistics: five numbers that reveal problems with the light.
 
 use pipeline::Picture;
 
-/// What the covered pixels of a picture look like: those that are at least half opaque.
+/// Statistics of the covered pixels of a picture, which are at least half opaque.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct PictureStatistics {
     /// The share of the picture that is covered, from 0 to 1.
@@ -11,12 +11,12 @@ pub struct PictureStatistics {
     pub white: f64,
     /// The share of covered pixels below code 5 in all channels.
     pub black: f64,
-    /// The mean of their codes, over all channels.
+    /// Their mean code, over all channels.
     pub mean: f64,
-    /// The difference between the code that 5 % of them stay below, and the one that 95 % stay
-    /// below: the greatest of the three channels.
+    /// The difference between two codes: the one that 5 % of the pixels stay below, and the one
+    /// that 95 % stay below. It is the largest of the three channels.
     pub contrast: u8,
-    /// The greatest code of any channel.
+    /// The maximum code in any channel.
     pub brightest: u8,
 }
 

@@ -1,8 +1,7 @@
 //! The table-driven test suites in one program: `suites NAME [FILTER…]` runs one of them.
 //!
-//! Their cases are files that are found at run time, so they do without the harness of Rust's
-//! tests; see `harness.rs` for what they share. They are one program because each would link the
-//! whole engine.
+//! Their cases are files found at run time, so they do not use Rust's test harness; see
+//! `harness.rs` for what they share. They are one program because each would link the whole engine.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a test program prints its results")]
 #![allow(missing_docs, unreachable_pub, reason = "in a program `pub` means: used by another file")]

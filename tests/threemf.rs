@@ -1,6 +1,6 @@
-//! 3MF files of one part, for tests.
+//! One-part 3MF files, for tests.
 
-/// A 3MF file: a zip archive of a model part that is not compressed.
+/// A 3MF file: a zip archive with an uncompressed model part.
 #[must_use]
 pub fn encode_3mf(part: &[u8]) -> Vec<u8> {
     let name = b"3D/3dmodel.model";

@@ -1,8 +1,8 @@
-//! Every format has a thumbnail in a real thumbnail service, by the files that
+//! Every format gets a thumbnail from a real thumbnail service, through the files that
 //! `alberti thumbnailer --install` writes.
 //!
-//! The service is tumbler, of Xfce. It runs on a message bus of its own, without a display, in
-//! folders of the test. Where it is not installed the step is skipped, by name; `.ci/run` installs
+//! The service is tumbler, from Xfce. It runs on a separate message bus, without a display, in
+//! folders of the test. If it is not installed, the step is reported as skipped; `.ci/run` installs
 //! it if it can.
 
 mod samples;
@@ -14,7 +14,7 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-/// The side of the thumbnails that are asked for: `normal` in the specification.
+/// The requested side of the thumbnails: `normal` in the specification.
 const SIDE: &str = "128";
 
 pub fn run() -> ExitCode {
@@ -39,7 +39,7 @@ pub fn run() -> ExitCode {
     })
 }
 
-/// Names what is not installed, with its package in Debian.
+/// Names the missing programs, with their Debian packages.
 fn missing_program() -> Option<String> {
     let names = [
         ("dbus-run-session", "dbus-daemon"),
@@ -54,9 +54,9 @@ fn missing_program() -> Option<String> {
     Some(format!("{name} is not installed (Debian: {package})"))
 }
 
-/// A thumbnail service with folders of its own.
+/// A thumbnail service with separate folders.
 struct ThumbnailService {
-    /// The folder of everything else.
+    /// The folder that contains all others.
     folder: PathBuf,
     /// The program that draws the thumbnails.
     program: PathBuf,
@@ -76,7 +76,7 @@ impl ThumbnailService {
         Ok(service)
     }
 
-    /// Runs a program in the folders of the service; returns what it writes.
+    /// Runs a program in the service's folders; returns its output.
     fn run(&self, command: &mut Command) -> Result<String, String> {
         let path = |name: &str| self.folder.join(name);
         let output = command
@@ -98,7 +98,7 @@ impl ThumbnailService {
     }
 
     /// Asks the service for thumbnails of all files, the broken one first, and waits for them;
-    /// returns the thumbnails by the names of the files.
+    /// returns the thumbnails by file name.
     fn queue_files(&self) -> Result<BTreeMap<String, PathBuf>, String> {
         let names: Vec<&str> = [samples::BROKEN].into_iter().chain(samples::SHOWN).collect();
         let uris = names
@@ -120,7 +120,7 @@ impl ThumbnailService {
         Ok(made)
     }
 
-    /// The thumbnail of a file is the picture that the program makes of it.
+    /// The thumbnail of a file is the picture that the program renders of it.
     fn check_thumbnail(&self, name: &str, made: &BTreeMap<String, PathBuf>) -> Result<(), String> {
         let thumbnail = made.get(name).ok_or("the service made no thumbnail")?;
         let expected = self.folder.join("expected.png");
@@ -146,7 +146,7 @@ impl ThumbnailService {
 }
 
 /// Queues files and types, and ends once there are as many thumbnails as the last argument says, or
-/// after a minute. The service tells only who has asked, which has ended then.
+/// after a minute. The service notifies only the requester, which has ended by then.
 const SESSION: &str = r#"
 name=org.freedesktop.thumbnails.Thumbnailer1
 path=/org/freedesktop/thumbnails/Thumbnailer1
@@ -160,7 +160,7 @@ until [ "$(find "$XDG_CACHE_HOME" -name '*.png' | wc -l)" -ge "$3" ]; do
 done
 "#;
 
-/// The file that a thumbnail belongs to, as the thumbnail itself says.
+/// The file that a thumbnail belongs to, according to the thumbnail itself.
 fn thumbnail_uri(path: &Path) -> Result<String, String> {
     let problem = |error: String| format!("{}: {error}", path.display());
     let file = File::open(path).map_err(|error| problem(error.to_string()))?;

@@ -1,11 +1,11 @@
 //! Exact vectors: one JSON file per topic, computed elsewhere with rational or 50-digit arithmetic.
 //!
 //! The files and their format are in `tests/vectors/data`; `$VECTORS` names another folder. A file
-//! without a runner is a failure, so that none is left out in silence. Arguments that are not flags
-//! select files by a part of their name.
+//! without a runner is a failure, so that none is skipped silently. Arguments that are not flags
+//! select files by part of their name.
 //!
 //! A runner tests one case: `fn(in, out) -> Result<(), String>`, where the error says what differs.
-//! Cases whose exact answer rests on a tie are marked `"fragile": true`: they run, because they
+//! Cases whose exact answer depends on a tie are marked `"fragile": true`: they run, because they
 //! must not panic, but are not compared.
 
 mod chain;
@@ -30,7 +30,7 @@ use std::process::ExitCode;
 /// Tests the output of one case, given its input.
 type Runner = fn(&Value, &Value) -> Result<(), String>;
 
-/// The runners, by the name of their file.
+/// The runners, by file name.
 const RUNNERS: &[&[(&str, Runner)]] = &[
     chain::RUNNERS,
     classical::RUNNERS,
@@ -43,7 +43,7 @@ const RUNNERS: &[&[(&str, Runner)]] = &[
     windows::RUNNERS,
 ];
 
-/// How many failing cases of a file are printed in full.
+/// The number of failing cases in a file that are printed in full.
 const MAX_PRINTED_FAILURES: usize = 5;
 
 pub fn run() -> ExitCode {
@@ -73,7 +73,7 @@ fn run_files(arguments: &Arguments) -> Result<Tally, String> {
     Ok(tally)
 }
 
-/// The JSON files of a folder, sorted by name.
+/// The JSON files in a folder, sorted by name.
 fn vector_files(folder: &Path) -> Result<Vec<PathBuf>, String> {
     let entries =
         std::fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;

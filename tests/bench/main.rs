@@ -1,10 +1,9 @@
-//! How fast what is used in bulk is, against plain loops over glam's matrices.
+//! The speed of bulk operations, against plain loops over glam's matrices.
 //!
-//! `cargo xtask bench [NAME…]` runs it optimised; names choose benchmarks by a part of theirs.
-//! Every benchmark does one job in several ways. The ways take turns, and what is printed is the
-//! time of each as a multiple of the first one's in the same turn: the median of all turns, and
-//! between which bounds eight turns in ten lay. A machine that is busy or slow slows all ways
-//! alike. Nothing is judged.
+//! `cargo xtask bench [NAME…]` runs it optimized; names choose benchmarks by part of their name.
+//! Every benchmark does one job in several ways, which take turns. The output is the time of each
+//! as a multiple of the first one's in the same turn: the median of all turns, and the range that
+//! contains eight turns in ten. A busy or slow machine slows all ways alike. Nothing is judged.
 
 #![allow(clippy::print_stdout, reason = "a program speaks on its standard output")]
 #![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
@@ -18,7 +17,7 @@ mod triangles;
 use measure::Variant;
 use std::process::ExitCode;
 
-/// A job, and the ways to do it: the first is the measure of the others.
+/// A job and the ways to do it; the first is the baseline.
 struct Benchmark {
     name: &'static str,
     about: &'static str,

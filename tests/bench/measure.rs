@@ -1,4 +1,4 @@
-//! Taking times in turns, and telling them as ratios.
+//! Measures times in turns and reports them as ratios.
 
 use std::fmt;
 use std::time::Instant;
@@ -23,7 +23,7 @@ pub struct TimeRatio {
     high: f64,
 }
 
-/// Turns that only warm up caches and branch predictors.
+/// Warm-up turns for caches and branch predictors.
 const WARM_UP: usize = 3;
 const ROUNDS: usize = 101;
 
@@ -41,7 +41,7 @@ pub fn compare_variants(mut ways: Vec<Variant>) -> Vec<TimeRatio> {
     ways.iter().zip(ratios).map(|(way, ratios)| TimeRatio::from_samples(way.name, ratios)).collect()
 }
 
-/// Each turn begins with another way, so that none always follows the same one.
+/// Each turn begins with a different way, so that none always follows the same one.
 fn time_round(ways: &mut [Variant], turn: usize) -> Vec<f64> {
     let mut seconds = vec![0.0; ways.len()];
     for i in 0..ways.len() {

@@ -1,4 +1,4 @@
-//! Outcodes of arrays of points, alone and while projecting.
+//! Outcodes of arrays of points, by themselves and while projecting.
 
 use crate::measure::Variant;
 use crate::scene::{Blocks, model_to_clip, position};
@@ -23,7 +23,7 @@ pub fn project_uncached() -> Vec<Variant> {
     projecting_variants(Blocks::Uncached)
 }
 
-/// Outcode without a library: six comparisons with w.
+/// An outcode without a library: six comparisons with w.
 fn outcode_by_hand(p: DVec4) -> u16 {
     u16::from(p.x < -p.w)
         | u16::from(p.x > p.w) << 1
@@ -73,7 +73,7 @@ fn outcode_variants(blocks: Blocks) -> Vec<Variant> {
     vec![plain, single, bulk]
 }
 
-/// A point, and what became of it.
+/// Points, with their images and outcodes.
 struct Arrays<Q, C> {
     positions: Vec<[f32; 3]>,
     images: Vec<Q>,

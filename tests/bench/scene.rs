@@ -1,27 +1,26 @@
-//! Workload of the benchmarks: a fixed sequence of points in front of a camera.
+//! The workload of the benchmarks: a fixed sequence of points in front of a camera.
 
 use glam::{DMat4, DVec4};
 use homog::{Affine, Clip, Model, Point, Projective, Vector, World};
 
-/// How many points or triangles a way deals with in one turn.
+/// The number of points or triangles that a way processes in one turn.
 pub const POINT_COUNT: usize = 100_000;
 
-/// The points of a turn, as blocks to go through: one small block again and again, which stays in
-/// the nearest cache, or one large block, a different one each turn, which has long left all
-/// caches.
+/// The points of a turn, as blocks to process: one small block again and again, which stays in the
+/// nearest cache, or one large block, a different one each turn, which has long left all caches.
 #[derive(Clone, Copy)]
 pub enum Blocks {
     Cached,
     Uncached,
 }
 
-/// Before a block of 100,000 points is gone through again, 12 turns of every way have gone through
-/// more than 60 MB each.
+/// Before a block of 100,000 points is processed again, 12 turns of every way have processed more
+/// than 60 MB each.
 const LARGE_BLOCKS: usize = 12;
 const SMALL_BLOCK: usize = 1_000;
 
 impl Blocks {
-    /// How many items there are in all.
+    /// The total number of items.
     pub fn total_points(self) -> usize {
         match self {
             Self::Cached => SMALL_BLOCK,
@@ -47,12 +46,12 @@ pub fn coordinate(i: usize) -> f64 {
     golden * 2.0 - 1.0
 }
 
-/// The i-th point of a cube before the camera, of which a corner or two are out of sight.
+/// The i-th point of a cube in front of the camera; a corner or two are out of sight.
 pub fn position(i: usize) -> [f64; 3] {
     [coordinate(3 * i), coordinate(5 * i + 1), coordinate(7 * i + 2)]
 }
 
-/// Turned, scaled and moved: no entry is 0 or 1 by luck.
+/// Rotated, scaled and translated, so that no entry is 0 or 1 by chance.
 pub fn model_to_world() -> Affine<Model, World> {
     Affine::<Model, Model>::rotation_x(0.3)
         .then(Affine::<Model, Model>::rotation_y(0.7))

@@ -19,7 +19,7 @@ impl Mesh {
     }
 }
 
-/// A square of 2 × 224 × 224 triangles, of which the rim of the picture cuts or hides one in ten.
+/// A square of 2 × 224 × 224 triangles; the edge of the picture cuts or hides one in ten.
 fn floor_mesh() -> Mesh {
     const SIDE: usize = 224;
     let at = |i: usize| (i as f64 / SIDE as f64 * 2.0 - 1.0) * 1.05;
@@ -53,8 +53,8 @@ fn border_mesh() -> Mesh {
     Mesh { points, triangles: (0..POINT_COUNT).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect() }
 }
 
-/// Sutherland and Hodgman's loop as a textbook has it: all six planes, one after the other, no
-/// weights and no regard to which way a shared edge runs.
+/// The Sutherland–Hodgman loop as textbooks have it: all six planes, one after the other, no
+/// weights, and no regard for the direction of a shared edge.
 fn clip_as_in_textbooks(triangle: [DVec4; 3], polygon: &mut Polygon) {
     polygon.corners[..3].copy_from_slice(&triangle);
     polygon.count = 3;

@@ -3,7 +3,7 @@
 use crate::book_formulas::name::Name;
 use crate::book_formulas::value::Value;
 
-/// A check line, read.
+/// A parsed check line.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Check {
     /// Counted from 1.
@@ -12,14 +12,14 @@ pub struct Check {
     pub target: Reference,
 }
 
-/// What stands for a name.
+/// The value of a name.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Given {
     Value(Value),
     Reference(Reference),
 }
 
-/// A name of the registry, or an entry of its matrix or column.
+/// A name in the registry, or an entry of its matrix or column.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Reference {
     pub name: String,
@@ -27,7 +27,7 @@ pub struct Reference {
 }
 
 impl Check {
-    /// The names of the registry that it mentions.
+    /// The registry names that it mentions.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         let behind = self.givens.iter().filter_map(|(_, given)| match given {
             Given::Reference(reference) => Some(reference),
@@ -46,7 +46,7 @@ impl Reference {
         Ok(Self { name: name.to_owned(), index })
     }
 
-    /// The entry that the index names, or the whole.
+    /// The entry at the index, or the whole value.
     pub fn select(&self, value: &Value) -> Result<Value, String> {
         let [rows, columns] = value.shape();
         match self.index[..] {
@@ -60,7 +60,7 @@ impl Reference {
     }
 }
 
-/// Reads what follows `% check`.
+/// Parses the text after `% check`.
 pub fn parse_check(text: &str) -> Result<Check, String> {
     let (givens, target) = text.rsplit_once(':').ok_or("a check line is `VAR=VALUE … : NAME`")?;
     let mut words = split_words(givens).into_iter().peekable();
@@ -89,7 +89,7 @@ pub fn parse_check(text: &str) -> Result<Check, String> {
     Ok(Check { row, givens: all, target: Reference::parse(target)? })
 }
 
-/// Words between blanks outside of brackets.
+/// Words separated by blanks outside brackets.
 fn split_words(text: &str) -> Vec<String> {
     let (mut words, mut depth) = (vec![String::new()], 0_i32);
     for letter in text.chars() {
@@ -131,7 +131,7 @@ fn parse_numbers(text: &str) -> Result<Vec<f64>, String> {
     text.split([',', ' ']).filter(|part| !part.is_empty()).map(parse_number).collect()
 }
 
-/// A decimal number or a fraction of two.
+/// A decimal number or a fraction.
 fn parse_number(text: &str) -> Result<f64, String> {
     let decimal = |text: &str| text.parse::<f64>().ok().filter(|number| number.is_finite());
     let number = match text.split_once('/') {

@@ -1,4 +1,4 @@
-//! One formula against its checks, and the proof that the checks bite.
+//! One formula against its checks, and the proof that the checks catch errors.
 
 use crate::book_formulas::check_line::{Check, parse_check};
 use crate::book_formulas::evaluate::evaluate_statement;
@@ -11,12 +11,12 @@ use crate::book_formulas::token::{Token, TokenKind, tokenize};
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// Results differ by at most this part of the largest entry.
+/// Results differ by at most this fraction of the largest entry.
 const TOLERANCE: f64 = 1e-12;
 /// A damaged formula must differ by more than this, so that rounding does not count as noticing.
 const NOTICED: f64 = 1e-9;
 
-/// What is wrong, and on which line of the page.
+/// A fault, and its line on the page.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Fault {
     pub line: usize,
@@ -31,17 +31,17 @@ impl fmt::Display for Fault {
     }
 }
 
-/// What was tested.
+/// Counts of the tested items.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Counts {
     pub numbered: usize,
     pub checks: usize,
     pub damages: usize,
-    /// Names of the registry.
+    /// Names in the registry.
     pub names: BTreeSet<String>,
 }
 
-/// All faults of a formula; counts what it tests.
+/// Finds all faults of a formula and counts the tested items.
 pub fn find_faults(formula: &Formula, counts: &mut Counts) -> Vec<Fault> {
     let fault = |line, message| Fault { line, id: formula.id.clone(), message };
     counts.numbered += usize::from(formula.id.is_some());
@@ -86,7 +86,7 @@ pub fn find_faults(formula: &Formula, counts: &mut Counts) -> Vec<Fault> {
     faults
 }
 
-/// What only all checks of a row together can tell.
+/// Faults that only all checks of a row together reveal.
 fn test_row(
     row: &Statement,
     number: usize,
@@ -96,7 +96,7 @@ fn test_row(
     if checks.is_empty() {
         return vec![format!("row {number} has no check")];
     }
-    // The left side of an equation takes part if all of its names have values.
+    // The left side of an equation takes part if all its names have values.
     let has_left_side = checks.iter().all(|check| evaluate_statement(row, check).is_ok());
     let row = if has_left_side { row.clone() } else { row.without_left_side() };
     for check in checks {
@@ -110,7 +110,7 @@ fn test_row(
     damage_row(&row, checks, counts)
 }
 
-/// The part before the suffix is that of a name in the registry.
+/// Whether the part before the suffix belongs to a name in the registry.
 fn is_known_id(id: &str) -> bool {
     let family = |name| str::split(name, '.').next().unwrap_or_default().to_owned();
     all_entries().any(|entry| family(entry.name) == family(id))
@@ -148,7 +148,8 @@ fn compare(row: &Statement, check: &PreparedCheck) -> Result<(), String> {
     Ok(())
 }
 
-/// Changes each number, sign, letter and angle function of a row, one at a time: some check must notice.
+/// Changes each number, sign, letter and angle function of a row, one at a time; some check must
+/// notice.
 fn damage_row(row: &Statement, checks: &[PreparedCheck], counts: &mut Counts) -> Vec<String> {
     let mut letters: Vec<TokenKind> = Vec::new();
     for token in row.members().iter().flatten().filter(|token| is_letter(&token.kind)) {
@@ -172,7 +173,7 @@ fn damage_row(row: &Statement, checks: &[PreparedCheck], counts: &mut Counts) ->
     unnoticed
 }
 
-/// Another number, the other sign, another angle function, each other letter of the row.
+/// A different number, sign or angle function, or each of the other letters in the row.
 fn damage(kind: &TokenKind, letters: &[TokenKind]) -> Vec<TokenKind> {
     match kind {
         TokenKind::Number(number) => vec![TokenKind::Number(number + 1.0)],
@@ -300,7 +301,7 @@ mod tests {
 
     #[test]
     fn checks_that_do_not_bite_are_faults() {
-        // Where x = a, nothing is seen of the factor.
+        // Where x = a, the factor has no effect.
         let line =
             "LI-1\ny = c + 2 (x - a) \\frac{d - c}{2 (b - a)}\n% check x=2 a=2 b=5 c=3 d=7 : LI-1";
         let blind = faults(line);

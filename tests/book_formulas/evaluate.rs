@@ -70,7 +70,7 @@ pub fn evaluate(expression: &Expression, scope: &dyn Scope) -> Result<Value, Str
     if value.is_finite() { Ok(value) } else { Err("a value is not finite".to_owned()) }
 }
 
-/// In the body of a sum: subscripts with the index have its number.
+/// In the body of a sum, subscripts that contain the index get its number.
 struct IndexedScope<'a> {
     outer: &'a dyn Scope,
     index: &'a str,
@@ -83,7 +83,7 @@ impl Scope for IndexedScope<'_> {
     }
 }
 
-/// A row of blocks after the other.
+/// One row of blocks after the other.
 fn assemble(rows: &[Vec<Expression>], scope: &dyn Scope) -> Result<Value, String> {
     let rows = rows.iter().map(|row| {
         let blocks = row.iter().map(|entry| evaluate(entry, scope));

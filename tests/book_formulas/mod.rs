@@ -1,9 +1,10 @@
 //! The numbered formulas of the book against the crates.
 //!
-//! A formula of the book is LaTeX with an id and `% check` lines, which say for which values it must
-//! agree with which public function: `% check n=-2 f=-5 : PE-1`. The LaTeX itself is evaluated, so
-//! what is printed is what is tested. Then each number, sign and letter of the formula is changed,
-//! one at a time, and a change that no check notices is a fault, too: a misprint there would pass.
+//! A formula of the book is LaTeX with an id and `% check` lines. They give the values for which it
+//! must agree with a public function: `% check n=-2 f=-5 : PE-1`. The LaTeX itself is evaluated, so
+//! the printed formula is the tested one. Then each number, sign and letter of the formula is
+//! changed, one at a time. A change that no check notices is a fault, too: a misprint there would
+//! pass.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "what cannot be read fails the test")]
 
@@ -27,7 +28,7 @@ use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
 
-/// `$BOOK`, a folder of pages, or the book of this repository; `None` while there is no book.
+/// `$BOOK`, a folder of pages, or the book in this repository; `None` if there is no book.
 fn book_folder() -> Option<PathBuf> {
     if let Some(folder) = std::env::var_os("BOOK") {
         return Some(folder.into());
@@ -36,7 +37,7 @@ fn book_folder() -> Option<PathBuf> {
     folder.is_dir().then_some(folder)
 }
 
-/// Prints a line that is seen when the test passes.
+/// Prints a line that is visible even if the test passes.
 fn print_uncaptured(line: &str) {
     std::io::stdout().write_all(format!("\n{line}\n").as_bytes()).unwrap();
 }
@@ -64,7 +65,7 @@ fn formulas_of_the_book_agree_with_the_crates() {
     print_uncaptured(&format!(
         "{numbered} numbered formulas, {checks} checks, {damages} damages to them"
     ));
-    // A name that no page uses is tested by nothing. Other pages need not use all.
+    // A name that no page uses tests nothing. Other books need not use all names.
     if std::env::var_os("BOOK").is_none() {
         let unused = registry::all_entries().filter(|entry| !names.contains(entry.name));
         faults.extend(unused.map(|entry| format!("registry: no check uses {}", entry.name)));

@@ -1,15 +1,15 @@
-//! Names of variables: `x_e`, `M_{per}`, `z'`, `\theta`, `\mathbf{t}`.
+//! Variable names: `x_e`, `M_{per}`, `z'`, `\theta`, `\mathbf{t}`.
 
 use std::fmt;
 
-/// A name in the form in which two spellings of one variable are equal.
+/// A name in normalized form: two spellings of one variable are equal.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct Name {
     /// Vectors are bold: the view-up vector **t** is not the top t of a window.
     pub is_bold: bool,
     /// A letter, a Greek letter's name or a word.
     pub base: String,
-    /// The letters and numbers of the subscript.
+    /// The letters and digits of the subscript.
     pub subscript: Vec<String>,
     pub primes: usize,
 }
@@ -34,7 +34,7 @@ impl Name {
         Self { is_bold: true, ..Self::plain(text) }
     }
 
-    /// As a check line or the registry writes it: `n_x`, `\theta`, `\mathbf{p}_n`.
+    /// The form in check lines and in the registry: `n_x`, `\theta`, `\mathbf{p}_n`.
     pub fn parse(text: &str) -> Self {
         let text = &text.replace("\\mathrm", "");
         let opening = ["\\mathbf{", "\\boldsymbol{", "\\vec{"].iter();
@@ -49,13 +49,13 @@ impl Name {
         Self { is_bold: true, ..self.clone() }
     }
 
-    /// The name with a number for the index of a sum.
+    /// The name with a number in place of the index of a sum.
     pub fn with_index(&self, index: &str, number: usize) -> Self {
         let replace = |part: &String| if part == index { number.to_string() } else { part.clone() };
         Self { subscript: self.subscript.iter().map(replace).collect(), ..self.clone() }
     }
 
-    /// The key under which values are found: subscripts joined.
+    /// The key for looking up values: subscripts are joined.
     pub fn key(&self) -> Self {
         let joined = self.subscript.concat();
         let subscript = Some(joined).filter(|text| !text.is_empty()).into_iter().collect();

@@ -1,4 +1,4 @@
-//! Names of variables in LaTeX: letters, accents, subscripts, primes.
+//! Parses LaTeX variable names: letters, accents, subscripts, primes.
 
 use crate::book_formulas::name::Name;
 use crate::book_formulas::parser::{Parser, describe};

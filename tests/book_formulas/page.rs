@@ -5,26 +5,26 @@
 pub struct Formula {
     /// The line of the fence, counted from 1.
     pub line: usize,
-    /// `PE-1`, if it is numbered.
+    /// The id, such as `PE-1`, if it is numbered.
     pub id: Option<String>,
     /// The block without its comments; line breaks are kept, so that lines can be counted.
     pub latex: String,
     pub checks: Vec<CheckText>,
 }
 
-/// What follows `% check`.
+/// The text after `% check`.
 #[derive(Clone, PartialEq, Debug)]
 pub struct CheckText {
     pub line: usize,
     pub text: String,
 }
 
-/// All formulas of a page in Markdown.
+/// All formulas on a page in Markdown.
 pub fn find_formulas(markdown: &str) -> Vec<Formula> {
     let mut formulas: Vec<Formula> = Vec::new();
     let mut fence: Option<Fence> = None;
     for (index, line) in markdown.lines().enumerate() {
-        // A fence may stand in a list or in a quotation.
+        // A fence may be inside a list or a quotation.
         let text = line.trim_start_matches([' ', '>']);
         match &fence {
             None => {

@@ -1,8 +1,8 @@
-//! Expressions of LaTeX.
+//! Parses LaTeX expressions.
 //!
-//! Sums of products of factors; neighboring factors are a product. A function takes one factor, with
-//! a number before it if there is one: `\sin 2\theta`. After `a/b` no factor may follow without a
-//! sign, because readers do not agree on what it means.
+//! An expression is a sum of products of factors; adjacent factors are multiplied. A function takes
+//! one factor, with a number before it if there is one: `\sin 2\theta`. After `a/b` no factor may
+//! follow without a sign, because readers disagree on its meaning.
 
 use crate::book_formulas::expression::{Expression, Function, ProductSign};
 use crate::book_formulas::name_parser;
@@ -10,7 +10,7 @@ use crate::book_formulas::token::{Token, TokenKind};
 
 type Parsed = Result<Expression, String>;
 
-/// The expression that all tokens make up.
+/// The expression formed by all tokens.
 pub fn parse_expression(tokens: &[Token]) -> Parsed {
     let mut parser = Parser { tokens, at: 0, closing_bars: Vec::new() };
     let expression = parser.sum()?;
@@ -23,11 +23,11 @@ pub fn parse_expression(tokens: &[Token]) -> Parsed {
 pub struct Parser<'a> {
     pub tokens: &'a [Token],
     pub at: usize,
-    /// Bars that are open: in `|a b|` the second bar closes.
+    /// Open bars: in `|a b|` the second bar closes.
     closing_bars: Vec<TokenKind>,
 }
 
-/// A token as an error message shows it.
+/// A token as error messages show it.
 pub fn describe(token: &Token) -> String {
     match &token.kind {
         TokenKind::Number(number) => format!("`{number}`"),
@@ -117,7 +117,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A factor after a sign of a product, which may be negative.
+    /// A factor after a multiplication sign, which may be negative.
     fn signed_factor(&mut self) -> Parsed {
         if self.take('-') {
             return Ok(Expression::Negative(self.factor()?.into()));
@@ -154,7 +154,7 @@ impl Parser<'_> {
         Ok(Expression::Power(base.into(), self.argument()?.into()))
     }
 
-    /// `T`, `\top`, `\mathsf{T}`, in braces or not.
+    /// `T`, `\top`, `\mathsf{T}`, with or without braces.
     fn takes_transpose(&mut self) -> bool {
         if self.take('{') {
             return self.takes_transpose() && self.take('}');

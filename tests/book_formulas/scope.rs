@@ -1,4 +1,4 @@
-//! A check line with its values: what the names of a formula mean, and what the crates answer.
+//! A check line with its values: the meaning of a formula's names, and the crates' answers.
 
 use crate::book_formulas::check_line::{Check, Given, Reference};
 use crate::book_formulas::evaluate::Scope;
@@ -61,7 +61,7 @@ impl PreparedCheck {
         Ok(prepared)
     }
 
-    /// Each value belongs to the entry or to one behind a name.
+    /// Checks that each value belongs to the entry or to an entry behind a name.
     fn check_givens(&self, entry: &Entry) -> Result<(), String> {
         let takes = |entry: &Entry, name: &Name| Inputs::takes(entry.variables, name);
         for name in self.values.keys().filter(|name| !self.behind.contains_key(*name)) {
@@ -75,7 +75,7 @@ impl PreparedCheck {
         Ok(())
     }
 
-    /// A name with a value that the formula has not used, once it has been evaluated.
+    /// A name whose value the formula has not used, after it has been evaluated.
     pub fn unused_name(&self) -> Option<&Name> {
         let used = self.used.borrow();
         let uses_extras = self.extras.keys().any(|name| used.contains(name));
@@ -97,7 +97,7 @@ fn answer(entry: &Entry, values: &BTreeMap<Name, Value>) -> Result<Value, String
 }
 
 impl Scope for PreparedCheck {
-    /// A plain letter also finds a bold value; a bold one finds a plain matrix, but no number.
+    /// A plain letter also finds a bold value; a bold one finds a plain matrix, but not a number.
     fn value_of(&self, name: &Name) -> Result<Value, String> {
         let key = name.key();
         let other = Name { is_bold: !key.is_bold, ..key.clone() };

@@ -5,12 +5,11 @@ use crate::book_formulas::token::Token;
 /// One row of a formula.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Statement {
-    /// The members of an equation, or the whole of a row without relations. Each has the value that
-    /// is checked; but the first member may be the left side, which is a mere name in most
-    /// equations.
+    /// The members of an equation, or the whole row if it has no relation. Each has the checked
+    /// value, except that the first may be the left side, which is a mere name in most equations.
     Values { members: Vec<Vec<Token>>, has_left_side: bool },
-    /// Members with `true` between them for ≤, `false` for ≥. The value is by how much each relation
-    /// is fulfilled: the larger side minus the smaller one.
+    /// Members with `true` between them for ≤, `false` for ≥. The value is the margin of each
+    /// relation: the larger side minus the smaller one.
     Inequality(Vec<Vec<Token>>, Vec<bool>),
 }
 
@@ -31,7 +30,7 @@ impl Statement {
         }
     }
 
-    /// The same with another token in one place.
+    /// A copy with one token replaced.
     pub fn with_token(&self, member: usize, at: usize, token: Token) -> Self {
         let mut changed = self.clone();
         match &mut changed {
@@ -43,14 +42,14 @@ impl Statement {
     }
 }
 
-/// The rows of `\begin{aligned}`, or the one row of another formula.
+/// The rows of `\begin{aligned}`, or the only row of any other formula.
 pub fn split_rows(tokens: &[Token]) -> Result<Vec<Statement>, String> {
     let rows = split_at(strip_environment(tokens), |token| token.is_command("\\"));
     let rows = rows.iter().map(|(row, _)| trim_row(row));
     rows.filter(|row| !row.is_empty()).map(|row| split_members(&row)).collect()
 }
 
-/// What is between `\begin{aligned}` and its end.
+/// The tokens between `\begin{aligned}` and its end.
 fn strip_environment(tokens: &[Token]) -> &[Token] {
     let word = |tokens: &[Token]| {
         tokens
@@ -74,7 +73,7 @@ fn strip_environment(tokens: &[Token]) -> &[Token] {
     }
 }
 
-/// Without marks of alignment, and without the stop at the end.
+/// Without alignment marks, and without the final period.
 fn trim_row(row: &[Token]) -> Vec<Token> {
     let mut depth = 0_i32;
     let mut kept = Vec::new();
@@ -101,7 +100,7 @@ fn depth_change(token: &Token) -> i32 {
     }
 }
 
-/// The parts between separators outside of brackets, each with the separator after it.
+/// The parts between separators outside brackets, each with the separator after it.
 fn split_at(
     tokens: &[Token],
     is_separator: impl Fn(&Token) -> bool,
@@ -124,7 +123,7 @@ fn is_equality(token: &Token) -> bool {
     token.is_symbol('=') || commands.iter().any(|name| token.is_command(name))
 }
 
-/// Left of an arrow stands what is mapped.
+/// Left of an arrow is the mapped expression.
 fn is_assignment(token: &Token) -> bool {
     let is_equation = ["approx", "equiv"].iter().any(|name| token.is_command(name));
     is_equality(token) && !token.is_symbol('=') && !is_equation

@@ -1,6 +1,6 @@
-//! Tokens of LaTeX.
+//! LaTeX tokens.
 
-/// One token and the line of the block on which it stands, counted from 0.
+/// A token and its line in the block, counted from 0.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Token {
     pub kind: TokenKind,
@@ -13,7 +13,7 @@ pub enum TokenKind {
     Letter(char),
     /// `\frac` without its backslash; `\\` is the command `\`.
     Command(String),
-    /// A sign, a bracket, an accent.
+    /// A sign, bracket or accent.
     Symbol(char),
 }
 
@@ -27,7 +27,7 @@ impl Token {
     }
 }
 
-/// Commands and symbols of layout, which mean nothing.
+/// Layout commands and symbols, which have no meaning.
 const LAYOUT: [&str; 19] = [
     ",",
     ";",
@@ -52,7 +52,7 @@ const LAYOUT: [&str; 19] = [
 
 const SYMBOLS: &str = "+-*/^_()[]{}|,.&=<>:'";
 
-/// The tokens of a block without those of layout; an error is a line and a message.
+/// The tokens of a block without its layout; an error is a line and a message.
 pub fn tokenize(latex: &str) -> Result<Vec<Token>, (usize, String)> {
     let mut tokens = Vec::new();
     for (line, text) in latex.lines().enumerate() {
@@ -98,11 +98,11 @@ fn read_command(text: &str) -> (Option<TokenKind>, usize) {
     let length = 1 + letters.max(text[1..].chars().next().map_or(0, char::len_utf8).min(1));
     let name = text.get(1..length).unwrap_or_default();
     if LAYOUT.contains(&name) {
-        // `\left.` has a bracket that is not seen.
+        // `\left.` is an invisible bracket.
         let dot = matches!(name, "left" | "right") && text[length..].starts_with('.');
         return (None, length + usize::from(dot));
     }
-    // `\\[4pt]` is a new row with a distance.
+    // `\\[4pt]` starts a new row after some space.
     let distance = text[length..].strip_prefix('[').and_then(|rest| rest.split_once(']'));
     let distance = distance.filter(|(inner, _)| name == "\\" && inner.ends_with(['t', 'm', 'x']));
     let length = length + distance.map_or(0, |(inner, _)| inner.len() + 2);

@@ -7,7 +7,7 @@ use std::fmt;
 pub struct Value {
     rows: usize,
     columns: usize,
-    /// Row by row.
+    /// The entries, row by row.
     entries: Vec<f64>,
 }
 
@@ -20,7 +20,7 @@ impl Value {
         Self { rows: entries.len(), columns: 1, entries: entries.to_vec() }
     }
 
-    /// The rows must be of one length.
+    /// The rows must have the same length.
     pub fn matrix<const R: usize, const C: usize>(rows: [[f64; C]; R]) -> Self {
         Self { rows: R, columns: C, entries: rows.concat() }
     }
@@ -124,7 +124,7 @@ impl Value {
         }
     }
 
-    /// `\cdot`: of two columns the dot product.
+    /// `\cdot`: for two columns, the dot product.
     pub fn dot(&self, other: &Self) -> Result<Self, String> {
         if self.is_column() && other.is_column() {
             return self.transpose().times(other);
@@ -132,7 +132,7 @@ impl Value {
         self.times(other)
     }
 
-    /// `\times`: of two columns the cross product.
+    /// `\times`: for two columns, the cross product.
     pub fn cross(&self, other: &Self) -> Result<Self, String> {
         if !self.is_column() || !other.is_column() {
             return self.times(other);
@@ -228,12 +228,12 @@ impl Value {
         }
     }
 
-    /// Blocks beside each other.
+    /// Blocks side by side.
     pub fn beside(&self, right: &Self) -> Result<Self, String> {
         Ok(self.transpose().above(&right.transpose())?.transpose())
     }
 
-    /// Blocks below each other.
+    /// Blocks one below the other.
     pub fn above(&self, below: &Self) -> Result<Self, String> {
         if self.columns != below.columns {
             return Err(format!("{} over {} in a matrix", self.describe(), below.describe()));

@@ -41,7 +41,7 @@ const STRICTER: &[(&str, &str, &str)] = &[
     ),
 ];
 
-/// Files with an error of the validator that the check does not report, its code and the reason.
+/// Files with a validator error that the check does not report, its code and the reason.
 const MILDER: &[(&str, &str, &str)] = &[
     (
         "Test/mesh-invalid.gltf",
@@ -77,7 +77,7 @@ fn concerns_whole_file(code: &str) -> bool {
     code.starts_with("GLB_") || ["INVALID_JSON", "NOT_GLTF", "TYPE_MISMATCH"].contains(&code)
 }
 
-/// How a report differs from the errors that the validator lists.
+/// The differences between a report and the errors that the validator lists.
 pub fn difference_from_validator(
     row: &Row,
     report: &CheckReport,

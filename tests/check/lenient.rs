@@ -1,5 +1,5 @@
-//! Lenient import of broken files: it loads every file that strict import loads, and more, each
-//! with a warning.
+//! Lenient import of broken files: it loads every file that strict import loads, and more, each of
+//! those with a warning.
 
 use alberti_tests::harness::Tally;
 use alberti_tests::manifest::Row;

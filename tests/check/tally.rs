@@ -1,14 +1,14 @@
-//! Agreement of check and validator, code by code.
+//! Agreement between the check and the validator, code by code.
 
 use alberti_tests::manifest::Row;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Counts of files per error code and in all.
+/// File counts per error code and in total.
 #[derive(Default)]
 pub struct CodeTally<'a> {
-    /// Files in which both find the code, only the validator, only the check.
+    /// Files in which both find the code, only the validator, or only the check.
     codes: BTreeMap<&'a str, [usize; 3]>,
-    /// Files with equal sets of codes, with more found by the check, with some missing.
+    /// Files with equal sets of codes, with more found by the check, or with some missing.
     files: [usize; 3],
 }
 

@@ -1,4 +1,4 @@
-//! A run of `alberti batch`: by one process, or as an array job of Slurm.
+//! A run of `alberti batch`: in one process, or as a Slurm array job.
 
 use crate::cluster::run_command;
 use crate::cluster::slurm::{Cluster, LONGEST_WAIT, create_folder};
@@ -7,14 +7,14 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-/// Flags of every run. The picture is large enough for the run to outlast its disturbances.
+/// Flags of every run. The picture is large enough that the run outlasts its disturbances.
 const FLAGS: [&str; 6] = ["--size", "1024x768", "--job-seconds", "6", "--job-memory", "1GiB"];
 /// Twelve shards, of which at most three run at a time.
 const ARRAY: &str = "--array=0-11%3";
 
-/// A run, with an output folder of its own.
+/// A run with a separate output folder.
 pub struct BatchRun {
-    /// The folder of the test, with the list of jobs.
+    /// The test folder, with the list of jobs.
     folder: PathBuf,
     /// The name of the run and of its output folder.
     name: String,
@@ -23,17 +23,17 @@ pub struct BatchRun {
 }
 
 impl BatchRun {
-    /// A run of the list of jobs below a folder.
+    /// A run of the job list in a folder.
     pub fn new(folder: &Path, name: &str, program: &Path) -> Self {
         Self { folder: folder.to_owned(), name: name.to_owned(), program: program.to_owned() }
     }
 
-    /// Where the pictures and reports are.
+    /// The folder of pictures and reports.
     pub fn out_dir(&self) -> PathBuf {
         self.folder.join(&self.name)
     }
 
-    /// The arguments that all commands of the run have in common.
+    /// The arguments that all commands of the run share.
     fn arguments(&self) -> Vec<String> {
         let path = |name: &str| self.folder.join(name).display().to_string();
         let own =
@@ -58,14 +58,14 @@ impl BatchRun {
         run_batch(self.batch().arg("--merge"), &[0, 1])
     }
 
-    /// What the program says of the pictures on its standard output, with its exit code.
+    /// The program's report about the pictures on its standard output, with its exit code.
     pub fn verify(&self) -> Result<(i32, String), String> {
         let output = self.batch().arg("--verify").output().map_err(|error| error.to_string())?;
         let code = output.status.code().ok_or("alberti batch --verify was killed")?;
         Ok((code, String::from_utf8_lossy(&output.stdout).into_owned()))
     }
 
-    /// Submits the array job, by the script that people are given.
+    /// Submits the array job with the published script.
     pub fn submit(&self, cluster: &Cluster) -> Result<Submitted, String> {
         let logs = self.folder.join("logs");
         create_folder(&logs)?;
@@ -79,7 +79,7 @@ impl BatchRun {
     }
 }
 
-/// Runs the program; some models fail, which is exit code 1.
+/// Runs the program; some models fail, so the exit code is 1.
 fn run_batch(batch: &mut Command, codes: &[i32]) -> Result<(), String> {
     let output = batch.output().map_err(|error| format!("alberti: {error}"))?;
     if output.status.code().is_some_and(|code| codes.contains(&code)) {
@@ -98,12 +98,12 @@ pub struct Submitted {
 }
 
 impl Submitted {
-    /// Waits for the end of the job; returns the time since it was submitted.
+    /// Waits for the job to end; returns the time since it was submitted.
     pub fn wait(&self, cluster: &Cluster) -> Result<Duration, String> {
         self.wait_until(cluster, || false)?.ok_or_else(|| "the job did not end".to_owned())
     }
 
-    /// Waits until something is so, or the job ends; returns the time of the job if it ended.
+    /// Waits until a condition holds or the job ends; returns the job's time if it ended.
     pub fn wait_until(
         &self,
         cluster: &Cluster,

@@ -1,4 +1,4 @@
-//! What must hold after a run.
+//! Conditions that must hold after a run.
 
 use crate::cluster::batch_run::BatchRun;
 use crate::cluster::models::Jobs;
@@ -10,16 +10,16 @@ use std::os::unix::fs::MetadataExt as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// What a run of all jobs leaves.
+/// The expected results of a run of all jobs.
 pub struct Expected {
-    /// The pictures by their names.
+    /// The pictures by name.
     pub pictures: Pictures,
-    /// The output names of the jobs that fail, with a part of their messages.
+    /// The output names for the jobs that fail, with part of their messages.
     pub failed: BTreeMap<String, &'static str>,
 }
 
-/// The pictures of the run by a single process, which must be there and of those jobs alone that are
-/// good.
+/// The pictures from the run in a single process. There must be one for every good job, and no
+/// others.
 pub fn read_pictures(run: &BatchRun, jobs: &Jobs) -> Result<Expected, String> {
     let read = |name: &String| {
         let path = run.out_dir().join(name);
@@ -33,7 +33,7 @@ pub fn read_pictures(run: &BatchRun, jobs: &Jobs) -> Result<Expected, String> {
     Ok(expected)
 }
 
-/// The pictures are there, with the bytes of the single process, and no others.
+/// The pictures match the bytes of the single process, and there are no others.
 pub fn check_pictures(run: &BatchRun, expected: &Expected) -> Result<(), String> {
     let mut found = Snapshot::of(run)?.pictures;
     for (name, bytes) in &expected.pictures {
@@ -51,7 +51,7 @@ pub fn check_pictures(run: &BatchRun, expected: &Expected) -> Result<(), String>
     }
 }
 
-/// No picture was drawn more than twice, and none was ever seen in part.
+/// No picture was drawn more than twice, and none was ever seen incomplete.
 pub fn check_draws(seen: &Seen, run: &BatchRun) -> Result<(), String> {
     if let Some(fault) = seen.faults.first() {
         return Err(format!("{fault}, and {} more faults", seen.faults.len() - 1));
@@ -96,7 +96,7 @@ pub fn check_records(run: &BatchRun, expected: &Expected) -> Result<(), String> 
     Err(format!("{missing} good jobs have no record; without one that failed: {failed:?}"))
 }
 
-/// `--verify` names the failed jobs, and nothing else.
+/// `--verify` names exactly the failed jobs.
 pub fn check_verdict((code, text): &(i32, String), expected: &Expected) -> Result<(), String> {
     println!("{}", text.trim_end());
     let named = |name: &String| text.lines().filter(|line| line.contains(name.as_str())).count();
@@ -110,8 +110,8 @@ pub fn check_verdict((code, text): &(i32, String), expected: &Expected) -> Resul
 
 /// The disturbed run took little longer than the undisturbed one.
 ///
-/// The nodes share the processors of this machine, so that those that are left do the work of the
-/// others as fast.
+/// The nodes share the processors of this machine, so the remaining ones do the work of the others
+/// just as fast.
 pub fn check_time(time: Duration, undisturbed: Duration) -> Result<(), String> {
     let limit = undisturbed.mul_f64(1.15) + NODE_LOSS;
     let (time, limit) = (time.as_secs_f64(), limit.as_secs_f64());
@@ -125,16 +125,16 @@ pub fn check_time(time: Duration, undisturbed: Duration) -> Result<(), String> {
     ))
 }
 
-/// The pictures and records of a run at one time.
+/// The pictures and records of a run at one moment.
 pub struct Snapshot {
-    /// Inode and time of change of each picture.
+    /// Inode and modification time of each picture.
     pictures: BTreeMap<PathBuf, (u64, i64, i64)>,
     /// The number of records.
     records: usize,
 }
 
 impl Snapshot {
-    /// How it is now.
+    /// The current state.
     pub fn of(run: &BatchRun) -> Result<Self, String> {
         let state = |path: PathBuf| {
             let data = path.metadata().map_err(|error| format!("{}: {error}", path.display()))?;
@@ -149,7 +149,7 @@ impl Snapshot {
         Ok(Self { pictures, records })
     }
 
-    /// Nothing was drawn or recorded since.
+    /// Nothing has been drawn or recorded since.
     pub fn check_unchanged(&self, run: &BatchRun) -> Result<(), String> {
         let now = Self::of(run)?;
         let redrawn = now
@@ -166,7 +166,7 @@ impl Snapshot {
     }
 }
 
-/// The files of a folder by their extension; none if there is no folder.
+/// The files in a folder that have an extension; none if there is no folder.
 fn files_below(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, String> {
     let entries = std::fs::read_dir(folder).into_iter().flatten();
     let paths: Result<Vec<PathBuf>, _> = entries.map(|entry| Ok(entry?.path())).collect();
@@ -177,7 +177,7 @@ fn files_below(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, String> {
     Ok(paths)
 }
 
-/// The records of a report. The last line of a killed process may be cut off.
+/// The records of a report. The last line of a killed process may be incomplete.
 fn read_records(path: &Path) -> Result<Vec<Value>, String> {
     let text = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
     let lines = text.split(|byte| *byte == b'\n');

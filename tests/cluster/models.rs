@@ -1,5 +1,5 @@
-//! The models of the test: 300 good ones, three broken ones, one that takes minutes, one that wants
-//! 8 GB.
+//! The test models: 300 good ones, three broken ones, one that takes minutes, and one that needs 8
+//! GB.
 
 use crate::cluster::slurm::{create_folder, write_file};
 use alberti_tests::gltf::{Document, float_bytes};
@@ -7,25 +7,25 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// How many models can be drawn.
+/// The number of models that can be drawn.
 const GOOD: usize = 300;
 /// Vertices around a torus, and around its tube.
 const RINGS: u16 = 48;
 const SIDES: u16 = 24;
 /// Translucent layers of the model that takes minutes.
 const LAYERS: usize = 8_000;
-/// Points of the model that wants memory: 12 bytes each.
+/// Points of the model that needs much memory: 12 bytes each.
 const POINTS: usize = 700_000_000;
 
-/// The jobs by the names of their pictures.
+/// The jobs, by picture name.
 pub struct Jobs {
-    /// Those that can be drawn.
+    /// The jobs that can be drawn.
     pub good: Vec<String>,
-    /// Those that fail, with a part of the message.
+    /// The jobs that fail, with part of the message.
     pub bad: BTreeMap<String, &'static str>,
 }
 
-/// Writes the models and `jobs.jsonl` into a folder. The bad ones are spread among the good.
+/// Writes the models and `jobs.jsonl` into a folder. The bad models are spread among the good ones.
 pub fn write_models(folder: &Path) -> Result<Jobs, String> {
     let models = folder.join("models");
     create_folder(&models)?;
@@ -68,7 +68,7 @@ fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), String> {
 struct BadModel {
     name: &'static str,
     content: Vec<u8>,
-    /// A part of the message of its record.
+    /// Part of the message in its record.
     reason: &'static str,
     /// Members of its line.
     flags: &'static [(&'static str, &'static str)],
@@ -87,7 +87,8 @@ fn bad_models() -> [BadModel; 5] {
             name: "wants-memory.glb",
             content: points().to_glb(),
             reason: "array_bytes",
-            // Who trusts a file raises these limits; that which follows from --job-memory remains.
+            // As for trusted files, these limits are raised; the one that follows from --job-memory
+            // remains.
             flags: &[
                 ("max-array-bytes", "16GiB"),
                 ("max-array-growth", "1G"),
@@ -102,7 +103,7 @@ fn bad_models() -> [BadModel; 5] {
     ]
 }
 
-/// A bumpy torus of its own shape and color.
+/// A bumpy torus with a unique shape and color.
 fn torus(number: usize) -> Document {
     let mut document = Document::single_triangle();
     let (lobes, tube) = ((number % 7) as f64, 0.25 + 0.02 * (number % 11) as f64);
@@ -150,7 +151,7 @@ fn layers() -> Document {
     document
 }
 
-/// A point cloud in a few bytes: a sparse accessor, of which all values but one are zero.
+/// A point cloud in a few bytes: a sparse accessor in which all values but one are zero.
 fn points() -> Document {
     let mut document = Document::single_triangle();
     let at = document.add_buffer_view(&7_u32.to_le_bytes());

@@ -9,7 +9,7 @@ use std::process::{Child, Command, Stdio};
 pub struct Node {
     /// Its name.
     pub name: String,
-    /// Keeps the namespaces, whatever else dies in them.
+    /// Keeps the namespaces alive when everything else in them dies.
     holder: Child,
     /// Whether its daemon was killed.
     pub is_dead: bool,
@@ -37,7 +37,7 @@ impl Node {
         Ok(node)
     }
 
-    /// Waits until the holder has left the namespaces of the test.
+    /// Waits until the holder has left the test's namespaces.
     fn wait_for_namespaces(&self) -> Result<(), String> {
         let own = namespace(Path::new("/proc/self"));
         for _ in 0..500 {
@@ -58,7 +58,7 @@ impl Node {
     fn command(&self, program: &str) -> Command {
         let mut command = Command::new("nsenter");
         let id = self.holder.id().to_string();
-        // Not `ip netns exec`, which mounts another /sys, in which slurmd finds no control groups.
+        // Not `ip netns exec`: it mounts another /sys, in which slurmd finds no control groups.
         command.args(["--target", &id, "--net", "--uts", program]);
         command
     }
@@ -75,24 +75,25 @@ impl Node {
         Ok(())
     }
 
-    /// Kills all that runs on the node, as a power cut does; returns the number of processes.
+    /// Kills everything that runs on the node, as a power cut does; returns the number of
+    /// processes.
     pub fn kill_processes(&mut self) -> Result<usize, String> {
         self.is_dead = true;
         let mut count = 0;
-        // What is started meanwhile dies in the next round.
+        // Processes started meanwhile die in the next round.
         loop {
             let processes = self.processes();
             if processes.is_empty() {
                 return Ok(count);
             }
             count += processes.len();
-            // One of them may end before it is killed.
+            // A process may end before it is killed.
             let _ = Command::new("kill").arg("-KILL").args(&processes).output();
             std::thread::sleep(std::time::Duration::from_millis(20));
         }
     }
 
-    /// The processes on the node that are alive, by their ids.
+    /// The ids of the node's live processes.
     pub fn processes(&self) -> Vec<String> {
         let own = namespace(&self.process_folder());
         let holder = self.holder.id().to_string();
@@ -109,7 +110,7 @@ pub fn address(number: usize) -> String {
     format!("10.99.0.{}", number + 1)
 }
 
-/// The network namespace of a process; none if it has ended.
+/// The network namespace of a process; `None` if it has ended.
 fn namespace(process: &Path) -> Option<PathBuf> {
     std::fs::read_link(process.join("ns/net")).ok()
 }

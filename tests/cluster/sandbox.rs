@@ -1,15 +1,15 @@
-//! Namespaces of the test: processes, network, host name and mounts of its own.
+//! The test's namespaces: separate processes, network, host name and mounts.
 //!
 //! The first process of the namespaces is killed with the test, and all others with the first one.
-//! Network devices go with their namespaces: nothing is left to clean up.
+//! Network devices disappear with their namespaces, so there is nothing to clean up.
 
 use std::path::Path;
 use std::process::Command;
 
-/// What `unshare` is asked for.
+/// The namespaces that `unshare` creates.
 const NAMESPACES: [&str; 6] = ["--net", "--uts", "--mount", "--pid", "--fork", "--mount-proc"];
 
-/// A program in new namespaces; arguments are added to it.
+/// A program in new namespaces; callers append its arguments.
 pub fn isolated_command(program: &Path) -> Command {
     let mut command = Command::new("setpriv");
     command.args(["--pdeathsig", "KILL", "unshare"]).args(NAMESPACES).arg("--kill-child");
@@ -18,10 +18,10 @@ pub fn isolated_command(program: &Path) -> Command {
     command
 }
 
-/// What the cluster needs of the network: a bridge, and pairs of devices.
+/// The cluster's network: a bridge, and pairs of devices.
 const DEVICES: &str = "ip link add bridge type bridge && ip link add n type veth peer name p";
 
-/// Says why there can be no namespaces, or no network in them.
+/// Says why namespaces, or a network in them, cannot be created.
 pub fn missing_right() -> Option<String> {
     let output = isolated_command(Path::new("sh")).args(["-c", DEVICES]).output();
     match output {

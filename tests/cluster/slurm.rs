@@ -7,21 +7,21 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// How many nodes there are.
+/// The number of nodes.
 pub const NODES: usize = 3;
-/// After this time without an answer the controller gives a node up: `SlurmdTimeout`.
+/// The controller gives a node up after this time without an answer: `SlurmdTimeout`.
 const NODE_TIMEOUT: Duration = Duration::from_secs(5);
-/// A job that lost its node waits this long before it is started again: `cred_expire`.
+/// A job that lost its node waits this long before it restarts: `cred_expire`.
 const REQUEUE_DELAY: Duration = Duration::from_secs(5);
-/// From the loss of a node to the next start of its job.
+/// From the loss of a node to the restart of its job.
 pub const NODE_LOSS: Duration =
     Duration::from_secs(NODE_TIMEOUT.as_secs() + REQUEUE_DELAY.as_secs());
-/// How long a node is cut off: much longer than the controller waits for it.
+/// The time for which a node is cut off: much longer than the controller waits for it.
 pub const LINK_CUT: Duration = Duration::from_secs(20);
-/// No wait of the test may take longer.
+/// The maximum time of any wait in the test.
 pub const LONGEST_WAIT: Duration = Duration::from_secs(300);
 
-/// Names what is not installed, with its package in Debian.
+/// Names the missing programs, with their Debian packages.
 pub fn missing_program() -> Option<String> {
     let programs = [
         ("slurmctld", "slurmctld"),
@@ -43,7 +43,7 @@ pub struct Cluster {
 }
 
 impl Cluster {
-    /// Starts it; its files are in a folder below `folder`.
+    /// Starts it, with its files in a folder below `folder`.
     pub fn start(folder: &Path) -> Result<Self, String> {
         let folder = folder.join("slurm");
         create_folder(&folder.join("state"))?;
@@ -70,14 +70,14 @@ impl Cluster {
         Ok(cluster)
     }
 
-    /// A program of Slurm that talks to this cluster.
+    /// A Slurm program that talks to this cluster.
     pub fn command(&self, program: &str) -> Command {
         let mut command = Command::new(program);
         command.env("SLURM_CONF", self.folder.join("slurm.conf"));
         command
     }
 
-    /// Starts the daemons of the nodes that have none.
+    /// Starts the missing daemons of the nodes.
     pub fn start_dead_nodes(&mut self) -> Result<(), String> {
         let folder = &self.folder;
         for node in self.nodes.iter_mut().filter(|node| node.is_dead) {
@@ -90,7 +90,7 @@ impl Cluster {
     /// Waits until all nodes are idle.
     pub fn wait_for_nodes(&self) -> Result<(), String> {
         let is_idle = || -> Result<bool, String> {
-            // The controller may not listen yet.
+            // The controller may not be listening yet.
             let states = run_command(self.command("sinfo").args(["-h", "-N", "-o", "%T"]));
             Ok(states
                 .is_ok_and(|states| states.lines().filter(|line| *line == "idle").count() == NODES))
@@ -106,13 +106,13 @@ impl Cluster {
         self.nodes[index].kill_processes()
     }
 
-    /// Cuts a node off the network; what runs on it goes on.
+    /// Cuts a node off the network; its processes keep running.
     pub fn cut_link(&self, index: usize) -> Result<(), String> {
         run_command(Command::new("ip").args(["link", "set", &self.nodes[index].name, "down"]))
             .map(drop)
     }
 
-    /// Connects it again.
+    /// Reconnects it.
     pub fn restore_link(&self, index: usize) -> Result<(), String> {
         run_command(Command::new("ip").args(["link", "set", &self.nodes[index].name, "up"]))
             .map(drop)
@@ -120,7 +120,7 @@ impl Cluster {
 
     /// Whether a job is waiting or running.
     pub fn has_job(&self, job: &str) -> Result<bool, String> {
-        // A job that ended long ago is unknown, which is an error.
+        // A job that ended long ago is unknown, which counts as an error.
         let queue = run_command(self.command("squeue").args(["-h", "-j", job, "-o", "%i"]));
         match queue {
             Ok(queue) => Ok(!queue.trim().is_empty()),
@@ -139,7 +139,7 @@ impl Cluster {
     }
 }
 
-/// Starts the daemon that signs messages, with a key of this test.
+/// Starts the daemon that signs messages, with a key for this test.
 fn start_munge(folder: &Path) -> Result<(), String> {
     let key = folder.join("munge.key");
     let mut random = [0; 1024];
@@ -150,7 +150,7 @@ fn start_munge(folder: &Path) -> Result<(), String> {
     run_command(Command::new("chmod").arg("400").arg(&key))?;
     let path = |name: &str, file: &str| format!("--{name}={}", folder.join(file).display());
     let mut munged = Command::new("munged");
-    // It would rather not have its socket below the folder of temporary files.
+    // It rejects a socket below the temporary folder unless forced.
     munged.arg("--force").args([
         path("key-file", "munge.key"),
         path("socket", "munge.socket"),
@@ -164,7 +164,7 @@ fn start_munge(folder: &Path) -> Result<(), String> {
     if status.success() { Ok(()) } else { Err(format!("munged failed ({status})")) }
 }
 
-/// The configuration, which nodes and controller share.
+/// The configuration shared by the nodes and the controller.
 fn configuration(folder: &Path) -> String {
     let mut text = format!(
         "ClusterName=test
@@ -207,10 +207,10 @@ PartitionName=all Nodes=ALL Default=YES State=UP
     text
 }
 
-/// Waits until something is so.
+/// Waits until a condition holds.
 ///
 /// # Errors
-/// If it takes too long, or the question has no answer.
+/// If it takes too long, or the condition cannot be checked.
 pub fn wait_until(mut is_so: impl FnMut() -> Result<bool, String>) -> Result<(), String> {
     let start = Instant::now();
     while !is_so()? {
@@ -222,7 +222,7 @@ pub fn wait_until(mut is_so: impl FnMut() -> Result<bool, String>) -> Result<(),
     Ok(())
 }
 
-/// Creates a folder and those above it.
+/// Creates a folder and its parents.
 pub fn create_folder(path: &Path) -> Result<(), String> {
     std::fs::create_dir_all(path).map_err(|error| format!("{}: {error}", path.display()))
 }

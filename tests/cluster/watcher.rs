@@ -1,7 +1,7 @@
 //! Watches an output folder while pictures are written to it.
 //!
-//! A picture that is drawn again has another inode, as it is renamed over the old one. Whatever is
-//! seen under the name of a picture must be the whole picture, at any time.
+//! A picture that is drawn again gets another inode, because it is renamed over the old one. At any
+//! time, a file with the name of a picture must be the whole picture.
 
 use std::collections::BTreeMap;
 use std::os::unix::fs::DirEntryExt as _;
@@ -11,14 +11,14 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-/// Pictures by the names of their files.
+/// Pictures by file name.
 pub type Pictures = BTreeMap<String, Vec<u8>>;
 
-/// What was seen.
+/// The observations.
 pub struct Seen {
-    /// How often each picture was drawn.
+    /// The number of times each picture was drawn.
     pub draws: BTreeMap<String, usize>,
-    /// What should not have been there.
+    /// Files that should not have been there.
     pub faults: Vec<String>,
 }
 
@@ -52,7 +52,7 @@ impl Watcher {
         Self { thread, count, is_over }
     }
 
-    /// How many pictures there are.
+    /// The number of pictures.
     pub fn count(&self) -> usize {
         self.count.load(Ordering::Relaxed)
     }
@@ -74,7 +74,7 @@ struct FolderWatch {
 }
 
 impl FolderWatch {
-    /// Looks at the folder once. It is not there before the run begins.
+    /// Looks at the folder once. It may not exist before the run begins.
     fn look(&mut self) {
         for entry in std::fs::read_dir(&self.folder).into_iter().flatten().flatten() {
             let name = entry.file_name().to_string_lossy().into_owned();

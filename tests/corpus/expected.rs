@@ -1,13 +1,13 @@
-//! Expected outcomes of the files in `shared/assets`: which models are refused, and which pictures
-//! are blank; all others are drawn.
+//! Expected outcomes of the files in `shared/assets`: refused models and blank pictures. All other
+//! files are drawn.
 //!
-//! The test fails if a model is refused that is not listed here, and if a listed one is drawn: then
-//! its row is removed.
+//! The test fails if a model is refused that is not listed here. It also fails if a listed model is
+//! drawn; then its row is removed.
 
 use crate::corpus::verdict::Verdict;
 use alberti_tests::manifest::Row;
 
-/// Refused models by the name of their folder, with a part of the reason.
+/// Refused models by folder name, with part of the reason.
 const REFUSED: &[(&str, &str)] = &[
     ("acme-box-unknown-required-extension", "ACME_gizmo"),
     ("animation-only-jump-flip", "nothing to draw"),
@@ -16,7 +16,7 @@ const REFUSED: &[(&str, &str)] = &[
     ("scene-without-nodes", "nothing to draw"),
 ];
 
-/// Files outside of `models` with blank pictures, and why.
+/// Files outside `models` with blank pictures, and the reason.
 const BLANK: &[(&str, &str)] = &[
     ("ZeroLengthBufferView.gltf", "a vertex is two thousand million units away"),
     ("ignored_local_transform.gltf", "its triangle is degenerate"),
@@ -29,8 +29,8 @@ const BLANK: &[(&str, &str)] = &[
     ("skin-shared.gltf", "its meshes have one vertex each"),
 ];
 
-/// Models with EXT_mesh_gpu_instancing and their numbers of triangles: the manifest counts each
-/// node once.
+/// Models with EXT_mesh_gpu_instancing and their triangle counts: the manifest counts each node
+/// once.
 const INSTANCED: &[(&str, usize)] =
     &[("blender-gpu-instancing", 4_032 * (958 + 941) + 2), ("simple-instancing", 12 * 125)];
 
@@ -41,13 +41,13 @@ pub fn expected_triangles(row: &Row) -> Option<usize> {
     instanced.map(|(_, triangles)| *triangles).or(row.scene_triangles)
 }
 
-/// The reason for which a model must be refused.
+/// The reason why a model must be refused.
 pub fn expected_refusal(row: &Row) -> Option<&'static str> {
     let folder = row.path.strip_prefix("models/")?.split('/').next()?;
     REFUSED.iter().find(|(name, _)| *name == folder).map(|(_, reason)| *reason)
 }
 
-/// How a verdict differs from the column `expected` of the manifest.
+/// The difference between a verdict and the manifest column `expected`.
 pub fn difference_from_manifest(row: &Row, verdict: &Verdict) -> Option<String> {
     let expected = row.expected.as_deref()?;
     let (agrees, actual) = match verdict {
@@ -60,7 +60,7 @@ pub fn difference_from_manifest(row: &Row, verdict: &Verdict) -> Option<String> 
     (!agrees).then(|| format!("expected {expected}, actual {actual}"))
 }
 
-/// How a verdict differs from the tables; outside of `models` every refusal is expected.
+/// The difference between a verdict and the tables; outside `models` every refusal is expected.
 pub fn difference_from_tables(row: &Row, verdict: &Verdict) -> Option<String> {
     if matches!(verdict, Verdict::Blank) && !BLANK.iter().any(|(end, _)| row.path.ends_with(end)) {
         return Some("the picture is blank".to_owned());

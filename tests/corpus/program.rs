@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Time limit per file. The largest file has eight million triangles and takes three seconds in a
-/// build without optimization; the machine may be busy with other work.
+/// The time limit per file. The largest file has eight million triangles and takes three seconds in
+/// an unoptimized build; the machine may be busy with other work.
 const TIME_LIMIT: Duration = Duration::from_secs(30);
 
 /// The program `alberti`.
@@ -14,7 +14,7 @@ pub struct Program {
     path: PathBuf,
 }
 
-/// The end of a run.
+/// The result of a run.
 pub struct Run {
     /// The exit code; `None` if a signal killed the process.
     pub code: Option<i32>,
@@ -25,7 +25,7 @@ pub struct Run {
 }
 
 impl Program {
-    /// The program, built if necessary.
+    /// The program; it is built if necessary.
     pub fn build() -> Result<Self, String> {
         Ok(Self { path: alberti_tests::program_path()? })
     }

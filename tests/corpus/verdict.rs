@@ -1,4 +1,4 @@
-//! Verdicts: classification of a run of the program by exit code, message and picture.
+//! Verdicts: classify a run of the program by exit code, message and picture.
 
 use crate::corpus::program::Run;
 use alberti_tests::manifest::Row;

@@ -1,4 +1,4 @@
-//! Random numbers of the scenes: splitmix64 (Steele, Lea, Flood 2014).
+//! Random numbers for the scenes: splitmix64 (Steele, Lea, Flood 2014).
 
 /// The generator.
 pub struct Random {
@@ -6,7 +6,7 @@ pub struct Random {
 }
 
 impl Random {
-    /// The generator of a scene's number.
+    /// The generator for a scene's number.
     pub fn new(seed: u64) -> Self {
         Self { state: seed.wrapping_mul(0xd134_2543_de82_ef95) }
     }
@@ -19,23 +19,23 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// A whole number from 0, below `end`.
+    /// A whole number from 0 to below `end`.
     pub fn below(&mut self, end: u64) -> u64 {
         self.next_bits() % end
     }
 
-    /// A number of the interval with three decimals, as people write them.
+    /// A number in the interval with three decimals, as people write them.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         let fraction = (self.next_bits() >> 11) as f64 / (1_u64 << 53) as f64;
         libm::round((low + (high - low) * fraction) * 1000.0) / 1000.0
     }
 
-    /// Whether something happens that happens once in `times`.
+    /// True once in `times`, on average.
     pub fn once_in(&mut self, times: u64) -> bool {
         self.below(times) == 0
     }
 
-    /// One of the choices.
+    /// One of the options.
     pub fn choose<T: Clone>(&mut self, choices: &[T]) -> T {
         choices[self.below(choices.len() as u64) as usize].clone()
     }

@@ -1,12 +1,13 @@
-//! Random scenes over all projections: lines against the z-buffer, or a reason for the refusal.
+//! Random scenes over all projections: lines must match the z-buffer, or a refusal must give a
+//! reason.
 //!
 //! ```text
 //!  number ─► splitmix64 ─► text of a scene ─► parse, resolve ─► lines ─► verify
 //!                                                └► refused: the message is the reason
 //! ```
-//! A scene is a text, so that one that fails can be written to a file and drawn by the program. All
-//! of it follows from the scene's number. The projections take turns; their parameters go beyond
-//! what is sensible, because the program has to refuse that.
+//! A scene is text, so a failing one can be written to a file and drawn by the program. It depends
+//! only on the scene's number. The projections take turns; their parameters include unreasonable
+//! values, because the program has to refuse those.
 
 use alberti_tests::harness::{Tally, map_parallel};
 use hidden_line::{DrawOptions, HiddenEdges, LineDrawing, draw, verify_with_z_buffer};
@@ -24,14 +25,14 @@ use std::sync::Arc;
 use crate::drawing::bits::Random;
 use crate::drawing::random_projection::{PROJECTIONS, random_projection};
 
-/// How many scenes there are.
+/// The number of scenes.
 pub const COUNT: usize = 1000;
 
-/// The fractions that are allowed: what `--verify` allows; lines that are hidden by slivers which
-/// contain no sample; and the same for the outline.
+/// The allowed fractions: the limit of `--verify`, the limit for lines hidden by slivers that
+/// contain no sample, and the limit for the outline.
 const ALLOWED: [f64; 3] = [super::MAX_DISAGREEMENT, 0.005, super::MAX_DISAGREEMENT];
 
-/// Models of the scenes, with faces alone and larger than a few pixels in every view.
+/// Scene models that have only faces and are larger than a few pixels in every view.
 const MODELS: [&str; 8] = [
     "bearing.glb",
     "crate.glb",
@@ -45,11 +46,11 @@ const MODELS: [&str; 8] = [
 
 /// The outcome of a scene that was drawn or refused.
 enum Verdict {
-    /// The fraction of the visible length that the z-buffer hides, and that of all lines that are
-    /// drawn as hidden and that it shows.
-    /// Last the fraction of the shaded picture's outline that has no line.
+    /// The fraction of the visible length that the z-buffer hides, the fraction of all lines that
+    /// is drawn as hidden although the z-buffer shows it, and the fraction of the shaded picture's
+    /// outline that has no line.
     Drawn { denied: f64, contradicted: f64, unlined: f64 },
-    /// The scene is refused, for this reason.
+    /// The scene is refused for this reason.
     Refused(String),
 }
 
@@ -91,7 +92,8 @@ pub fn check_random_scenes(numbers: Vec<usize>, folder: &Path) -> Result<Tally, 
     Ok(tally)
 }
 
-/// The projection of a scene: they take turns, and the last of them has every nineteenth scene.
+/// The projection of a scene: they take turns, except that the last one gets every nineteenth
+/// scene.
 fn projection_name(number: usize) -> &'static str {
     match PROJECTIONS {
         [.., last] if number % 19 == 18 => last,
@@ -100,7 +102,7 @@ fn projection_name(number: usize) -> &'static str {
     }
 }
 
-/// Whether every projection of the scene language takes its turn.
+/// Whether every projection of the scene language takes a turn.
 fn check_projections() -> Result<(), String> {
     let types = scene_file::reference::all_types();
     let projection = types.iter().find(|entry| entry.name == "Projection").map(|entry| entry.shape);
@@ -121,8 +123,8 @@ fn describe(measured: [f64; 3]) -> String {
     )
 }
 
-/// The fraction of the shaded picture's outline, pixels beside one without a surface, that has no
-/// visible line nearby; 0 where a depth plane cuts the models, whose cuts have no lines.
+/// The fraction of the shaded picture's outline (pixels next to one without a surface) that has no
+/// visible line nearby; 0 where a depth plane cuts the models, because such cuts have no lines.
 fn outline_without_line(mut scene: Scene, drawing: &LineDrawing) -> Result<f64, String> {
     let world_to_clip = scene.view_projection.world_to_clip();
     let is_cut = scene.world_points().into_iter().any(|point| {
@@ -163,8 +165,7 @@ fn outline_without_line(mut scene: Scene, drawing: &LineDrawing) -> Result<f64, 
     Ok(f64::from(unlined) / f64::from(outline.max(1)))
 }
 
-/// The models by the names of their files, both sides of all surfaces shown: lines know no back
-/// faces.
+/// The models by file name, with both sides of all surfaces shown: lines do not know back faces.
 fn load_models(folder: &Path) -> Result<Vec<(&'static str, Arc<Model>)>, String> {
     let load_model = |name: &'static str| {
         let model = load(&folder.join(name), &ImportOptions::default());
@@ -175,7 +176,7 @@ fn load_models(folder: &Path) -> Result<Vec<(&'static str, Arc<Model>)>, String>
     MODELS.into_iter().map(load_model).collect()
 }
 
-/// The scene of a number.
+/// The scene with a number.
 fn scene_text(number: usize, models: &[(&'static str, Arc<Model>)]) -> String {
     let mut random = Random::new(number as u64);
     let projection = random_projection(projection_name(number), &mut random);
@@ -187,7 +188,7 @@ fn scene_text(number: usize, models: &[(&'static str, Arc<Model>)]) -> String {
     )
 }
 
-/// A view, or nothing for the default of the projection.
+/// A view, or nothing for the projection's default.
 fn random_view(random: &mut Random) -> String {
     let mut direction = || {
         let [x, y, z] = [0; 3].map(|_| random.between(-1.0, 1.0));
@@ -234,7 +235,7 @@ fn check_scene(text: &str, models: &[(&'static str, Arc<Model>)]) -> Result<Verd
     let drawing = draw(&subject, &options, 1).map_err(|error| error.to_string())?;
     let agreement =
         verify_with_z_buffer(&subject, &drawing.segments).map_err(|error| error.to_string())?;
-    // Models in the distance have few lines, of which one point is much: two pixels are allowed.
+    // Distant models have few lines, so a single point weighs much: two pixels are allowed.
     let visible = agreement.visible_length.max(1000.0);
     let denied = agreement.denied_length / visible;
     let contradicted = agreement.contradicted_length / (visible + agreement.hidden_length);
@@ -242,7 +243,7 @@ fn check_scene(text: &str, models: &[(&'static str, Arc<Model>)]) -> Result<Verd
     Ok(Verdict::Drawn { denied, contradicted, unlined })
 }
 
-/// The message of a refusal without its numbers and its place.
+/// The message of a refusal without its numbers and its location.
 fn reason_of(message: &str) -> String {
     let lines: Vec<&str> = message.lines().collect();
     let first = lines.first().map_or("", |line| line.trim());

@@ -2,7 +2,7 @@
 
 use crate::drawing::bits::Random;
 
-/// The projections by their names in scene files, each of them a variant.
+/// The projections by their names in scene files; each is a variant.
 pub const PROJECTIONS: &[&str] = &[
     "Perspective",
     "Orthographic",
@@ -62,7 +62,7 @@ pub fn random_projection(name: &str, r: &mut Random) -> String {
             format!("x: ({x}, {y1}), y: {y}, z: ({z}, {y2})")
         }
         "NPoint" => {
-            // Some so large that a part of the models is behind the eye.
+            // Some so large that part of the models is behind the eye.
             let [p, q, r] = [0; 3].map(|_| if r.once_in(4) { 0.0 } else { r.between(-1.2, 1.2) });
             format!("p: {p}, q: {q}, r: {r}")
         }
@@ -115,7 +115,7 @@ fn random_parallel_window(r: &mut Random) -> String {
     fields
 }
 
-/// A window by its borders, at times mirrored or without extent.
+/// A window by its borders, sometimes mirrored or without extent.
 fn random_window(r: &mut Random) -> String {
     let [left, bottom] = [0; 2].map(|_| r.between(-2.0, 0.5));
     let [right, top] = [0; 2].map(|_| r.between(0.4, 2.0));

@@ -10,7 +10,7 @@ use projection::{Convention, Frustum, Oblique, Orthographic};
 use scene::{ImageSpec, Style};
 use std::sync::Arc;
 
-/// Number of viewing directions of each kind.
+/// The number of viewing directions of each kind.
 pub const DIRECTIONS: usize = 6;
 
 /// Width and height in pixels.
@@ -23,7 +23,7 @@ pub enum ViewKind {
     Perspective,
     /// Orthographic along a space diagonal.
     Isometric,
-    /// Oblique at 45°, depth in full length.
+    /// Oblique at 45°, with full depth.
     Cavalier,
 }
 
@@ -94,7 +94,7 @@ fn fit_perspective(points: &[Point<World>], basis: Basis) -> Result<ViewProjecti
     Ok(ViewProjection { camera: framing.camera, view_to_clip })
 }
 
-/// Orthographic, or oblique with depth in full length at an angle.
+/// Orthographic, or oblique with full depth at an angle.
 fn fit_parallel(
     points: &[Point<World>],
     basis: Basis,

@@ -1,8 +1,8 @@
-"""DXF files of the program, read by ezdxf: check.py PROGRAM FOLDER INPUT…
+"""Reads DXF files from the program with ezdxf: check.py PROGRAM FOLDER INPUT…
 
-Every INPUT, a folder of scenes and models or one of these, is drawn as DXF. The audit of ezdxf must find nothing, and lines must be as long as those of the SVG, to
-1e-6 mm for each layer. Models become sheets too. Then parts with known cross sections are cut: their outlines must be closed, simple, and
-have the area of the section. Files are written to FOLDER. Prints a line `FAILED …` for each fault; the last line counts.
+Every INPUT, a scene, a model or a folder of them, is drawn as DXF. The audit of ezdxf must find nothing, and on each layer the lines must
+be as long as in the SVG, to 1e-6 mm. Models become sheets too. Then parts with known cross sections are cut: their outlines must be
+closed, simple, and have the area of the section. Files are written to FOLDER. Prints a line `FAILED …` for each fault; the last line counts.
 """
 
 import math
@@ -14,18 +14,18 @@ import sys
 import ezdxf
 
 PROGRAM, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
-# The longest that one drawing may take, in seconds.
+# The time limit for one drawing, in seconds.
 PATIENCE = 120
 TOO_LONG = f"it takes more than {PATIENCE} seconds"
-# Larger drawings are left out.
+# Larger drawings are skipped.
 MOST_SVG_BYTES = 2_000_000
-# The models of folders, and the largest of them.
+# The extensions of models in folders, and their maximum size.
 MODELS, MOST_BYTES = {".glb", ".gltf", ".stl", ".obj", ".ply", ".3mf"}, 12_000_000
 checked, failures = 0, 0
 
 
 def report(case, faults):
-    """Counts a case and prints what is wrong with it."""
+    """Counts a case and prints its faults."""
     global checked, failures
     checked += 1
     failures += bool(faults)
@@ -34,7 +34,7 @@ def report(case, faults):
 
 
 def run(*arguments):
-    """Runs the program; what it says if it fails."""
+    """Runs the program; returns its message if it fails."""
     try:
         done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=PATIENCE)
     except subprocess.TimeoutExpired:
@@ -43,14 +43,14 @@ def run(*arguments):
 
 
 def audit(path):
-    """The document of a file, and what the audit finds."""
+    """The document in a file, and the findings of the audit."""
     document = ezdxf.readfile(path)
     auditor = document.audit()
     return document, [f"{entry.code}: {entry.message}" for entry in auditor.errors + auditor.fixes]
 
 
 def lengths_of_dxf(document):
-    """The length of the lines of each layer, without the objects; None for layers with more than lines."""
+    """The length of the lines on each layer, without the objects; None for layers that contain more than lines."""
     lengths = {}
     for entity in document.modelspace():
         layer = entity.dxf.layer.split(".")[0]
@@ -94,7 +94,7 @@ def length_of_path(data):
 
 
 def lengths_of_svg(text):
-    """The length of the lines of each layer, by its id."""
+    """The length of the lines on each layer, by its id."""
     lengths = {}
     for part in re.split(r"^(?=<g id=\"[^\".]*\" fill)", text, flags=re.MULTILINE)[1:]:
         layer = re.match(r"<g id=\"([^\"]*)\"", part)[1]
@@ -104,7 +104,7 @@ def lengths_of_svg(text):
 
 
 def compare_lengths(document, svg):
-    """Differences of the lengths on paper; coordinates may be in other units than those of the page."""
+    """The differences between the lengths on paper; coordinates may be in units other than the page's."""
     ours, theirs = lengths_of_dxf(document), lengths_of_svg(svg)
     lines = [layer for layer, length in theirs.items() if length > 0]
     missing = [layer for layer in lines if layer not in ours]
@@ -142,7 +142,7 @@ def check_drawing(name, command, *flags):
     return compare_lengths(document, path.with_suffix(".svg").read_text("utf-8"))
 
 
-# Parts: prisms of 10 mm with a cross section of polygons, some of them with a hole of as many corners.
+# Parts: 10 mm prisms whose cross section is polygons, some of them with a hole that has the same number of corners.
 
 
 def regular(count, radius, turn=0.0, center=(0.0, 0.0)):
@@ -155,7 +155,7 @@ def alternating(count, inner, outer):
 
 
 def square_like(count, half, center):
-    """A square of as many points as a circle, each in the direction of one of its points."""
+    """A square with as many points as a circle, each in the direction of one of the circle's points."""
     scale = [half / max(abs(x), abs(y)) for x, y in regular(count, 1.0)]
     return [(center[0] + s * x, center[1] + s * y) for s, (x, y) in zip(scale, regular(count, 1.0))]
 
@@ -209,10 +209,10 @@ def crosses(a, b, c, d):
 
 
 def check_outline(name, regions, *flags):
-    """Outline of a part: closed, simple, with the area of the section, where the part is."""
+    """Checks the outline of a part: closed, simple, with the area of the section, and in the right position."""
     part, path = FOLDER / f"{name}.obj", FOLDER / f"{name}_outline.dxf"
     write_part(part, regions)
-    # The grid of the page is a micrometer; a large page has the finer steps.
+    # The grid of the page is one micrometer, so a large page has finer steps.
     view = ["--unit", "mm", "--view", "front", "--projection", "orthographic", "--style", "outline", "--size", "4800x3600"]
     fault = run("render", part, *view, *flags, "-o", path, "--arc-tolerance", "0")
     if fault:
@@ -232,7 +232,7 @@ def check_outline(name, regions, *flags):
         faults.append("its sides cross")
     if len({frozenset(side) for side in sides}) != len(sides):
         faults.append("a side is there twice")
-    # Around matter and around holes loops run in opposite directions.
+    # Loops around material and around holes run in opposite directions.
     area = abs(sum(map(doubled_area, loops))) / 2
     expected = sum(doubled_area(outer) - (doubled_area(hole) if hole else 0) for outer, hole in regions) / 2
     if abs(area - expected) > 1e-5 * expected:
@@ -248,7 +248,7 @@ def check_outline(name, regions, *flags):
 
 
 def check_circles():
-    """Holes of a plate are circles of its size, and its outline stays straight."""
+    """The holes in a plate are circles of the right size, and its outline stays straight."""
     path = FOLDER / "plate_circles.dxf"
     view = ["--unit", "mm", "--view", "front", "--projection", "orthographic", "--style", "outline"]
     fault = run("render", FOLDER / "plate.obj", *view, "-o", path)
@@ -266,7 +266,7 @@ def check_circles():
 
 
 def inputs(path):
-    """A file, or the scenes of a folder, or else all models below it."""
+    """A file, or the scenes in a folder, or otherwise all models below it."""
     if path.is_file():
         return [path]
     scenes = sorted(path.glob("*.ron"))
@@ -278,11 +278,11 @@ FOLDER.mkdir(parents=True, exist_ok=True)
 items = [item for argument in sys.argv[3:] for item in inputs(pathlib.Path(argument))]
 for number, item in enumerate(items):
     name = f"{number}_{item.stem}"
-    # Some models are broken or empty, which other tests are about.
+    # Some models are broken or empty, which other tests cover.
     if item.suffix != ".ron" and run("render", item, "--size", "16x16", "-o", FOLDER / f"{name}.png"):
         print(f"left out: {item}")
         continue
-    # Copies of a model may be more than its bytes allow for.
+    # Copies of a model may exceed the limits that follow from its bytes.
     render = ["render", item, "--no-line-limits"]
     report(item, check_drawing(name, render))
     if item.suffix != ".ron":

@@ -1,8 +1,8 @@
 //! Every model of a folder in every style and light, and from several sides, on one page, with
 //! statistics: `cargo xtask gallery --models DIR` runs it in release mode.
 //!
-//! Pictures that are likely wrong have a red border: white or black ones, and those without
-//! contrast. The page is for looking; the test `looks` holds bounds.
+//! Pictures that are probably wrong have a red border: white or black ones, and those without
+//! contrast. The page is for people; the test `looks` enforces limits.
 
 #![allow(clippy::print_stdout, reason = "a program speaks on its standard output")]
 
@@ -20,22 +20,22 @@ use std::process::ExitCode;
 
 /// The size of the pictures.
 const SIZE: (u32, u32) = (240, 180);
-/// The shares of white and of black pixels from which on a picture is marked.
+/// The shares of white and of black pixels from which a picture is flagged.
 const MARKED_SHARES: (f64, f64) = (0.02, 0.05);
-/// The contrast below which a picture is marked.
+/// The contrast below which a picture is flagged.
 const MARKED_CONTRAST: u8 = 10;
 
-/// Variants without shading: of them only empty pictures are marked.
+/// Variants without shading: only empty pictures are flagged.
 const UNSHADED_VARIANTS: [&str; 8] =
     ["x-ray", "uv", "ids", "wireframe", "depth-cued", "lines", "dashed", "technical"];
 
-/// A way to render a model: its name, and what it changes of the default.
+/// A way to render a model: its name, and its changes to the default.
 struct Variant {
     name: &'static str,
     change: fn(&mut SceneFile),
 }
 
-/// The default, every style, every light, every side.
+/// The default, then every style, every light and every side.
 const VARIANTS: [Variant; 22] = [
     Variant { name: "default", change: |_| () },
     Variant { name: "flat", change: |file| file.style = StyleFile::Flat },
@@ -86,7 +86,7 @@ const PAGE_HEAD: &str = "<!doctype html>
 ";
 
 fn main() -> ExitCode {
-    // Cargo adds a flag of its own to the arguments of benchmarks.
+    // Cargo adds a flag to the arguments of benchmarks.
     let arguments: Vec<String> =
         std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
     let [folder] = &arguments[..] else {
@@ -105,7 +105,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Renders all models of a folder and of its folders, and returns the path of the page.
+/// Renders all models in a folder and its subfolders, and returns the path of the page.
 fn write_gallery(folder: &Path) -> Result<PathBuf, String> {
     let out = project_root().join("target/gallery/models");
     std::fs::create_dir_all(&out).map_err(|error| format!("{}: {error}", out.display()))?;
@@ -130,7 +130,7 @@ fn model_section(index: usize, model: &Path, out: &Path) -> String {
         match render_variant(model, variant, &out.join(&image)) {
             Ok(statistics) => section += &figure_html(&image, variant.name, &statistics),
             Err(reason) => {
-                // What cannot be loaded is said once.
+                // A model that cannot be loaded is reported once.
                 let _ = writeln!(section, "<p>{}: {}</p>", variant.name, escape_html(&reason));
                 break;
             }
@@ -155,7 +155,7 @@ fn render_variant(
     Ok(PictureStatistics::of_picture(&picture))
 }
 
-/// A picture with its statistics; marked if they are those of a picture that is likely wrong.
+/// A picture with its statistics, flagged if they suggest that it is wrong.
 fn figure_html(image: &str, name: &str, statistics: &PictureStatistics) -> String {
     let PictureStatistics { cover, white, black, mean, contrast, .. } = *statistics;
     let (most_white, most_black) = MARKED_SHARES;
@@ -171,7 +171,7 @@ fn figure_html(image: &str, name: &str, statistics: &PictureStatistics) -> Strin
     )
 }
 
-/// Adds the glTF files in a folder and below it, by name.
+/// Adds the glTF files in a folder and its subfolders, by name.
 fn list_models(folder: &Path, models: &mut Vec<PathBuf>) -> Result<(), String> {
     let in_folder = |error: std::io::Error| format!("{}: {error}", folder.display());
     let entries = std::fs::read_dir(folder).map_err(in_folder)?;

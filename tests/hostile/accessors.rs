@@ -1,4 +1,4 @@
-//! Counts, offsets, lengths and strides that lie.
+//! Wrong counts, offsets, lengths and strides.
 
 use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::{Document, float_bytes};
@@ -13,7 +13,7 @@ pub fn accessor_cases() -> Vec<Case> {
     cases
 }
 
-/// Every number of accessors, views and buffers replaced by numbers that are wrong.
+/// Every number in accessors, views and buffers, replaced by wrong numbers.
 fn number_cases() -> Vec<Case> {
     let wrong = [
         json!(0),
@@ -124,7 +124,7 @@ fn sparse_cases() -> Vec<Case> {
     ]
 }
 
-/// Values that are no places, and indices that have no vertex.
+/// Values that are not valid positions, and indices without a vertex.
 fn value_cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for wrong in

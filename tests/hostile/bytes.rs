@@ -1,4 +1,4 @@
-//! Files cut off at every byte, and files with one byte changed.
+//! Files truncated at every byte, and files with one byte changed.
 
 use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
@@ -15,7 +15,7 @@ pub fn byte_cases() -> Vec<Case> {
         let mut shorter = whole[..end].to_vec();
         if let Some(length) = shorter.get_mut(8..12) {
             length.copy_from_slice(&(end as u32).to_le_bytes());
-            // A file that ends after its first chunk is whole: it only has no data.
+            // A file that ends after its first chunk is complete: it only has no data.
             let ends_well = end == 20 + u32::from_le_bytes([whole[12], whole[13], 0, 0]) as usize;
             let expected = if ends_well { Expected::Warned } else { Expected::Refused };
             cases.push(Case::new(format!("glb cut and mended at {end}"), shorter, expected));

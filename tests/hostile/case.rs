@@ -1,4 +1,4 @@
-//! Cases: a hostile file and its expected outcome.
+//! Cases: a malicious file and its expected outcome.
 
 use crate::hostile::promises;
 use alberti_tests::gltf::Document;
@@ -7,17 +7,17 @@ use import::{ImportError, ImportOptions, load, load_bytes};
 use model::{Diagnostic, Model};
 use std::path::Path;
 
-/// A file that wishes the importer ill.
+/// A malicious file.
 pub struct Case {
     pub name: String,
-    /// The name of the file, which decides its format where the content does not.
+    /// The name of the file, which decides its format if the content does not.
     pub file_name: &'static str,
     pub file: Vec<u8>,
     pub options: ImportOptions,
     pub expected: Expected,
 }
 
-/// Expected outcome of a file, besides that loading returns and keeps its promises.
+/// The expected outcome of a file, in addition to loading returning and keeping its promises.
 pub enum Expected {
     /// Either a model or an error.
     Anything,
@@ -27,11 +27,11 @@ pub enum Expected {
     LoadsClean,
     /// A model with a warning.
     Warned,
-    /// A model with a warning that reads so: the pointer, a blank, the message.
+    /// A model with exactly this warning: the pointer, a blank, the message.
     Warns(String),
     /// An error.
     Refused,
-    /// An error that reads so, after the file's name.
+    /// Exactly this error, after the file's name.
     Says(String),
 }
 
@@ -52,8 +52,8 @@ impl Case {
         check_path(&path, &self.options, &self.expected)
     }
 
-    /// Checks the file and loads it from memory, strictly and leniently: the report says whether it
-    /// loads, and why not.
+    /// Checks the file and loads it from memory, strictly and leniently: the report must say
+    /// whether it loads, and why not.
     pub fn check_bytes(&self) -> Result<(), String> {
         let fault =
             load_bytes(self.file_name, &self.file, &self.options).err().map(|e| *e.diagnostic);
@@ -95,12 +95,12 @@ impl Case {
     }
 }
 
-/// Loads a file and compares what comes of it with what is expected.
+/// Loads a file and compares the result with the expectation.
 pub fn check_path(path: &Path, options: &ImportOptions, expected: &Expected) -> Result<(), String> {
     check_load_result(&load(path, options), expected)
 }
 
-/// Compares what came of a file with what is expected.
+/// Compares the result of a file with the expectation.
 pub fn check_load_result(
     loaded: &Result<Model, ImportError>,
     expected: &Expected,

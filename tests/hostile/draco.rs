@@ -1,4 +1,4 @@
-//! Primitives compressed by Draco whose stream is cut or changed, and whose numbers lie.
+//! Draco primitives with truncated or changed streams, and with wrong numbers.
 
 use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
@@ -71,7 +71,7 @@ pub fn draco_cases() -> Vec<Case> {
     cases
 }
 
-/// Members of the extension and of its accessors replaced by wrong values.
+/// Members of the extension and of its accessors, replaced by wrong values.
 fn wrong_member_cases(whole: &Document) -> Vec<Case> {
     let mut cases = Vec::new();
     let wrong = [

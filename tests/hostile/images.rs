@@ -1,10 +1,10 @@
-//! Images that lie about their size, are cut off, or are something else.
+//! Images that declare a wrong size, are truncated, or are something else.
 
 use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::{Document, encode_png};
 use serde_json::json;
 
-/// A PNG whose header says what it likes; the checksum is right.
+/// A PNG with an arbitrary header; the checksum is correct.
 fn png_with_false_size(width: u32, height: u32, depth: u8, color: u8) -> Vec<u8> {
     let mut bytes = encode_png(2, 2);
     bytes[16..20].copy_from_slice(&width.to_be_bytes());
@@ -15,7 +15,7 @@ fn png_with_false_size(width: u32, height: u32, depth: u8, color: u8) -> Vec<u8>
     bytes
 }
 
-/// The checksum of PNG (ISO 3309), bit by bit.
+/// The PNG checksum (ISO 3309), bit by bit.
 fn crc32(bytes: &[u8]) -> u32 {
     let step = |crc: u32, _| if crc & 1 == 1 { (crc >> 1) ^ 0xEDB8_8320 } else { crc >> 1 };
     !bytes.iter().fold(u32::MAX, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
@@ -50,7 +50,7 @@ fn warning_containing(problem: &str) -> Expected {
     Expected::Warns(format!("/images/0 {problem}; the surface is shown without it"))
 }
 
-/// Headers of JPEG files with nothing after them, some of a kind that is not read.
+/// JPEG headers with nothing after them, some of an unsupported kind.
 fn jpeg_cases() -> [Case; 4] {
     [
         textured_case("JPEG for printing", &jpeg_header(8, 8, &[0x11; 4]), Expected::Loads),
@@ -71,7 +71,7 @@ fn jpeg_cases() -> [Case; 4] {
     ]
 }
 
-/// WebP files whose sizes lie.
+/// WebP files with wrong sizes.
 fn webp_cases() -> [Case; 2] {
     [
         textured_case(
@@ -146,7 +146,7 @@ pub fn image_cases() -> Vec<Case> {
     cases
 }
 
-/// Every bit depth and color type, and files cut off or changed at every byte.
+/// Every bit depth and color type, and files truncated or changed at every byte.
 fn mutated_cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for depth in [0, 1, 2, 3, 4, 8, 16, 32] {

@@ -1,10 +1,10 @@
-//! KTX2 images that are cut off or changed at every byte, and mutants of them with numbers that lie.
+//! KTX2 images truncated or changed at every byte, and mutants of them with wrong numbers.
 
 use crate::hostile::case::{Case, Expected};
 use crate::hostile::images::textured_case;
 use crate::hostile::mutants::{Random, mutate};
 
-/// Mutants of all images together.
+/// The number of mutants of all images together.
 const MUTANTS: usize = 2_000;
 
 /// ETC1S with alpha and with mip levels, UASTC plain and in Zstandard.
@@ -48,5 +48,5 @@ pub fn ktx2_cases() -> Vec<Case> {
     cases
 }
 
-/// Numbers for the fields of the header.
+/// Numbers for the header fields.
 const LYING_NUMBERS: [u32; 8] = [0, 1, 2, 4096, 16_384, 65_536, i32::MAX as u32, u32::MAX];

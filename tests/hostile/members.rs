@@ -1,4 +1,4 @@
-//! Every member of a document that uses everything, replaced by every kind of value and left out.
+//! Every member of a document that uses everything, replaced by every kind of value and removed.
 
 use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
@@ -16,7 +16,7 @@ pub fn member_cases() -> Vec<Case> {
     cases
 }
 
-/// A document as it is, and with each of the members spoilt in each way.
+/// A document as it is, and with each of its members corrupted in each way.
 fn mutated_cases(document: &Document, pointers: &[String]) -> Vec<Case> {
     let values = [
         json!(null),

@@ -1,22 +1,22 @@
-//! Mutants of small files of every format of meshes.
+//! Mutants of small files in every mesh format.
 
 use crate::hostile::case::{Case, Expected};
 use crate::hostile::mutants::{Random, mutate};
 use alberti_tests::threemf::encode_3mf;
 
-/// Mutants of each format.
+/// The number of mutants of each format.
 const MUTANTS: usize = 2_000;
 
-/// Makes small files of a format.
+/// Makes small files in a format.
 type Files = fn() -> Vec<Vec<u8>>;
 
-/// Formats with the file names that stand for them, and small files that the mutants are made of.
+/// Formats with the file names that select them, and small files to mutate.
 const FORMATS: [(&str, Files); 5] = [
     ("model.stl", stl_files),
     ("model.obj", obj_files),
     ("model.ply", ply_files),
     ("model.3mf", threemf_files),
-    // The text within an archive, which then has the right checksum.
+    // The text inside an archive, so that the checksum is correct.
     (MODEL_PART, threemf_parts),
 ];
 
@@ -71,7 +71,7 @@ fn stl_files() -> Vec<Vec<u8>> {
     ]
 }
 
-/// Every statement that is read, faces of all kinds of references, and a cloud of points.
+/// Every supported statement, faces with all kinds of references, and a point cloud.
 fn obj_files() -> Vec<Vec<u8>> {
     let text = "# two squares\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0 \nv 0.5 0.25 0 1\nvt 0 0\nvt 1 0 0\n\
                 vn 0 0 1\no first thing\ng a b\nusemtl red\ns 1\nf 1/1/1 2/2/1 3//1 -1\ns off\n\
@@ -137,7 +137,7 @@ z="0"/><vertex x="0" y="4" z="0"/><vertex x="0" y="0" z="5"/></vertices><triangl
     vec![text.as_bytes().to_vec()]
 }
 
-/// The same in archives.
+/// These files in archives.
 fn threemf_files() -> Vec<Vec<u8>> {
     threemf_parts().iter().map(|part| encode_3mf(part)).collect()
 }

@@ -1,4 +1,4 @@
-//! Views compressed by meshopt whose sizes lie and whose streams are cut, changed or made up.
+//! meshopt views with wrong sizes, and with truncated, changed or invented streams.
 
 use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
@@ -28,7 +28,7 @@ fn compressed_document() -> Document {
     document.with_value("/buffers", json!([streams, fallback]))
 }
 
-/// A stream of version 0 of up to 16 elements, every group with eight bits a delta.
+/// A stream of version 0 with up to 16 elements; every group has eight bits per delta.
 fn attribute_stream(elements: &[u8], stride: usize) -> Vec<u8> {
     let mut stream = vec![0xA0];
     for byte in 0..stride {
@@ -56,7 +56,7 @@ pub fn meshopt_cases() -> Vec<Case> {
     cases
 }
 
-/// Every number and word of the extension replaced by one that is wrong.
+/// Every number and word of the extension replaced by a wrong one.
 fn number_cases() -> Vec<Case> {
     let wrong = [
         json!(null),
@@ -108,7 +108,7 @@ fn number_cases() -> Vec<Case> {
     cases
 }
 
-/// The streams cut at every byte, and with every byte changed.
+/// The streams truncated at every byte, and with every byte changed.
 fn stream_cases() -> Vec<Case> {
     let whole = compressed_document();
     let mut cases = Vec::new();
@@ -164,7 +164,7 @@ fn oversized_count_cases() -> Vec<Case> {
             }
         }
     }
-    // 4,096 bytes that say of a million elements that they are all the same: the cheapest there is.
+    // 4,096 bytes that declare a million identical elements: the cheapest there is.
     let mut same = vec![0b10_10_10_10; 4_096];
     same[0] = 0xA1;
     let end = same.len() - 24;

@@ -1,4 +1,4 @@
-//! Mutants of files: bytes and numbers changed, parts left out, repeated and exchanged.
+//! Mutants of files: bytes and numbers changed; parts removed, repeated and swapped.
 
 /// Words that readers might stumble over.
 const WORDS: [&[u8]; 22] = [
@@ -26,11 +26,11 @@ const WORDS: [&[u8]; 22] = [
     b"\0\0\xC0\x7F",
 ];
 
-/// A sequence of numbers that looks random (Knuth's linear congruence).
+/// A pseudorandom sequence (Knuth's linear congruence).
 pub struct Random(u64);
 
 impl Random {
-    /// The sequence that begins with a number.
+    /// The sequence that starts with a number.
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
@@ -42,14 +42,14 @@ impl Random {
         (self.0 >> 33) as usize % limit.max(1)
     }
 
-    /// A part of some bytes, shorter than 64 of them.
+    /// A slice of some bytes, shorter than 64.
     fn range(&mut self, length: usize) -> std::ops::Range<usize> {
         let start = self.below(length);
         start..(start + self.below(64)).min(length)
     }
 }
 
-/// Changes one place of a file.
+/// Changes a file at one position.
 pub fn mutate(file: &mut Vec<u8>, others: &[Vec<u8>], random: &mut Random) {
     let range = random.range(file.len());
     let at = range.start;

@@ -1,4 +1,4 @@
-//! Node trees that are no trees, or too deep, or out of all bounds.
+//! Node trees that are not trees, are too deep, or exceed all limits.
 
 use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
@@ -25,7 +25,7 @@ pub fn node_cases() -> Vec<Case> {
     cases
 }
 
-/// A mesh with many places, whose accessors are wrong, or far too long.
+/// A mesh with many instances, whose accessors are wrong or far too long.
 fn position_cases() -> Vec<Case> {
     let case = |name: &str, attributes: Value, count: u64, expected: Expected| {
         let mut document = Document::single_triangle();
@@ -83,7 +83,7 @@ fn position_cases() -> Vec<Case> {
     ]
 }
 
-/// Nodes that name what they should not.
+/// Nodes with invalid references.
 fn reference_cases() -> Vec<Case> {
     vec![
         node_case(
@@ -129,7 +129,7 @@ fn reference_cases() -> Vec<Case> {
     ]
 }
 
-/// Trees that are deep, wide, or seem so.
+/// Trees that are deep or wide, or only seem so.
 fn size_cases() -> Vec<Case> {
     let chain = |length: usize| {
         let node = |at: usize| {

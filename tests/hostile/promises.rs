@@ -2,7 +2,7 @@
 
 use model::{Model, Primitive};
 
-/// Every sentence of the model's documentation that can be checked.
+/// Checks every verifiable sentence of the model's documentation.
 pub fn check_model(model: &Model) -> Result<(), String> {
     for (at, mesh) in model.meshes.iter().enumerate() {
         for (part, primitive) in mesh.primitives.iter().enumerate() {
@@ -46,7 +46,7 @@ pub fn check_model(model: &Model) -> Result<(), String> {
     Ok(())
 }
 
-/// Every place of the scene, and the vertices there.
+/// Checks every instance in the scene, and the vertices there.
 fn check_instances(model: &Model) -> Result<(), String> {
     for instance in model.node_instances() {
         require(instance.node_to_model.is_finite(), "a place is not finite")?;

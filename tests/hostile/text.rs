@@ -1,4 +1,4 @@
-//! JSON that is deep, large, oddly encoded or not JSON; versions and extensions that are not known.
+//! JSON that is deep, large, oddly encoded or not JSON; unknown versions and extensions.
 
 use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
@@ -28,7 +28,7 @@ pub fn text_cases() -> Vec<Case> {
     cases
 }
 
-/// Empty files, other formats, other encodings than UTF-8.
+/// Empty files, other formats, and encodings other than UTF-8.
 fn encoding_cases() -> Vec<Case> {
     let utf16: Vec<u8> = "\u{FEFF}{}".encode_utf16().flat_map(u16::to_le_bytes).collect();
     vec![

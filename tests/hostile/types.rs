@@ -1,4 +1,4 @@
-//! Every shape, component type and normalisation for every use of an accessor.
+//! Every shape, component type and normalization for every use of an accessor.
 
 use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
@@ -38,7 +38,7 @@ pub fn type_cases() -> Vec<Case> {
             for normalized in [false, true] {
                 let name = format!("{shape} of {component}, normalized {normalized}");
                 let accessor = json!({"componentType": component, "type": shape, "count": 3, "normalized": normalized});
-                // Room for any padding of columns; bytes that are ones as floats, too.
+                // Room for any padding of columns; the bytes also read as ones in floats.
                 let bytes = [0, 0, 0x80, 0x3F].repeat(3 * (width * size).max(16));
                 let readable = |shapes: &[&str], components: &[u32]| {
                     shapes.contains(&shape) && components.contains(&component)

@@ -1,4 +1,4 @@
-//! URIs that try to leave the folder, and such that only look as if they did.
+//! URIs that try to leave the folder, and URIs that only seem to.
 
 use crate::hostile::case::{Expected, check_load_result, check_path};
 use alberti_tests::gltf::Document;
@@ -10,10 +10,10 @@ use std::path::Path;
 const OUTSIDE: &str = "copy the file beside the model and name it by a relative path, or allow its folder with \
                        --allow-outside DIR";
 
-/// A case's name, and what was wrong.
+/// A case's name, and its fault.
 pub type UriResult = (String, Result<(), String>);
 
-/// Runs the cases in a folder of their own; gives what became of each.
+/// Runs the cases in a separate folder; returns the outcome of each.
 pub fn run_uri_cases(folder: &Path) -> Result<Vec<UriResult>, String> {
     let models = folder.join("models");
     create_files(folder, &models).map_err(|error| error.to_string())?;
@@ -50,7 +50,7 @@ pub fn run_uri_cases(folder: &Path) -> Result<Vec<UriResult>, String> {
     Ok(results)
 }
 
-/// Folders that are allowed besides the model's own, and what still is not.
+/// Folders allowed in addition to the model's own, and what remains forbidden.
 fn check_allowed_folders(
     folder: &Path,
     models: &Path,
@@ -89,7 +89,7 @@ fn check_allowed_folders(
     Ok(())
 }
 
-/// A file in memory may have data URIs, and nothing else may be read.
+/// A file in memory may have data URIs; nothing else may be read.
 fn check_in_memory(uri: &str, document: &Document, expected: &Expected) -> Result<(), String> {
     let text = document.json.to_string();
     let loaded = load_bytes("model.gltf", text.as_bytes(), &ImportOptions::default());
@@ -138,7 +138,7 @@ fn create_files(folder: &Path, models: &Path) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Names of files that are there, written in every way that is allowed.
+/// Names of existing files, written in every allowed way.
 const ALLOWED: [&str; 17] = [
     "data.bin",
     "a b.bin",
@@ -159,7 +159,7 @@ const ALLOWED: [&str; 17] = [
     "sub%2Fin.bin",
 ];
 
-/// Names that lead out of the folder by their letters alone.
+/// Names that leave the folder by their characters only.
 const FORBIDDEN: [&str; 7] = [
     "../secret.bin",
     "../../../../../../etc/passwd",

@@ -1,8 +1,8 @@
-//! Frames of films against pictures: with a camera that is given, a frame of an animation has the
-//! bytes of the picture at its time, in every style.
+//! Frames of films against pictures: with a given camera, a frame of an animation has the bytes of
+//! the picture at its time, in every style.
 //!
-//! Lights, cameras and grounds of a model move with it, so a film that is resolved only once shows
-//! them where they began.
+//! A model's lights, cameras and grounds move with it, so a film that is resolved only once shows
+//! them at their starting positions.
 
 use super::styles::{all_styles, keep_few};
 use base64::Engine as _;
@@ -77,8 +77,8 @@ pub fn write_moving_lamp(folder: &Path) -> Result<PathBuf, String> {
     Ok(path)
 }
 
-/// How the frames of a model's film differ from pictures at their times; nothing if the model has
-/// no animation, or if it cannot be drawn.
+/// The differences between frames of a model's film and pictures at their times; none if the model
+/// has no animation or cannot be drawn.
 pub fn compare_frames(model: &Path) -> Vec<String> {
     let (origin, mut file) = Origin::from_model_path(model);
     file.image.size = super::SIZE;
@@ -120,7 +120,7 @@ pub fn compare_frames(model: &Path) -> Vec<String> {
     faults
 }
 
-/// A camera that stands still, and the model's first, if it has one.
+/// A static camera, and the model's first, if it has one.
 fn cameras(scene: &Scene) -> Vec<(&'static str, CameraFile)> {
     let bounds = Bounds::from_points(world_points(&scene.models));
     let Some(bounds) = bounds else { return Vec::new() };

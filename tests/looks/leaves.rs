@@ -1,5 +1,5 @@
-//! Three leaves of one picture, half of which is empty: opaque, masked and blended. Whatever the style
-//! is, one sees through the empty halves of the last two.
+//! Three leaves with the same half-empty image: opaque, masked and blended. In every style the
+//! empty halves of the last two are see-through.
 
 use super::styles::all_styles;
 use alberti_tests::gltf::{Document, float_bytes};
@@ -15,7 +15,7 @@ use std::path::Path;
 const MODES: [&str; 3] = ["OPAQUE", "MASK", "BLEND"];
 const BACKGROUND: [u8; 4] = [0, 255, 0, 255];
 
-/// What is wrong with the leaves in each style; `folder` gets the model.
+/// The faults of the leaves in each style; `folder` gets the model.
 pub fn judge_leaves(folder: &Path) -> Result<Vec<String>, String> {
     let written = create_dir_all(folder).and_then(|()| write(folder.join("leaves.glb"), leaves()));
     written.map_err(|error| format!("{}: {error}", folder.display()))?;
@@ -41,7 +41,7 @@ pub fn judge_leaves(folder: &Path) -> Result<Vec<String>, String> {
     Ok(faults)
 }
 
-/// Pictures of numbers that a ground below the model changes.
+/// Finds numeric passes that a ground below the model changes.
 pub fn judge_grounds(folder: &Path) -> Result<Vec<String>, String> {
     let mut faults = Vec::new();
     for (name, style) in all_styles() {

@@ -1,19 +1,19 @@
-//! Ambient occlusion leaves no dark dots where surfaces end, whatever the number of samples.
+//! Ambient occlusion leaves no dark dots where surfaces end, with any number of samples.
 
 use super::styles::keep_few;
 use pipeline::{Origin, Picture, Scene, render};
 use scene_file::parse_scene;
 use std::path::Path;
 
-/// Models with inner silhouettes: a torus before itself, dense meshes, and a helmet full of edges.
+/// Models with inner silhouettes: a torus in front of itself, dense meshes, a helmet full of edges.
 const MODELS: [&str; 5] =
     ["bearing", "dense-sphere-draco-quantized", "flight-helmet", "teapot", "torus"];
-/// The numbers of samples a pixel.
+/// The tested samples per pixel.
 const SAMPLES: [u32; 4] = [1, 4, 8, 16];
 /// The fraction of its neighbors' light below which a pixel is a dot.
 const DOT: f64 = 0.25;
 
-/// The dots in pictures of a model in even light; nothing for other models.
+/// The dots in a model's pictures in even light; none for other models.
 pub(super) fn find_dots(model: &Path, name: &str) -> Vec<String> {
     let mut faults = Vec::new();
     if !MODELS.contains(&name) {
@@ -34,7 +34,7 @@ pub(super) fn find_dots(model: &Path, name: &str) -> Vec<String> {
     faults
 }
 
-/// A picture of a model in light that arrives from everywhere.
+/// A picture of a model that is lit from everywhere.
 fn render_model(model: &Path, samples: u32, occlusion: &str) -> Option<Picture> {
     let (folder, file) = (model.parent()?, model.file_name()?.to_str()?);
     let text = format!(

@@ -1,5 +1,5 @@
-//! Every model in every style, still and as a thumbnail: no picture is empty, and lines leave some of
-//! the paper free.
+//! Every model in every style, still and as a thumbnail: no picture is empty, and lines leave some
+//! of the paper free.
 
 use super::BareModel;
 use scene::Style;
@@ -7,12 +7,12 @@ use scene_file::file::StyleFile;
 
 /// The size of a thumbnail.
 const THUMBNAIL: (u32, u32) = (64, 64);
-/// The least share of the picture that has its most frequent color: paper, where lines are drawn.
+/// The minimum share of the picture in its most frequent color: the paper, in line drawings.
 const LEAST_PAPER: f64 = 0.25;
-/// The least share of the pixels that differ from the most frequent color.
+/// The minimum share of pixels that differ from the most frequent color.
 const LEAST_DRAWN: f64 = 0.0005;
 
-/// How many pictures of each model there are in the first tier.
+/// The number of pictures per model in the first tier.
 const FEW_CASES: usize = 2;
 
 /// All styles of the command line, with their names.
@@ -42,8 +42,8 @@ pub fn all_styles() -> Vec<(&'static str, StyleFile)> {
     ]
 }
 
-/// Keeps a few cases, chosen by the name of the model, so that each style meets some of the models;
-/// all of them if the environment variable `THOROUGH` is set.
+/// Keeps a few cases, chosen by the model's name, so that each style meets some of the models;
+/// keeps all if the environment variable `THOROUGH` is set.
 pub fn keep_few<T>(cases: &mut Vec<T>, name: &str, count: usize) {
     if std::env::var_os("THOROUGH").is_none() {
         let turn =
@@ -53,7 +53,7 @@ pub fn keep_few<T>(cases: &mut Vec<T>, name: &str, count: usize) {
     }
 }
 
-/// What is wrong with the pictures of a model in some of the styles, or in all.
+/// The faults in a model's pictures in some of the styles, or in all.
 pub(super) fn judge_styles(model: &BareModel<'_>, name: &str) -> Vec<String> {
     let mut cases: Vec<_> = all_styles()
         .into_iter()
@@ -63,7 +63,7 @@ pub(super) fn judge_styles(model: &BareModel<'_>, name: &str) -> Vec<String> {
     let mut faults = Vec::new();
     for ((style_name, style), size) in cases {
         let fault = judge_picture(model, style.with_fitting_lines(size), size);
-        // Refused with a flag that draws it: millions of triangles by copies.
+        // Refused, with the flag that allows it: copies make millions of triangles.
         let is_refused = |fault: &String| fault.contains("--no-line-limits");
         let (width, height) = size;
         let in_style = |fault| format!("{style_name}, {width} x {height}: {fault}");

@@ -1,14 +1,14 @@
-//! The facts that are compared, and the files that differ from the manifest for a reason.
+//! The compared facts, and the files that differ from the manifest for a reason.
 
 /// Triangles and bounds of a mesh.
 #[derive(Clone, PartialEq, Debug)]
 pub struct MeshFacts {
     pub triangles: usize,
-    /// Least and greatest corner of the bounding box; `None` without anything to draw.
+    /// Minimum and maximum corner of the bounding box; `None` if there is nothing to draw.
     pub bounds: Option<[f64; 6]>,
 }
 
-/// Files of the known folder that differ from its manifest, and why.
+/// Files in the known folder that differ from its manifest, and the reason.
 pub const DIFFERENCES: &[(&str, MeshFacts, &str)] = &[
     (
         "obj/box.obj",
@@ -23,8 +23,8 @@ pub const DIFFERENCES: &[(&str, MeshFacts, &str)] = &[
 ];
 
 impl MeshFacts {
-    /// Compares with what was found; bounds agree in the six digits of the manifest, relative to
-    /// the size of the mesh.
+    /// Compares with the findings; bounds agree to the six digits of the manifest, relative to the
+    /// mesh size.
     pub fn compare(&self, found: &Self) -> Result<(), String> {
         if self.triangles != found.triangles {
             return Err(format!("{} triangles instead of {}", found.triangles, self.triangles));

@@ -1,4 +1,4 @@
-//! Sheets of assemblies, as the program writes them: files of pages, parts lists, messages.
+//! Assembly sheets as the program writes them: page files, parts lists, messages.
 
 use crate::drawings::assert_succeeds;
 use crate::sandbox::Sandbox;
@@ -11,7 +11,7 @@ fn bearing(name: &str) -> Sandbox {
     sandbox
 }
 
-/// The content of a file; bytes that are no text are replaced.
+/// The content of a file; bytes that are not text are replaced.
 fn read_text(sandbox: &Sandbox, name: &str) -> String {
     let bytes = std::fs::read(sandbox.path_of(name)).expect("a file");
     String::from_utf8_lossy(&bytes).into_owned()
@@ -34,7 +34,7 @@ fn pages_are_numbered_files_or_one_pdf() {
     assert_succeeds(&sandbox, &[&flags[..], &["-o", "out.pdf"]].concat());
     let pdf = read_text(&sandbox, "out.pdf");
     assert!(pdf.contains("/Count 7"), "a PDF of seven pages");
-    // One page keeps its name.
+    // A single page keeps its name.
     assert_succeeds(&sandbox, &["sheet", "bearing.glb", "--unit", "mm", "-o", "one.svg"]);
     assert!(sandbox.path_of("one.svg").exists());
     let run = sandbox.run(&[&flags[..], &["-o", "{page}.pdf"]].concat());
@@ -64,7 +64,7 @@ fn parts_lists_are_drawn_and_written() {
     assert_eq!(rows[0], ["item", "quantity", "name", "material", "mass_grams"]);
     assert_eq!(rows.len(), 6);
     assert_eq!(rows[5][..4], ["5", "4", "bolt", "steel"]);
-    // A prism of twelve corners, 4 mm across and 1.5 mm high.
+    // A twelve-sided prism, 4 mm across and 1.5 mm high.
     let mass = 3.0 * 0.2 * 0.2 * 0.15 * 7.85;
     let found: f64 = rows[5][4].parse().expect("a mass");
     assert!((found - mass).abs() < 0.001, "{found} for {mass}");

@@ -1,6 +1,6 @@
-//! Animated files from the wild, from `shared/assets` beside the project or `$ASSETS`: at the time
-//! of a key the pose must be the key's value, whatever the interpolation, and pictures at different
-//! times must differ. Skipped, by name, where the folder is not there.
+//! Animated files from the wild, from `shared/assets` next to the project or from `$ASSETS`. At the
+//! time of a key the pose must be the key's value, with any interpolation, and pictures at
+//! different times must differ. Reported as skipped if the folder is missing.
 
 use crate::sandbox::Sandbox;
 use alberti_tests::skip::report_skip;
@@ -41,7 +41,7 @@ impl Gltf {
         Self { json, bytes }
     }
 
-    /// The numbers of an accessor of tightly packed floats.
+    /// The values in an accessor of tightly packed floats.
     fn read_floats(&self, accessor: &Value) -> Vec<f64> {
         let json = &self.json["accessors"][accessor.as_u64().expect("a number") as usize];
         let view = &self.json["bufferViews"][json["bufferView"].as_u64().expect("a view") as usize];
@@ -55,14 +55,13 @@ impl Gltf {
     }
 }
 
-/// Whether two lists of numbers are the same but for rounding; for rotations also if they are
-/// opposite.
+/// Whether two lists of numbers are equal except for rounding; rotations may also be opposite.
 fn are_equal_values(actual: &[f64], expected: &[f64], rotation: bool) -> bool {
     let near = |sign: f64| actual.iter().zip(expected).all(|(a, b)| (a - sign * b).abs() < 1e-5);
     actual.len() == expected.len() && (near(1.0) || rotation && near(-1.0))
 }
 
-/// Holds the poses of an animation at three of its keys against the file, and looks whether the
+/// Compares the poses of an animation at three of its keys with the file, and checks that the
 /// pictures differ.
 fn check_animation(name: &str, path: &str, animation: usize) {
     let Some(path) = asset_path(path) else { return };
@@ -90,7 +89,7 @@ fn check_animation(name: &str, path: &str, animation: usize) {
     assert!(pictures[0] != pictures[1] || pictures[1] != pictures[2], "{name}: nothing moves");
 }
 
-/// Compares all channels that have a key at this time; gives their number.
+/// Compares all channels that have a key at this time; returns their number.
 fn check_pose(gltf: &Gltf, json: &Value, info: &Value, time: f64) -> usize {
     let mut checked = 0;
     for channel in json["channels"].as_array().expect("channels") {
@@ -151,7 +150,7 @@ fn a_skinned_skater_compressed_by_draco_stands() {
     let (sandbox, file) = (Sandbox::new("real_skater"), path.to_string_lossy().into_owned());
     let run = sandbox.run(&["info", "--json", file.as_str()]);
     let info: Value = serde_json::from_str(&run.stdout).expect("JSON");
-    // She has no animation. With her arms out she is about as wide as high, and stands on the
+    // She has no animation. With her arms out she is about as wide as high, and her feet are on the
     // ground.
     let corner =
         |end: &str, axis: usize| info["shown"]["bounds"][end][axis].as_f64().expect("a number");

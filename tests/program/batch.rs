@@ -25,7 +25,7 @@ pub(crate) fn read_records(sandbox: &Sandbox, run: &str) -> Vec<Value> {
     texts.flat_map(lines).collect()
 }
 
-/// The names of the pictures that records are of, sorted.
+/// The picture names in records, sorted.
 fn outputs(records: &[Value]) -> Vec<&str> {
     let mut names: Vec<&str> =
         records.iter().map(|record| record["output"].as_str().expect("a name")).collect();
@@ -33,7 +33,7 @@ fn outputs(records: &[Value]) -> Vec<&str> {
     names
 }
 
-/// A folder of models: three good ones, one of them in a folder of its own, and a broken one.
+/// A folder of models: three good ones, one of them in a subfolder, and a broken one.
 pub(crate) fn batch_sandbox(name: &str) -> Sandbox {
     let sandbox = Sandbox::new(name);
     std::fs::create_dir_all(sandbox.path_of("models/more")).expect("folders");

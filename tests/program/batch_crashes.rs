@@ -1,7 +1,7 @@
 //! `alberti batch` when it is killed, when its disk is full, and when it is started twice: nothing
-//! is lost, and nothing wrong is believed to be done.
+//! is lost, and no bad result counts as done.
 //!
-//! `ALBERTI_BATCH_KILLS` is the number of times a batch is killed, 12 if it is not set.
+//! `ALBERTI_BATCH_KILLS` is the number of times a batch is killed; the default is 12.
 
 use crate::sandbox::{RunResult, Sandbox};
 use alberti_tests::skip::report_skip;
@@ -34,7 +34,7 @@ fn batch_with<'a>(flags: &[&'a str]) -> Vec<&'a str> {
     [&BATCH[..], flags].concat()
 }
 
-/// The pictures of an undisturbed run, by their names.
+/// The pictures from an undisturbed run, by name.
 fn undisturbed_pictures(sandbox: &Sandbox) -> BTreeMap<String, Vec<u8>> {
     let mut arguments = BATCH;
     arguments[3] = "whole";
@@ -45,15 +45,15 @@ fn undisturbed_pictures(sandbox: &Sandbox) -> BTreeMap<String, Vec<u8>> {
     pictures
 }
 
-/// All files that end in `.png`, by their path below a folder.
+/// All `.png` files, by their path below a folder.
 fn pictures_below(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let files = files_below(folder).into_iter().filter(|name| name.ends_with(".png"));
-    // One that another process replaces at this moment is read as it was or as it is.
+    // A file that another process is replacing is read in the old or the new version.
     let read = |name: String| std::fs::read(folder.join(&name)).map(|bytes| (name, bytes)).ok();
     files.filter_map(read).collect()
 }
 
-/// The paths of all files below a folder, relative to it; none if it is not there.
+/// The paths of all files below a folder, relative to it; none if it does not exist.
 fn files_below(folder: &Path) -> Vec<String> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let mut files = Vec::new();
@@ -68,7 +68,7 @@ fn files_below(folder: &Path) -> Vec<String> {
     files
 }
 
-/// The records that are whole in the reports of all runs.
+/// The complete records in the reports of all runs.
 fn recorded(out: &Path) -> Vec<Value> {
     let names = files_below(&out.join("reports")).into_iter();
     let texts = names
@@ -80,15 +80,15 @@ fn recorded(out: &Path) -> Vec<Value> {
     texts.flat_map(records).collect()
 }
 
-/// Checks that the pictures that are there are whole.
+/// Checks that the existing pictures are complete.
 fn check_pictures(sandbox: &Sandbox, whole: &BTreeMap<String, Vec<u8>>, when: &str) {
     for (name, bytes) in pictures_below(&sandbox.path_of("out")) {
         assert!(whole.get(&name) == Some(&bytes), "{when}: {name} is not the whole picture");
     }
 }
 
-/// Checks what a disturbed run has left: pictures are whole, and no record promises what is not
-/// there.
+/// Checks the state after a disturbed run: pictures are complete, and no record claims a picture
+/// that is missing.
 fn check_remains(sandbox: &Sandbox, whole: &BTreeMap<String, Vec<u8>>, when: &str) {
     let out = sandbox.path_of("out");
     check_pictures(sandbox, whole, when);
@@ -127,8 +127,8 @@ fn start_batch(sandbox: &Sandbox, arguments: &[&str]) -> std::process::Child {
     command.spawn().expect("the program starts")
 }
 
-/// Kills two shards at seeded moments until it has happened often enough; those that get through
-/// are checked and begin again.
+/// Kills two shards at seeded moments until it has happened often enough; shards that finish are
+/// checked and start over.
 fn kill_often(name: &str, kills: usize, flags: &[&str]) {
     let sandbox = crash_sandbox(name);
     let begin = Instant::now();
@@ -149,7 +149,7 @@ fn kill_often(name: &str, kills: usize, flags: &[&str]) {
             check_pictures(&sandbox, &whole, "while it runs");
             std::thread::sleep(Duration::from_millis(1));
         }
-        // Now both, now one of them.
+        // Sometimes both, sometimes one of them.
         let spared = (state >> 38) % 4;
         let mut ended = 0;
         for (at, mut shard) in (0_u64..).zip(shards) {
@@ -178,7 +178,7 @@ fn kill_often(name: &str, kills: usize, flags: &[&str]) {
     }
 }
 
-/// How often a batch is killed.
+/// The number of times a batch is killed.
 fn kill_count() -> usize {
     let text = std::env::var("ALBERTI_BATCH_KILLS").ok();
     text.map_or(12, |text| text.parse().expect("ALBERTI_BATCH_KILLS is a number"))
@@ -210,7 +210,7 @@ fn workers_end_with_the_batch_that_is_killed() {
         files.sort();
         files
     };
-    // What workers have begun may still get its name, but nothing is begun.
+    // Pictures that workers have begun may still get their names, but no new ones are begun.
     std::thread::sleep(Duration::from_millis(300));
     let left = files();
     std::thread::sleep(Duration::from_secs(1));
@@ -222,7 +222,7 @@ fn records_that_are_torn_are_made_again() {
     let sandbox = crash_sandbox("batch_torn");
     let whole = undisturbed_pictures(&sandbox);
     assert_eq!(sandbox.run(&BATCH).code, 0);
-    // The merged report of a run without shards has all records once more.
+    // The merged report of a run without shards repeats all records.
     let merged = sandbox.path_of("out/report.jsonl");
     std::fs::remove_file(&merged).expect("a merged report");
     let name = files_below(&sandbox.path_of("out/reports")).pop().expect("a report");
@@ -247,7 +247,7 @@ fn records_that_are_torn_are_made_again() {
         }
         std::fs::remove_file(&merged).expect("a merged report");
     }
-    // A line without its line break is whole.
+    // A line without its line break is complete.
     assert_eq!(cuts, 4);
 }
 
@@ -294,7 +294,7 @@ fn what_is_done_does_not_depend_on_clocks() {
         set_times(&sandbox.path_of("models"), inputs);
         set_times(&sandbox.path_of("out"), outputs);
         check_complete(&sandbox, &[]);
-        // A model that has changed is rendered, although its picture and its record are younger.
+        // A changed model is rendered, although its picture and its record are newer.
         let (model, other) = (sandbox.path_of("models/3/house.glb"), sandbox.path_of("panes.glb"));
         let former = std::fs::read(&model).expect("a model");
         std::fs::copy(other, &model).expect("another model");
@@ -303,7 +303,7 @@ fn what_is_done_does_not_depend_on_clocks() {
         let run = sandbox.run(&BATCH);
         assert_eq!(run.stdout, "1 rendered, 17 up to date, 0 failed\n");
         check_complete(&sandbox, &[]);
-        // And once more when it is what it was: the record of then is superseded.
+        // And once more when it is changed back: the old record is superseded.
         std::fs::write(&model, former).expect("the former model");
         set_times(&sandbox.path_of("models"), past);
         set_times(&sandbox.path_of("out"), future);
@@ -322,7 +322,7 @@ fn run_script(sandbox: &Sandbox, shell: &[&str], script: &str) -> Output {
     command.output().expect("a shell")
 }
 
-/// Checks a run that could not write: the code is 3, a message says why, and no job is blamed.
+/// Checks a run that could not write: the exit code is 3, a message says why, and no job is blamed.
 fn check_stopped(sandbox: &Sandbox, run: &RunResult) {
     assert_eq!(run.code, 3, "{}{}", run.stdout, run.stderr);
     assert!(run.stderr.contains("cannot write") || run.stderr.contains("cannot create"));
@@ -336,7 +336,7 @@ fn check_stopped(sandbox: &Sandbox, run: &RunResult) {
 fn files_that_cannot_grow_stop_the_run_and_blame_no_model() {
     let sandbox = crash_sandbox("batch_file_size");
     let whole = undisturbed_pictures(&sandbox);
-    // In blocks of 512 bytes: nothing, then at least a record.
+    // In blocks of 512 bytes: none, then enough for at least one record.
     for blocks in ["0", "1", "2"] {
         // Without the signal that a write beyond the limit would send.
         let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$alberti\" $batch");
@@ -350,9 +350,9 @@ fn files_that_cannot_grow_stop_the_run_and_blame_no_model() {
     check_complete(&sandbox, &[]);
 }
 
-/// Runs of a batch on a disk of its own, 64 KiB and then larger, with and without tar files.
+/// Runs a batch on a separate disk, of 64 KiB and then larger, with and without tar files.
 ///
-/// The disk is there for the script only, in a namespace of its own.
+/// The disk exists only for the script, in a namespace.
 const SMALL_DISK: &str = "
 mkdir -p out && mount -t tmpfs -o size=64k tmpfs out || exit 99
 for flags in '' '--tar 4'; do

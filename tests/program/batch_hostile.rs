@@ -1,5 +1,5 @@
-//! `alberti batch` on lists and folders that lead astray: two lines of one output, pipes in the
-//! place of reports, links in circles and out of the output folder, names that are no text.
+//! `alberti batch` on misleading lists and folders: two lines with one output, pipes instead of
+//! reports, links in circles and out of the output folder, names that are not text.
 
 use crate::sandbox::{RunResult, Sandbox};
 use std::ffi::OsStr;
@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 const SIZE: [&str; 2] = ["--size", "16x16"];
 
-/// Runs a command that may not wait for anything; it is killed after a minute.
+/// Runs a command that must not wait for anything; it is killed after a minute.
 fn run_in_time(sandbox: &Sandbox, arguments: &[&str]) -> RunResult {
     let mut child = sandbox.start(arguments);
     drop(child.stdin.take());
@@ -47,7 +47,7 @@ fn two_lines_of_one_output_are_refused() {
         let arguments = [&["batch", "--list", name, "--out-dir", out_dir][..], &SIZE].concat();
         let run = sandbox.run(&arguments);
         if numbers.is_empty() {
-            // `.` is refused by itself.
+            // `.` by itself is refused.
             assert_eq!(run.code, 1, "{}", run.stderr);
             continue;
         }
@@ -56,7 +56,7 @@ fn two_lines_of_one_output_are_refused() {
         assert!(run.stderr.starts_with(&expected), "{}", run.stderr);
         assert!(!sandbox.path_of(out_dir).exists(), "{name}");
     }
-    // A pipe cannot be read before.
+    // A pipe cannot be read before that.
     let arguments = [&["batch", "--list", "-", "--out-dir", "out"][..], &SIZE].concat();
     let (code, stdout) = sandbox.run_with_input(&arguments, format!("{x}\n{x}\n").as_bytes());
     let stdout = String::from_utf8(stdout).expect("UTF-8");

@@ -1,4 +1,5 @@
-//! `alberti batch --list`: jobs by lines of JSON and CSV, names by templates, scenes around models.
+//! `alberti batch --list`: jobs from lines of JSON and CSV, names from templates, scenes for
+//! models.
 
 use crate::batch::{batch_sandbox, read_records};
 use crate::sandbox::Sandbox;
@@ -38,7 +39,7 @@ fn lines_of_json_have_flags_of_their_own() {
     let corner = |name: &str| sandbox.read_picture(name).2.first().copied();
     assert_eq!(corner("out/top.png"), Some([0, 0, 0, 255]), "the line's background");
     assert_eq!(corner("out/red.png"), Some([255, 0, 0, 255]), "the picture's");
-    // The same as without a list.
+    // As without a list.
     let front = ["render", "models/a.glb", "--size", "32x24", "--view", "front", "--samples", "4"];
     let front = [&front[..], &["--overlay", "axes,grid", "-o", "front.png"]].concat();
     assert_eq!(sandbox.run(&front).code, 0);
@@ -171,7 +172,7 @@ fn one_scene_goes_over_many_models() {
     let run = sandbox.run(&[&arguments[..], &["--scene", "lineup.ron"]].concat());
     assert_eq!(run.stdout, "2 rendered, 0 up to date, 0 failed\n", "{}", run.stderr);
     assert_eq!(sandbox.read_picture("out/a.glb.png").0, 12);
-    // The same as a scene with the name in it.
+    // As a scene that names the model.
     let text = std::fs::read_to_string(sandbox.path_of("lineup.ron")).expect("the scene");
     sandbox.write_file("named.ron", text.replace("{input}", "models/a.glb"));
     assert_eq!(sandbox.run(&["render", "named.ron", "-o", "named.png"]).code, 0);

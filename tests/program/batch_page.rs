@@ -1,11 +1,11 @@
-//! The page on batches, `docs/batch.md`: its commands are run, with the files that it shows.
+//! The batch page, `docs/batch.md`: its commands run with the files that it shows.
 
 use crate::sandbox::Sandbox;
 
-/// What stands behind a command of the page that no test runs.
+/// The mark after a command of the page that no test runs.
 const NOT_RUN: &str = "# not run here";
 
-/// The blocks of the page in a language.
+/// The code blocks of the page in a language.
 fn blocks<'a>(page: &'a str, language: &str) -> Vec<&'a str> {
     let fence = format!("\n```{language}\n");
     page.split(fence.as_str())
@@ -14,7 +14,7 @@ fn blocks<'a>(page: &'a str, language: &str) -> Vec<&'a str> {
         .collect()
 }
 
-/// The words of a command, those in single quotes as one.
+/// The words of a command; words in single quotes are one.
 fn split_words(command: &str) -> Vec<&str> {
     let parts = command.split('\'').enumerate();
     let words = parts.flat_map(|(part, text)| match part % 2 {

@@ -1,5 +1,4 @@
-//! `alberti batch` with models that hang, crash or take all memory, and with workers that are
-//! killed.
+//! `alberti batch` with models that hang, crash or use up the memory, and with killed workers.
 
 #![cfg(target_os = "linux")]
 
@@ -31,7 +30,7 @@ fn record_of(sandbox: &Sandbox, output: &str) -> Option<Value> {
     read_records(sandbox, "").into_iter().find(|record| record["output"] == output)
 }
 
-/// Waits until something is so.
+/// Waits until a condition holds.
 fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
     let begin = Instant::now();
     loop {
@@ -43,7 +42,7 @@ fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
     }
 }
 
-/// The processes that a process has started.
+/// The child processes of a process.
 fn children(process: u32) -> Vec<u32> {
     let Ok(tasks) = std::fs::read_dir(format!("/proc/{process}/task")) else { return Vec::new() };
     let lists =
@@ -58,13 +57,13 @@ fn send_signal(process: u32, signal: &str) {
     assert!(sent.expect("kill runs").success(), "{process} is there");
 }
 
-/// Waits until the slow picture is being rendered by another worker than `known`; its process.
+/// Waits until a worker other than `known` renders the slow picture; returns its process.
 fn slow_worker(sandbox: &Sandbox, run: &Child, known: Option<u32>) -> u32 {
     wait_for("the first picture", || record_of(sandbox, "first.png"));
     wait_for("a worker", || children(run.id()).into_iter().find(|id| Some(*id) != known))
 }
 
-/// The end of a run, which may have been by a signal.
+/// The end of a run, possibly by a signal.
 fn end_of(run: Child) -> RunResult {
     RunResult::of(run.wait_with_output().expect("it ends"))
 }
@@ -145,7 +144,7 @@ fn workers_end_with_their_coordinator() {
     run.wait().expect("it ends");
     wait_for("the worker ends", || {
         let status = std::fs::read_to_string(format!("/proc/{worker}/stat"));
-        // One that has ended stays until its new parent asks for it.
+        // A process that has ended remains until its new parent asks for it.
         status.map_or(true, |status| status.contains(") Z ")).then_some(())
     });
     assert!(record_of(&sandbox, "slow.png").is_none());

@@ -1,10 +1,10 @@
-//! Cameras by intrinsic parameters, extrinsic parameters and poses, as flags.
+//! Cameras from intrinsics, extrinsics and poses, as flags.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
 use serde_json::Value;
 
-/// Three units before the origin, x to the right, y down, z ahead.
+/// Three units in front of the origin, x to the right, y down, z ahead.
 const EXTRINSICS: &str = "1,0,0,0, 0,1,0,0, 0,0,1,3";
 
 /// An item of an explanation.
@@ -16,7 +16,7 @@ fn item(explanation: &Value, step: &str, id: &str) -> Value {
     by_id(&by_id(&explanation["steps"], step)["items"], id)["value"].clone()
 }
 
-/// Where the point (0.5, 0.25, 1) is seen: column and row, pixel centers at halves; and K.
+/// The position of the point (0.5, 0.25, 1): column and row, pixel centers at halves; and K.
 fn seen(sandbox: &Sandbox, flags: &[&str]) -> ([f64; 2], Value) {
     let subject =
         ["explain", "square.gltf", "--point", "0.5,0.25,1", "--json", "--size", "640x480"];

@@ -1,17 +1,17 @@
-//! Labels at points of the world, captions below views, and several views at one scale: where the
-//! formulas have them, in pictures and in drawings.
+//! Labels at world points, captions below views, and several views at one scale: all are at the
+//! positions that the formulas give, in pictures and in drawings.
 
 use crate::sandbox::Sandbox;
 use crate::vector_files::{Layers, PagePoint, parse_svg, point_bounds};
 
-/// Pixels in a millimetre of a drawing: 96 to the inch.
+/// Pixels per millimeter of a drawing, at 96 per inch.
 const PIXELS_PER_MILLIMETRE: f64 = 96.0 / 25.4;
-/// Rounding to micrometres at both ends of an extent, in pixels.
+/// Rounding to micrometers at both ends of an extent, in pixels.
 const MICROMETRE: f64 = 0.001 * PIXELS_PER_MILLIMETRE;
 /// The extents of the crate of these tests along x, y and z; by itself it is a cube of side 1.
 const BOX: [f64; 3] = [2.0, 1.0, 3.0];
 
-/// Writes a scene of the crate, and renders it to an SVG without a message.
+/// Writes a scene with the crate, and renders it to an SVG without messages.
 fn draw(sandbox: &Sandbox, fields: &str) -> Layers {
     let (stderr, layers) = draw_with_messages(sandbox, fields);
     assert_eq!(stderr, "", "{fields}");
@@ -36,7 +36,7 @@ fn read_layers(sandbox: &Sandbox, file: &str) -> Layers {
     parse_svg(&std::fs::read_to_string(sandbox.path_of(file)).expect("an SVG")).1
 }
 
-/// The least and the greatest coordinates of the layers of a prefix, in pixels.
+/// The minimum and maximum coordinates of the layers with a prefix, in pixels.
 fn bounds_in_pixels(layers: &Layers, prefix: &str) -> [PagePoint; 2] {
     let lines = layers.iter().filter(|(id, _)| id.starts_with(prefix)).flat_map(|(_, all)| all);
     point_bounds(lines.flatten()).map(|point| point.map(|c| c * PIXELS_PER_MILLIMETRE))
@@ -48,8 +48,8 @@ fn assert_near(actual: PagePoint, expected: PagePoint, tolerance: f64) {
     assert!(near, "{actual:?} instead of {expected:?}");
 }
 
-/// In a picture of 800 × 600 pixels, a unit has 100 of them in the plane z = 0; the perspective
-/// has its eye at a distance of 10, so that (1, 1, 2) is at 1/8 instead of 1/10.
+/// In a picture of 800 × 600 pixels, a unit is 100 pixels in the plane z = 0; the perspective has
+/// its eye at a distance of 10, so (1, 1, 2) is at 1/8 instead of 1/10.
 #[test]
 fn labels_are_beside_the_images_of_their_points() {
     let sandbox = Sandbox::new("labels");
@@ -62,7 +62,7 @@ fn labels_are_beside_the_images_of_their_points() {
             "camera: (view: LookAt(eye: (0, 0, 10), target: (0, 0, 0)), projection: {projection})"
         );
         let image = "image: (size: (800, 600))";
-        // The corner or side of the text that is at the offset, for capitals of 20 pixels.
+        // The corner or side of the text at the offset, for capitals of 20 pixels.
         for (offset, corner) in [
             ([30.0, -10.0], [Some(0), Some(1)]),
             ([-30.0, 10.0], [Some(1), Some(0)]),
@@ -120,7 +120,7 @@ fn labels_that_are_not_in_the_picture_are_named() {
     assert_eq!(labels.collect::<Vec<_>>(), ["overlay-3-label"]);
 }
 
-/// The strip has 28 pixels; above it is the picture of that height.
+/// The strip is 28 pixels high; above it is the picture of the given height.
 #[test]
 fn a_caption_is_below_the_picture() {
     let sandbox = Sandbox::new("caption");
@@ -146,7 +146,7 @@ fn a_caption_is_below_the_picture() {
     let middle = (least.expect("a column") + most.expect("a column") + 1) as f64 / 2.0;
     assert!((middle - 64.0).abs() <= 1.0, "{middle}");
     assert!(written.iter().any(|at| strip[*at][0] > 200));
-    // A part of the picture has its part of the caption.
+    // Part of the picture has its part of the caption.
     picture("with.png", (128, 156), "caption: \"Front\"");
     let run = sandbox.run(&["render", "scene.ron", "-o", "part.png", "--crop", "20,120,90,30"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
@@ -155,7 +155,7 @@ fn a_caption_is_below_the_picture() {
         let from = (120 + y) * 128 + 20;
         assert_eq!(row, &with[from..from + 90], "{y}");
     }
-    // In a drawing the caption is a layer, and nothing else is in its strip.
+    // In a drawing the caption is a layer, and its strip contains nothing else.
     let floor =
         "overlays: [Axes(length: 90)], camera: (view: LookAt(eye: (5, 4, 7), target: (0, 0, 0)))";
     let image = "image: (size: (400, 300)), style: Lines(), caption: \"HIM\"";
@@ -169,7 +169,7 @@ fn a_caption_is_below_the_picture() {
     }
 }
 
-/// MV-1, AX-1: extents on the page of an SVG are the scale times those of the box.
+/// MV-1, AX-1: extents on the page of an SVG are the box's extents times the scale.
 #[test]
 fn c75_drawings_of_several_views_have_one_scale() {
     let sandbox = Sandbox::new("one_scale");
@@ -218,7 +218,7 @@ fn views_of_the_command_line_share_a_scale() {
             bounds_in_pixels(&read_layers(&sandbox, &format!("{view}.svg")), "visible");
         [high[0] - low[0], high[1] - low[1]]
     });
-    // The top view, 3 high, is the one that decides: with 5 % of padding it has 180 pixels.
+    // The top view, 3 high, decides the scale: with 5 % of padding it has 180 pixels.
     for (size, (_, extents)) in sizes.into_iter().zip(expected) {
         assert_near(size, extents.map(|extent| extent * 60.0), 2.0 * MICROMETRE);
     }

@@ -1,11 +1,11 @@
-//! `alberti check`, and the flags about loading: `--lenient`, `--allow-outside`, and one for each
+//! `alberti check`, and the flags for loading: `--lenient`, `--allow-outside`, and one for each
 //! limit.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
 use serde_json::{Value, json};
 
-/// A square whose bounds are wrong, with an index of a material that is not there.
+/// A square with wrong bounds and the index of a missing material.
 fn faulty_model() -> GltfBuilder {
     let mut document = GltfBuilder::square();
     document.json["accessors"][0]["min"] = json!([-9, -1, 0]);

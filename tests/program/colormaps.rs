@@ -1,4 +1,4 @@
-//! Colors of numbers: scalar attributes of vertices, and depth in a colormap.
+//! Numbers as colors: scalar attributes of vertices, and depth in a colormap.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
@@ -38,7 +38,7 @@ fn codes(colormap: Colormap, t: f32) -> [u8; 3] {
     colormap.srgb_at(t).map(|fraction| (fraction * 255.0).round() as u8)
 }
 
-/// The colors of a picture at the centers of `parts` equal columns, and what was told.
+/// The colors of a picture at the centers of `parts` equal columns, and the messages.
 fn column_colors(sandbox: &Sandbox, arguments: &[&str], parts: u32) -> (Vec<[u8; 3]>, String) {
     let picture = ["-o", "out.png", "--size", "100x20", "--view", "front", "--samples", "1"];
     let lens = ["--projection", "orthographic"];
@@ -108,7 +108,7 @@ fn a_custom_attribute_of_gltf_has_the_colors_of_the_colormap() {
     let bytes = json!({"componentType": 5121, "type": "SCALAR", "count": 4});
     let scalars = document.add_accessor(&[10, 10, 10, 10], &bytes);
     document.json["meshes"][0]["primitives"][0]["attributes"]["_TEMPERATURE"] = json!(scalars);
-    // The square beside it lacks the attribute, and stays red.
+    // The square beside it lacks the attribute and stays red.
     let plain = json!({"primitives": [{"attributes": {"POSITION": 0}, "mode": 6, "material": 0}]});
     let mesh = document.push_item("/meshes", plain);
     let node = document.push_item("/nodes", json!({"mesh": mesh, "translation": [2, 0, 0]}));

@@ -21,7 +21,7 @@ fn a_subject_is_drawn_in_every_projection() {
     for name in PROJECTIONS {
         let [low, high] = layer_bounds(&layers, |id| id.starts_with(&format!("{name}-visible-")));
         assert!(low[0] > 0.0 && low[1] > 0.0 && high[0] < page[0] && high[1] < page[1], "{name}");
-        // Framed: the drawing takes most of its 84.7 × 63.5 mm, and no more.
+        // Framed: the drawing fills most of its 84.7 × 63.5 mm, and no more.
         let [w, h] = layer_size(&layers, name);
         assert!(w < 84.7 && h < 63.5 && (w > 70.0 || h > 52.0), "{name}: {w} x {h}");
     }
@@ -29,7 +29,7 @@ fn a_subject_is_drawn_in_every_projection() {
     assert!(text.contains("<g id=\"names.two-point\">\n<title>two point</title>"));
 }
 
-/// A box of 4 × 3 × 2: what the textbooks say its pictures measure.
+/// A box of 4 × 3 × 2: its pictures have the sizes given in the textbooks.
 #[test]
 fn oblique_boxes_measure_as_the_textbooks_say() {
     let sandbox = Sandbox::new("compare_box");
@@ -43,7 +43,7 @@ fn oblique_boxes_measure_as_the_textbooks_say() {
         ("multiview", 4.0, 3.0),
         ("cavalier", 4.0 + 2.0 * half, 3.0 + 2.0 * half),
         ("cabinet", 4.0 + half, 3.0 + half),
-        // Both across at 30°, the height upright, all by √(2/3).
+        // Both horizontal axes at 30°, the height vertical, all by √(2/3).
         ("isometric", 6.0 * slant, (3.0 + 0.5 * 6.0) * (2_f64 / 3.0).sqrt()),
     ] {
         let [w, h] = layer_size(&layers, name);

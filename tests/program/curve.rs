@@ -17,8 +17,8 @@ fn curve_csv(sandbox: &Sandbox, flags: &[&str]) -> Vec<[f64; 5]> {
     text.lines().skip(1).map(row).collect()
 }
 
-/// The lesson's table of near 2 and far 40 (C68), with the four digits that it prints where they
-/// are known by heart.
+/// The lesson's table for near 2 and far 40 (C68), with its four printed digits where they are well
+/// known.
 #[test]
 fn the_lessons_table_comes_out() {
     let sandbox = Sandbox::new("curve_lesson");
@@ -44,8 +44,8 @@ fn the_lessons_table_comes_out() {
     assert!(markdown.contains("| 3 | -0.2982 | 0.2982 |"), "{markdown}");
 }
 
-/// Fixed point: D²(F − N)/(F N) parts of the range. Floating point: the gap of the nearest f32,
-/// through the slope.
+/// Fixed point: D²(F − N)/(F N) parts of the range. Floating point: the gap to the nearest f32,
+/// divided by the slope.
 #[test]
 fn steps_are_those_of_the_formats() {
     let sandbox = Sandbox::new("curve_steps");
@@ -88,8 +88,8 @@ fn the_curves_are_drawn_in_every_format() {
             let [low, high] = layer_bounds(&layers, |layer| layer == id);
             assert!(low[0] > 0.0 && high[0] < page[0] && high[1] < page[1], "{id}");
         }
-        // Both depth curves span the whole range, and cross where half of it is spent: at twice the
-        // near distance.
+        // Both depth curves span the whole range and cross at half of it, at twice the near
+        // distance.
         let [low, high] = layer_bounds(&layers, |layer| layer == "depth-axes");
         let mark = layers["depth-marks"][0][0][0];
         let part = (mark - low[0]) / (high[0] - low[0]);
@@ -97,7 +97,7 @@ fn the_curves_are_drawn_in_every_format() {
     }
 }
 
-/// On a linear axis the mark of half the range is where its distance is, 2FN/(F + N).
+/// On a linear axis the mark for half the range is at its distance, 2FN/(F + N).
 #[test]
 fn the_axis_of_distances_can_be_linear() {
     let sandbox = Sandbox::new("curve_linear");
@@ -116,7 +116,7 @@ fn the_axis_of_distances_can_be_linear() {
     }
 }
 
-/// C36: the segments that pass the eye are torn if they are divided as they are.
+/// C36: segments that pass the eye are torn apart if they are divided without clipping.
 #[test]
 fn the_wrap_around_is_shown_with_and_without_clipping() {
     let sandbox = Sandbox::new("wrap_around");

@@ -1,4 +1,4 @@
-//! Line drawings and sheets: measured as they are written, in SVG and in PDF.
+//! Line drawings and sheets, measured as written, in SVG and in PDF.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
@@ -20,8 +20,8 @@ pub(crate) const PROJECTIONS: [&str; 12] = [
     "three-point",
 ];
 
-/// A solid box of these sides in metres, one corner at the origin, with a groove so that front and
-/// back differ.
+/// A solid box with these sides in meters, one corner at the origin, with a groove so that front
+/// and back differ.
 pub(crate) fn write_box(sandbox: &Sandbox, name: &str, [w, h, d]: [f32; 3]) {
     let mut document = GltfBuilder::square();
     let corner = |n: usize| {
@@ -52,7 +52,7 @@ pub(crate) fn assert_succeeds(sandbox: &Sandbox, arguments: &[&str]) {
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{arguments:?}");
 }
 
-/// The size of what a view shows.
+/// The size of a view's contents.
 fn view_size(layers: &Layers, view: &str) -> PagePoint {
     let [low, high] = layer_bounds(layers, |id| id.starts_with(view));
     [high[0] - low[0], high[1] - low[1]]
@@ -80,7 +80,7 @@ fn a_hundred_millimetres_measure_a_hundred_at_one_to_one() {
         assert_near(w, width);
         assert_near(h, height);
     }
-    // The same lines at the same places in the PDF, to the digits its matrix has.
+    // The PDF has the same lines at the same positions, to the digits of its matrix.
     let pages = parse_pdf(&std::fs::read(sandbox.path_of("box.pdf")).expect("a PDF"));
     let [(page, lines)] = &pages[..] else { panic!("one page") };
     assert_near(page[0], 420.0);
@@ -156,7 +156,7 @@ fn dimensions_give_the_true_size() {
     let front = layer_bounds(&layers, |id| id.starts_with("front-"));
     let lines = &layers["dimensions"];
     let level = |line: &&Vec<PagePoint>| line.len() == 2 && line[0][1] == line[1][1];
-    // The line of the width is as long as the front, and above it.
+    // The dimension line of the width is as long as the front, and above it.
     let widths = lines.iter().filter(level).filter(|line| {
         (line[0][0] - front[0][0]).abs() < 5e-4 && (line[1][0] - front[1][0]).abs() < 5e-4
     });
@@ -196,7 +196,7 @@ fn every_style_has_its_lines_in_every_projection() {
     let count = |style: &str, projection: &str| {
         let flags = ["-o", "out.svg", "--style", style, "--projection", projection];
         let run = sandbox.run(&[&["render", "house.glb"][..], &flags].concat());
-        // Of surfaces an SVG has the lines, which is said.
+        // An SVG has only the lines of surfaces; a message says so.
         let is_surface = matches!(style, "shaded" | "flat");
         assert_eq!(run.code, 0, "{flags:?}: {}", run.stderr);
         assert_eq!(
@@ -298,7 +298,7 @@ fn a_sheet_is_described_by_the_scene_and_flags_go_before_it() {
     let (page, layers) = read_drawing(&sandbox, "out.svg");
     assert_eq!(page, [420.0, 297.0]);
     assert_near(view_size(&layers, "front-")[0], 100.0);
-    // Without a name the sheet goes into a PDF beside.
+    // Without an output name the sheet becomes a PDF next to the input.
     assert_succeeds(&sandbox, &["sheet", "scene.ron"]);
     assert_eq!(sandbox.file_names(), ["box.bin", "box.gltf", "out.svg", "scene.pdf", "scene.ron"]);
 }
@@ -323,7 +323,7 @@ fn sheets_take_their_lines_from_the_style_of_the_scene() {
     for part in ["<image id=\"front-tone\"", "#e01020", "stroke-width=\"1.25\""] {
         assert!(styled.contains(part) && !plain.contains(part), "{part}");
     }
-    // Edges at 90° are creases up to that angle only.
+    // Edges of 90° are creases only up to that angle.
     let (_, creases) = sheet("style: Lines()", &["--crease", "89"]);
     let (_, smooth) = sheet("style: Lines()", &["--crease", "91"]);
     assert!(creases.contains("isometric-visible-crease"));
@@ -355,7 +355,7 @@ fn drawings_are_verified() {
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let run = sandbox.run(&["render", "box.gltf", "-o", "box.svg", "--verify"]);
     assert_eq!(run.code, 0, "{}", run.stderr);
-    // Nine edges of a box are seen; no pixel is in doubt.
+    // Nine edges of a box are visible; no pixel is in doubt.
     let prefix = "verified: 0.0000 % of ";
     assert!(run.stderr.starts_with(prefix), "{}", run.stderr);
     let length = run.stderr[prefix.len()..].split(' ').next().and_then(|px| px.parse::<f64>().ok());

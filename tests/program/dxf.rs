@@ -1,10 +1,9 @@
-//! DXF and outlines: units, coordinates and layers as they are written; `tests/dxf` reads whole
-//! files.
+//! DXF and outlines: units, coordinates and layers as written; `tests/dxf` reads whole files.
 
 use crate::drawings::{assert_near, assert_succeeds, write_box};
 use crate::sandbox::Sandbox;
 
-/// The tags of a file.
+/// The tags in a file.
 fn read_tags(sandbox: &Sandbox, name: &str) -> Vec<(u16, String)> {
     let text = std::fs::read_to_string(sandbox.path_of(name)).expect("a DXF");
     let lines: Vec<&str> = text.lines().collect();
@@ -25,7 +24,7 @@ fn numbers(tags: &[(u16, String)], kind: &str, code: u16) -> Vec<f64> {
     found
 }
 
-/// Whether an entity is of a kind, on a layer whose name begins so.
+/// Whether an entity is of a kind and on a layer whose name begins like this.
 fn has_entity(tags: &[(u16, String)], kind: &str, layer: &str) -> bool {
     let is_such = |entity: &[(u16, String)]| {
         entity[0].1 == kind
@@ -47,13 +46,13 @@ fn texts_on<'a>(tags: &'a [(u16, String)], layer: &str) -> Vec<&'a str> {
     texts
 }
 
-/// The value that follows a variable of the header.
+/// The value after a variable in the header.
 fn header<'a>(tags: &'a [(u16, String)], name: &str) -> &'a str {
     let at = tags.iter().position(|(_, value)| value == name).expect("a variable");
     &tags[at + 1].1
 }
 
-/// The least and the greatest of some numbers.
+/// The minimum and maximum of some numbers.
 fn extent(numbers: &[f64]) -> [f64; 2] {
     let least = numbers.iter().fold(f64::INFINITY, |least, number| least.min(*number));
     [least, numbers.iter().fold(-least, |most, number| most.max(*number))]
@@ -109,7 +108,7 @@ fn annotations_of_a_sheet_have_their_texts_on_layers_of_their_own() {
     let tags = read_tags(&sandbox, "cut.dxf");
     let [dimensions, names] = ["dimensions-text", "cut-names"].map(|layer| texts_on(&tags, layer));
     assert!(dimensions.contains(&"100") && dimensions.contains(&"50"), "{dimensions:?}");
-    // Above and beside the front view, which is cut, the line of the section.
+    // Above and beside the front view, which is cut: the section line.
     assert_eq!(names, ["A", "A", "A", "A", "A-A"]);
     for layer in ["dimensions", "cut-lines", "cut-arrows", "scale-bar"] {
         assert_eq!(texts_on(&tags, layer), [""; 0], "{layer}");

@@ -1,10 +1,10 @@
-//! The examples of the library, built and run.
+//! The library's examples, built and run.
 
 use crate::sandbox::Sandbox;
 use std::path::PathBuf;
 use std::process::Command;
 
-/// Runs an example of the crate `pipeline` in the folder of a test, and gives what it prints.
+/// Runs an example of the crate `pipeline` in a test folder, and returns its output.
 fn run_example(sandbox: &Sandbox, name: &str, arguments: &[&str]) -> String {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     // With the features of the whole workspace nothing is compiled twice.
@@ -66,7 +66,7 @@ fn the_examples_do_what_the_program_does() {
     for number in ["0000", "0999"] {
         let (scene, picture) = (format!("scenes/{number}.ron"), format!("scenes/{number}.png"));
         let run = sandbox.run(&["render", &scene, "--allow-outside", ".", "-o", "again.png"]);
-        // The path of the model begins at its folder, not at that of the text.
+        // The path of the model starts at its own folder, not at the scene's.
         assert_eq!(run.code, 1, "{}", run.stderr);
         std::fs::copy(sandbox.path_of(&scene), sandbox.path_of("scene.ron")).expect(number);
         let run = sandbox.run(&["render", "scene.ron", "-o", "again.png"]);

@@ -4,7 +4,7 @@ use crate::sandbox::{RunResult, Sandbox};
 use serde_json::Value;
 use std::path::Path;
 
-/// A run in English, whatever the environment says.
+/// A run in English, regardless of the environment.
 fn run(sandbox: &Sandbox, arguments: &[&str]) -> RunResult {
     let words: Vec<&str> = ["exercise"].iter().chain(arguments).copied().collect();
     sandbox.run_with_variable(("LC_ALL", Path::new("C")), &words)

@@ -1,11 +1,11 @@
 //! The page of exercises: each of its commands is run, and its JSON output compared with the worked
-//! answer that the page gives (exercises 1 to 11, C104).
+//! answer on the page (exercises 1 to 11, C104).
 
 use crate::sandbox::Sandbox;
 use serde_json::Value;
 use std::collections::BTreeSet;
 
-/// A command of the page with the ids and numbers of its answers.
+/// A command on the page, with the ids and numbers in its answers.
 struct Case {
     title: String,
     command: String,
@@ -17,7 +17,7 @@ fn read_page(name: &str) -> String {
     std::fs::read_to_string(path).expect(name)
 }
 
-/// A sandbox with the scenes of the exercises, below `docs` as the commands have it.
+/// A sandbox with the scenes of the exercises below `docs`, as the commands expect.
 fn sandbox_with_scenes(name: &str) -> Sandbox {
     let sandbox = Sandbox::new(name);
     std::fs::create_dir_all(sandbox.path_of("docs/exercises")).expect("a folder");
@@ -30,14 +30,14 @@ fn sandbox_with_scenes(name: &str) -> Sandbox {
     sandbox
 }
 
-/// A number or a fraction of the page.
+/// A number or a fraction on the page.
 fn parse_number(word: &str) -> f64 {
     let (above, below) = word.split_once('/').unwrap_or((word, "1"));
     let parse = |digits: &str| digits.parse::<f64>().unwrap_or_else(|_| panic!("{word}"));
     parse(above) / parse(below)
 }
 
-/// The commands of the page, with the answers that follow each.
+/// The commands on the page, each with the answers that follow it.
 fn read_cases(page: &str) -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
     let mut title = String::new();
@@ -59,7 +59,7 @@ fn read_cases(page: &str) -> Vec<Case> {
     cases
 }
 
-/// The words of a command, those in single quotes as one.
+/// The words of a command; words in single quotes are one.
 fn split_words(command: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     for (part, text) in command.split('\'').enumerate() {
@@ -71,7 +71,7 @@ fn split_words(command: &str) -> Vec<String> {
     words
 }
 
-/// Runs a command of a page, which begins with `alberti`.
+/// Runs a command from a page, which begins with `alberti`.
 fn run_command(sandbox: &Sandbox, command: &str, more: &[&str]) -> String {
     let words = split_words(command);
     assert_eq!(words[0], "alberti", "{command}");
@@ -82,7 +82,7 @@ fn run_command(sandbox: &Sandbox, command: &str, more: &[&str]) -> String {
     run.stdout
 }
 
-/// The numbers of a value: of a step's item, or of a member of the document.
+/// The numbers in a value: in a step's item, or in a member of the document.
 fn find_numbers(document: &Value, id: &str) -> Option<Vec<f64>> {
     let steps = document["steps"].as_array().into_iter().flatten();
     let mut items = steps.flat_map(|step| step["items"].as_array().into_iter().flatten());
@@ -140,7 +140,7 @@ fn the_page_has_all_exercises_and_items_of_all_sources() {
     }
 }
 
-/// The answers that the page has checked by `alberti exercise` are right.
+/// The answers that the page checks with `alberti exercise` are right.
 #[test]
 fn answers_in_the_text_of_the_exercises_are_right() {
     let sandbox = Sandbox::new("exercises_answers");
@@ -153,7 +153,7 @@ fn answers_in_the_text_of_the_exercises_are_right() {
     for command in commands {
         assert_eq!(run_command(&sandbox, command, &["--language", "en"]), "right\n", "{command}");
     }
-    // The samples of the section on checking.
+    // The samples in the section on checking.
     let (_, samples) = page.split_once("```text\n").expect("samples");
     let samples = samples.split("```").next().unwrap_or_default();
     for sample in samples.split("$ ").skip(1) {
@@ -165,7 +165,7 @@ fn answers_in_the_text_of_the_exercises_are_right() {
     }
 }
 
-/// `reference ID` shows formula, source and command of every id, and each command works.
+/// `reference ID` shows the formula, source and command of every id, and each command works.
 #[test]
 fn every_formula_is_in_the_reference_and_its_command_works() {
     let sandbox = sandbox_with_scenes("formulas");
@@ -185,7 +185,7 @@ fn every_formula_is_in_the_reference_and_its_command_works() {
     for command in alone {
         run_command(&empty, command, &[]);
     }
-    // Those that need a scene are named at the top, and those without a command, too.
+    // Ids that need a scene are listed at the top, and so are ids without a command.
     let ids = |has: &dyn Fn(&str) -> bool| -> Vec<&str> {
         let entries = page.split("\n**").skip(1).filter(|entry| has(entry));
         entries.filter_map(|entry| entry.split(',').next()).collect()

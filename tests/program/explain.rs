@@ -23,7 +23,7 @@ fn explanation_json(sandbox: &Sandbox, arguments: &[&str]) -> Value {
     serde_json::from_str(&run.stdout).expect("JSON")
 }
 
-/// The value of an item, in whichever step it is.
+/// The value of an item, in any step.
 fn find_item(explanation: &Value, id: &str) -> Value {
     let steps = explanation["steps"].as_array().expect("steps").iter();
     let mut items = steps.flat_map(|step| step["items"].as_array().expect("items"));
@@ -42,7 +42,7 @@ fn assert_near(ours: &Value, theirs: &[f64]) {
 #[test]
 fn a_point_is_followed_to_its_pixel() {
     let sandbox = sandbox_with_scene("explain_point", |_| {});
-    // Half-way up from the center at distance 5, where the picture is 10 high: 25 of 100 rows.
+    // Halfway up from the center at distance 5, where the picture is 10 high: 25 of 100 rows.
     let found = explanation_json(&sandbox, &["--point", "0,2.5,0"]);
     assert_eq!(found["schema"], json!({"name": "alberti-explain", "version": 1}));
     assert_near(&find_item(&found, "view"), &[0.0, 2.5, -5.0]);
@@ -192,7 +192,7 @@ fn a_page_marks_the_pixel_also_where_rows_run_up() {
             "--conventions",
             conventions,
         ]);
-        // 25 rows from the top, whatever the rows are counted from.
+        // 25 rows from the top, in any convention for counting rows.
         assert!(run.stdout.contains("cx=\"100.0\" cy=\"25.0\""), "{conventions}");
     }
 }
@@ -234,8 +234,8 @@ fn maps_without_a_scene_say_what_they_need() {
     assert!(run.stdout.contains("It goes to infinity: its w is 0."), "{}", run.stdout);
 }
 
-/// A point with w = 0 is a direction, and its image a vanishing point (VN-1); a segment that passes
-/// the eye has no f(t).
+/// A point with w = 0 is a direction, and its image is a vanishing point (VN-1); a segment that
+/// passes the eye has no f(t).
 #[test]
 fn directions_vanish_and_segments_through_the_eye_have_no_f() {
     let sandbox = sandbox_with_scene("explain_direction", |_| {});

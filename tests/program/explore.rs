@@ -1,4 +1,4 @@
-//! `alberti explore`: what the server answers, what it refuses, and that it goes on.
+//! `alberti explore`: the server's answers, its refusals, and that it keeps running.
 
 use crate::sandbox::Sandbox;
 use alberti_tests::skip::report_skip;
@@ -8,13 +8,13 @@ use std::net::{TcpListener, TcpStream};
 use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
-/// A server of a test, ended with it.
+/// A test server, which ends with this value.
 struct Server {
     child: Child,
     port: u16,
-    /// The line that it has printed.
+    /// The line that it printed.
     address: String,
-    /// What paths begin with: a slash and the token.
+    /// The prefix of paths: a slash and the token.
     base: String,
 }
 
@@ -37,10 +37,10 @@ impl Server {
         stream
     }
 
-    /// Sends lines, and returns all that comes back; nothing if the connection is dropped.
+    /// Sends lines and returns the whole response; nothing if the connection is dropped.
     fn send(&self, lines: &[&str]) -> String {
         let mut stream = self.connect();
-        // The server may have closed the connection before it has read everything.
+        // The server may have closed the connection before reading everything.
         let _ = stream.write_all(format!("{}\r\n\r\n", lines.join("\r\n")).as_bytes());
         let mut bytes = Vec::new();
         let _ = stream.read_to_end(&mut bytes);
@@ -60,7 +60,7 @@ impl Server {
         (status(head), body.to_owned())
     }
 
-    /// Asks for something below the token, and takes nothing of it.
+    /// Requests something below the token and reads none of it.
     fn ask(&self, target: &str) -> TcpStream {
         let (mut stream, base, port) = (self.connect(), &self.base, self.port);
         let request = format!("GET {base}{target} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n");
@@ -69,8 +69,8 @@ impl Server {
         stream
     }
 
-    /// Checks that a small question is answered as soon as a person expects it, however slow the
-    /// machine of the tests is.
+    /// Checks that a small question is answered as soon as a person expects it, even on a slow test
+    /// machine.
     fn assert_answers_soon(&self, query: &str) {
         let start = Instant::now();
         assert_eq!(self.get(&format!("/compute?v=1&{query}")).0, 200);
@@ -81,7 +81,7 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // It may have ended already.
+        // It may already have ended.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
@@ -215,10 +215,10 @@ fn slow_readers_and_abandoned_pictures_do_not_stop_it() {
     sandbox.write_file("a.bin", bytes);
     sandbox.write_file("large.bin", vec![0; 16 << 20]);
     let server = Server::start(&sandbox, &["a.gltf"]);
-    // More than the server holds at once; none of them reads.
+    // More than the server holds at once, and none of the clients reads.
     let _slow: Vec<TcpStream> = (0..500).map(|_| server.ask("/files/large.bin")).collect();
     server.assert_answers_soon("what=state&lesson=frustum");
-    // Each takes the better part of a minute.
+    // Each takes most of a minute.
     let picture = "/compute?v=1&lesson=frustum&what=picture&size=8192x8192";
     let waiting = server.ask(picture);
     for _ in 0..50 {
@@ -290,7 +290,7 @@ fn a_thousand_silent_connections_do_not_stop_it() {
     let mut silent = VecDeque::new();
     for _ in 0..1000 {
         silent.push_back(server.connect());
-        // A process may have a thousand files open, all tests together.
+        // A process may have a thousand files open; this counts all tests together.
         if silent.len() > 300 {
             let mut oldest = silent.pop_front().expect("the oldest");
             assert!(matches!(oldest.read(&mut [0]), Ok(0) | Err(_)), "it is still open");
@@ -304,8 +304,8 @@ fn a_thousand_silent_connections_do_not_stop_it() {
 #[test]
 fn an_interrupt_ends_it() {
     use std::os::unix::process::ExitStatusExt as _;
-    // A shell starts what it runs in the background with interrupts ignored, and so are they by
-    // all that is started from there.
+    // A shell starts background commands with interrupts ignored, and everything that they start
+    // inherits this.
     if ignores_signal(2) {
         return report_skip(
             "an_interrupt_ends_it",
@@ -320,7 +320,7 @@ fn an_interrupt_ends_it() {
     let process = server.child.id().to_string();
     let kill = Command::new("kill").args(["-INT", &process]).status().expect("kill");
     assert!(kill.success());
-    // Like the other commands: the signal ends it, there is nothing to clean up.
+    // As in the other commands, the signal ends it; there is nothing to clean up.
     let status = server.child.wait().expect("it ends");
     assert_eq!(status.signal(), Some(2), "{status}");
 }

@@ -1,8 +1,8 @@
-//! Drawings as other programs show them: an SVG in Chromium and a PDF through Poppler must look
-//! like the PNG that `alberti` draws of the same page.
+//! Drawings as other programs show them: an SVG in Chromium and a PDF in Poppler must look like the
+//! PNG that `alberti` draws of the same page.
 //!
-//! Edges are softened a little differently by each, so pictures are compared with a tolerance of a
-//! pixel: where one has ink, the other must have some beside it. Skipped, by name, where the
+//! Each program softens edges a little differently, so pictures are compared with a tolerance of a
+//! pixel: where one has ink, the other must have some next to it. Reported as skipped if the
 //! programs are not installed; `.ci/run` installs them if it can.
 
 use crate::sandbox::Sandbox;
@@ -10,7 +10,7 @@ use alberti_tests::skip::report_skip;
 use std::path::Path;
 use std::process::Command;
 
-/// Where a program is, by one of its names; `None`, with a report, if it is not installed.
+/// The path of a program, by one of its names; `None`, with a report, if it is not installed.
 fn installed(names: &[&str]) -> Option<String> {
     let answers = |name: &&&str| Command::new(name).arg("--version").output().is_ok();
     if let Some(name) = names.iter().find(answers) {
@@ -20,7 +20,7 @@ fn installed(names: &[&str]) -> Option<String> {
     None
 }
 
-/// How much ink there is in each pixel, from 0 to 1, with the width and height of the picture.
+/// The ink in each pixel, from 0 to 1, with the width and height of the picture.
 struct InkMap {
     size: [usize; 2],
     ink: Vec<f64>,
@@ -40,7 +40,7 @@ impl InkMap {
         self.ink.iter().sum()
     }
 
-    /// The most ink in a pixel and those around it.
+    /// The maximum ink in a pixel and its neighbors.
     fn max_ink_around(&self, x: usize, y: usize) -> f64 {
         let [width, height] = self.size;
         let rows = y.saturating_sub(1)..(y + 2).min(height);
@@ -49,7 +49,7 @@ impl InkMap {
         rows.flat_map(row).fold(0.0, f64::max)
     }
 
-    /// The pixels with much ink here and hardly any in or beside the same pixel there.
+    /// The pixels with much ink here and hardly any in or next to the same pixel there.
     fn missing_ink(&self, other: &Self) -> usize {
         let [width, height] = self.size;
         let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
@@ -73,7 +73,7 @@ fn assert_alike(ours: &InkMap, theirs: &InkMap, tolerance: f64, what: &str) {
     assert!((ratio - 1.0).abs() < tolerance, "{what}: {ratio} times the ink");
 }
 
-/// The drawings that are compared: flags, and the size of the picture.
+/// The drawings to compare: flags, and the picture size.
 fn drawings() -> Vec<(Vec<&'static str>, [u32; 2])> {
     let render = |style, projection| {
         let flags = vec!["render", "house.glb", "--size", "640x480", "--background", "#fff"];
@@ -124,7 +124,7 @@ fn chromium_shows_an_svg_as_the_png_has_it() {
     }
 }
 
-/// The upper left part of a picture, which may be a pixel larger.
+/// The upper left part of a picture, which may be one pixel larger.
 fn cropped(
     (width, height, pixels): (u32, u32, Vec<[u8; 4]>),
     [columns, rows]: [usize; 2],
@@ -156,7 +156,7 @@ fn poppler_shows_a_pdf_as_the_png_has_it() {
         assert!(Path::new(&sandbox.path_of("theirs.png")).is_file());
         let [ours, theirs] =
             ["ours.png", "theirs.png"].map(|name| InkMap::from_picture(sandbox.read_picture(name)));
-        // Poppler moves narrow lines onto whole pixels and makes them a little wider.
+        // Poppler snaps narrow lines to whole pixels and makes them a little wider.
         assert_alike(&ours, &theirs, 0.2, &format!("{flags:?}"));
     }
 }

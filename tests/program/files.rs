@@ -1,4 +1,4 @@
-//! Files: where pictures go, and what a failed run leaves behind.
+//! Files: the paths of pictures, and the files that a failed run leaves behind.
 
 use crate::sandbox::Sandbox;
 

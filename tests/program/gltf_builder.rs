@@ -1,4 +1,4 @@
-//! Small glTF files, made in code.
+//! Small glTF files, built in code.
 
 use crate::sandbox::Sandbox;
 use serde_json::{Value, json};
@@ -31,7 +31,7 @@ impl GltfBuilder {
         document
     }
 
-    /// An accessor with these floats; gives its number.
+    /// Adds an accessor with these floats and returns its index.
     pub(crate) fn add_floats(&mut self, shape: &str, values: &[f32]) -> usize {
         let width = match shape {
             "SCALAR" => 1,
@@ -46,7 +46,7 @@ impl GltfBuilder {
         )
     }
 
-    /// An accessor with these bytes; gives its number.
+    /// Adds an accessor with these bytes and returns its index.
     pub(crate) fn add_accessor(&mut self, bytes: &[u8], json: &Value) -> usize {
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
         let view = json!({"buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len()});
@@ -57,7 +57,7 @@ impl GltfBuilder {
         self.push_item("/accessors", json)
     }
 
-    /// A material that shows one colour; gives its number.
+    /// Adds a material of one color and returns its index.
     pub(crate) fn add_unlit_material(&mut self, [r, g, b]: [f32; 3]) -> usize {
         let factor = json!({"baseColorFactor": [r, g, b, 1.0]});
         self.push_item(

@@ -1,9 +1,8 @@
-//! Names that a terminal would obey: whatever a file is called or says, the program prints text.
+//! Names with terminal control sequences: for any file name and content, the program prints text.
 
 use crate::sandbox::{RunResult, Sandbox};
 
-/// A title of the terminal, a color, C1, DEL, directions of writing, and a line that looks like one
-/// of the program.
+/// A terminal title, a color, C1, DEL, text directions, and a line that looks like the program's.
 const HOSTILE: &str =
     "\u{1b}]0;P\u{7}\u{1b}[31m\u{9b}2J\u{7f}\u{202e}\u{2066}\u{2028}\r\t\u{85}\n  = help: FORGED";
 
@@ -25,7 +24,8 @@ fn run(sandbox: &Sandbox, arguments: &[&str]) -> RunResult {
     run
 }
 
-/// A triangle in which a place of the document has a hostile name; the place is a word in capitals.
+/// A triangle in which one place of the document has a hostile name; the place is a word in
+/// capitals.
 fn model_with(place: &str) -> String {
     let buffer =
         "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
@@ -160,7 +160,7 @@ fn strings_of_scenes_do_not_reach_a_terminal() {
     }
 }
 
-/// A text without colors, such as `ESC [1;31m`.
+/// A text without color codes such as `ESC [1;31m`.
 fn without_colors(text: &str) -> String {
     let mut parts = text.split("\u{1b}[");
     let first = parts.next().unwrap_or_default().to_owned();
@@ -192,7 +192,7 @@ fn lists_of_a_batch_do_not_reach_a_terminal() {
     run(&sandbox, &["batch", "--list", "b.jsonl", "--out-dir", "out"]);
 }
 
-/// Some systems allow no such names.
+/// Some systems do not allow such names.
 #[cfg(target_os = "linux")]
 #[test]
 fn paths_do_not_reach_a_terminal() {

@@ -17,7 +17,7 @@ fn a_model_is_described_line_by_line() {
     assert!(run.stdout.contains("triangles "), "{}", run.stdout);
 }
 
-/// Names that overrides in scene files choose by.
+/// Names that overrides in scene files use for selection.
 #[test]
 fn materials_and_nodes_are_listed_by_their_names() {
     let sandbox = Sandbox::new("info_names");
@@ -117,7 +117,7 @@ fn anisotropy_is_described_as_approximate_under_an_environment() {
     assert!(text.contains(&format!("KHR_materials_anisotropy ({note})")), "{text}");
 }
 
-/// A material with all that a material can have, some of it out of bounds.
+/// A material with everything a material can have, some of it out of bounds.
 fn material_with_all_extensions() -> Value {
     let transform = json!({"KHR_texture_transform": {"offset": [0.5, 0], "texCoord": 1}});
     let texture = |index: usize| json!({"index": index, "texCoord": 0});
@@ -194,7 +194,7 @@ fn json_lists_material_extensions() {
 fn json_lists_visible_edges_of_the_file() {
     let sandbox = Sandbox::new("info_edges");
     let mut document = GltfBuilder::square();
-    // The example of the extension's text: values 2, 0, 1 and 0, 2, 0 for the two triangles.
+    // The example in the extension's text: values 2, 0, 1 and 0, 2, 0 for the two triangles.
     let bits = document
         .add_accessor(&[18, 2], &json!({"componentType": 5121, "type": "SCALAR", "count": 2}));
     let strings = document.add_accessor(

@@ -1,5 +1,4 @@
-//! Several views in one picture, what is behind the models, copies and changed materials, ways of
-//! cameras.
+//! Several views in one picture, backgrounds, copies and changed materials, camera paths.
 
 use crate::sandbox::Sandbox;
 use crate::vector_files::{PagePoint, parse_svg};
@@ -8,7 +7,7 @@ fn render_fields(sandbox: &Sandbox, name: &str, fields: &str) -> (u32, u32, Vec<
     let scene = format!("{name}.ron");
     sandbox.write_file(&scene, format!("Scene(models: [(path: \"crate.glb\")], {fields})"));
     let run = sandbox.run(&["render", &scene]);
-    // A view away from the models, to see what is behind them, is empty.
+    // A view away from the models, to see the background, is empty.
     let is_empty = run.stderr.starts_with("warning: the picture is empty: everything is behind");
     assert!(run.code == 0 && (run.stderr.is_empty() || is_empty), "{}", run.stderr);
     sandbox.read_picture(&format!("{name}.png"))
@@ -26,7 +25,7 @@ fn cut_out(
     (y..y + down).flat_map(row).copied().collect()
 }
 
-/// Lights that say nothing of theirs are where the scene's own camera has them, and not the film's.
+/// Lights with no position given are placed by the scene's own camera, not the film's.
 const IMAGE: &str =
     "image: (size: (40, 30)), lights: [Directional(direction: (-1, -2, -1), intensity: 3)]";
 const GRADIENT: &str = "Gradient(colors: [\"#102030\", \"#f0e0d0\"])";
@@ -49,13 +48,14 @@ fn a_viewport_shows_what_its_camera_shows_alone() {
     assert_eq!(cut_out(&all, [0, 0, 20, 60]), cut_out(&outer, [0, 0, 20, 60]));
     assert_eq!(cut_out(&all, [60, 30, 20, 2]), [[0, 255, 0, 255]; 40]);
     assert_eq!(cut_out(&all, [62, 32, 1, 1]), [[255, 0, 0, 255]]);
-    // A part of the picture is what the whole has there, views and gradient included.
+    // Part of the picture shows the same as the whole does there, views and gradient included.
     let run = sandbox.run(&["render", "all.ron", "-o", "part.png", "--crop", "15,5,50,40"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     assert_eq!(sandbox.read_picture("part.png").2, cut_out(&all, [15, 5, 50, 40]));
 }
 
-/// In a drawing a view is what its camera draws alone, in its rectangle; what is below is erased.
+/// In a drawing a view is exactly its camera's drawing, in its rectangle; everything below is
+/// erased.
 #[test]
 fn a_viewport_of_a_drawing_has_the_lines_of_its_camera() {
     let sandbox = Sandbox::new("drawn_viewports");
@@ -68,7 +68,7 @@ fn a_viewport_of_a_drawing_has_the_lines_of_its_camera() {
         parse_svg(&std::fs::read_to_string(sandbox.path_of(name)).expect("an SVG")).1
     };
     let camera = "camera: (view: Frame(from: Top), projection: Orthographic())";
-    // 96 pixels are 25.4 millimetres.
+    // 96 pixels are 25.4 millimeters.
     let inset =
         format!("pixels: (96, 192, 192, 96), {camera}, border: (color: \"#0f0\", width: 4)");
     let both = draw("both.svg", &format!("image: (size: (384, 384)), viewports: [({inset})]"));
@@ -89,7 +89,7 @@ fn a_viewport_of_a_drawing_has_the_lines_of_its_camera() {
         assert!(!lines.iter().flatten().any(inside), "{id}");
     }
     assert!(both.contains_key("view-1-border"));
-    // The two eyes of a pair are two such views; an anaglyph is of pixels.
+    // The two eyes of a pair are two such views; an anaglyph consists of pixels.
     let pair = draw("pair.svg", "stereo: SideBySide()");
     assert!(pair.keys().any(|id| id.starts_with("view-1-")));
     assert!(pair.keys().any(|id| id.starts_with("view-2-")));
@@ -107,7 +107,7 @@ fn stereo_views_agree_in_the_plane_of_convergence() {
     let image = "image: (size: (60, 60), background: Color(\"#fff\"))";
     let mono = render_fields(&sandbox, "mono", &format!("{camera}, {image}"));
     let wide = "image: (size: (120, 60), background: Color(\"#fff\"))";
-    // Both converge on the crate's front, whose outline is where one eye alone has it.
+    // Both converge on the crate's front, so its outline is where a single eye has it.
     let pair = "stereo: SideBySide(convergence: 4.5, eye_distance: 0.3)";
     let pair = render_fields(&sandbox, "pair", &format!("{camera}, {wide}, {pair}"));
     let dark = |pixels: Vec<[u8; 4]>| pixels.iter().filter(|p| **p != [255; 4]).count();
@@ -116,7 +116,7 @@ fn stereo_views_agree_in_the_plane_of_convergence() {
     let near = |a: usize, b: usize| a.abs_diff(b) * 12 < a;
     assert!(near(counts[0], counts[1]) && near(counts[1], counts[2]), "{counts:?}");
     assert_ne!(cut_out(&pair, [0, 0, 60, 60]), cut_out(&pair, [60, 0, 60, 60]));
-    // Red of the left eye, green and blue of the right one.
+    // Red from the left eye, green and blue from the right one.
     let glasses = "stereo: Anaglyph(convergence: 4.5, eye_distance: 0.3)";
     let glasses = render_fields(&sandbox, "glasses", &format!("{camera}, {image}, {glasses}"));
     let (left, right) = (cut_out(&pair, [0, 0, 60, 60]), cut_out(&pair, [60, 0, 60, 60]));

@@ -1,10 +1,10 @@
-//! Light by flags: surroundings, exposure, tone curves, shadows and the ground.
+//! Light from flags: surroundings, exposure, tone curves, shadows and the ground.
 
 use crate::sandbox::Sandbox;
 
 type Pixels = Vec<[u8; 4]>;
 
-/// A sandbox with a model, and pictures of it by flags.
+/// A sandbox with a model, and its pictures with flags.
 fn sandbox_with_model(name: &str, model: &str) -> Sandbox {
     let sandbox = Sandbox::new(name);
     sandbox.copy_model(model);
@@ -18,13 +18,13 @@ fn render_pixels(sandbox: &Sandbox, input: &str, flags: &[&str]) -> Pixels {
     sandbox.read_picture("out.png").2
 }
 
-/// The sum of all codes of red, green and blue where something is.
+/// The sum of all red, green and blue codes where something is visible.
 fn total_brightness(pixels: &Pixels) -> u64 {
     let seen = pixels.iter().filter(|pixel| pixel[3] == 255);
     seen.flat_map(|pixel| &pixel[..3]).map(|&code| u64::from(code)).sum()
 }
 
-/// A `.hdr` file of one colour.
+/// A `.hdr` file of one color.
 fn hdr_file(rgbe: [u8; 4]) -> Vec<u8> {
     let mut bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n".to_vec();
     bytes.extend(rgbe.repeat(8));
@@ -39,9 +39,9 @@ fn a_bare_model_stands_in_the_studio() {
     let none = render_pixels(&sandbox, "finishes.glb", &["--environment", "none"]);
     let sky = render_pixels(&sandbox, "finishes.glb", &["--environment", "sky"]);
     assert!(none != bare && sky != bare && sky != none);
-    // Metals have something to mirror.
+    // Metals have something to reflect.
     assert!(total_brightness(&bare) > total_brightness(&none));
-    // A scene file says itself what is around.
+    // A scene file specifies its own surroundings.
     sandbox.write_file("scene.ron", "Scene(models: [(path: \"finishes.glb\")])");
     assert_eq!(render_pixels(&sandbox, "scene.ron", &[]), none);
 }
@@ -142,12 +142,12 @@ fn settings_of_shadows_out_of_range_are_pointed_at() {
 #[test]
 fn a_model_with_lights_of_its_own_keeps_a_dimmed_studio() {
     let sandbox = Sandbox::new("lamps");
-    // One square metre that faces the viewer, and a lamp that shines on its back.
+    // One square meter that faces the viewer, and a lamp that shines on its back.
     let mut document = alberti_tests::gltf::Document::single_triangle();
     document.json["extensionsUsed"] = serde_json::json!(["KHR_lights_punctual"]);
     document.json["extensions"]["KHR_lights_punctual"] =
         serde_json::json!({"lights": [{"type": "directional", "intensity": 3.0}]});
-    // Turned by half a turn about y: the light travels along +z.
+    // Turned halfway about y: the light travels along +z.
     document.json["nodes"] = serde_json::json!([
         {"mesh": 0},
         {"rotation": [0, 1, 0, 0], "extensions": {"KHR_lights_punctual": {"light": 0}}}

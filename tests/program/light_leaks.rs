@@ -1,11 +1,11 @@
-//! Light leaks on closed models from the wild, with the sun behind them: what rays find in the dark
-//! must be dark in the picture, and what they find in the light must be as if there were no
-//! shadows, but for a pixel in a hundred. Skipped, by name, where `shared/assets` is not there.
+//! Light leaks on closed models from the wild, with the sun behind them. Points that rays find dark
+//! must be dark in the picture. Points that rays find lit must look as if there were no shadows,
+//! except for one pixel in a hundred. Reported as skipped if `shared/assets` is missing.
 //!
-//! Each pixel's position and normal are those of the passes. From there go a ray to the sun and
-//! eight more around it, four texels of the shadow map apart: where all nine are stopped, by
-//! something that is not the surface itself, no filtering of the map lets light in; where none is,
-//! none keeps it out.
+//! Each pixel's position and normal come from the passes. From there, one ray goes to the sun and
+//! eight more around it, four texels of the shadow map apart. If all nine are stopped, by something
+//! other than the surface itself, no filtering of the map lets light in. If none is stopped, none
+//! keeps it out.
 
 use crate::asset_models::asset_path;
 use glam::DVec3;
@@ -22,7 +22,7 @@ const SIZE: (u32, u32) = (240, 180);
 /// The side of the shadow map.
 const TEXELS: f64 = 1024.0;
 
-/// The triangles of a model as it stands, and the diagonal of the box around them.
+/// The triangles of a posed model, and the diagonal of the box around them.
 struct Occluder {
     triangles: Vec<[DVec3; 3]>,
     diagonal: f64,
@@ -46,7 +46,7 @@ impl Occluder {
         Self { diagonal: (greatest - least).length(), triangles }
     }
 
-    /// Whether something is on a ray, farther than so much from its start (Möller and Trumbore,
+    /// Whether a ray hits something beyond this distance from its start (Möller and Trumbore,
     /// 1997).
     fn blocks_ray(&self, from: DVec3, along: DVec3, least: f64) -> bool {
         self.triangles.iter().any(|[a, b, c]| {
@@ -62,7 +62,7 @@ impl Occluder {
     }
 }
 
-/// The scene of a model of white chalk under one sun.
+/// The scene of a white chalk model under one sun.
 fn scene_with_sun(model: &Arc<Model>, travel: DVec3, shadows: &str) -> Scene {
     let DVec3 { x, y, z } = travel;
     let text = format!(
@@ -79,13 +79,13 @@ fn scene_with_sun(model: &Arc<Model>, travel: DVec3, shadows: &str) -> Scene {
     Scene::from_models(&origin, &file, &[placed]).expect("a scene that makes sense")
 }
 
-/// How many pixels rays find in the dark and in the light.
+/// The number of pixels that rays find dark and lit.
 #[derive(Default)]
 struct RayCounts {
     away: usize,
     dark: usize,
     light: usize,
-    /// Those in the light that are darker than they would be without shadows.
+    /// Lit pixels that are darker than they would be without shadows.
     spots: usize,
 }
 
@@ -151,8 +151,7 @@ fn no_light_leaks_through_closed_models() {
         }
         let RayCounts { away, dark, light, spots } = found;
         assert!(away > 100 && dark > 60 && light > 60, "{name}: {away} {dark} {light}");
-        // Where a surface is a saddle, single pixels lie below the planes of triangles beside
-        // theirs.
+        // On saddle surfaces, single pixels are below the planes of adjacent triangles.
         assert!(spots * 100 <= light, "{name}: {spots} spots in the light of {light} pixels");
     }
 }

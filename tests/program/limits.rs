@@ -1,4 +1,4 @@
-//! Scenes of a few bytes that ask for a lot: each ends soon, with the place and a way out.
+//! Scenes of a few bytes that ask for a lot: each ends soon, with a location and a way out.
 
 use crate::sandbox::Sandbox;
 
@@ -68,7 +68,7 @@ fn included_files_have_a_limit_together() {
     assert_eq!(run.code, 1);
     let message = "the included files have more than 4194304 bytes together";
     assert!(run.stderr.contains(message), "{}", &run.stderr[..run.stderr.len().min(500)]);
-    // Said once, and not for each of the files that are left out.
+    // Reported once, not for each of the skipped files.
     assert_eq!(run.stderr.matches(message).count(), 1);
 }
 

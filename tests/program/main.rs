@@ -1,5 +1,4 @@
-//! The program as a process: what it prints, what it leaves on the disk, and with which code it
-//! ends.
+//! The program as a process: its output, the files it leaves, and its exit codes.
 
 #![allow(clippy::panic, reason = "what is missing in an answer fails the test")]
 #![allow(missing_docs, unreachable_pub, reason = "in a program `pub` means: used by another file")]
@@ -14,7 +13,7 @@ mod batch_hostile;
 mod batch_lists;
 mod batch_page;
 mod batch_workers;
-// Not about the program: it is linked here so that the engine is not linked once more.
+// Not about the program: it is linked here so that the engine is not linked again.
 #[path = "../book_formulas/mod.rs"]
 mod book_formulas;
 mod calibrated_cameras;

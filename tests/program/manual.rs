@@ -1,4 +1,4 @@
-//! `alberti completions`, `alberti man`, and colours of messages.
+//! `alberti completions`, `alberti man`, and colors of messages.
 
 use crate::sandbox::Sandbox;
 

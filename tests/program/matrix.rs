@@ -60,7 +60,7 @@ fn what_is_no_matrix_is_refused_with_the_reason() {
     }
 }
 
-/// The numbers of a matrix as arguments.
+/// The entries of a matrix as arguments.
 fn words(numbers: &str) -> Vec<&str> {
     [vec!["matrix"], numbers.split_whitespace().collect()].concat()
 }
@@ -157,7 +157,7 @@ fn matrices_are_built_from_parameters_with_factors() {
     assert_eq!(rows[0], json!([1.0, 0.0, 0.5, 0.0]));
     assert_eq!(rows[3], json!([0.0, 0.0, -1.0, 0.0]));
     assert_eq!(built["steps"][1]["items"].as_array().map(Vec::len), Some(3), "three factors");
-    // What is built is read back, in every convention.
+    // A matrix that was built is read back, in every convention.
     for conventions in ["chapter", "opengl", "vulkan", "direct3d", "webgpu"] {
         let flags = ["--perspective", "50,3/2,0.1,100", "--conventions", conventions];
         let run = sandbox.run(&[&["matrix", "--code", "python"], &flags[..]].concat());
@@ -209,7 +209,7 @@ fn refused_parameters_are_named() {
     }
 }
 
-/// What comes out of `--code` goes in again.
+/// The output of `--code` can be read again.
 #[test]
 fn pasted_code_is_read_back() {
     let sandbox = Sandbox::new("matrix_pasted");
@@ -233,7 +233,7 @@ fn pasted_code_is_read_back() {
     assert!(run.stdout.contains("column by column, as mat constructors are"), "{}", run.stdout);
 }
 
-/// Near and far are distances; the textbook's coordinates are refused with the sentence of the
+/// Near and far are distances; the textbook's coordinates are refused with the sentence from the
 /// help.
 #[test]
 fn signed_planes_are_refused_where_distances_are_due() {
@@ -336,7 +336,7 @@ fn formulas_are_those_of_the_matrix_that_is_printed() {
     assert!(opengl.ends_with("(conventions: opengl)"), "{opengl}");
 }
 
-/// What is stored by columns is read transposed first; classical projections have their names.
+/// Matrices stored by columns are read transposed first; classical projections have their names.
 #[test]
 fn first_readings_are_sensible() {
     let sandbox = Sandbox::new("matrix_first");
@@ -372,7 +372,7 @@ fn first_readings_are_sensible() {
         assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{numbers}");
         assert!(run.stdout.contains(verdict), "{numbers}: {}", run.stdout);
     }
-    // No 5.6e-17 in the place of 0.
+    // No 5.6e-17 instead of 0.
     let inverse = sandbox.run(&["matrix", "--rotate", "1,2,3,40", "--translate", "1,1,1"]).stdout;
     assert!(!inverse.contains("e-1"), "{inverse}");
 }

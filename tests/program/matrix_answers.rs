@@ -1,5 +1,5 @@
-//! What `alberti matrix` and `alberti explain` answer to a teacher: conventions of Direct3D, rigid
-//! matrices, signs, and command lines that are almost right.
+//! Answers that `alberti matrix` and `alberti explain` give a teacher: conventions of Direct3D,
+//! rigid matrices, signs, and command lines that are almost right.
 
 use crate::sandbox::Sandbox;
 
@@ -36,7 +36,7 @@ fn the_most_sensible_reading_is_that_of_the_program_it_comes_from() {
         let found = report(&sandbox, "matrix", numbers);
         assert!(found.contains(words), "{numbers}: {found}");
     }
-    // A rigid matrix is told as a camera, too, and the other way round.
+    // A rigid matrix is also reported as a camera, and vice versa.
     let moved = report(&sandbox, "matrix", "0.866 -0.5 0 5 0.5 0.866 0 2 0 0 1 0 0 0 0 1");
     assert!(moved.contains("a camera transform: eye (-5.33, 0.77, 0)"), "{moved}");
     let camera = "0.8575 0 -0.5145 0 -0.291 0.8246 -0.4851 0 0.4243 0.5657 0.7071 -7.0711 0 0 0 1";
@@ -60,7 +60,7 @@ fn the_camera_of_direct3d_is_look_at_lh() {
     assert_eq!(rows[1], ["0", "0.928477", "0.371391", "0", "]"]);
     assert_eq!(rows[2], ["0", "-0.371391", "0.928477", "5.385165", "]"]);
     assert!(found.contains("XMMatrixLookAtLH"), "{found}");
-    // The product with the projection is read back upright.
+    // The product with the projection is read back without a flip.
     let flags = "--perspective 60,1.5,0.1,100 --look-at 1,2,-5,0,0,0 --conventions direct3d";
     let code = report(&sandbox, &format!("matrix {flags} --code python"), "");
     let numbers: Vec<&str> = code.lines().skip(1).filter(|line| *line != "]").collect();
@@ -119,7 +119,7 @@ fn reports_are_free_of_noise() {
     let turned = report(&sandbox, "matrix", "1 0 0 0 0 1 0 0 0 0 1 0 5 6 7 1");
     assert!(!turned.contains("e-1"), "{turned}");
     assert_eq!(turned.matches("translation by (5, 6, 7)").count(), 2, "{turned}");
-    // What is small is kept where it is no rounding.
+    // Small numbers are kept unless they are rounding errors.
     let scale = report(&sandbox, "matrix --scale 1e16,1,1", "");
     assert!(scale.contains("1e-16"), "{scale}");
     let help = sandbox.run(&["help", "matrix"]).stdout;

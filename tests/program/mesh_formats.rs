@@ -1,4 +1,4 @@
-//! One part in every format of meshes: the same triangles give the same picture, byte for byte.
+//! One part in every mesh format: the same triangles give the same picture, byte for byte.
 
 use crate::drawings::assert_succeeds;
 use crate::sandbox::Sandbox;
@@ -124,7 +124,7 @@ impl Part {
     }
 }
 
-/// A zip archive whose entries are stored as they are.
+/// A zip archive whose entries are not compressed.
 fn stored_zip(entries: &[(&str, &[u8])]) -> Vec<u8> {
     let (mut file, mut directory) = (Vec::new(), Vec::new());
     for (name, content) in entries {

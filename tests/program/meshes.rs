@@ -1,4 +1,4 @@
-//! Models of other formats than glTF: recognized, measured, drawn and described.
+//! Models in formats other than glTF: recognized, measured, drawn and described.
 
 use crate::drawings::{assert_near, assert_succeeds};
 use crate::sandbox::Sandbox;
@@ -24,7 +24,7 @@ pub(crate) fn stl_box([w, d, h]: [f32; 3]) -> String {
     format!("solid box\n{facets}endsolid box\n")
 }
 
-/// Width and height of the front view of a sheet, in millimeters on paper.
+/// Width and height of a sheet's front view, in millimeters on paper.
 fn front_size(sandbox: &Sandbox, flags: &[&str]) -> [f64; 2] {
     let flags = [&["sheet"], flags, &["-o", "out.svg", "--no-dimensions"]].concat();
     assert_succeeds(sandbox, &flags);

@@ -115,8 +115,8 @@ fn a_camera_that_is_not_there_is_answered_with_those_that_are() {
     );
 }
 
-/// What a person sees on a terminal while a large picture is drawn: the stage, the seconds and the
-/// part that is done, and afterwards nothing of it.
+/// The display on a terminal while a large picture is drawn: the stage, the seconds and the
+/// fraction done, and afterwards no trace of them.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_terminal_shows_how_far_a_large_picture_is() {
@@ -135,7 +135,7 @@ fn a_terminal_shows_how_far_a_large_picture_is() {
     };
     let shown = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success(), "{shown}");
-    // Each line is drawn over the one before.
+    // Each line overwrites the one before.
     let lines: Vec<&str> = shown.split("\r\u{1b}[K").collect();
     let percent = |line: &&str| line.strip_suffix(" %")?.rsplit(' ').next()?.parse::<u32>().ok();
     let done: Vec<u32> = lines.iter().filter_map(percent).collect();

@@ -1,7 +1,7 @@
-//! Mistakes in scene files, flags and models, and what people are told: what it is, where it is,
-//! what to do.
+//! Mistakes in scene files, flags and models, and the messages about them: the mistake, its
+//! location, and its fix.
 //!
-//! Each file of `tests/program/mistakes` is a list of cases:
+//! Each file in `tests/program/mistakes` is a list of cases:
 //!
 //! ```text
 //! === what is wrong, in words
@@ -11,14 +11,14 @@
 //! error: …
 //! [1]
 //! ```
-//! `BLESS=1 cargo test -p alberti-tests --test program mistakes` writes what is told now into the
-//! files. Read it, each message, before it is committed.
+//! `BLESS=1 cargo test -p alberti-tests --test program mistakes` writes the current messages into
+//! the files. Read each message before you commit it.
 
 use crate::sandbox::Sandbox;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-/// Models of `scenes/models` that cases name.
+/// Models in `scenes/models` that the cases use.
 const MODELS: [&str; 3] = ["crate.glb", "room.glb", "lamp.glb"];
 
 /// A mistake.
@@ -74,7 +74,7 @@ impl Case {
     }
 }
 
-/// The words of a call; those between quotation marks may have blanks, or be empty.
+/// The words of a call; words between quotation marks may have blanks, or be empty.
 fn split_call(call: &str) -> Vec<String> {
     let quoted = call.split('\'').enumerate();
     let parts = quoted.flat_map(|(number, part)| match number % 2 {

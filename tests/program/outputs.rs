@@ -1,4 +1,4 @@
-//! `alberti render`: several inputs, templates of names, standard input and output.
+//! `alberti render`: several inputs, name templates, standard input and output.
 
 use crate::sandbox::Sandbox;
 

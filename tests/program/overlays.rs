@@ -1,10 +1,10 @@
-//! Overlays and classical projections: vanishing points, the horizon and the axes are where the
-//! formulas have them.
+//! Overlays and classical projections: vanishing points, the horizon and the axes are at the
+//! positions that the formulas give.
 
 use crate::sandbox::Sandbox;
 use crate::vector_files::{Layers, PagePoint, parse_svg, point_bounds};
 
-/// The layers of a drawing of the house, and half the width and height of its page.
+/// The layers in a drawing of the house, and half the width and height of its page.
 fn draw_overlays(sandbox: &Sandbox, camera: &str, overlays: &str) -> (PagePoint, Layers) {
     sandbox.copy_model("house.glb");
     sandbox.write_file(
@@ -21,13 +21,13 @@ fn draw_overlays(sandbox: &Sandbox, camera: &str, overlays: &str) -> (PagePoint,
     ([page[0] / 2.0, page[1] / 2.0], layers)
 }
 
-/// The layers whose names end so.
+/// The layers whose names end like this.
 fn layers_ending_in<'a>(layers: &'a Layers, end: &str) -> Vec<&'a Vec<PagePoint>> {
     let chosen = layers.iter().filter(|(id, _)| id.starts_with("overlay-") && id.ends_with(end));
     chosen.flat_map(|(_, lines)| lines).collect()
 }
 
-/// A point of the page in half heights of the picture from its middle, y up.
+/// A point on the page in half heights of the picture from its center, y up.
 fn to_half_heights(point: PagePoint, half: PagePoint) -> PagePoint {
     [(point[0] - half[0]) / half[1], (half[1] - point[1]) / half[1]]
 }
@@ -38,7 +38,7 @@ fn assert_near(actual: PagePoint, expected: PagePoint) {
     assert!(near, "{actual:?} instead of {expected:?}");
 }
 
-/// The middle of the ring around a vanishing point.
+/// The center of the ring around a vanishing point.
 fn ring_center(layers: &Layers, axis: &str, half: PagePoint) -> Option<PagePoint> {
     let lines = layers_ending_in(layers, &format!("-vanishing-{axis}"));
     let [low, high] = point_bounds(lines.first()?.iter());
@@ -71,7 +71,7 @@ fn c82_axes_vanish_where_the_construction_wants_them() {
                 .zip(expected)
                 .for_each(|(found, expected)| assert_near(found, expected));
         }
-        // Horizontal directions vanish on one line, whatever the eye.
+        // Horizontal directions vanish on one line, for every eye.
         let horizon = layers_ending_in(&layers, "-horizon");
         let ends = [horizon[0][0], horizon[0][1]].map(|end| to_half_heights(end, half));
         for [x, y] in [expected[0], expected[2]].into_iter().flatten() {
@@ -104,7 +104,7 @@ fn c76_c77_axes_are_drawn_as_long_and_at_the_angles_of_the_textbooks() {
     let sandbox = Sandbox::new("axes");
     let isometric = libm::sqrt(2.0 / 3.0);
     let half_angle = std::f64::consts::FRAC_1_SQRT_2;
-    // The images of the units along x, y and z, up to a common factor; z towards the viewer.
+    // The images of the unit vectors along x, y and z, up to a common factor; z towards the viewer.
     let cases = [
         ("Multiview(Front)", [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]]),
         (
@@ -153,7 +153,7 @@ fn axis_vectors(layers: &Layers) -> [PagePoint; 3] {
             ["", "-hidden"].map(|part| layers_ending_in(layers, &format!("-axis-{axis}{part}")));
         parts.into_iter().flatten().flatten().copied().collect::<Vec<PagePoint>>()
     });
-    // The origin is the point that two axes share; the tip is what is farthest from it.
+    // The origin is the point that two axes share; the tip is the farthest point from it.
     let near = |a: PagePoint, b: PagePoint| vector_length([a[0] - b[0], a[1] - b[1]]) < 2e-3;
     let shared = |point: &&PagePoint| points[1].iter().any(|other| near(**point, *other));
     let origin = *points[0].iter().find(shared).expect("x and y begin at the origin");
@@ -166,7 +166,7 @@ fn axis_vectors(layers: &Layers) -> [PagePoint; 3] {
     })
 }
 
-/// A vanishing point beyond the border is named there; one in the picture has its ring alone.
+/// A vanishing point beyond the border is labeled there; one in the picture has only its ring.
 #[test]
 fn vanishing_points_outside_of_the_picture_are_named_at_its_border() {
     let sandbox = Sandbox::new("vanishing_outside");

@@ -1,5 +1,5 @@
-//! Temporary files: a signal leaves none, and the next run removes those of a process that was
-//! killed.
+//! Temporary files: a signal leaves none, and the next run removes those that a killed process
+//! left.
 
 use crate::explore::ignores_signal;
 use crate::sandbox::Sandbox;
@@ -8,7 +8,7 @@ use std::os::unix::process::ExitStatusExt as _;
 use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
-/// Starts a picture that takes long, and waits for its temporary file.
+/// Starts a slow picture, and waits for its temporary file.
 fn start_picture(sandbox: &Sandbox) -> Child {
     let mut child = sandbox.start(&["render", "house.glb", "--size", "16000x16000", "-o", "a.png"]);
     let begin = Instant::now();
@@ -29,7 +29,7 @@ fn send_signal(child: &Child, signal: &str) {
     assert!(kill.success());
 }
 
-/// The number of a process that has ended.
+/// The id of a process that has ended.
 fn dead_process() -> u32 {
     let mut child = Command::new("true").spawn().expect("a process");
     child.wait().expect("its end");
@@ -65,7 +65,7 @@ fn the_next_run_removes_what_a_killed_one_has_left() {
     send_signal(&child, "-KILL");
     child.wait().expect("it ends");
     assert_eq!(parts_of(&sandbox), [format!("a.png.{}.part", child.id())]);
-    // One that another run is writing, and one of another output.
+    // One that another run is writing, and one for another output.
     let alive = format!("a.png.{}.part", std::process::id());
     let other = format!("b.png.{}.part", dead_process());
     sandbox.write_file(&alive, "");

@@ -1,4 +1,4 @@
-//! Pictures as JPEG and WebP, and pictures that follow their files.
+//! Pictures as JPEG and WebP, and pictures that are redrawn when their files change.
 
 use crate::sandbox::Sandbox;
 use std::time::{Duration, Instant};
@@ -29,7 +29,7 @@ fn jpeg_and_webp_have_the_size_of_the_picture_and_the_same_bytes_each_time() {
     assert_eq!(jpeg_size(&bytes("a.jpg")), [90, 70]);
     let webp = bytes("a.webp");
     assert!(webp.starts_with(b"RIFF") && &webp[8..16] == b"WEBPVP8L");
-    // 14 bits for the width less one, then as many for the height.
+    // 14 bits for the width minus one, then 14 for the height.
     let bits = u32::from_le_bytes([webp[21], webp[22], webp[23], webp[24]]);
     assert_eq!([bits & 0x3fff, bits >> 14 & 0x3fff], [89, 69]);
 }
@@ -58,7 +58,7 @@ fn a_watched_picture_is_rendered_again_when_its_model_changes() {
     let mut child = sandbox.start(&words);
     let first = wait_for_change(&sandbox, &[]);
     let vase = std::fs::read(sandbox.path_of("vase.glb")).expect("the vase");
-    // Within the same second and with another length.
+    // Within the same second and with a different length.
     sandbox.write_file("crate.glb", vase);
     let second = wait_for_change(&sandbox, &first);
     sandbox.write_file("scene.ron", "Scene(models: [(path: \"crate.glb\")], style: Normals)");
@@ -67,7 +67,7 @@ fn a_watched_picture_is_rendered_again_when_its_model_changes() {
     child.wait().expect("its end");
 }
 
-/// The bytes of the picture once they are others than those before.
+/// The bytes of the picture, once they differ from the previous ones.
 fn wait_for_change(sandbox: &Sandbox, before: &[u8]) -> Vec<u8> {
     let begin = Instant::now();
     loop {
@@ -115,7 +115,7 @@ fn a_label_has_lines_greek_letters_and_a_halo() {
         let has_white = |row: &[[u8; 4]]| row.contains(&[255; 4]);
         rows.chunks_exact(240).filter(|row| has_white(row)).count()
     };
-    // Black letters before black are seen by their halo.
+    // Black letters on black are visible by their halo.
     let (one, two) = (white("α → β"), white("α → β\\nΔφ ≤ 2π"));
     assert!(one > 8 && two > one + 10, "{one} rows, {two} of two lines");
 }

@@ -55,7 +55,7 @@ fn a_transparent_background_has_no_halo() {
             255 => assert_eq!(clear, white, "pixel {at}"),
             alpha => {
                 // Over white, in linear light, the soft pixel must give the opaque picture's
-                // colour.
+                // color.
                 let share = f64::from(alpha) / 255.0;
                 for k in 0..3 {
                     let over = srgb_to_linear(clear[k]) * share + 1.0 - share;
@@ -114,7 +114,7 @@ fn every_view_style_and_projection_shows_something() {
                 let run = sandbox.run(&[&["render", "house.glb"][..], &flags, &size].concat());
                 assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{flags:?}");
                 let (_, _, pixels) = sandbox.read_picture("out.png");
-                // Line drawings are dark on white paper, shaded pictures opaque on nothing.
+                // Line drawings are dark on white paper, shaded pictures opaque on transparency.
                 let on_paper = |pixel: &[u8; 4]| 255 - pixel[0].min(pixel[1]).min(pixel[2]);
                 let coverage = |pixel: &[u8; 4]| match style {
                     "wireframe" => on_paper(pixel),
@@ -122,8 +122,8 @@ fn every_view_style_and_projection_shows_something() {
                 };
                 let inked = pixels.iter().filter(|pixel| coverage(pixel) > 0).count();
                 assert!(inked > 48 * 32 / 16, "{flags:?}: {inked} pixels");
-                // Framing leaves the margin of 5 per cent free: nothing touches the border. Dense
-                // wireframes are hairlines, which leave a trace of 30 in 255 a pixel beyond them.
+                // Framing leaves the margin of 5 percent free: nothing touches the border. Dense
+                // wireframes are hairlines, which leave a trace of 30 in 255 one pixel beyond them.
                 let border =
                     |n: usize| n.is_multiple_of(48) || n % 48 == 47 || !(48..48 * 31).contains(&n);
                 let touches =
@@ -156,7 +156,7 @@ fn c36_the_floor_is_whole_from_the_horizon_down_with_the_eye_just_above_it() {
             .map(|row| row.iter().filter(|pixel| **pixel == [255, 0, 255, 255]).count())
             .collect();
         // The horizon is row 60. From a little below it, where the sides of the floor are out of
-        // sight, no pixel is missing.
+        // sight, every pixel is covered.
         let torn: Vec<usize> = (66..120).filter(|&row| rows[row] > 0).collect();
         assert!(torn.is_empty(), "eye at {height}: background in rows {torn:?}");
         assert_eq!(rows[0], width as usize, "sky above");

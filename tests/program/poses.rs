@@ -1,5 +1,5 @@
-//! Animations as the program poses them, held against the formulas of glTF 2.0 (appendix C), and
-//! against the keys in real files. `info --json` tells the pose in numbers.
+//! Animations as the program poses them, compared with the formulas of glTF 2.0 (appendix C) and
+//! with the keys in real files. `info --json` gives the pose in numbers.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
@@ -24,7 +24,7 @@ fn assert_near(actual: &Value, expected: &[f64], what: &str) {
     assert!(near, "{what}: {found:?} instead of {expected:?}");
 }
 
-/// A square whose node moves by a line, turns by a line and grows by a cubic spline, whose second
+/// A square whose node moves linearly, turns linearly and grows by a cubic spline, whose second
 /// node steps, and whose weights, material, light and camera change too.
 fn write_animated_model(sandbox: &Sandbox) {
     let mut document = GltfBuilder::square();
@@ -33,7 +33,7 @@ fn write_animated_model(sandbox: &Sandbox) {
     let half = std::f32::consts::FRAC_1_SQRT_2;
     let samplers = [
         (zero_to_two, "LINEAR", document.add_floats("VEC3", &[0.0, 0.0, 0.0, 4.0, 8.0, -2.0])),
-        // From rest to a quarter about y.
+        // From rest to a quarter turn about y.
         (
             zero_to_two,
             "LINEAR",
@@ -160,7 +160,7 @@ fn poses_are_those_of_the_specification() {
     assert_eq!(described["materials"][0]["base_color"], json!([1.0, 0.0, 0.0, 1.0]), "at rest");
 }
 
-/// After its end an animation stands still; a later time is a warning.
+/// After its end an animation holds its last pose; a later time is a warning.
 #[test]
 fn times_behind_the_end_are_said() {
     let sandbox = Sandbox::new("late_times");

@@ -89,7 +89,7 @@ fn the_reference_can_be_read_elsewhere() {
     }
 }
 
-/// Symbols and the letters of ids lead to formulas; other words to the list of them.
+/// Symbols and the prefixes of ids lead to formulas; other words lead to the list of them.
 #[test]
 fn words_of_textbooks_lead_to_formulas() {
     let sandbox = Sandbox::new("reference_symbols");
@@ -105,7 +105,7 @@ fn words_of_textbooks_lead_to_formulas() {
     assert!(run.stderr.contains("`alberti reference formulas`"), "{}", run.stderr);
 }
 
-/// Each name of conventions with its depth range, y, handedness and pixels.
+/// Each convention name with its depth range, y, handedness and pixels.
 #[test]
 fn conventions_are_explained_by_their_names() {
     let sandbox = Sandbox::new("reference_conventions");
@@ -123,7 +123,7 @@ fn conventions_are_explained_by_their_names() {
     }
 }
 
-/// Words of titles and texts, in any case and form.
+/// Words from titles and texts, in any case and form.
 #[test]
 fn formulas_are_found_by_their_words() {
     let sandbox = Sandbox::new("reference_words");

@@ -1,4 +1,4 @@
-//! Parts of pictures, channels of 16 bits, passes, comparison, report and preview.
+//! Parts of pictures, 16-bit channels, passes, comparison, report and preview.
 
 use crate::sandbox::Sandbox;
 use serde_json::Value;
@@ -36,7 +36,7 @@ fn crops_and_bands_are_the_pixels_of_the_whole() {
     assert_eq!(united, whole);
 }
 
-/// All that looks beyond a pixel: shadows of two kinds of light, a ground that catches them,
+/// Everything that looks beyond a pixel: shadows of two kinds of light, a ground that catches them,
 /// occlusion, an environment, textures.
 const EVERYTHING: &str = r#"Scene(
     models: [
@@ -74,7 +74,7 @@ fn parts_with_shadows_and_occlusion_unite_byte_for_byte() {
             bands.extend(draw("band.png", &["--band", band]));
         }
         assert!(bands == whole, "{size} in bands");
-        // Left and right of a line, put together row by row.
+        // Left and right of a line, joined row by row.
         let left = draw("left.png", &["--crop", &format!("0,0,37,{rows}")]);
         let right = draw("right.png", &["--crop", &format!("37,0,{},{rows}", columns - 37)]);
         let pairs = left.chunks(37).zip(right.chunks(columns - 37));
@@ -118,8 +118,7 @@ fn sixteen_bits_round_to_eight() {
     let file = std::fs::read(sandbox.path_of("deep.png")).expect("a file");
     assert_eq!(file[24], 16, "the depth in the header");
     let (flat, deep) = (sandbox.read_picture("flat.png").2, sandbox.read_picture("deep.png").2);
-    // The test's reader takes the high byte, which is the code of 8 bits or the one before or after
-    // it.
+    // The test's reader takes the high byte, which is the 8-bit code or differs from it by one.
     for (flat, deep) in flat.iter().zip(&deep) {
         assert!((0..4).all(|k| flat[k].abs_diff(deep[k]) <= 1), "{flat:?} {deep:?}");
     }
@@ -156,7 +155,7 @@ fn passes_lie_beside_the_picture() {
 #[test]
 fn nothing_is_written_if_a_pass_cannot_be() {
     let sandbox = sandbox_with_model("all-or-nothing");
-    // A name that is just short enough for a picture, and too long for its pass.
+    // A name that is just short enough for a picture and too long for its pass.
     let stem = "a".repeat(232);
     let output = format!("{stem}.png");
     sandbox.write_file(&output, "old");
@@ -231,7 +230,7 @@ fn pictures_are_shown_in_half_blocks() {
     assert_eq!(run.code, 0, "{}", run.stderr);
     let lines: Vec<&str> = run.stdout.lines().collect();
     // 80 columns, and 60 rows of pixels in 30 lines; or characters, where the tests run without
-    // colours.
+    // colors.
     assert_eq!(lines.len(), 30);
     let cells = lines[15].matches('▀').count();
     assert!(cells == 80 || lines[15].chars().count() == 80, "{}", lines[15]);

@@ -10,7 +10,7 @@ pub(crate) struct Sandbox {
     folder: PathBuf,
 }
 
-/// How a run ended.
+/// The result of a run.
 pub(crate) struct RunResult {
     pub(crate) code: i32,
     pub(crate) stdout: String,
@@ -18,7 +18,7 @@ pub(crate) struct RunResult {
 }
 
 impl RunResult {
-    /// Code and texts of a program that has ended by itself.
+    /// Exit code and output of a program that has ended by itself.
     pub(crate) fn of(output: Output) -> Self {
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes UTF-8");
         Self {
@@ -35,7 +35,7 @@ fn program() -> &'static Path {
 }
 
 impl Sandbox {
-    /// A folder with the name of the test, and what `SANDBOX_SUFFIX` adds to it.
+    /// A folder named after the test, with the suffix `SANDBOX_SUFFIX`.
     pub(crate) fn new(name: &str) -> Self {
         let suffix = std::env::var("SANDBOX_SUFFIX").unwrap_or_default();
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}{suffix}"));
@@ -78,8 +78,8 @@ impl Sandbox {
         pipes.args(arguments).current_dir(&self.folder).spawn().expect("the program starts")
     }
 
-    /// Runs the program here with bytes on its standard input; gives its code and what it wrote to
-    /// its standard output.
+    /// Runs the program here with bytes on its standard input; returns its exit code and its
+    /// standard output.
     pub(crate) fn run_with_input(&self, arguments: &[&str], input: &[u8]) -> (i32, Vec<u8>) {
         let output = self.spawn_with_input(arguments, input);
         (output.status.code().expect("no signal ends the program"), output.stdout)
@@ -93,7 +93,7 @@ impl Sandbox {
 
     fn spawn_with_input(&self, arguments: &[&str], input: &[u8]) -> Output {
         let mut child = self.start(arguments);
-        // One that has read enough may close it.
+        // A program that has read enough may close it.
         let _ = child.stdin.take().expect("a pipe").write_all(input);
         child.wait_with_output().expect("the program ends")
     }
@@ -106,13 +106,13 @@ impl Sandbox {
         std::fs::write(self.path_of(name), content).expect("a file for the test");
     }
 
-    /// Brings a model of `scenes/models` here.
+    /// Copies a model from `scenes/models` to this folder.
     pub(crate) fn copy_model(&self, model: &str) {
         let from = alberti_tests::project_root().join("scenes/models").join(model);
         std::fs::copy(from, self.path_of(model)).expect("a committed model");
     }
 
-    /// The names of the files that are here, sorted.
+    /// The file names here, sorted.
     pub(crate) fn file_names(&self) -> Vec<String> {
         let entries = std::fs::read_dir(&self.folder).expect("the folder");
         let name = |entry: std::io::Result<std::fs::DirEntry>| {
@@ -123,7 +123,7 @@ impl Sandbox {
         names
     }
 
-    /// Width, height and RGBA pixels of a PNG that is here.
+    /// Width, height and RGBA pixels of a PNG in this folder.
     pub(crate) fn read_picture(&self, name: &str) -> (u32, u32, Vec<[u8; 4]>) {
         alberti_tests::read_png(&self.path_of(name)).expect("a picture")
     }

@@ -1,4 +1,4 @@
-//! `alberti scene`: files to begin with, checks, layout.
+//! `alberti scene`: starter files, checks, layout.
 
 use crate::sandbox::Sandbox;
 use serde_json::{Value, json};
@@ -25,7 +25,7 @@ fn a_starter_is_drawn_checked_and_laid_out_and_each_of_its_comments_is_a_choice(
         });
         let mut seen = 0;
         for choice in choices {
-            // The field that the comment offers, instead of the one that is there.
+            // The field that the comment offers, instead of the existing one.
             let field = choice.trim_start().trim_start_matches("// ");
             let name = field.split(':').next().expect("a name");
             let there = |line: &&str| !line.trim_start().starts_with(&format!("{name}: "));
@@ -94,7 +94,7 @@ fn the_committed_scenes_are_laid_out_and_nothing_in_them_is_unmeant() {
     assert_eq!(report["files"].as_array().map(Vec::len), Some(scenes.len()));
 }
 
-/// A scene of a crate, one unit wide about the origin, and what is said of it.
+/// A scene with a crate, one unit wide about the origin, and the messages about it.
 fn check_with_fields(sandbox: &Sandbox, rest: &str) -> (i32, String) {
     sandbox.write_file(
         "scene.ron",
@@ -104,8 +104,8 @@ fn check_with_fields(sandbox: &Sandbox, rest: &str) -> (i32, String) {
     (run.code, run.stdout)
 }
 
-/// Fields of a scene of a crate that are valid and still not meant: the code of the warning, where
-/// it points (empty: anywhere), and words of it.
+/// Fields for a scene with a crate that are valid but probably unintended: the code of the warning,
+/// its location (empty: anywhere), and words from it.
 const SUSPICIOUS: &[(&str, &str, &str, &str)] = &[
     (
         "camera: (view: LookTo(eye: (0, 0.5, 6), gaze: (0, 0, 1)), projection: Perspective(near: 0.1, far: 100))",
@@ -315,11 +315,11 @@ fn instances_beside_the_picture_are_named_once_and_only_if_all_are() {
         sandbox.write_file("scene.ron", &text);
         sandbox.run(&["scene", "check", "scene.ron"]).stdout
     };
-    // A forest: the camera stands among its trees.
+    // A forest: the camera is among its trees.
     let forest = "count: (9, 1, 9), step: (4, 0, 4)";
     let output = check(forest, "");
     assert!(!output.contains("model-not-visible"), "{output}");
-    // A model behind it is pointed at as the second of the file.
+    // The message points to a model behind it as the second in the file.
     let output = check(forest, "\n    (path: \"crate.glb\", translation: (90, 0, 90))");
     assert_eq!(output.matches("warning[model-not-visible]").count(), 1, "{output}");
     assert!(output.contains("scene.ron:3:5"), "{output}");
@@ -421,7 +421,7 @@ fn a_misspelt_model_is_answered_with_the_one_beside_it() {
     assert!(run.code == 1 && run.stderr.contains("did you mean \"crate.glb\"?"), "{}", run.stderr);
 }
 
-/// Values that are valid and still not meant are warned of, in the first run and beside errors.
+/// Valid but unintended values cause warnings, in the first run and next to errors.
 #[test]
 fn sections_of_shaded_scenes_and_flat_stereo_pairs_are_warned_of() {
     let sandbox = Sandbox::new("scene_warnings");

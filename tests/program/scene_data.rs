@@ -1,4 +1,5 @@
-//! Scenes as data: read and written by `ron` and other formats of serde, with public means only.
+//! Scenes as data: read and written by `ron` and other serde formats, using only the public
+//! interface.
 
 #[allow(dead_code, reason = "long runs use more of it")]
 #[path = "../soak/bits.rs"]
@@ -17,7 +18,7 @@ use std::path::PathBuf;
 /// The random scenes of a run.
 const CASES: u64 = 10_000;
 
-/// All files of scenes in a folder and below.
+/// All scene files in a folder and its subfolders.
 fn scene_files(folder: PathBuf, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("the folder is there") {
         let path = entry.expect("the folder can be read").path();
@@ -58,7 +59,7 @@ fn random_scenes_read_back_as_they_were_written() {
     let count = numbers.len();
     for number in numbers {
         let text = random_scene_text(number, &files);
-        // Most values are sensible, not all: what is refused has its test elsewhere.
+        // Most values are reasonable, but not all: refusals are tested elsewhere.
         let Ok(scene) = SceneFile::from_ron(&text) else { continue };
         read += 1;
         assert_reads_back(&scene, &format!("scene {number}"));
@@ -66,7 +67,7 @@ fn random_scenes_read_back_as_they_were_written() {
     assert!(read > count / 2, "only {read} scenes can be read");
 }
 
-/// A scene is the same after RON, as `to_ron` lays it out and compact, and after JSON.
+/// A scene is unchanged after RON, as `to_ron` lays it out and compact, and after JSON.
 #[track_caller]
 fn assert_reads_back(scene: &SceneFile, name: &str) {
     let text = scene.to_ron().expect(name);

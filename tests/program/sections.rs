@@ -32,7 +32,7 @@ fn sections_cut_drawings_open() {
         }
         assert!(layers["visible-hatching"].len() > 3, "{flags:?}");
     }
-    // A plane beside the box takes nothing, or everything, and is named.
+    // A plane beside the box removes nothing, or everything, and the message names it.
     for (plane, warning) in [("x=1", "cuts nothing"), ("-x=1", "would remove everything")] {
         let flags = ["render", "box.gltf", "-o", "out.svg", "--style", "lines", "--section", plane];
         let run = sandbox.run(&flags);
@@ -83,7 +83,8 @@ fn open_surfaces_are_cut_without_a_cap_and_named() {
     assert!(read_drawing(&sandbox, "out.svg").1.contains_key("visible-section"));
 }
 
-/// What is left fills the picture, and in the technical style nothing is dashed behind the cut.
+/// The remaining part fills the picture, and in the technical style nothing is dashed behind the
+/// cut.
 #[test]
 fn cut_pictures_frame_what_is_left_and_dash_nothing_behind_the_cut() {
     let sandbox = Sandbox::new("cut_frame");
@@ -101,15 +102,15 @@ fn cut_pictures_frame_what_is_left_and_dash_nothing_behind_the_cut() {
     assert!(whole.keys().any(|id| id.starts_with("hidden-")));
     let cut = layers(&["--style", "technical", "--section", "x=0.02"]);
     assert!(cut.keys().all(|id| !id.starts_with("hidden-")), "{:?}", cut.keys());
-    // Both are as high as the picture allows; in the frame of the whole the rest would be lower.
+    // Both are as high as the picture allows; framed like the whole, the rest would be lower.
     assert!(height(&cut) > 0.95 * height(&whole), "{} {}", height(&cut), height(&whole));
-    // Dashes that are asked for are drawn.
+    // Requested dashes are drawn.
     let dashed = layers(&["--style", "dashed", "--section", "x=0.02"]);
     assert!(dashed.keys().any(|id| id.starts_with("hidden-")));
 }
 
-/// The front view of a sheet is cut and named, the others show the whole thing and where the cut
-/// is.
+/// The front view of a sheet is cut and named; the others show the whole model and the position of
+/// the cut.
 #[test]
 fn sheets_show_cuts_in_the_view_that_looks_onto_them() {
     let sandbox = Sandbox::new("cut_sheet");
@@ -120,14 +121,14 @@ fn sheets_show_cuts_in_the_view_that_looks_onto_them() {
     assert!(layers.contains_key("front-visible-hatching"));
     assert!(layers.contains_key("isometric-visible-hatching"));
     assert!(!layers.contains_key("top-visible-hatching"));
-    // Whole from above: 30 mm deep; the cut 10 mm before the rear edge, from beyond one side to
-    // beyond the other.
+    // Whole from above: 30 mm deep. The cut is 10 mm in front of the rear edge, and its line
+    // extends beyond both sides.
     let [low, high] = layer_bounds(&layers, |id| id.starts_with("top-"));
     assert_near(high[1] - low[1], 30.0);
     let along = layers["cut-lines"].iter().find(|line| line[0][1] == line[1][1]).expect("a line");
     assert_near(along[0][1] - low[1], 10.0);
     assert_near((along[1][0] - along[0][0]).abs(), 108.0);
-    // Spaced as the style says, whatever the scale: 2 mm at right angles to the lines.
+    // Spaced according to the style, at any scale: 2 mm at right angles to the lines.
     let mut at: Vec<f64> =
         layers["front-visible-hatching"].iter().map(|line| line[0][0] + line[0][1]).collect();
     at.sort_by(f64::total_cmp);

@@ -19,7 +19,7 @@ fn write_moving_model(sandbox: &Sandbox) {
     document.write_file(sandbox, "model");
 }
 
-/// The middle of all red pixels, as parts of the width and height.
+/// The center of all red pixels, as fractions of the width and height.
 fn visible_center(sandbox: &Sandbox, name: &str) -> [f64; 2] {
     let (width, height, pixels) = sandbox.read_picture(name);
     let (mut sum, mut count) = ([0.0; 2], 0.0);
@@ -57,7 +57,7 @@ fn an_animation_becomes_a_file_for_each_picture() {
     for pair in places.windows(2) {
         assert!((pair[1][0] - pair[0][0] - step).abs() < 0.01 && step > 0.02, "{places:?}");
     }
-    // The camera does not follow: all of the motion is in the picture, and in its middle.
+    // The camera does not follow: all of the motion is in the picture, and centered.
     assert!(places[0][0] > 0.1 && places[3][0] < 0.9, "{places:?}");
 }
 

@@ -1,5 +1,5 @@
-//! Options of sheets: paper, title blocks, resolution, and what is said about their layout; texts
-//! of a PDF as another reader finds them.
+//! Sheet options: paper, title blocks, resolution, and messages about the layout; texts in a PDF as
+//! another reader finds them.
 
 use crate::drawings::{assert_near, assert_succeeds, read_drawing, write_box};
 use crate::sandbox::Sandbox;
@@ -71,7 +71,7 @@ fn texts_of_a_pdf_are_found_by_another_reader() {
          owner: \"Alberti\", language: Chinese",
     );
     let run = sandbox.run(&["sheet", "scene.ron", "-o", "out.pdf"]);
-    // The letters are not drawn, but they are found.
+    // The letters are invisible, but the text is found.
     assert!(run.code == 0 && run.stderr.contains("lack 轴承 of"), "{}", run.stderr);
     let read = |flags: &[&str]| {
         let path = sandbox.path_of("out.pdf").display().to_string();
@@ -89,7 +89,8 @@ fn texts_of_a_pdf_are_found_by_another_reader() {
     {
         assert!(text.contains(word), "{word}: {text}");
     }
-    // A word stands where its letters are: the title begins 1.5 mm from the border of the block.
+    // A word is at the position of its letters: the title begins 1.5 mm from the border of the
+    // block.
     let boxes = read(&["-bbox"]).expect("a reader");
     let line = boxes.lines().find(|line| line.contains(">Größe<")).expect("the title");
     let attribute = |name: &str| {
@@ -174,7 +175,7 @@ fn a_check_of_the_scene_warns_of_what_the_sheet_lacks() {
         sandbox.write_file("scene.ron", text);
         let checked = sandbox.run(&["scene", "check", "scene.ron"]);
         let drawn = sandbox.run(&["sheet", "scene.ron", "-o", "out.pdf"]);
-        // The model has errors of its own, which do not keep it from being drawn.
+        // The model itself has errors, which do not keep it from being drawn.
         assert!(checked.stdout.contains("scene.ron: no mistakes, "), "{}", checked.stdout);
         assert_eq!(drawn.code, 0, "{}", drawn.stderr);
         let head = format!("warning[{code}]: ");

@@ -1,22 +1,22 @@
-//! Tests that lack a tool or a folder say so where `cargo xtask test` reads it.
+//! Tests that lack a tool or a folder report it where `cargo xtask test` reads it.
 //!
-//! Each is run by this program itself, as the harness runs it, without what it needs: a test that
-//! returned in silence would pass for ever.
+//! This program runs each of them itself, as the harness does, without the tool or folder it needs:
+//! a test that returned silently would pass forever.
 
 use std::path::Path;
 use std::process::Command;
 
-/// Runs tests by their name with an environment variable changed, and gives what they reported.
+/// Runs tests by name with a changed environment variable, and returns their reports.
 fn skips_of(test: &str, (name, value): (&str, &str)) -> String {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     let log = folder.join(format!("skips-{test}"));
     let _ = std::fs::remove_file(&log);
-    // Interrupts ignored: for the test that cannot run then.
+    // Interrupts are ignored, for the test that then cannot run.
     let script = "trap '' INT; exec \"$TESTS\" \"$TEST\"";
     let mut shell = Command::new("/bin/sh");
     shell.args(["-c", script]).env("TESTS", std::env::current_exe().expect("this program"));
     shell.env("ALBERTI", alberti_tests::program_path().expect("the program"));
-    // The same tests run at the same time, in folders of the same names.
+    // The same tests run at the same time, in folders with the same names.
     shell.env("SANDBOX_SUFFIX", "-skips");
     let run = shell.env("TEST", test).env("SKIP_LOG", &log).env(name, value).output();
     let run = run.expect("a shell");

@@ -49,7 +49,7 @@ fn every_parameter_can_be_varied() {
 }
 
 /// The front of a box seen in the middle, at the depth of the middle of a flat box, keeps its size
-/// in a dolly zoom and goes with 1/distance without one.
+/// in a dolly zoom and scales with 1/distance without one.
 #[test]
 fn a_dolly_zoom_keeps_the_size_and_a_walk_does_not() {
     let sandbox = Sandbox::new("sweep_dolly");
@@ -144,7 +144,7 @@ fn parameters_that_do_not_apply_are_reported() {
         let run = run(vary, from, "40", more);
         assert_eq!(run.code, 2, "{vary} {from} {more:?}: {}", run.stderr);
     }
-    // Around the models goes in parallel too.
+    // Orbiting the models works in parallel projection too.
     assert_eq!(run("angle", "0", "90", &["--projection", "orthographic"]).code, 0);
     assert_eq!(sandbox.file_names(), ["box.bin", "box.gltf", "sweep.svg"]);
 }

@@ -1,4 +1,4 @@
-//! `alberti thumbnailer`: what it installs, what it shows, and that it ends.
+//! `alberti thumbnailer`: the files it installs, its pictures, and that it ends.
 
 use crate::meshes::stl_box;
 use crate::sandbox::{RunResult, Sandbox};
@@ -24,7 +24,7 @@ fn files_below(folder: &Path) -> Vec<String> {
 const ENTRY: &str = "thumbnailers/alberti.thumbnailer";
 const MIME_TYPES: &str = "mime/packages/alberti.xml";
 
-/// The file is refused with this in its message, and nothing but `files` is left.
+/// Checks that the file is refused with this message, and that only `files` are left.
 fn assert_refuses(sandbox: &Sandbox, arguments: &[&str], words: &str, files: &[&str]) {
     let run = sandbox.run(&[&["thumbnailer"], arguments].concat());
     assert_eq!(run.code, 1, "{arguments:?}: {}", run.stderr);
@@ -49,7 +49,7 @@ fn both_files_are_installed_for_a_user_and_removed_again() {
             assert!(path.is_file(), "{name}");
             assert!(said.contains(&format!("wrote {}\n", path.display())), "{said}");
         }
-        // Where it is installed, its database knows the one format that Debian's does not.
+        // If it is installed, its database knows the one format that Debian's does not.
         if said.contains("\nran update-mime-database ") {
             let globs = std::fs::read_to_string(data.join("mime/globs2")).expect("a database");
             for glob in ["50:model/x-ply:*.ply", "60:model/obj:*.obj", "50:model/stl:*.stl"] {
@@ -76,7 +76,7 @@ fn both_files_are_installed_for_a_user_and_removed_again() {
 fn a_prefix_and_packages_get_the_same_files() {
     let sandbox = Sandbox::new("thumbnailer_prefix");
     let run = sandbox.run(&["thumbnailer", "--install", "--prefix", "usr"]);
-    // Where it is installed, update-mime-database notes that this folder is none that is searched.
+    // If installed, update-mime-database notes that this folder is not one that is searched.
     assert_eq!(run.code, 0, "{}", run.stderr);
     let read = |name: &str| {
         std::fs::read_to_string(sandbox.path_of("usr/share").join(name)).expect("a file")
@@ -104,7 +104,7 @@ fn every_format_has_a_square_thumbnail() {
     sandbox.copy_model("teapot.glb");
     sandbox.write_file("part.stl", stl_box([40.0, 20.0, 30.0]));
     let tetrahedron = "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
-    // A library that is missing is left out.
+    // A missing library is skipped.
     sandbox.write_file("part.obj", format!("mtllib missing.mtl\n{tetrahedron}"));
     sandbox.write_file(
         "part.ply",
@@ -130,7 +130,7 @@ fn every_format_has_a_square_thumbnail() {
 fn lines_of_thumbnails_are_thin_enough_to_be_told_apart() {
     let sandbox = Sandbox::new("thumbnailer_lines");
     sandbox.write_file("box.stl", stl_box([1.0; 3]));
-    // A hundred boxes beside each other: at full width nothing but black.
+    // A hundred boxes side by side: at full width everything is black.
     let scene = "Scene(
         models: [(path: \"box.stl\", instances: Grid(count: (10, 1, 10), step: (1.5, 1, 1.5)))],
         style: Lines(width: Mm(0.7)), image: (size: (1600, 1600)),
@@ -149,7 +149,7 @@ fn lines_of_thumbnails_are_thin_enough_to_be_told_apart() {
 fn an_empty_file_is_filled_in_its_place() {
     let sandbox = Sandbox::new("thumbnailer_in_place");
     sandbox.copy_model("crate.glb");
-    // As services do: the file is made for the program, and read by the same handle.
+    // As services do: the file is created for the program, and read through the same handle.
     let options = File::options().read(true).write(true).create_new(true).to_owned();
     let mut file = options.open(sandbox.path_of("out.png")).expect("an empty file");
     let run = sandbox.run(&["thumbnailer", "crate.glb", "out.png", "--size", "32"]);

@@ -1,4 +1,5 @@
-//! Flags that do nothing in a picture are told; warnings about what it would not show are not.
+//! Flags that do nothing in a picture are reported; warnings about things it would not show are
+//! not.
 
 use crate::sandbox::Sandbox;
 
@@ -42,7 +43,7 @@ fn flags_that_do_nothing_are_told() {
             &["--arc-tolerance", "0.1"],
             "warning: --arc-tolerance does nothing here: only a DXF has arcs\n",
         ),
-        // These do something.
+        // These have an effect.
         (&["--exposure", "3", "--shadows", "on", "--ambient-occlusion"], ""),
         (&["--style", "clay", "--ground", "shadow", "--shadows", "on"], ""),
         (&["--style", "ids", "--environment", "sky", "--background", "environment"], ""),
@@ -63,7 +64,7 @@ fn the_report_has_the_warnings_too() {
     assert_eq!(run.stderr, "");
 }
 
-/// A file that uses an extension which is drawn in part.
+/// A file that uses an extension of which only part is drawn.
 fn partly_drawn(name: &str) -> String {
     format!(
         r#"{{"asset": {{"version": "2.0"}}, "extensionsUsed": ["{name}"], "scene": 0,

@@ -1,11 +1,11 @@
-//! Sheets of models that are empty, open or oddly named: a right drawing or a message.
+//! Sheets of models that are empty, open or oddly named: a correct drawing or a message.
 
 use crate::sandbox::{RunResult, Sandbox};
 
 /// The flags that draw every page of an assembly.
 const ALL_PAGES: [&str; 4] = ["--parts-list=list.csv", "--balloons", "--exploded", "--part-sheets"];
 
-/// A cube as OBJ: its vertices from x on, and its faces, whose indices begin after `first`.
+/// A cube as OBJ: its vertices start at x, and the indices of its faces start after `first`.
 fn cube(x: i32, first: usize) -> String {
     let mut text = String::new();
     for corner in 0..8 {

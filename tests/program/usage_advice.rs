@@ -1,4 +1,4 @@
-//! Words of other programs on the command line: what people are told to type.
+//! Words from other programs on the command line, and the advice that users get.
 
 use crate::sandbox::Sandbox;
 
@@ -8,7 +8,7 @@ fn sandbox_with_teapot(name: &str) -> Sandbox {
     sandbox
 }
 
-/// Whether a message has these words, with the model that was named in the place of the example's.
+/// Whether a message contains these words, with the given model in place of the example's.
 fn tells(message: &str, words: &str) -> bool {
     message.contains(words) || message.contains(&words.replace("model.glb", "teapot.glb"))
 }
@@ -165,7 +165,7 @@ fn help_has_groups_that_people_know() {
     }
 }
 
-/// What a person who comes from f3d, Blender or ImageMagick tried, and what it is answered with.
+/// Attempts by users of f3d, Blender or ImageMagick, and the answers.
 #[test]
 fn habits_that_were_tried_are_answered() {
     let sandbox = sandbox_with_teapot("tried_habits");
@@ -223,7 +223,7 @@ fn habits_that_were_tried_are_answered() {
     }
 }
 
-/// What `alberti render teapot.glb` is given, and what it answers.
+/// Arguments of `alberti render teapot.glb`, and the answers.
 const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
     (&["-x"], "for axes use `--overlay axes`; a format needs no flag"),
     (&["--threads", "0"], "leave it out to use all processors"),
@@ -307,7 +307,7 @@ const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
     (&["--samplse", "4"], "did you mean `--samples`?"),
 ];
 
-/// Command lines, and what they are answered with.
+/// Command lines, and the answers.
 const COMMAND_LINES: &[(&[&str], &str)] = &[
     (&["montage", "teapot.glb"], "which writes `index.html` beside the pictures"),
     (&["scene", "validate", "a.ron"], "run `alberti scene check scene.ron`"),
@@ -342,7 +342,7 @@ const COMMAND_LINES: &[(&[&str], &str)] = &[
     (&["explore", "--host", "0.0.0.0"], "the page is served to this machine only"),
 ];
 
-/// Words and values of f3d, Blender, POV-Ray and ffmpeg that stand for something else here.
+/// Words and values from f3d, Blender, POV-Ray and ffmpeg that mean something else here.
 #[test]
 fn values_of_other_programs_are_translated() {
     let sandbox = sandbox_with_teapot("translated_values");
@@ -362,7 +362,7 @@ fn values_of_other_programs_are_translated() {
     }
 }
 
-/// What is done is said where it is probably not what was meant.
+/// The action is reported if it is probably not the intended one.
 #[test]
 fn flags_without_an_effect_are_warnings() {
     let sandbox = sandbox_with_teapot("idle_flags");
@@ -389,7 +389,7 @@ fn flags_without_an_effect_are_warnings() {
     assert!(run.stderr.ends_with("need --allow-outside .\n"), "{}", run.stderr);
 }
 
-/// Scenes and models in each other's place, and what other languages have in the place of RON.
+/// Scenes and models in each other's place, and syntax from other languages instead of RON.
 #[test]
 fn scenes_of_other_languages_are_answered() {
     let sandbox = sandbox_with_teapot("tried_scenes");

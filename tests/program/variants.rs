@@ -1,4 +1,4 @@
-//! Variants and scenes: what a file offers, and what is asked of it.
+//! Variants and scenes: the choices that a file offers, and the requests for them.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
@@ -20,7 +20,7 @@ fn write_variants_model(sandbox: &Sandbox) {
     document.write_file(sandbox, "offer");
 }
 
-/// The colours that a picture shows, without the soft ones at edges.
+/// The colors in a picture, without the soft ones at edges.
 fn rendered_colors(sandbox: &Sandbox, arguments: &[&str]) -> Vec<[u8; 4]> {
     let default = ["-o", "out.png", "--size", "40x20", "--view", "front", "--samples", "1"];
     let run = sandbox.run(&[arguments, &default].concat());

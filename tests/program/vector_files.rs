@@ -1,16 +1,16 @@
-//! Reads back the drawings that the program writes: the places of all lines of an SVG by its
-//! layers, and of a PDF, in millimetres. It knows no more of both formats than the program uses,
-//! and fails at anything else.
+//! Reads back the drawings that the program writes: the positions of all lines in an SVG by layer,
+//! and in a PDF, in millimeters. It knows only the parts of both formats that the program uses, and
+//! fails at anything else.
 
 use std::collections::BTreeMap;
 
-/// A point on the page in millimetres.
+/// A point on the page in millimeters.
 pub(crate) type PagePoint = [f64; 2];
 
-/// Lines as their points, by the id of their layer.
+/// Lines as lists of points, by layer id.
 pub(crate) type Layers = BTreeMap<String, Vec<Vec<PagePoint>>>;
 
-/// The lines of an SVG by its layers, and the size of its page.
+/// The lines in an SVG by layer, and the size of its page.
 pub(crate) fn parse_svg(text: &str) -> (PagePoint, Layers) {
     let size = ["width", "height"].map(|name| {
         let value = attribute_value(text, name).expect(name);
@@ -38,13 +38,13 @@ pub(crate) fn parse_svg(text: &str) -> (PagePoint, Layers) {
     (size, layers)
 }
 
-/// The first attribute of a name.
+/// The first attribute with a name.
 fn attribute_value(text: &str, name: &str) -> Option<String> {
     let start = text.find(&format!(" {name}=\""))? + name.len() + 3;
     Some(text[start..].split('"').next().unwrap_or_default().to_owned())
 }
 
-/// The lines of a path that has `M m l h v z` alone.
+/// The lines of a path that contains only `M m l h v z`.
 fn parse_path(path: &str) -> Vec<Vec<PagePoint>> {
     let mut lines: Vec<Vec<PagePoint>> = Vec::new();
     let (mut at, mut start) = ([0.0, 0.0], [0.0, 0.0]);
@@ -83,14 +83,13 @@ fn parse_path(path: &str) -> Vec<Vec<PagePoint>> {
     lines
 }
 
-/// Numbers parted by blanks, or by the sign of the next one.
+/// Numbers separated by blanks, or by the sign of the next one.
 fn parse_numbers(text: &str) -> Vec<f64> {
     let parted = text.replace('-', " -");
     parted.split_ascii_whitespace().map(|word| word.parse().expect("a number")).collect()
 }
 
-/// The lines of each page of a PDF in millimetres from its upper left corner, and the sizes of the
-/// pages.
+/// The lines on each page of a PDF in millimeters from its upper left corner, and the page sizes.
 pub(crate) fn parse_pdf(bytes: &[u8]) -> Vec<(PagePoint, Vec<Vec<PagePoint>>)> {
     let text = String::from_utf8_lossy(bytes);
     let sizes: Vec<PagePoint> = text
@@ -110,10 +109,10 @@ pub(crate) fn parse_pdf(bytes: &[u8]) -> Vec<(PagePoint, Vec<Vec<PagePoint>>)> {
         .collect()
 }
 
-/// Millimetres in a point.
+/// Millimeters per point.
 const POINT: f64 = 25.4 / 72.0;
 
-/// The decompressed streams of a file; those of fonts are not compressed, and left out.
+/// The decompressed streams in a file; font streams are not compressed, and are skipped.
 fn inflate_streams(bytes: &[u8]) -> Vec<String> {
     let find = |from: usize, word: &[u8]| {
         bytes[from..].windows(word.len()).position(|part| part == word).map(|at| from + at)
@@ -158,7 +157,7 @@ fn drawn_lines(content: &str, height: f64) -> Vec<Vec<PagePoint>> {
     lines
 }
 
-/// The least and the greatest coordinates of some layers.
+/// The minimum and maximum coordinates of some layers.
 pub(crate) fn layer_bounds(layers: &Layers, wanted: impl Fn(&str) -> bool) -> [PagePoint; 2] {
     let chosen = layers.iter().filter(|(id, _)| wanted(id));
     point_bounds(chosen.flat_map(|(_, lines)| lines).flatten())

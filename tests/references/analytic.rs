@@ -1,8 +1,8 @@
 //! References that this test computes itself: scenes of spheres and rectangles, ray traced with
 //! exact intersections and shaded by the formulas of the glTF specification.
 //!
-//! They come in the form of the pictures of another renderer, so that both are scored alike:
-//! `NAME.json` with the model, camera and lights, `NAME.png`, and the model itself as triangles.
+//! They have the form of another renderer's pictures, so that both are scored alike: `NAME.json`
+//! with the model, camera and lights, `NAME.png`, and the model itself as triangles.
 
 mod brdf;
 mod tracer;
@@ -44,8 +44,9 @@ fn worlds() -> Vec<(&'static str, World)> {
         let x = f64::from(at) * 2.2 - 4.4;
         sphere(dvec3(x, 0.0, 0.0), Material::dielectric([0.1, 0.3, 0.7], 0.2 + 0.2 * f64::from(at)))
     });
-    // Large, because the renderer adds the variation of normals within a pixel to the roughness (geometric
-    // specular antialiasing); not at roughness 1, where its table of albedos ends at 15.5/16.
+    // Large, because the renderer adds the variation of normals within a pixel to the roughness
+    // (geometric specular antialiasing). Not at roughness 1, where its albedo table ends at
+    // 15.5/16.
     let metals = [(-1.05, 0.6), (1.05, 0.85)]
         .map(|(x, roughness)| sphere(dvec3(x, 0.0, 0.0), Material::metal(gold, roughness)));
     let floor = rectangle(
@@ -142,7 +143,7 @@ fn add_material(document: &mut Document, name: &str, material: &Material) -> Mat
     document.add_finish(name, json)
 }
 
-/// The set-up in the form of the other references.
+/// The setup in the form of the other references.
 fn describe(name: &str, world: &World) -> Value {
     let World { camera, lights, background, .. } = world;
     json!({

@@ -1,4 +1,4 @@
-//! Largest allowed distance of each picture from its reference.
+//! The maximum allowed distance of each picture from its reference.
 
 use crate::references::score::Score;
 use std::path::Path;
@@ -18,8 +18,8 @@ const LAYERED_MATERIALS: Limits = Limits { fraction_above: 0.03, silhouette: 0.0
 const LAYER_EXTENSIONS: [&[u8]; 3] =
     [b"KHR_materials_clearcoat", b"KHR_materials_transmission", b"KHR_materials_sheen"];
 
-/// References that deviate from the specification or from the renderer by intent, with the limits
-/// that this needs and the reason.
+/// References that intentionally deviate from the specification or from the renderer, with the
+/// limits they need and the reason.
 const EXCEPTIONS: [(&str, Limits, &str); 2] = [
     (
         "alpha-blend-mode-test",
@@ -34,7 +34,7 @@ const EXCEPTIONS: [(&str, Limits, &str); 2] = [
     ),
 ];
 
-/// The limits of a reference, and the reason of an exception.
+/// The limits of a reference, and the reason for an exception.
 pub fn limits_for(name: &str, model: &Path) -> (Limits, &'static str) {
     if let Some((_, limits, why)) = EXCEPTIONS.iter().find(|(known, ..)| *known == name) {
         return (*limits, why);

@@ -1,16 +1,16 @@
-//! Distance of two pictures, as the script `score.py` of the reference pictures computes it.
+//! The distance between two pictures, as the reference pictures' script `score.py` computes it.
 //!
-//! Edges may differ by half a pixel, so each pixel is compared with the nearest in color of its 3 ×
-//! 3 neighbors in the other picture, and that in both directions.
+//! Edges may differ by half a pixel, so each pixel is compared with the closest in color of its 3 ×
+//! 3 neighbors in the other picture, in both directions.
 
 use crate::references::picture::Picture;
 
-/// Distance of two pictures of one size.
+/// The distance between two pictures with the same size.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Score {
     /// The mean difference of all channels, 0 to 255.
     pub mean: f64,
-    /// The 95th percentile of the pixels' differences, each with its nearest neighbour.
+    /// The 95th percentile of the pixels' differences, each with its closest neighbor.
     pub p95: f64,
     /// The fraction of pixels whose difference is above 8.
     pub fraction_above: f64,
@@ -50,8 +50,8 @@ pub fn largest_step(a: [u8; 3], b: [u8; 3]) -> u8 {
     a[0].abs_diff(b[0]).max(a[1].abs_diff(b[1])).max(a[2].abs_diff(b[2]))
 }
 
-/// For each pixel of `a`, the least difference to a 3 × 3 neighbor at its position in `b`. Pixels
-/// of the border are repeated beyond it.
+/// For each pixel of `a`, the smallest difference from a 3 × 3 neighbor at its position in `b`.
+/// Pixels at the border are repeated beyond it.
 fn nearest_neighbor_steps(a: &Picture, b: &Picture) -> Vec<u8> {
     let (width, height) = (a.width as usize, a.height as usize);
     let mut least = vec![255; width * height];

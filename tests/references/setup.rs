@@ -1,4 +1,4 @@
-//! Set-up of a reference picture: its JSON, converted to a scene file.
+//! The setup of a reference picture: its JSON, converted to a scene file.
 
 use serde_json::Value;
 use std::path::Path;
@@ -20,8 +20,8 @@ impl Setup {
         Ok(Self { model: model.to_owned(), json })
     }
 
-    /// The scene file: one sample per pixel, no lights but the sun and the ambient light of the
-    /// reference.
+    /// The scene file: one sample per pixel, and no lights except the reference's sun and ambient
+    /// light.
     pub fn scene_source(&self, model: &Path) -> Result<String, String> {
         let json = &self.json;
         let (camera, lights) = (&json["camera"], &json["lights"]);

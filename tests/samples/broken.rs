@@ -1,5 +1,5 @@
-//! Broken documents: one member of a valid file changed or removed, with the errors of the Khronos
-//! validator.
+//! Broken documents: one member of a valid file changed or removed, with the Khronos validator's
+//! errors.
 
 use super::{Sample, add_floats, add_times, quad, textured_quad, triangle};
 use crate::gltf::Document;

@@ -1,4 +1,4 @@
-//! The forms of a file: JSON with data URIs, with files in the same folder, and the binary
+//! File containers: JSON with data URIs, JSON with files in the same folder, and the binary
 //! container, whole and broken.
 
 use super::{Sample, textured_quad, triangle};

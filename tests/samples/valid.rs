@@ -1,4 +1,4 @@
-//! Valid files: one feature of glTF 2.0 or of an extension each.
+//! Valid files, each with one feature of glTF 2.0 or of an extension.
 
 use super::{
     Sample, add_floats, add_indices, add_times, quad, quad_material, textured_quad, triangle,
@@ -17,7 +17,7 @@ fn sample(name: &str, document: &Document, triangles: usize) -> Sample {
     Sample::valid(name, "model.glb", document.to_glb(), triangles)
 }
 
-/// The quad with its primitive's mode and indices replaced.
+/// The quad with other indices and another primitive mode.
 fn quad_of_mode(mode: u32, indices: &[u16]) -> Document {
     let mut document = quad();
     let indices = add_indices(&mut document, indices);

@@ -1,4 +1,4 @@
-//! Calls of the program that write JSON, and the documents they write.
+//! Calls of the program that write JSON, and the documents that they write.
 
 use alberti_tests::harness::data_folder;
 use alberti_tests::project_root;
@@ -8,21 +8,21 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A document of the program.
+/// A document that the program wrote.
 pub struct Document {
-    /// The schema that it must have.
+    /// The schema that it must match.
     pub schema: &'static str,
     pub case: String,
     pub json: Value,
 }
 
-/// Where the documents of a call are.
+/// The location of a call's documents.
 enum Place {
-    /// One document after the other on the standard output.
+    /// Standard output, one document after the other.
     Output,
     /// A file.
     File(&'static str),
-    /// Lines of the reports of a batch.
+    /// Lines in the reports of a batch.
     Reports(&'static str),
 }
 
@@ -39,7 +39,7 @@ impl Call {
         Self::with_paths(schema, line, &[])
     }
 
-    /// A call whose words `@` are paths, in this order.
+    /// A call in which the words `@` are paths, in this order.
     fn with_paths(schema: &'static str, line: &str, paths: &[&Path]) -> Self {
         let mut paths = paths.iter().map(|path| path.to_string_lossy().into_owned());
         let word = |word: &str| match word {
@@ -50,7 +50,7 @@ impl Call {
         Self { case: arguments.join(" "), schema, arguments, place: Place::Output }
     }
 
-    /// The documents, or what the program says in their place.
+    /// The documents, or the program's message if there are none.
     pub fn run(&self, program: &Path, folder: &Path) -> Result<Vec<Document>, String> {
         let output = Command::new(program).args(&self.arguments).current_dir(folder).output();
         let output = output.map_err(|error| error.to_string())?;
@@ -72,7 +72,7 @@ impl Call {
     }
 }
 
-/// The lines of all reports in a folder and its folders.
+/// The lines of all reports in a folder and its subfolders.
 fn report_lines(folder: &Path) -> Vec<u8> {
     let paths =
         fs::read_dir(folder).into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
@@ -89,7 +89,7 @@ const WRONG_SCENE: &str =
 const ODD_SCENE: &str = "Scene(models: [Model(path: \"crate.glb\")], image: Image(size: (64, 48)), \
     lights: [Directional(direction: (0, 0, -1), intensity: 0)])";
 
-/// All calls; files that they need are written to the folder in which they run.
+/// All calls; the files they need are written to the folder in which they run.
 pub fn all_calls(folder: &Path) -> Result<Vec<Call>, String> {
     let models = project_root().join("scenes/models");
     let write = |name: &str, text: &[u8]| {
@@ -115,7 +115,7 @@ pub fn all_calls(folder: &Path) -> Result<Vec<Call>, String> {
         calls.push(Call::with_paths("explain", "explain @ --point 0.1,0.2,0.3 --json", &[&scene]));
     }
     for path in model_files(&models)? {
-        // A model that cannot be loaded has diagnostics, and one without surfaces no picture.
+        // A model that cannot be loaded has diagnostics, and one without surfaces has no picture.
         calls.push(Call::with_paths("check", "check @ --json", &[&path]));
         let Ok(model) = load(&path, &ImportOptions::default()) else { continue };
         calls.push(Call::with_paths("info", "info @ --json", &[&path]));
@@ -132,7 +132,7 @@ pub fn all_calls(folder: &Path) -> Result<Vec<Call>, String> {
     Ok(calls)
 }
 
-/// Calls that each show something special.
+/// Calls that each show a special case.
 fn other_calls() -> Vec<Call> {
     let mut calls: Vec<Call> = [
         ("render", "render crate.glb --json -o a.svg"),
@@ -169,7 +169,7 @@ fn other_calls() -> Vec<Call> {
     calls
 }
 
-/// Models of the scenes, and a few of each format and with each kind of content of the assets.
+/// The scene models, and a few asset models for each format and each kind of content.
 fn model_files(models: &Path) -> Result<Vec<PathBuf>, String> {
     const ENDINGS: [&str; 6] = ["glb", "gltf", "stl", "obj", "ply", "3mf"];
     let mut files = files_with_endings(models, &ENDINGS);
@@ -194,7 +194,7 @@ fn has_ending(path: &Path, endings: &[&str]) -> bool {
         .is_some_and(|ending| endings.iter().any(|known| ending.eq_ignore_ascii_case(known)))
 }
 
-/// The files directly in a folder with one of these endings, sorted.
+/// The files directly in a folder with one of these extensions, sorted.
 fn files_with_endings(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten();
     let mut files: Vec<PathBuf> = entries

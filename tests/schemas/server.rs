@@ -8,11 +8,11 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-/// A server, ended with this value.
+/// A server that ends with this value.
 struct Server {
     child: Child,
     port: u16,
-    /// The secret that paths begin with.
+    /// The secret at the start of paths.
     token: String,
 }
 
@@ -56,7 +56,7 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // It may have ended already.
+        // It may already have ended.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

@@ -1,8 +1,8 @@
-"""Validates JSON documents against the schemas that are shipped: validate.py SCHEMAS DOCUMENTS.
+"""Validates JSON documents against the published schemas: validate.py SCHEMAS DOCUMENTS.
 
-DOCUMENTS has a line of JSON for each case: {"schema": NAME, "case": …, "document": …}. A document must be valid, and must have no
-member that its schema does not know: users may meet new members, but those of today are described. So that a schema is not valid for
-everything, each member of the first documents is replaced by what it cannot be, which must be found. Prints a line `FAILED …` for
+DOCUMENTS has one line of JSON per case: {"schema": NAME, "case": …, "document": …}. A document must be valid and must have no
+member that its schema does not know: future versions may add members, but all current ones must be described. To make sure that a schema
+does not accept everything, each member of the first documents is replaced by an invalid value, which must be found. Prints a line `FAILED …` for
 each fault; the last line counts.
 """
 
@@ -15,7 +15,7 @@ import sys
 try:
     from jsonschema import Draft202012Validator
 except ImportError:
-    # Where `cargo xtask test` reads it.
+    # `cargo xtask test` reads it here.
     skipped = "SKIPPED schemas: there is no Python with jsonschema"
     print(skipped)
     if log := os.environ.get("SKIP_LOG"):
@@ -23,20 +23,20 @@ except ImportError:
             print(skipped, file=file)
     sys.exit(0)
 
-# What no member of any document is.
+# A value that no member of any document can have.
 ABSURD = {"absurd": [{}]}
-# So many documents of each schema are varied, and so many of their members.
+# The number of documents of each schema that are varied, and the number of their members.
 VARIED_DOCUMENTS, VARIED_MEMBERS = 3, 400
 
 
 def closed(schema, is_root=True):
-    """The schema without room for further members."""
+    """The schema, closed to additional members."""
     if isinstance(schema, list):
         return [closed(part, False) for part in schema]
     if not isinstance(schema, dict):
         return schema
     result = {key: closed(part, False) for key, part in schema.items()}
-    # A schema within another is extended where it is used, and is closed by itself in its own file.
+    # A schema within another is extended where it is used, and is closed separately in its own file.
     is_embedded = "$id" in schema and not is_root
     is_object = isinstance(schema.get("properties"), dict) and "type" in schema
     if is_object and not is_embedded and "additionalProperties" not in schema:
@@ -46,7 +46,7 @@ def closed(schema, is_root=True):
 
 
 def places(document, path=()):
-    """The paths of all members, those of objects in lists included."""
+    """The paths of all members, including members of objects in lists."""
     if isinstance(document, dict):
         for key, value in document.items():
             yield path + (key,)
@@ -57,7 +57,7 @@ def places(document, path=()):
 
 
 def varied(document, path):
-    """The document with another value at a place."""
+    """The document with another value at a path."""
     other = copy.deepcopy(document)
     parent = other
     for step in path[:-1]:

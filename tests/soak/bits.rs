@@ -1,6 +1,6 @@
-//! Where random numbers come from.
+//! The source of random numbers.
 //!
-//! splitmix64 (Steele, Lea, Flood 2014): the state is a counter, so any call can be made again.
+//! splitmix64 (Steele, Lea, Flood 2014): the state is a counter, so any call can be repeated.
 
 /// The generator.
 #[derive(Clone, Copy)]
@@ -19,7 +19,7 @@ impl Bits {
         mixed(self.state)
     }
 
-    /// Bits that depend on the state and are none of those to come.
+    /// Bits that depend on the state and differ from all those to come.
     pub fn peek(&self) -> u64 {
         mixed(self.state ^ 0x5bd1_e995)
     }

@@ -1,4 +1,4 @@
-//! Clipping: whatever the points and the volume, what is left is finite.
+//! Clipping: for any points and any volume, the result is finite.
 
 use crate::finite::Finite;
 use crate::random::Random;
@@ -14,7 +14,7 @@ pub const SUBJECTS: &[Subject] = &[
         let (volume, point) = (volume(r), r.hpoint());
         let code = volume.outcode(point);
         let finite = point.is_finite();
-        // Plane by plane, where the sum of four products has a sign for certain.
+        // Plane by plane, where the sum of four products has a definite sign.
         let agrees = |i: PlaneIndex| {
             let distance = volume.plane(i).map_or(0.0, |plane| plane.evaluate(point));
             let certain = distance.is_finite() && i <= PlaneIndex::FAR;
@@ -118,8 +118,8 @@ impl Finite for ClipVertex {
     }
 }
 
-/// One of the conventions' volumes, perhaps without far plane, with a guard band or planes of its
-/// own.
+/// One of the conventions' volumes, perhaps without a far plane, with a guard band or custom
+/// planes.
 fn volume(r: &mut Random) -> Volume {
     let canonical = [Volume::CHAPTER, Volume::OPENGL, Volume::ZERO_ONE, Volume::ZERO_ONE_REVERSED];
     let mut volume = r.pick(&canonical);

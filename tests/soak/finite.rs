@@ -1,4 +1,4 @@
-//! Whether all numbers of an answer are finite.
+//! Checks whether all numbers in an answer are finite.
 
 use glam::DMat4;
 use homog::{

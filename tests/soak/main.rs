@@ -1,11 +1,10 @@
-//! Millions of random calls of every function that may refuse: nothing panics, and what is made of
-//! finite numbers is finite.
+//! Millions of random calls of every function that may refuse: nothing panics, and finite input
+//! gives finite output.
 //!
-//! `cargo xtask soak [--calls N] [--seed S] [NAME…]` runs it in release mode; names choose
-//! functions by a part of theirs. `cargo xtask soak --scenes MINUTES [--seed S]` renders random scenes
-//! instead. A call draws its arguments from a generator whose whole state is
-//! one number, so that a call that went wrong is made again from that number, to print its
-//! arguments.
+//! `cargo xtask soak [--calls N] [--seed S] [NAME…]` runs it in release mode; names select
+//! functions by part of their name. `cargo xtask soak --scenes MINUTES [--seed S]` renders random
+//! scenes instead. A call draws its arguments from a generator whose whole state is one number. A
+//! call that went wrong is repeated from that number, to print its arguments.
 
 #![allow(clippy::print_stdout, reason = "a program speaks on its standard output")]
 #![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
@@ -28,15 +27,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use subject::{Report, Subject};
 
-/// All functions, by the crate they belong to.
+/// All functions, by crate.
 const SUBJECTS: [&[Subject]; 5] =
     [homog::SUBJECTS, camera::SUBJECTS, projection::SUBJECTS, clip::SUBJECTS, viewport::SUBJECTS];
 
-/// What the person asked for.
+/// The parsed command line.
 struct Order {
     calls: u64,
     seed: u64,
-    /// Minutes of random scenes, in the place of calls.
+    /// Minutes of random scenes, instead of calls.
     scenes: Option<u64>,
     names: Vec<String>,
 }
@@ -75,7 +74,7 @@ fn main() -> ExitCode {
         order.seed,
         reports.len() - failed,
     );
-    // An order that chooses nothing is a slip in a name.
+    // A filter that selects nothing is a typo.
     if failed == 0 && !reports.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
@@ -91,7 +90,7 @@ fn order(mut arguments: impl Iterator<Item = String>) -> Result<Order, String> {
             "--calls" => order.calls = number()?,
             "--seed" => order.seed = number()?,
             "--scenes" => order.scenes = Some(number()?),
-            // Cargo says so to every benchmark.
+            // Cargo passes this to every benchmark.
             "--bench" => {}
             flag if flag.starts_with('-') => return Err(format!("unknown flag `{flag}`")),
             _ => order.names.push(argument),
@@ -100,7 +99,7 @@ fn order(mut arguments: impl Iterator<Item = String>) -> Result<Order, String> {
     Ok(order)
 }
 
-/// Runs the functions on all cores, each on one, and prints a line as it is done.
+/// Runs the functions on all cores, each on one, and prints a line when it is done.
 fn run(subjects: &[&Subject], order: &Order) -> Vec<Report> {
     let next = AtomicUsize::new(0);
     let work = || {

@@ -267,7 +267,7 @@ impl Finite for Window {
     }
 }
 
-/// One of the named conventions and their variants, or one with depths of its own.
+/// One of the named conventions and their variants, or one with custom depths.
 fn convention(r: &mut Random) -> Convention {
     let depths = [Convention::CHAPTER, Convention::OPENGL, Convention::WEBGPU];
     let mut convention = r
@@ -330,7 +330,7 @@ fn frustum_is_finite(frustum: Frustum, r: &mut Random) -> Option<bool> {
     Some((maps, frustum.window(), frustum.slopes()).finite())
 }
 
-/// All matrices of a classical projection, and of a picture of it.
+/// All matrices of a classical projection, and those of a picture with it.
 fn classical(made: Made<impl Into<Classical>>, r: &mut Random) -> Option<bool> {
     let made = made.ok()?.into();
     let matrices = (made.onto_plane(), made.depth_preserving(), made.depth_preserving_inverse());

@@ -1,25 +1,25 @@
-//! Random arguments: ordinary numbers most of the time, and every other sort there is.
+//! Random arguments: ordinary numbers most of the time, and sometimes every other kind.
 //!
-//! The fuzzer has this file too, and a source of bits of its own.
+//! The fuzzer uses this file too, with its own source of bits.
 
 use crate::bits::Bits;
 use glam::{DMat3, DMat4, DVec3, DVec4};
 use homog::{Affine, HPoint, Normal, Plane, Point, Projective, Space, Vector};
 use std::f64::consts::PI;
 
-/// Which sorts of numbers a call draws. Were each number of every sort, calls with six of them
-/// would hardly ever be accepted.
+/// The kinds of numbers that a call draws. If each number could be of every kind, calls with six of
+/// them would hardly ever be accepted.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Mood {
-    /// Between −10 and 10, whole, zero of either sign, or the one before once more.
+    /// Between −10 and 10, whole, zero of either sign, or the previous number again.
     Ordinary,
-    /// Those, and of every size down to the subnormal and up to the largest.
+    /// Those, and every size from subnormal to the largest.
     Extreme,
     /// Those, NaN, infinities, and any 64 bits.
     Anything,
 }
 
-/// The generator, and what it notes about the current call.
+/// The generator, and its notes about the current call.
 pub struct Random {
     bits: Bits,
     mood: Mood,
@@ -44,7 +44,7 @@ const EXTREMES: [f64; 12] = [
 ];
 
 impl Random {
-    /// Arguments for a call, from the bits that are to come.
+    /// Creates the arguments for a call from the bits to come.
     pub fn new(bits: Bits) -> Self {
         let (mood, drawn) = (Mood::Ordinary, None);
         let mut random = Self { bits, mood, last: 0.0, only_finite: true, drawn };
@@ -52,19 +52,19 @@ impl Random {
         random
     }
 
-    /// The same, and it notes what it draws.
+    /// Like [`Self::new`], and notes the numbers it draws.
     pub fn recording(bits: Bits) -> Self {
         Self { drawn: Some(Vec::new()), ..Self::new(bits) }
     }
 
-    /// Begins another call; gives the bits that it will be made of.
+    /// Begins another call; returns the bits from which it will be made.
     pub fn begin(&mut self) -> Bits {
         self.bits.next();
         self.settle();
         self.bits
     }
 
-    /// Chooses the mood of a call, and uses no bits up.
+    /// Chooses the mood of a call without consuming bits.
     fn settle(&mut self) {
         self.mood = match self.bits.peek() & 7 {
             0..=4 => Mood::Ordinary,
@@ -106,7 +106,7 @@ impl Random {
         count
     }
 
-    /// A number of the current call's sorts.
+    /// A number of a kind that the current call allows.
     pub fn number(&mut self) -> f64 {
         let mood = self.mood;
         let number = self.of(mood);
@@ -118,7 +118,7 @@ impl Random {
         std::array::from_fn(|_| self.number())
     }
 
-    /// Mostly without its sign.
+    /// A number, mostly without its sign.
     pub fn size(&mut self) -> f64 {
         let number = self.number();
         if self.below(32) == 0 { number } else { self.instead(number.abs()) }
@@ -130,7 +130,7 @@ impl Random {
         if a > b && self.below(32) > 0 { [b, a] } else { [a, b] }
     }
 
-    /// As [`Self::near_far`], and sometimes without end where that is allowed.
+    /// Like [`Self::near_far`], and sometimes infinite where that is allowed.
     pub fn near_and_any_far(&mut self) -> [f64; 2] {
         let [near, far] = self.near_far();
         [near, if self.below(8) == 0 { f64::INFINITY } else { far }]
@@ -148,7 +148,7 @@ impl Random {
         if self.below(8) == 0 { number } else { self.instead(number.abs().fract()) }
     }
 
-    /// Notes an argument that was made of others.
+    /// Notes an argument that was made from others.
     pub fn given(&mut self, argument: f64) -> f64 {
         self.only_finite &= argument.is_finite();
         if let Some(drawn) = &mut self.drawn {
@@ -157,7 +157,7 @@ impl Random {
         argument
     }
 
-    /// Notes an argument in the place of the number that it was made of.
+    /// Notes an argument in place of the number from which it was made.
     pub fn instead(&mut self, argument: f64) -> f64 {
         if let Some(drawn) = &mut self.drawn {
             drawn.pop();
@@ -190,7 +190,7 @@ fn signed(size: f64, bits: u64) -> f64 {
     if bits & 16 == 0 { size } else { -size }
 }
 
-/// Things made of numbers.
+/// Types that are made of numbers.
 impl Random {
     pub fn point<S: Space>(&mut self) -> Point<S> {
         Point::from(self.numbers())

@@ -1,17 +1,17 @@
-//! Texts of random scenes, written from the declarations of the scene language.
+//! Random scene texts, written from the declarations of the scene language.
 //!
 //! ```text
 //!  reference::all_types() ─► for each field: left out, or a value of its type ─► Scene(…)
 //! ```
-//! A field that the language gets tomorrow is in these scenes tomorrow. Most values are sensible,
-//! so that most scenes are drawn; what does not fit together has to be refused with a message.
+//! A field that the language gets tomorrow is in these scenes tomorrow. Most values are reasonable,
+//! so that most scenes are drawn; combinations that do not fit must be refused with a message.
 
 use super::bits::Bits;
 use scene_file::reference::{FieldEntry, Shape, TypeEntry, ValueType, VariantEntry, all_types};
 
-/// The files beside the scenes.
+/// The files next to the scenes.
 pub struct SceneFiles {
-    /// Models, by their names.
+    /// Models, by name.
     pub models: Vec<String>,
     /// An environment.
     pub environment: &'static str,
@@ -21,12 +21,12 @@ pub struct SceneFiles {
     pub include: &'static str,
 }
 
-/// The scene of a number.
+/// The scene for a number.
 pub fn random_scene_text(number: u64, files: &SceneFiles) -> String {
     let mut writer = SceneWriter { bits: Bits::new(number), files };
     let scene = all_types()[0];
     let Shape::Fields(fields) = scene.shape else { return String::new() };
-    // A scene needs a model, and small pictures make more scenes a minute.
+    // A scene needs a model, and small pictures make more scenes per minute.
     let required = ["models", "image"];
     let mut written = String::new();
     for field in fields {
@@ -52,7 +52,7 @@ struct SceneWriter<'a> {
 }
 
 impl SceneWriter<'_> {
-    /// Whether a field is written: always if it has to be, else one time in three.
+    /// Whether a field is written: always if it is required, otherwise one time in three.
     fn is_chosen(&mut self, field: &FieldEntry) -> bool {
         !field.is_optional || self.below(3) == 0
     }
@@ -92,7 +92,7 @@ impl SceneWriter<'_> {
     fn fields(&mut self, name: &str, fields: &[FieldEntry]) -> String {
         let mut written = Vec::new();
         for field in fields {
-            // Pictures of a scene are as small as this.
+            // Scene pictures are this small.
             if self.is_chosen(field) || (name, field.name) == ("Image", "size") {
                 written.push(format!("{}: {}", field.name, self.value(name, field)));
             }
@@ -102,7 +102,7 @@ impl SceneWriter<'_> {
 
     fn variant(&mut self, variant: &VariantEntry) -> String {
         match variant.value_type {
-            // The brackets of the variant are those of the struct.
+            // The brackets of the variant also serve the struct.
             Some(value_type) if fields_of(&value_type()).is_some() => {
                 let fields = fields_of(&value_type()).unwrap_or_default();
                 self.fields(variant.name, fields)
@@ -145,7 +145,7 @@ impl SceneWriter<'_> {
         }
     }
 
-    /// A value of a type without parts that the language declares.
+    /// A value of a declared type that has no parts.
     fn number_or_color(&mut self, field: &str, name: &str) -> String {
         let [low, high] = match name {
             "Finite" if field.ends_with("_degrees") => [-180.0, 180.0],

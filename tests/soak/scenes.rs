@@ -1,4 +1,4 @@
-//! Random scenes, rendered by one thread and by two: no panic, no NaN, no difference.
+//! Random scenes, rendered with one thread and with two: no panic, no NaN, no difference.
 
 use crate::scene_text::{SceneFiles, random_scene_text};
 use hidden_line::{DrawOptions, draw};
@@ -17,11 +17,11 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// The fewest scenes in a hundred that have to be drawn and not refused: one field that does not
-/// fit the others refuses a whole scene, and refusing is quick.
+/// The minimum percentage of scenes that must be drawn, not refused: one field that does not fit
+/// the others refuses a whole scene, and refusing is quick.
 const MIN_DRAWN_PERCENT: u64 = 2;
 
-/// Counts of scenes, and the texts of those that went wrong.
+/// Scene counts, and the texts of the scenes that went wrong.
 #[derive(Default)]
 struct Tally {
     drawn: AtomicU64,
@@ -29,7 +29,7 @@ struct Tally {
     faults: Mutex<Vec<String>>,
 }
 
-/// Renders scenes for so many minutes, from the number `first` on; whether all went well.
+/// Renders scenes for this many minutes, starting at number `first`; returns whether all went well.
 pub fn soak_scenes(minutes: u64, first: u64) -> Result<bool, String> {
     let (folder, files) = prepare_files()?;
     let end = Instant::now() + Duration::from_secs(minutes * 60);
@@ -100,12 +100,12 @@ fn check_scene(folder: &Path, text: &str) -> Result<bool, String> {
     Ok(true)
 }
 
-/// A refusal says why.
+/// A refusal must say why.
 fn is_message(message: &str) -> Result<bool, String> {
     if message.trim().len() < 10 { Err("a refusal without a reason".to_owned()) } else { Ok(false) }
 }
 
-/// Line drawings of one thread and of two have the same text, which has no NaN.
+/// Line drawings with one thread and with two have the same text, without NaN.
 fn check_lines(scene: &Scene) -> Result<(), String> {
     let drawings = [1, 2].map(|threads| match scene.style {
         Style::Lines(_) => draw_lines(scene, threads, &Timings::default())
@@ -123,7 +123,7 @@ fn check_lines(scene: &Scene) -> Result<(), String> {
     if alone.as_ref().is_ok_and(has_nan) { Err("NaN in a drawing".to_owned()) } else { Ok(()) }
 }
 
-/// Passes of one thread and of two are equal, and no value is NaN.
+/// Passes with one thread and with two are equal, and no value is NaN.
 fn check_passes(scene: &Scene) -> Result<(), String> {
     let region = PixelRect::from_size(scene.image.width, scene.image.height);
     let passes = [1, 2].map(|threads| {
@@ -145,7 +145,7 @@ fn check_passes(scene: &Scene) -> Result<(), String> {
     }
 }
 
-/// Copies the models of the scenes, and makes an environment, an image and a scene to include.
+/// Copies the scene models, and creates an environment, an image and a scene to include.
 fn prepare_files() -> Result<(PathBuf, SceneFiles), String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
     let folder = std::env::temp_dir().join(format!("alberti-soak-{}", std::process::id()));

@@ -1,4 +1,4 @@
-//! One function under test: called over and over, and what came of it.
+//! One function under test: called repeatedly, with the results counted.
 
 use crate::bits::Bits;
 use crate::random::Random;
@@ -8,10 +8,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
 /// A name, and one call with random arguments: `None` if they were refused or there was nothing to
-/// give, else whether all numbers of the answer are finite.
+/// return, otherwise whether all numbers in the answer are finite.
 pub type Subject = (&'static str, fn(&mut Random) -> Option<bool>);
 
-/// What came of the calls.
+/// The results of the calls.
 pub struct Report {
     name: &'static str,
     pub calls: u64,
@@ -44,7 +44,7 @@ pub fn run(&(name, call): &Subject, calls: u64, seed: u64) -> Report {
     report
 }
 
-/// What the call drew from these bits, in order.
+/// The values that the call drew from these bits, in order.
 fn arguments(call: fn(&mut Random) -> Option<bool>, bits: Bits) -> String {
     let mut random = Random::recording(bits);
     let _ = catch_unwind(AssertUnwindSafe(|| call(&mut random)));

@@ -3,10 +3,10 @@
 use alberti_tests::threemf::encode_3mf;
 use std::path::Path;
 
-/// Files that have thumbnails.
+/// Files that get thumbnails.
 pub const SHOWN: [&str; 6] = ["a.glb", "b.gltf", "c.stl", "d.obj", "e.ply", "f.3mf"];
 
-/// A file that has none.
+/// A file that gets none.
 pub const BROKEN: &str = "broken.stl";
 
 /// The MIME type that a file manager finds for a file.

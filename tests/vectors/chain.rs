@@ -23,9 +23,9 @@ pub const RUNNERS: &[(&str, Runner)] = &[
     ("pick_rays", check_pick_rays),
 ];
 
-/// Screen positions may be off by this part of the image's size.
+/// Screen positions may be off by this fraction of the image's size.
 const SCREEN_TOLERANCE: f64 = 1e-11;
-/// Unprojected points have been through an inverse.
+/// The tolerance for unprojected points, which have been through an inverse.
 const UNPROJECTED_TOLERANCE: f64 = 1e-9;
 
 pub fn parse_camera(case: &Value) -> Result<Result<Camera, CameraError>, String> {

@@ -91,7 +91,7 @@ fn check_polygon(case: &Value, out: &Value) -> Result<(), String> {
     if count == 0 {
         return Ok(());
     }
-    // Any rotation will do; the differences of the best one are told.
+    // Any rotation will do; the differences for the best one are reported.
     let fits = (0..count).map(|shift| compare_rings(vertices, shift, out));
     fits.reduce(Result::or).unwrap_or(Ok(()))?;
     let fraction = area_fraction(vertices);
@@ -126,7 +126,7 @@ fn compare_rings(vertices: &[ClipVertex], shift: usize, out: &Value) -> Result<(
     Ok(())
 }
 
-/// The area in the space of weights, the whole triangle being 1.
+/// The area in weight space, where the whole triangle is 1.
 fn area_fraction(vertices: &[ClipVertex]) -> f64 {
     polygon_area(&vertices.iter().map(|v| [v.weights[1], v.weights[2]]).collect::<Vec<_>>()) * 2.0
 }

@@ -1,4 +1,4 @@
-//! `explain` tells of a point what the vectors have computed: clip space, the divide, the screen.
+//! `explain` reports the vectors' results for a point: clip space, the division, the screen.
 
 use crate::vectors::numbers::{assert_all_close, assert_close, parse_point, parse_point4};
 use camera::ViewProjection;
@@ -8,8 +8,8 @@ use homog::{PixelConvention, Point, Projective};
 use serde_json::Value;
 use viewport::{DepthRange, Viewport};
 
-/// Holds the explanation of a point against a vector. `forth` is the projection in the chapter's
-/// convention, with w < 0 in front of the eye if `sign` is −1; `viewport` is the one of the vector.
+/// Compares the explanation of a point with a vector. `forth` is the projection in the chapter's
+/// convention, with w < 0 in front of the eye if `sign` is −1; `viewport` is the vector's.
 pub fn check_explained(
     (camera, forth, sign): (camera::Camera, DMat4, f64),
     viewport: &Viewport,
@@ -51,7 +51,7 @@ pub fn check_explained(
     assert_close("explained depth", viewport.depth().ndc_to_depth(z), theirs[2], 1e-11)
 }
 
-/// The item of this name, in whichever step it is.
+/// The item with this name, in any step.
 fn json_item(told: &Value, id: &str) -> Value {
     let steps = told["steps"].as_array().into_iter().flatten();
     let mut items = steps.flat_map(|step| step["items"].as_array().into_iter().flatten());

@@ -1,5 +1,5 @@
-//! The exercises of the chapter, and the misprints of the sources: the right form must come out,
-//! the printed one must not.
+//! The exercises of the chapter, and the misprints of the sources: the correct form must be the
+//! result, the printed one must not.
 
 use crate::vectors::Runner;
 use crate::vectors::chain::check_lookat;
@@ -90,7 +90,7 @@ fn check_depth_order(p: Projective<View, View>, case: &Value, out: &Value) -> Re
     }
 }
 
-/// An affine map gives the same place for (x, y, z, 1) and for (hx, hy, hz, h).
+/// An affine map gives the same point for (x, y, z, 1) and for (hx, hy, hz, h).
 fn check_heights(case: &Value, out: &Value) -> Result<(), String> {
     let map =
         Affine::<World, World>::from_raw(parse_matrix(&case["matrix"])?).ok_or("is not affine")?;
@@ -190,7 +190,7 @@ fn check_misprint(case: &Value, out: &Value) -> Result<(), String> {
         }
         "003-eq4-5-7-w" => {
             let (n, f) = (number_field(case, "n")?, number_field(case, "f")?);
-            // With the window [−n, n]² the frustum's x and y rows are those of the identity.
+            // With the window [−n, n]² the frustum's x and y rows equal the identity's.
             let ours = api::frustum_gl(-n, n, -n, n, n, f).map_err(refused)?;
             check_correct_and_printed(ours.raw(), out, "correct", "printed")
         }
@@ -215,7 +215,7 @@ fn check_misprint(case: &Value, out: &Value) -> Result<(), String> {
             let [l, r, b, t, n, f] = parse_frustum_edges(case)?;
             let ours = chapter::m_per(l, r, b, t, n, f).map_err(refused)?;
             check_correct_and_printed(ours.raw(), out, "correct", "printed")?;
-            // The printed matrix is that of the box: w stays 1, without foreshortening.
+            // The printed matrix belongs to the box: w stays 1, without foreshortening.
             let orth = chapter::m_orth(l, r, b, t, n, f).map_err(refused)?;
             compare_matrix(orth.raw(), out, "printed")
         }

@@ -46,11 +46,11 @@ fn check_hidden_lines(input: &Value, out: &Value) -> Result<(), String> {
     Ok(())
 }
 
-/// The side of the picture in pixels. Tolerances are measured in them.
+/// The side of the picture in pixels, the unit of tolerances.
 const IMAGE_SIDE: u32 = 1 << 20;
 
-/// The window's half, at distance 1: what is beyond the picture's sides would be cut away, which
-/// the vectors do not.
+/// Half the window, at distance 1: edges beyond the picture's sides would be cut, but in the
+/// vectors they are not.
 const HALF_WINDOW: f64 = 4096.0;
 
 fn parse_view_projection(input: &Value) -> Result<ViewProjection, String> {

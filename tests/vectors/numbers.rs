@@ -1,10 +1,10 @@
-//! Reading numbers, points and matrices from vector files, and comparing ours with theirs.
+//! Reads numbers, points and matrices from vector files, and compares ours with theirs.
 
 use glam::{DMat4, DVec4};
 use serde_json::Value;
 use std::fmt::Display;
 
-/// The tolerance of the vectors' README for numbers of f64 code.
+/// The tolerance in the vectors' README for f64 code.
 pub const TOLERANCE: f64 = 1e-12;
 
 /// A number; `"NaN"`, `"inf"` and `"-inf"` are strings in the files, for JSON has no such numbers.
@@ -112,8 +112,8 @@ pub fn assert_matrix_close(
     Ok(())
 }
 
-/// Judges a result against an expectation that may be a refusal (`{"error": …}`, whatever its
-/// code): `check` sees what was built if it had to be built.
+/// Compares a result with an expectation that may be a refusal (`{"error": …}`, with any code):
+/// `check` gets the result if there had to be one.
 pub fn compare_outcome<T, E: Display>(
     ours: Result<T, E>,
     out: &Value,

@@ -34,7 +34,7 @@ pub const RUNNERS: &[(&str, Runner)] = &[
 pub type CheckResult = Result<(), String>;
 pub type BuiltMatrices = Result<(DMat4, DMat4), ProjectionError>;
 
-/// Convention and sort of the interfaces' builders.
+/// The convention and the kind of the interfaces' builders.
 fn builder_convention(builder: &str) -> Convention {
     match builder {
         name if name.ends_with("_rh_zo_rev") || name.ends_with("_rh_zo_rev_inf") => {
@@ -275,7 +275,7 @@ fn check_depth_precision(case: &Value, out: &Value) -> CheckResult {
     })
 }
 
-/// Steps are small, so they are compared by their ratio.
+/// Steps are small, so their ratio is compared.
 fn check_depth_step(
     curve: DepthCurve,
     distance: f64,

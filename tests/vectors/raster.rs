@@ -1,7 +1,7 @@
 //! Coverage and interpolated values (RA-1, RA-2, IN-2).
 //!
 //! Coverage must agree sample by sample. Depth and weights are kept in f32 on purpose, so they are
-//! judged with the precision that f32 has.
+//! judged at f32 precision.
 
 use crate::vectors::numbers::{assert_close, parse_number};
 use homog::{PixelConvention, Point, Screen};
@@ -113,7 +113,7 @@ struct CoveredFragment {
     weights: [f32; 3],
 }
 
-/// The size of a picture and the convention its pixels are named in.
+/// The size of a picture, and the convention that names its pixels.
 struct TestImage {
     width: u32,
     height: u32,
@@ -158,8 +158,8 @@ impl TestImage {
         ScreenVertex::snap(place, w).ok_or_else(|| format!("({x}, {y}) cannot be drawn"))
     }
 
-    /// The pixel's name in the convention of the file: its column and its row, from the top or from
-    /// the bottom.
+    /// The pixel's name in the file's convention: its column and its row, from the top or from the
+    /// bottom.
     fn pixel_at(&self, at: usize) -> [i64; 2] {
         let (width, height) = (i64::from(self.width), i64::from(self.height));
         let (x, y) = (at as i64 % width, at as i64 / width);

@@ -202,7 +202,7 @@ fn check_viewport_maps(view: Viewport, out: &Value) -> Result<(), String> {
     Ok(())
 }
 
-/// As glViewport and glDepthRange have it: half-integer centres, y up.
+/// As glViewport and glDepthRange have it: half-integer centers, y up.
 fn parse_rectangle(case: &Value) -> Result<Result<Viewport, ViewportError>, String> {
     let number = |name| number_field(case, name);
     let area = Rectangle::new(number("x0")?, number("y0")?, number("width")?, number("height")?);

@@ -3,10 +3,10 @@
 //! ```text
 //! api [--bless]
 //! ```
-//! `docs/api/CRATE.txt` lists declarations, methods and implemented traits; a change of the
-//! interface is a change of these files, which a reader of the commit sees. Against the last tag
-//! `v…` of a release the listings decide what the version may be: what a caller may use is removed
-//! or changed only with a new first number that is not zero.
+//! `docs/api/CRATE.txt` lists declarations, methods and implemented traits. A change of the
+//! interface changes these files, and a reader of the commit sees it. Compared with the last
+//! release tag `v…`, the listings decide the next version: removing or changing anything that a
+//! caller may use needs a new first nonzero number.
 
 mod listing;
 
@@ -19,17 +19,18 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::process::Command;
 
-/// The libraries with a promise: the crates of the map. The program's library is not for callers.
+/// The libraries with a stability promise: the crates of the map. The program's library is not for
+/// callers.
 fn libraries() -> impl Iterator<Item = &'static str> {
     crate::tidy::LAYERS.iter().map(|(name, _)| *name).filter(|name| *name != "alberti")
 }
 
-/// Rustdoc's pages differ between compilers; listings are of the supported one.
+/// Rustdoc's pages differ between compilers; the listings use the supported one.
 const COMPILER: &str = "1.95";
 
 const FOLDER: &str = "docs/api";
 
-/// The most lines of a difference that are printed.
+/// The maximum number of printed lines of a difference.
 const MAX_PRINTED: usize = 40;
 
 /// Compares the listings, or writes them with `--bless`.
@@ -89,7 +90,7 @@ impl ApiChange {
         Self { removed: beyond(&old, &new), added: beyond(&new, &old) }
     }
 
-    /// The message for a listing that is not the committed one.
+    /// The message for a listing that differs from the committed one.
     fn fault(&self, name: &str) -> Option<String> {
         if self.removed.is_empty() && self.added.is_empty() {
             return None;
@@ -114,7 +115,7 @@ impl ApiChange {
     }
 }
 
-/// How often each line is there, together with its item.
+/// The number of times each line occurs, with its item.
 fn item_lines(listing: &str) -> BTreeMap<String, usize> {
     let (mut item, mut lines) = ("", BTreeMap::new());
     for line in listing.lines() {
@@ -130,7 +131,7 @@ fn item_lines(listing: &str) -> BTreeMap<String, usize> {
     lines
 }
 
-/// Items that have been removed since the last release, if the version does not say so.
+/// Items removed since the last release, if the version does not say so.
 fn fault_since_release(name: &str, listing: &str) -> Result<Option<String>, String> {
     let mut describe = Command::new("git");
     describe.args(["describe", "--tags", "--abbrev=0", "--match", "v[0-9]*"]);
@@ -162,8 +163,8 @@ fn workspace_version(manifest: &str) -> Result<String, String> {
     version.map(str::to_owned).ok_or_else(|| "Cargo.toml has no version".into())
 }
 
-/// The numbers of a version up to the first that is not zero: versions that share them promise the
-/// same.
+/// The version numbers up to the first that is not zero: versions that share them make the same
+/// promise.
 fn compatibility_number(version: &str) -> Vec<&str> {
     let numbers: Vec<&str> = version.split(['.', '-', '+']).take(3).collect();
     let first = numbers.iter().position(|number| *number != "0").unwrap_or(numbers.len());

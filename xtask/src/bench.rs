@@ -1,5 +1,5 @@
-//! `cargo xtask bench`: how fast it is, as ratios to others in the same process or to another
-//! commit; and how many instructions it takes.
+//! `cargo xtask bench`: speed, as ratios to others in the same process or to another commit, and
+//! instruction counts.
 //!
 //! ```text
 //! bench                 the two that follow
@@ -10,8 +10,8 @@
 //! bench --instructions  instruction counts of fixed workloads against the recorded ones
 //! ```
 //!
-//! All but the last print; they judge nothing, for times are no fact about the code alone. Counts
-//! are.
+//! All but the last only print: they judge nothing, because times depend on more than the code.
+//! Counts depend only on the code.
 
 mod compare;
 mod instructions;

@@ -12,8 +12,8 @@
 //! book --coverage         how much of each page is translated
 //! ```
 //!
-//! The work is done by a package of its own, `book/mdbook-alberti`: it needs mdBook, which nobody
-//! else does.
+//! A separate package, `book/mdbook-alberti`, does the work: it needs mdBook, which nothing else
+//! does.
 
 mod pdf;
 
@@ -31,10 +31,10 @@ use std::process::Command;
 /// The package that builds the book.
 const BUILDER: &str = "book/mdbook-alberti/Cargo.toml";
 
-/// The part of the messages that must be translated, in percent.
+/// The percentage of the messages that must be translated.
 const COVERAGE: &str = "98";
 
-/// Runs the command that the first argument names; builds the book without one.
+/// Runs the command given by the first argument; without one, builds the book.
 pub fn run_book(arguments: &[String]) -> Outcome {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words.as_slice() {
@@ -57,7 +57,7 @@ pub fn run_book(arguments: &[String]) -> Outcome {
     }
 }
 
-/// What the step of the tests runs.
+/// The book step of the tests.
 fn test_book() -> Outcome {
     let mut tests = cargo_command(&["test", "--quiet", "--locked", "--manifest-path", BUILDER]);
     compile(|| run_visibly(tests.env("CARGO_TARGET_DIR", builder_target())))?;
@@ -67,12 +67,12 @@ fn test_book() -> Outcome {
     check_editions()
 }
 
-/// Where the editions are.
+/// The folder of the editions.
 fn book_folder() -> PathBuf {
     target_folder().join("book")
 }
 
-/// Where the builder is compiled.
+/// The folder in which the builder is compiled.
 fn builder_target() -> PathBuf {
     target_folder().join("book-build")
 }
@@ -84,7 +84,7 @@ fn build_editions(flags: &[&str]) -> Outcome {
     run_builder("build", &[&["--program", &path], flags].concat())
 }
 
-/// Puts the explorer's page beside the editions; without it their links to it are left out.
+/// Puts the explorer's page next to the editions; without it, their links to it are left out.
 fn copy_explorer(folder: &Path) -> Outcome {
     if folder.exists() {
         fs::remove_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
@@ -112,7 +112,7 @@ fn copy_folder(from: &Path, to: &Path) -> Outcome {
     Ok(())
 }
 
-/// Links, ids, sizes and topics; then search and layout, where there is a browser.
+/// Checks links, ids, sizes and topics, then search and layout if there is a browser.
 fn check_editions() -> Outcome {
     run_builder("check", &[])?;
     check_lessons()?;
@@ -125,7 +125,7 @@ fn check_editions() -> Outcome {
     run_visibly(node.current_dir(&folder).arg("book.mjs").arg(book_folder()))
 }
 
-/// Links to the explorer name lessons that it has.
+/// Checks that links to the explorer name existing lessons.
 fn check_lessons() -> Outcome {
     let site = book_folder().join("explorer");
     if !site.is_dir() || missing_tools().is_some() {

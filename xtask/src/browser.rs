@@ -1,8 +1,8 @@
 //! `cargo xtask browser`: the explorer's page in a real browser, computed by the program and by
 //! WebAssembly.
 //!
-//! The tests are `tests/browser/main.mjs`. They need Chromium, Node and two npm packages, which are
-//! fetched once; what cannot be had is skipped, by name.
+//! The tests are in `tests/browser/main.mjs`. They need Chromium, Node and two npm packages, which
+//! are fetched once; parts that lack one of them are reported as skipped.
 
 use crate::Outcome;
 use crate::program::{Build, Program, capture_output, run_command, run_visibly};
@@ -11,16 +11,16 @@ use crate::workspace::{project_root, target_folder};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Where Debian installs it. Playwright's own browsers are not used.
+/// The path at which Debian installs it. Playwright's own browsers are not used.
 pub const CHROMIUM: &str = "/usr/bin/chromium";
 
-/// The least major version of Node that Playwright runs on.
+/// The minimum major version of Node for Playwright.
 const NODE: u32 = 20;
 
-/// Seconds for fetching the packages.
+/// The time limit for fetching the packages, in seconds.
 const FETCH_SECONDS: &str = "120";
 
-/// Runs the tests, with `--first` of the first lesson alone, or reports why they are skipped.
+/// Runs the tests, with `--first` only the first lesson's, or reports why they are skipped.
 pub fn run_browser(arguments: &[String]) -> Outcome {
     let is_first = match arguments {
         [] => false,
@@ -48,7 +48,7 @@ pub fn run_browser(arguments: &[String]) -> Outcome {
     run_visibly(&mut node)
 }
 
-/// Requirements of the tests that cannot be had.
+/// The missing requirements of the tests.
 pub fn missing_tool(folder: &Path) -> Option<String> {
     if !Path::new(CHROMIUM).exists() {
         return Some("chromium is not installed (Debian: chromium)".into());
@@ -71,7 +71,7 @@ pub fn missing_tool(folder: &Path) -> Option<String> {
     None
 }
 
-/// The folder that `cargo xtask web` has written, if it holds the page as it is now.
+/// The folder that `cargo xtask web` has written, if it holds the current page.
 pub fn current_site() -> Option<PathBuf> {
     let site = target_folder().join("web");
     site.join("web_bg.wasm").metadata().ok()?;

@@ -1,10 +1,9 @@
-//! `cargo xtask conformance`: the table of what the sources teach and the tests that prove it.
+//! `cargo xtask conformance`: the table of the topics in the sources and the tests that prove them.
 //!
-//! The table, `tests/CONFORMANCE.md`, is made from the source text of the tests. With `--check` it
-//! is compared instead of written. Either way a crate of mathematics without a test of an item it
-//! answers for is a failure, and so is a test that names an item there is none of. The book marks
-//! every topic on the page that treats it, and its pages are the evidence of topics that are no
-//! mathematics.
+//! The table, `tests/CONFORMANCE.md`, is generated from the source text of the tests. With
+//! `--check` it is compared instead of written. Either way, it is a failure if a math crate has no
+//! test of an item it is responsible for, or if a test names an unknown item. The book marks every
+//! topic on the page that covers it, and its pages are the evidence for topics outside mathematics.
 
 mod book;
 mod items;
@@ -25,7 +24,7 @@ use vectors::VECTORS;
 
 const TABLE_PATH: &str = "tests/CONFORMANCE.md";
 const BOOK_PATH: &str = "book/src";
-/// Where the inventory of the sources is, from the root, unless `INVENTORY` says otherwise.
+/// The path of the sources' inventory, from the root, unless `INVENTORY` sets another.
 const INVENTORY_PATH: &str = "../shared/inventory.md";
 
 /// Writes the table, or compares it with `--check`; fails if a topic has no test.
@@ -36,7 +35,7 @@ pub fn run_conformance(arguments: &[String]) -> Outcome {
         _ => return Err(format!("unknown arguments `{}`", arguments.join(" "))),
     };
     let sources = rust_files()?;
-    // The tests of this tool prove nothing about the mathematics, and hold samples of tests.
+    // The tests of this tool prove nothing about the mathematics, and contain sample tests.
     let of_crates = sources.iter().filter(|source| !source.path.starts_with("xtask/"));
     let tests: Vec<Test> =
         of_crates.flat_map(|source| scan::scan_tests(&source.path, &source.text)).collect();
@@ -62,7 +61,7 @@ pub fn run_conformance(arguments: &[String]) -> Outcome {
     Err(format!("{} faults\n  {}", faults.len(), faults.join("\n  ")))
 }
 
-/// Items without a test in a crate that answers for them and is complete.
+/// Items without a test in a complete crate that is responsible for them.
 fn missing_items(tests: &[Test]) -> Vec<String> {
     let lines = items::all_items().flat_map(|item| {
         let missing = item.complete_owners().filter(|owner| !table::has_test(item, owner, tests));
@@ -71,7 +70,7 @@ fn missing_items(tests: &[Test]) -> Vec<String> {
     lines.collect()
 }
 
-/// Tests that name what there is not.
+/// Tests that name unknown items.
 fn unknown_items(tests: &[Test]) -> Vec<String> {
     let lines = tests.iter().flat_map(|test| {
         let strange = test.ids.iter().filter(|id| items::all_items().all(|item| item.id != **id));
@@ -80,7 +79,7 @@ fn unknown_items(tests: &[Test]) -> Vec<String> {
     lines.collect()
 }
 
-/// Topics that the inventory of the sources, the table and the marks of the book do not share.
+/// Topics that are not in all three of the inventory, the table and the marks in the book.
 fn differing_lists(document: &str, marks: Option<&BookMarks>) -> Result<Vec<String>, String> {
     let topics: BTreeSet<String> =
         items::ITEMS.iter().chain(items::MISPRINTS.iter()).map(|item| item.id.clone()).collect();

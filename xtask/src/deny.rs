@@ -1,9 +1,9 @@
 //! `cargo xtask deny`: the dependencies against `deny.toml`, and the oldest compiler they allow.
 //!
-//! Licenses, sources, versions that are there twice, and `rust-version`: by `cargo metadata`, for
-//! the workspace and the packages beside it that are shipped. `cargo deny` reads the same file and
-//! is run as well where it is installed; building it takes longer than all of these tests.
-//! Advisories need its database, so they are checked there only.
+//! It checks licenses, sources, duplicate versions and `rust-version` with `cargo metadata`, for
+//! the workspace and the other shipped packages. `cargo deny` reads the same file and also runs if
+//! it is installed; building it takes longer than all of these tests. Advisories need its database,
+//! so only it checks them.
 
 mod license;
 mod policy;
@@ -18,10 +18,10 @@ use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
-/// The manifests of what is shipped.
+/// The manifests of the shipped packages.
 const SHIPPED: [&str; 2] = ["Cargo.toml", "crates/web/Cargo.toml"];
 
-/// The manifests of all packages of the project: one compiler is enough for each.
+/// The manifests of all packages in the project: one compiler must be enough for each.
 const MANIFESTS: [&str; 4] = [
     "Cargo.toml",
     "crates/web/Cargo.toml",
@@ -51,7 +51,7 @@ pub fn run_deny(arguments: &[String]) -> Outcome {
                         .map(|fault| format!("{manifest}: {fault}")),
                 );
             }
-            // What only these packages need may not have been fetched yet.
+            // Packages that only these need may not have been fetched yet.
             Err(error) if manifest != "Cargo.toml" && is_offline(&error) => {
                 report_skip(&format!("deny {manifest}"), "its dependencies cannot be fetched");
             }
@@ -66,14 +66,14 @@ pub fn run_deny(arguments: &[String]) -> Outcome {
     Err(format!("{} faults\n  {}", faults.len(), faults.join("\n  ")))
 }
 
-/// A package that is not of this project.
+/// A package from outside this project.
 #[derive(Clone, PartialEq, Eq, Debug)]
 struct Dependency {
     name: String,
     version: String,
     license: String,
     source: String,
-    /// The oldest compiler it needs, if it says so.
+    /// The oldest compiler that it supports, if it says so.
     floor: Option<String>,
 }
 
@@ -94,7 +94,7 @@ impl Dependency {
     }
 }
 
-/// Everything about the dependencies that the policy does not allow.
+/// Everything in the dependencies that the policy does not allow.
 fn dependency_faults(
     found: &[Dependency],
     policy: &Policy,
@@ -136,7 +136,7 @@ fn dependency_faults(
     Ok(faults)
 }
 
-/// The three numbers of a version, to compare.
+/// The three parts of a version, to compare.
 fn version_numbers(version: &str) -> [u32; 3] {
     let mut numbers = version.split('.').map(|number| number.parse().unwrap_or(0));
     [(); 3].map(|()| numbers.next().unwrap_or(0))
@@ -153,7 +153,7 @@ fn rust_version(manifest: &str) -> Option<String> {
     Some(line.split('"').next()?.to_owned())
 }
 
-/// Packages with another `rust-version` than the workspace.
+/// Packages whose `rust-version` differs from the workspace's.
 fn floors_of_packages(floor: &str) -> Result<Vec<String>, String> {
     let mut faults = Vec::new();
     for manifest in MANIFESTS {
@@ -167,7 +167,8 @@ fn floors_of_packages(floor: &str) -> Result<Vec<String>, String> {
     Ok(faults)
 }
 
-/// Says whether the tests run by the oldest supported compiler: only then is the promise tested.
+/// Reports whether the tests run with the oldest supported compiler: only then is the promise
+/// tested.
 fn print_compiler(floor: &str) -> Outcome {
     let compiler = std::env::var_os("RUSTC").unwrap_or("rustc".into());
     let text = capture_output(Command::new(compiler).arg("--version").current_dir(project_root()))?;
@@ -189,7 +190,7 @@ fn is_offline(error: &str) -> bool {
     ["download", "network", "offline", "resolve host"].iter().any(|word| error.contains(word))
 }
 
-/// Checks the policy by `cargo deny`, if it is there.
+/// Checks the policy with `cargo deny`, if it is installed.
 fn run_cargo_deny() -> Outcome {
     if run_command(&mut cargo_command(&["deny", "--version"])).is_err() {
         println!("cargo-deny is not installed: advisories are not checked");

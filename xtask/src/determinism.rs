@@ -1,12 +1,12 @@
-//! `cargo xtask determinism`: the promise that a scene has the same bytes whoever draws it.
+//! `cargo xtask determinism`: the promise that a scene has the same bytes on every machine.
 //!
 //! Every scene is drawn by the release build with one thread and with several, and by the debug
-//! build. `--wide` adds a build whose compiler may use AVX2 and fused multiply-add, which is where
-//! sums computed in floating point first go apart; it needs a processor that has them.
-//! `determinism/web.rs` compares the pictures of the explorer in WebAssembly.
+//! build. `--wide` adds a build whose compiler may use AVX2 and fused multiply-add, where
+//! floating-point sums diverge first; it needs a processor that has them. `determinism/web.rs`
+//! compares the explorer's pictures in WebAssembly.
 //!
 //! `--targets` compares other processors, C libraries, compilers and optimizations instead
-//! (`determinism/targets.rs`): all of them, or those named as in `--targets=aarch64,musl`.
+//! (`determinism/targets.rs`): all of them, or some, as in `--targets=aarch64,musl`.
 
 mod outputs;
 mod target;
@@ -47,7 +47,7 @@ pub fn run_determinism(arguments: &[String]) -> Outcome {
     compare_outputs(&drawn)
 }
 
-/// Compares the explorer's pictures in WebAssembly with those of the release build.
+/// Compares the explorer's pictures in WebAssembly with the release build's.
 pub fn compare_web_pictures() -> Outcome {
     web::compare_web(&Program::build(Build::Release)?)
 }
@@ -55,7 +55,7 @@ pub fn compare_web_pictures() -> Outcome {
 struct Options {
     wide: bool,
     threads: u32,
-    /// Names of targets to compare instead of builds; none is all.
+    /// The targets to compare instead of builds, by name; none means all.
     targets: Option<Vec<String>>,
 }
 
@@ -98,7 +98,7 @@ fn variants(build: Build, threads: u32) -> Vec<Variant> {
     [1, threads].map(with_threads).into()
 }
 
-/// Renders every scene with one variant and returns the folder of the pictures.
+/// Renders every scene with one variant and returns the picture folder.
 fn render_all(program: &Program, way: &Variant, folder: &Path) -> Result<PathBuf, String> {
     let folder = folder.join(&way.name);
     create_folder(&folder)?;
@@ -120,7 +120,7 @@ fn output_path(folder: &Path, scene: &Scene, ending: &str) -> PathBuf {
     folder.join(format!("{}.{ending}", scene.name))
 }
 
-/// Compares the pictures of every variant with those of the first.
+/// Compares every variant's pictures with the first variant's.
 fn compare_outputs(drawn: &[(PathBuf, String)]) -> Outcome {
     let Some(((first, first_name), others)) = drawn.split_first() else { return Ok(()) };
     let bytes =

@@ -1,14 +1,14 @@
-//! `cargo xtask docs [OUT]`: the documentation as static pages, target/site if no folder is named.
+//! `cargo xtask docs [OUT]`: the documentation as static pages, in target/site by default.
 //!
-//! The generator is the package `xtask/site`: it reads Markdown with a crate that nobody else needs.
-//! Its `main.rs` says what it writes and checks.
+//! The generator is the package `xtask/site`: it reads Markdown with a crate that nothing else
+//! needs. Its `main.rs` describes its output and its checks.
 
 use crate::Outcome;
 use crate::program::{Build, Program, cargo_command, compile, run_command, run_visibly};
 use crate::workspace::{project_root, target_folder};
 use std::process::Command;
 
-/// Builds the program and the generator, and runs the one with the other.
+/// Builds the program and the generator, and runs the generator with the program.
 pub fn run_docs(arguments: &[String]) -> Outcome {
     let here = std::env::current_dir().map_err(|error| error.to_string())?;
     let out = match arguments {

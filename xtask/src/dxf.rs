@@ -1,8 +1,8 @@
-//! `cargo xtask dxf`: DXF files of the program, read back by ezdxf.
+//! `cargo xtask dxf`: the program's DXF files, read back by ezdxf.
 //!
-//! The checks are `tests/dxf/check.py`: every scene and model, and parts whose cross sections are
-//! known. ezdxf is installed in a virtual environment; without it the step is skipped, with a line
-//! that says so.
+//! The checks are in `tests/dxf/check.py`: every scene and model, and parts with known cross
+//! sections. ezdxf is installed in a virtual environment; without it the step is reported as
+//! skipped.
 
 use crate::Outcome;
 use crate::program::{Build, Program, run_visibly};
@@ -35,7 +35,7 @@ pub fn run_dxf(_arguments: &[String]) -> Outcome {
     run_visibly(&mut check)
 }
 
-/// The folder of further models, if there is one.
+/// The folder of more models, if there is one.
 fn asset_folder() -> Option<PathBuf> {
     let folder = std::env::var_os("ASSETS").map(PathBuf::from);
     let folder = folder.unwrap_or_else(|| project_root().join("../shared/assets"));

@@ -1,12 +1,11 @@
-//! `cargo xtask simulate-farm`: how long `alberti batch` takes on many cores, by simulation.
+//! `cargo xtask simulate-farm`: the time that `alberti batch` takes on many cores, by simulation.
 //!
 //! ```text
 //!  times of pictures ─► shards ─► nodes of 16 cores, which die now and then ─► time, pictures a second
 //! ```
-//! The times are those of a measured run, or of a report that is named. Shards wait for a free node in
-//! their order, as in an array job. A node that dies gives its shard back after the scheduler's
-//! time-outs. The random numbers are the same in every run, and so are the tables, which
-//! `docs/batch.md` repeats.
+//! The times come from a measured run or from a named report. Shards wait for a free node in order,
+//! as in an array job. A node that dies gives its shard back after the scheduler's time-outs. The
+//! random numbers are the same in every run, and so are the tables, which `docs/batch.md` repeats.
 
 mod picture_times;
 
@@ -17,22 +16,22 @@ use std::cmp::Reverse;
 use std::collections::{BinaryHeap, VecDeque};
 use std::path::Path;
 
-/// Milliseconds, in which all times are counted: sums of integers do not depend on their order.
+/// Milliseconds, the unit of all times: sums of integers do not depend on their order.
 type Milliseconds = u64;
 
-/// The cores of a node.
+/// The cores per node.
 const CORES: usize = 16;
 /// From the submission of a shard to its first picture: the scheduler, the program, the list.
 const START: Milliseconds = 2_000;
-/// From the death of a node to the next start of its shard, by Slurm's defaults: 300 s until the node
-/// counts as down, and 120 s until a job starts again.
+/// From the death of a node to the next start of its shard, with Slurm's defaults: 300 s until the
+/// node counts as down, and 120 s until a job restarts.
 const LOSS: Milliseconds = 420_000;
-/// Calls to the file system by name for each picture, as counted with strace: three look-ups of the
-/// model, three openings and closings, for the key, the load and its check.
+/// File system calls by name for each picture, as counted with strace: three look-ups of the model,
+/// and three openings and closings, for the key, the load and its check.
 const REQUESTS_TO_READ: u64 = 9;
-/// Calls to write a file: look-up of the folder, creation, synchronization, closing, renaming.
+/// Calls to write a file: folder look-up, creation, synchronization, closing, renaming.
 const REQUESTS_TO_WRITE: u64 = 6;
-/// Pictures in a tar file.
+/// Pictures per tar file.
 const TAR: u64 = 1_000;
 
 /// A farm and its work.
@@ -41,11 +40,11 @@ struct Farm {
     nodes: usize,
     shards: usize,
     pictures: usize,
-    /// How many times as long a picture takes as those that were measured.
+    /// The time of a picture, as a multiple of the measured one.
     slowness: f64,
-    /// The mean time between two deaths of a node; 0 if none dies.
+    /// The mean time between two node failures; 0 if none fails.
     hours_to_death: u64,
-    /// Whether a shard continues where it was; if not, it begins again.
+    /// Whether a shard continues where it was; otherwise it starts over.
     continues: bool,
 }
 
@@ -59,7 +58,7 @@ const FARM: Farm = Farm {
     continues: true,
 };
 
-/// Prints the tables, for the times of a report if one is named.
+/// Prints the tables, with the times from a report if one is given.
 pub fn run_simulation(arguments: &[String]) -> Outcome {
     let times = match arguments {
         [] => PictureTimes::measured(),
@@ -81,7 +80,7 @@ fn tables(times: &PictureTimes) -> String {
     )
 }
 
-/// How time depends on the numbers of nodes and shards.
+/// The time, by node count and shard count.
 fn scaling_table(times: &PictureTimes) -> String {
     let mut text = "| nodes | cores | shards | time | pictures a second | cores at work |\n\
                     | ---: | ---: | ---: | ---: | ---: | ---: |\n"
@@ -98,7 +97,7 @@ fn scaling_table(times: &PictureTimes) -> String {
     text
 }
 
-/// The cost of nodes that die.
+/// The cost of node failures.
 fn death_table(times: &PictureTimes) -> String {
     let mut text = "| each node dies every | time | if shards began again |\n\
                     | ---: | ---: | ---: |\n"
@@ -113,7 +112,7 @@ fn death_table(times: &PictureTimes) -> String {
     text
 }
 
-/// How many requests a second the file system has to answer.
+/// The number of requests per second that the file system has to answer.
 fn request_table(rate: f64) -> String {
     let mut text =
         "| cores | a file a picture | `--tar 1000` |\n| ---: | ---: | ---: |\n".to_owned();
@@ -131,7 +130,8 @@ impl Farm {
     fn run(&self, times: &PictureTimes) -> Milliseconds {
         let mut random = Random(1);
         let mut waiting: VecDeque<Milliseconds> = self.shard_times(times, &mut random).into();
-        // When nodes are free, and when shards come back with what is left of them: earliest first.
+        // The times at which nodes become free, and at which shards come back with their remaining
+        // work: earliest first.
         let mut free: BinaryHeap<Reverse<Milliseconds>> =
             (0..self.nodes).map(|_| Reverse(0)).collect();
         let mut back: BinaryHeap<Reverse<(Milliseconds, Milliseconds)>> = BinaryHeap::new();
@@ -149,7 +149,7 @@ impl Farm {
             if death < stop {
                 let drawn = if self.continues { death.saturating_sub(start + START) } else { 0 };
                 back.push(Reverse((death + LOSS, left - drawn)));
-                // It is repaired, or another takes its place.
+                // It is repaired or replaced.
                 free.push(Reverse(death + LOSS));
             } else {
                 end = end.max(stop);
@@ -159,13 +159,13 @@ impl Farm {
         end
     }
 
-    /// The time that each shard takes a node: at most its share of every core, and then the longest
-    /// picture (Graham 1969).
+    /// The time for which each shard takes a node: at most its share of every core, and then the
+    /// longest picture (Graham 1969).
     fn shard_times(&self, times: &PictureTimes, random: &mut Random) -> Vec<Milliseconds> {
         let mut shards = vec![(0.0_f64, 0.0_f64); self.shards];
         for picture in 0..self.pictures {
             let time = times.time_at(random.next_fraction()) * self.slowness;
-            // Dealt in turn: less even than by bytes, as the program does it.
+            // Dealt in turn, which is less even than by bytes, the program's way.
             let (sum, longest) = &mut shards[picture % self.shards];
             *sum += time;
             *longest = longest.max(time);
@@ -175,10 +175,10 @@ impl Farm {
         shards.into_iter().map(|shard| time(shard) as Milliseconds).collect()
     }
 
-    /// How long a node lives from now on, exponentially distributed.
+    /// The remaining life of a node, exponentially distributed.
     fn time_to_death(&self, random: &mut Random) -> Milliseconds {
         if self.hours_to_death == 0 {
-            // Longer than any run, and no overflow when it is added.
+            // Longer than any run, and adding it does not overflow.
             return Milliseconds::MAX / 4;
         }
         let mean = self.hours_to_death as f64 * 3_600_000.0;
@@ -190,7 +190,7 @@ impl Farm {
 struct Random(u64);
 
 impl Random {
-    /// A number from 0 to 1, without 1.
+    /// A number from 0 to below 1.
     fn next_fraction(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut bits = self.0;
@@ -211,7 +211,7 @@ mod tests {
     #[test]
     fn equal_pictures_take_what_division_says() {
         let farm = Farm { nodes: 10, shards: 40, pictures: 64_000, ..FARM };
-        // Four shards a node, each of 100 pictures a core at 48 ms, and the longest one.
+        // Four shards per node, each of 100 pictures per core at 48 ms, and the longest one.
         assert_eq!(farm.run(&constant(48.0)), 4 * (START + 100 * 48 + 45));
         let uneven = Farm { shards: 11, ..farm };
         assert!(uneven.run(&constant(48.0)) >= 2 * (START + 363 * 48), "a node has two shards");
@@ -229,7 +229,7 @@ mod tests {
         };
         let (never, often) = (farm(0).run(&times), farm(1).run(&times));
         let anew = Farm { continues: false, ..farm(1) }.run(&times);
-        // Seven hours of two shards a node; a node dies every hour and then waits seven minutes.
+        // Seven hours of two shards per node; a node dies every hour and then waits seven minutes.
         assert!(never < often && often < never * 3 / 2, "{never} {often}");
         assert!(anew > often * 2, "{often} {anew}");
     }

@@ -1,4 +1,4 @@
-//! `cargo xtask fuzz`: bytes and numbers that libFuzzer makes up, guided by the branches they
+//! `cargo xtask fuzz`: bytes and numbers that libFuzzer generates, guided by the branches they
 //! reach.
 //!
 //! ```text
@@ -9,13 +9,13 @@
 //!   --corpus DIR  the folder of the corpora, default target/fuzz
 //! ```
 //!
-//! The targets are in `tests/fuzz`, a package of its own that needs a C++ compiler; the stable
-//! compiler does for them. They begin with `tests/fuzz/corpus`, which holds a few small cases for
-//! each target, the shared assets (`$ASSETS`, or `shared/assets` beside the project), the scenes and
-//! the cases of `tests/hostile`. A panic, a broken promise, more than
-//! a second or more than 200 MB of memory is a crash: the input is saved in `DIR/TARGET/artifacts`,
-//! the run ends with 1, and later runs begin with that input. Mend it, and put a small case like it
-//! into `tests/hostile` or the tests of the crate.
+//! The targets are in `tests/fuzz`, a separate package that needs a C++ compiler; the stable Rust
+//! compiler is enough. They begin with `tests/fuzz/corpus`, which holds a few small cases for each
+//! target, the shared assets (`$ASSETS`, or `shared/assets` next to the project), the scenes and
+//! the cases of `tests/hostile`. A panic, a broken promise, more than a second or more than 200 MB
+//! of memory is a crash: the input is saved in `DIR/TARGET/artifacts`, the run ends with 1, and
+//! later runs begin with that input. Fix the crash, and add a small case like it to `tests/hostile`
+//! or to the tests of the crate.
 
 mod pack;
 mod seeds;
@@ -31,7 +31,7 @@ use std::path::{Path, PathBuf};
 struct FuzzTarget {
     name: &'static str,
     about: &'static str,
-    /// The words that its inputs are made of, if they are text.
+    /// The words in its inputs, if they are text.
     words: Option<&'static str>,
 }
 
@@ -182,8 +182,8 @@ fn fuzz_help() -> String {
     text
 }
 
-/// Counters at every branch, and what comparisons compare: `cargo fuzz` asks the compiler for the
-/// same.
+/// Counters at every branch, and the operands of comparisons: `cargo fuzz` asks the compiler for
+/// the same.
 const COMPILER_FLAGS: [&str; 6] = [
     "-Cpasses=sancov-module",
     "-Cllvm-args=-sanitizer-coverage-level=4",
@@ -193,10 +193,10 @@ const COMPILER_FLAGS: [&str; 6] = [
     "--cfg=fuzzing",
 ];
 
-/// Builds all targets; gives the folder of their programs.
+/// Builds all targets; returns the folder of their programs.
 fn build_targets() -> Result<PathBuf, String> {
     println!("building the targets, which takes minutes for the first time");
-    // Named, the platform keeps the flags away from build scripts and macros.
+    // A named platform keeps the flags away from build scripts and macros.
     let platform = host_triple()?;
     let folder = target_folder().join("fuzz/build");
     let manifest = ["--manifest-path", "tests/fuzz/Cargo.toml"];
@@ -209,7 +209,7 @@ fn build_targets() -> Result<PathBuf, String> {
     Ok(folder.join(platform).join("release"))
 }
 
-/// The platform that the compiler runs on, by its name for it.
+/// The platform that the compiler runs on, by the compiler's name for it.
 fn host_triple() -> Result<String, String> {
     let mut version =
         std::process::Command::new(std::env::var_os("RUSTC").unwrap_or("rustc".into()));
@@ -218,7 +218,7 @@ fn host_triple() -> Result<String, String> {
     host.map(str::to_owned).ok_or_else(|| "the compiler does not say its platform".into())
 }
 
-/// Where the shared assets are, if they are there.
+/// The folder of the shared assets, if it exists.
 fn assets_folder() -> Option<PathBuf> {
     let beside = project_root().join("../shared/assets");
     let folder = std::env::var_os("ASSETS").map_or(beside, |named| Path::new(&named).to_owned());

@@ -1,5 +1,5 @@
-//! `cargo xtask gallery`: every scene on one page, with the comment of its file below it; with
-//! `--models DIR` every model of a folder in every style and light (`tests/gallery`).
+//! `cargo xtask gallery`: every scene on one page, with its file's comment below it; with
+//! `--models DIR`, every model in a folder in every style and light (`tests/gallery`).
 
 use crate::Outcome;
 use crate::program::{Build, Program, cargo_command, run_visibly};
@@ -45,7 +45,7 @@ pub fn run_gallery(arguments: &[String]) -> Outcome {
     Ok(())
 }
 
-/// Renders every model of a folder in all variants.
+/// Renders every model in a folder in all variants.
 fn run_model_gallery(models: &str) -> Outcome {
     let folder = fs::canonicalize(models).map_err(|error| format!("{models}: {error}"))?;
     let call = ["bench", "--quiet", "--package", "alberti-tests", "--bench", "gallery", "--"];

@@ -11,10 +11,10 @@ use std::fs;
 use std::io::Cursor;
 use std::path::Path;
 
-/// The size limit of a golden in bytes: goldens stay in the history of the repository.
+/// The maximum size of a golden in bytes: goldens stay in the history of the repository.
 const MAX_BYTES: usize = 150_000;
 
-/// Compares the named scenes with their goldens, or replaces these with `--bless`.
+/// Compares the named scenes with their goldens, or replaces the goldens with `--bless`.
 pub fn run_golden(arguments: &[String]) -> Outcome {
     match arguments.iter().position(|argument| argument == "--bless") {
         Some(flag) => {
@@ -40,7 +40,7 @@ fn compare_goldens(names: &[String]) -> Outcome {
     if status.success() { Ok(()) } else { Err("some pictures differ from their goldens".into()) }
 }
 
-/// Makes the present pictures of the named scenes, or with `--all` of every scene, their goldens.
+/// Makes the current pictures for the named scenes, or with `--all` for every scene, their goldens.
 fn bless_goldens(names: &[&String]) -> Outcome {
     if std::env::var_os("CI").is_some() {
         return Err("goldens are blessed by a person who has looked at them, never in CI".into());
@@ -60,8 +60,8 @@ fn bless_goldens(names: &[&String]) -> Outcome {
     Ok(())
 }
 
-/// Writes a PNG again with the same pixels and the best compression, and gives its new size. The
-/// program prefers speed.
+/// Rewrites a PNG with the same pixels and the best compression; returns its new size. The program
+/// prefers speed.
 fn compress_file(path: &Path) -> Result<usize, String> {
     let bytes = fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
     let bytes = recompress_png(&bytes).map_err(|error| format!("{}: {error}", path.display()))?;

@@ -41,7 +41,7 @@ type Outcome = Result<(), String>;
 /// A command of `cargo xtask`.
 struct Command {
     name: &'static str,
-    /// Its arguments as the help prints them.
+    /// Its arguments, as the help prints them.
     arguments: &'static str,
     /// Its line in the help.
     about: &'static str,

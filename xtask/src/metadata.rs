@@ -1,4 +1,4 @@
-//! Packages of the workspace as Cargo itself reads them: `cargo metadata`.
+//! Packages of the workspace, as Cargo reads them: `cargo metadata`.
 
 use crate::program::{capture_output, cargo_command};
 use serde_json::Value;
@@ -12,7 +12,7 @@ pub struct Package {
     pub name: String,
     /// The version in its manifest.
     pub version: String,
-    /// Names of the packages in its table `[dependencies]`; those of tests and build scripts are
+    /// The package names in its table `[dependencies]`; dependencies of tests and build scripts are
     /// left out.
     pub dependencies: Vec<String>,
     /// Name and source file of its integration tests, sorted by name.
@@ -60,7 +60,7 @@ impl Metadata {
         }
     }
 
-    /// A package of the workspace by its name, or by the one in code.
+    /// A package of the workspace, by its name or by its name in code.
     pub fn package(&self, name: &str) -> Option<&Package> {
         self.packages
             .iter()
@@ -98,7 +98,7 @@ impl Package {
     }
 }
 
-/// The name by which code knows a package: the short names are taken on the registry.
+/// The name of a package in code: the short names are taken on the registry.
 pub fn short_name(package: &str) -> &str {
     package.strip_prefix("alberti-").unwrap_or(package)
 }

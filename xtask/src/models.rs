@@ -1,4 +1,4 @@
-//! `cargo xtask models`: write `scenes/models` from the code of `scenes/generator`, or compare.
+//! `cargo xtask models`: writes `scenes/models` from the code of `scenes/generator`, or compares.
 
 use crate::Outcome;
 use crate::workspace::{create_folder, list_files, project_root, relative_path};

@@ -1,4 +1,4 @@
-//! Processes: building and running the program `alberti`, and calls of Cargo.
+//! Processes: build and run the program `alberti`, and call Cargo.
 
 use crate::test::process_seconds;
 use crate::workspace::{project_root, target_folder};
@@ -12,12 +12,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub enum Build {
     Debug,
     Release,
-    /// Release, and the compiler may use AVX2 and fused multiply-add.
+    /// Release, with a compiler that may use AVX2 and fused multiply-add.
     Wide,
 }
 
 impl Build {
-    /// Its name in messages and in folders.
+    /// Its name in messages and folder names.
     pub fn name(self) -> &'static str {
         match self {
             Self::Debug => "debug",
@@ -27,13 +27,13 @@ impl Build {
     }
 }
 
-/// The program as one build made it.
+/// The program from one build.
 pub struct Program {
     path: PathBuf,
 }
 
 impl Program {
-    /// Builds the program and says where it is.
+    /// Builds the program and returns its path.
     pub fn build(build: Build) -> Result<Self, String> {
         let mut cargo = cargo_command(&["build", "--quiet", "--bin", "alberti"]);
         let mut folder = target_folder();
@@ -65,24 +65,24 @@ impl Program {
         Ok(Self { path: folder.join("release").join(name) })
     }
 
-    /// A program that is built already.
+    /// An already built program.
     pub fn at(path: &Path) -> Self {
         Self { path: path.to_owned() }
     }
 
-    /// Where it is.
+    /// Its path.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Draws a scene, or says what the program said.
+    /// Draws a scene, or returns the program's message.
     pub fn render(&self, scene: &Path, picture: &Path, flags: &[&str]) -> Result<(), String> {
         run_command(
             Command::new(&self.path).arg("render").arg(scene).arg("-o").arg(picture).args(flags),
         )
     }
 
-    /// Draws a scene by its text, whose paths begin at a folder.
+    /// Draws a scene from its text, with paths relative to a folder.
     pub fn render_text(&self, text: &str, folder: &Path, picture: &Path) -> Result<(), String> {
         let mut render = Command::new(&self.path);
         render.current_dir(folder).args(["render", "-", "-o"]).arg(picture);
@@ -105,10 +105,10 @@ pub fn cargo_command(arguments: &[&str]) -> Command {
     cargo
 }
 
-/// Hundredths of seconds that compilers took in this process's children, as [`compile`] counts.
+/// Hundredths of seconds that compilers took in this process's children, as counted by [`compile`].
 static COMPILE_TICKS: AtomicU64 = AtomicU64::new(0);
 
-/// Counts the processor's time of some work as that of compilers.
+/// Counts the processor time of some work as compiler time.
 pub fn compile<T>(work: impl FnOnce() -> T) -> T {
     let before = process_seconds();
     let result = work();
@@ -117,17 +117,17 @@ pub fn compile<T>(work: impl FnOnce() -> T) -> T {
     result
 }
 
-/// Seconds of the processor that [`compile`] has counted.
+/// The processor seconds that [`compile`] has counted.
 pub fn compile_seconds() -> f64 {
     COMPILE_TICKS.load(Ordering::Relaxed) as f64 / 100.0
 }
 
-/// Runs a command to its end. What it prints is shown only if it fails.
+/// Runs a command to its end. Its output is shown only if it fails.
 pub fn run_command(command: &mut Command) -> Result<(), String> {
     capture_output(command).map(drop)
 }
 
-/// Runs a command to its end and gives what it wrote to its standard output.
+/// Runs a command to its end and returns its standard output.
 pub fn capture_output(command: &mut Command) -> Result<String, String> {
     let shown = command_line(command);
     let output = command.output().map_err(|error| format!("{shown}: {error}"))?;
@@ -139,7 +139,7 @@ pub fn capture_output(command: &mut Command) -> Result<String, String> {
     Err(format!("`{shown}` failed ({})\n{stdout}{stderr}", output.status))
 }
 
-/// Runs a command to its end while the person sees what it prints.
+/// Runs a command to its end with its output visible.
 pub fn run_visibly(command: &mut Command) -> Result<(), String> {
     let shown = command_line(command);
     let status = command.status().map_err(|error| format!("{shown}: {error}"))?;

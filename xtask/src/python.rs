@@ -1,11 +1,11 @@
-//! `cargo xtask python`: the wheel of the package for Python, and its tests.
+//! `cargo xtask python`: the wheel of the Python package, and its tests.
 //!
 //! ```text
 //!  maturin ─► wheel ─► new virtual environment: NumPy alone ─► a picture
 //!                      and then pytest, mypy, trimesh, OpenCV … ─► the tests
 //! ```
-//! Without Python, its module `venv` or a registry of packages, the step is skipped with a line that
-//! says so; tests whose packages cannot be had are skipped by name.
+//! Without Python, its module `venv` or a package registry, the step is reported as skipped, and so
+//! are tests whose packages cannot be had.
 
 use crate::Outcome;
 use crate::program::{Build, Program, command_line, compile, run_command, run_visibly};
@@ -14,13 +14,13 @@ use crate::workspace::{create_folder, list_files, project_root, target_folder};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The package for Python.
+/// The Python package.
 const PACKAGE: &str = "crates/python";
 /// Packages that build wheels.
 const BUILDER: &[&str] = &["maturin>=1.9,<2"];
 /// Packages that most tests need.
 const TEST_PACKAGES: &[&str] = &["pytest", "mypy"];
-/// Packages that single tests need; without one of them those are skipped.
+/// Packages that single tests need; without one of them, those tests are skipped.
 const PEERS: &[&str] = &[
     "trimesh",
     "networkx",
@@ -34,10 +34,10 @@ const PEERS: &[&str] = &[
     "kubernetes-validate",
     "ray",
 ];
-/// The most bytes of a released wheel.
+/// The maximum size of a released wheel in bytes.
 const MAX_WHEEL_BYTES: u64 = 8_000_000;
 
-/// A picture with nothing installed but NumPy.
+/// A picture with only NumPy installed.
 const FIRST_PICTURE: &str = "
 import sys, alberti
 frame = alberti.render(alberti.load(sys.argv[1]), size=(320, 240), passes=('rgb', 'depth', 'ids'))
@@ -45,8 +45,8 @@ assert frame.rgb.shape == (240, 320, 3) and frame.ids.any() and frame.depth.min(
 print('a picture, its depth and its ids:', frame)
 ";
 
-/// Builds the wheel, with `--release` as it is published, and tests it; with `--first` makes a
-/// picture with the library of the debug build alone.
+/// Builds the wheel, with `--release` as published, and tests it; with `--first` only makes a
+/// picture with the library of the debug build.
 pub fn run_python(arguments: &[String]) -> Outcome {
     let is_release = match arguments {
         [] => false,
@@ -69,8 +69,8 @@ pub fn run_python(arguments: &[String]) -> Outcome {
     test_wheel(&wheel)
 }
 
-/// A picture by the package as it lies in the sources, with the library that is built with the whole
-/// workspace: no wheel is packed, and nothing is compiled for it.
+/// A picture with the package as it is in the sources, and with the library built with the whole
+/// workspace: no wheel is packed, and nothing extra is compiled.
 fn make_first_picture() -> Outcome {
     let folder = target_folder().join("python/first");
     let Some(environment) = VirtualEnvironment::create(&folder.join("environment"))
@@ -101,7 +101,7 @@ fn make_first_picture() -> Outcome {
 /// Builds the wheel into an empty folder.
 fn build_wheel(environment: &VirtualEnvironment, is_release: bool) -> Result<PathBuf, String> {
     let folder = target_folder().join("python/wheels");
-    // What is left there from other versions would be taken for the new one.
+    // Leftovers from other versions would be taken for the new wheel.
     let _ = std::fs::remove_dir_all(&folder);
     create_folder(&folder)?;
     let mut maturin = Command::new(environment.program("maturin"));
@@ -111,7 +111,8 @@ fn build_wheel(environment: &VirtualEnvironment, is_release: bool) -> Result<Pat
     maturin.args(["--interpreter".as_ref(), environment.program("python").as_os_str()]);
     if is_release {
         maturin.arg("--release");
-        // In the program `pipeline` runs once a command; here it fills passes, and drawings are made in loops.
+        // In the program, `pipeline` runs once per command; here it fills passes, and drawings are
+        // made in loops.
         maturin.args(["--config", "profile.release.package.alberti-pipeline.opt-level=3"]);
         maturin.args(["--config", "profile.release.package.alberti-drawing.opt-level=2"]);
         maturin.args(["--config", "profile.release.package.alberti-hidden-line.opt-level=2"]);
@@ -120,7 +121,7 @@ fn build_wheel(environment: &VirtualEnvironment, is_release: bool) -> Result<Pat
     list_files(&folder, "whl")?.pop().ok_or_else(|| "there is no wheel".to_owned())
 }
 
-/// Installs the wheel beside NumPy alone, then with what its tests need, and runs these.
+/// Installs the wheel with only NumPy, then with the packages that its tests need, and runs these.
 fn test_wheel(wheel: &Path) -> Outcome {
     let environment = VirtualEnvironment::create(&target_folder().join("python/test"))
         .ok_or("there is no second virtual environment")?;
@@ -154,7 +155,7 @@ pub struct VirtualEnvironment {
 }
 
 impl VirtualEnvironment {
-    /// A new one in place of an old one; `None` if Python cannot make any.
+    /// A new environment in place of an old one; `None` if Python cannot create any.
     pub fn create(folder: &Path) -> Option<Self> {
         let mut python = Command::new("python3");
         python.args(["-m", "venv", "--clear"]).arg(folder);

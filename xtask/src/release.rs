@@ -1,4 +1,4 @@
-//! `cargo xtask release`: what is handed out, built so that anybody can build the same bytes.
+//! `cargo xtask release`: the release files, built so that anybody can build the same bytes.
 //!
 //! ```text
 //! release OUT               everything for users, in an empty folder
@@ -7,7 +7,7 @@
 //!                           empty Debian
 //! release --crates          the crates as archives for the registry, not built
 //! ```
-//! Nothing is published; `RELEASING.md` says how that is done. Tools of Debian are needed: `tar`,
+//! Nothing is published; `RELEASING.md` says how to do that. Debian tools are needed: `tar`,
 //! `gzip`, `dpkg-deb`, `sha256sum`, and `debootstrap` for the trial.
 
 mod archives;
@@ -27,11 +27,11 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// The most bytes of the program in a package. To be lowered to 8,000,000: optimizing all crates
-/// together (`lto`) saves less, and makes pictures take 70 % more instructions.
+/// The maximum size of the program in a package, in bytes. To be lowered to 8,000,000: optimizing
+/// all crates together (`lto`) saves less, and makes pictures take 70 % more instructions.
 const MAX_PROGRAM_BYTES: u64 = 10_600_000;
 
-/// Builds, or checks, what is handed out.
+/// Builds or checks the release files.
 pub fn run_release(arguments: &[String]) -> Outcome {
     let here = std::env::current_dir().map_err(|error| error.to_string())?;
     match arguments {
@@ -57,7 +57,7 @@ pub fn run_release(arguments: &[String]) -> Outcome {
 pub struct Release {
     /// The version of the workspace.
     pub version: String,
-    /// Seconds since 1970, of the last commit unless `SOURCE_DATE_EPOCH` says otherwise.
+    /// Seconds since 1970: the last commit's, unless `SOURCE_DATE_EPOCH` is set.
     pub epoch: String,
 }
 
@@ -79,7 +79,7 @@ impl Release {
     }
 }
 
-/// Builds the sources in a folder and writes everything that is handed out.
+/// Builds the sources in a folder and writes all release files.
 fn write_release(
     release: &Release,
     sources: &Path,
@@ -104,13 +104,14 @@ fn write_release(
     Ok(programs)
 }
 
-/// Two releases of two copies of the sources in folders of different names, which must be equal.
+/// Builds two releases from two copies of the sources in folders with different names; they must be
+/// equal.
 fn check_release() -> Outcome {
     crates::package_crates(true)?;
     let folder = target_folder().join("release-check");
     let _ = fs::remove_dir_all(&folder);
     let names = ["one", "the other folder"];
-    // At once, so that somebody may go on with the work and commit it.
+    // Immediately, so that people may go on with the work and commit it.
     let release = Release::read()?;
     names.iter().try_for_each(|name| build::copy_sources(&folder.join(name).join("sources")))?;
     let mut builds = Vec::new();
@@ -143,7 +144,7 @@ fn check_debian_package(program: &Program) -> Outcome {
     debian::try_package(&deb, program)
 }
 
-/// A program must stay small.
+/// Checks that a program stays small.
 fn check_size(program: &Path) -> Outcome {
     let bytes = fs::metadata(program).map_err(|error| error.to_string())?.len();
     println!("{} has {bytes} bytes", program.display());

@@ -2,8 +2,9 @@
 //! mode.
 //!
 //! The calls and their inputs are in `tests/soak`. Nothing may panic, and finite input must give
-//! finite output. `cargo xtask soak --scenes MINUTES` renders random scenes with all features of the
-//! language instead: nothing may panic, no pass may have NaN, and one thread must give the bytes of two.
+//! finite output. `cargo xtask soak --scenes MINUTES` renders random scenes with all features of
+//! the language instead: nothing may panic, no pass may contain NaN, and one thread must give the
+//! same bytes as two.
 
 use crate::Outcome;
 use crate::program::{cargo_command, run_visibly};

@@ -1,5 +1,5 @@
-//! Programs of strangers: built and run against the packed crates, as if these came from the
-//! registry.
+//! Programs as outside users write them: built and run against the packed crates, as if these came
+//! from the registry.
 //!
 //! ```text
 //!  crates ─► cargo package ─► *.crate ─► unpacked ─┐
@@ -47,7 +47,7 @@ pub fn run_strangers(flags: &[String]) -> Outcome {
     Ok(())
 }
 
-/// Copies the programs, and makes the patches of their workspace lead to the unpacked crates.
+/// Copies the programs, and points the patches of their workspace to the unpacked crates.
 fn copy_programs(from: &Path, to: &Path) -> Outcome {
     for name in program_names(from)? {
         let sources = to.join(&name).join("src");
@@ -71,7 +71,7 @@ fn copy_programs(from: &Path, to: &Path) -> Outcome {
     fs::write(to.join("Cargo.toml"), manifest.join("\n")).map_err(|error| error.to_string())
 }
 
-/// The folders that hold a program, by name.
+/// The program folders, by name.
 fn program_names(folder: &Path) -> Result<Vec<String>, String> {
     let entries = fs::read_dir(folder).map_err(|error| error.to_string())?;
     let is_program = |entry: &fs::DirEntry| entry.path().join("src/main.rs").exists();

@@ -6,9 +6,9 @@
 //! test --second             the second tier alone; with --minutes N, steps begin in that time
 //! test STEP…                some steps of either tier
 //! ```
-//! One call of Cargo builds the test programs, which then run directly (`artifacts.rs`). Each step
-//! is a separate process, so its cost and its skips are known (`step.rs`). Steps that use one core
-//! run two at a time (`schedule.rs`). The summary lists costs and skips (`summary.rs`).
+//! One Cargo call builds the test programs, which then run directly (`artifacts.rs`). Each step is
+//! a separate process, so its cost and its skips are known (`step.rs`). Steps that use one core run
+//! two at a time (`schedule.rs`). The summary lists costs and skips (`summary.rs`).
 
 mod artifacts;
 mod cpu_time;
@@ -35,7 +35,7 @@ struct Options {
     tiers: Vec<Tier>,
     names: Vec<String>,
     keep_going: bool,
-    /// The time in which steps begin.
+    /// The time within which steps may begin.
     minutes: Option<u64>,
 }
 

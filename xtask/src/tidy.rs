@@ -36,7 +36,7 @@ impl Violation {
     }
 }
 
-/// The rules for a single file of Rust.
+/// The rules for a single Rust file.
 const FILE_RULES: &[fn(&Source) -> Vec<Violation>] = &[
     size::file_length,
     size::function_length,

@@ -1,4 +1,5 @@
-//! A compiler with the sources of the standard library, for targets whose compiled one is not installed.
+//! A compiler with the sources of the standard library, for targets whose compiled one is not
+//! installed.
 
 use crate::program::{capture_output, cargo_command};
 use std::path::{Path, PathBuf};
@@ -38,7 +39,7 @@ impl ToolChain {
         Ok(Self { cargo, rustc, root: root.trim().into() })
     }
 
-    /// That of this workspace if it has the sources of the standard library, or else Debian's.
+    /// The workspace's if it has the sources of the standard library, otherwise Debian's.
     ///
     /// # Errors
     /// Neither has them; the message says how to get them.
@@ -58,7 +59,7 @@ impl ToolChain {
         text.split(' ').nth(1).map(str::to_owned).ok_or(format!("`{text}` is no version"))
     }
 
-    /// A call of Cargo in a folder, with this compiler and these flags for it, whose results go to
+    /// A Cargo call in a folder, with this compiler and these compiler flags. Its results go to
     /// another folder.
     pub fn cargo_build(&self, package: &Path, flags: &[String], out: &Path) -> Command {
         let mut build = Command::new(&self.cargo);

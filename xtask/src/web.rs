@@ -6,9 +6,9 @@
 //!   --skip-without-tools  say so and succeed where WebAssembly cannot be built
 //! ```
 //!
-//! The folder holds the page of `crates/explorer/page`, the engine (`web.js`, `web_bg.wasm`), the
-//! models of its lessons, and `alberti.html`, all of that in one file. Sizes above the limits are a
-//! failure: everybody who opens the page waits for them.
+//! The folder holds the page from `crates/explorer/page`, the engine (`web.js`, `web_bg.wasm`), its
+//! lessons' models, and `alberti.html`, which is all of that in one file. Sizes above the limits
+//! are a failure: everybody who opens the page waits for them.
 
 mod module;
 mod node;
@@ -46,12 +46,12 @@ pub fn run_web(arguments: &[String]) -> Outcome {
     sizes::check_sizes(&out)
 }
 
-/// Where the page is built unless another folder is named.
+/// The default output folder.
 pub fn site_folder() -> PathBuf {
     target_folder().join("web")
 }
 
-/// Why WebAssembly cannot be built here, if it cannot.
+/// The reason why WebAssembly cannot be built here, if it cannot.
 pub fn missing_tools() -> Option<String> {
     let tool_chain = tool_chain::WebToolChain::find().err();
     tool_chain.or_else(node::missing_node)
@@ -72,7 +72,7 @@ pub fn build_site(out: &Path) -> Outcome {
     node::write_single_file(out)
 }
 
-/// The files of the page, by name.
+/// The page's files, by name.
 fn page_files() -> Result<Vec<PathBuf>, String> {
     let folder = project_root().join("crates/explorer/page");
     let entries =
@@ -94,7 +94,7 @@ pub fn list_lessons(site: &Path) -> Result<Vec<Value>, String> {
     }
 }
 
-/// The models of all lessons.
+/// The models in all lessons.
 fn lesson_models(site: &Path) -> Result<BTreeSet<String>, String> {
     let lessons = list_lessons(site)?;
     let models = lessons.iter().filter_map(|lesson| lesson["models"].as_array()).flatten();
@@ -130,7 +130,7 @@ mod tests {
         versions
     }
 
-    /// Of build scripts of other rasterizers, which `tests/peers` compares.
+    /// They belong to build scripts of other rasterizers, which `tests/peers` compares.
     const NOT_OF_THE_PROGRAM: [&str; 1] = ["semver"];
 
     #[test]

@@ -1,4 +1,4 @@
-//! Files of the workspace: its root, its scenes, helpers with error messages that name the file.
+//! Files in the workspace: its root, its scenes, and helpers whose error messages name the file.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,14 +9,14 @@ pub fn project_root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
 }
 
-/// The target folder of Cargo when it runs at the root.
+/// Cargo's target folder when it runs at the root.
 pub fn target_folder() -> PathBuf {
     project_root().join(std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()))
 }
 
 /// A scene file.
 pub struct Scene {
-    /// The file name without `.ron`, by which goldens and commands know it.
+    /// The file name without `.ron`, which goldens and commands use.
     pub name: String,
     /// The absolute path.
     pub path: PathBuf,
@@ -63,7 +63,7 @@ pub fn list_files(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, String
     Ok(paths)
 }
 
-/// The text of a file; the error names it.
+/// The text of a file; an error names it.
 pub fn read_text(path: &Path) -> Result<String, String> {
     fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
 }

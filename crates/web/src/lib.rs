@@ -1,12 +1,12 @@
 //! The explorer in a browser: the engine of the page as a JavaScript class.
 //!
-//! Bindings and nothing else: what is computed and said comes from the crate `explorer`. `cargo
-//! xtask web` compiles it to WebAssembly and writes the JavaScript around it.
+//! This crate contains only bindings: results and messages come from the crate `explorer`.
+//! `cargo xtask web` compiles it to WebAssembly and writes the JavaScript around it.
 
 use explorer::ExplorerError;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-/// An explorer, with the files that were added to it.
+/// An explorer, with the files added to it.
 #[wasm_bindgen]
 #[derive(Debug, Default)]
 pub struct Explorer(explorer::Explorer);
@@ -20,10 +20,10 @@ impl Explorer {
         Self::default()
     }
 
-    /// Adds a file that models are loaded from, or replaces the one of this name.
+    /// Adds a file from which models can be loaded, or replaces the file of that name.
     ///
     /// # Errors
-    /// An object `{code, message, help}`: the name leads out of the folder of the files.
+    /// An object `{code, message, help}`: the name points outside the folder of files.
     pub fn add_file(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), JsValue> {
         self.0.add_file(name, bytes).map_err(|error| error_object(&error))
     }
@@ -49,7 +49,7 @@ fn error_object(error: &ExplorerError) -> JsValue {
     object.into()
 }
 
-/// Plain objects of JavaScript, which a worker can send to its page.
+/// Plain JavaScript objects, which a worker can send to its page.
 #[wasm_bindgen]
 extern "C" {
     type Object;
@@ -60,7 +60,7 @@ extern "C" {
     #[wasm_bindgen(js_namespace = Reflect, js_name = set)]
     fn set_text(object: &Object, name: &str, value: &str) -> bool;
 
-    /// The bytes are copied into an array of JavaScript.
+    /// The bytes are copied into a JavaScript array.
     #[wasm_bindgen(js_namespace = Reflect, js_name = set)]
     fn set_bytes(object: &Object, name: &str, value: Vec<u8>) -> bool;
 }

@@ -1,8 +1,8 @@
 //! A glTF 2.0 document under construction, and its binary container.
 //!
-//! Each kind of index is a type of its own, so that a mesh index cannot be used for a node. The
-//! bytes are a function of the model alone: JSON keys are sorted, floats are written by their
-//! shortest decimal.
+//! Each kind of index has its own type, so that a mesh index cannot be used for a node. The bytes
+//! depend only on the model: JSON keys are sorted, and floats are written as their shortest
+//! decimal.
 
 use crate::glb::encode_glb;
 use crate::mesh::Mesh;
@@ -24,18 +24,18 @@ pub struct MaterialId(usize);
 #[derive(Clone, Copy, Debug)]
 pub struct TextureId(usize);
 
-/// How the indices of a primitive are read (glTF 2.0, §3.7.2.1).
+/// The interpretation of a primitive's indices (glTF 2.0, §3.7.2.1).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum PrimitiveMode {
-    /// A point per index.
+    /// One point per index.
     Points = 0,
-    /// A segment per pair.
+    /// One segment per pair.
     Lines = 1,
     /// A closed polyline.
     LineLoop = 2,
     /// An open polyline.
     LineStrip = 3,
-    /// A triangle per three.
+    /// One triangle per three.
     Triangles = 4,
     /// Each index after the second makes a triangle with the two before it.
     TriangleStrip = 5,
@@ -131,7 +131,7 @@ impl Document {
         self.add_mesh_of_modes(name, &parts)
     }
 
-    /// A mesh whose parts have a primitive mode each.
+    /// A mesh whose parts each have a primitive mode.
     pub fn add_mesh_of_modes(
         &mut self,
         name: &str,
@@ -169,7 +169,7 @@ impl Document {
         primitive
     }
 
-    /// Positions are the only attribute that must have bounds (glTF 2.0, §3.7.2.1): those of the
+    /// Positions are the only attribute that must have bounds (glTF 2.0, §3.7.2.1). They bound the
     /// stored f32 values.
     fn add_positions(&mut self, positions: &[DVec3]) -> Value {
         let stored = positions.iter().map(|position| position.as_vec3().as_dvec3());
@@ -299,7 +299,7 @@ impl Document {
             "scenes": [{ "nodes": self.roots }],
             "buffers": [{ "byteLength": self.binary.len() }],
         });
-        // Lists must not be empty in glTF: those without entries are left out.
+        // glTF forbids empty lists, so they are omitted.
         for (key, list) in [
             ("bufferViews", &self.buffer_views),
             ("accessors", &self.accessors),

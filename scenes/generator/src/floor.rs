@@ -1,6 +1,6 @@
 //! Checkered floor with rows of posts that extends behind a camera at the origin.
 //!
-//! Every tile is a face of its own. Those below the camera cross the plane w = 0, where a renderer
+//! Every tile is a separate face. Tiles below the camera cross the plane w = 0, where a renderer
 //! that divides before it clips shows wrap-around.
 
 use crate::document::Document;
@@ -11,7 +11,7 @@ use serde_json::json;
 
 /// Half the number of tiles across; a tile is one meter.
 const HALF_WIDTH: i32 = 4;
-/// The tiles from behind the camera to the far end.
+/// The rows of tiles from behind the camera to the far end.
 const FROM_Z: i32 = -72;
 const TO_Z: i32 = 24;
 
@@ -52,7 +52,7 @@ fn floor_tiles(odd: i32) -> Mesh {
     }
     for row in 0..TO_Z - FROM_Z {
         for column in (0..across - 1).filter(|column| (row + column) % 2 == odd) {
-            // Seen from above, z runs down the page: this order is counter-clockwise.
+            // Seen from above, z runs down the page, so this order is counter-clockwise.
             let corner = (row * across + column) as u32;
             let below = corner + across as u32;
             mesh.indices.extend([corner, below, below + 1, corner, below + 1, corner + 1]);

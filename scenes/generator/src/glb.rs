@@ -1,5 +1,4 @@
-//! The binary glTF container, for the models of the scenes and for files that tests and fuzzers
-//! build.
+//! The binary glTF container, for the scene models and for the files that tests and fuzzers build.
 
 /// Encodes a `.glb` file: header, JSON chunk, binary chunk, both padded to a multiple of four bytes
 /// (glTF 2.0, §4.4).

@@ -1,4 +1,4 @@
-//! Small house, as a solid and as its edges (glTF LINES), both from one list of points.
+//! A small house, as a solid and as its edges (glTF LINES), both from one list of points.
 
 use crate::document::{Document, PrimitiveMode};
 use crate::mesh::Mesh;
@@ -103,7 +103,7 @@ fn chimney_mesh() -> Mesh {
     Mesh::block_on(dvec3(-1.0, 3.0, -1.3), dvec3(0.55, 1.75, 0.55)).without_uvs()
 }
 
-/// The panes of all windows and the frames about them.
+/// The window panes and their frames.
 fn window_meshes() -> (Mesh, Mesh) {
     let (mut panes, mut frames) = (Mesh::default(), Mesh::default());
     let thin = 0.06;

@@ -1,9 +1,9 @@
-//! Indexed triangle meshes under construction, and the shapes that models consist of: quads, boxes,
-//! surfaces of revolution, spheres.
+//! Indexed triangle meshes under construction, and the shapes that models are built from: quads,
+//! boxes, surfaces of revolution, spheres.
 //!
 //! Triangles are counter-clockwise seen from outside. Shapes carry the exact normals of the smooth
-//! surface that they approximate, not those of their triangles; flat faces share no vertices, so
-//! that their edges stay sharp.
+//! surface they approximate, not the normals of their triangles. Flat faces share no vertices, so
+//! their edges stay sharp.
 
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -20,7 +20,7 @@ pub struct Mesh {
     pub uvs: Vec<DVec2>,
     /// Linear light, 0 to 1.
     pub colors: Vec<[f64; 3]>,
-    /// Vertices of the triangles, or of whatever primitives the document makes of the mesh.
+    /// Vertices of the triangles, or of other primitives if the document uses the mesh for them.
     pub indices: Vec<u32>,
 }
 
@@ -113,7 +113,7 @@ impl Mesh {
         mesh
     }
 
-    /// A box of the given size, standing on the ground with its middle over `(x, z)`.
+    /// A box of the given size, resting on the ground and centered over `(x, z)`.
     #[must_use]
     pub fn block_on(at: DVec3, size: DVec3) -> Self {
         let half = dvec3(size.x / 2.0, 0.0, size.z / 2.0);

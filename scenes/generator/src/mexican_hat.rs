@@ -1,8 +1,8 @@
 //! The Mexican hat: a height field over a square grid.
 //!
-//! Grid indices go to `[-1, 1]²` by `x = 2i/(rows−1) − 1`, `z = 2j/(columns−1) − 1`. The height is
+//! Grid indices map to `[-1, 1]²` by `x = 2i/(rows−1) − 1`, `z = 2j/(columns−1) − 1`. The height is
 //! `sin(R)/R` with `R = 2π√(x² + z²)`: 1 in the middle, the first trough on the circle of radius
-//! 0.715, the second crest just outside the edges' middles. (Angel's *Interactive Computer
+//! 0.715, the second crest just outside the midpoints of the edges. (Angel's *Interactive Computer
 //! Graphics* draws the same surface.)
 
 use crate::document::{Document, PrimitiveMode};
@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 
 const ROWS: u32 = 49;
 const COLUMNS: u32 = 49;
-/// Factor of the heights: the peak is about as high as half of the brim is wide.
+/// The vertical scale: the peak is about as high as half the width of the brim.
 const HEIGHT: f64 = 0.9;
 
 /// The surface with vertex colors by height.
@@ -84,7 +84,7 @@ impl HatPoint {
     }
 }
 
-/// From the trough, the least height −0.2172, to the peak.
+/// From the trough, the minimum height of −0.2172, to the peak.
 fn height_color(height: f64) -> [f64; 3] {
     let stops = [TEAL, SKY, CREAM, SAND, OCHRE, CLAY, BRICK];
     color_ramp(&stops.map(Color::linear), (height + 0.2172) / 1.2172)

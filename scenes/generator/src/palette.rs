@@ -1,4 +1,5 @@
-//! Palette of the scenes: fourteen muted colors, sRGB in the source and linear light in the files.
+//! The palette of the scenes: fourteen muted colors, sRGB in the source and linear light in the
+//! files.
 
 /// An sRGB color, eight bits per channel: red, green, blue.
 #[derive(Clone, Copy, PartialEq, Debug)]

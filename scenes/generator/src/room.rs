@@ -6,8 +6,7 @@ use crate::palette::{BARK, BRICK, CREAM, OCHRE, PAPER, PLUM, SAGE, SKY, TEAL, WO
 use glam::{DVec3, dvec3};
 use serde_json::json;
 
-/// The floor goes from −2.5 to 2.5 in x and from −2 to 2 in z; the walls that stand are those at −x
-/// and −z.
+/// The floor spans −2.5 to 2.5 in x and −2 to 2 in z; only the walls at −x and −z exist.
 pub(crate) fn room() -> Document {
     let mut document = Document::default();
     let mut piece = |name: &str, color, boxes: &[(DVec3, DVec3)]| {
@@ -93,8 +92,8 @@ fn book_boxes() -> Vec<(DVec3, DVec3)> {
     heights.iter().enumerate().map(book).collect()
 }
 
-/// glTF cameras look along their own −z with y up; the door's is turned about y and then tipped
-/// down.
+/// glTF cameras look along their own −z with y up; the camera at the door is turned about y and
+/// then tilted down.
 fn add_cameras(document: &mut Document) {
     let lens = json!({ "type": "perspective",
         "perspective": { "yfov": 50.0_f64.to_radians(), "znear": 0.1, "zfar": 50.0 } });

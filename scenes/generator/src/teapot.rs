@@ -40,7 +40,7 @@ fn tessellate_part(part: &Part) -> Mesh {
 const TABLE_RADIUS: f64 = 4.2;
 const TABLE_RIM: f64 = 4.05;
 
-/// A round table top with a contact shadow of a pot of radius 1.5 in its vertex colors.
+/// A round table top, with the contact shadow of a pot of radius 1.5 in its vertex colors.
 pub(crate) fn table_document() -> Document {
     let mut document = Document::default();
     let cloth = document.add_material("table top", crate::palette::Color(255, 255, 255));
@@ -55,7 +55,7 @@ fn table_top() -> Mesh {
     let edge = dvec2(1.0, 0.0);
     let mut rings = vec![outline(edge, TABLE_RADIUS, -0.25), outline(edge, TABLE_RADIUS, 0.0)];
     rings.extend([TABLE_RADIUS, TABLE_RIM + 0.01, TABLE_RIM - 0.01, 3.5].map(flat));
-    // Fine only where the shadow ends.
+    // Fine steps only where the shadow ends.
     rings.extend((12..=28).rev().map(|tenth| flat(f64::from(tenth) / 10.0)));
     rings.push(flat(0.0));
     let mut mesh = Mesh::lathe(&rings, 64);
@@ -71,7 +71,7 @@ fn table_color(position: DVec3) -> [f64; 3] {
     if r > TABLE_RIM {
         return SAND.linear();
     }
-    // Darkest under the pot, gone two thirds of a radius beyond its foot.
+    // Darkest under the pot; gone two thirds of a radius beyond its foot.
     let shade = ((r - 1.3) / 1.4).clamp(0.0, 1.0);
     let shade = shade * shade * (3.0 - 2.0 * shade);
     mix_colors(CREAM.linear().map(|channel| channel * 0.38), CREAM.linear(), shade)

@@ -2,11 +2,11 @@
 //! patches, the last four of them the bottom that Frank Crow added ("The Origins of the Teapot",
 //! IEEE Computer Graphics and Applications 7(1), 1987).
 //!
-//! The published table lists 306 control points, of which all but a few dozen follow from the
-//! others: body, lid and bottom are outlines swept about the axis in four quarters, with 0.56 of
-//! the radius where an exact circle would ask for 0.5523, and handle and spout are halves with
-//! their mirror images. So the outlines and halves are written here, and the 32 patches are made
-//! from them; the test compares with the table's own entries.
+//! The published table lists 306 control points. All but a few dozen follow from the others: body,
+//! lid and bottom are outlines swept about the axis in four quarters, with 0.56 of the radius where
+//! an exact circle would need 0.5523, and handle and spout are halves with their mirror images.
+//! This file has only the outlines and halves, and builds the 32 patches from them. The test
+//! compares them with entries of the table.
 //!
 //! z is up, as in the table; the spout points along +x and the handle along −x.
 
@@ -22,7 +22,7 @@ pub(crate) struct Part {
 }
 
 /// A point of an outline: radius, height, and the fraction of the radius at which the inner control
-/// points of a quarter circle stand.
+/// points of a quarter circle are.
 type Ring = (f64, f64, f64);
 
 const QUARTER: f64 = 0.56;

@@ -26,7 +26,7 @@ fn parse_glb(bytes: &[u8]) -> Glb {
 }
 
 impl Glb {
-    /// The numbers of an accessor, element after element.
+    /// The values in an accessor, element after element.
     fn accessor_values(&self, accessor: &Value) -> Vec<f64> {
         let accessor = &self.json["accessors"][as_index(accessor)];
         let view = &self.json["bufferViews"][as_index(&accessor["bufferView"])];
@@ -100,8 +100,8 @@ fn positions_reach_exactly_their_stated_bounds() {
                 };
                 let low = values.clone().fold(f64::INFINITY, f64::min);
                 let high = values.fold(f64::NEG_INFINITY, f64::max);
-                // The reader of the JSON may miss the last bit of a double; the f32 it stands for
-                // is exact.
+                // The JSON reader may be off by the last bit of a double; the f32 it represents is
+                // exact.
                 assert_eq!(low as f32, stated("min") as f32, "{name}");
                 assert_eq!(high as f32, stated("max") as f32, "{name}");
             }

@@ -104,7 +104,7 @@ fn components(
     names.into_iter().zip(<[f64; 3]>::from(vector)).map(|(name, number)| (name, number.into()))
 }
 
-/// Where a pixel position lies on the window: back through the viewport and the box of the window.
+/// The position of a pixel on the window: back through the viewport and the box of the window.
 fn place_on_window(
     [l, r, b, t]: [f64; 4],
     [n_x, n_y]: [f64; 2],

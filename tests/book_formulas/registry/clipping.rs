@@ -41,7 +41,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry::new("IN-2.triangle", IN_TRIANGLE, triangle_attribute),
 ];
 
-/// The values of planes at a point: one is a number, several a column.
+/// The values of planes at a point: a number for one plane, a column for several.
 fn distances<const N: usize>(
     volume: &Volume,
     planes: [PlaneIndex; N],
@@ -58,7 +58,7 @@ fn along_x<const N: usize>(v: &Inputs<'_>, planes: [PlaneIndex; N]) -> Answer {
 }
 
 /// A segment in clip space whose ends have these values at the left plane, up to a common factor,
-/// and lie inside of the other planes.
+/// and are inside the other planes.
 fn segment_parameter([a, b]: [f64; 2]) -> Answer {
     let largest = a.abs().max(b.abs());
     let end = |value: f64| HPoint::new(value / largest - 1.0, 0.0, 0.0, 1.0);

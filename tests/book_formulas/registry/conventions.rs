@@ -1,5 +1,5 @@
-//! Matrices of the interfaces and of the lesson (GL-1 to GL-3, D3D-1 to D3D-6, RV-1, IF-1 to IF-3,
-//! LW-1 to LW-3, IV-1).
+//! Matrices of the graphics interfaces and of the lesson (GL-1 to GL-3, D3D-1 to D3D-6, RV-1, IF-1
+//! to IF-3, LW-1 to LW-3, IV-1).
 
 use super::inputs::{Answer, Inputs, give};
 use super::normalization::divided;
@@ -84,7 +84,7 @@ fn entry_of(matrix: Matrix, column: usize) -> Answer {
     give(matrix.rows()[2][column])
 }
 
-/// c = cot(θ/2), one divided by the slope of the upper side.
+/// c = cot(θ/2), the reciprocal of the slope of the upper side.
 fn cotangent(v: &Inputs<'_>) -> Extras {
     let slopes = Fov::Vertical(v.number("theta")?).half_slopes(1.0)?;
     Ok(vec![("c", (1.0 / slopes.y).into())])

@@ -1,4 +1,4 @@
-//! Variables of an entry, and answers of the crates as values.
+//! Variables of an entry, and the crates' answers as values.
 
 use crate::book_formulas::name::Name;
 use crate::book_formulas::value::Value;
@@ -9,7 +9,7 @@ use std::error::Error;
 
 pub type Answer = Result<Value, Box<dyn Error>>;
 
-/// The values of a check line, seen by an entry.
+/// The values of a check line, as an entry sees them.
 #[derive(Clone, Copy, Debug)]
 pub struct Inputs<'a> {
     variables: &'a str,
@@ -21,12 +21,12 @@ impl<'a> Inputs<'a> {
         Self { variables, values }
     }
 
-    /// All variables of an entry that has numbers only, in their order.
+    /// All variables of an entry that has only numbers, in order.
     pub fn numbers<const N: usize>(&self) -> Result<[f64; N], Box<dyn Error>> {
         self.these(self.variables)
     }
 
-    /// Some variables, named between blanks.
+    /// Some variables, named in a list separated by blanks.
     pub fn these<const N: usize>(&self, names: &str) -> Result<[f64; N], Box<dyn Error>> {
         let numbers: Vec<f64> =
             names.split_whitespace().map(|name| self.number(name)).collect::<Result<_, _>>()?;
@@ -34,7 +34,7 @@ impl<'a> Inputs<'a> {
         numbers.try_into().map_err(|_| format!("{count} variables, not {N}").into())
     }
 
-    /// A number; z-coordinates of planes also from distances, and the reverse.
+    /// A number; z-coordinates of planes are also found from distances, and vice versa.
     pub fn number(&self, name: &str) -> Result<f64, String> {
         let key = Name::parse(name).key();
         if let Some(value) = self.values.get(&key) {
@@ -87,7 +87,7 @@ fn components_of(letter: &str) -> [[String; 3]; 2] {
     ]
 }
 
-/// Another name of a value and the sign between both.
+/// Another name for a value, and the sign between the two.
 fn twin_of(name: &str) -> Option<(&'static str, f64)> {
     Some(match name {
         "n" => ("N", -1.0),
@@ -99,7 +99,7 @@ fn twin_of(name: &str) -> Option<(&'static str, f64)> {
     })
 }
 
-/// An answer from anything that is a value.
+/// An answer from any type that converts to a value.
 pub fn give(value: impl Into<Value>) -> Answer {
     Ok(value.into())
 }

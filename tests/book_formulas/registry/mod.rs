@@ -1,7 +1,7 @@
-//! What the crates say: names of checks, and the public functions behind them.
+//! The crates' side: names for checks, and the public functions behind them.
 //!
-//! No entry repeats its formula. Where the crates have no function for a formula, the value comes
-//! from the nearest one, mostly by applying its matrix to a point.
+//! No entry repeats its formula. If the crates have no function for a formula, the value comes from
+//! the nearest one, usually by applying its matrix to a point.
 
 mod camera;
 mod classical;
@@ -21,11 +21,11 @@ use crate::book_formulas::value::Value;
 /// Names that a formula may use without a value in the check line.
 pub type Extras = Result<Vec<(&'static str, Value)>, Box<dyn std::error::Error>>;
 
-/// A name for check lines.
+/// A name used in check lines.
 #[derive(Debug)]
 pub struct Entry {
     pub name: &'static str,
-    /// The names of its variables between blanks.
+    /// Its variable names, separated by blanks.
     pub variables: &'static str,
     pub build: fn(&Inputs<'_>) -> Answer,
     pub extras: Option<fn(&Inputs<'_>) -> Extras>,

@@ -65,7 +65,7 @@ pub fn point<S: Space>(v: &Inputs<'_>) -> Result<Point<S>, Box<dyn std::error::E
     Ok(Point::from(v.these::<3>("x y z")?))
 }
 
-/// A point after the divide, or one of its coordinates.
+/// A point after the division, or one of its coordinates.
 pub fn divided<S: Space>(point: HPoint<S>, coordinate: Option<usize>) -> Answer {
     let place = <[f64; 3]>::from(point.divide().ok_or("w = 0")?);
     match coordinate {

@@ -45,7 +45,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry::new("HL-1.t", SEGMENT, crossing),
 ];
 
-/// `M_per`: its w is negative before the eye, as in the chapter.
+/// `M_per`: its w is negative in front of the eye, as in the chapter.
 fn perspective(v: &Inputs<'_>) -> Result<Projective<View, Clip>, Box<dyn Error>> {
     volume(v, chapter::m_per)
 }
@@ -85,7 +85,7 @@ fn unprojector(v: &Inputs<'_>) -> Result<Unprojector<World>, Box<dyn Error>> {
     Ok(screen(v)?.unprojector(clip_to_world))
 }
 
-/// The unprojected places on the near and on the far plane, which are at depth 1 and −1.
+/// The unprojected points on the near and the far plane, which are at depth 1 and −1.
 fn ray_extras(v: &Inputs<'_>) -> Extras {
     let [x, y] = v.these("x_s y_s")?;
     let unprojector = unprojector(v)?;

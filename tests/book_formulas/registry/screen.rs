@@ -49,7 +49,7 @@ pub const ENTRIES: &[Entry] = &[
         give(grid.xz(0, pixels(j)? as usize).ok_or("j is beyond the last column")?[1])
     }),
     Entry::new("RA-1.edge", EDGE, edge),
-    // The rasterizer keeps weights in f32; the exact ones are ratios of areas.
+    // The rasterizer keeps weights in f32; the exact weights are ratios of areas.
     Entry::new("RA-1.weight", "x_0 y_0 x_1 y_1 x_2 y_2 x y", |v| {
         give(edges(v)?.map(|edge| edge / corners(v).map_or(f64::NAN, area)))
     })
@@ -70,7 +70,7 @@ pub const ENTRIES: &[Entry] = &[
     }),
 ];
 
-/// A whole number above or at 0: of pixels, of rows.
+/// A whole number of pixels or rows, at least 0.
 pub fn pixels(number: f64) -> Result<u32, String> {
     let whole = (0..=16384).find(|&whole: &u32| f64::from(whole) == number);
     whole.ok_or_else(|| format!("{number} is no number of pixels"))
@@ -133,7 +133,7 @@ fn corners(v: &Inputs<'_>) -> Result<[ScreenVertex; 3], Box<dyn Error>> {
     Ok([vertex(x_0, y_0)?, vertex(x_1, y_1)?, vertex(x_2, y_2)?])
 }
 
-/// The edge functions at (x, y), each of the edge opposite to its vertex.
+/// The edge functions at (x, y), each for the edge opposite its vertex.
 fn edges(v: &Inputs<'_>) -> Result<[f64; 3], Box<dyn Error>> {
     let ([a, b, c], [x, y]) = (corners(v)?, v.these("x y")?);
     let sample = vertex(x, y)?;

@@ -32,7 +32,7 @@ pub fn calibrated(bytes: &[u8]) {
     drawn(kind, quaternion, translation, &mut numbers);
 }
 
-/// A lens: its matrix and the inverse have finite numbers, and the matrix has the lens.
+/// A lens: its matrix and the inverse are finite, and the matrix gives the same lens again.
 fn lens(numbers: &mut Numbers<'_>, size: [u32; 2]) {
     let [fx, fy, cx] = triple(numbers);
     let [cy, skew, near] = triple(numbers);
@@ -52,7 +52,8 @@ fn lens(numbers: &mut Numbers<'_>, size: [u32; 2]) {
     }
 }
 
-/// A camera that is made has an eye, a rotation, and the same numbers by way of its matrix.
+/// A valid camera has an eye, a rotation, and the same numbers after a round trip through its
+/// matrix.
 fn check_place(place: Result<Extrinsics, camera::CameraError>) {
     let place = match place {
         Ok(place) => place,
@@ -98,7 +99,7 @@ fn triple(numbers: &mut Numbers<'_>) -> [f64; 3] {
     [(); 3].map(|()| number(numbers))
 }
 
-/// A number: any 64 bits, or one of usual size.
+/// A number: any 64 bits, or one of ordinary size.
 fn number(numbers: &mut Numbers<'_>) -> f64 {
     match numbers.byte() % 8 {
         0 => f64::from_le_bytes(numbers.take()),

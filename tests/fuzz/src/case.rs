@@ -1,4 +1,4 @@
-//! One case: work that must end soon, without a panic, and in little memory.
+//! One case: work that must end soon, without a panic, and with little memory.
 
 use nix::sys::resource::{UsageWho, getrusage};
 use peak_alloc::PeakAlloc;
@@ -7,17 +7,17 @@ use std::time::{Duration, Instant};
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// So much memory a case may take beyond what the fuzzer itself holds.
+/// The memory a case may take beyond what the fuzzer itself holds.
 const MOST_BYTES: usize = 200 << 20;
 
-/// So much time a case may take of the processors.
+/// The processor time a case may take.
 const LONGEST: Duration = Duration::from_secs(1);
 
 /// Does the work of a case.
 ///
 /// # Panics
-/// If it takes too much memory or too long. Time counts only if it is the processors', for a busy
-/// machine is no fault of the case: slow work is done again to measure that.
+/// If it takes too much memory or too long. Only processor time counts, because a busy machine is
+/// not the fault of the case: slow work is repeated to measure it.
 pub fn run(work: impl Fn()) {
     MEMORY.reset_peak_usage();
     let before = MEMORY.current_usage();

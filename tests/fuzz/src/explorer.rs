@@ -3,10 +3,10 @@
 use explorer::Explorer;
 use std::cell::RefCell;
 
-/// The most pixels of a picture: pictures of any size are the subject of other targets.
+/// The maximum number of pixels in a picture; other targets cover all sizes.
 const MOST_PIXELS: u64 = 64 * 48;
 
-/// The models of the lessons.
+/// The models in the lessons.
 const MODELS: [(&str, &[u8]); 6] = [
     ("models/house.glb", include_bytes!("../../../scenes/models/house.glb")),
     ("models/crate.glb", include_bytes!("../../../scenes/models/crate.glb")),
@@ -17,7 +17,7 @@ const MODELS: [(&str, &[u8]); 6] = [
 ];
 
 thread_local! {
-    /// As in the program, one for all requests: an error must leave it as it was.
+    /// One for all requests, as in the program: an error must leave it unchanged.
     static EXPLORER: RefCell<Explorer> = RefCell::new(with_models());
 }
 
@@ -30,7 +30,7 @@ fn with_models() -> Explorer {
     explorer
 }
 
-/// A query, answered twice: the answers are the same.
+/// A query, answered twice: the answers must be equal.
 pub fn query(bytes: &[u8]) {
     let Ok(query) = std::str::from_utf8(bytes) else { return };
     let query = match pixels(query) {

@@ -1,12 +1,12 @@
-//! Binary glTF files: taken apart where a mutation has spoilt their lengths, and put together.
+//! Binary glTF files: taken apart even if a mutation has corrupted their lengths, and put together.
 
 #[path = "../../../scenes/generator/src/glb.rs"]
 mod write;
 
 pub use write::encode_glb as glb;
 
-/// The JSON and the binary chunk of a file, or of a JSON text alone. Declared lengths are not
-/// believed: the second chunk is where its name is.
+/// The JSON and the binary chunk of a file, or of a bare JSON text. Declared lengths are not
+/// trusted: the second chunk is where its name is.
 pub fn parts(file: &[u8]) -> (&[u8], &[u8]) {
     if !file.starts_with(b"glTF") || file.len() < 20 {
         return (file, &[]);

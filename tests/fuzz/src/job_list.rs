@@ -1,4 +1,4 @@
-//! Lists of jobs for `alberti batch`: read, with every picture's name and flags, and nothing rendered.
+//! Job lists for `alberti batch`: read with every picture's name and flags; nothing is rendered.
 
 use std::fs;
 use std::path::PathBuf;
@@ -13,7 +13,7 @@ static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
     folder
 });
 
-/// A list, which `--verify` reads to its end: CSV if the first byte is odd, else JSON lines.
+/// A list, which `--verify` reads to its end: CSV if the first byte is odd, otherwise JSON lines.
 pub fn list(bytes: &[u8]) {
     let Some((&kind, list)) = bytes.split_first() else { return };
     let name = ["jobs.jsonl", "jobs.csv"][usize::from(kind % 2)];
@@ -22,7 +22,7 @@ pub fn list(bytes: &[u8]) {
     assert!(written.is_ok(), "{}: {written:?}", path.display());
     let words = ["alberti", "batch", "--verify", "--list"].map(Into::into);
     let words = words.into_iter().chain([path.into(), "--out".into(), FOLDER.join("out").into()]);
-    // No list is whole: nothing was rendered.
+    // No list is complete: nothing was rendered.
     let code = alberti::run(words);
     assert!(code == 1 || code == 0 && !has_jobs(list), "`batch --verify` ends with {code}");
 }

@@ -1,4 +1,4 @@
-//! What the fuzz targets do with their bytes; the targets themselves only hand them over.
+//! The work of the fuzz targets; the targets themselves only pass on their bytes.
 //!
 //! ```text
 //!  model ───────────────────────► a whole .glb or .gltf ─┐
@@ -12,7 +12,7 @@
 //!  raster ──────────────────────► triangles, lines and points, drawn whole, in parts, by all instructions
 //! ```
 //!
-//! A case fails by a panic, by a broken promise, by more than a second or by more than 200 MB; see
+//! A case fails by a panic, a broken promise, more than a second, or more than 200 MB; see
 //! [`case`].
 
 pub mod camera;

@@ -1,4 +1,5 @@
-//! A model from bytes: loaded, held to its promises, posed, drawn from a few sides and encoded.
+//! A model from bytes: loaded, checked against its promises, posed, drawn from a few sides,
+//! encoded.
 
 use crate::{glb, promises};
 use homog::Affine;
@@ -24,7 +25,7 @@ fn limits() -> Limits {
     }
 }
 
-/// A file, as it is, leniently, and with its lengths mended; what is wrong with it is told as well.
+/// A file: as it is, leniently, and with corrected lengths. It is also checked for errors.
 pub fn file(bytes: &[u8]) {
     let loaded = load(bytes, ImportOptions::default());
     let has_variants = loaded.as_ref().is_ok_and(|model| !model.variants.is_empty());
@@ -56,7 +57,7 @@ fn load(bytes: &[u8], options: ImportOptions) -> Result<Model, ImportError> {
     load_bytes("model.glb", bytes, &ImportOptions { limits: limits(), ..options })
 }
 
-/// A file in another format than glTF, whose `name` stands for the format: as it is, and leniently.
+/// A file in a format other than glTF, which `name` selects: as it is, and leniently.
 pub fn mesh(name: &str, bytes: &[u8]) {
     let load = |lenient| {
         let options = ImportOptions { limits: limits(), lenient, ..ImportOptions::default() };
@@ -72,7 +73,7 @@ pub fn mesh(name: &str, bytes: &[u8]) {
     show(loaded);
 }
 
-/// A material library whose first materials a few triangles have.
+/// A material library whose first materials are used by a few triangles.
 pub fn material_library(bytes: &[u8]) {
     let escaped: String = bytes.iter().map(|byte| format!("%{byte:02X}")).collect();
     let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n";
@@ -87,13 +88,13 @@ pub fn material_library(bytes: &[u8]) {
     mesh("model.obj", &file);
 }
 
-/// A file that is loaded and held to its promises, and not drawn: what comes of a decoder's bytes
-/// is known then.
+/// A file that is loaded and checked against its promises but not drawn: a decoder's output is
+/// known by then.
 pub fn loaded(bytes: &[u8]) {
     checked(load(bytes, ImportOptions::default()));
 }
 
-/// The model, if there is one; else an error that a person could read.
+/// The model if there is one; otherwise an error that a person can read.
 fn checked(loaded: Result<Model, ImportError>) -> Option<Model> {
     let problem = match &loaded {
         Ok(model) => promises::check_model(model).err(),
@@ -103,7 +104,7 @@ fn checked(loaded: Result<Model, ImportError>) -> Option<Model> {
     loaded.ok()
 }
 
-/// What a person would do with the outcome: read the error, or look at the model.
+/// Does what a person would do with the outcome: reads the error, or looks at the model.
 fn show(loaded: Result<Model, ImportError>) {
     let Some(mut model) = checked(loaded) else { return };
     draw(&model, StyleFile::Shaded, ViewFile::DEFAULT);

@@ -1,4 +1,4 @@
-//! Variations of a glTF file that keep it JSON: bytes changed at random hardly ever do.
+//! Variations of a glTF file that remain valid JSON, which random byte changes hardly ever do.
 
 use crate::glb;
 use serde_json::{Value, json};
@@ -20,7 +20,7 @@ impl Random {
     }
 }
 
-/// A variation of the file's JSON, its data as they are; `None` if the bytes had better be changed.
+/// A variation of the file's JSON with its data unchanged; `None` if it is better to change bytes.
 pub fn file(file: &[u8], seed: u32) -> Option<Vec<u8>> {
     let mut random = Random(seed.into());
     if random.below(4) == 0 {
@@ -36,7 +36,7 @@ pub fn file(file: &[u8], seed: u32) -> Option<Vec<u8>> {
     Some(if is_binary { glb::glb(text.as_bytes(), binary) } else { text.into_bytes() })
 }
 
-/// How many values there are, the value itself included.
+/// The number of values, including the value itself.
 fn size(value: &Value) -> usize {
     1 + match value {
         Value::Array(elements) => elements.iter().map(size).sum(),
@@ -66,7 +66,7 @@ fn nth(value: &mut Value, mut number: usize) -> Option<&mut Value> {
     None
 }
 
-/// Changes one value, or takes one away, or puts one in.
+/// Changes, removes or inserts one value.
 fn change(document: &mut Value, random: &mut Random) {
     let count = size(document);
     let other = nth(document, random.below(count)).map(|value| value.clone());
@@ -96,7 +96,7 @@ fn change(document: &mut Value, random: &mut Random) {
     }
 }
 
-/// A number beside another one.
+/// A number near another one.
 fn near(number: &Value, random: &mut Random) -> Value {
     let step = [1i64, -1, 2, 4, 100][random.below(5)];
     match (number.as_i64(), number.as_f64()) {
@@ -137,7 +137,7 @@ const COMPONENTS: [u32; 16] = [
     34962,
 ];
 
-/// The words of the dictionary, which the fuzzer has for its own variations as well.
+/// The words of the dictionary, which the fuzzer also uses for its own variations.
 static WORDS: LazyLock<Vec<&str>> = LazyLock::new(|| {
     let lines = include_str!("../gltf.dict").lines();
     lines.filter_map(|line| line.strip_prefix('"')?.strip_suffix('"')).collect()

@@ -1,6 +1,6 @@
 //! The fuzzer's bytes as numbers.
 
-/// The bytes that are left; zeros after their end.
+/// The remaining bytes, with zeros after their end.
 pub struct Numbers<'a>(pub &'a [u8]);
 
 impl Numbers<'_> {

@@ -1,13 +1,12 @@
-//! Any triangles, lines and points: drawn whole, in two parts and at every SIMD level,
-//! they are the same.
+//! Any triangles, lines and points: drawn whole, in two parts and at every SIMD level, they give
+//! the same picture.
 
 use crate::numbers::Numbers;
 use homog::{PixelRect, Point};
 use raster::{Frame, Opacity, Samples, ScreenVertex, SimdLevel, VisibilityBuffer};
 
 impl Numbers<'_> {
-    /// A coordinate: any 64 bits, or one of the picture's neighbourhood on the grid or between its
-    /// steps.
+    /// A coordinate: any 64 bits, or one near the picture, on the grid or between its steps.
     fn number(&mut self) -> f64 {
         match self.byte() % 8 {
             0 => f64::from_le_bytes(self.take()),
@@ -93,7 +92,7 @@ fn same(a: &VisibilityBuffer, b: &VisibilityBuffer) -> bool {
     a.ids == b.ids && bits(a) == bits(b)
 }
 
-/// The parts, side by side, are the whole.
+/// The parts, side by side, are equal to the whole.
 fn check_parts(whole: &VisibilityBuffer, parts: &[Frame], [split, width]: [u32; 2]) {
     let mut left = 0;
     for frame in parts {

@@ -1,4 +1,4 @@
-//! The text of a scene: parsed, resolved with a model that is there, and drawn by one thread and by
+//! The text of a scene: parsed, resolved with an existing model, and drawn with one thread and with
 //! two.
 
 use scene_file::parse_scene;
@@ -28,7 +28,8 @@ pub fn text(bytes: &[u8]) {
     resolve_and_draw(&Origin::from_text("scene.ron", text, FOLDER.into()), &file);
 }
 
-/// Resolves a scene, which may fail with a message, and draws it small, by one thread and by two.
+/// Resolves a scene, which may fail with a message, and draws it small with one thread and with
+/// two.
 pub fn resolve_and_draw(origin: &Origin, file: &SceneFile) {
     let mut scene = match Scene::resolve(origin, file, &Default::default()) {
         Ok(scene) => scene,

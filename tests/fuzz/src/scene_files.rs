@@ -1,6 +1,6 @@
 //! Scenes that read other files: included scenes, images behind a scene, environments.
 //!
-//! The files are in a folder of this process, beside a model.
+//! The files are in a folder of this process, next to a model.
 
 use crate::scene::resolve_and_draw;
 use pipeline::Origin;
@@ -11,10 +11,10 @@ use std::sync::LazyLock;
 /// A small model with several materials.
 const MODEL: &[u8] = include_bytes!("../../../scenes/models/crate.glb");
 
-/// What separates the files of a case.
+/// The separator between the files in a case.
 const SEPARATOR: &str = "\n====\n";
 
-/// The files of a scene, the first of which is the scene: the others are there to be included.
+/// The files in a case: the first is the scene, the others can be included.
 const FILES: [&str; 4] = ["scene.ron", "a.ron", "b.ron", "sub/c.ron"];
 
 static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
@@ -26,7 +26,7 @@ static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
 });
 
 /// # Panics
-/// If the system's folder of temporary files cannot be written: then nothing can be tested.
+/// If the system's temporary folder is not writable, because then nothing can be tested.
 fn write_file(path: &Path, bytes: &[u8]) {
     let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
     let written = folder.and_then(|()| fs::write(path, bytes));
@@ -38,12 +38,12 @@ pub fn included(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     let mut parts = text.splitn(FILES.len(), SEPARATOR);
     for name in FILES {
-        // What is left of the case before would make it another one.
+        // Leftovers from the previous case would change this one.
         write_file(&FOLDER.join(name), parts.next().unwrap_or_default().as_bytes());
     }
     match Origin::read_scene(&FOLDER.join(FILES[0])) {
         Ok((origin, mut file)) => {
-            // Models are the subject of other targets.
+            // Other targets cover models.
             file.models.truncate(2);
             resolve_and_draw(&origin, &file);
         }
@@ -51,7 +51,7 @@ pub fn included(bytes: &[u8]) {
     }
 }
 
-/// An image behind a scene; the first byte says how it fills the picture.
+/// An image behind a scene; the first byte selects how it fills the picture.
 pub fn background(bytes: &[u8]) {
     let Some((&kind, image)) = bytes.split_first() else { return };
     let fit = ["Cover", "Contain", "Stretch"][usize::from(kind % 3)];
@@ -59,7 +59,7 @@ pub fn background(bytes: &[u8]) {
     with_file("image", image, &background);
 }
 
-/// A Radiance image around a scene; the first byte turns it.
+/// A Radiance image around a scene; the first byte rotates it.
 pub fn environment(bytes: &[u8]) {
     let Some((&turn, image)) = bytes.split_first() else { return };
     let environment = format!(
@@ -69,7 +69,7 @@ pub fn environment(bytes: &[u8]) {
     with_file("sky.hdr", image, &environment);
 }
 
-/// A scene with further fields, one of which reads a file.
+/// A scene with more fields, one of which reads a file.
 fn with_file(name: &str, bytes: &[u8], fields: &str) {
     write_file(&FOLDER.join(name), bytes);
     let text = format!("Scene(models: [Model(path: \"crate.glb\")], {fields})");

@@ -1,13 +1,13 @@
-//! Compressed geometry and images: a model is made around the bytes, so that they reach their
+//! Compressed geometry and images: a model is built around the bytes, so that they reach their
 //! decoder.
 //!
-//! The first bytes say what the JSON says of the rest, so that the fuzzer can bring the two to
+//! The first bytes set what the JSON says about the rest, so that the fuzzer can make the two
 //! agree.
 
 use crate::{glb, model};
 use serde_json::{Value, json};
 
-/// A buffer view compressed by meshopt, used as what its mode makes of it.
+/// A buffer view compressed by meshopt, used in the way that suits its mode.
 ///
 /// | byte | means |
 /// | --- | --- |
@@ -73,7 +73,7 @@ pub fn meshopt(bytes: &[u8]) {
 /// | 0, 1 | count of vertices |
 /// | 2, 3 | count of faces |
 /// | 4 | the stream's number of the positions, and in its high half of the normals |
-/// | 5 | the same of the texture coordinates and the colours |
+/// | 5 | the same of the texture coordinates and the colors |
 /// | 6… | the stream |
 pub fn draco(bytes: &[u8]) {
     let Some((&[v0, v1, f0, f1, ids, more], stream)) = bytes.split_first_chunk() else { return };
@@ -105,7 +105,7 @@ pub fn draco(bytes: &[u8]) {
     model::loaded(&whole(document, stream));
 }
 
-/// An image as the texture of a triangle; the first byte says what it claims to be.
+/// An image as the texture of a triangle; the first byte selects its declared type.
 pub fn image(bytes: &[u8]) {
     let Some((&kind, file)) = bytes.split_first() else { return };
     let (mime, extension) = match kind % 5 {
@@ -146,7 +146,7 @@ pub fn image(bytes: &[u8]) {
 const CORNERS: &str =
     "data:application/octet-stream;base64,AAECAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAA==";
 
-/// The file of a document that lacks its commonplaces.
+/// The file for a document without the boilerplate.
 fn whole(mut document: Value, bytes: &[u8]) -> Vec<u8> {
     document["asset"] = json!({"version": "2.0"});
     document["scene"] = json!(0);

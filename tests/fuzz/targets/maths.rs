@@ -1,5 +1,5 @@
-//! Any numbers for any function of the five crates of mathematics: the calls of `tests/soak`, whose
-//! arguments here come from the fuzzer's bytes.
+//! Any numbers for any function of the five math crates: the calls of `tests/soak`, with arguments
+//! from the fuzzer's bytes.
 #![no_main]
 
 #[path = "maths/bits.rs"]

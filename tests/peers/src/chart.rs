@@ -1,4 +1,4 @@
-//! The chart: for each scene a bar for each contestant, as long as the logarithm of its time over
+//! The chart: for each scene one bar per contestant, as long as the logarithm of its time over
 //! ours.
 
 use crate::contest::Heat;
@@ -7,7 +7,7 @@ use crate::report::Figures;
 use std::fmt::Write as _;
 
 const WIDTH: f64 = 900.0;
-/// Where bars begin, and where the longest ends.
+/// The start of the bars, and the end of the longest.
 const LEFT: f64 = 150.0;
 const RIGHT: f64 = 820.0;
 const ROW: f64 = 18.0;
@@ -34,7 +34,7 @@ pub fn svg(figures: &Figures) -> String {
     text + "</svg>\n"
 }
 
-/// The place of a ratio on the scale.
+/// The position of a ratio on the scale.
 fn place(ratio: f64) -> f64 {
     let share = libm::log2(ratio.clamp(LEAST, MOST) / LEAST) / libm::log2(MOST / LEAST);
     LEFT + share * (RIGHT - LEFT)

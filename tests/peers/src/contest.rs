@@ -1,4 +1,4 @@
-//! The contests: each scene drawn by everybody who can, then the limits, then threads.
+//! The contests: each scene drawn by every contestant that can, then the limits, then threads.
 
 use crate::clock::{Took, timed};
 use crate::gl::Context;
@@ -10,16 +10,16 @@ use crate::scene::{Order, Scene, assets, floor, helmet, layers, sphere};
 use raster::Samples;
 use std::rc::Rc;
 
-/// What is to be measured.
+/// The measurements to make.
 pub struct Options {
-    /// How often everybody runs.
+    /// The number of rounds.
     pub rounds: usize,
-    /// Parts of the names of what is to be measured; all if empty.
+    /// Parts of the names to measure; all if empty.
     pub only: Vec<String>,
 }
 
 impl Options {
-    /// Whether something with this name is to be measured.
+    /// Whether to measure something with this name.
     pub fn wants(&self, name: &str) -> bool {
         self.only.is_empty() || self.only.iter().any(|part| name.contains(part.as_str()))
     }
@@ -29,21 +29,21 @@ impl Options {
 pub struct Heat {
     /// The scene's name.
     pub scene: &'static str,
-    /// What it is.
+    /// A description of the scene.
     pub about: String,
-    /// Everybody's times, ours first.
+    /// The times of all contestants, ours first.
     pub series: Vec<Series>,
-    /// How far our picture is from each other peer's.
+    /// The distances of our picture from the peers' pictures.
     pub agreements: Vec<Agreement>,
 }
 
-/// How far two pictures are apart.
+/// The distance between two pictures.
 pub struct Agreement {
-    /// Whose picture was compared with ours.
+    /// The peer whose picture was compared with ours.
     pub peer: String,
-    /// Pixels that one drew and the other did not.
+    /// Pixels that only one of the two drew.
     pub coverage: usize,
-    /// Pixels both drew whose colours differ by more than 3 of 255.
+    /// Pixels both drew whose colors differ by more than 3 of 255.
     pub color: usize,
     /// Pixels we drew.
     pub drawn: usize,
@@ -64,15 +64,15 @@ const SCENES: [Recipe; 9] = [
     ("layers-back-to-front-textured", |name| layers(name, 50, Order::BackToFront, true)),
     ("layers-front-to-back-textured", |name| layers(name, 50, Order::FrontToBack, true)),
     ("floor", floor),
-    // As `sphere-1m` for a rasteriser that leaves no backs out.
+    // Like `sphere-1m`, for a rasterizer that does not cull back faces.
     ("sphere-1m-both-sides", |name| sphere(name, 500, true)),
 ];
 
-/// Scenes that are drawn with four samples too: those with edges.
+/// Scenes that are also drawn with four samples: those with edges.
 const WITH_SAMPLES: [&str; 4] = ["sphere-1m", "helmet", "layers-back-to-front-flat", "floor"];
 
-/// Draws the scenes, one after the other, and prints each table; what cannot be drawn is said there
-/// too.
+/// Draws the scenes one after the other and prints each table, with a note if something cannot be
+/// drawn.
 pub fn scenes(gl: Option<&Rc<Context>>, options: &Options) -> Result<Vec<Heat>, String> {
     let mut heats = Vec::new();
     for (name, make) in SCENES {
@@ -106,7 +106,7 @@ fn heat(scene: &Scene, gl: Option<&Rc<Context>>, count: usize) -> Result<Heat, S
     Ok(Heat { scene: scene.name, about: scene.about.clone(), series, agreements })
 }
 
-/// Everybody who can draw the scene.
+/// All contestants that can draw the scene.
 fn peers<'a>(
     scene: &'a Scene,
     gl: Option<&Rc<Context>>,
@@ -118,7 +118,7 @@ fn peers<'a>(
     if let Some(gl) = gl {
         peers.push(Box::new(Llvmpipe::new(gl, scene, 1)?));
     }
-    // euc does not clip: what is behind the eye would be drawn as well.
+    // euc does not clip: it would also draw things behind the eye.
     if !scene.behind_the_eye {
         peers.push(Box::new(Euc::new(scene)));
     }
@@ -133,7 +133,7 @@ fn peers<'a>(
     Ok(peers)
 }
 
-/// Draws one scene over and over, by the crate alone or by the whole pipeline.
+/// Draws one scene repeatedly, with only the crate or with the whole pipeline.
 pub fn repeat(name: &str, frames: usize, whole: bool, samples: u32) -> Result<(), String> {
     let known = SCENES.iter().find(|(known, _)| *known == name);
     let (name, make) = known.ok_or_else(|| format!("there is no scene `{name}`"))?;
@@ -162,8 +162,8 @@ fn agreement(peer: String, ours: &[[u8; 4]], theirs: &[[u8; 4]]) -> Agreement {
     found
 }
 
-/// The limits, and beside them in the same rounds the scenes that are held to them. The first
-/// kernel is called `kernel`, the others bear the names of their instructions.
+/// The limits, measured in the same rounds as the scenes that are compared with them. The first
+/// kernel is called `kernel`; the others are named after their instructions.
 pub fn bounds(count: usize) -> Result<Vec<Series>, String> {
     eprintln!("limits: clearing, the innermost loop, layers");
     let back = layers("back to front, flat", 50, Order::BackToFront, false)?;
@@ -191,9 +191,9 @@ pub fn bounds(count: usize) -> Result<Vec<Series>, String> {
     Ok(rounds(&mut contestants, count))
 }
 
-/// What a second thread brings to a scene.
+/// The gain from a second thread in a scene.
 pub struct Threads {
-    /// Whose frame: the crate's alone, or that of the whole program.
+    /// The owner of the frame: only the crate, or the whole program.
     pub peer: &'static str,
     /// The scene's name.
     pub scene: &'static str,
@@ -202,17 +202,17 @@ pub struct Threads {
     pub wall: Option<Spread>,
     /// CPU time over wall time with two threads, in all rounds.
     pub parallel: Option<Spread>,
-    /// The rounds that counted.
+    /// The number of rounds that counted.
     pub counted: usize,
-    /// Whether the picture was the same.
+    /// Whether the pictures were equal.
     pub same: bool,
 }
 
-/// A single thread that got less of the wall's time than this was disturbed, and its round does not
+/// A single thread that got less of the wall time than this was disturbed, and its round does not
 /// count.
 const ALONE: f64 = 0.97;
 
-/// One and two threads by turns.
+/// One and two threads in turn.
 pub fn threads(options: &Options) -> Result<Vec<Threads>, String> {
     let mut found = Vec::new();
     for (name, make) in [SCENES[0], SCENES[2], SCENES[3]] {

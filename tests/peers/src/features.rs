@@ -1,8 +1,8 @@
-//! What each feature of the shading costs: the flight helmet at 1080p, lit by the studio, and the
-//! same with one thing more or less.
+//! The cost of each shading feature: the flight helmet at 1080p, lit by the studio, and the same
+//! picture with one thing more or less.
 //!
-//! One scene a feature, all rendered in this process by one thread, by turns; the base is the
-//! program's usual picture: four samples, every map of the materials, an environment, no shadows.
+//! There is one scene per feature, all rendered in this process with one thread, in turn. The base
+//! is the program's usual picture: four samples, every material map, an environment, no shadows.
 
 use crate::measure::{Contestant, Series, rounds};
 use model::{Anisotropy, Clearcoat, Iridescence, MaterialExtensions, Sheen, Transmission, Volume};
@@ -12,11 +12,10 @@ use scene_file::parse_scene;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The name of the base, which the others are compared with.
+/// The name of the base, to which the others are compared.
 pub const BASE: &str = "usual picture";
 
-/// Each feature with what of the scene is other than in the base: lights and the like, fields of
-/// the image, and materials.
+/// Each feature with its changes to the base: lights and the like, image fields, and materials.
 const FEATURES: [(&str, &str, &str, Change); 19] = [
     (BASE, "", "", AS_IT_IS),
     ("flat style", "style: Flat", "", AS_IT_IS),
@@ -55,7 +54,7 @@ const FEATURES: [(&str, &str, &str, Change); 19] = [
     }),
 ];
 
-/// What is changed of every material.
+/// The changes to every material.
 type Change = fn(&mut MaterialExtensions);
 
 const AS_IT_IS: Change = |_| {};
@@ -73,7 +72,7 @@ const TINT: Volume = Volume {
     attenuation_color: [0.3, 0.8, 0.6],
 };
 
-/// Draws every feature in each round; the times, the base's first.
+/// Draws every feature in each round; returns the times, the base's first.
 pub fn features(models: &Path, count: usize) -> Result<Vec<Series>, String> {
     eprintln!("features: FlightHelmet");
     let folder = models.join("flight-helmet");
@@ -100,9 +99,9 @@ fn scene(fields: &str, image: &str, folder: &Path) -> Result<Scene, String> {
     Scene::resolve(&origin, &file, &ResolveOptions::default()).map_err(|error| error.to_string())
 }
 
-/// Renders the scene again and again, in the memory of the first time.
+/// Renders the scene repeatedly, reusing the memory of the first time.
 fn frames(scene: Scene) -> Result<Box<dyn FnMut()>, String> {
-    // As long as the process: there are few.
+    // They live as long as the process: there are few.
     let scene: &'static Scene = Box::leak(Box::new(scene));
     let textures = Textures::for_models(&scene.models);
     let mut renderer = Renderer::default();
@@ -110,7 +109,7 @@ fn frames(scene: Scene) -> Result<Box<dyn FnMut()>, String> {
     let context = RenderContext::new(scene, &textures, 1);
     renderer.render(&context, &mut picture).map_err(|e| e.to_string())?;
     Ok(Box::new(move || {
-        // It could be rendered just before.
+        // It was rendered a moment ago.
         let context = RenderContext::new(scene, &textures, 1);
         let _ = renderer.render(&context, &mut picture);
     }))

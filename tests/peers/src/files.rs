@@ -1,9 +1,9 @@
-//! From a file to a PNG with the real programs: `alberti render` and, where it is installed, f3d
-//! under a virtual display.
+//! From a file to a PNG with the real programs: `alberti render` and, if installed, f3d on a
+//! virtual display.
 //!
-//! Each run is a process of its own. Its CPU time and peak memory come from the system's account of
-//! ended children; a child's peak counts the moment before it became the program, when it was a
-//! copy of its parent, so the parent is a small process of its own too: this program with the
+//! Each run is a separate process. Its CPU time and peak memory come from the system's account of
+//! ended children. A child's peak includes the moment before it became the program, when it was a
+//! copy of its parent. Therefore the parent is another small process: this program with the
 //! argument `cost`.
 
 use crate::clock::children;
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Instant;
 
-/// The models, by their paths below `models`.
+/// The models, by path below `models`.
 const MODELS: [&str; 6] = [
     "flight-helmet/FlightHelmet.gltf",
     "cave/cave.glb",
@@ -36,7 +36,7 @@ pub struct FileHeat {
     pub peak: Vec<Option<Spread>>,
 }
 
-/// A program that makes pictures of files.
+/// A program that renders files.
 struct Viewer {
     name: &'static str,
     program: PathBuf,
@@ -50,7 +50,7 @@ struct Display {
 }
 
 impl Display {
-    /// Starts Xvfb on a number that is free.
+    /// Starts Xvfb on a free display number.
     fn open() -> Option<Self> {
         let mut command = Command::new("Xvfb");
         command.args(["-displayfd", "1", "-screen", "0", "1920x1080x24"]);
@@ -70,8 +70,8 @@ impl Drop for Display {
     }
 }
 
-/// Draws each model with each program, `count` times by turns, after one run for warming up, and
-/// prints the tables.
+/// Draws each model with each program `count` times in turn, after one warm-up run, and prints the
+/// tables.
 pub fn files(
     alberti: &Path,
     models: &Path,
@@ -103,7 +103,7 @@ fn f3d() -> Result<Viewer, String> {
     Ok(Viewer { name: "f3d", program, display: Some(display) })
 }
 
-/// The first line of what f3d says of itself.
+/// The first line of f3d's description of itself.
 pub fn f3d_version() -> Option<String> {
     let output = Command::new("f3d").arg("--version").output().ok()?;
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -161,7 +161,7 @@ impl Viewer {
     }
 }
 
-/// Runs a command and prints what it took: CPU seconds, wall seconds, peak bytes.
+/// Runs a command and prints its cost: CPU seconds, wall seconds, peak bytes.
 pub fn cost(arguments: &[String]) -> Result<(), String> {
     let [program, arguments @ ..] = arguments else { return Err("cost of what?".into()) };
     let start = Instant::now();

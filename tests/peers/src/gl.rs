@@ -1,15 +1,15 @@
-//! Mesa's software OpenGL, found at run time: the one module that calls foreign code.
+//! Mesa's software OpenGL, found at run time: the only module that calls foreign code.
 //!
 //! Every call goes through a pointer that was looked up by name in the library and has the type
-//! that the OpenGL 3.0 and OSMesa headers give it. The calls are sound because
+//! given by the OpenGL 3.0 and OSMesa headers. The calls are sound because
 //!
-//! - the library stays loaded as long as the process: its handle is leaked;
+//! - the library stays loaded as long as the process lives: its handle is leaked;
 //! - a context is current on the thread that made it, and [`Context`] cannot leave that thread (it
 //!   holds raw pointers);
-//! - what is read through a pointer during a call is a slice that outlives the call, with its own
-//!   length; what OpenGL keeps, it copies (`glBufferData`, `glTexImage2D`, `glShaderSource`),
+//! - data read through a pointer during a call is a slice that outlives the call, with its own
+//!   length; OpenGL copies the data it keeps (`glBufferData`, `glTexImage2D`, `glShaderSource`),
 //!   except for OSMesa's own picture, which the context owns;
-//! - what is written goes to buffers of the size that the call's arguments say;
+//! - data is written only to buffers of the size that the call's arguments state;
 //! - draw calls read buffers by indices that were checked against the number of vertices.
 #![allow(unsafe_code)]
 
@@ -25,7 +25,7 @@ use std::ptr::{null, null_mut};
 /// The library's names, the newest first.
 const NAMES: [&str; 2] = ["libOSMesa.so.8", "libOSMesa.so.6"];
 
-/// Declares a table of functions and how to look them up.
+/// Declares a table of functions, with their lookup.
 macro_rules! functions {
     ($($field:ident = $symbol:literal ($($argument:ty),*) $(-> $result:ty)?;)*) => {
         struct Functions { $($field: unsafe extern "C" fn($($argument),*) $(-> $result)?),* }
@@ -92,7 +92,7 @@ functions! {
 /// An OpenGL context that draws in memory, current on this thread.
 pub struct Context {
     gl: Functions,
-    /// OSMesa's own picture; we draw elsewhere, but it must be there as long as the context.
+    /// OSMesa's own picture; we draw elsewhere, but it must exist as long as the context.
     _picture: RefCell<Box<[u32]>>,
     /// Keeps the context on its thread.
     _context: *mut c_void,
@@ -104,7 +104,7 @@ pub struct Framebuffer {
     size: (u32, u32),
 }
 
-/// A pair of shaders, ready for use.
+/// A linked pair of shaders.
 #[derive(Clone, Copy)]
 pub struct Program {
     name: u32,
@@ -133,8 +133,8 @@ pub struct Part {
 impl Context {
     /// Loads the library and makes a context. `None` if the library is not installed.
     pub fn open() -> Result<Option<Self>, String> {
-        // SAFETY: Mesa's initialisers have no demands on the process; the handle is leaked, so
-        // nothing is unloaded.
+        // Mesa's initializers require nothing of the process; the handle is leaked, so nothing is
+        // unloaded.
         let library = NAMES.iter().find_map(|name| unsafe { Library::new(*name) }.ok());
         let Some(library) = library else { return Ok(None) };
         let library: &'static Library = Box::leak(Box::new(library));
@@ -152,7 +152,7 @@ impl Context {
         Ok(Some(Self { gl, _picture: RefCell::new(picture), _context: context }))
     }
 
-    /// What the renderer calls itself, with its version.
+    /// The renderer's name, with its version.
     pub fn renderer(&self) -> String {
         let text = |which| {
             // SAFETY: the result is null or a static string that ends in 0.
@@ -220,8 +220,7 @@ impl Context {
         }
         let (width, height) = (texture.width as c_int, texture.height as c_int);
         let mut created = 0;
-        // SAFETY: one name is written; the texels are as many as width and height say, 4 bytes
-        // each.
+        // One name is written; the texels match width and height, 4 bytes each.
         unsafe {
             (self.gl.gen_textures)(1, &mut created);
             (self.gl.bind_texture)(name::TEXTURE_2D, created);
@@ -293,7 +292,7 @@ impl Context {
         if status == 0 { Err(format!("a shader does not compile:\n{source}")) } else { Ok(shader) }
     }
 
-    /// Begins a frame: clears colour and depth.
+    /// Begins a frame: clears color and depth.
     pub fn begin(&self, target: &Framebuffer) {
         let (width, height) = (target.size.0 as c_int, target.size.1 as c_int);
         // SAFETY: only numbers.
@@ -341,7 +340,7 @@ impl Context {
         }
     }
 
-    /// Puts the mean of each pixel's samples into another picture of the same size.
+    /// Averages each pixel's samples into another picture of the same size.
     pub fn resolve(&self, from: &Framebuffer, to: &Framebuffer) {
         let (w, h) = (to.size.0 as c_int, to.size.1 as c_int);
         // SAFETY: only numbers.

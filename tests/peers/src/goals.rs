@@ -1,13 +1,13 @@
-//! What the figures are held to: the ratios that the rasteriser was built for.
+//! The goals: the ratios that the rasterizer was built for.
 //!
-//! Nothing fails here; the report says what is met.
+//! Nothing fails here; the report lists the goals that are met.
 
 use crate::measure::{Series, Spread};
 use crate::report::Figures;
 
-/// A goal with what was reached.
+/// A goal with its result.
 pub struct Goal {
-    /// What is compared.
+    /// The comparison.
     pub about: String,
     /// Whose figure: `raster`, `render`, `alberti`.
     pub whose: &'static str,
@@ -15,7 +15,7 @@ pub struct Goal {
     pub reached: Spread,
     /// The bound.
     pub wanted: f64,
-    /// Whether the figure is to be at least as large, not at most.
+    /// Whether the figure must be at least as large as the bound, not at most.
     pub at_least: bool,
 }
 
@@ -30,7 +30,7 @@ impl Goal {
     }
 }
 
-/// Scene, peer, and how many times as long the peer is to take.
+/// Scene, peer, and the required time of the peer as a multiple of ours.
 const FASTER: [(&str, &str, f64); 14] = [
     ("sphere-1m", "llvmpipe", 2.2),
     ("sphere-1m", "euc 0.5", 2.2),
@@ -48,10 +48,10 @@ const FASTER: [(&str, &str, f64); 14] = [
     ("layers-front-to-back-textured", "euc 0.5", 3.0),
 ];
 
-/// The models whose CPU time is held to a fifth of f3d's.
+/// The models whose CPU time must be at most a fifth of f3d's.
 const HELD_TO_F3D: [&str; 2] = ["flight-helmet", "cave"];
 
-/// The goals for which there are figures.
+/// The goals that have figures.
 pub fn goals(figures: &Figures) -> Vec<Goal> {
     let mut found = faster(figures);
     found.extend(instructions(figures));
@@ -160,7 +160,7 @@ fn files(figures: &Figures) -> Vec<Goal> {
     found
 }
 
-/// How many times as long the first took as the second.
+/// The first time as a multiple of the second.
 fn over(series: &[Series], first: &str, second: &str) -> Option<Spread> {
     let find = |name: &str| series.iter().find(|series| series.name == name);
     find(first)?.over(find(second)?)

@@ -1,20 +1,20 @@
-//! What the machine can do at best, measured in the same process: filling memory, and the innermost
-//! loop of a rasteriser.
+//! The best that the machine can do, measured in the same process: filling memory, and the
+//! innermost loop of a rasterizer.
 
 use crate::scene::SIZE;
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x8, u32x8};
 use std::hint::black_box;
 
-/// Pixels of a tile: 32 KiB of depth and numbers, which the nearest cache holds.
+/// Pixels in a tile: 32 KiB of depth and numbers, which fit the nearest cache.
 const TILE: usize = 64 * 64;
-/// How often the kernel fills its tile: as many pixels as fifty layers have.
+/// The number of times the kernel fills its tile: as many pixels as fifty layers have.
 pub const KERNEL_PIXELS: usize = 50 * (SIZE.0 * SIZE.1) as usize / TILE * TILE;
 
-/// Pictures between two clearings of the same one: so much memory that no cache holds it.
+/// Pictures between two clears of the same one: too much memory for any cache.
 const PICTURES: usize = 16;
 
-/// Colour and depth of pictures, to be cleared.
+/// Color and depth buffers of pictures, for clearing.
 pub struct Clearing {
     pictures: Vec<(Vec<[u8; 4]>, Vec<f32>)>,
     next: usize,
@@ -22,7 +22,7 @@ pub struct Clearing {
 
 impl Clearing {
     /// Of the size of the scenes' pictures: one that stays in the caches, or many that are cleared
-    /// by turns.
+    /// in turn.
     pub fn new(cached: bool) -> Self {
         let area = (SIZE.0 * SIZE.1) as usize;
         let picture = || (vec![[1; 4]; area], vec![1.0; area]);
@@ -30,7 +30,7 @@ impl Clearing {
         Self { pictures: (0..count).map(|_| picture()).collect(), next: 0 }
     }
 
-    /// Clears colour and depth of one picture.
+    /// Clears color and depth of one picture.
     pub fn run(&mut self) {
         let (color, depth) = &mut self.pictures[self.next];
         color.fill(black_box([0; 4]));
@@ -40,9 +40,9 @@ impl Clearing {
     }
 }
 
-/// The innermost loop: for each pixel of a tile, interpolate depth, compare, keep the nearer with
-/// its number. No edges, no set-up, no occlusion test, every pixel passes: what no rasteriser that
-/// stores depth and number can beat with the same instructions.
+/// The innermost loop: for each pixel of a tile, interpolate depth, compare, keep the nearer one
+/// with its number. It has no edges, no setup and no occlusion test, and every pixel passes. No
+/// rasterizer that stores depth and number can beat it with the same instructions.
 #[derive(Clone)]
 pub struct Kernel {
     depth: Vec<f32>,
@@ -51,7 +51,7 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    /// One for each set of vector instructions from AVX2 (or what there is) upwards.
+    /// One for each set of vector instructions from AVX2 (or the best available) upward.
     pub fn all() -> Vec<Self> {
         let best = Level::new();
         let mut levels = vec![best];
@@ -62,7 +62,7 @@ impl Kernel {
         levels.into_iter().map(Self::new).collect()
     }
 
-    /// With these instructions.
+    /// Uses these instructions.
     fn new(level: Level) -> Self {
         Self { depth: vec![0.0; TILE], number: vec![0; TILE], level }
     }
@@ -82,7 +82,7 @@ impl Kernel {
         self.empty();
     }
 
-    /// The same as a plain loop, left to the compiler.
+    /// A plain loop with the same result, left to the compiler.
     pub fn plain(&mut self) {
         for layer in 0..KERNEL_PIXELS / TILE {
             let (start, dx) = plane(layer as u32);

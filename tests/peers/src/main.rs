@@ -1,4 +1,4 @@
-//! `alberti-peers`: our rasteriser beside others, in one process, by ratios of CPU time.
+//! `alberti-peers`: our rasterizer and others in one process, compared by ratios of CPU time.
 //!
 //! ```text
 //!  scenes ──► raster, render (ours) ┐
@@ -8,8 +8,7 @@
 //!  files  ──► alberti, f3d as processes
 //! ```
 //!
-//! Run by `cargo xtask bench raster`. No figure is asserted: a ratio that falls is for people to
-//! see.
+//! Run by `cargo xtask bench raster`. No figure is asserted: people judge a falling ratio.
 
 mod chart;
 mod clock;
@@ -49,7 +48,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Where the report goes, and what is measured.
+/// The destination of the report, and the measurements to make.
 struct Plan {
     out: PathBuf,
     alberti: Option<PathBuf>,
@@ -119,9 +118,9 @@ fn run(arguments: &[String]) -> Result<(), String> {
     write("raster.svg", chart::svg(&figures))
 }
 
-/// The context of llvmpipe; says loudly if there is none.
+/// The llvmpipe context; warns clearly if there is none.
 fn llvmpipe() -> Result<Option<Rc<gl::Context>>, String> {
-    // Mesa reads it when it is loaded; its threads would make CPU times incomparable.
+    // Mesa reads it when loaded; its threads would make CPU times incomparable.
     if std::env::var_os("LP_NUM_THREADS").is_none_or(|threads| threads != "0") {
         println!(
             "llvmpipe: LEFT OUT: run with LP_NUM_THREADS=0, as `cargo xtask bench raster` does"
@@ -135,8 +134,7 @@ fn llvmpipe() -> Result<Option<Rc<gl::Context>>, String> {
     Ok(gl.map(Rc::new))
 }
 
-/// `profile SCENE FRAMES [render] [SAMPLES]`: draws one scene over and over, for a profiler to
-/// watch.
+/// `profile SCENE FRAMES [render] [SAMPLES]`: draws one scene repeatedly, for a profiler to watch.
 fn profile(arguments: &[String]) -> Result<(), String> {
     let [scene, frames, rest @ ..] = arguments else {
         return Err("profile SCENE FRAMES [render] [4]".into());

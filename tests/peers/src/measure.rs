@@ -1,21 +1,21 @@
-//! Measuring side by side: in each round every contestant runs once, and what is compared are times
-//! of one round.
+//! Side-by-side measurement: every contestant runs once per round, and only times of the same round
+//! are compared.
 //!
-//! A machine that is slow for a second is slow for all, so that ratios wander less than times do.
-//! The order of a round turns with the round, so that nobody always follows the same neighbour.
+//! A machine that is slow for a second is slow for all, so ratios vary less than times. The order
+//! rotates from round to round, so that nobody always follows the same neighbor.
 
 use crate::clock::timed;
 use std::time::Duration;
 
-/// Somebody who runs in each round.
+/// A contestant that runs in each round.
 pub struct Contestant<'a> {
     /// The name in reports.
     pub name: String,
-    /// What is measured.
+    /// The work to measure.
     pub work: Box<dyn FnMut() + 'a>,
 }
 
-/// The CPU times of one contestant in seconds, by rounds; `None` for rounds it sat out.
+/// The CPU times of one contestant in seconds, by round; `None` for rounds it sat out.
 #[derive(Clone, Debug)]
 pub struct Series {
     /// The contestant's name.
@@ -24,21 +24,21 @@ pub struct Series {
     pub times: Vec<Option<f64>>,
 }
 
-/// Middle and spread of some figures.
+/// The median and spread of some figures.
 #[derive(Clone, Copy, Debug)]
 pub struct Spread {
-    /// The least.
+    /// The minimum.
     pub low: f64,
     /// The median.
     pub median: f64,
-    /// The greatest.
+    /// The maximum.
     pub high: f64,
 }
 
-/// Slow contestants run in fewer rounds: in as many as take this long, but in three at least.
+/// Slow contestants run in fewer rounds: as many as fit this time, but at least three.
 const PATIENCE: Duration = Duration::from_secs(6);
 
-/// Lets everybody run `rounds` times, after one round for warming up.
+/// Runs every contestant `rounds` times, after one warm-up round.
 pub fn rounds(contestants: &mut [Contestant<'_>], rounds: usize) -> Vec<Series> {
     let warm: Vec<Duration> = contestants.iter_mut().map(|c| timed(&mut c.work).cpu).collect();
     let mut series: Vec<Series> = contestants
@@ -57,7 +57,7 @@ pub fn rounds(contestants: &mut [Contestant<'_>], rounds: usize) -> Vec<Series> 
     series
 }
 
-/// Whether somebody who took `warm` when warming up runs in this round; its rounds are spread over
+/// Whether a contestant that took `warm` to warm up runs in this round; its rounds are spread over
 /// all.
 fn takes_part(warm: Duration, round: usize, rounds: usize) -> bool {
     let affordable = PATIENCE.as_secs_f64() / warm.as_secs_f64().max(1e-9);
@@ -71,7 +71,7 @@ impl Series {
         Spread::of(self.times.iter().flatten().copied())
     }
 
-    /// How many times as long as `other` it took, round by round.
+    /// Its times as multiples of those for `other`, round by round.
     pub fn over(&self, other: &Self) -> Option<Spread> {
         let both = self.times.iter().zip(&other.times);
         Spread::of(both.filter_map(|(mine, its)| Some((*mine)? / (*its)?)))
@@ -79,7 +79,7 @@ impl Series {
 }
 
 impl Spread {
-    /// Of some figures; `None` if there are none.
+    /// The spread of some figures; `None` if there are none.
     pub fn of(figures: impl Iterator<Item = f64>) -> Option<Self> {
         let mut sorted: Vec<f64> = figures.collect();
         sorted.sort_by(f64::total_cmp);
@@ -91,7 +91,7 @@ impl Spread {
         Some(Self { low, median, high })
     }
 
-    /// With every figure multiplied.
+    /// A copy with every figure multiplied.
     pub fn times(self, factor: f64) -> Self {
         Self { low: self.low * factor, median: self.median * factor, high: self.high * factor }
     }

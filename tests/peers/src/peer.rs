@@ -1,4 +1,4 @@
-//! The rasterisers that are compared, behind one interface.
+//! The compared rasterizers, behind one interface.
 
 mod euc;
 mod llvmpipe;
@@ -14,27 +14,27 @@ pub use self::render::Render;
 use crate::scene::SIZE;
 use ::raster::{F32x8, LANES};
 
-/// A rasteriser with a scene in its buffers.
+/// A rasterizer with a scene in its buffers.
 pub trait Peer {
     /// The name in reports.
     fn name(&self) -> String;
 
-    /// Whether its picture is to be compared with ours: same colours, one sample for each pixel.
+    /// Whether its picture can be compared with ours: same colors, one sample per pixel.
     fn is_comparable(&self) -> bool;
 
-    /// Draws one frame from the buffers, clearing included, reading back excluded. This is what is
+    /// Draws one frame from the buffers, including the clear but not the readback. This is
     /// measured.
     fn draw(&mut self);
 
-    /// The frame drawn last, rows from the top; alpha is 0 where nothing was drawn.
+    /// The last frame drawn, rows from the top; alpha is 0 where nothing was drawn.
     fn pixels(&mut self) -> Vec<[u8; 4]>;
 }
 
 /// Pixels of the picture.
 pub const AREA: usize = (SIZE.0 * SIZE.1) as usize;
 
-/// Colours, each channel from 0 to 1, kept as the peers' shaders write them: 8 bits for each
-/// channel, no sRGB curve.
+/// Colors, each channel from 0 to 1, stored as the peers' shaders write them: 8 bits per channel,
+/// no sRGB curve.
 pub struct Quantized;
 
 impl ::raster::Encode<[u8; 4]> for Quantized {

@@ -9,9 +9,9 @@ use crate::measure::{Series, Spread};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
-/// All that was measured.
+/// All measurements.
 pub struct Figures {
-    /// What llvmpipe says it is, if it was there.
+    /// The description that llvmpipe gives of itself, if it was there.
     pub llvmpipe: Option<String>,
     /// The version of f3d, if it drew.
     pub f3d: Option<String>,
@@ -21,7 +21,7 @@ pub struct Figures {
     pub bounds: Option<Vec<Series>>,
     /// One thread against two.
     pub threads: Vec<Threads>,
-    /// What features of the shading cost.
+    /// The cost of shading features.
     pub features: Vec<Series>,
     /// From files to pictures.
     pub files: Vec<FileHeat>,
@@ -58,7 +58,7 @@ pub fn features(series: &[Series]) -> String {
     text
 }
 
-/// The table of a model that was drawn from its file.
+/// The table for a model that was drawn from its file.
 pub fn file(heat: &FileHeat) -> String {
     let mut text = format!("\n{}: file to PNG, CPU time of the process\n", heat.model);
     table(&mut text, &heat.cpu, ["alberti", "f3d"]);
@@ -104,7 +104,7 @@ pub fn threads(threads: &[Threads]) -> String {
     text
 }
 
-/// The goals with what was reached.
+/// The goals with their results.
 pub fn held_to(figures: &Figures) -> String {
     let mut text = String::from("\ngoals\n");
     for goal in goals(figures) {

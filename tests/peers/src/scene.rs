@@ -1,5 +1,4 @@
-//! The scenes of the comparison: plain arrays that every rasteriser draws from, and one camera for
-//! all.
+//! The compared scenes: plain arrays that every rasterizer draws from, and one camera for all.
 
 mod floor;
 mod layers;
@@ -21,16 +20,16 @@ pub const SIZE: (u32, u32) = (1920, 1080);
 
 /// The direction towards the light, of length 1.
 pub const TOWARDS_LIGHT: [f32; 3] = [0.48, 0.6, 0.64];
-/// The share of light that comes from everywhere; the rest comes from the light.
+/// The share of light that comes from all directions; the rest is directional.
 pub const AMBIENT: f32 = 0.2;
 
-/// A vertex as it lies in the buffers: 32 bytes.
+/// A vertex as stored in the buffers: 32 bytes.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C)]
 pub struct Vertex {
-    /// In the world.
+    /// In world space.
     pub position: [f32; 3],
-    /// Of length 1, in the world.
+    /// Of length 1, in world space.
     pub normal: [f32; 3],
     /// Texture coordinates, (0, 0) at the first texel.
     pub uv: [f32; 2],
@@ -40,7 +39,7 @@ pub struct Vertex {
 /// without mip maps.
 #[derive(Clone, Debug)]
 pub struct Texture {
-    /// Texels of a row.
+    /// Texels per row.
     pub width: usize,
     /// Rows.
     pub height: usize,
@@ -51,24 +50,24 @@ pub struct Texture {
 /// A run of triangles that look alike: `tint` × texture × (ambient + Lambert).
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// Its part of the indices.
+    /// Its range of the indices.
     pub indices: Range<usize>,
-    /// The colour.
+    /// The color.
     pub tint: [f32; 3],
-    /// Whether light falls on it.
+    /// Whether it is lit.
     pub lit: bool,
     /// The number of its texture.
     pub texture: Option<usize>,
-    /// Whether its back is seen too.
+    /// Whether its back is visible too.
     pub two_sided: bool,
 }
 
-/// How the world becomes a picture.
+/// The mapping from the world to the picture.
 #[derive(Clone, Copy, Debug)]
 pub enum Lens {
-    /// In perspective.
+    /// A perspective projection.
     Perspective(Perspective),
-    /// In parallel.
+    /// A parallel projection.
     Parallel(Orthographic),
 }
 
@@ -77,7 +76,7 @@ pub enum Lens {
 pub struct Scene {
     /// The name in reports.
     pub name: &'static str,
-    /// What it is, for people.
+    /// A description for people.
     pub about: String,
     /// All vertices.
     pub vertices: Vec<Vertex>,
@@ -87,11 +86,11 @@ pub struct Scene {
     pub parts: Vec<Part>,
     /// The textures.
     pub textures: Vec<Texture>,
-    /// Where the eye is.
+    /// The position of the eye.
     pub camera: Camera,
     /// The projection.
     pub lens: Lens,
-    /// Whether something lies behind the eye, where a rasteriser must clip.
+    /// Whether something is behind the eye, where a rasterizer must clip.
     pub behind_the_eye: bool,
 }
 
@@ -119,7 +118,7 @@ impl Scene {
 pub const TEXTURE_SCALE: f32 = 1.0 / 255.0;
 
 impl Texture {
-    /// A board of two colours with softly varying brightness, `size` × `size` texels in `fields` ×
+    /// A board of two colors with softly varying brightness, `size` × `size` texels in `fields` ×
     /// `fields` squares.
     pub fn board(size: usize, fields: usize, colors: [[u8; 3]; 2]) -> Self {
         let texel = |n: usize| {
@@ -131,8 +130,8 @@ impl Texture {
         Self { width: size, height: size, rgba: (0..size * size).map(texel).collect() }
     }
 
-    /// The colour at texture coordinates, 0 to 1 each: how the shaders of all rasterisers in Rust
-    /// read it.
+    /// The color at texture coordinates, 0 to 1 each: the shaders of all Rust rasterizers read it
+    /// like this.
     #[inline]
     pub fn bilinear(&self, [u, v]: [f32; 2]) -> [f32; 3] {
         let (x, y) = (u * self.width as f32 - 0.5, v * self.height as f32 - 0.5);
@@ -157,7 +156,7 @@ pub fn floor_of(x: f32) -> i32 {
     cut - i32::from(cut as f32 > x)
 }
 
-/// The texel that is read in place of number `at` of a row that repeats.
+/// The texel that is read for number `at` of a repeated row.
 #[inline(always)]
 pub fn wrap(at: i32, size: usize) -> usize {
     if size.is_power_of_two() {

@@ -18,7 +18,7 @@ pub struct Material {
     pub metallic: f64,
     /// Perceptual roughness, the square root of GGX's α.
     pub roughness: f64,
-    /// Shown as its base color whatever the light (KHR_materials_unlit).
+    /// Shown as its base color in any light (KHR_materials_unlit).
     pub unlit: bool,
 }
 
@@ -33,7 +33,7 @@ impl Material {
         Self { metallic: 1.0, ..Self::dielectric(base_color, roughness) }
     }
 
-    /// A color of its own, blended over what is behind it.
+    /// An unlit color, blended over the surfaces behind it.
     pub fn unlit(base_color: [f64; 3], alpha: f64) -> Self {
         Self { unlit: true, alpha, ..Self::dielectric(base_color, 1.0) }
     }
@@ -89,7 +89,7 @@ fn visibility(nl: f64, nv: f64, alpha: f64) -> f64 {
 }
 
 /// E: the fraction of white light from all sides that the lobe reflects to a viewer at n·v, without
-/// Fresnel. The midpoint rule over half-vectors that are distributed as D n·h.
+/// Fresnel. It uses the midpoint rule over half-vectors distributed as D n·h.
 pub fn directional_albedo(nv: f64, alpha: f64) -> f64 {
     const STEPS: u32 = 48;
     // Of half a turn: the other half has the same values.

@@ -87,8 +87,8 @@ impl World {
         Picture { width, height, pixels: pixels.collect() }
     }
 
-    /// The color along a ray: all surfaces from back to front, each over what is behind it, in
-    /// linear light.
+    /// The color along a ray: all surfaces from back to front, each blended over those behind it,
+    /// in linear light.
     fn trace(&self, eye: DVec3, direction: DVec3) -> [u8; 3] {
         let hit = |surface: &Surface| {
             let (distance, normal) = surface.shape.intersect(eye, direction)?;

@@ -1,4 +1,4 @@
-//! The documents of the repository as pages: those of the menu, then whatever they lead to.
+//! The repository's documents as pages: first those in the menu, then everything they link to.
 
 use crate::Outcome;
 use crate::files::names_in;
@@ -6,7 +6,7 @@ use crate::markdown::{Document, code_html, escape};
 use crate::site::Site;
 use std::path::Path;
 
-/// Documents that stand in the menu under a name of their own, before the others.
+/// Documents with a separate name in the menu, before the others.
 const FIRST: [(&str, &str, &str); 4] = [
     ("README.md", "Alberti", "Start"),
     ("docs/faq.md", "Alberti", "Questions"),
@@ -14,10 +14,10 @@ const FIRST: [(&str, &str, &str); 4] = [
     ("CHANGELOG.md", "Alberti", "Changes"),
 ];
 
-/// Documents that other modules make pages of.
+/// Documents that other modules turn into pages.
 const ELSEWHERE: [&str; 1] = ["scenes/README.md"];
 
-/// Adds the pages of the menu that are documents: guides have pages of their own kind.
+/// Adds the menu pages that are documents; guides have a separate kind of page.
 pub fn add_documents(site: &mut Site) -> Outcome {
     let mut listed: Vec<(String, &'static str)> = Vec::new();
     for (path, group, _) in FIRST {
@@ -39,7 +39,7 @@ pub fn add_documents(site: &mut Site) -> Outcome {
             listed.push((path, "Crates"));
         }
     }
-    // Where each stands must be known before the first link is followed.
+    // All locations must be known before the first link is followed.
     for (path, _) in &listed {
         let place = place_for(&site.root, path);
         site.place(path, &place);
@@ -60,7 +60,7 @@ fn add_document(site: &mut Site, path: &str, group: Option<&'static str>) -> Out
     if let Some((_, _, title)) = FIRST.iter().find(|(first, ..)| *first == path) {
         (*title).clone_into(&mut document.title);
     } else if let Some(name) = crate_name(path) {
-        // Packages have names of their own, two of them the same.
+        // Packages have separate names, two of them identical.
         name.clone_into(&mut document.title);
     }
     site.add_page(&page, group, document);
@@ -72,7 +72,7 @@ fn crate_name(path: &str) -> Option<&str> {
     path.strip_prefix("crates/")?.strip_suffix("/README.md")
 }
 
-/// Brings what pages lead to into the site, and what that leads to.
+/// Adds everything that pages link to, directly or indirectly, to the site.
 pub fn add_linked_files(site: &mut Site) -> Outcome {
     while let Some(path) = site.wanted.pop_first() {
         let full = site.root.join(&path);
@@ -108,7 +108,7 @@ fn add_source(site: &mut Site, path: &str, content: &str) {
     site.add_page(&page, None, Document { title: path.to_owned(), html, ..Document::default() });
 }
 
-/// Where a file of the repository stands in the site.
+/// The location of a repository file in the site.
 pub fn place_for(root: &Path, path: &str) -> String {
     match path {
         "README.md" => "index.html".into(),
@@ -120,12 +120,12 @@ pub fn place_for(root: &Path, path: &str) -> String {
 }
 
 /// Whether a file is a document of the site. Pages of the book have marks that only the book's own
-/// tool understands: they are shown as they are written.
+/// tool understands: they are shown as written.
 fn is_document(path: &str) -> bool {
     path.ends_with(".md") && !path.starts_with("book/src/")
 }
 
-/// Whether a file is shown on a page; others are handed over as they are.
+/// Whether a file is shown on a page; others are copied as they are.
 fn is_shown_as_text(path: &str) -> bool {
     if path.starts_with("book/src/") {
         return true;

@@ -7,7 +7,7 @@ use std::path::Path;
 /// The file that marks a folder as written by this program.
 const MARK: &str = ".alberti-site";
 
-/// Makes a folder empty. One with files that this program did not write is left as it is.
+/// Empties a folder. A folder with files that this program did not write is left as it is.
 pub fn empty_folder(folder: &Path) -> Outcome {
     let named = |error: std::io::Error| format!("{}: {error}", folder.display());
     if folder.exists() {
@@ -22,7 +22,7 @@ pub fn empty_folder(folder: &Path) -> Outcome {
     write(&folder.join(MARK), b"")
 }
 
-/// Writes a file, with the folders above it.
+/// Writes a file and creates its parent folders.
 pub fn write(path: &Path, bytes: &[u8]) -> Outcome {
     let named = |error: std::io::Error| format!("{}: {error}", path.display());
     if let Some(folder) = path.parent() {
@@ -31,12 +31,12 @@ pub fn write(path: &Path, bytes: &[u8]) -> Outcome {
     fs::write(path, bytes).map_err(named)
 }
 
-/// Copies a file, with the folders above its new place.
+/// Copies a file and creates its new parent folders.
 pub fn copy(from: &Path, to: &Path) -> Outcome {
     write(to, &fs::read(from).map_err(|error| format!("{}: {error}", from.display()))?)
 }
 
-/// The text of a file.
+/// Reads the text of a file.
 pub fn read_text(path: &Path) -> Result<String, String> {
     fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
 }
@@ -50,13 +50,13 @@ pub fn names_in(folder: &Path) -> Result<Vec<String>, String> {
     Ok(names)
 }
 
-/// The folder of a path of the repository: `docs` of `docs/faq.md`, nothing of `README.md`.
+/// The folder of a repository path: `docs` for `docs/faq.md`, empty for `README.md`.
 pub fn folder_of(path: &str) -> &str {
     path.rsplit_once('/').map_or("", |(folder, _)| folder)
 }
 
-/// A relative path from a folder of the repository, without `.` and `..`; nothing if it leaves the
-/// repository.
+/// Resolves a relative path from a folder of the repository, without `.` and `..`; `None` if it
+/// leaves the repository.
 pub fn join(folder: &str, relative: &str) -> Option<String> {
     let mut parts: Vec<&str> = folder.split('/').filter(|part| !part.is_empty()).collect();
     for part in relative.split('/') {
@@ -69,7 +69,7 @@ pub fn join(folder: &str, relative: &str) -> Option<String> {
     Some(parts.join("/"))
 }
 
-/// The way from one page to another file of the site.
+/// The relative path from one page to another file of the site.
 pub fn relative(from: &str, to: &str) -> String {
     let above: Vec<&str> = folder_of(from).split('/').filter(|part| !part.is_empty()).collect();
     let target: Vec<&str> = to.split('/').collect();

@@ -1,4 +1,4 @@
-//! The gallery: each scene with its picture, rendered now, its file, its command and its models.
+//! The gallery: each scene with its freshly rendered picture, its file, its command and its models.
 
 use crate::Outcome;
 use crate::files::relative;
@@ -122,7 +122,7 @@ fn add_scene(site: &mut Site, scene: &Scene) -> Outcome {
     Ok(())
 }
 
-/// The quoted words of a scene that may name files.
+/// The quoted words in a scene that may name files.
 fn named_files(text: &str) -> Vec<&str> {
     let mut names: Vec<&str> =
         text.split('"').skip(1).step_by(2).filter(|word| word.contains('.')).collect();

@@ -1,14 +1,14 @@
-//! The guides, whose commands are run: what they promise is so, and their pictures are new.
+//! The guides: their commands are run, so that their claims are true and their pictures are new.
 //!
-//! A guide begins in an empty folder with the models that it links to. Of its code blocks
+//! A guide begins in an empty folder with the models that it links to. Its code blocks mean:
 //!
 //! - `sh` is run by the shell, with `alberti` as the program; pictures that it writes are shown
-//!   below it, and a warning is a failure like an error;
-//! - `text` directly after it is what it must print, where a line `…` stands for any lines and one
-//!   that ends so for any end;
+//!   below it, and a warning is a failure, like an error;
+//! - `text` directly after it is the expected output, where a line `…` matches any lines, and a
+//!   line that ends in `…` matches any ending;
 //! - one with a file name after its language, such as `ron two_views.ron`, becomes that file.
 //!
-//! All others are only shown.
+//! All other blocks are only shown.
 
 use crate::Outcome;
 use crate::files::{copy, empty_folder, relative, write};
@@ -22,7 +22,7 @@ use std::time::SystemTime;
 
 const FOLDER: &str = "docs/guide";
 
-/// Pictures shown below a block, at most.
+/// The maximum number of pictures shown below a block.
 const MOST_PICTURES: usize = 6;
 
 /// The guides, the overview first.
@@ -101,14 +101,14 @@ impl GuideRun {
         Ok(result)
     }
 
-    /// All files with the times of their last change.
+    /// All files with their modification times.
     fn file_times(&self) -> BTreeMap<PathBuf, SystemTime> {
         let mut found = BTreeMap::new();
         list_files(&self.folder, &mut found);
         found
     }
 
-    /// Brings pictures that have changed into the site; the HTML that shows them.
+    /// Copies changed pictures into the site; returns the HTML that shows them.
     fn new_pictures(
         &self,
         site: &Site,
@@ -133,7 +133,7 @@ impl GuideRun {
                 "<figure><img src=\"{source}\" loading=\"lazy\" alt=\"{name}\"><figcaption>{name}</figcaption></figure>\n"
             );
         }
-        // Blank lines around it: then Markdown takes it as it is.
+        // Blank lines around it, so that Markdown takes it as it is.
         Ok(if html.is_empty() { html } else { format!("\n<div class=\"made\">\n{html}</div>\n\n") })
     }
 }
@@ -151,7 +151,7 @@ fn list_files(folder: &Path, found: &mut BTreeMap<PathBuf, SystemTime>) {
     }
 }
 
-/// The models that a guide links to, by their paths in the repository.
+/// The models that a guide links to, by path in the repository.
 fn linked_models(text: &str) -> Vec<&str> {
     let targets = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
     let mut models: Vec<&str> = targets
@@ -163,7 +163,7 @@ fn linked_models(text: &str) -> Vec<&str> {
     models
 }
 
-/// Whether a block printed what the guide says.
+/// Whether a block printed the expected text.
 fn compare(expected: &str, printed: &str) -> Outcome {
     let mut lines = printed.lines().map(str::trim_end);
     let mut may_skip = false;

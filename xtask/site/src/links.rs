@@ -1,11 +1,11 @@
-//! The check of all links: each leads to a file of the site and to an anchor that is there; nothing
-//! is loaded from another host; there are no scripts.
+//! Checks all links: each leads to a file of the site and to an existing anchor; nothing is loaded
+//! from another host; there are no scripts.
 
 use crate::files::{folder_of, join, names_in, read_text};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// What a site links to.
+/// The links of a site.
 #[derive(Debug)]
 pub struct LinkReport {
     pages: usize,
@@ -54,13 +54,13 @@ pub fn check_links(folder: &Path) -> Result<LinkReport, String> {
     if faults.is_empty() { Ok(report) } else { Err(faults.join("\n")) }
 }
 
-/// The values of an attribute, of all tags: in text `<` is escaped.
+/// The values of an attribute in all tags: text has `<` escaped.
 fn values<'a>(text: &'a str, start: &'a str) -> impl Iterator<Item = &'a str> {
     let tags = text.split('<').skip(1).filter_map(|rest| rest.split('>').next());
     tags.filter_map(move |tag| tag.split_once(start)?.1.split('"').next())
 }
 
-/// Scripts, and pictures and styles of other hosts.
+/// Scripts, and pictures and styles from other hosts.
 fn foreign_parts(page: &str, text: &str) -> Vec<String> {
     let mut faults = Vec::new();
     if text.contains("<script") {
@@ -72,7 +72,7 @@ fn foreign_parts(page: &str, text: &str) -> Vec<String> {
     faults
 }
 
-/// Anchors that stand twice on a page.
+/// Duplicate anchors on a page.
 fn repeated_anchors(page: &str, text: &str) -> Vec<String> {
     let mut seen = BTreeSet::new();
     let twice = values(text, " id=\"").filter(|anchor| !seen.insert(*anchor));

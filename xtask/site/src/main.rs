@@ -8,8 +8,8 @@
 //! ```
 //!
 //! Run by `cargo xtask docs`. Pages need neither scripts nor anything from another host. It fails
-//! if a command of a guide fails or prints something else, if a scene cannot be rendered, or if a
-//! link leads nowhere.
+//! if a guide's command fails or prints something else, if a scene cannot be rendered, or if a link
+//! is broken.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program prints")]
 #![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
 

@@ -1,5 +1,5 @@
-//! Markdown to HTML: headings with the anchors that GitHub gives them, tables that scroll by
-//! themselves, code with its comments set apart, links as the caller says.
+//! Markdown to HTML: headings with GitHub's anchors, tables that scroll separately, code with its
+//! comments set apart, and links replaced by the caller.
 
 use pulldown_cmark::{CodeBlockKind, CowStr, Event, HeadingLevel, Options, Parser, Tag, TagEnd};
 use std::collections::BTreeMap;
@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 pub struct Document {
     /// The text of the first heading.
     pub title: String,
-    /// The whole of it.
+    /// The whole document.
     pub html: String,
-    /// The headings of the second level: anchor and text.
+    /// The second-level headings: anchor and text.
     pub sections: Vec<(String, String)>,
 }
 
@@ -20,7 +20,7 @@ pub struct Document {
 pub enum Part {
     /// Markdown between code blocks.
     Text(String),
-    /// A code block: its language and what else stands there, and its text.
+    /// A code block: its language and the rest of its fence line, and its text.
     Code(String, String),
 }
 
@@ -28,7 +28,8 @@ fn options() -> Options {
     Options::ENABLE_TABLES | Options::ENABLE_STRIKETHROUGH
 }
 
-/// Translates a document; `link` gives the target of a link or an image, by its target in the text.
+/// Translates a document; `link` maps the target of a link or an image in the text to its new
+/// target.
 pub fn to_html(
     markdown: &str,
     mut link: impl FnMut(&str) -> Result<String, String>,
@@ -85,7 +86,7 @@ fn take_until<'a>(parser: &mut Parser<'a>, is_end: impl Fn(&TagEnd) -> bool) -> 
     parser.by_ref().take_while(|event| !ends(event)).collect()
 }
 
-/// An event with the target of its link or image as the caller says.
+/// An event whose link or image target the caller has replaced.
 fn with_target<'a>(
     event: Event<'a>,
     link: &mut impl FnMut(&str) -> Result<String, String>,
@@ -134,7 +135,7 @@ fn heading<'a>(
     Ok(Heading { anchor, text, html })
 }
 
-/// The anchors given so far: a repeated one has a number.
+/// The anchors given so far: a repeated one gets a number.
 #[derive(Default)]
 struct Anchors(BTreeMap<String, usize>);
 
@@ -147,14 +148,14 @@ impl Anchors {
     }
 }
 
-/// The anchor of a heading as GitHub makes it: letters, digits, `-` and `_`, spaces as `-`.
+/// The anchor of a heading, as GitHub makes it: letters, digits, `-` and `_`, spaces as `-`.
 pub fn slug(text: &str) -> String {
     let kept = text.to_lowercase();
     let kept = kept.chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
     kept.map(|c| if c == ' ' { '-' } else { c }).collect()
 }
 
-/// The text of a file in a code block of the language that its ending names.
+/// The text of a file in a code block of the language that its extension names.
 pub fn code_html(words: &str, text: &str) -> String {
     let mut words = words.split([' ', ',']);
     let language = words.next().unwrap_or_default();
@@ -170,19 +171,19 @@ pub fn code_html(words: &str, text: &str) -> String {
     )
 }
 
-/// Lines of examples that documentation tests need and readers do not.
+/// Lines in examples that documentation tests need and readers do not.
 fn is_hidden_line(line: &str) -> bool {
     line == "#" || line.starts_with("# ")
 }
 
-/// A line of code, its comment in a span of its own.
+/// A line of code with its comment in a separate span.
 fn line_html(language: &str, line: &str) -> String {
     let mark = match language {
         "rust" | "ron" | "json" | "js" => "//",
         "sh" | "toml" | "python" | "yaml" => "# ",
         _ => return escape(line),
     };
-    // Within strings, such as addresses and colors, it is no comment.
+    // Within strings, such as addresses and colors, it is not a comment.
     let begins = |at: &usize| *at == 0 || line[..*at].ends_with(' ') && quotes(&line[..*at]);
     match line.match_indices(mark).map(|(at, _)| at).find(begins) {
         Some(at) => format!("{}<i>{}</i>", escape(&line[..at]), escape(&line[at..])),
@@ -200,7 +201,7 @@ pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Divides a document at its fenced code blocks.
+/// Splits a document at its fenced code blocks.
 pub fn divide(markdown: &str) -> Vec<Part> {
     let mut parts = Vec::new();
     let mut from = 0;

@@ -16,14 +16,14 @@ impl Program {
         if path.is_file() { Ok(Self { path }) } else { Err(format!("{}: no file", path.display())) }
     }
 
-    /// Runs it in a folder, and gives what it prints.
+    /// Runs it in a folder and returns its output.
     pub fn run(&self, folder: &Path, arguments: &[&str]) -> Result<String, String> {
         let mut command = Command::new(&self.path);
         Ok(output_of(command.args(arguments).current_dir(folder), &arguments.join(" "))?.stdout)
     }
 
-    /// Runs a script of the shell in which `alberti` is this program, and gives what it prints; a
-    /// warning is an error.
+    /// Runs a shell script in which `alberti` is this program, and returns its output; a warning is
+    /// an error.
     pub fn run_script(&self, folder: &Path, script: &str) -> Result<String, String> {
         let mut shell = Command::new("sh");
         shell.args(["-e", "-u", "-c", script]).current_dir(folder).env("PATH", self.search_path());
@@ -31,7 +31,7 @@ impl Program {
         if stderr.contains("warning:") { Err(format!("{script}\n{stderr}")) } else { Ok(stdout) }
     }
 
-    /// The folders of programs, that of this one first.
+    /// The program search path, with this program's folder first.
     fn search_path(&self) -> OsString {
         let own = self.path.parent().map(Path::to_owned);
         let others = std::env::var_os("PATH").unwrap_or_default();
@@ -40,7 +40,7 @@ impl Program {
     }
 }
 
-/// What a command has written.
+/// The output of a command.
 struct Output {
     stdout: String,
     stderr: String,

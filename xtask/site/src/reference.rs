@@ -1,4 +1,4 @@
-//! The reference, as the program prints it from its declarations: a page for each command, one for
+//! The reference, as the program prints it from its declarations: one page per command, one for
 //! scene files, and the manual pages to install.
 
 use crate::Outcome;
@@ -47,7 +47,7 @@ fn command_page(name: &str) -> String {
     format!("reference/{}.html", name.replace(' ', "-"))
 }
 
-/// Headings of the second level with what stands below each.
+/// Second-level headings, each with the text below it.
 fn sections(text: &str) -> Vec<(String, String)> {
     let parts = text.split("\n## ").skip(1);
     let parts = parts.map(|part| part.split_once('\n').unwrap_or((part, "")));
@@ -69,7 +69,7 @@ fn scene_document(types: &[&(String, String)]) -> Result<Document, String> {
     to_html(&text, |target| Ok(target.into()))
 }
 
-/// The line of a field, such as `` - `camera`: Camera — … ``, with a link to its type.
+/// The line for a field, such as `` - `camera`: Camera — … ``, with a link to its type.
 fn with_type_links(line: &str, types: &[&str]) -> String {
     let Some((field, rest)) = line.split_once("`: ") else { return line.into() };
     let Some((kind, about)) = rest.split_once(" — ") else { return line.into() };
@@ -96,7 +96,7 @@ fn with_flag_anchors(html: &str) -> String {
     text
 }
 
-/// Writes the manual pages into the site; name and place of each.
+/// Writes the manual pages into the site; returns the name and path of each.
 fn manual_pages(site: &Site, program: &Program) -> Result<Vec<(String, String)>, String> {
     let folder = std::path::absolute(site.out.join("man")).map_err(|error| error.to_string())?;
     fs::create_dir_all(&folder).map_err(|error| error.to_string())?;

@@ -1,5 +1,5 @@
-//! The site while it is built: its pages, where each file of the repository stands in it, and which
-//! files are still to be brought there.
+//! The site while it is built: its pages, the location of each repository file in it, and the files
+//! that are still to be copied.
 
 use crate::files::{self, copy, folder_of, join, relative, write};
 use crate::markdown::{Document, to_html};
@@ -7,12 +7,12 @@ use crate::{Outcome, template};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// The groups of the menu, in its order.
+/// The groups in the menu, in order.
 const GROUPS: [&str; 6] = ["Alberti", "Guides", "Reference", "Documents", "Crates", "Project"];
 
 /// A page.
 pub struct Page {
-    /// The group of the menu that it stands in; none for pages that others lead to.
+    /// Its group in the menu; none for pages that others link to.
     pub group: Option<&'static str>,
     /// Its content.
     pub document: Document,
@@ -20,17 +20,17 @@ pub struct Page {
 
 /// The site.
 pub struct Site {
-    /// The folder of the repository.
+    /// The repository folder.
     pub root: PathBuf,
-    /// The folder that it is written to.
+    /// The output folder.
     pub out: PathBuf,
-    /// Pages by their paths in the site.
+    /// Pages by path in the site.
     pages: BTreeMap<String, Page>,
-    /// The pages of the menu, in its order.
+    /// The pages in the menu, in order.
     menu: Vec<String>,
-    /// Where files of the repository stand in the site.
+    /// The locations of repository files in the site.
     places: BTreeMap<String, String>,
-    /// Files of the repository that pages lead to and that are not there yet.
+    /// Repository files that pages link to and that are not yet copied.
     pub wanted: BTreeSet<String>,
 }
 
@@ -52,17 +52,17 @@ impl Site {
         write(&self.out.join(path), text.as_bytes())
     }
 
-    /// Says where a file of the repository stands in the site.
+    /// Sets the location of a repository file in the site.
     pub fn place(&mut self, source: &str, path: &str) {
         self.places.insert(source.to_owned(), path.to_owned());
     }
 
-    /// The place of a file of the repository, if it has one.
+    /// The location of a repository file, if it has one.
     pub fn place_of(&self, source: &str) -> Option<&str> {
         self.places.get(source).map(String::as_str)
     }
 
-    /// Copies a file of the repository, once.
+    /// Copies a repository file, once.
     pub fn copy_file(&mut self, source: &str) -> Result<String, String> {
         let place = format!("files/{source}");
         if self.place_of(source).is_none() {
@@ -80,7 +80,7 @@ impl Site {
         self.pages.insert(path.to_owned(), Page { group, document });
     }
 
-    /// Translates Markdown of a file of the repository for a page.
+    /// Translates the Markdown of a repository file for a page.
     pub fn translate(
         &mut self,
         source: &str,
@@ -91,7 +91,7 @@ impl Site {
             .map_err(|error| format!("{source}: {error}"))
     }
 
-    /// The target of a link of a document in the page that it becomes.
+    /// The target of a link in a document, as seen from the document's page.
     fn target(&mut self, source: &str, page: &str, target: &str) -> Result<String, String> {
         if target.contains("://") || target.starts_with("mailto:") || target.starts_with('#') {
             return Ok(target.to_owned());
@@ -126,7 +126,7 @@ impl Site {
         Ok(())
     }
 
-    /// The menu as it stands on a page.
+    /// The menu as shown on a page.
     fn menu_html(&self, current: &str) -> String {
         let mut html = String::new();
         for group in GROUPS {
@@ -142,12 +142,12 @@ impl Site {
         html
     }
 
-    /// The names in a folder of the repository.
+    /// The names in a repository folder.
     pub fn names_in(&self, folder: &str) -> Result<Vec<String>, String> {
         files::names_in(&self.root.join(folder))
     }
 
-    /// The text of a file of the repository.
+    /// The text of a repository file.
     pub fn read_text(&self, path: &str) -> Result<String, String> {
         files::read_text(&self.root.join(path))
     }

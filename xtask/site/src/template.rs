@@ -1,4 +1,4 @@
-//! What all pages have in common: the frame, the menu, the style sheet.
+//! The common parts of all pages: the frame, the menu, the style sheet.
 
 use crate::files::relative;
 use crate::markdown::escape;
@@ -7,11 +7,11 @@ use crate::site::Page;
 /// The style sheet of all pages.
 pub const STYLE: &str = include_str!("style.css");
 
-/// Sections from which on a page has a list of them.
+/// The number of sections from which a page has a list of them.
 const LISTED_SECTIONS: usize = 3;
 
-/// A page as a whole. The menu follows the content, so that a reader on a narrow screen begins with
-/// what was asked for.
+/// A whole page. The menu follows the content, so that a reader on a narrow screen begins with the
+/// requested text.
 pub fn page_html(path: &str, page: &Page, menu: &str) -> String {
     let document = &page.document;
     let [style, start] = ["style.css", "index.html"].map(|target| relative(path, target));
@@ -51,7 +51,7 @@ pub fn page_html(path: &str, page: &Page, menu: &str) -> String {
     )
 }
 
-/// A page in the menu, marked if it is the one that is read.
+/// A page in the menu, marked if it is the current one.
 pub fn menu_item(current: &str, path: &str, title: &str) -> String {
     let mark = if current == path { " aria-current=\"page\"" } else { "" };
     format!("<li><a href=\"{}\"{mark}>{}</a></li>\n", relative(current, path), escape(title))

@@ -1,4 +1,4 @@
-//! The public interface of a crate as text, out of the pages that rustdoc writes.
+//! The public interface of a crate as text, extracted from the pages that rustdoc writes.
 //!
 //! ```text
 //! homog::PixelRect
@@ -9,16 +9,15 @@
 //!         pub const fn area(self) -> usize
 //!     impl Clone for PixelRect
 //! ```
-//! Rustdoc writes the same words as JSON for the nightly compiler only; its pages are there after
-//! every build of the documentation. Automatic and blanket implementations follow from the rest and
-//! are left out.
+//! Rustdoc writes this as JSON only with the nightly compiler; its pages exist after every build of
+//! the documentation. Automatic and blanket implementations follow from the rest and are omitted.
 
 use crate::workspace::read_text;
 use std::path::Path;
 
 /// The listing of a crate, from the folder of its pages.
 ///
-/// Pages of items that are gone stay in the folder, so the list of all items says which there are.
+/// Pages of removed items stay in the folder, so the list of all items decides which exist.
 pub fn crate_listing(folder: &Path) -> Result<String, String> {
     let all = read_text(&folder.join("all.html"))?;
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
@@ -45,7 +44,7 @@ fn listed_pages(all: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// The kinds of pages with a declaration, as their file names begin.
+/// The kinds of pages with a declaration, by the start of their file names.
 const KINDS: [&str; 9] =
     ["struct", "enum", "union", "trait", "fn", "type", "constant", "static", "macro"];
 
@@ -92,7 +91,7 @@ fn item_lines(page: &str) -> Vec<String> {
     lines
 }
 
-/// The headings of code in a part of a page: of implementations, and of what is in them.
+/// The code headings in a part of a page: implementations, and their contents.
 fn headers(html: &str, with_methods: bool) -> Vec<String> {
     let starts = html.match_indices("class=\"code-header\">");
     let header = |(at, start): (usize, &str)| {
@@ -103,17 +102,17 @@ fn headers(html: &str, with_methods: bool) -> Vec<String> {
         let text = plain_text(code).split_whitespace().collect::<Vec<_>>().join(" ");
         (with_methods || !is_method).then(|| if is_method { format!("    {text}") } else { text })
     };
-    // Implemented by a derive, and of no meaning to callers.
+    // Derived, and meaningless to callers.
     starts.filter_map(header).filter(|text| !text.contains("StructuralPartialEq")).collect()
 }
 
-/// The content of the first element that begins so.
+/// The content of the first element that begins like this.
 fn element<'a>(page: &'a str, start: &str, end: &str) -> Option<&'a str> {
     let rest = &page[page.find(start)? + start.len()..];
     Some(&rest[..rest.find(end)?])
 }
 
-/// The text of HTML: without tags, and without the labels of what can be folded.
+/// The text of HTML, without tags and without the labels of foldable parts.
 fn plain_text(html: &str) -> String {
     let mut text = String::new();
     let mut rest = html;

@@ -1,4 +1,4 @@
-//! `cargo xtask bench compare REV`: the program as it is now beside that of another commit.
+//! `cargo xtask bench compare REV`: the current program against the program of another commit.
 //!
 //! ```text
 //! cargo xtask bench compare main~20 --quick
@@ -6,30 +6,30 @@
 //! cargo xtask bench compare HEAD~1 --models ../models
 //! ```
 //!
-//! Both programs render the same models, by turns: old, new, old, new. What is printed are ratios
-//! of times of the same round, as medians with the least and the greatest, because a machine that
-//! is slow for a second is slow for both: new/old for each stage of `--timings`, and on/off for
-//! features, styles and threads in either program. Peak memory and wall time stand beside them. A
-//! variant that a program refuses, because it lacks a flag, has a dash, and the reason below.
+//! Both programs render the same models in turn: old, new, old, new. The output is ratios of times
+//! from the same round, because a machine that is slow for a second is slow for both. Each ratio is
+//! a median with the minimum and the maximum: new/old for each stage of `--timings`, and on/off for
+//! features, styles and threads in either program. Peak memory and wall time are listed too. A
+//! variant that a program refuses, because it lacks a flag, has a dash, with the reason below.
 //!
-//! Models are by default six of the shared ones, for which it takes half an hour; `--models` names
-//! others, of the shared ones or of the scenes, or a folder. `--quick` has fewer rounds and frames.
-//! `--out` leaves `compare.json`, with every figure of every run, and the chart `compare.svg`.
+//! By default six of the shared models are rendered, which takes half an hour; `--models` names
+//! others, shared ones or scene models, or a folder. `--quick` has fewer rounds and frames. `--out`
+//! writes `compare.json`, with every figure of every run, and the chart `compare.svg`.
 //!
-//! | module | holds |
+//! | module | contents |
 //! | --- | --- |
 //! | `revision` | the program of another commit |
-//! | `models` | which models are rendered |
+//! | `models` | the models to render |
 //! | `variants` | settings, features, styles and commands that are measured |
 //! | `patched_model` | models with a material extension or a light added |
 //! | `run` | one run of a program and its figures |
 //! | `measurement` | rounds of runs, and ratios between them |
-//! | `spread` | median, least and greatest |
-//! | `summary` | what the report and the chart show |
+//! | `spread` | median, minimum and maximum |
+//! | `summary` | the figures that the report and the chart show |
 //! | `table` `chart` `json` | text, SVG and JSON |
-//! | `machine` | where it was measured |
+//! | `machine` | the machine and the time |
 //!
-//! It judges nothing: times are no fact about the code alone.
+//! It judges nothing, because times depend on more than the code.
 
 mod chart;
 mod json;
@@ -56,10 +56,10 @@ use std::path::{Path, PathBuf};
 
 const USAGE: &str = "bench compare REV [--models DIR|NAME…] [--runs N] [--quick] [--out FOLDER]";
 
-/// Rounds of runs, and frames of the turntable.
+/// The number of rounds of runs, and of frames in the turntable.
 const RUNS: usize = 5;
 const FRAMES: usize = 120;
-/// That with `--quick`.
+/// These numbers with `--quick`.
 const QUICK_RUNS: usize = 3;
 const QUICK_FRAMES: usize = 12;
 
@@ -111,7 +111,7 @@ impl Request {
     }
 }
 
-/// Builds both programs, measures, prints the tables and writes the files of `--out`.
+/// Builds both programs, measures, prints the tables and writes the `--out` files.
 pub fn bench_compare(arguments: &[String]) -> Outcome {
     if arguments.iter().any(|word| word == "--help" || word == "-h") {
         println!("{USAGE}");
@@ -119,7 +119,7 @@ pub fn bench_compare(arguments: &[String]) -> Outcome {
     }
     let request = Request::parse_request(arguments)?;
     let measured = measure(&request);
-    // Whatever comes next begins its own line.
+    // The next output begins on a new line.
     show_progress("");
     let (machine, measurements) = measured?;
     println!("{}", table::report(&machine, &measurements));
@@ -154,7 +154,7 @@ fn write_files(out: &Path, machine: &Machine, measurements: &[Measurement]) -> O
     Ok(())
 }
 
-/// Replaces the line of progress on a terminal; elsewhere there is none.
+/// Replaces the progress line on a terminal; elsewhere there is none.
 fn show_progress(message: &str) {
     if std::io::stderr().is_terminal() {
         eprint!("\r\x1b[K{message}");

@@ -1,9 +1,9 @@
-//! `cargo xtask bench --instructions`: how many instructions small fixed pieces of work take.
+//! `cargo xtask bench --instructions`: the instruction counts of small fixed pieces of work.
 //!
-//! Times wander; instructions counted by callgrind do not: the same program counts the same to the
-//! last one. Valgrind shows every program the same plain processor with AVX2, whatever wider
-//! instructions the real one has. `tests/bench/instructions.txt` holds the counts with the reason
-//! of their last change; one that has risen by more than 3 % fails until it is stored with a
+//! Times vary; instruction counts from callgrind do not: the same program always gives the same
+//! count. Valgrind shows every program the same plain processor with AVX2, even if the real one has
+//! wider instructions. `tests/bench/instructions.txt` holds the counts, with the reason for the
+//! last change of each. A count that has risen by more than 3 % fails until it is stored with a
 //! reason:
 //!
 //! ```text
@@ -23,12 +23,12 @@ use std::process::Command;
 /// The relative increase that fails, and the decrease that is worth recording.
 const TOLERANCE: f64 = 0.03;
 
-/// Scenes that the program draws, small, with one thread: smooth shading, clipping and textures,
+/// Scenes that the program draws small, with one thread: smooth shading, clipping and textures,
 /// translucency.
 const SCENES: [&str; 3] = ["teapot", "floor", "panes"];
 
-/// Workloads of the crate `raster` alone, with one and with four samples per pixel: the arguments
-/// of `crates/raster/examples/workload.rs`.
+/// Workloads that use only the crate `raster`, with one and with four samples per pixel: the
+/// arguments of `crates/raster/examples/workload.rs`.
 const SAMPLES: [(&str, &str); 2] = [("raster-1", "1"), ("raster-4", "4")];
 
 /// Counts instructions and compares them with the table, or updates named rows.
@@ -64,7 +64,7 @@ pub fn run_instructions(arguments: &[String]) -> Outcome {
 /// The stored counts, for the page of benchmarks.
 #[derive(Default)]
 pub struct RecordedCounts {
-    /// The compiler whose instructions were counted.
+    /// The compiler of the counted program.
     pub compiler: String,
     /// Each piece of work with its count.
     pub counts: Vec<(&'static str, u64)>,
@@ -78,14 +78,14 @@ pub fn recorded_counts() -> Result<RecordedCounts, String> {
     Ok(RecordedCounts { counts, compiler: table.compiler })
 }
 
-/// Name and number of the compiler, without its date: another one makes other instructions.
+/// Name and number of the compiler, without its date: another one generates other instructions.
 fn compiler_version() -> Result<String, String> {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let version = capture_output(Command::new(rustc).arg("--version").current_dir(project_root()))?;
     Ok(version.split_whitespace().take(2).collect::<Vec<_>>().join(" "))
 }
 
-/// Why nothing can be counted here.
+/// The reason why nothing can be counted here.
 fn missing_tool() -> Option<&'static str> {
     let valgrind = Command::new("valgrind").arg("--version").output();
     if !valgrind.is_ok_and(|output| output.status.success()) {
@@ -110,7 +110,7 @@ enum Request {
     Update { names: NameSelection, reason: String },
 }
 
-/// Which figures are to be stored.
+/// The figures to store.
 enum NameSelection {
     All,
     These(Vec<String>),
@@ -147,7 +147,7 @@ impl Request {
     }
 }
 
-/// The names of all figures.
+/// All figure names.
 fn known_names() -> Vec<&'static str> {
     SCENES.into_iter().chain(SAMPLES.map(|(name, _)| name)).collect()
 }
@@ -156,7 +156,7 @@ fn is_known_name(name: &str) -> bool {
     known_names().contains(&name)
 }
 
-/// A piece of work and what it took.
+/// A piece of work and its cost.
 struct Count {
     name: String,
     instructions: u64,
@@ -181,7 +181,7 @@ fn count_all() -> Result<Vec<Count>, String> {
     SCENES.into_iter().map(scene).chain(SAMPLES.into_iter().map(alone)).collect()
 }
 
-/// Runs a command under callgrind, without an environment that could change the count.
+/// Runs a command under callgrind, without environment variables that could change the count.
 fn count_instructions(name: &str, command: &Command) -> Result<Count, String> {
     let profile = profile_path(name);
     let mut valgrind = Command::new("valgrind");
@@ -196,7 +196,7 @@ fn count_instructions(name: &str, command: &Command) -> Result<Count, String> {
     Ok(Count { name: name.to_owned(), instructions })
 }
 
-/// Where callgrind leaves what it found, for `callgrind_annotate` and the like.
+/// The path of callgrind's output, for `callgrind_annotate` and similar tools.
 fn profile_path(name: &str) -> PathBuf {
     target_folder().join("bench").join(format!("{name}.callgrind"))
 }

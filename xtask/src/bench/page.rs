@@ -1,13 +1,13 @@
-//! `cargo xtask bench --page`: the rasterizer and the program beside others, as the page
-//! `docs/benchmarks.md` with every single figure in `docs/benchmarks.csv`.
+//! `cargo xtask bench --page`: the rasterizer and the program against others, as the page
+//! `docs/benchmarks.md`, with every single figure in `docs/benchmarks.csv`.
 //!
 //! ```text
 //! cargo xtask bench --page                      # a quarter of an hour on a quiet machine
 //! cargo xtask bench --page --rounds 3           # sooner, and less certain
 //! ```
 //!
-//! It measures what `cargo xtask bench raster` does, and takes the same arguments; the page says
-//! where, when, of which commit and under which load. What is lost comes first.
+//! It measures the same as `cargo xtask bench raster`, and takes the same arguments. The page
+//! states the machine, the time, the commit and the load. Losses come first.
 
 mod losses;
 mod place;
@@ -22,7 +22,7 @@ use std::path::Path;
 
 /// Measures, then writes the page and the rows.
 pub fn run_page(arguments: &[String]) -> Outcome {
-    // Built before the load is read: the builds of others would count, and its own must not.
+    // Built before the load is read: other builds should count, but not this one.
     let program = crate::program::Program::build(crate::program::Build::Release)?;
     super::raster::build_peers()?;
     let mut place = Place::describe()?;
@@ -91,7 +91,7 @@ fn page(place: &Place, figures: &Value, counts: &super::instructions::RecordedCo
     text
 }
 
-/// Every single time: what was drawn, by whom, in which round, in how many seconds.
+/// Every single time: the subject, the contestant, the round, and the seconds.
 fn rows(figures: &Value) -> String {
     let mut text = "subject,contestant,round,cpu_seconds\n".to_owned();
     let mut add = |subject: &str, contestants: &Value| {

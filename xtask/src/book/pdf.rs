@@ -7,10 +7,10 @@ use crate::skip::report_skip;
 use std::path::Path;
 use std::process::Command;
 
-/// Seconds for one edition.
+/// The time limit for one edition, in seconds.
 const SECONDS: &str = "300";
 
-/// The languages, and those whose letters not every machine has.
+/// The languages, and those whose fonts some machines lack.
 const EDITIONS: [(&str, Option<&str>); 2] = [("en", None), ("zh", Some(":lang=zh"))];
 
 /// Prints `viewing-LANGUAGE.pdf` into the folder of the book.
@@ -38,7 +38,7 @@ pub fn print_editions(book: &Path) -> Outcome {
     Ok(())
 }
 
-/// Chromium without a display; page numbers are those of the style sheet, the outline that of the
+/// Chromium without a display; page numbers come from the style sheet, the outline from the
 /// headings.
 fn print_command(page: &Path, pdf: &Path) -> Command {
     let mut chromium = Command::new("timeout");

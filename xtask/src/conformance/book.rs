@@ -8,9 +8,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// The page of misprints, which has every one of them.
+/// The page of misprints, which marks every one of them.
 const MISPRINT_PAGE: &str = "printed-wrong";
-/// The table of topics is generated from the marks and is none itself.
+/// The table of topics is generated from the marks and does not count as one of the pages.
 const GENERATED_PAGE: &str = "topics";
 
 /// The pages of the book that mark each topic.
@@ -49,7 +49,7 @@ impl BookMarks {
         self.pages.get(id).into_iter().flatten().map(String::as_str)
     }
 
-    /// What is missing or strange among the marks, given all topics.
+    /// Missing and unknown marks, given all topics.
     pub fn faults(&self, topics: &BTreeSet<String>) -> Vec<String> {
         let unmarked = topics.iter().filter(|id| !self.pages.contains_key(*id));
         let unmarked = unmarked.map(|id| format!("no page of the book marks {id}"));
@@ -83,7 +83,7 @@ pub fn compare_topics(name: &str, found: &BTreeSet<String>, known: &BTreeSet<Str
     Err(format!("{name} lacks [{missing}] and has besides [{strange}]"))
 }
 
-/// The ids that stand in code spans, outside of fenced blocks.
+/// The ids in code spans, outside fenced blocks.
 fn marked_ids(text: &str) -> BTreeSet<String> {
     let mut in_fence = false;
     let mut ids = BTreeSet::new();

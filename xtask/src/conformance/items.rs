@@ -1,13 +1,13 @@
-//! The list of topics to be tested: the items that the sources teach (C), the misprints found in
-//! them (M), and the exercises of the textbook's chapter, each with the crates that answer for it.
+//! The list of topics to test: the items that the sources teach (C), the misprints found in them
+//! (M), and the exercises of the textbook's chapter, each with the crates responsible for it.
 
 use std::sync::LazyLock;
 
-/// One thing that tests prove.
+/// An item that tests prove.
 pub struct Item {
     /// `C4`, `M11b` or `exercise 3`.
     pub id: String,
-    /// The crates that answer for it. Each must have a test of its own.
+    /// The crates responsible for it. Each must have a test for it.
     pub owners: Vec<&'static str>,
     /// The topic in a few words.
     pub title: &'static str,
@@ -18,19 +18,19 @@ impl Item {
         Self { id: id.to_owned(), owners: owners.split_whitespace().collect(), title }
     }
 
-    /// The owners that must have their test by now: the crates of mathematics are complete.
+    /// The owners that must have their tests by now: the math crates are complete.
     pub fn complete_owners(&self) -> impl Iterator<Item = &'static str> {
         self.owners.iter().copied().filter(|owner| crate::tidy::NO_STD.contains(owner))
     }
 }
 
-/// Topics, exercises and misprints of the sources. A test of a misprint shows
-/// that the printed form fails.
+/// Topics, exercises and misprints of the sources. A test of a misprint shows that the printed form
+/// fails.
 pub static ITEMS: LazyLock<Vec<Item>> = LazyLock::new(|| parse_rows(ITEM_ROWS));
 /// The misprints of the sources.
 pub static MISPRINTS: LazyLock<Vec<Item>> = LazyLock::new(|| parse_rows(MISPRINT_ROWS));
 
-/// The exercises: each asks for an item, and whatever proves the exercise proves the item.
+/// The exercises: each asks for an item, and any proof of the exercise proves the item.
 pub static EXERCISES: LazyLock<Vec<Item>> = LazyLock::new(|| {
     let asked = |id: &str| ITEMS.iter().find(|item| item.id == id);
     let exercise = |(i, id): (usize, &&str)| {

@@ -1,6 +1,6 @@
 //! Test functions and the items that they name, read from source text.
 //!
-//! A test names an item in one of two ways: by a word of its own name (`c16_the_unit_square`,
+//! A test names an item in one of two ways: by a word in its own name (`c16_the_unit_square`,
 //! `misprint_m11_…`, `exercise_8_and_9_…`) or in the doc comment above it (`/// C31, M28: …`).
 
 use super::items::exercise_item;
@@ -18,8 +18,8 @@ pub struct Test {
 }
 
 impl Test {
-    /// The crate whose topics it tests: `recognition` reads the matrices of `projection`, and
-    /// `explain` and what crosses crates test the pipeline.
+    /// The crate whose topics it tests: `recognition` reads the matrices of `projection`, and tests
+    /// of `explain` and cross-crate tests count for the pipeline.
     pub fn owner(&self) -> &str {
         let folder = self.path.strip_prefix("crates/").and_then(|rest| rest.split('/').next());
         match folder {
@@ -81,7 +81,7 @@ fn named_ids(words: impl Iterator<Item = String>) -> BTreeSet<String> {
     ids
 }
 
-/// A letter, a number, and for a misprint perhaps a letter more.
+/// A letter, a number and, for a misprint, an optional letter.
 pub fn is_item_id(word: &str) -> bool {
     let number = |rest: &str| !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_digit());
     let misprint = |rest: &str| number(rest) || number(rest.trim_end_matches(['b', 'c']));

@@ -6,7 +6,7 @@ use super::scan::Test;
 use super::vectors::VECTORS;
 use std::collections::BTreeMap;
 
-/// The owner of topics that are no mathematics.
+/// The owner of topics outside mathematics.
 const DOCUMENTS: &str = "documents";
 
 const OPENING: &str = "\
@@ -38,7 +38,7 @@ pub fn conformance_document(tests: &[Test], marks: Option<&BookMarks>) -> String
     text
 }
 
-/// A line for each file that has a test of the item, for the vectors, and for what is missing.
+/// A line for each file with a test of the item, for the vectors, and for missing tests.
 fn item_proofs(item: &Item, tests: &[Test], marks: Option<&BookMarks>) -> Vec<String> {
     let mut files: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for test in tests.iter().filter(|test| test.ids.contains(&item.id)) {
@@ -75,8 +75,8 @@ pub fn has_test(item: &Item, owner: &str, tests: &[Test]) -> bool {
     tests.iter().any(|test| test.owner() == owner && test.ids.contains(&item.id))
 }
 
-/// Whether a crate has a test that names the item, or for what is no mathematics, the book a page
-/// that marks it.
+/// Whether a crate has a test that names the item. For topics outside mathematics: whether the book
+/// has a page that marks it.
 pub fn has_evidence(item: &Item, owner: &str, tests: &[Test], marks: Option<&BookMarks>) -> bool {
     if owner == DOCUMENTS {
         return marks.is_some_and(|marks| marks.pages_of(&item.id).next().is_some());

@@ -1,6 +1,7 @@
 //! License expressions (SPDX): whether a list of licenses satisfies one.
 
-/// Whether an expression can be satisfied by licenses of a list. `/` is the old sign for `OR`.
+/// Whether an expression can be satisfied by the licenses in a list. `/` is the old symbol for
+/// `OR`.
 pub fn is_satisfied(expression: &str, allowed: &[String]) -> bool {
     let spaced = expression.replace('/', " OR ").replace('(', " ( ").replace(')', " ) ");
     let words: Vec<&str> = spaced.split_whitespace().collect();
@@ -9,7 +10,7 @@ pub fn is_satisfied(expression: &str, allowed: &[String]) -> bool {
     satisfied == Some(true) && rest.is_empty()
 }
 
-/// `A OR B OR …`; `None` for what is no expression.
+/// `A OR B OR …`; `None` if it is not an expression.
 fn alternatives(words: &mut &[&str], allowed: &[String]) -> Option<bool> {
     let mut any = conjunction(words, allowed)?;
     while take(words, "OR") {

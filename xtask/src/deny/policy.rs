@@ -1,4 +1,4 @@
-//! The policy of `deny.toml`: the lists of text that the checks here need.
+//! The policy of `deny.toml`: the lists of strings that the checks here need.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ pub struct Policy {
 }
 
 impl Policy {
-    /// Reads sections, and in them lists of strings; other values are `cargo deny`'s alone.
+    /// Reads sections and the lists of strings in them; all other values are for `cargo deny`.
     pub fn parse(text: &str) -> Result<Self, String> {
         let (mut section, mut lists) = (String::new(), BTreeMap::new());
         let mut lines = text.lines().map(without_comment).map(str::trim);
@@ -24,7 +24,7 @@ impl Policy {
                     value +=
                         lines.next().ok_or_else(|| format!("deny.toml: `{name}` has no end"))?;
                 }
-                // Every other part between quotation marks is a text.
+                // Every other part between quotation marks is a string.
                 let texts = value.split('"').skip(1).step_by(2).map(str::to_owned).collect();
                 lists.insert(format!("{section}.{name}"), texts);
             }
@@ -38,7 +38,7 @@ impl Policy {
     }
 }
 
-/// A line without its comment; no text of the policy has a `#`.
+/// A line without its comment; no string in the policy contains a `#`.
 fn without_comment(line: &str) -> &str {
     line.split('#').next().unwrap_or_default()
 }

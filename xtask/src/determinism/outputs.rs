@@ -1,4 +1,4 @@
-//! The files of a folder by their SHA-256, and where two folders differ.
+//! The files in a folder with their SHA-256, and the differences between two folders.
 
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,7 +14,7 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// Reads the files of a folder.
+    /// Reads the files in a folder.
     ///
     /// # Errors
     /// One cannot be read.
@@ -34,17 +34,17 @@ impl Outputs {
         self.digests.insert(name, Sha256::digest(bytes).into());
     }
 
-    /// How many files there are.
+    /// The number of files.
     pub fn file_count(&self) -> usize {
         self.digests.len()
     }
 
-    /// The sum of their sizes.
+    /// The sum of the file sizes.
     pub fn byte_count(&self) -> u64 {
         self.bytes
     }
 
-    /// The SHA-256 of the list of names and their SHA-256, in the order of the names.
+    /// The SHA-256 of the list of file names and their SHA-256, ordered by name.
     pub fn digest(&self) -> String {
         let mut all = Sha256::new();
         for (name, digest) in &self.digests {
@@ -53,7 +53,7 @@ impl Outputs {
         hexadecimal(&all.finalize())
     }
 
-    /// The names of files that differ or that only one of both has.
+    /// The files that differ or that only one of the two has, by name.
     pub fn differences(&self, other: &Self) -> Vec<String> {
         let names: BTreeSet<&String> = self.digests.keys().chain(other.digests.keys()).collect();
         let differs = |name: &&&String| self.digests.get(**name) != other.digests.get(**name);

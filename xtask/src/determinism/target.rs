@@ -1,4 +1,4 @@
-//! A target: how the program is compiled for it, and how it runs here.
+//! A target: the way to compile the program for it, and to run it here.
 
 use crate::program::capture_output;
 use crate::tool_chain::ToolChain;
@@ -15,22 +15,22 @@ pub struct Target {
     /// The property that it proves.
     pub about: &'static str,
     compiler: Compiler,
-    /// Flags of the compiler, after those of the profile; `{own}` is a folder of this target.
+    /// Compiler flags, after the profile's flags; `{own}` is a folder of this target.
     flags: &'static [&'static str],
-    /// Settings of Cargo, in its environment.
+    /// Cargo settings, as environment variables.
     settings: &'static [(&'static str, &'static str)],
-    /// Words before the path of the program: an emulator, or another loader.
+    /// Words in front of the program's path: an emulator, or another loader.
     runner: &'static [&'static str],
 }
 
 /// The compiler of a target.
 #[derive(Clone, Copy, Debug)]
 enum Compiler {
-    /// That of this workspace, for this machine.
+    /// This workspace's compiler, for this machine.
     Own,
-    /// Debian's, for this machine.
+    /// Debian's compiler, for this machine.
     Second,
-    /// One that compiles the standard library as well, for the named target, with a linker.
+    /// A compiler that also compiles the standard library, for the named target, with a linker.
     WithSources { triple: &'static str, linker: &'static str, packages: &'static str },
 }
 
@@ -38,8 +38,8 @@ enum Compiler {
 /// for them takes longer than running on them. `opt-1` and `native` compare optimizations.
 const QUICK: &[&str] = &["-Copt-level=1", "-Ccodegen-units=16"];
 
-/// All targets. The processors differ in vector instructions (NEON; none), in the size of a pointer,
-/// in the sign of a NaN, and i686 passes numbers in registers of the x87.
+/// All targets. The processors differ in vector instructions (NEON; none), in pointer size and in
+/// the sign of a NaN, and i686 passes numbers in x87 registers.
 pub const TARGETS: &[Target] = &[
     Target {
         name: "aarch64",
@@ -75,7 +75,7 @@ pub const TARGETS: &[Target] = &[
         },
         flags: QUICK,
         settings: &[],
-        // This processor runs it; the loader only has to find its C library.
+        // This processor runs it; only the loader has to find its C library.
         runner: &[
             "/usr/i686-linux-gnu/lib/ld-linux.so.2",
             "--library-path",
@@ -90,7 +90,7 @@ pub const TARGETS: &[Target] = &[
             linker: "musl-gcc",
             packages: "musl-tools",
         },
-        // The compiler's own start files and libraries for musl are not there: GCC's are.
+        // The compiler's own start files and libraries for musl are missing, but GCC's are there.
         flags: &[
             QUICK[0],
             QUICK[1],
@@ -132,7 +132,7 @@ impl Target {
     /// The compiler of the target.
     ///
     /// # Errors
-    /// It, its linker or its emulator is not there; the message says how to get it.
+    /// It, its linker or its emulator is missing; the message says how to get it.
     pub fn find_tools(&self) -> Result<ToolChain, String> {
         let Compiler::WithSources { linker, packages, .. } = self.compiler else {
             return match self.compiler {
@@ -148,7 +148,7 @@ impl Target {
         ToolChain::with_sources()
     }
 
-    /// Compiles the program; gives its path.
+    /// Compiles the program; returns its path.
     ///
     /// # Errors
     /// It does not compile.
@@ -168,7 +168,7 @@ impl Target {
         if linker == "musl-gcc" {
             provide_unwinder(&own)?;
         }
-        // One folder for all of them: what runs while they are compiled is compiled once.
+        // One folder for all targets: programs that run during compilation are compiled once.
         let mut build = tool_chain.cargo_build(project_root(), &flags, &targets);
         build.args(["--package", "alberti", "--bin", "alberti", "--target", triple]);
         build.arg("-Zbuild-std=std,panic_unwind").env("RUSTC_BOOTSTRAP", "1");
@@ -178,14 +178,14 @@ impl Target {
         Ok(targets.join(triple).join("release/alberti"))
     }
 
-    /// The program with what must stand before it.
+    /// The program with the words in front of it.
     pub fn command_line(&self, program: &Path) -> Vec<OsString> {
         let words = self.runner.iter().map(OsString::from);
         words.chain([program.into()]).collect()
     }
 }
 
-/// Names GCC's unwinder as the standard library for musl looks for it.
+/// Names GCC's unwinder as the standard library for musl expects it.
 fn provide_unwinder(folder: &Path) -> Result<(), String> {
     let path = capture_output(Command::new("gcc").arg("-print-file-name=libgcc_eh.a"))?;
     let copied = fs::copy(path.trim(), folder.join("libunwind.a"));

@@ -1,7 +1,7 @@
-//! Other targets of the compiler, and what the program compiled for them writes.
+//! Other compiler targets, and the output of the program compiled for them.
 //!
-//! Each is compiled here, runs the same commands as the release build of this machine, in an
-//! emulator where its processor is another one, and must write the same bytes.
+//! Each target is compiled here, runs the same commands as this machine's release build, in an
+//! emulator if it has another processor, and must write the same bytes.
 
 use super::outputs::Outputs;
 use super::target::{TARGETS, Target};
@@ -15,11 +15,11 @@ use crate::workspace::target_folder;
 use std::fs;
 use std::path::Path;
 
-/// The name that stands for the module of the explorer.
+/// The name for the explorer's module.
 const WEB: &str = "wasm";
 
-/// Compares targets with the release build: those that are named, or all. One whose tool chain is
-/// not there is skipped, by name.
+/// Compares targets with the release build: the named ones, or all. A target whose tool chain is
+/// missing is reported as skipped.
 ///
 /// # Errors
 /// A name is unknown, a target does not compile, or a byte differs.
@@ -52,13 +52,13 @@ pub fn compare_targets(names: &[String]) -> Outcome {
     if is_chosen(WEB) { web::compare_web(&release) } else { Ok(()) }
 }
 
-/// Why a target was not compared.
+/// The reason why a target was not compared.
 enum Failure {
     Skipped(String),
     Failed(String),
 }
 
-/// Compiles and runs one target; gives the names of the files that differ.
+/// Compiles and runs one target; returns the files that differ, by name.
 fn compare_target(
     target: &Target,
     workload: &Workload,
@@ -74,7 +74,7 @@ fn compare_target(
     print_row(target.name, &version, &outputs, target.about);
     let differences = native.differences(&outputs);
     if differences.is_empty() {
-        // Copies of what the release build wrote.
+        // Copies of the release build's output.
         let removed = fs::remove_dir_all(&folder);
         removed.map_err(|error| Failure::Failed(format!("{}: {error}", folder.display())))?;
     }

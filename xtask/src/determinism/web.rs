@@ -1,5 +1,5 @@
-//! The pictures of the explorer: its WebAssembly in Node against the program, another instruction
-//! set with the same bytes.
+//! The explorer's pictures: its WebAssembly in Node against the program, another instruction set
+//! with the same bytes.
 
 use crate::Outcome;
 use crate::program::Program;
@@ -10,8 +10,8 @@ use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// States besides the default of each lesson: models with textures, glass, lights and shadows, and
-/// every way to shade.
+/// States other than the default of each lesson: models with textures, glass, lights and shadows,
+/// and every way to shade.
 const STATES: &[&str] = &[
     "lesson=model&model=models/teapot.glb",
     "lesson=model&model=models/finishes.glb",
@@ -27,11 +27,11 @@ const STATES: &[&str] = &[
     "lesson=model&model=models/room.glb&style=Lines",
 ];
 
-/// The fewest pictures that count as a proof.
+/// The minimum number of pictures that count as a proof.
 const MIN_PICTURES: usize = 20;
 
 /// Renders the explorer's pictures with WebAssembly and with the program, and compares the bytes.
-/// Where WebAssembly cannot be built this is skipped, by name.
+/// Reported as skipped if WebAssembly cannot be built.
 pub fn compare_web(program: &Program) -> Outcome {
     if let Some(missing) = web::missing_tools() {
         report_skip("the bytes of WebAssembly", &missing);
@@ -88,7 +88,7 @@ fn requests_of((number, state): (usize, &String)) -> [Request; 2] {
     })
 }
 
-/// The models of the scenes, by their names in scene files.
+/// The scene models, by their names in scene files.
 fn scene_models() -> Result<Vec<(String, PathBuf)>, String> {
     let paths = list_files(&project_root().join("scenes/models"), "glb")?;
     let name = |path: &PathBuf| {

@@ -12,7 +12,7 @@ use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// For each scene and each model. Small, because an emulated processor is slow.
+/// For each scene and each model; small, because an emulated processor is slow.
 const FOR_EACH_INPUT: &[&str] = &[
     "render {input} --size 160x120 --pass-format npy --passes depth,distance,normal,view-normal,\
         position,uv,barycentric,id,model,node,mesh,material,overdraw,coverage -o {name}.png",
@@ -76,14 +76,14 @@ pub struct Workload {
     commands: Vec<WorkloadCommand>,
 }
 
-/// A command, and the file that keeps what it prints.
+/// A command, and the file for its output.
 struct WorkloadCommand {
     arguments: Vec<OsString>,
     printed: String,
 }
 
 impl Workload {
-    /// All commands. The models of the shared folder are skipped, by name, where it is not there.
+    /// All commands. The shared models are reported as skipped if their folder is missing.
     pub fn load() -> Result<Self, String> {
         let mut inputs: Vec<(String, PathBuf)> =
             list_scenes()?.into_iter().map(|scene| (scene.name, scene.path)).collect();
@@ -108,7 +108,7 @@ impl Workload {
         Ok(Self { commands: each.chain(once).collect() })
     }
 
-    /// How many commands there are.
+    /// The number of commands.
     pub fn command_count(&self) -> usize {
         self.commands.len()
     }
@@ -117,7 +117,7 @@ impl Workload {
     /// files that they wrote.
     ///
     /// # Errors
-    /// The program does not start. Its own failures are kept with what it printed.
+    /// The program does not start. Its own failures are kept with its output.
     pub fn run_with(&self, program: &[OsString], folder: &Path) -> Result<Outputs, String> {
         if folder.exists() {
             fs::remove_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
@@ -142,7 +142,7 @@ impl Workload {
 }
 
 impl WorkloadCommand {
-    /// Replaces what is in braces; paths may have spaces.
+    /// Replaces the names in braces; paths may contain spaces.
     fn parse(line: &str, name: &str, input: &Path, printed: &str) -> Self {
         let scenes = project_root().join("scenes");
         let word = |word: &str| match word {
@@ -156,7 +156,7 @@ impl WorkloadCommand {
         Self { arguments: line.split_whitespace().map(word).collect(), printed: printed.into() }
     }
 
-    /// Runs it and keeps its status and what it printed.
+    /// Runs it and keeps its status and its output.
     fn run_with(&self, program: &[OsString], folder: &Path) -> Outcome {
         let (first, rest) = program.split_first().ok_or("there is no program")?;
         let mut command = Command::new(first);

@@ -1,9 +1,9 @@
-//! The distribution of the times of pictures, as it was measured.
+//! The measured distribution of picture times.
 
 use serde_json::Value;
 
-/// Milliseconds that the pictures of 129 models take at 256×256, on one core that does nothing else:
-/// from a triangle to files of 10 MB with large textures.
+/// Milliseconds per picture for 129 models at 256×256, on one otherwise idle core: from a triangle
+/// to 10 MB files with large textures.
 const MEASURED: [f64; 129] = [
     0.9, 1.1, 1.1, 1.2, 1.7, 1.7, 1.8, 1.8, 1.8, 1.8, 1.8, 1.9, 2.1, 2.3, 2.3, 2.3, 2.4, 2.4, 2.5,
     2.6, 2.6, 2.7, 2.7, 2.7, 2.7, 2.8, 2.8, 2.8, 2.9, 3.0, 3.0, 3.0, 3.3, 3.6, 3.6, 3.7, 3.7, 3.7,
@@ -15,21 +15,21 @@ const MEASURED: [f64; 129] = [
     86.4, 92.1, 333.8, 391.7,
 ];
 
-/// Milliseconds that pictures take, all of them equally likely.
+/// Milliseconds per picture, all equally likely.
 pub struct PictureTimes(Vec<f64>);
 
 impl PictureTimes {
-    /// The times that were measured.
+    /// The measured times.
     pub fn measured() -> Self {
         Self(MEASURED.to_vec())
     }
 
-    /// Given times; none if there are none.
+    /// Given times; `None` if there are none.
     pub fn of(times: &[f64]) -> Option<Self> {
         (!times.is_empty()).then(|| Self(times.to_vec()))
     }
 
-    /// The times of the pictures of a report.
+    /// The picture times in a report.
     pub fn from_report(text: &str) -> Result<Self, String> {
         let records = text.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
         let done = records.filter(|record| record["status"] == "done");
@@ -38,7 +38,7 @@ impl PictureTimes {
         Self::of(&times).ok_or_else(|| "the report has no picture that is done".to_owned())
     }
 
-    /// One of the times, by a number from 0 to 1.
+    /// One of the times, selected by a number from 0 to 1.
     pub fn time_at(&self, share: f64) -> f64 {
         let last = self.0.len() - 1;
         self.0[((share * self.0.len() as f64) as usize).min(last)]

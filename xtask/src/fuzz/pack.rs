@@ -1,5 +1,5 @@
-//! Models of several files as one binary file, for the targets read no other files; and what is
-//! compressed in them.
+//! Models of several files packed into one binary file, because the targets read no other files;
+//! and the compressed parts in them.
 
 use scene_models::glb::encode_glb;
 use serde_json::{Value, json};
@@ -17,8 +17,8 @@ pub struct PackedModel {
 }
 
 impl PackedModel {
-    /// Reads a `.glb`, or a `.gltf` with all the files it names. `None` for what is no glTF; a file
-    /// that cannot be packed is as it is.
+    /// Reads a `.glb`, or a `.gltf` with all the files it names. `None` if it is not glTF; a file
+    /// that cannot be packed is returned as it is.
     pub fn read_model(path: &Path) -> Option<Self> {
         let file = fs::read(path).ok()?;
         if let Some((json, binary)) = glb_chunks(&file) {
@@ -67,7 +67,7 @@ impl PackedModel {
         Some(Self { file: encode_glb(json.to_string().as_bytes(), &binary), json, binary })
     }
 
-    /// The bytes of a part of the first buffer: `{"byteOffset": …, "byteLength": …}`.
+    /// The bytes in a range of the first buffer: `{"byteOffset": …, "byteLength": …}`.
     pub fn view_bytes(&self, view: &Value) -> Option<&[u8]> {
         let start = view["byteOffset"].as_u64().unwrap_or(0) as usize;
         let length = view["byteLength"].as_u64()? as usize;
@@ -83,7 +83,7 @@ fn append_aligned(binary: &mut Vec<u8>, file: &[u8]) -> usize {
     start
 }
 
-/// Makes a view of a buffer one of all buffers together.
+/// Turns a view of one buffer into a view of the joint buffer.
 fn shift_view(view: &mut Value, starts: &[usize]) -> Option<()> {
     let start = *starts.get(view["buffer"].as_u64()? as usize)?;
     let offset = view["byteOffset"].as_u64().unwrap_or(0);
@@ -92,7 +92,7 @@ fn shift_view(view: &mut Value, starts: &[usize]) -> Option<()> {
     Some(())
 }
 
-/// The JSON and the binary chunk of a binary file that is in order.
+/// The JSON and the binary chunk of a valid binary file.
 fn glb_chunks(file: &[u8]) -> Option<(&[u8], &[u8])> {
     let word = |at: usize| Some(u32::from_le_bytes(*file.get(at..)?.first_chunk()?) as usize);
     let json = file.starts_with(b"glTF").then(|| file.get(20..)?.get(..word(12)?))??;

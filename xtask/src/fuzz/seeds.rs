@@ -1,4 +1,4 @@
-//! Seeds of the fuzz targets: real and hostile files, in the form that a target reads.
+//! Seeds for the fuzz targets: real and hostile files, in the form that a target reads.
 
 use super::assets_folder;
 use super::pack::PackedModel;
@@ -9,11 +9,11 @@ use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Larger files are too slow to vary.
+/// Larger files are too slow to mutate.
 const LARGEST_MODEL: usize = 200 << 10;
 const LARGEST_STREAM: usize = 48 << 10;
 
-/// Writes the seeds of a target into a folder; gives how many there are.
+/// Writes the seeds of a target into a folder; returns their number.
 pub fn write_seeds(target: &str, folder: &Path) -> Result<usize, String> {
     let mut seeds = match target {
         "model" => model_seeds().into_iter().map(|model| model.file).collect(),
@@ -24,7 +24,7 @@ pub fn write_seeds(target: &str, folder: &Path) -> Result<usize, String> {
         "image" | "background" => image_seeds(),
         "scene" => scene_seeds()?,
         "maths" | "raster" => number_seeds(),
-        // Everything that these begin with is committed.
+        // The first inputs of these targets are all committed.
         _ => Vec::new(),
     };
     seeds.extend(committed_cases(target)?);
@@ -57,7 +57,7 @@ fn committed_cases(target: &str) -> Result<Vec<Vec<u8>>, String> {
     Ok(paths.iter().filter_map(|path| fs::read(path).ok()).collect())
 }
 
-/// All files below a folder with one of these endings, sorted.
+/// All files below a folder with one of these extensions, sorted.
 fn files_below(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut paths: Vec<PathBuf> = fs::read_dir(folder)
@@ -77,7 +77,7 @@ fn files_below(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     found
 }
 
-/// The shared assets with these endings, the scenes' models and the data of tests.
+/// The shared assets with these extensions, the scenes' models and the test data.
 fn asset_paths(endings: &[&str]) -> Vec<PathBuf> {
     let mut paths = files_below(&project_root().join("scenes"), endings);
     paths.extend(files_below(&project_root().join("crates/model/tests"), endings));
@@ -92,7 +92,7 @@ fn model_seeds() -> Vec<PackedModel> {
     asset_paths(&["glb", "gltf"]).iter().filter_map(|path| PackedModel::read_model(path)).collect()
 }
 
-/// The contents of the shared assets with these endings.
+/// The contents of the shared assets with these extensions.
 fn files_with_endings(endings: &[&str]) -> Vec<Vec<u8>> {
     asset_paths(endings).iter().filter_map(|path| fs::read(path).ok()).collect()
 }
@@ -151,7 +151,7 @@ fn draco_seeds(model: &PackedModel) -> Vec<Vec<u8>> {
     primitives.filter_map(stream).collect()
 }
 
-/// Images by themselves and out of models, each after the number of its kind.
+/// Images by themselves and from models, each after the number of its kind.
 fn image_seeds() -> Vec<Vec<u8>> {
     let kind = |file: &[u8]| match file {
         [0x89, b'P', ..] => 0,
@@ -174,8 +174,8 @@ fn image_seeds() -> Vec<Vec<u8>> {
     seeds
 }
 
-/// Bytes from a generator (splitmix64), each time after another number: there are fewer functions
-/// than 512.
+/// Bytes from a generator (splitmix64), each time after another number: there are fewer than 512
+/// functions.
 fn number_seeds() -> Vec<Vec<u8>> {
     let mut state = 0u64;
     let mut word = || {

@@ -1,5 +1,5 @@
-//! Fuzzing sessions: a run of one target: libFuzzer's processes, how long they may work, and what
-//! they report.
+//! Fuzzing sessions: one run of a target, with libFuzzer's processes, their time limit, and their
+//! reports.
 
 use crate::workspace::relative_path;
 use std::collections::BTreeSet;
@@ -18,11 +18,11 @@ pub struct Session {
     pub is_talkative: bool,
     /// The dictionary.
     pub words: Option<PathBuf>,
-    /// Where `seeds`, `corpus` and `artifacts` are.
+    /// The folder of `seeds`, `corpus` and `artifacts`.
     pub folder: PathBuf,
     /// Time limit of the run.
     pub minutes: f64,
-    /// Processes at a time.
+    /// The number of concurrent processes.
     pub jobs: usize,
 }
 
@@ -75,7 +75,7 @@ impl Session {
             for job in &jobs {
                 println!("{}", last_lines(&fs::read_to_string(&job.log).unwrap_or_default()));
             }
-            // A crash that was known is not written again, and is one all the same.
+            // A known crash is not written again, and still counts.
             if report.crashes.is_empty() {
                 report.crashes.extend(before);
             }
@@ -91,11 +91,11 @@ impl Session {
         let log = self.folder.join(format!("job-{number}.log"));
         let file = File::create(&log).map_err(|error| format!("{}: {error}", log.display()))?;
         let folder = |part: &str| self.folder.join(part);
-        // As the last resort only, for each case judges its own time and memory.
+        // Only as the last resort, because each case judges its own time and memory.
         let mut command = Command::new(&self.program);
         command.args(["-timeout=30", "-rss_limit_mb=2048", "-print_final_stats=1"]);
         if self.is_talkative {
-            // Messages of the program under test; the fuzzer's own still come.
+            // The messages of the program under test; the fuzzer's own still appear.
             command.arg("-close_fd_mask=3");
         }
         command.arg(format!("-artifact_prefix={}/", folder("artifacts").display()));
@@ -129,16 +129,16 @@ impl Session {
 }
 
 impl FuzzJob {
-    /// Notes how long it has run, and whether it has ended.
+    /// Notes its running time, and whether it has ended.
     fn update_peak(&mut self) -> Result<(), String> {
-        // Where the system does not tell, the clock does.
+        // If the system does not report it, the clock is used.
         self.time =
             processor_time(self.child.id()).unwrap_or_else(|| self.start.elapsed()).max(self.time);
         self.done = self.child.try_wait().map_err(|error| error.to_string())?.is_some();
         Ok(())
     }
 
-    /// Ends it as a person at the keyboard would, so that it still says what it did.
+    /// Ends it as a person at the keyboard would, so that it still reports its results.
     fn stop_process(&mut self) -> Result<(), String> {
         if !self.done {
             let id = self.child.id().to_string();
@@ -151,11 +151,11 @@ impl FuzzJob {
     }
 }
 
-/// The time that a process has run on the processors, where the system tells.
+/// The processor time of a process, if the system reports it.
 fn processor_time(process: u32) -> Option<Duration> {
     let text = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    // The name, in brackets, may have blanks. Linux counts in hundredths of a second, whatever its
-    // own clock does.
+    // The name, in parentheses, may contain blanks. Linux counts in hundredths of a second,
+    // regardless of its internal clock.
     let (_, after) = text.rsplit_once(')')?;
     let mut fields = after.split_whitespace().skip(11);
     let ticks = fields.next()?.parse::<u64>().ok()? + fields.next()?.parse::<u64>().ok()?;
@@ -170,14 +170,14 @@ fn list_artifacts(folder: &Path) -> Result<BTreeSet<PathBuf>, String> {
     Ok(entries.filter_map(|entry| Some(entry.ok()?.path())).collect())
 }
 
-/// The number after a word, where it is for the last time.
+/// The number after the last occurrence of a word.
 fn last_number(log: &str, word: &str) -> Option<u64> {
     let (_, after) = log.rsplit_once(&format!(" {word} "))?;
     after.split_whitespace().next()?.parse().ok()
 }
 
-/// How many inputs were tried: by the statistics at the end, or, after a crash, by the last line of
-/// progress.
+/// The number of inputs tried: from the statistics at the end or, after a crash, from the last
+/// progress line.
 fn executed_runs(log: &str) -> Option<u64> {
     if let Some((_, after)) = log.rsplit_once("stat::number_of_executed_units:") {
         return after.split_whitespace().next()?.parse().ok();
@@ -186,7 +186,7 @@ fn executed_runs(log: &str) -> Option<u64> {
     progress.split_whitespace().next()?.parse().ok()
 }
 
-/// The end of a log without progress lines: from the panic on, or else the last lines.
+/// The end of a log without progress lines: from the panic on, otherwise the last lines.
 fn last_lines(log: &str) -> String {
     let lines: Vec<&str> = log.lines().filter(|line| !line.starts_with('#')).collect();
     let last = lines.len().saturating_sub(LAST_LINES);
@@ -194,11 +194,11 @@ fn last_lines(log: &str) -> String {
     lines[start..].iter().take(LAST_LINES).copied().collect::<Vec<_>>().join("\n")
 }
 
-/// So many lines are enough to see where it happened.
+/// The number of lines that are enough to see where it happened.
 const LAST_LINES: usize = 30;
 
 impl SessionReport {
-    /// Column headings of the table of reports.
+    /// The column headings in the table of reports.
     pub const HEADING: &str =
         "target       CPU min  executions   per s    edges  features  corpus  crashes";
 }

@@ -1,4 +1,4 @@
-//! Packages as files: the same bytes for the same contents, whoever packs them and when.
+//! Packages as files: the same contents give the same bytes, at any time and from any packer.
 
 use super::contents::PackagedFile;
 use super::{Release, write_file};
@@ -10,10 +10,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The file of checksums.
+/// The checksum file.
 pub const CHECKSUMS: &str = "SHA256SUMS";
 
-/// Writes a Debian package by `dpkg-deb`.
+/// Writes a Debian package with `dpkg-deb`.
 pub fn write_deb(
     release: &Release,
     files: &[PackagedFile],
@@ -49,8 +49,8 @@ pub fn write_deb(
     Ok(deb)
 }
 
-/// Debian's packages that a program needs: the C library, as new as its symbols, and the one that
-/// unwinds, if it is linked with them.
+/// The Debian packages that a program needs: the C library, as new as its symbols, and the library
+/// for unwinding, if it is linked.
 fn dependencies(program: &[u8]) -> String {
     let mentions = |text: &[u8]| program.windows(text.len()).any(|part| part == text);
     // Packed relocations are read from this version on.
@@ -61,7 +61,7 @@ fn dependencies(program: &[u8]) -> String {
     format!("libc6 (>= 2.{libc}){unwinding}")
 }
 
-/// Writes the archive for download: one folder, to be unpacked wherever one likes.
+/// Writes the download archive: one folder, which can be unpacked anywhere.
 pub fn write_tar(release: &Release, files: &[PackagedFile], staging: &Path, out: &Path) -> Outcome {
     let name = format!("alberti-{}-{}-linux", release.version, std::env::consts::ARCH);
     lay_out(files, &staging.join(&name), staging)?;
@@ -74,7 +74,7 @@ pub fn write_tar(release: &Release, files: &[PackagedFile], staging: &Path, out:
     run_command(Command::new("gzip").args(["-n", "-9", "--force"]).arg(&tar))
 }
 
-/// Writes the checksums of all files of a folder, to be checked by `sha256sum --check`.
+/// Writes the checksums for all files in a folder, for use with `sha256sum --check`.
 pub fn write_checksums(out: &Path) -> Outcome {
     let entries = fs::read_dir(out).map_err(|error| format!("{}: {error}", out.display()))?;
     let names: BTreeSet<_> = entries.filter_map(|entry| Some(entry.ok()?.file_name())).collect();

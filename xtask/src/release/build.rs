@@ -1,5 +1,5 @@
-//! The programs of a release: paths of this machine left out, so that the bytes are those of the
-//! sources alone.
+//! The programs in a release: without paths of this machine, so that the bytes depend only on the
+//! sources.
 
 use super::write_file;
 use crate::Outcome;
@@ -9,11 +9,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The program as it is handed out.
+/// The program as released.
 pub struct Programs {
-    /// For packages of distributions: it uses the C library of the system.
+    /// For distribution packages: it uses the C library of the system.
     pub dynamic: PathBuf,
-    /// For download: it needs nothing but the kernel.
+    /// For download: it needs only the kernel.
     pub standalone: PathBuf,
 }
 
@@ -22,7 +22,7 @@ pub fn build_programs(sources: &Path, target: &Path) -> Result<Programs, String>
     let compiler = Compiler::ask()?;
     let build = |name: &str, flags: &[&str]| {
         let mut cargo = cargo_command(&["rustc", "--quiet", "--locked", "--release"]);
-        // With a target, flags are not those of procedural macros, which cannot be static.
+        // With a target, flags do not apply to procedural macros, which cannot be static.
         cargo.args(["--package", "alberti", "--bin", "alberti", "--target", &compiler.host]);
         cargo.arg("--").args(flags).current_dir(sources);
         cargo.env("CARGO_TARGET_DIR", target).env_remove("RUSTFLAGS");
@@ -41,7 +41,7 @@ pub fn build_programs(sources: &Path, target: &Path) -> Result<Programs, String>
     })
 }
 
-/// What the compiler says about itself.
+/// The compiler's description of itself.
 struct Compiler {
     host: String,
     commit: String,
@@ -65,14 +65,14 @@ impl Compiler {
         })
     }
 
-    /// The flags that replace paths of this machine in messages of panics.
+    /// The flags that replace paths of this machine in panic messages.
     fn remapped_paths(&self, sources: &Path, target: &Path) -> String {
-        // Of several that fit, the last is taken.
+        // If several match, the last one applies.
         let pairs = [
             (cargo_home(), "cargo".to_owned()),
             (sources.to_owned(), "alberti".to_owned()),
             (target.to_owned(), "target".to_owned()),
-            // As it is where the sources of the standard library are not installed.
+            // The path on machines where the sources of the standard library are not installed.
             (
                 PathBuf::from(&self.sysroot).join("lib/rustlib/src/rust"),
                 format!("/rustc/{}", self.commit),
@@ -83,14 +83,14 @@ impl Compiler {
     }
 }
 
-/// The folder in which Cargo keeps what it has fetched.
+/// Cargo's folder of downloaded files.
 pub fn cargo_home() -> PathBuf {
     std::env::var_os("CARGO_HOME").map(PathBuf::from).unwrap_or_else(|| {
         PathBuf::from(std::env::var_os("HOME").unwrap_or_default()).join(".cargo")
     })
 }
 
-/// Copies what is under version control, as it lies there, to a folder.
+/// Copies all files under version control, in their current state, to a folder.
 pub fn copy_sources(to: &Path) -> Outcome {
     let mut git = Command::new("git");
     let files = capture_output(

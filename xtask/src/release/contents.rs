@@ -1,4 +1,5 @@
-//! The files of a package, below `usr`: the program, its pages, completions, thumbnails, licenses.
+//! The contents of a package, below `usr`: the program, its pages, completions, thumbnails,
+//! licenses.
 
 use crate::program::run_command;
 use crate::workspace::{create_folder, list_files, project_root};
@@ -6,13 +7,13 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// A file of a package.
+/// A file in a package.
 pub struct PackagedFile {
     /// Its path below the prefix, which is `usr` in packages of distributions.
     pub path: String,
     /// Its bytes.
     pub bytes: Vec<u8>,
-    /// Whether it is a program.
+    /// Whether it is executable.
     pub is_executable: bool,
 }
 
@@ -22,17 +23,17 @@ impl PackagedFile {
     }
 }
 
-/// Completion scripts: the shell, and where Debian's shells look for them.
+/// Completion scripts: the shell, and the path where Debian's shells look for them.
 const COMPLETIONS: [(&str, &str); 3] = [
     ("bash", "share/bash-completion/completions/alberti"),
     ("zsh", "share/zsh/vendor-completions/_alberti"),
     ("fish", "share/fish/vendor_completions.d/alberti.fish"),
 ];
 
-/// The folder of what Debian wants to be said about a package.
+/// The folder for the information that Debian wants about a package.
 const DOCUMENTS: &str = "share/doc/alberti";
 
-/// All files of a package, most of which the program itself writes.
+/// All files in a package, most of which the program itself writes.
 pub fn packaged_files(program: &Path, notices: &str) -> Result<Vec<PackagedFile>, String> {
     let read = |path: &Path| fs::read(path).map_err(|error| format!("{}: {error}", path.display()));
     let mut files = vec![PackagedFile {
@@ -80,12 +81,12 @@ fn manual_pages(program: &Path) -> Result<Vec<PackagedFile>, String> {
     list_files(&folder, "gz")?.into_iter().map(page).collect()
 }
 
-/// What the program prints.
+/// The program's output.
 fn print(program: &Path, arguments: &[&str]) -> Result<Vec<u8>, String> {
     crate::program::capture_output(Command::new(program).args(arguments)).map(String::into_bytes)
 }
 
-/// Debian's file of licenses, in its format for machines.
+/// Debian's license file, in its machine-readable format.
 fn copyright() -> Result<String, String> {
     let license = crate::workspace::read_text(&project_root().join("LICENSE-MIT"))?;
     let holder = license

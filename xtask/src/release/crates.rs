@@ -1,12 +1,12 @@
-//! The crates as the registry would get them.
+//! The crates as the registry would receive them.
 //!
 //! ```text
 //!  sources ─► copy with `publish = true` ─► cargo package --workspace ─► target/package-sources
 //! ```
-//! Cargo packs crates that depend on each other only where they may be published, which nobody
-//! should do by mistake; so the copy allows it. Without a build the step takes a second and finds
-//! what manifests lack; with it, each crate is built from its archive alone, so that what the
-//! archive lacks is found too.
+//! Cargo packs interdependent crates only if they may be published, which nobody should do by
+//! mistake, so the copy allows it. Without a build the step takes a second and finds gaps in
+//! manifests. With a build, each crate is built only from its archive, which also finds gaps in the
+//! archives.
 
 use super::build::{cargo_home, copy_sources};
 use super::write_file;
@@ -15,7 +15,7 @@ use crate::program::{cargo_command, run_command};
 use crate::workspace::{list_files, read_text, target_folder};
 use std::fs;
 
-/// Members of the workspace that stay at home.
+/// Members of the workspace that are not published.
 const UNPUBLISHED: [&str; 4] = ["alberti-tests", "book-doctests", "scene-models", "xtask"];
 
 /// Packs all crates; with `is_built` each is also built from its archive.
@@ -50,10 +50,10 @@ pub fn package_crates(is_built: bool) -> Outcome {
     Ok(())
 }
 
-/// Removes the crates that an earlier run has unpacked: Cargo takes one of the same version for the
-/// same one, and would build a new crate against an old one.
+/// Removes the crates that an earlier run has unpacked: Cargo takes a crate of the same version for
+/// the same crate, and would build a new crate against an old one.
 ///
-/// They lie where crates of a registry without a host do.
+/// They are in the folder for crates from a registry without a host.
 fn forget_unpacked_crates() -> Outcome {
     let registries = fs::read_dir(cargo_home().join("registry/src")).into_iter().flatten();
     let has_no_host = |entry: &fs::DirEntry| entry.file_name().to_string_lossy().starts_with('-');

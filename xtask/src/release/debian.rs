@@ -1,10 +1,10 @@
-//! The package in an empty Debian: installed, used as its user would, and removed without a trace.
+//! The package in an empty Debian: installed, used like a user would, and removed without a trace.
 //!
 //! ```text
 //!  debootstrap, once ─► copy ─► dpkg --install ─► picture, drawing, completion, thumbnail, manual
 //!                         └──── list of files ──── the same again ◄── dpkg --purge
 //! ```
-//! It takes root and `debootstrap`; without them it is skipped with a line that says so.
+//! It needs root and `debootstrap`; without them it is reported as skipped.
 
 use crate::Outcome;
 use crate::program::{Program, capture_output, run_command};
@@ -18,7 +18,7 @@ use std::process::Command;
 /// The oldest Debian that is supported.
 const SUITE: &str = "bookworm";
 
-/// What is copied into the trial, and the folder there.
+/// The files to copy into the trial, and their folder there.
 const SCENES: &str = "srv/scenes";
 
 /// The scenes that are rendered and drawn, each with the name of its output.
@@ -28,7 +28,7 @@ const OUTPUTS: [(&str, &str); 2] =
 /// The model whose thumbnail is made.
 const MODEL: &str = "models/house.glb";
 
-/// Installs, uses and removes a package; pictures must be those of the program outside.
+/// Installs, uses and removes a package; pictures must equal the ones made outside.
 pub fn try_package(deb: &Path, program: &Program) -> Outcome {
     let Some(trial) = new_debian()? else { return Ok(()) };
     let before = trial.files()?;
@@ -57,7 +57,7 @@ struct Trial {
     root: PathBuf,
 }
 
-/// A copy of an empty Debian, which is made once; nothing where that cannot be done.
+/// A copy of an empty Debian, which is made once; `None` if that is impossible.
 fn new_debian() -> Result<Option<Trial>, String> {
     let is_root = capture_output(Command::new("id").arg("-u")).is_ok_and(|id| id.trim() == "0");
     let has_tool = Command::new("debootstrap").arg("--version").output().is_ok();
@@ -89,14 +89,14 @@ fn new_debian() -> Result<Option<Trial>, String> {
 }
 
 impl Trial {
-    /// Runs a line of the shell within.
+    /// Runs a line of shell inside.
     fn run(&self, line: &str) -> Result<String, String> {
         let mut chroot = Command::new("chroot");
         chroot.env_clear().env("PATH", "/usr/sbin:/usr/bin:/sbin:/bin").env("HOME", "/");
         capture_output(chroot.arg(&self.root).args(["bash", "-c", line]))
     }
 
-    /// All files, but for the records of dpkg and what the trial brings along and makes.
+    /// All files, except for dpkg's records and the files that the trial brings along and makes.
     fn files(&self) -> Result<BTreeSet<String>, String> {
         let list = self.run("find / -xdev -printf '%p %y %m %l\\n'")?;
         let ours = ["/srv/", "/var/lib/dpkg/", "/var/log/", "/var/cache/ldconfig/"];
@@ -104,7 +104,7 @@ impl Trial {
         Ok(list.lines().filter(|line| !is_ours(line)).map(str::to_owned).collect())
     }
 
-    /// A picture and a line drawing have the bytes that they have outside.
+    /// A picture and a line drawing have the same bytes as outside.
     fn compare_pictures(&self, program: &Program) -> Outcome {
         let outside = target_folder().join("deb");
         create_folder(&outside)?;
@@ -120,7 +120,7 @@ impl Trial {
         Ok(())
     }
 
-    /// Runs what the thumbnailer entry says, as a thumbnail service does.
+    /// Runs the command in the thumbnailer entry, as a thumbnail service does.
     fn make_thumbnail(&self) -> Outcome {
         let entry = read_text(&self.root.join("usr/share/thumbnailers/alberti.thumbnailer"))?;
         let line = entry.lines().find_map(|line| line.strip_prefix("Exec="));
@@ -137,7 +137,7 @@ impl Trial {
         Err(format!("`{line}` made no thumbnail of 128 pixels"))
     }
 
-    /// Asks bash for the rest of `alberti ren`.
+    /// Asks bash to complete `alberti ren`.
     fn complete(&self) -> Outcome {
         let words = self.run(
             "source /usr/share/bash-completion/completions/alberti; COMP_WORDS=(alberti ren); \

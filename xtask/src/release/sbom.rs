@@ -4,7 +4,7 @@ use super::Release;
 use super::third_party::Dependency;
 use serde_json::{Value, json};
 
-/// What the program is built with, for programs that look for known vulnerabilities.
+/// The parts that the program is built from, for tools that look for known vulnerabilities.
 pub fn bill_of_materials(release: &Release, dependencies: &[Dependency]) -> String {
     let (program, others): (Vec<&Dependency>, Vec<&Dependency>) =
         dependencies.iter().partition(|dependency| dependency.name == "alberti");

@@ -1,4 +1,4 @@
-//! What the program is built with besides its own code, and the licenses that have to go with it.
+//! The third-party code that the program is built with, and the licenses that must go with it.
 
 use crate::program::{capture_output, cargo_command};
 use crate::workspace::{project_root, read_text};
@@ -16,21 +16,21 @@ pub struct Dependency {
     pub version: String,
     /// Its license, as an SPDX expression.
     pub license: String,
-    /// The SHA-256 of its archive, as the lock file has it; crates of the project have none.
+    /// The SHA-256 of its archive, from the lock file; crates of the project have none.
     pub checksum: Option<String>,
-    /// Where its sources are.
+    /// The location of its sources.
     pub folder: PathBuf,
 }
 
 impl Dependency {
-    /// Whether it is one of the project itself.
+    /// Whether it belongs to the project itself.
     pub fn is_ours(&self) -> bool {
         self.checksum.is_none()
     }
 }
 
-/// All crates that are linked into the program on this machine, sorted; procedural macros and what
-/// builds are not.
+/// All crates that are linked into the program on this machine, sorted, without procedural macros
+/// and build dependencies.
 pub fn shipped_dependencies() -> Result<Vec<Dependency>, String> {
     let mut tree = cargo_command(&["tree", "--locked", "--package", "alberti", "--prefix", "none"]);
     tree.args(["--edges", "normal,no-proc-macro", "--format", "{p}"]);
@@ -82,7 +82,7 @@ fn checksums(lock: &str) -> BTreeMap<(String, String), String> {
         .collect()
 }
 
-/// The licenses of all crates of others and of the standard library, with their texts.
+/// The licenses of all third-party crates and of the standard library, with their texts.
 ///
 /// # Errors
 /// If a crate comes without its text, and may not be used under the Apache License either.
@@ -123,7 +123,7 @@ pub fn license_texts(dependencies: &[Dependency]) -> Result<String, String> {
     Ok(page)
 }
 
-/// The texts of licenses and notices in a folder, with plain ends of lines.
+/// The texts of licenses and notices in a folder, with plain line endings.
 fn texts_in(folder: &Path) -> Result<Vec<String>, String> {
     let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let is_license = |path: &PathBuf| {

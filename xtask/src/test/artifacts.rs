@@ -1,4 +1,4 @@
-//! The programs of the tests: built once by one call of Cargo, then run directly.
+//! The test programs: built once by one Cargo call, then run directly.
 
 use crate::Outcome;
 use crate::program::{capture_output, cargo_command, compile, run_visibly};
@@ -7,28 +7,28 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The package of the tests across crates.
+/// The package of the cross-crate tests.
 const TESTS: &str = "alberti-tests";
 
-/// A program that Cargo built of tests.
+/// A test program that Cargo built.
 struct TestProgram {
     /// Its package, by name.
     package: String,
-    /// The name of the target: of the library or of a file of tests.
+    /// The name of the target: the library's or a test file's.
     target: String,
     path: PathBuf,
     /// The folder of the package, in which tests run.
     folder: PathBuf,
 }
 
-/// All programs of tests, and the program `alberti` that they run.
+/// All test programs, and the program `alberti` that they run.
 pub struct TestPrograms {
     programs: Vec<TestProgram>,
     alberti: PathBuf,
 }
 
 impl TestPrograms {
-    /// Builds what is not up to date.
+    /// Builds everything that is not up to date.
     ///
     /// Always the whole workspace: Cargo unifies features over the selected packages, and would
     /// compile most crates again for every other selection.
@@ -66,7 +66,7 @@ impl TestPrograms {
         let is_of_crate = |program: &&TestProgram| {
             program.package != TESTS || !matches!(program.target.as_str(), "suites" | "program")
         };
-        // A fault in one crate hides none in another.
+        // A fault in one crate hides no fault in another.
         let run = |program| self.run(program, &[], variables).err();
         let faults: Vec<String> =
             self.programs.iter().filter(is_of_crate).filter_map(run).collect();
@@ -104,7 +104,7 @@ impl TestPrograms {
             // Its tests provoke skips of benchmarks.
             command.env_remove("SKIP_LOG");
         }
-        // Insignificant lines of a thousand tests that pass are not worth a reader's time.
+        // The output of a thousand passing tests is not worth a reader's time.
         if program.target != "suites" {
             command.arg("--quiet");
         }
@@ -112,8 +112,8 @@ impl TestPrograms {
     }
 }
 
-/// The folders of test data that environment variables name, made absolute: a test runs in another
-/// current folder.
+/// The folders of test data that environment variables name, made absolute, because a test runs in
+/// another current folder.
 fn named_folders() -> Vec<(&'static str, PathBuf)> {
     let here = std::env::current_dir().unwrap_or_default();
     let named = |name| Some((name, here.join(std::env::var_os(name)?)));
@@ -121,7 +121,7 @@ fn named_folders() -> Vec<(&'static str, PathBuf)> {
 }
 
 /// The name in the id of a package: `path+file:///…/crates/clip#alberti-clip@0.1.0`, or without the
-/// name where it is that of the folder.
+/// name if it equals the folder's.
 fn package_name(id: &str) -> String {
     let (path, version) = id.rsplit_once('#').unwrap_or((id, ""));
     let folder = path.rsplit('/').next().unwrap_or_default();

@@ -1,21 +1,21 @@
-//! Seconds of the processor, and how fast this machine's are.
+//! Processor seconds, and the speed of this machine.
 
 use std::collections::BTreeSet;
 use std::hint::black_box;
 use std::thread;
 
-/// Ticks of the kernel's clock in a second, as Linux reports times to programs.
+/// Ticks per second of the kernel's clock, as Linux reports times to programs.
 const TICKS_PER_SECOND: f64 = 100.0;
 
-/// How many numbers are sorted by each of two threads.
+/// The number of values that each of two threads sorts.
 const NUMBERS: usize = 1_000_000;
 
-/// What [`machine_slowness`] takes on the machine of the budget, in seconds of both cores: half of
-/// what it took where a build that needs 151 s there needed 302 s.
+/// The cost of [`machine_slowness`] on the machine of the budget, in seconds of both cores: half of
+/// its cost on a machine where a build took 302 s instead of 151 s.
 const REFERENCE_SECONDS: f64 = 1.5;
 
-/// The processor's seconds of this process and of everything that it has started and waited for; 0
-/// where there is no `/proc`.
+/// The processor seconds of this process and of everything that it has started and waited for; 0 if
+/// there is no `/proc`.
 pub fn process_seconds() -> f64 {
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
     // The name of the program is in parentheses and may contain spaces.
@@ -24,16 +24,16 @@ pub fn process_seconds() -> f64 {
     times.map(|ticks| ticks.parse().unwrap_or(0.0)).sum::<f64>() / TICKS_PER_SECOND
 }
 
-/// How many times slower than the machine of the budget this one computes, with two cores busy.
+/// The slowness of this machine relative to the machine of the budget, with two cores busy.
 ///
-/// A budget in seconds of the processor would otherwise say more about the machine than about the
-/// tests: the same step takes half the time on another one.
+/// Otherwise a budget in processor seconds would say more about the machine than about the tests:
+/// the same step takes half the time on another one.
 pub fn machine_slowness() -> f64 {
     let before = process_seconds();
     thread::scope(|scope| {
         for _ in 0..2 {
             scope.spawn(|| {
-                // Comparisons and jumps through memory, as in a compiler.
+                // Comparisons, and jumps through memory, as in a compiler.
                 let next =
                     |x: &u64| Some(x.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1));
                 let numbers = std::iter::successors(Some(1), next).take(NUMBERS);

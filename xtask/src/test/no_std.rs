@@ -1,7 +1,7 @@
-//! `no_std` of the crates of mathematics, checked by building each of them by itself.
+//! `no_std` in the math crates, checked by building each of them separately.
 //!
 //! The attribute `#![no_std]` is a rule of tidy. This step lists the crates and features of each
-//! build without dev-dependencies: none may bring the standard library back.
+//! build without dev-dependencies: none may bring back the standard library.
 
 use crate::Outcome;
 use crate::program::{capture_output, cargo_command, run_command};

@@ -1,7 +1,7 @@
-//! The oldest compiler of the crates of mathematics: their `rust-version` is true.
+//! The oldest compiler for the math crates: checks that their `rust-version` is true.
 //!
-//! Debian 12 has that compiler beside a newer one. It is unpacked into the target folder, not
-//! installed.
+//! Debian 12 has that compiler in addition to a newer one. It is unpacked into the target folder,
+//! not installed.
 
 use crate::Outcome;
 use crate::program::{capture_output, cargo_command, run_command};
@@ -14,7 +14,7 @@ use std::process::Command;
 /// The compiler that the manifests name, without its last number.
 const VERSION: &str = "1.85";
 
-/// Checks each crate of mathematics with the oldest compiler.
+/// Checks each math crate with the oldest compiler.
 pub fn check_oldest_rust() -> Outcome {
     let compiler = match unpack_compiler() {
         Ok(compiler) => compiler,

@@ -1,28 +1,28 @@
-//! The order of steps: alone, or two at a time.
+//! The order of steps: one or two at a time.
 
 use super::step::{RunningStep, Sharing, Step, StepReport};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// How many steps that share the machine run at once.
+/// The maximum number of machine-sharing steps that run at once.
 const AT_ONCE: usize = 2;
 
-/// How often ends of steps are looked for.
+/// The interval between checks for finished steps.
 const POLL: Duration = Duration::from_millis(20);
 
-/// When to stop.
+/// The conditions for stopping.
 pub struct Limits {
     /// Whether steps begin after one has failed.
     pub keep_going: bool,
-    /// The time in which steps begin.
+    /// The time within which steps may begin.
     pub time: Option<Duration>,
 }
 
-/// The steps that were run, and those that were not.
+/// The steps that ran, and those that did not.
 pub struct Run {
     /// In the order in which they ended.
     pub reports: Vec<StepReport>,
-    /// Names of steps that the time was not enough for.
+    /// The steps that the time did not allow, by name.
     pub left_out: Vec<String>,
     /// Wall-clock seconds.
     pub seconds: f64,
@@ -31,11 +31,11 @@ pub struct Run {
 /// Runs steps in their order; those that share the machine may overtake each other.
 pub fn run_steps(steps: &[&Step], limits: &Limits) -> Result<Run, String> {
     let start = Instant::now();
-    // Before a build replaces this program: afterwards its path would be that of a deleted file.
+    // Before a build replaces this program: afterwards its path would belong to a deleted file.
     let program = std::env::current_exe().map_err(|error| error.to_string())?;
     let mut run = Run { reports: Vec::new(), left_out: Vec::new(), seconds: 0.0 };
     let mut running: Vec<RunningStep> = Vec::new();
-    // The output of a single step is for its reader; of many, that of failed ones.
+    // The output of a single step is for its reader; with several, only failed ones show theirs.
     let is_watched = steps.len() == 1;
     let has_failed = |run: &Run| run.reports.iter().any(|report| report.failure.is_some());
     for step in steps {
@@ -59,7 +59,7 @@ pub fn run_steps(steps: &[&Step], limits: &Limits) -> Result<Run, String> {
     Ok(run)
 }
 
-/// Waits until at most `room` steps are running; prints how others have ended.
+/// Waits until at most `room` steps are running; prints the results of those that ended.
 fn wait_until(running: &mut Vec<RunningStep>, room: usize, run: &mut Run) -> Result<(), String> {
     while running.len() > room {
         let mut index = 0;

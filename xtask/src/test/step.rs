@@ -20,11 +20,11 @@ pub struct Step {
     pub tier: Tier,
     /// Whether others may run at the same time.
     pub sharing: Sharing,
-    /// The command.
+    /// The command to run.
     pub action: Action,
 }
 
-/// When a step runs.
+/// The tier in which a step runs.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Tier {
     /// For every change: `cargo xtask test`.
@@ -33,10 +33,10 @@ pub enum Tier {
     Second,
 }
 
-/// Whether others may run beside a step.
+/// Whether other steps may run at the same time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Sharing {
-    /// It uses all cores by itself: Cargo builds, mostly.
+    /// It uses all cores by itself, mostly for Cargo builds.
     Alone,
     /// Another one may run at the same time.
     Shared,
@@ -62,27 +62,27 @@ pub struct StepReport {
     pub name: String,
     /// Wall-clock seconds.
     pub seconds: f64,
-    /// Seconds of the processor, of the step and all that it started.
+    /// The processor seconds of the step and everything it started.
     pub cpu_seconds: f64,
-    /// Those of them that compilers took.
+    /// The part of them spent in compilers.
     pub compile_seconds: f64,
-    /// Why it failed.
+    /// The reason why it failed.
     pub failure: Option<String>,
-    /// What it skipped: lines that begin with `SKIPPED`.
+    /// Its skips: lines that begin with `SKIPPED`.
     pub skipped: Vec<String>,
 }
 
-/// A step that is running in a separate process, so that its cost and its skips are known.
+/// A step that runs in a separate process, so that its cost and its skips are known.
 pub struct RunningStep {
     name: String,
     child: Child,
     start: Instant,
-    /// Where its output goes; `None` if a person watches it.
+    /// The file for its output; `None` if a person watches it.
     log: Option<PathBuf>,
 }
 
 impl Step {
-    /// A step of one or more calls of Cargo, each written as on the command line.
+    /// A step of one or more Cargo calls, each written as on the command line.
     pub fn cargo(name: &str, about: &str, calls: &[&str]) -> Self {
         let words = |call: &&str| call.split_whitespace().map(str::to_owned).collect();
         Self::new(name, about, Action::Cargo(calls.iter().map(words).collect()))
@@ -93,7 +93,7 @@ impl Step {
         Self::new(name, about, Action::Own(run))
     }
 
-    /// A step of the first tier that runs alone.
+    /// A step of the first tier that runs by itself.
     pub fn new(name: &str, about: &str, action: Action) -> Self {
         Self {
             name: name.into(),
@@ -104,17 +104,17 @@ impl Step {
         }
     }
 
-    /// The step beside which others may run.
+    /// The step, marked so that others may run beside it.
     pub fn shared(self) -> Self {
         Self { sharing: Sharing::Shared, ..self }
     }
 
-    /// The step in the second tier.
+    /// The step, moved to the second tier.
     pub fn second(self) -> Self {
         Self { tier: Tier::Second, ..self }
     }
 
-    /// What tells tests how many of their cases to run.
+    /// The variable that tells tests how many of their cases to run.
     fn variables(&self) -> &'static [(&'static str, &'static str)] {
         if self.tier == Tier::Second { &[("THOROUGH", "1")] } else { &[] }
     }
@@ -141,7 +141,7 @@ impl Step {
         outcome.and(written.map_err(|error| error.to_string()))
     }
 
-    /// Starts the step by the path of this program; its output goes to a file unless it is watched.
+    /// Starts the step through this program's path; its output goes to a file unless it is watched.
     pub fn start(&self, program: &Path, is_watched: bool) -> Result<RunningStep, String> {
         create_folder(&steps_folder())?;
         let with_name = |error: std::io::Error| format!("{}: {error}", self.name);

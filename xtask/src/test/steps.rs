@@ -1,4 +1,4 @@
-//! The steps of the tests, in the order in which they run.
+//! The test steps, in the order in which they run.
 
 use super::artifacts::TestPrograms;
 use super::step::{Action, Step};
@@ -7,8 +7,9 @@ use crate::Outcome;
 use crate::program::{cargo_command, compile, run_visibly};
 use crate::tidy::NO_STD;
 
-/// The first tier: cheap checks, one build, then everything that runs what was built. The second:
-/// what finds most for its time comes first, because CI may not come to the end.
+/// The first tier has cheap checks, one build, then everything that runs the built programs. In the
+/// second tier, the steps that find most for their time come first, because CI may not reach the
+/// end.
 pub fn all_steps() -> Result<Vec<Step>, String> {
     let mut steps = cheap_steps();
     steps.extend(build_steps());
@@ -81,7 +82,7 @@ fn build_documentation() -> Outcome {
     compile(|| run_visibly(cargo.env("RUSTDOCFLAGS", "-D warnings")))
 }
 
-/// The suites of the first tier, those that take longest first.
+/// The suites of the first tier, the slowest first.
 fn suite_steps() -> Vec<Step> {
     let suite = |name, about: &str| Step::new(name, about, Action::Suite(name)).shared();
     vec![
@@ -135,7 +136,7 @@ fn interface_steps() -> Vec<Step> {
     ]
 }
 
-/// The second tier: other machines and what is handed out.
+/// The second tier: other machines, and the release files.
 fn release_steps() -> Vec<Step> {
     vec![
         Step::built_in(
@@ -174,7 +175,7 @@ fn release_steps() -> Vec<Step> {
     ]
 }
 
-/// The second tier: in full what needs other tool chains.
+/// The second tier: full tests that need other tool chains.
 fn later_steps() -> Vec<Step> {
     let suite = |step, suite, about: &str| Step::new(step, about, Action::Suite(suite)).shared();
     vec![
@@ -228,7 +229,7 @@ fn later_steps() -> Vec<Step> {
     ]
 }
 
-/// The second tier: what is built in other ways.
+/// The second tier: other kinds of builds.
 fn build_variant_steps() -> Vec<Step> {
     let maths: String = NO_STD.iter().map(|name| format!(" --package alberti-{name}")).collect();
     vec![
@@ -256,7 +257,7 @@ fn build_variant_steps() -> Vec<Step> {
     ]
 }
 
-/// Compiles what no other step does: all targets of the packages outside of the workspace.
+/// Compiles what no other step does: all targets of the packages outside the workspace.
 fn check_outside() -> Outcome {
     for manifest in ["tests/fuzz", "crates/web", "book/mdbook-alberti"] {
         let mut cargo = cargo_command(&["check", "--quiet", "--locked", "--all-targets"]);

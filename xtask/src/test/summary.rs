@@ -1,17 +1,17 @@
-//! The summary of a run: costs, skips, and whether both are as they may be.
+//! The summary of a run: costs, skips, and whether both are allowed.
 
 use super::cpu_time::machine_slowness;
 use super::schedule::Run;
 use crate::Outcome;
 use crate::workspace::{project_root, read_text};
 
-/// What the first tier may cost on the machine where [`machine_slowness`] is 1.
+/// The allowed cost of the first tier on a machine where [`machine_slowness`] is 1.
 const FIRST_TIER_CPU_SECONDS: f64 = 1100.0;
 
-/// How far above its budget a tier fails.
+/// The factor above its budget at which a tier fails.
 const BUDGET_EXCESS: f64 = 4.0 / 3.0;
 
-/// Beginnings of the skips that CI may have.
+/// The prefixes of the skips that CI may have.
 const ALLOWED_SKIPS: &str = ".ci/allowed-skips";
 
 /// Prints each step with its costs, slowest first, then the skips, then the counts.
@@ -51,7 +51,7 @@ pub fn print_summary(run: &Run, is_first_tier: bool) -> Outcome {
     if !failures.is_empty() {
         return Err(format!("failed: {}", failures.join(", ")));
     }
-    // CI has every tool and an idle machine; elsewhere neither is certain.
+    // CI has every tool and an idle machine; elsewhere that is not certain.
     if std::env::var_os("CI").is_none() {
         return Ok(());
     }
@@ -59,7 +59,7 @@ pub fn print_summary(run: &Run, is_first_tier: bool) -> Outcome {
     if is_first_tier { check_budget(cpu_seconds, machine_slowness()) } else { Ok(()) }
 }
 
-/// Each line once, in the order of the first, with how often it is there.
+/// Each line once, in the order of first occurrence, with its count.
 fn count_lines<'a>(lines: &[&'a String]) -> Vec<(&'a str, usize)> {
     let mut counted: Vec<(&str, usize)> = Vec::new();
     for line in lines {

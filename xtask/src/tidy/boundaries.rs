@@ -26,11 +26,11 @@ const NAMED_BY: &[(&str, &[&str])] = &[
     ("clap", &["crates/alberti/src"]),
 ];
 
-/// The crates from the bottom up, and which of those before it each may depend on: all where
-/// nothing is said. The arrows of the code map.
+/// The crates from the bottom up, and the earlier ones that each may depend on: all, unless there
+/// is a list. These are the arrows of the code map.
 ///
-/// No stage depends on another one, `model` knows no scene, and `shade`, `drawing` and `sheet` do not
-/// know the pipeline that uses them. `hidden-line` knows neither pictures nor pages.
+/// No stage depends on another one, `model` knows no scene, and `shade`, `drawing` and `sheet` do
+/// not know the pipeline that uses them. `hidden-line` knows neither pictures nor pages.
 pub const LAYERS: &[(&str, Option<&[&str]>)] = &[
     ("homog", None),
     ("camera", Some(&["homog"])),
@@ -73,7 +73,7 @@ pub const LAYERS: &[(&str, Option<&[&str]>)] = &[
     ("alberti", None),
 ];
 
-/// The stages, and the only packages of others that they may depend on.
+/// The stages, and the only third-party packages that they may depend on.
 const STAGES: &[&str] = &["homog", "camera", "projection", "clip", "viewport", "raster"];
 const STAGE_DEPENDENCIES: &[&str] = &["glam", "libm", "thiserror"];
 
@@ -82,8 +82,8 @@ const STAGE_DEPENDENCIES: &[&str] = &["glam", "libm", "thiserror"];
 const EXTRA_DEPENDENCIES: &[(&str, &str)] =
     &[("raster", "fearless_simd"), ("homog", "mint"), ("homog", "nalgebra"), ("homog", "serde")];
 
-/// Packages that a crate must not be built with, however indirectly: users of the library do not
-/// compile those of the program, and a program of lines compiles no decoder of pictures.
+/// Packages that a crate must not be built with, even indirectly: users of the library do not
+/// compile the packages of the program, and a line-drawing program compiles no picture decoder.
 const NEVER_BUILT_WITH: &[(&str, &[&str])] = &[
     ("hidden-line", &["png", "zune-jpeg", "draco-core", "gltf", "tiny-skia", "pdf-writer"]),
     ("pipeline", &["clap", "gif", "terminal_size"]),
@@ -92,7 +92,7 @@ const NEVER_BUILT_WITH: &[(&str, &[&str])] = &[
 /// The stages that promise to work without the standard library.
 pub const NO_STD: &[&str] = &["homog", "camera", "projection", "recognition", "clip", "viewport"];
 
-/// Names of crates outside of the part that may use them.
+/// Crate names outside the part that may use them.
 pub fn crate_boundaries(source: &Source) -> Vec<Violation> {
     if !source.path.starts_with("crates/") {
         return Vec::new();
@@ -127,7 +127,7 @@ pub fn no_std_where_promised(source: &Source) -> Vec<Violation> {
     vec![Violation::new(&source.path, "this crate promises `#![no_std]`")]
 }
 
-/// Dependencies between the packages of the workspace, and of the stages on others.
+/// Dependencies between the packages of the workspace, and of the stages on other packages.
 pub fn dependencies() -> Result<Vec<Violation>, String> {
     Ok(dependency_violations(&Metadata::load()?))
 }

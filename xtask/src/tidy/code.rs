@@ -32,7 +32,7 @@ pub fn is_word_char(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// The length of a block comment, which may hold others.
+/// The length of a block comment, which may contain others.
 fn block_comment_len(text: &str) -> usize {
     let mut depth = 0;
     let mut at = 0;
@@ -81,7 +81,7 @@ fn raw_string_len(text: &str) -> Option<usize> {
     Some(inside.find(&end).map_or(text.len(), |at| before + at + end.len()))
 }
 
-/// The length of a character literal; 0 where the quote begins a lifetime.
+/// The length of a character literal; 0 if the quote begins a lifetime.
 fn char_literal_len(text: &str) -> usize {
     let mut characters = text.char_indices().skip(1);
     match (characters.next(), characters.next()) {

@@ -80,7 +80,7 @@ fn lines_that(sources: &[Source], is_bad: impl Fn(&str) -> bool, message: &str) 
     violations
 }
 
-/// Nothing as long as no more are found than are known to remain.
+/// No violations, as long as there are no more than the known remaining ones.
 fn beyond_budget(violations: Vec<Violation>, left: usize) -> Vec<Violation> {
     if violations.len() <= left { Vec::new() } else { violations }
 }

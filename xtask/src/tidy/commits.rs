@@ -1,4 +1,4 @@
-//! Commits: a large one says why it was made.
+//! Commits: a large one must explain why it was made.
 
 use super::Violation;
 use crate::program::capture_output;
@@ -8,10 +8,10 @@ use std::process::Command;
 /// The commit after which the rule holds.
 const SINCE: &str = "d734859d";
 
-/// Changed lines from which on a commit needs a body.
+/// The number of changed lines from which a commit needs a body.
 const MIN_LARGE: u64 = 400;
 
-/// Large commits without a body. Without the history, as in an archive, there is nothing to check.
+/// Large commits without a body. Without the history, as in an archive, nothing is checked.
 pub fn large_commits_without_reason() -> Vec<Violation> {
     let mut log = Command::new("git");
     log.current_dir(project_root()).args(["log", "--no-merges", "--numstat"]);
@@ -20,7 +20,7 @@ pub fn large_commits_without_reason() -> Vec<Violation> {
     text.split('\u{1}').filter_map(violation_of).collect()
 }
 
-/// The fault of an entry of the log: hash, subject and body, then a line for each file.
+/// The fault in an entry of the log: hash, subject and body, then a line for each file.
 fn violation_of(entry: &str) -> Option<Violation> {
     let mut parts = entry.splitn(4, '\u{2}');
     let (hash, subject, body) = (parts.next()?, parts.next()?, parts.next()?);
@@ -32,8 +32,8 @@ fn violation_of(entry: &str) -> Option<Violation> {
     Some(Violation::new(format!("commit {hash}"), message))
 }
 
-/// Lines added and removed in a file, which git counts as `-` in pictures; locked versions and
-/// listings that a command writes are nobody's decision.
+/// Lines added and removed in a file. Pictures, for which git prints `-`, lock files and generated
+/// listings do not count: they are not anybody's decision.
 fn changed_lines(line: &str) -> u64 {
     let mut columns = line.split('\t');
     let counts = [columns.next(), columns.next()];

@@ -1,5 +1,5 @@
-//! The map of the crates in `ARCHITECTURE.md`, drawn from what Cargo reads in the manifests, and
-//! how large a crate may become.
+//! The map of the crates in `ARCHITECTURE.md`, drawn from the manifests as Cargo reads them, and
+//! the maximum size of a crate.
 
 use super::boundaries::LAYERS;
 use super::{Source, Violation};
@@ -9,17 +9,17 @@ use crate::workspace::{project_root, read_text};
 use std::collections::BTreeSet;
 
 const DOCUMENT: &str = "ARCHITECTURE.md";
-/// What stands before and after the map in the document.
+/// The marks before and after the map in the document.
 const BEFORE: &str =
     "<!-- The crates: `cargo xtask tidy --bless` writes these lines. -->\n\n```text\n";
 const AFTER: &str = "```\n";
 
-/// Lines of sources, tests left out, past which a crate is cut in two.
+/// Source lines, without tests, above which a crate must be split.
 const MAX_CRATE_LINES: usize = 13_000;
-/// The crate that is still to be cut, and what it may have until then.
+/// The crate that is still to be split, and its limit until then.
 const STILL_WHOLE: &[(&str, usize)] = &[("alberti", 14_700)];
 
-/// The map where it is not what the manifests say.
+/// The map, if it does not match the manifests.
 pub fn outdated_map() -> Result<Vec<Violation>, String> {
     let text = read_text(&project_root().join(DOCUMENT))?;
     let is_current = with_map(&text, &crate_map(&Metadata::load()?))? == text;
@@ -42,8 +42,8 @@ fn with_map(text: &str, map: &str) -> Result<String, String> {
     Ok(format!("{head}{BEFORE}{map}{AFTER}{tail}"))
 }
 
-/// One line for each crate, from the bottom up: the crates below it that no other one of them
-/// already depends on.
+/// One line for each crate, from the bottom up: the crates it depends on, without those that
+/// another of them already depends on.
 fn crate_map(metadata: &Metadata) -> String {
     let width = LAYERS.iter().map(|(name, _)| name.len()).max().unwrap_or_default();
     let line = |name: &str| {
@@ -71,7 +71,7 @@ fn all_below<'a>(metadata: &'a Metadata, name: &str) -> BTreeSet<&'a str> {
     further.chain(direct.iter().copied()).collect()
 }
 
-/// Crates that have outgrown what one reader can hold in the head.
+/// Crates that have become too large for one reader to keep in mind.
 pub fn crate_lengths(sources: &[Source]) -> Vec<Violation> {
     let lines = |name: &str| {
         let folder = format!("crates/{name}/src/");

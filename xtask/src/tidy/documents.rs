@@ -9,7 +9,7 @@ use std::path::Path;
 /// Folders of the workspace; a word of a document that begins with one is a path.
 const FOLDERS: [&str; 5] = ["crates/", "scenes/", "tests/", "xtask/", ".ci/"];
 
-/// Links and paths that lead nowhere, and code blocks without a language.
+/// Broken links and paths, and code blocks without a language.
 pub fn broken_links() -> Result<Vec<Violation>, String> {
     let files = text_files()?;
     let documents = files.iter().filter(|(path, _)| path.ends_with(".md"));
@@ -56,7 +56,7 @@ fn document_links(path: &str, text: &str, exists: impl Fn(&Path) -> bool) -> Vec
     faults
 }
 
-/// The files that Markdown links of a line lead to.
+/// The files that the Markdown links in a line lead to.
 fn link_targets(line: &str) -> impl Iterator<Item = &str> {
     let targets =
         line.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(target, _)| target);

@@ -8,10 +8,10 @@ use std::collections::BTreeMap;
 /// Type names that may be declared more than once in a crate, with the reason. At most eight.
 const REPEATED_TYPES: &[(&str, &str, &str)] = &[];
 
-/// The most functions of all crates that may be called `of`: nobody can search for that name.
+/// The maximum number of functions called `of` in all crates: nobody can search for that name.
 const MAX_FUNCTIONS_NAMED_OF: usize = 15;
 
-/// Types of one name in one crate, besides those in tests.
+/// Types with the same name in one crate, outside tests.
 pub fn repeated_types(sources: &[Source]) -> Vec<Violation> {
     let mut declared: BTreeMap<(&str, &str), Vec<String>> = BTreeMap::new();
     for source in sources.iter().filter(|source| !is_test(source)) {

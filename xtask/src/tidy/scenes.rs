@@ -1,4 +1,4 @@
-//! Scenes: each has a golden, a caption and a row in `scenes/README.md`, and nothing else has.
+//! Scenes: each has a golden, a caption and a row in `scenes/README.md`; there are no others.
 
 use super::Violation;
 use crate::workspace::{list_files, list_scenes, project_root, read_text};
@@ -25,7 +25,7 @@ pub fn goldens_and_table() -> Result<Vec<Violation>, String> {
     Ok(faults)
 }
 
-/// The scene that a picture is the golden of; none for what a failed comparison leaves behind.
+/// The scene that a picture is the golden for; none for the leftovers of a failed comparison.
 fn golden_name(path: &Path) -> Option<String> {
     let name = path.file_stem()?.to_str()?;
     (!name.ends_with(".actual") && !name.ends_with(".diff")).then(|| name.to_owned())

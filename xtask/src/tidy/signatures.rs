@@ -1,13 +1,13 @@
-//! Signatures: how the parameters of functions are written.
+//! Signatures: the form of function parameters.
 
 use super::Violation;
 use super::code::is_word_char;
 use super::source::Source;
 
-/// Lines of a signature that are read.
+/// The maximum number of lines read from a signature.
 const MOST_LINES: usize = 80;
 
-/// Tuples that are taken apart in the signature: their members have no name at the call.
+/// Tuples that are destructured in the signature: their members have no name at the call.
 pub fn tuple_parameters(source: &Source) -> Vec<Violation> {
     if !source.path.starts_with("crates/") || !source.path.contains("/src/") {
         return Vec::new();
@@ -37,8 +37,8 @@ pub fn begins_function(line: &str) -> bool {
     named && !before.is_some_and(is_word_char)
 }
 
-/// The parameters of the function that begins in the first line, `self` included: what stands
-/// between the commas of its list that are outside of inner brackets.
+/// The parameters of the function that begins in the first line, including `self`: the texts
+/// between the commas of its list, outside inner brackets.
 pub fn parameters(lines: &[String]) -> Vec<String> {
     let signature = lines[..lines.len().min(MOST_LINES)].join("\n");
     let Some((_, after_fn)) = signature.split_once("fn ") else { return Vec::new() };
@@ -62,7 +62,7 @@ pub fn parameters(lines: &[String]) -> Vec<String> {
             current.push(c);
         }
         if is_list_end {
-            // Nothing is in an empty list, or behind the last comma.
+            // Nothing is in an empty list, or after the last comma.
             found.retain(|one| !one.trim().is_empty());
             return found;
         }

@@ -4,16 +4,16 @@ use super::Violation;
 use super::signatures::{begins_function, parameters};
 use super::source::Source;
 
-/// Lines past which a file is noted: it may hold two subjects.
+/// The number of lines above which a file is noted: it may hold two subjects.
 const LONG_FILE_LINES: usize = 400;
-/// Lines past which a file must be split.
+/// The number of lines above which a file must be split.
 const MAX_FILE_LINES: usize = 500;
-/// Lines of a `lib.rs`, which declares and re-exports.
+/// The maximum number of lines in a `lib.rs`, which declares and re-exports.
 const MAX_LIB_LINES: usize = 140;
-/// Lines of a function.
+/// The maximum number of lines in a function.
 const MAX_FUNCTION_LINES: usize = 60;
 
-/// Arguments of a function, `self` included.
+/// The maximum number of arguments of a function, including `self`.
 const MAX_ARGUMENTS: usize = 6;
 /// Functions with more arguments, by file and name. Inner loops of the rasterizer and of the tiled
 /// renderer take their whole state as arguments; nothing else may.
@@ -49,7 +49,7 @@ pub fn function_length(source: &Source) -> Vec<Violation> {
     (0..source.code.len()).filter(|i| begins_function(&source.code[*i])).filter_map(long).collect()
 }
 
-/// Functions with more arguments than the limit, `self` included.
+/// Functions with more arguments than the limit, including `self`.
 pub fn argument_count(source: &Source) -> Vec<Violation> {
     if !source.path.starts_with("crates/") {
         return Vec::new();

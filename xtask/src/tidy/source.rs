@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 pub struct Source {
     /// From the root, with forward slashes.
     pub path: String,
-    /// The file as it is.
+    /// The unchanged text of the file.
     pub text: String,
-    /// The lines with comments and the insides of strings blanked out: what is left is code.
+    /// The lines with comments and the insides of strings blanked out, so that only code is left.
     pub code: Vec<String>,
 }
 
@@ -60,8 +60,8 @@ pub fn text_files() -> Result<Vec<(String, String)>, String> {
     paths.iter().map(|path| Ok((relative_path(path), read_text(path)?))).collect()
 }
 
-/// All files below a folder, sorted, without build output, hidden folders, and links, which are read
-/// where they lead.
+/// All files below a folder, sorted, without build output, hidden folders and links; linked files
+/// are read at their targets.
 fn walk_files(folder: &Path) -> Result<Vec<PathBuf>, String> {
     let mut found = Vec::new();
     let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;

@@ -68,7 +68,7 @@ pub fn machine_path_mentions(files: &[(String, String)]) -> Vec<Violation> {
     faults
 }
 
-/// Whether `word` stands in the line and not as the end of a longer word or path.
+/// Whether `word` is in the line, and not as the end of a longer word or path.
 fn has_word(line: &str, word: &str) -> bool {
     line.match_indices(word).any(|(at, _)| {
         let before = line[..at].chars().next_back();

@@ -29,14 +29,14 @@ pub fn build_module(out: &Path) -> Result<(), String> {
     fs::rename(&smaller, &module).map_err(|error| format!("{}: {error}", module.display()))
 }
 
-/// Whether the module was made from what is compiled now, and by this program.
+/// Whether the module is newer than the compiled package and than this program.
 fn is_current(module: &Path, compiled: &Path) -> bool {
     let time = |path: &Path| fs::metadata(path).and_then(|metadata| metadata.modified()).ok();
     let sources = [time(compiled), std::env::current_exe().ok().as_deref().and_then(time)];
     time(module).is_some_and(|made| sources.iter().all(|source| source.is_some_and(|at| at < made)))
 }
 
-/// For size: the compiler has optimized what must be fast.
+/// Optimizes for size: the compiler has already optimized the code that must be fast.
 const WASM_OPT_FLAGS: [&str; 1] = ["-Oz"];
 
 /// Writes the JavaScript side of the module.
@@ -46,7 +46,7 @@ fn write_bindings(package: &Path, compiled: &Path, out: &Path) -> Result<(), Str
     run_command(bindgen.arg("--").args([compiled, out]))
 }
 
-/// Installs the pinned `wasm-opt` with npm, if it is not there; gives its path.
+/// Installs the pinned `wasm-opt` with npm if it is missing; returns its path.
 fn install_wasm_opt() -> Result<PathBuf, String> {
     let folder = target_folder().join("web-build/npm");
     create_folder(&folder)?;

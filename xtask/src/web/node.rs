@@ -15,14 +15,14 @@ pub struct Request {
     pub query: String,
 }
 
-/// Answers of the engine, by the names of the requests.
+/// Answers of the engine, by request name.
 #[derive(Clone, Debug, Default)]
 pub struct Answers {
     bytes: BTreeMap<String, Vec<u8>>,
 }
 
 impl Answers {
-    /// Asks the module of a site, in Node, with some files added to it before.
+    /// Queries the module of a site, in Node, after adding some files to it.
     ///
     /// # Errors
     /// Node is missing, or the engine refuses a request.
@@ -58,7 +58,7 @@ impl Answers {
     }
 }
 
-/// Writes the page of a site as one file beside it, `alberti.html`.
+/// Packs the page of a site into one file next to it, `alberti.html`.
 ///
 /// # Errors
 /// Node is missing, or a part of the page is not where it was.
@@ -71,7 +71,7 @@ pub fn write_single_file(site: &Path) -> Outcome {
 /// The size of a file after `gzip -9`, as hosts send it.
 ///
 /// # Errors
-/// Node is missing, or the file.
+/// Node or the file is missing.
 pub fn gzip_size(path: &Path) -> Result<usize, String> {
     let script = "const {readFileSync: read} = require('node:fs'); \
         console.log(require('node:zlib').gzipSync(read(process.argv[1]), {level: 9}).length)";
@@ -79,7 +79,7 @@ pub fn gzip_size(path: &Path) -> Result<usize, String> {
     text.trim().parse().map_err(|_| format!("Node gives no size of {}", path.display()))
 }
 
-/// That Node is missing, if it is.
+/// The message that Node is missing, if it is.
 pub fn missing_node() -> Option<String> {
     let has = |program: &str| Command::new(program).arg("--version").output().is_ok();
     let missing = ["node", "npm"].into_iter().find(|program| !has(program))?;

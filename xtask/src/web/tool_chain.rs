@@ -1,8 +1,9 @@
-//! The tool chain that compiles Rust to WebAssembly here: a compiler with the sources of the standard library.
+//! The tool chain that compiles Rust to WebAssembly: a compiler with the sources of the standard
+//! library.
 //!
-//! They are compiled with the explorer: a panic without a message, which nobody would read since the
+//! They are compiled with the explorer. Panics without a message, which nobody would read since the
 //! page starts another worker, and sorting in less code take a sixth off the module. The compiled
-//! library that rustup has for WebAssembly has neither.
+//! WebAssembly library that rustup has offers neither.
 
 use crate::program::capture_output;
 use crate::tool_chain::ToolChain;
@@ -12,8 +13,8 @@ use std::path::{Path, PathBuf};
 /// The target of the compiler.
 const TARGET: &str = "wasm32-unknown-unknown";
 
-/// Vector instructions are those that every browser has had since 2023; relaxed ones would round as
-/// each machine likes. A panic is a trap.
+/// Vector instructions are those that every browser has had since 2023; relaxed ones would round
+/// differently on each machine. A panic is a trap.
 const COMPILER_FLAGS: [&str; 3] =
     ["-Ctarget-feature=+simd128", "-Zunstable-options", "-Cpanic=immediate-abort"];
 
@@ -31,14 +32,14 @@ impl WebToolChain {
     /// There is none, or no linker; the message says how to get them.
     pub fn find() -> Result<Self, String> {
         let compiler = ToolChain::with_sources()?;
-        // Debian's has no linker; that of another compiler does as well.
+        // Debian's has no linker; another compiler's works too.
         let own = || find_linker(&ToolChain::own().ok()?.root);
         let linker = find_linker(&compiler.root).or_else(own);
         let linker = linker.ok_or("there is no `rust-lld`, the linker that comes with rustup")?;
         Ok(Self { compiler, linker })
     }
 
-    /// Compiles the package `web`, whose folder is given; gives the path of the module.
+    /// Compiles the package `web` in the given folder; returns the path of the module.
     ///
     /// # Errors
     /// It does not compile.

@@ -1,5 +1,5 @@
 //! `web-bindgen MODULE.wasm FOLDER`: writes `web.js` and `web_bg.wasm`, the module with its
-//! bindings to JavaScript, into a folder.
+//! JavaScript bindings, into a folder.
 
 use std::error::Error;
 use wasm_bindgen_cli_support::Bindgen;
@@ -11,7 +11,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let mut bindgen = Bindgen::new();
     bindgen.input_path(module).typescript(false).remove_producers_section(true);
-    // Names of functions are a quarter of the module, and are read in a debugger alone.
+    // Function names take up a quarter of the module, and only debuggers read them.
     bindgen.remove_name_section(true).web(true)?.generate(folder)?;
     Ok(())
 }

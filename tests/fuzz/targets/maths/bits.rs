@@ -1,9 +1,9 @@
-//! Where the numbers come from: the fuzzer's bytes, and zeros after their end.
+//! The source of numbers: the fuzzer's bytes, and zeros after their end.
 
 /// The longest call needs fewer words.
 const WORDS: usize = 64;
 
-/// The bytes that are left, eight at a time.
+/// The remaining bytes, eight at a time.
 #[derive(Clone, Copy)]
 pub struct Bits {
     mood: u8,
@@ -31,7 +31,7 @@ impl Bits {
         word
     }
 
-    /// Bits that are none of those to come.
+    /// Bits that differ from all those to come.
     pub fn peek(&self) -> u64 {
         self.mood.into()
     }

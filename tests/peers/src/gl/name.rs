@@ -1,4 +1,4 @@
-//! The numbers behind OpenGL's names, as its headers give them.
+//! The values of OpenGL constants, from its headers.
 #![allow(missing_docs)]
 
 pub const TRIANGLES: u32 = 0x0004;

@@ -1,4 +1,4 @@
-//! euc 0.5, a rasteriser in Rust: float edges, every pixel of a bounding box, no clipping.
+//! euc 0.5, a rasterizer in Rust: float edges, every pixel of a bounding box, no clipping.
 
 use super::{AREA, Peer, Quantized};
 use crate::scene::{Part, SIZE, Scene, Texture, light};
@@ -17,7 +17,7 @@ pub struct Euc<'a> {
 }
 
 impl<'a> Euc<'a> {
-    /// One sample, one thread: all it has.
+    /// One sample and one thread: it supports no more.
     pub fn new(scene: &'a Scene) -> Self {
         let size = [SIZE.0 as usize, SIZE.1 as usize];
         let matrix = scene.world_to_clip(Convention::OPENGL).raw().as_mat4();
@@ -82,7 +82,7 @@ struct Shader<'a, const LIT: bool, const TEXTURED: bool> {
     world_to_clip: [[f32; 4]; 4],
 }
 
-/// What goes from the vertices to the pixels.
+/// The data passed from vertices to pixels.
 #[derive(Clone)]
 struct Carried {
     normal: [f32; 3],

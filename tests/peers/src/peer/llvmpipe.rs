@@ -49,7 +49,7 @@ void main() {{
 /// llvmpipe with a scene.
 pub struct Llvmpipe {
     gl: Rc<Context>,
-    /// What is drawn into; with several samples, `resolved` takes their means.
+    /// The render target; with several samples, `resolved` gets their means.
     target: Framebuffer,
     resolved: Option<Framebuffer>,
     samples: u32,

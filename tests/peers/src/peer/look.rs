@@ -1,17 +1,17 @@
-//! The shader of our rasteriser: tint × texture × light, as the GLSL of the other peer has it,
-//! eight fragments at once.
+//! The shader of our rasterizer: tint × texture × light, like the GLSL of the other peer, for eight
+//! fragments at once.
 
 use crate::scene::{Scene, TEXTURE_SCALE, Texture, Vertex, floor_of, light, wrap};
 use raster::{F32x8, Fragment, Fragments, LANES, Surface};
 
-/// A scene with what its triangles are looked up by.
+/// A scene, with lookup tables for its triangles.
 pub struct Look<'a> {
     pub scene: &'a Scene,
-    /// For each triangle the number of its part.
+    /// The part number of each triangle.
     parts: Vec<u32>,
 }
 
-/// What is interpolated: normal and texture coordinates.
+/// The interpolated values: normal and texture coordinates.
 const VARYING: usize = 5;
 
 impl<'a> Look<'a> {

@@ -1,5 +1,5 @@
-//! The crate `raster` with the stages before it and a shader of this comparison's own: what the
-//! other peers do, no more.
+//! The crate `raster` with the stages before it and a shader written for this comparison, which
+//! does what the other peers do and no more.
 
 use super::look::Look;
 use super::{AREA, Peer, Quantized};
@@ -13,7 +13,7 @@ use raster::{
 };
 use viewport::Viewport;
 
-/// Our rasteriser with a scene.
+/// Our rasterizer with a scene.
 pub struct Raster<'a> {
     look: Look<'a>,
     samples: Samples,
@@ -26,20 +26,20 @@ pub struct Raster<'a> {
     positions: Vec<[f32; 3]>,
     /// Of the box around them.
     corners: [[f32; 3]; 8],
-    /// Of each part, made once as vertex buffers are.
+    /// The clusters of each part, built once like vertex buffers.
     clusters: Vec<Clusters>,
-    /// What of each part is drawn now.
+    /// The portion of each part drawn now.
     selections: Vec<MeshSelection>,
     clip: Vec<HPoint<Clip>>,
     codes: Vec<Outcode>,
     screen: Vec<Option<ScreenVertex>>,
-    /// Whether all vertices are on the screen, so that nothing needs to be cut.
+    /// Whether all vertices are on the screen, so that nothing needs clipping.
     whole: bool,
     pixels: Vec<[u8; 4]>,
 }
 
 impl<'a> Raster<'a> {
-    /// With `samples` for each pixel and so many threads.
+    /// Uses `samples` per pixel and this many threads.
     pub fn new(scene: &'a Scene, samples: Samples, threads: usize) -> Result<Self, String> {
         let viewport = Viewport::image_for(SIZE.0, SIZE.1, ClipRange::CHAPTER)
             .map_err(|error| error.to_string())?;
@@ -69,13 +69,13 @@ impl<'a> Raster<'a> {
         })
     }
 
-    /// The same without the vector instructions that not every processor has.
+    /// A copy without the vector instructions that some processors lack.
     pub fn baseline(self) -> Self {
         let frame = self.frame.with_simd_level(SimdLevel::baseline());
         Self { frame, baseline: true, ..self }
     }
 
-    /// The vertices on the screen, and if some may have to be cut in clip space too.
+    /// The vertices on the screen and, if some may need clipping, in clip space too.
     fn vertices(&mut self) {
         let simd_level = self.frame.simd_level();
         let mut corners = [HPoint::new(0.0, 0.0, 0.0, 1.0); 8];

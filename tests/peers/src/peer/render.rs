@@ -1,9 +1,8 @@
-//! The whole of `pipeline::render`: our rasteriser with the shading of the finished program,
-//! colours in linear light.
+//! The whole of `pipeline::render`: our rasterizer with the shading of the finished program,
+//! colors in linear light.
 //!
-//! It does more than the peers do: materials are looked at, colours go through the sRGB curve both
-//! ways. What a frame of the program costs is what people wait for, so it stands beside the bare
-//! rasteriser.
+//! It does more than the peers: it evaluates materials, and colors go through the sRGB curve both
+//! ways. People wait for a whole frame of the program, so it is listed next to the bare rasterizer.
 
 use super::Peer;
 use crate::scene::{AMBIENT, Part, SIZE, Scene, TOWARDS_LIGHT, Texture};
@@ -33,7 +32,7 @@ pub struct Render {
 }
 
 impl Render {
-    /// With `samples` for each pixel and so many threads.
+    /// Uses `samples` per pixel and this many threads.
     pub fn new(scene: &Scene, samples: Samples, threads: usize) -> Result<Self, String> {
         let lux = |share: f32| [share * PI; 3];
         let (width, height) = SIZE;
@@ -52,7 +51,7 @@ impl Render {
         let image = ImageSpec { samples, ..ImageSpec::new(width, height) };
         let scene =
             pipeline::Scene { lights, ..pipeline::Scene::new(models, view_projection, image) };
-        // As long as the process: there are few, and their textures refer to them.
+        // They live as long as the process: there are few, and their textures refer to them.
         let models: &'static [ModelInstance] = scene.models.clone().leak();
         Ok(Self {
             scene,
@@ -76,7 +75,7 @@ impl Peer for Render {
 
     fn draw(&mut self) {
         let Self { scene, textures, renderer, threads, picture } = self;
-        // A scene that cannot be rendered has no pixels, and agrees with nobody.
+        // A scene that cannot be rendered has no pixels and matches no other picture.
         if renderer.render(&RenderContext::new(scene, textures, *threads), picture).is_err() {
             picture.pixels.clear();
         }
@@ -87,7 +86,7 @@ impl Peer for Render {
     }
 }
 
-/// The scene as the importer would have read it: one node, one mesh, a primitive for each part.
+/// The scene as the importer would have read it: one node, one mesh, one primitive per part.
 fn model(scene: &Scene) -> Result<Model, String> {
     let one_node = one_node()?;
     let numbered = || scene.parts.iter().enumerate();
@@ -95,7 +94,7 @@ fn model(scene: &Scene) -> Result<Model, String> {
         primitives: numbered().map(|(number, part)| primitive(scene, part, number)).collect(),
         ..Mesh::default()
     };
-    // As the peers read textures: no mip maps.
+    // No mip maps, like the peers.
     let sampler = Sampler { mipmap_mode: MipmapMode::None, ..Sampler::default() };
     let count = scene.textures.len();
     Ok(Model {
@@ -107,8 +106,8 @@ fn model(scene: &Scene) -> Result<Model, String> {
     })
 }
 
-/// A model with one node that shows mesh 0 where it is: what the importer makes of the plainest
-/// file there is.
+/// A model with one node that shows mesh 0 without a transform: the importer's result for the
+/// simplest file.
 fn one_node() -> Result<Model, String> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("node.gltf");
     load(&file, &ImportOptions::default()).map_err(|error| error.to_string())

@@ -1,4 +1,4 @@
-//! A tiled floor that passes under and behind the eye: what clipping costs, and textures at a
+//! A tiled floor that passes under and behind the eye: the cost of clipping, and of textures at a
 //! slant.
 
 use super::{Lens, Part, Scene, Texture, Vertex, aspect};

@@ -1,4 +1,4 @@
-//! A model of the shared assets as plain arrays: what a usual textured model costs.
+//! A model of the shared assets as plain arrays: the cost of an ordinary textured model.
 
 use super::{Lens, Part, Scene, Texture, Vertex, aspect};
 use camera::{NamedView, Slopes, frame_perspective};
@@ -8,14 +8,14 @@ use model::{Image, Model, Primitive, SkinnedPrimitive, Topology};
 use projection::{Fov, Perspective};
 use std::path::{Path, PathBuf};
 
-/// The folder of shared models: `$ASSETS`, or `shared/assets` beside the project.
+/// The folder of shared models: `$ASSETS`, or `shared/assets` next to the project.
 pub fn assets() -> Option<PathBuf> {
     let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/assets");
     let folder = std::env::var_os("ASSETS").map_or(beside, PathBuf::from);
     folder.is_dir().then_some(folder)
 }
 
-/// The flight helmet: base colours from textures, and Lambert's law.
+/// The flight helmet: base colors from textures, and Lambert's law.
 pub fn helmet(name: &'static str, folder: &Path) -> Result<Scene, String> {
     let path = folder.join("models/flight-helmet/FlightHelmet.gltf");
     let model = load(&path, &ImportOptions::default()).map_err(|error| error.to_string())?;

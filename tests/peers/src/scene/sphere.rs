@@ -1,4 +1,4 @@
-//! A sphere with bumps, of a million triangles or more: what geometry costs.
+//! A bumpy sphere of a million triangles or more: the cost of geometry.
 
 use super::{Lens, Part, Scene, Vertex, aspect};
 use camera::Camera;
@@ -6,8 +6,8 @@ use homog::{Point, Vector};
 use projection::{Fov, Perspective};
 use std::f64::consts::{PI, TAU};
 
-/// A sphere of `rows` × 2 `rows` quads: 4 `rows`² triangles. Half of them face away, and are left
-/// out unless it is drawn with both sides.
+/// A sphere of `rows` × 2 `rows` quads: 4 `rows`² triangles. Half of them face away and are skipped
+/// unless both sides are drawn.
 pub fn sphere(name: &'static str, rows: u32, two_sided: bool) -> Result<Scene, String> {
     let vertices: Vec<Vertex> = (0..=rows)
         .flat_map(|i| (0..=2 * rows).map(move |j| (i, j)))
@@ -39,7 +39,7 @@ pub fn sphere(name: &'static str, rows: u32, two_sided: bool) -> Result<Scene, S
     })
 }
 
-/// The vertex at a place of the unit square, `down` from pole to pole and `around`.
+/// The vertex at a position in the unit square, `down` from pole to pole and `around`.
 fn vertex(down: f64, around: f64) -> Vertex {
     let step = 1e-4;
     let p = place(down, around);
@@ -47,7 +47,7 @@ fn vertex(down: f64, around: f64) -> Vertex {
     let (a, b) = (along(place(down + step, around)), along(place(down, around + step)));
     let normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
     let length = (normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]).sqrt();
-    // At the poles the step around leads nowhere.
+    // At the poles the step around has zero length.
     let normal = if length > 1e-12 { normal.map(|c| c / length) } else { p };
     let narrow = |v: [f64; 3]| v.map(|c| c as f32);
     Vertex { position: narrow(p), normal: narrow(normal), uv: [around as f32, down as f32] }

@@ -1,4 +1,5 @@
-//! A polygon with colors in the space of a room, clipped to the room and to the cone of a light: no projection anywhere.
+//! A polygon with colors in a room's space, clipped to the room and to the cone of a light, without
+//! any projection.
 
 use clip::{
     ConvexVolume,
@@ -6,7 +7,7 @@ use clip::{
 };
 
 clip::homog::space!(
-    /// The space of a lamp at its origin, which shines along −z.
+    /// The space of a lamp at its origin that shines along −z.
     Lamp, "lamp"
 );
 
@@ -43,7 +44,7 @@ fn main() -> Result<(), clip::VolumeError> {
             .all(|(place, vertex)| (vertex.uv[0] - (place.x() as f32 + 2.0) / 8.0).abs() < 1e-6)
     );
 
-    // The cone of a lamp by sixty planes: far more than a graphics card has.
+    // The cone of a lamp as sixty planes: far more than a graphics card has.
     let mut cone = ConvexVolume::<Lamp>::new();
     for step in 0..60 {
         let (s, c) = (f64::from(step) * std::f64::consts::TAU / 60.0).sin_cos();

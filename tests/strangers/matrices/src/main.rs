@@ -1,4 +1,5 @@
-//! One lens as the matrix of four interfaces, in the types of two other libraries and of an older glam.
+//! One lens as the matrix of four interfaces, in the types of two other libraries and of an older
+//! glam.
 
 use homog::{Affine, Clip, Point, Projective, View, World};
 use projection::{Convention, Decomposed, Fov, Intrinsics, Perspective, decompose};
@@ -6,7 +7,7 @@ use projection::{Convention, Decomposed, Fov, Intrinsics, Perspective, decompose
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let lens = Perspective::new(Fov::vertical_degrees(60.0), 1.5, 0.1, 100.0)?;
 
-    // To glam 0.30 by mint, and to nalgebra: both of them have OpenGL's perspective, too.
+    // To glam 0.30 through mint, and to nalgebra: both also have OpenGL's perspective.
     let ours = lens.view_to_clip(Convention::OPENGL);
     let in_glam: glam::DMat4 = mint_of(ours).into();
     let theirs = glam::DMat4::perspective_rh_gl(60_f64.to_radians(), 1.5, 0.1, 100.0);
@@ -38,7 +39,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let [[fx, _, cx], ..] = k.to_rows();
     assert!((fx - 640.0 / 30_f64.to_radians().tan()).abs() < 1e-9 && cx == 960.0, "{fx} {cx}");
 
-    // A pose of nalgebra, and a point through all of it.
+    // A nalgebra pose, and a point through the whole chain.
     let pose = nalgebra::Isometry3::new(
         nalgebra::Vector3::new(0.0, 0.0, -5.0),
         nalgebra::Vector3::y() * 0.5,
@@ -48,7 +49,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let seen: nalgebra::Point3<f64> = (world_to_view * p).into();
     assert!((seen - pose * nalgebra::Point3::new(0.3, 0.4, 0.5)).norm() < 1e-12);
 
-    // Any format of serde.
+    // Any serde format.
     let text = serde_json::to_string(&(p, world_to_view))?;
     let back: (Point<World>, Affine<World, View>) = serde_json::from_str(&text)?;
     assert_eq!(back, (p, world_to_view));
@@ -59,7 +60,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Column by column, through the version of mint that both know.
+/// Column by column, through the mint version that both know.
 fn mint_of(map: Projective<View, Clip>) -> glam_mint::ColumnMatrix4<f64> {
     map.into()
 }

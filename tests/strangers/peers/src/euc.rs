@@ -1,4 +1,4 @@
-//! The program by euc.
+//! The program with euc.
 
 use crate::scene::{SIZE, Scene};
 use euc::{Interpolate, Pipeline, Target, buffer::Buffer2d, rasterizer};
@@ -54,7 +54,7 @@ impl<'a> Program<'a> {
     }
 }
 
-/// What is carried from the vertices to the pixels.
+/// The data passed from vertices to pixels.
 #[derive(Clone)]
 struct Uv([f32; 2]);
 

@@ -1,6 +1,7 @@
-//! One textured mesh by three rasterizers: `ours.rs`, `euc.rs` and `retrofire.rs` are the same program, and their lines are
-//! compared; so are their pictures, and with `--time` their speed, the best of several rounds in one process.
-//! Whole programs: the vertices are projected and the picture is cleared each time.
+//! One textured mesh in three rasterizers. `ours.rs`, `euc.rs` and `retrofire.rs` are the same
+//! program; their lines and pictures are compared and, with `--time`, their speed, the best of
+//! several rounds in one process. They are whole programs: the vertices are projected and the
+//! picture is cleared each time.
 
 mod euc;
 mod ours;
@@ -44,7 +45,7 @@ fn compare(scene: &Scene) {
         let time =
             format!(", {:.2} ms, {ratio:.2} times the first", best[index].as_secs_f64() * 1e3);
         println!("{name:20} {apart} pixels differ{}", if rounds > 1 { &time } else { "" });
-        // Edges of texels and of bumps fall to the one or the other side.
+        // Edges of texels and of bumps fall to one side or the other.
         assert!(apart < pictures[0].len() / 10, "{name}: {apart}");
     }
     assert!(pictures[0] == pictures[1], "the number of threads shows");

@@ -1,4 +1,4 @@
-//! The program by this rasterizer.
+//! The program with this rasterizer.
 
 use crate::scene::{SIZE, Scene};
 use raster::homog::{ClipRange, Projective, View};

@@ -1,4 +1,4 @@
-//! The program by retrofire.
+//! The program with retrofire.
 
 use crate::scene::{SIZE, Scene};
 use retrofire_core::math::mat::Mat4;

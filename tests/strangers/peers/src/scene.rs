@@ -1,4 +1,5 @@
-//! A mesh of 100,352 triangles with a texture: a bumpy sheet before the eye, or hills below it that run to the horizon.
+//! A textured mesh of 100,352 triangles: a bumpy sheet in front of the eye, or hills below it that
+//! run to the horizon.
 
 pub const SIZE: (u32, u32) = (640, 480);
 const SIDE: u32 = 224;
@@ -7,7 +8,7 @@ pub struct Scene {
     pub positions: Vec<[f32; 3]>,
     pub uvs: Vec<[f32; 2]>,
     pub triangles: Vec<[u32; 3]>,
-    /// The matrix of OpenGL, column after column.
+    /// OpenGL's matrix, column by column.
     pub to_clip: [f32; 16],
     texels: Vec<[u8; 3]>,
 }

@@ -1,4 +1,4 @@
-//! What is under the mouse, in the conventions of four interfaces: the same hit in all of them.
+//! Picking under the mouse in the conventions of four interfaces: the same hit in all of them.
 
 use camera::{
     Camera,

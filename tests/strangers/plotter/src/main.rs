@@ -1,4 +1,4 @@
-//! A mesh as moves of a pen, hidden lines removed: HP-GL, with a progress of the work.
+//! A mesh as pen moves with hidden lines removed: HP-GL, with a progress report.
 
 use camera::{
     Camera, ViewProjection,
@@ -22,7 +22,7 @@ impl Monitor for Progress {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // A cube of which three faces are seen: nine edges, and three behind.
+    // A cube with three visible faces: nine edges, and three behind.
     let positions: Vec<[f32; 3]> =
         (0..8).map(|bits| [0, 1, 2].map(|axis| (bits >> axis & 1) as f32)).collect();
     let indices = [

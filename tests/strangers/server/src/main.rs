@@ -1,4 +1,5 @@
-//! A server of pictures: who hangs up ends the rendering, and a second client is answered meanwhile.
+//! A picture server: a client that hangs up ends its rendering, and a second client is answered
+//! meanwhile.
 
 use pipeline::scene::file::{CameraFile, LightFile};
 use pipeline::{
@@ -51,7 +52,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             });
         }
     });
-    // One asks for a huge picture and leaves; another for a small one, and waits for it.
+    // One client asks for a huge picture and leaves; another asks for a small one and waits for it.
     let mut impatient = TcpStream::connect(address)?;
     impatient.write_all(b"12000\n")?;
     let mut patient = TcpStream::connect(address)?;

@@ -1,4 +1,4 @@
-//! A textured floor under the eye, and what stands on it: a software renderer.
+//! A textured floor under the eye, with a sign on it: a software renderer.
 
 use projection::{Convention, Fov, Perspective};
 use raster::{Frame, Samples, ScreenProjection, SourceMesh, VertexAttribute, surface_fn};
@@ -6,7 +6,7 @@ use raster::{Frame, Samples, ScreenProjection, SourceMesh, VertexAttribute, surf
 const SIZE: (u32, u32) = (320, 240);
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // The floor begins behind the eye; a sign stands on it.
+    // The floor begins behind the eye; the sign is on it.
     let positions = [
         [-40.0, -1.0, 4.0_f32],
         [40.0, -1.0, 4.0],

@@ -1,4 +1,5 @@
-//! The edges of a cube, from the model to a picture: camera, projection, clipping, divide, viewport, and tiny-skia's pen.
+//! The edges of a cube, from the model to a picture: camera, projection, clipping, division,
+//! viewport, and tiny-skia's pen.
 
 use camera::{
     Camera,

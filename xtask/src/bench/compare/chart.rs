@@ -1,6 +1,6 @@
 //! The chart: bars of ratios over all models, from a line at 1 to the left or to the right.
 //!
-//! Places are logarithms: half the time is as far from the line as twice the time.
+//! Positions are logarithmic: half the time is as far from the line as twice the time.
 
 use super::machine::Machine;
 use super::measurement::Measurement;
@@ -10,12 +10,13 @@ use super::variants::Group;
 use std::fmt::Write as _;
 
 const WIDTH: f64 = 900.0;
-/// Where the scale begins and ends.
+/// The ends of the scale.
 const LEFT: f64 = 190.0;
 const RIGHT: f64 = 800.0;
 const BAR: f64 = 16.0;
 const HEADING: f64 = 34.0;
-/// The scale goes to this ratio and its inverse; longer bars are cut there, with their number.
+/// The scale extends to this ratio and its inverse; longer bars are cut there and labeled with
+/// their number.
 const GREATEST: f64 = 16.0;
 
 const GRAY: &str = "#9a9a9a";
@@ -110,7 +111,7 @@ fn scale_end(panels: &[Panel<'_>]) -> f64 {
     end
 }
 
-/// The place of a ratio.
+/// The position of a ratio.
 fn ratio_x(ratio: f64, greatest: f64) -> f64 {
     let ratio = ratio.clamp(1.0 / greatest, greatest);
     let share = libm::log2(ratio) / libm::log2(greatest);

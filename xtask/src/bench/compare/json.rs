@@ -6,7 +6,7 @@ use super::run::Figures;
 use serde_json::{Map, Value, json};
 
 /// The document. Times are milliseconds, memory is MiB; a series is a list of rounds, or an object
-/// with the reason for which the program refused.
+/// with the reason why the program refused.
 pub fn to_json(machine: &Machine, measurements: &[Measurement]) -> Value {
     let rows: Vec<Value> = measurements.iter().map(measurement_json).collect();
     json!({

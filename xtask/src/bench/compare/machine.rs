@@ -1,4 +1,4 @@
-//! Where and when it was measured.
+//! The machine and the time of the measurement.
 
 use super::revision::{Commit, current_commit};
 use crate::program::capture_output;
@@ -10,13 +10,13 @@ use std::process::Command;
 /// The programs and the machine they ran on.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Machine {
-    /// The old commit: what the user called it, and its hash.
+    /// The old commit: the user's name for it, and its hash.
     pub old: String,
     /// The new commit: its hash, and whether files have changed since.
     pub new: String,
-    /// The model of the processor.
+    /// The processor model.
     pub processor: String,
-    /// Threads that run at a time.
+    /// The number of threads that run at once.
     pub cores: usize,
     /// `rustc --version`.
     pub compiler: String,
@@ -47,7 +47,7 @@ impl Machine {
     }
 }
 
-/// The model of the processor, if the system tells.
+/// The processor model, if the system reports it.
 pub fn processor() -> String {
     processor_model(&read_text(Path::new("/proc/cpuinfo")).unwrap_or_default())
 }

@@ -11,10 +11,10 @@ use crate::workspace::create_folder;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The model of a measurement of all of them.
+/// The model name of a measurement over all models.
 pub const ALL_MODELS: &str = "all models";
 
-/// Milliseconds below which a time is not compared: the program prints two digits.
+/// Times below this many milliseconds are not compared: the program prints two digits.
 const LEAST_COMPARED: f64 = 0.1;
 
 /// The rounds of a call by one program, or why it refused the call.
@@ -25,11 +25,11 @@ pub type Series = Result<Vec<Figures>, String>;
 pub struct ProgramRuns {
     /// With the feature.
     pub on: Series,
-    /// Without it; `None` if it is compared to nothing.
+    /// Without it; `None` if there is nothing to compare it with.
     pub off: Option<Series>,
 }
 
-/// A variant of one model as both programs ran it.
+/// A variant of one model, as both programs ran it.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Measurement {
     /// The model, or `all models`.
@@ -37,13 +37,13 @@ pub struct Measurement {
     pub group: Group,
     /// The name of the variant.
     pub name: String,
-    /// The figure that is compared where only one is shown.
+    /// The figure to compare where only one is shown.
     pub figure: &'static str,
     pub old: ProgramRuns,
     pub new: ProgramRuns,
 }
 
-/// The ratios of a figure by rounds; none of rounds in which one lacks it or it is too small.
+/// The ratios of a figure by round; none for rounds in which it is missing or too small.
 pub fn pairwise_ratios(numerator: &Series, denominator: &Series, figure: &str) -> Vec<f64> {
     let (Ok(numerator), Ok(denominator)) = (numerator, denominator) else { return Vec::new() };
     let pairs = numerator.iter().zip(denominator).filter_map(|(above, below)| {
@@ -63,7 +63,7 @@ fn figure_in(figures: &Figures, figure: &str) -> Option<f64> {
     figures.iter().find(|(name, _)| name == figure).map(|(_, value)| *value)
 }
 
-/// Both programs, old before new, and how often they run.
+/// Both programs, old before new, and the number of their runs.
 #[derive(Debug)]
 pub struct Measurer {
     programs: [TimedProgram; 2],
@@ -74,7 +74,7 @@ pub struct Measurer {
 }
 
 impl Measurer {
-    /// For the paths of the old and the new program; pictures and changed models go to `folder`.
+    /// Takes the paths of the old and the new program; pictures and changed models go to `folder`.
     pub fn new(paths: [&Path; 2], folder: &Path, runs: usize) -> Self {
         let gnu_time = find_gnu_time();
         if gnu_time.is_none() {
@@ -120,7 +120,7 @@ impl Measurer {
         });
         let turns: Vec<(&TimedProgram, Vec<String>)> = turns.collect();
         let mut series: Vec<Series> = vec![Ok(Vec::new()); turns.len()];
-        // Settings are the first that is measured of a model: its files are not in memory yet.
+        // Settings are measured first for each model, while its files are not in memory yet.
         let warm_up = usize::from(variant.group == Group::Settings);
         for round in 0..self.runs + warm_up {
             for ((program, arguments), series) in turns.iter().zip(&mut series) {

@@ -1,4 +1,4 @@
-//! Which models are rendered: shared ones, those of a folder, or those of the scenes.
+//! The models to render: shared ones, those in a folder, or the scene models.
 
 use crate::skip::report_skip;
 use crate::workspace::{list_files, project_root};
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 const DEFAULT_NAMES: [&str; 6] =
     ["flight-helmet", "cave", "cesium-man", "many-cubes", "house", "carbon-sphere"];
 
-/// The models of the scenes that stand in for them where there are none.
+/// The scene models that replace them if there are none.
 const COMMITTED_NAMES: [&str; 4] = ["teapot", "crate", "floor", "finishes"];
 
 /// A model to render.
@@ -21,19 +21,19 @@ pub struct BenchModel {
     pub path: PathBuf,
 }
 
-/// The models that were asked for.
+/// The requested models.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum ModelSelection {
-    /// Nothing was said.
+    /// No request.
     Default,
-    /// All models of a folder and of the folders in it.
+    /// All models in a folder and its subfolders.
     Folder(PathBuf),
-    /// Shared models, or models of the scenes.
+    /// Shared models, or scene models.
     Names(Vec<String>),
 }
 
 impl ModelSelection {
-    /// One word that is a folder stands for what it holds; other words are names.
+    /// A single word that is a folder means its contents; other words are names.
     pub fn parse_words(words: Vec<String>) -> Self {
         match words.as_slice() {
             [] => Self::Default,
@@ -42,12 +42,12 @@ impl ModelSelection {
         }
     }
 
-    /// The files; default models that are missing are named on the standard output.
+    /// The files; missing default models are reported on standard output.
     pub fn list_models(&self) -> Result<Vec<BenchModel>, String> {
         match self {
             Self::Default => default_models(&shared_folder()),
             Self::Folder(folder) => {
-                // The program runs at the root, wherever this one was started.
+                // The program runs at the root, not in the folder where this one was started.
                 let folder = std::fs::canonicalize(folder)
                     .map_err(|error| format!("{}: {error}", folder.display()))?;
                 models_below(&folder)
@@ -59,7 +59,7 @@ impl ModelSelection {
     }
 }
 
-/// The folder of models beside the repository, or of the variable `ASSETS`.
+/// The model folder next to the repository, or in the variable `ASSETS`.
 fn shared_folder() -> PathBuf {
     let assets = std::env::var_os("ASSETS").unwrap_or_else(|| "../shared/assets".into());
     project_root().join(assets).join("models")
@@ -91,13 +91,13 @@ fn named_model(shared: &Path, name: &str) -> Result<BenchModel, String> {
     })
 }
 
-/// The first model in the folder of that name.
+/// The first model in the folder with that name.
 fn shared_model(shared: &Path, name: &str) -> Option<BenchModel> {
     let path = models_in(&shared.join(name)).ok()?.into_iter().next()?;
     Some(BenchModel { name: name.to_owned(), path })
 }
 
-/// The models of a folder and of its folders, sorted by name.
+/// The models in a folder and its subfolders, sorted by name.
 fn models_below(folder: &Path) -> Result<Vec<BenchModel>, String> {
     let mut paths = models_in(folder)?;
     let entries = std::fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;

@@ -1,6 +1,6 @@
 //! Copies of a model with a material extension or a light added: features that no flag switches on.
 //!
-//! Programs of all commits read glTF, whereas the fields of scene files have changed their names.
+//! Programs of all commits read glTF, whereas the fields of scene files have been renamed.
 
 use scene_models::glb::encode_glb;
 use serde_json::{Value, json};
@@ -20,7 +20,7 @@ pub enum Addition {
 }
 
 impl Addition {
-    /// Its word in names of files.
+    /// Its word in file names.
     fn name(self) -> &'static str {
         match self {
             Self::Transmission => "transmission",
@@ -55,7 +55,7 @@ impl Addition {
     }
 }
 
-/// The box around a model in its world.
+/// The bounding box of a model in world space.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Bounds {
     min: [f64; 3],
@@ -77,14 +77,15 @@ impl Bounds {
         }
     }
 
-    /// From where a cone of 0.5 rad around the center holds the whole box: 2.5 radii.
+    /// The position from which a cone of 0.5 rad around the center contains the whole box: 2.5
+    /// radii away.
     fn light_distance(&self) -> f64 {
         let diagonal: f64 = (0..3).map(|i| self.max[i] - self.min[i]).map(|d| d * d).sum();
         1.25 * diagonal.sqrt()
     }
 }
 
-/// Writes the changed model and what it refers to into `folder`, and says where it is.
+/// Writes the changed model and the files it refers to into `folder`, and returns its path.
 pub fn write_patched_model(
     path: &Path,
     addition: Addition,
@@ -125,7 +126,7 @@ fn decode_model(bytes: &[u8]) -> Result<(Value, Option<&[u8]>), String> {
     Ok((parse(json)?, Some(chunk(20 + json.len()).unwrap_or_default())))
 }
 
-/// The files beside the model that it refers to.
+/// The files next to the model that it refers to.
 fn external_files(model: &Value) -> Result<Vec<PathBuf>, String> {
     let entries = ["buffers", "images"].into_iter().filter_map(|name| model[name].as_array());
     let uris = entries.flatten().filter_map(|entry| entry["uri"].as_str());
@@ -154,7 +155,7 @@ fn replace_lights(model: &mut Value, light: &Value, bounds: &Bounds) -> Result<(
         }
     }
     let index = nodes.len();
-    // In front and above by 45°: a turn of −45° about x takes the light's −z there.
+    // In front and above by 45°: a rotation of −45° about x takes the light's −z there.
     let (distance, half) = (bounds.light_distance(), std::f64::consts::FRAC_1_SQRT_2);
     let center: [f64; 3] = std::array::from_fn(|i| (bounds.min[i] + bounds.max[i]) / 2.0);
     nodes.push(json!({

@@ -10,12 +10,12 @@ use std::process::Command;
 pub struct Commit {
     /// The name that the user gave it, such as `main~3`.
     pub revision: String,
-    /// Its hash in full.
+    /// Its full hash.
     pub hash: String,
 }
 
 impl Commit {
-    /// Looks a revision up: a branch, a tag, a hash or what else git understands.
+    /// Looks a revision up: a branch, a tag, a hash or anything else that git understands.
     pub fn resolve(revision: &str) -> Result<Self, String> {
         let hash = capture_output(git(project_root()).args([
             "rev-parse",
@@ -27,15 +27,15 @@ impl Commit {
         Ok(Self { revision: revision.to_owned(), hash: hash.trim().to_owned() })
     }
 
-    /// The beginning of the hash, as git shows it.
+    /// The start of the hash, as git shows it.
     pub fn short(&self) -> &str {
         self.hash.get(..12).unwrap_or(&self.hash)
     }
 
-    /// Builds the release program of the commit, or finds it built.
+    /// Builds the release program of the commit, or finds an existing build.
     ///
-    /// The folder is a clone and no worktree of git: a target folder may be removed at any time,
-    /// and nothing of the repository then refers to it.
+    /// The folder is a clone, not a git worktree: a target folder may be removed at any time, and
+    /// then nothing in the repository refers to it.
     pub fn build_program(&self) -> Result<Program, String> {
         let folder = self.clone_folder();
         if !self.is_checked_out(&folder) {
@@ -50,7 +50,7 @@ impl Commit {
     }
 
     fn is_checked_out(&self, folder: &Path) -> bool {
-        // Without a `.git` of its own the answer would be that of the repository around it.
+        // Without a separate `.git`, git would answer for the repository around it.
         let head = || capture_output(git(folder).args(["rev-parse", "HEAD"]));
         folder.join(".git").exists()
             && folder.join("Cargo.toml").exists()
@@ -68,7 +68,7 @@ impl Commit {
     }
 }
 
-/// The commit of the files as they are, with ` + changes` where they are not those of the commit.
+/// The commit of the current files, with ` + changes` if they differ from it.
 pub fn current_commit() -> Result<String, String> {
     let hash = capture_output(git(project_root()).args(["rev-parse", "HEAD"]))?;
     let changed = ["status", "--porcelain", "--untracked-files=no"];

@@ -8,7 +8,7 @@ use std::time::Instant;
 
 /// The sum of all stages.
 const ALL: &str = "all";
-/// The rest of it without [`LOADING`]: what features and styles differ in.
+/// The total without [`LOADING`], where features and styles make a difference.
 pub const DRAWING: &str = "drawing";
 /// The time from start to end of the process.
 pub const WALL: &str = "wall";
@@ -20,21 +20,21 @@ pub const PEAK_MEMORY: &str = "peak memory";
 /// Stages that read and write files.
 const LOADING: [&str; 6] = ["read", "parse", "geometry", "images", "encode", "write"];
 
-/// Flags that once had another name.
+/// Flags that used to have another name.
 const FORMER_FLAGS: [(&str, &str); 3] =
     [("--tone-mapping", "--tone"), ("--max-anisotropy", "--anisotropy"), ("--out-dir", "--out")];
 
-/// Figures of a run by name, in the order in which they were printed: milliseconds, and MiB of
+/// Figures of a run by name, in the order in which they were printed: milliseconds, and MiB for
 /// memory.
 pub type Figures = Vec<(String, f64)>;
 
-/// A program, and how it is run.
+/// A program, and the way to run it.
 #[derive(Clone, Debug)]
 pub struct TimedProgram {
     path: PathBuf,
-    /// Where its pictures go.
+    /// The folder of its pictures.
     folder: PathBuf,
-    /// GNU time, which knows CPU time and peak memory.
+    /// GNU time, which measures CPU time and peak memory.
     gnu_time: Option<PathBuf>,
 }
 
@@ -44,7 +44,7 @@ impl TimedProgram {
         Self { path: path.to_owned(), folder: folder.to_owned(), gnu_time }
     }
 
-    /// A call as this program spells its flags, and with its output.
+    /// A call with this program's spelling of the flags, and with its output.
     pub fn adapt_call(&self, call: &Call) -> Vec<String> {
         let help = Command::new(&self.path).args([call.command, "--help"]).output();
         let help = help.map(|help| String::from_utf8_lossy(&help.stdout).into_owned());
@@ -58,11 +58,11 @@ impl TimedProgram {
         arguments.into_iter().map(spelled).collect()
     }
 
-    /// Runs the program once, or says in a line what it said.
+    /// Runs the program once, or returns its message in one line.
     pub fn run(&self, arguments: &[String]) -> Result<Figures, String> {
         let batch = self.folder.join("batch");
         if batch.exists() {
-            // Else nothing is left to do.
+            // Otherwise there would be nothing left to do.
             std::fs::remove_dir_all(&batch).map_err(|e| format!("{}: {e}", batch.display()))?;
         }
         let usage = self.folder.join("usage");
@@ -109,7 +109,7 @@ fn spell_flag(word: String, help: &str) -> String {
     }
 }
 
-/// The stages among the lines of a program, and what is left of their sum without files.
+/// The stages in a program's output, and their sum without the file stages.
 fn parse_timings(text: &str) -> Figures {
     let mut figures: Figures = text.lines().filter_map(parse_stage).collect();
     let figure = |name: &str| figures.iter().find(|(known, _)| known == name).map(|(_, ms)| *ms);
@@ -130,7 +130,7 @@ fn parse_stage(line: &str) -> Option<(String, f64)> {
     (is_name && milliseconds.is_finite()).then(|| (name.to_owned(), milliseconds))
 }
 
-/// The last line of what GNU time wrote: seconds in the program and in the system, KiB of memory.
+/// The last line of GNU time's output: seconds in the program and in the system, KiB of memory.
 fn parse_usage(text: &str) -> Figures {
     let words = text.lines().last().unwrap_or_default().split_whitespace();
     let numbers: Vec<f64> = words.filter_map(|word| word.parse().ok()).collect();

@@ -1,13 +1,13 @@
 //! Median and spread of a few figures.
 
-/// Least, median and greatest of some figures.
+/// Minimum, median and maximum of some figures.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Spread {
-    /// The least.
+    /// The minimum.
     pub min: f64,
-    /// The one in the middle, or the mean of the two there.
+    /// The middle figure, or the mean of the two in the middle.
     pub median: f64,
-    /// The greatest.
+    /// The maximum.
     pub max: f64,
 }
 

@@ -1,4 +1,4 @@
-//! The summary: for each variant the ratios of its measurements, of one model or of all together.
+//! The summary: for each variant the ratios of its measurements, for one model or all together.
 
 use super::measurement::{
     ALL_MODELS, Measurement, ProgramRuns, Series, figures_named, pairwise_ratios,
@@ -7,7 +7,7 @@ use super::run::PEAK_MEMORY;
 use super::spread::Spread;
 use super::variants::Group;
 
-/// The measurements of a variant: one, or one for each model.
+/// The measurements of a variant: one, or one per model.
 #[derive(Clone, Debug)]
 pub struct VariantSummary<'a> {
     pub group: Group,
@@ -22,27 +22,27 @@ impl VariantSummary<'_> {
         self.measurements.iter().any(|measurement| measurement.new.off.is_some())
     }
 
-    /// The new program over the old one, in a figure.
+    /// The new program over the old one, for a figure.
     pub fn new_over_old_of(&self, figure: &str) -> Option<Spread> {
         self.spread(|m| pairwise_ratios(&m.new.on, &m.old.on, figure))
     }
 
-    /// The new program over the old one, in the figure that stands for the variant.
+    /// The new program over the old one, for the variant's main figure.
     pub fn new_over_old(&self) -> Option<Spread> {
         self.new_over_old_of(self.figure)
     }
 
-    /// Peak memory of the new program over that of the old one.
+    /// Peak memory of the new program over the old one's.
     pub fn memory_ratio(&self) -> Option<Spread> {
         self.new_over_old_of(PEAK_MEMORY)
     }
 
-    /// With the feature over without it, by the old program.
+    /// With the feature over without it, in the old program.
     pub fn old_on_over_off(&self) -> Option<Spread> {
         self.spread(|measurement| self.on_over_off(&measurement.old))
     }
 
-    /// With the feature over without it, by the new program.
+    /// With the feature over without it, in the new program.
     pub fn new_on_over_off(&self) -> Option<Spread> {
         self.spread(|measurement| self.on_over_off(&measurement.new))
     }
@@ -55,7 +55,7 @@ impl VariantSummary<'_> {
         ]
     }
 
-    /// The names of all figures, in the order in which the programs print them.
+    /// All figure names, in the order in which the programs print them.
     pub fn figure_names(&self) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();
         let series = self.measurements.iter().flat_map(|m| [&m.new.on, &m.old.on]);
@@ -96,7 +96,7 @@ pub fn model_names(measurements: &[Measurement]) -> Vec<&str> {
     names
 }
 
-/// The variants of a model, or of all models if none is named.
+/// The variants of a model, or of all models if no name is given.
 pub fn summarize<'a>(
     measurements: &'a [Measurement],
     model: Option<&str>,
@@ -119,7 +119,7 @@ pub fn summarize<'a>(
     summaries
 }
 
-/// A refusal of a program: which one, of which variant and model, and why. Equal reasons of equal
+/// A refusal by a program: which program, variant and model, and why. Equal reasons for equal
 /// variants are listed once, with the first model.
 pub fn refusals(measurements: &[Measurement]) -> Vec<String> {
     let mut seen: Vec<(&str, &str, &str)> = Vec::new();
@@ -146,7 +146,8 @@ pub fn refusals(measurements: &[Measurement]) -> Vec<String> {
 pub mod tests {
     use super::*;
 
-    /// Two models: a setting, a style of which the old program refuses one, with two rounds.
+    /// Two models: a setting, and a style with two rounds that the old program refuses for one of
+    /// them.
     pub fn sample() -> Vec<Measurement> {
         let series = |all: [f64; 2]| -> Series {
             let figures = |ms: f64| {

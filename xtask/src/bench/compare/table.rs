@@ -1,4 +1,4 @@
-//! The report as text: for each model the stages and the variants, then those of all models.
+//! The report as text: the stages and variants of each model, then of all models together.
 
 use super::machine::Machine;
 use super::measurement::{ALL_MODELS, Measurement};
@@ -28,7 +28,7 @@ pub fn report(machine: &Machine, measurements: &[Measurement]) -> String {
         text += &section(model, &summarize(measurements, Some(model)), true);
     }
     text += &match models.len() {
-        // The batch alone: the rest would be the figures of the model again.
+        // Only the batch: the rest would repeat the model's figures.
         1 => section(ALL_MODELS, &summarize(measurements, Some(ALL_MODELS)), true),
         _ => section("over all models", &summarize(measurements, None), false),
     };
@@ -39,7 +39,7 @@ pub fn report(machine: &Machine, measurements: &[Measurement]) -> String {
     text
 }
 
-/// The tables of one model, with its times, or of all models, without.
+/// The tables of one model, with its times, or of all models, without times.
 fn section(title: &str, summaries: &[VariantSummary<'_>], times: bool) -> String {
     let mut text = String::new();
     for summary in summaries.iter().filter(|summary| summary.group == Group::Settings) {
@@ -94,7 +94,7 @@ fn ratio_text(ratio: Option<Spread>) -> String {
     })
 }
 
-/// Columns as wide as their widest cell, the first to the left and the others to the right.
+/// Columns as wide as their widest cell, the first one left-aligned and the others right-aligned.
 fn align(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let cell_width = |row: &Vec<String>, at: usize| row.get(at).map_or(0, |c| c.chars().count());

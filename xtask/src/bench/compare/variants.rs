@@ -1,5 +1,4 @@
-//! The variants that are measured: settings, features against the picture without them, styles,
-//! commands.
+//! The measured variants: settings, features against the picture without them, styles, commands.
 
 use super::models::BenchModel;
 use super::patched_model::Addition;
@@ -8,12 +7,12 @@ use crate::skip::report_skip;
 use std::path::Path;
 
 const SIZE: &str = "1920x1080";
-/// Of the frames of a turntable.
+/// For frames of a turntable.
 const FRAME_SIZE: &str = "640x360";
-/// Of the pictures of a batch.
+/// For pictures in a batch.
 const THUMBNAIL_SIZE: &str = "256x256";
 
-/// All styles but `shaded`, to which they are compared.
+/// All styles except `shaded`, to which they are compared.
 const STYLES: [&str; 16] = [
     "flat",
     "gouraud",
@@ -33,7 +32,7 @@ const STYLES: [&str; 16] = [
     "technical",
 ];
 
-/// A feature, and the flags with it and without.
+/// A feature, and the flags with and without it.
 type Feature = (&'static str, &'static [&'static str], &'static [&'static str]);
 
 /// Features that flags switch on.
@@ -57,11 +56,11 @@ const LIGHT_FEATURES: [(Addition, Feature); 3] = [
     (Addition::Spot, ("shadows of a spot", &["--shadows", "on"], &["--shadows", "off"])),
 ];
 
-/// Material extensions that all materials get.
+/// Material extensions that are added to all materials.
 const MATERIAL_FEATURES: [(Addition, &str); 2] =
     [(Addition::Transmission, "glass"), (Addition::Iridescence, "iridescence")];
 
-/// The kind of a variant: each has a part of the tables.
+/// The kind of a variant; each kind has a section of the tables.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Group {
     /// Default settings, with each number of samples: shown by stages.
@@ -94,7 +93,7 @@ pub struct Call {
     pub arguments: Vec<String>,
 }
 
-/// Something to measure: a call, and the one to which it is compared within each program.
+/// A measurement: a call, and the one to which it is compared within each program.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Variant {
     pub group: Group,
@@ -108,11 +107,10 @@ pub struct Variant {
     pub off: Option<Call>,
 }
 
-/// A model with something added, or why it cannot have that.
+/// A model with something added, or the reason why that is impossible.
 pub type PatchModel<'a> = &'a dyn Fn(Addition) -> Result<std::path::PathBuf, String>;
 
-/// All that is measured of one model. Variants that it cannot have are named on the standard
-/// output.
+/// All variants of one model. Impossible variants are reported on standard output.
 pub fn model_variants(model: &BenchModel, frames: usize, patch: PatchModel<'_>) -> Vec<Variant> {
     let path = model.path.as_path();
     let settings = ["1", "4"].map(|samples| Variant {
@@ -151,7 +149,7 @@ pub fn model_variants(model: &BenchModel, frames: usize, patch: PatchModel<'_>) 
     variants
 }
 
-/// Pictures of all models in one call, small.
+/// A small picture of every model, in one call.
 pub fn batch_variant(models: &[BenchModel]) -> Variant {
     let mut arguments: Vec<String> = models.iter().map(|model| text(&model.path)).collect();
     arguments.extend(["--size", THUMBNAIL_SIZE, "--threads", "1"].map(str::to_owned));
@@ -177,7 +175,7 @@ fn compared(group: Group, name: &str, on: Call, off: Call) -> Variant {
     Variant { group, name: name.to_owned(), figure: DRAWING, on, off: Some(off) }
 }
 
-/// A picture by one thread, unless the flags say otherwise.
+/// A picture with one thread, unless the flags say otherwise.
 fn render(model: &Path, samples: &str, flags: &[&str]) -> Call {
     let mut arguments = vec![text(model)];
     arguments.extend(["--size", SIZE, "--samples", samples, "--timings"].map(str::to_owned));

@@ -1,4 +1,4 @@
-//! The stored counts: a text file, a line for each.
+//! The stored counts: a text file with one line each.
 
 use crate::workspace::{project_root, read_text};
 use std::path::PathBuf;
@@ -10,19 +10,19 @@ pub struct InstructionCount {
     pub name: String,
     /// Instructions of the whole run.
     pub count: u64,
-    /// Why it last changed.
+    /// The reason for its last change.
     pub reason: String,
 }
 
 /// All stored counts, in the order of the file.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct CountTable {
-    /// The compiler whose instructions were counted; empty as long as nothing is stored.
+    /// The compiler of the counted program; empty as long as nothing is stored.
     pub compiler: String,
     figures: Vec<InstructionCount>,
 }
 
-/// The name that stands before the compiler, where other lines have theirs.
+/// The name before the compiler, in the column of the workload names.
 const COMPILER_KEY: &str = "compiler";
 
 const TABLE_HEADING: &str = "\

@@ -1,10 +1,10 @@
-//! What is lost: peers that are faster, and goals that are missed.
+//! Losses: faster peers, and missed goals.
 
 use super::tables::{list, ratio, text};
 use serde_json::Value;
 use std::fmt::Write as _;
 
-/// What contestants of ours are called: alone, and before their number of samples or the like.
+/// The names that our contestants have: bare, and before their number of samples or the like.
 const OURS: [&str; 3] = ["raster", "render", "alberti"];
 
 /// The section of the page.
@@ -22,7 +22,7 @@ pub fn to_markdown(figures: &Value) -> String {
     )
 }
 
-/// A row for each peer that is faster than one of ours in a scene or with a file.
+/// A row for each peer that is faster than one of our contestants in a scene or with a file.
 fn faster_peers(figures: &Value) -> String {
     let mut rows = String::new();
     let scenes = list(&figures["scenes"]).iter().map(|scene| (scene, &scene["name"]));

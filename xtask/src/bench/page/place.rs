@@ -1,4 +1,4 @@
-//! Where and when the figures of the page were measured, of which commit, and with which peers.
+//! The machine, time, commit and peers of the page's measurements.
 
 use super::tables::{list, text};
 use crate::bench::compare::machine::{compiler, date, processor};
@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Running threads per core from which on a machine counts as busy.
+/// The number of running threads per core from which a machine counts as busy.
 const BUSY: f64 = 0.3;
 
 /// The machine, the commit and the hour.
@@ -21,7 +21,7 @@ pub struct Place {
     commit: String,
     date: String,
     euc: String,
-    /// Running threads, the mean of a minute, before and after.
+    /// Running threads before and after, each the mean of a minute.
     load_before: Option<f64>,
     pub load_after: Option<f64>,
 }
@@ -42,7 +42,7 @@ impl Place {
         })
     }
 
-    /// The section of the page. Mesa and f3d are in the figures: they said it themselves.
+    /// The section of the page. The versions of Mesa and f3d come from the figures.
     pub fn to_markdown(&self, figures: &Value) -> String {
         let or_missing = |value: &Value| match text(value) {
             "" => "not installed: left out".to_owned(),
@@ -77,19 +77,19 @@ impl Place {
         text
     }
 
-    /// Whether others were computing when it began. Afterwards it is this very measurement.
+    /// Whether others were computing at the start. Afterwards, this measurement itself is.
     fn was_busy(&self) -> bool {
         self.load_before.is_some_and(|load| load > BUSY * self.cores as f64)
     }
 }
 
-/// Rounds of the contest, the one for warming up not counted.
+/// The rounds of the contest, not counting the warm-up round.
 fn rounds(figures: &Value) -> usize {
     let contestants = list(&figures["scenes"]).iter().flat_map(|scene| list(&scene["contestants"]));
     contestants.map(|one| list(&one["times"]).len()).max().unwrap_or(0)
 }
 
-/// Running threads, the mean of the last minute, where the system tells.
+/// Running threads, the mean of the last minute, if the system reports it.
 pub fn load() -> Option<f64> {
     read_text(Path::new("/proc/loadavg")).ok()?.split(' ').next()?.parse().ok()
 }

@@ -1,19 +1,19 @@
-//! Tables of the page, from the figures that the contest leaves.
+//! The page's tables, from the figures that the contest writes.
 
 use serde_json::Value;
 use std::fmt::Write as _;
 
-/// The elements of an array; none of anything else.
+/// The elements of an array; none for anything else.
 pub fn list(value: &Value) -> &[Value] {
     value.as_array().map_or(&[], Vec::as_slice)
 }
 
-/// A text; an empty one of anything else.
+/// A text; empty for anything else.
 pub fn text(value: &Value) -> &str {
     value.as_str().unwrap_or_default()
 }
 
-/// A median with least and greatest.
+/// A median with minimum and maximum.
 pub fn ratio(spread: &Value) -> String {
     scaled(spread, 1.0)
 }
@@ -24,7 +24,7 @@ fn scaled(spread: &Value, factor: f64) -> String {
     format!("{:.2} ({:.2} … {:.2})", median * factor, low * factor, high * factor)
 }
 
-/// A scene: its contestants, and how far pictures are apart.
+/// A scene: its contestants, and the distances between their pictures.
 pub fn scene(scene: &Value) -> String {
     let mut markdown = format!("\n### {}\n\n{}.\n\n", text(&scene["name"]), text(&scene["about"]));
     markdown += &contestants(&scene["contestants"], &["raster", "render"]);
@@ -109,7 +109,7 @@ pub fn threads(threads: &Value) -> String {
     markdown
 }
 
-/// What the figures are held to.
+/// The goals for the figures.
 pub fn goals(goals: &Value) -> String {
     let mut markdown = String::new();
     if list(goals).is_empty() {
@@ -123,7 +123,7 @@ pub fn goals(goals: &Value) -> String {
     markdown
 }
 
-/// A goal: what, reached, wanted.
+/// A goal: the comparison, the result, the bound.
 pub fn goal_row(goal: &Value) -> String {
     let sign = if goal["at_least"] == true { "≥" } else { "≤" };
     let wanted = goal["wanted"].as_f64().unwrap_or_default();
