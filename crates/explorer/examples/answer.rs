@@ -1,9 +1,9 @@
-//! Answers a request with the models of a folder, and writes the answer to standard output.
+//! Answers a request with the models in a folder, and writes the answer to standard output.
 //!
 //! ```sh
 //! cargo run -p alberti-explorer --example answer -- scenes 'what=world&lesson=frustum&format=png' > world.png
 //! ```
-//! Each further request is answered too; the times are written to standard error.
+//! Further requests are answered too; the times are written to standard error.
 
 use explorer::Explorer;
 use std::error::Error;

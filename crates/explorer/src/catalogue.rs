@@ -1,4 +1,4 @@
-//! The catalogue of lessons as JSON.
+//! The catalog of lessons as JSON.
 
 use crate::lesson::{Choice, Domain, Lesson, Parameter};
 use crate::lesson_state::STYLES;

@@ -1,14 +1,14 @@
 //! Demonstrations of the viewing pipeline for lessons, computed by its own stages.
-//!
-//! | subject | begin with |
+//! | subject | start with |
 //! | --- | --- |
 //! | one subject in every projection of the textbooks | [`projection_panels`] |
-//! | one parameter of camera or lens, step by step | [`Sweep`] |
-//! | how distance becomes depth, and how finely (C48, C68) | [`DepthTable`] |
+//! | one camera or lens parameter, step by step | [`Sweep`] |
+//! | depth and its resolution against distance (C48, C68) | [`DepthTable`] |
 //! | wrap-around at w = 0: why clipping comes before the divide (C36) | [`wraparound_panels`] |
 //!
-//! Each returns [`Panels`](drawing::Panels) or a [`Page`](drawing::Page), to be written as SVG, PDF
-//! or PNG; panels can be an HTML page as well. None depends on the number of threads.
+//! Each returns [`Panels`](drawing::Panels) or a [`Page`](drawing::Page), which can be written as
+//! SVG, PDF or PNG; panels can also be written as an HTML page. None depends on the number of
+//! threads.
 
 mod depth_chart;
 mod depth_table;
@@ -29,8 +29,8 @@ use scene::ResolveError;
 
 /// A demonstration that cannot be computed.
 ///
-/// Each variant carries the error of the stage that refused, or the parameter and the reason, so
-/// that the message can name a remedy.
+/// Each variant carries the error of the stage that failed, or the parameter and the reason, so
+/// that the message can suggest a remedy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum DemonstrationError {

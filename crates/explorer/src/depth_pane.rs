@@ -1,4 +1,4 @@
-//! The pane `depth`: depth after the divide against distance, with the model's range in it.
+//! The pane `depth`: depth after the divide against distance, with the model's range marked.
 
 use crate::ExplorerError;
 use crate::demonstration::DepthTable;
@@ -15,7 +15,7 @@ use serde_json::{Value as Json, json};
 const CURVE_INK: Ink = [26, 86, 176];
 const MODEL_INK: Ink = [230, 159, 0];
 
-/// The page and the upper left corner and size of the chart, in millimeters.
+/// The page, and the upper left corner and size of the chart, in millimeters.
 const PAGE_SIZE: DVec2 = DVec2::new(150.0, 84.0);
 const CHART_CORNER: DVec2 = DVec2::new(16.0, 12.0);
 const CHART_SIZE: DVec2 = DVec2::new(126.0, 56.0);
@@ -89,8 +89,8 @@ fn depth_in(facts: &Facts, conventions: ApiConventions, distance: f64) -> Option
     })
 }
 
-/// Distances with their depths and the least step that a buffer of 24 bits can tell apart; `None`
-/// in a parallel projection.
+/// Distances with their depths and the smallest step that a 24-bit buffer can resolve; `None` in a
+/// parallel projection.
 pub(crate) fn depth_table_json(facts: &Facts, conventions: ApiConventions) -> Option<Json> {
     facts.apex?;
     let [near, far] = [facts.planes[0]?, facts.planes[1]?];

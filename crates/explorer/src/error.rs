@@ -1,22 +1,23 @@
-//! Errors of requests: what is wrong, and what to do.
+//! Request errors, with the problem and a remedy.
 
 use crate::words::{Language, Sentence};
 use pipeline::{RenderError, ResolveError};
 use scene_file::file::InvalidNumber;
 
-/// A request that cannot be answered. The explorer is as before; the next request works.
+/// The error of a request that cannot be answered. The explorer is unchanged; the next request
+/// works.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("{message}; {help}")]
 pub struct ExplorerError {
     /// A stable identifier for programs, such as `unknown_key`.
     pub code: &'static str,
-    /// The fault, in a sentence.
+    /// The problem, in a sentence.
     pub message: String,
     /// The remedy.
     pub help: String,
 }
 
-/// The remedy for a scene that makes no sense.
+/// The remedy for an invalid scene.
 const RESET: &str = "change a value, or reset the lesson";
 /// The remedy for a model that cannot be loaded.
 const OTHER_FILE: &str = "check the file, or choose another one";
@@ -30,12 +31,12 @@ impl ExplorerError {
         Self { code, message: message.into(), help: help.into() }
     }
 
-    /// A scene that makes no sense, by the message of the error that says so.
+    /// An invalid scene, described by the message of its error.
     pub(crate) fn invalid_scene(error: &impl ToString) -> Self {
         Self::new("invalid_scene", error.to_string(), RESET)
     }
 
-    /// The error as one of the user's own model, if it speaks of its file.
+    /// Turns this error into one about the user's own model if it mentions that file.
     pub(crate) fn about_model(self, name: &str) -> Self {
         let is_of_model = !name.is_empty() && self.message.starts_with(&format!("{name}: "));
         match is_of_model {
@@ -47,7 +48,7 @@ impl ExplorerError {
         }
     }
 
-    /// An error in the language of the request.
+    /// An error message in the language of the request.
     pub(crate) fn in_language(
         code: &'static str,
         language: Language,

@@ -1,12 +1,12 @@
-//! Exercises on viewing, with answers that are checked and wrong answers that are named.
+//! Exercises on viewing: answers are checked, and common mistakes are named.
 //!
 //! ```text
 //! answer ─► answer_text: entries ─► expression: numbers, for several values of the letters
 //!                                     └─► entries: the crates' answer? else a mistake's? else where?
 //! ```
-//! Exercises 1 to 11 are those of the textbook's chapter, 12 to 24 the project's own. Right answers
-//! are computed by the crates. A formula is compared by its values, so that every way to write it is
-//! right.
+//! Exercises 1 to 11 come from the textbook's chapter; 12 to 24 are the project's own. Correct
+//! answers are computed by the crates. Formulas are compared by value, so every way to write them
+//! is accepted.
 //!
 //! ```
 //! use explorer::Language;
@@ -43,19 +43,19 @@ pub struct Exercise {
     pub number: u32,
     /// Its title.
     pub title: Words,
-    /// The question, which can be answered from itself alone.
+    /// The question, self-contained.
     pub question: Words,
-    /// Hints, the first of which says least.
+    /// Hints, the vaguest first.
     pub hints: &'static [Words],
-    /// The letters that the answer may have.
+    /// The symbols that the answer may contain.
     pub letters: &'static [&'static str],
-    /// The wrong answers that have a name.
+    /// The known mistakes.
     pub mistakes: &'static [Mistake],
     shape: AnswerShape,
     multiples: Multiples,
-    /// Values of the letters, for each of which an answer is compared.
+    /// Values of the symbols; an answer is compared for each of them.
     samples: &'static [&'static [f64]],
-    /// The right answer for values of the letters; `None` where there is none.
+    /// The correct answer for given values of the symbols; `None` if there is none.
     answer: fn(&[f64]) -> Option<Entries>,
 }
 
@@ -65,17 +65,17 @@ pub fn exercises() -> &'static [&'static Exercise] {
     &questions::EXERCISES
 }
 
-/// The exercise of a number.
+/// Finds an exercise by its number.
 #[must_use]
 pub fn find_exercise(number: u32) -> Option<&'static Exercise> {
     exercises().iter().copied().find(|exercise| exercise.number == number)
 }
 
-/// Numbers without letters: one comparison.
+/// No symbols: a single comparison.
 const NUMBERS: &[&[f64]] = &[&[]];
 
 impl Exercise {
-    /// The form of an answer, without a full stop.
+    /// The form of an answer, without a final period.
     #[must_use]
     pub fn form(&self) -> Sentence {
         let (mut en, mut zh) = match self.shape {
@@ -115,12 +115,12 @@ impl Exercise {
         sentence(en, zh)
     }
 
-    /// Compares an answer with the right one and with those that are often given in its place.
+    /// Compares an answer with the correct one and with common mistakes.
     ///
-    /// Numbers may differ by 1e-9 of an entry.
+    /// Numbers may differ by 1e-9 of an entry's value.
     ///
     /// # Errors
-    /// If the text is no answer: it has other letters, or not as many entries as are asked for.
+    /// If the text is not an answer: it contains other symbols, or the wrong number of entries.
     pub fn check(&'static self, answer: &str) -> Result<Verdict, AnswerError> {
         let rows = split_answer(answer, self.shape)?;
         if let Some(mistake) = self.mistakes.iter().find(|mistake| mistake.is_written_in(&rows)) {
@@ -149,7 +149,7 @@ impl Exercise {
         Ok(self.differences(&given, &right))
     }
 
-    /// The numbers of an answer for each sample of the letters.
+    /// The values of an answer for each sample of the symbols.
     fn evaluate_rows(&self, rows: &[Vec<String>]) -> Result<Vec<Entries>, AnswerError> {
         let evaluate_sample = |values: &&[f64]| {
             let letters = Letters { names: self.letters, values };
@@ -196,7 +196,7 @@ impl Exercise {
         ))
     }
 
-    /// `l*nx` where an answer with too many entries in a row has `l nx`, without commas.
+    /// Returns `l*nx` if an answer without commas has too many entries in a row because of `l nx`.
     fn product_between_blanks(&self, rows: &[Vec<String>], answer: &str) -> Option<String> {
         if answer.contains([',', '，', '、']) {
             return None;
@@ -217,7 +217,7 @@ impl Exercise {
         }
     }
 
-    /// The entries that differ, in the first sample in which any does.
+    /// The entries that differ, in the first sample where any differs.
     fn differences(&self, given: &[Entries], right: &[Entries]) -> Verdict {
         let places = |(given, right): (&Entries, &Entries)| {
             differing_places(given, right, self.multiples, EXACT)

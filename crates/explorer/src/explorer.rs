@@ -1,4 +1,4 @@
-//! The explorer: from a query string to a picture, numbers or sentences.
+//! The explorer: turns a query string into a picture, numbers or sentences.
 
 use crate::ExplorerError;
 use crate::catalogue::catalogue_json;
@@ -26,24 +26,24 @@ pub struct Answer {
     /// The media type of the bytes, such as `image/svg+xml`; `application/octet-stream` for pixels:
     /// sRGB with straight alpha, four bytes each, rows from the top.
     pub content_type: &'static str,
-    /// The answer.
+    /// The content.
     pub bytes: Vec<u8>,
 }
 
-/// Lessons on the viewing pipeline: answers requests about their states.
+/// The lessons on the viewing pipeline, with answers to requests about their states.
 ///
-/// Models that were loaded and scenes that were resolved are kept, so that a drag of a control
-/// costs a picture and nothing else. Answers do not depend on the requests before.
+/// Loaded models and resolved scenes are kept, so that dragging a control costs only a picture.
+/// Answers do not depend on earlier requests.
 #[derive(Debug, Default)]
 pub struct Explorer {
     store: ModelStore,
     picture: PanePicture,
-    /// The pane `world` with its scene, by the key of its state.
+    /// The pane `world` with its scene, stored under the key of its state.
     world: Pane,
     volume: Pane,
 }
 
-/// A pane around the picture: its pictures, and its last scene.
+/// A pane beside the main picture: its pictures and its last scene.
 #[derive(Debug, Default)]
 struct Pane {
     picture: PanePicture,
@@ -51,46 +51,46 @@ struct Pane {
 }
 
 impl Explorer {
-    /// An explorer without files.
+    /// Creates an explorer without files.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Adds a file that models are loaded from, or replaces the one of this name: `name` is its
-    /// path in scene files, such as `models/house.glb`, and the buffers and images of a `.gltf`
-    /// file are found beside it.
+    /// Adds a model file, or replaces the file with this name. `name` is its path in scene files,
+    /// such as `models/house.glb`; the buffers and images of a `.gltf` file are looked up beside
+    /// it.
     ///
     /// # Errors
-    /// The name is empty, absolute, or leads out of the folder of the files.
+    /// If the name is empty, absolute, or points outside the folder of the files.
     pub fn add_file(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), ExplorerError> {
         self.store.add_file(name, bytes)?;
-        // Kept pictures may show the file that was replaced.
+        // Cached pictures may show the replaced file.
         (self.picture, self.world, self.volume) = Default::default();
         Ok(())
     }
 
-    /// Another explorer with the same files, and with the models that have been loaded. Both share
-    /// them in memory, and can answer at the same time.
+    /// Creates another explorer with the same files and loaded models. Both share them in memory,
+    /// and can answer requests at the same time.
     #[must_use]
     pub fn sibling(&self) -> Self {
         Self { store: self.store.clone(), ..Self::default() }
     }
 
-    /// Answers a request: a query string, as the README lists its keys.
+    /// Answers a request: a query string with the keys listed in the README.
     ///
     /// # Errors
-    /// An unknown, repeated or malformed key; a model that is missing or broken; a scene that makes
-    /// no sense. The explorer is as before.
+    /// An unknown, repeated or malformed key; a missing or broken model; an invalid scene. The
+    /// explorer is unchanged.
     pub fn answer(&mut self, query: &str) -> Result<Answer, ExplorerError> {
         self.answer_unless_canceled(query, &CancelToken::default())
     }
 
     /// Answers a request as [`answer`](Self::answer) does, unless another thread cancels it. Line
-    /// drawings and models that are being loaded run to their end first.
+    /// drawings and model loading run to completion first.
     ///
     /// # Errors
-    /// As `answer`, and `cannot_render` for a picture that was canceled.
+    /// As `answer`, and `cannot_render` for a canceled picture.
     pub fn answer_unless_canceled(
         &mut self,
         query: &str,
@@ -109,7 +109,7 @@ impl Explorer {
         }
     }
 
-    /// The text of the scene and the scene, for a picture of some size.
+    /// The text of the scene and the scene, for a picture of a given size.
     fn load(
         &mut self,
         state: &LessonState,
@@ -133,14 +133,14 @@ impl Explorer {
                 format!("// {}{}\n{text}", lesson.title.en, lesson.remark)
             }
         };
-        // The text of a scene file stays, whatever its size, samples and style.
+        // A scene file's text is kept as it is, including size, samples and style.
         let key = format!("{size:?} {samples} {:?} {text}", state.style);
         let loaded = self.store.resolve(key, &text, &file);
         let loaded = loaded.map_err(|error| error.about_model(own))?;
         Ok((text, LoadedScene { first_view: lesson.first_view, ..loaded }))
     }
 
-    /// Checks that the models of a state have been added.
+    /// Checks that all models of a state have been added.
     fn check_models(&self, state: &LessonState) -> Result<(), ExplorerError> {
         let own = state.model.as_deref().filter(|_| state.lesson.models.is_empty());
         let missing =
@@ -201,7 +201,7 @@ impl Explorer {
         Ok(json_answer(&pick_json(&loaded.scene, conventions, pixel)?))
     }
 
-    /// A pane around the picture.
+    /// Renders a pane beside the main picture.
     fn pane(
         &mut self,
         request: &Request,
@@ -211,7 +211,7 @@ impl Explorer {
         let is_world = *question == Question::World;
         let orbit = if is_world { state.orbit() } else { state.volume_orbit() };
         let observer = Observer { orbit, size: *size, samples: *samples };
-        // The state's own picture does not have the shape of the pane.
+        // The state's picture does not have the shape of the pane.
         let (text, loaded) = self.load(state, DEFAULT_SIZE, 4)?;
         let key = format!("{observer:?} {} {text}", state.to_link());
         let known = if is_world { &self.world.scene } else { &self.volume.scene };
@@ -239,7 +239,7 @@ impl Explorer {
     }
 }
 
-/// The point of the state: that under the mouse of the lesson, or the pinned one.
+/// The point of the state: the one under the lesson's mouse, or the pinned one.
 fn pointer(state: &LessonState, loaded: &LoadedScene) -> Pointer {
     let view = &loaded.views()[0].view_projection;
     match (state.lesson.pointer)(&state.values(DEFAULT_SIZE)) {

@@ -1,4 +1,4 @@
-//! The numbers of a state that sentences and tests speak of.
+//! The facts of a state: numbers that sentences and tests refer to.
 
 use crate::model_store::LoadedScene;
 use crate::triangle_survey::Survey;
@@ -10,14 +10,14 @@ use serde_json::{Value as Json, json};
 /// The planes of the view volume, in the order of outcodes.
 pub(crate) const PLANES: [&str; 6] = ["left", "right", "bottom", "top", "near", "far"];
 
-/// The numbers of a state.
+/// Numbers that describe a state.
 #[derive(Clone, Debug)]
 pub(crate) struct Facts {
     /// The size of the view in pixels.
     pub(crate) size: [u32; 2],
     pub(crate) view_projection: ViewProjection,
     pub(crate) survey: Survey,
-    /// How many triangles the models have, and how many of them were counted.
+    /// The number of triangles of the models, and the number that were counted.
     pub(crate) triangles: [usize; 2],
     /// The center of projection in view space; `None` in a parallel projection.
     pub(crate) apex: Option<Point<View>>,
@@ -25,14 +25,14 @@ pub(crate) struct Facts {
     pub(crate) window: Option<[f64; 4]>,
     /// Distances of the near and the far plane along the gaze.
     pub(crate) planes: [Option<f64>; 2],
-    /// The least and the greatest distance of the models along the gaze.
+    /// The minimum and maximum distance of the models along the gaze.
     pub(crate) model_range: Option<[f64; 2]>,
-    /// The scene with its models.
+    /// The scene and its models.
     pub(crate) loaded: LoadedScene,
 }
 
 impl Facts {
-    /// The numbers of the first view of a scene.
+    /// Computes the facts of a scene's first view.
     pub(crate) fn new(loaded: &LoadedScene) -> Self {
         let view = Self::without_survey(loaded);
         let triangles = &loaded.models.triangles.counted;
@@ -40,7 +40,7 @@ impl Facts {
         Self { survey, model_range: model_range(&view.view_projection, triangles), ..view }
     }
 
-    /// The numbers of the first view alone, without those of its triangles.
+    /// Computes the facts of the first view only, without counting triangles.
     pub(crate) fn without_survey(loaded: &LoadedScene) -> Self {
         let scene = loaded.views()[0];
         let view_projection = scene.view_projection;
@@ -62,7 +62,7 @@ impl Facts {
         }
     }
 
-    /// Horizontal and vertical opening angle in degrees; `None` in a parallel projection.
+    /// Horizontal and vertical field of view in degrees; `None` in a parallel projection.
     pub(crate) fn opening_angles(&self) -> Option<[f64; 2]> {
         let (apex, [left, right, bottom, top]) = (self.apex?, self.window?);
         let distance = self.planes[0]? + apex.z();
@@ -72,18 +72,18 @@ impl Facts {
         Some([angle(left - apex.x(), right - apex.x()), angle(bottom - apex.y(), top - apex.y())])
     }
 
-    /// Width over height of the window on the near plane.
+    /// Aspect ratio of the window on the near plane.
     pub(crate) fn window_aspect(&self) -> Option<f64> {
         let [left, right, bottom, top] = self.window?;
         Some((right - left) / (top - bottom))
     }
 
-    /// Width over height of the view in pixels.
+    /// Aspect ratio of the view in pixels.
     pub(crate) fn picture_aspect(&self) -> f64 {
         f64::from(self.size[0]) / f64::from(self.size[1])
     }
 
-    /// NDC depth of a distance along the gaze in the pipeline's own volume, near at 1.
+    /// NDC depth of a distance along the gaze in the pipeline's canonical volume, near at 1.
     pub(crate) fn depth_at(&self, distance: f64) -> Option<f64> {
         let point = Point::<View>::new(0.0, 0.0, -distance);
         Some(self.view_projection.view_to_clip.transform_point(point).divide()?.z())
@@ -128,7 +128,7 @@ impl Facts {
     }
 }
 
-/// The least and the greatest distance along the gaze.
+/// The minimum and maximum distance along the gaze.
 fn model_range(view: &ViewProjection, triangles: &[[Point<World>; 3]]) -> Option<[f64; 2]> {
     let world_to_view = view.camera.world_to_view();
     let distances =

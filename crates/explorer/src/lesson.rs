@@ -1,4 +1,4 @@
-//! A lesson: its statement, its parameters, and the scene that they make.
+//! A lesson: its statement, its parameters, and the scene built from them.
 
 use crate::facts::Facts;
 use crate::lesson_scene::LessonScene;
@@ -13,38 +13,38 @@ use scene_file::SceneFile;
 pub(crate) struct Lesson {
     /// The identifier in links.
     pub(crate) id: &'static str,
-    /// Where it comes from.
+    /// The source.
     pub(crate) source: Source,
-    /// The items of the sources' inventory that it shows.
+    /// The items of the sources' inventory that it covers.
     pub(crate) items: &'static [&'static str],
     pub(crate) title: Words,
-    /// The statement that it teaches, in a sentence or two.
+    /// The statement to be taught, in one or two sentences.
     pub(crate) statement: Words,
-    /// The files of its models, as the scene names them.
+    /// The model files, as named in the scene.
     pub(crate) models: &'static [&'static str],
     pub(crate) parameters: &'static [Parameter],
     /// The panes that have something to show.
     pub(crate) panes: &'static [&'static str],
-    /// The point of the world that is pinned at first.
+    /// The point of the world that is pinned initially.
     pub(crate) pin: [f64; 3],
-    /// Azimuth and elevation of the pane `world` at first, in degrees.
+    /// Initial azimuth and elevation of the pane `world`, in degrees.
     pub(crate) orbit: [f64; 2],
-    /// The conventions of all numbers that are told.
+    /// The conventions of all reported numbers.
     pub(crate) conventions: ApiConventions,
-    /// The scene of some values; its picture's size, sampling and style are up to the request.
+    /// The scene for some values; the request sets the picture's size, sampling and style.
     pub(crate) describe: fn(&Values<'_>) -> LessonScene,
-    /// What readers of the scene are told behind its title.
+    /// A remark for readers of the scene, after its title.
     pub(crate) remark: &'static str,
     /// The first viewport that shows the model.
     pub(crate) first_view: usize,
-    /// The consequences of the values, besides what is clipped.
+    /// The consequences of the values, except for clipping.
     pub(crate) consequences: fn(&Values<'_>, &Facts) -> Vec<Sentence>,
-    /// The point of the world that is pinned at first, where it depends on the values.
+    /// The point of the world that is pinned initially, if it depends on the values.
     pub(crate) point: fn(&Values<'_>) -> Option<[f64; 3]>,
     /// The stage that the pane `volume` shows.
     pub(crate) volume: fn(&Values<'_>) -> VolumeStage,
     /// The position in the picture, in fractions from its upper left corner, through which the line
-    /// of sight is drawn; `None` for that of the pinned point.
+    /// of sight is drawn; `None` for the line through the pinned point.
     pub(crate) pointer: fn(&Values<'_>) -> Option<[f64; 2]>,
 }
 
@@ -55,15 +55,15 @@ pub(crate) enum VolumeStage {
     Divided,
     /// Divided by w without clipping: torn where w changes its sign.
     Torn,
-    /// In view space, behind so many of the affine factors of a frustum: shear, scale (VV-2).
+    /// In view space, after this number of affine factors of a frustum: shear, scale (VV-2).
     Factors(usize),
 }
 
-/// The front end of the ridge of the house.
+/// The front end of the house's ridge.
 pub(crate) const RIDGE: [f64; 3] = [0.0, 4.38, 3.15];
 
 impl Lesson {
-    /// A lesson with what most have in common.
+    /// A lesson with the settings that most lessons share.
     pub(crate) const USUAL: Self = Self {
         id: "",
         source: Source::LearnWebGl,
@@ -85,18 +85,18 @@ impl Lesson {
         pointer: |_| None,
     };
 
-    /// Whether the user's own scene file is drawn as it is, and none is described.
+    /// Whether the user's own scene file is drawn unchanged, without a description.
     pub(crate) fn draws_own_file(&self) -> bool {
         self.id == "scene"
     }
 }
 
-/// Where a lesson comes from.
+/// The source of a lesson.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Source {
     /// The tutorial *Learn WebGL*.
     LearnWebGl,
-    /// The chapter on viewing of *Fundamentals of Computer Graphics*.
+    /// The chapter on viewing in *Fundamentals of Computer Graphics*.
     Chapter,
     /// The slides of a course on projections.
     Slides,
@@ -120,12 +120,12 @@ impl Source {
 pub(crate) struct Parameter {
     pub(crate) key: &'static str,
     pub(crate) label: Words,
-    /// `°`, or empty for the units of the scene and plain ratios.
+    /// `°`, or empty for scene units and plain ratios.
     pub(crate) unit: &'static str,
     pub(crate) domain: Domain,
 }
 
-/// The values that a parameter may have.
+/// The allowed values of a parameter.
 #[derive(Debug)]
 pub(crate) enum Domain {
     Number {
@@ -138,14 +138,14 @@ pub(crate) enum Domain {
     Choice(&'static [Choice]),
 }
 
-/// One of the values of a parameter.
+/// One of the choices of a parameter.
 #[derive(Debug)]
 pub(crate) struct Choice {
     pub(crate) value: &'static str,
     pub(crate) label: Words,
 }
 
-/// The parameters of a window on the near plane, and of the planes.
+/// The parameters of a window on the near plane, and of the near and far planes.
 pub(crate) const WINDOW: [&str; 4] = ["left", "right", "bottom", "top"];
 pub(crate) const PLANES: [&str; 2] = ["near", "far"];
 
@@ -185,20 +185,20 @@ impl Parameter {
     }
 }
 
-/// The values of all parameters of a lesson, and what else its scene depends on.
+/// The values of a lesson's parameters, and everything else its scene depends on.
 #[derive(Clone, Debug)]
 pub(crate) struct Values<'a> {
     pub(crate) lesson: &'static Lesson,
-    /// One for each parameter, in their order.
+    /// One for each parameter, in order.
     pub(crate) parameters: &'a [ParameterValue],
     /// Width and height of the picture in pixels.
     pub(crate) size: [u32; 2],
-    /// The file of the lesson `model`.
+    /// The file shown by the lesson `model`.
     pub(crate) model: Option<&'a str>,
 }
 
 impl Values<'_> {
-    /// The number of a parameter.
+    /// The numeric value of a parameter.
     pub(crate) fn number(&self, key: &str) -> f64 {
         let value = self.value(key);
         debug_assert!(matches!(value, Some(ParameterValue::Number(_))), "no number {key}");
@@ -208,7 +208,7 @@ impl Values<'_> {
         }
     }
 
-    /// The numbers of parameters, as a scene file has them.
+    /// The numeric values of parameters, formatted as in a scene file.
     pub(crate) fn scene_numbers<const N: usize>(&self, keys: [&str; N]) -> [f64; N] {
         keys.map(|key| scene_number(self.number(key)))
     }
@@ -228,7 +228,7 @@ impl Values<'_> {
         self.parameters.get(at).copied()
     }
 
-    /// Width over height of the picture.
+    /// Aspect ratio of the picture.
     pub(crate) fn aspect(&self) -> f64 {
         f64::from(self.size[0]) / f64::from(self.size[1])
     }

@@ -1,4 +1,4 @@
-//! The scenes of lessons: what most of them have in common.
+//! Lesson scenes: the parts that most of them share.
 
 use crate::lessons::HOUSE;
 use crate::number_text::scene_number;
@@ -8,13 +8,13 @@ use scene_file::file::{
     ProjectionFile, StyleFile, ViewFile,
 };
 
-/// The color behind the models of lessons.
+/// The background color of lessons.
 const BACKGROUND: Color = Color([0xee, 0xf2, 0xf5]);
 
-/// The scene of a lesson, or a number of it that scenes do not admit.
+/// The scene of a lesson, or an error for a number that scenes do not allow.
 pub(crate) type LessonScene = Result<SceneFile, InvalidNumber>;
 
-/// A model in the light of the lessons.
+/// A model in the lessons' light.
 pub(crate) fn model_scene(path: &str, camera: CameraFile) -> LessonScene {
     let mut scene = SceneFile::new([ModelFile::new(path)]);
     scene.camera = camera;
@@ -25,14 +25,14 @@ pub(crate) fn model_scene(path: &str, camera: CameraFile) -> LessonScene {
     Ok(scene)
 }
 
-/// The house from where most lessons see it.
+/// The house as seen in most lessons.
 pub(crate) fn house_scene(projection: ProjectionFile) -> LessonScene {
     let camera = CameraFile::look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]);
     model_scene(HOUSE, camera.with_projection(projection))
 }
 
 /// A camera that frames the model with a margin in percent, from an azimuth and an elevation in
-/// degrees; without them from the direction that suits the projection.
+/// degrees, or else from the direction that suits the projection.
 pub(crate) fn framed(
     projection: ProjectionFile,
     padding_percent: f64,

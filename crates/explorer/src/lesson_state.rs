@@ -12,10 +12,10 @@ use import::percent_encode;
 /// The version of the keys.
 const VERSION: &str = "1";
 
-/// Where the canonical view volume is seen from at first: azimuth and elevation in degrees.
+/// The initial direction to the canonical view volume: azimuth and elevation in degrees.
 const VOLUME_ORBIT: [f64; 2] = [35.0, 25.0];
 
-/// The styles that a lesson can be drawn in, as scene files name them.
+/// The styles available for lessons, as named in scene files.
 pub(crate) const STYLES: [&str; 13] = [
     "Shaded",
     "Flat",
@@ -38,7 +38,7 @@ pub(crate) struct LessonState {
     pub(crate) lesson: &'static Lesson,
     /// One for each parameter of the lesson.
     pub(crate) parameters: Vec<ParameterValue>,
-    /// The pinned point; `None` for that of the lesson.
+    /// The pinned point; `None` for the lesson's default.
     pin: Option<[f64; 3]>,
     orbit: Option<[f64; 2]>,
     volume_orbit: Option<[f64; 2]>,
@@ -55,10 +55,11 @@ impl PartialEq for &'static Lesson {
 }
 
 impl LessonState {
-    /// Takes the keys of the state out of a query.
+    /// Takes the keys of the state from a query.
     ///
     /// # Errors
-    /// Another version, an unknown lesson or style, a malformed number, a value out of range.
+    /// An unsupported version, an unknown lesson or style, a malformed number, a value out of
+    /// range.
     pub(crate) fn take_from(query: &mut Query) -> Result<Self, ExplorerError> {
         check_version(query.take("v"))?;
         let language = take_language(query)?;
@@ -76,7 +77,7 @@ impl LessonState {
         Ok(Self { lesson, parameters, pin, orbit, volume_orbit, style, model, language })
     }
 
-    /// This lesson with the default of every number; choices stay.
+    /// This lesson with every number at its default; choices stay.
     pub(crate) fn with_defaults(&self) -> Self {
         let default = |(parameter, value): (&Parameter, &ParameterValue)| match *value {
             ParameterValue::Number(_) => parameter.default_value(),
@@ -86,8 +87,8 @@ impl LessonState {
         Self { parameters, style: None, ..self.clone() }
     }
 
-    /// The pinned point of the world: that of the lesson unless another one was chosen, and of the
-    /// user's own model a corner of it.
+    /// The pinned point of the world: the lesson's unless another one was chosen; for the user's
+    /// own model, one of its corners.
     pub(crate) fn pin(&self, loaded: &LoadedScene) -> [f64; 3] {
         let of_lesson = || (self.lesson.point)(&self.values(DEFAULT_SIZE));
         let of_model = || {
@@ -108,13 +109,13 @@ impl LessonState {
         self.volume_orbit.unwrap_or(VOLUME_ORBIT)
     }
 
-    /// The values that the lesson's scene is described by.
+    /// The values from which the lesson's scene is built.
     pub(crate) fn values(&self, size: [u32; 2]) -> Values<'_> {
         let model = self.model.as_deref();
         Values { lesson: self.lesson, parameters: &self.parameters, size, model }
     }
 
-    /// The link to the state: `#v=1&lesson=…`, without what has its default.
+    /// The link to the state: `#v=1&lesson=…`, without keys at their defaults.
     pub(crate) fn to_link(&self) -> String {
         let mut link = format!("#v={VERSION}&lesson={}", self.lesson.id);
         for (parameter, value) in self.lesson.parameters.iter().zip(&self.parameters) {
@@ -136,7 +137,7 @@ impl LessonState {
     }
 }
 
-/// A value as in links.
+/// A value as it appears in links.
 pub(crate) fn value_text(value: ParameterValue) -> String {
     match value {
         ParameterValue::Number(number) => number.to_string(),
@@ -182,7 +183,7 @@ fn find_style(name: &str) -> Result<&'static str, ExplorerError> {
     })
 }
 
-/// The name of a style in flags: `XRay` is `x-ray`, and `UvChecker` `uv`.
+/// The name of a style in flags: `XRay` becomes `x-ray`, and `UvChecker` becomes `uv`.
 pub(crate) fn style_flag(style: &str) -> String {
     match style {
         "UvChecker" => "uv".to_owned(),
@@ -231,14 +232,14 @@ fn parse_value(
 
 fn parse_number(key: &str, text: &str) -> Result<f64, ExplorerError> {
     let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
-    // −0 would be another link to the same state.
+    // −0 would give a second link to the same state.
     number.map(|number| number + 0.0).ok_or_else(|| {
         let message = format!("`{key}` is not a number: `{text}`");
         ExplorerError::new("malformed_value", message, format!("write it as {key}=2.5"))
     })
 }
 
-/// Takes a list of numbers, none of them above a limit.
+/// Takes a list of numbers, none of them above the limit.
 fn take_numbers<const N: usize>(
     query: &mut Query,
     key: &str,

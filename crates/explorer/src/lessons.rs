@@ -1,4 +1,4 @@
-//! The lessons, in the order of the page.
+//! The lessons, in page order.
 
 mod chapter;
 mod chapter_exercises;
@@ -44,7 +44,7 @@ pub(crate) static LESSONS: [&Lesson; 23] = [
 /// The model of most lessons: 4.75 m high, its front at z = 2.8.
 pub(crate) const HOUSE: &str = "models/house.glb";
 
-/// The panes of a lesson of one perspective.
+/// The panes of a lesson about one perspective.
 pub(crate) const ALL_PANES: &[&str] = &["picture", "world", "volume", "matrix", "journey", "depth"];
 /// The panes of a lesson without a perspective divide.
 pub(crate) const PARALLEL_PANES: &[&str] = &["picture", "world", "volume", "matrix", "journey"];

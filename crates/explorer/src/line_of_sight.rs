@@ -1,4 +1,4 @@
-//! A line of sight: all points of the view volume that one position in the picture shows (UN-2).
+//! A line of sight: all points of the view volume behind one position in the picture (UN-2).
 
 use crate::triangle_survey::WorldTriangle;
 use camera::ViewProjection;
@@ -18,7 +18,7 @@ impl LineOfSight {
         Self::through_ndc(view, [2.0 * x - 1.0, 1.0 - 2.0 * y])
     }
 
-    /// The line through a point of the world; `None` if it is not ahead of the eye.
+    /// The line through a point of the world; `None` if it is not in front of the eye.
     pub(crate) fn through_point(view: &ViewProjection, point: Point<World>) -> Option<Self> {
         let clip = view.world_to_clip().transform_point(point);
         let ndc = clip.divide().filter(|_| clip.w() > 0.0)?;
@@ -31,7 +31,7 @@ impl LineOfSight {
         Some(Self { ends: [end(1.0)?, end(-1.0)?] })
     }
 
-    /// Where the line first meets a triangle (Möller and Trumbore 1997).
+    /// The first intersection of the line with a triangle (Möller and Trumbore 1997).
     pub(crate) fn first_hit(&self, triangles: &[WorldTriangle]) -> Option<Point<World>> {
         let [origin, end] = self.ends.map(Point::raw);
         let direction = end - origin;

@@ -1,4 +1,4 @@
-//! The files and the loaded models: loaded once, shared by all states of a lesson.
+//! Files and models, loaded once and shared by all states of a lesson.
 
 use crate::ExplorerError;
 use crate::lesson_state::style_flag;
@@ -9,12 +9,12 @@ use pipeline::{Origin, Scene, SceneFile, Textures};
 use scene_file::file::{ModelFile, StyleFile};
 use std::sync::Arc;
 
-/// How many sets of models are kept: the lesson at hand and the one before it.
+/// The number of model sets kept: the current lesson and the previous one.
 const KEPT_SETS: usize = 2;
-/// How many resolved scenes are kept: the state, the defaults, coarse and fine.
+/// The number of resolved scenes kept: the state and the defaults, each coarse and fine.
 const KEPT_SCENES: usize = 6;
 
-/// A resolved scene with what belongs to its models.
+/// A resolved scene with its models.
 #[derive(Clone, Debug)]
 pub(crate) struct LoadedScene {
     pub(crate) scene: Arc<Scene>,
@@ -24,7 +24,7 @@ pub(crate) struct LoadedScene {
 }
 
 impl LoadedScene {
-    /// The views of the scene, at least one: its own, or those of its viewports or stereo pair.
+    /// The views of the scene, at least one: its own, or one for each viewport or eye.
     pub(crate) fn views(&self) -> Vec<&Scene> {
         match self.scene.insets.get(self.first_view..) {
             None | Some([]) => vec![&self.scene],
@@ -33,17 +33,17 @@ impl LoadedScene {
     }
 }
 
-/// The models of a scene, and what is computed from them once.
+/// The models of a scene, and the data computed once from them.
 #[derive(Debug)]
 pub(crate) struct LoadedModels {
-    /// As the scene file has them.
+    /// As written in the scene file.
     files: Vec<ModelFile>,
     instances: Vec<ModelInstance>,
     pub(crate) textures: Textures<'static>,
     pub(crate) triangles: WorldTriangles,
 }
 
-/// The files that were added, and what has been loaded of them; the latest last.
+/// The added files, and the models and scenes loaded from them; the latest last.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ModelStore {
     folder: MemoryFolder,
@@ -52,17 +52,17 @@ pub(crate) struct ModelStore {
 }
 
 impl ModelStore {
-    /// Adds a file, or replaces the one of this name.
+    /// Adds a file, or replaces the file with this name.
     ///
     /// # Errors
-    /// The name is no path below the folder of the files.
+    /// If the name is not a path below the folder of the files.
     pub(crate) fn add_file(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), ExplorerError> {
         if !self.folder.insert(name, bytes) {
             let message = format!("`{name}` is no name of a file");
             let help = "give a relative path, such as models/house.glb";
             return Err(ExplorerError::new("malformed_value", message, help));
         }
-        // What was loaded may depend on the file.
+        // Loaded models and scenes may depend on the file.
         self.models.clear();
         self.scenes.clear();
         Ok(())
@@ -73,13 +73,13 @@ impl ModelStore {
         self.folder.file(name).is_some()
     }
 
-    /// The text of a scene file that has been added.
+    /// The text of an added scene file.
     pub(crate) fn scene_text(&self, name: &str) -> String {
         String::from_utf8_lossy(self.folder.file(name).unwrap_or_default()).into_owned()
     }
 
-    /// Resolves the scene of a text; its models are loaded unless they are at hand. `key` stands for
-    /// the scene.
+    /// Resolves a scene from its text, and loads its models unless they are cached. `key`
+    /// identifies the scene.
     ///
     /// # Errors
     /// A mistake in the scene, or a model that cannot be loaded.
@@ -121,7 +121,7 @@ impl ModelStore {
     }
 }
 
-/// The style of a name, with the default of each of its fields.
+/// The style with this name, with the default for each of its fields.
 pub(crate) fn named_style(name: &str) -> Option<StyleFile> {
     let flag = style_flag(name);
     StyleFile::NAMED.into_iter().find(|(known, _)| *known == flag).map(|(_, make)| make())

@@ -1,12 +1,12 @@
 //! Numbers in scene files and in sentences.
 
-/// A number as a person would write it in a scene file: rounded to six decimals.
+/// Formats a number as a person would write it in a scene file: rounded to six decimals.
 pub(crate) fn scene_number(value: f64) -> f64 {
-    // −0 is 0 to a reader.
+    // Readers expect 0, not −0.
     libm::round(value * 1e6) / 1e6 + 0.0
 }
 
-/// A number with so many decimals at most, without trailing zeros.
+/// Formats a number with at most this many decimals, without trailing zeros.
 pub(crate) fn decimals(value: f64, count: i32) -> String {
     let scale = libm::pow(10.0, f64::from(count));
     format!("{}", libm::round(value * scale) / scale + 0.0)

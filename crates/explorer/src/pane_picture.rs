@@ -1,4 +1,4 @@
-//! The pictures of a pane: whole or in bands, from the same memory.
+//! Pane pictures: whole or in bands, from the same memory.
 
 use crate::ExplorerError;
 use homog::PixelRect;
@@ -6,7 +6,7 @@ use pipeline::{Monitor, Picture, RenderContext, Renderer, Scene, Textures};
 use scene::Style;
 use std::sync::Arc;
 
-/// What a picture shows, and the monitor that may end its rendering.
+/// The scene of a picture, and the monitor that can cancel its rendering.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Drawn<'a> {
     pub(crate) scene: &'a Scene,
@@ -29,10 +29,10 @@ pub(crate) struct PanePicture {
 }
 
 impl PanePicture {
-    /// The whole picture of a scene; `key` stands for everything that it depends on.
+    /// The whole picture of a scene; `key` identifies everything that it depends on.
     ///
     /// # Errors
-    /// As the renderer.
+    /// The renderer's errors.
     pub(crate) fn whole(&mut self, key: &str, drawn: Drawn<'_>) -> Result<&Picture, ExplorerError> {
         let known = self.whole.as_ref().is_some_and(|(known, _)| known == key);
         if !known {
@@ -44,13 +44,13 @@ impl PanePicture {
         self.whole.as_ref().map(|(_, picture)| picture).ok_or_else(missing)
     }
 
-    /// The pixels of some rows of a picture: the same bytes as in the whole.
+    /// The pixels of some rows of a picture: the same bytes as in the whole picture.
     ///
     /// Surfaces are rendered band by band. Lines and overlays are drawn once for all bands, with
     /// the whole picture.
     ///
     /// # Errors
-    /// As the renderer.
+    /// The renderer's errors.
     pub(crate) fn band(
         &mut self,
         key: &str,
@@ -73,7 +73,7 @@ impl PanePicture {
     }
 }
 
-/// Whether nothing but surfaces is drawn, so that a band costs no more than its share.
+/// Whether only surfaces are drawn, so that a band costs no more than its share.
 fn renders_in_bands(scene: &Scene) -> bool {
     let has_lines = matches!(scene.style, Style::Toon | Style::XRay);
     scene.style.draws_surfaces()
@@ -83,7 +83,7 @@ fn renders_in_bands(scene: &Scene) -> bool {
         && scene.occlusion_radius.is_none()
 }
 
-/// As many threads as the machine runs; their number changes no answer.
+/// The number of threads that the machine runs; it does not affect any answer.
 pub(crate) fn thread_count() -> usize {
     std::thread::available_parallelism().map_or(1, Into::into)
 }

@@ -1,5 +1,5 @@
-//! The scenes of the panes around the picture: triangles in the colors of what clipping does to
-//! them, with view volumes and labels.
+//! The scenes of the panes beside the main picture: triangles colored by the effect of clipping,
+//! with view volumes and labels.
 
 use crate::ExplorerError;
 use crate::triangle_survey::Containment;
@@ -28,10 +28,10 @@ pub(crate) const COLORS: [(&str, [u8; 3]); 4] = [
 /// The index of the color of the line of sight.
 const SIGHT: usize = 3;
 
-/// The margin around what is framed, as a part of the picture's side.
+/// The margin around the framed points, as a fraction of the picture's side.
 const PADDING: f64 = 0.07;
 
-/// How a pane is looked at.
+/// The view of a pane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Observer {
     /// Azimuth and elevation in degrees.
@@ -90,8 +90,8 @@ impl PaneGeometry {
         Ok(scene)
     }
 
-    /// The model. Without any triangle it has one without area, so that the overlays have something
-    /// to stand around.
+    /// The model. If there are no triangles, it has one without area, so that the overlays have an
+    /// object to enclose.
     fn into_model(self, framed: &[Point<World>]) -> ModelInstance {
         let groups = self.triangles.iter().enumerate();
         let mut primitives: Vec<Primitive> = groups
@@ -135,7 +135,7 @@ fn primitive(material: usize, topology: Topology, positions: &[[f32; 3]]) -> Pri
     }
 }
 
-/// Surfaces are lit, lines are not.
+/// Surfaces are lit; lines are not.
 fn material(name: &str, color: [u8; 3], unlit: bool) -> Material {
     let [r, g, b] = color.map(|code| srgb_to_linear_table()[usize::from(code)]);
     Material {
@@ -148,7 +148,7 @@ fn material(name: &str, color: [u8; 3], unlit: bool) -> Material {
     }
 }
 
-/// A parallel view of points, with room in depth for what is beside them.
+/// A parallel view of points, with room in depth for objects beside them.
 fn observer_view(
     observer: Observer,
     points: Vec<Point<World>>,

@@ -1,4 +1,4 @@
-//! `pick`: why a pixel has its color, and where in the world it is.
+//! `pick`: explains the color of a pixel and its position in the world.
 
 use crate::ExplorerError;
 use explain::{ApiConventions, Explanation, ItemValue, TransformChain, explain_pixel};
@@ -25,7 +25,7 @@ pub(crate) fn pick_json(
         Some(inset) => (&inset.scene, [x - inset.rect.x, y - inset.rect.y]),
         None => (scene, [x, y]),
     };
-    // Lines hide what is there; the surfaces between them are what is asked about.
+    // Lines hide the surfaces; the question is about the surfaces between them.
     let mut surfaces = scene.clone();
     if !scene.style.draws_surfaces() {
         surfaces.style = Style::Flat;

@@ -3,10 +3,10 @@
 use crate::ExplorerError;
 use import::percent_decode;
 
-/// The longest query that is read, in bytes.
+/// The maximum length of a query, in bytes.
 const MAX_QUERY_BYTES: usize = 16 * 1024;
 
-/// The pairs of a query string that have not been taken yet, in their order.
+/// The pairs of a query string that have not been taken yet, in order.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Query {
     pairs: Vec<(String, String)>,
@@ -38,13 +38,13 @@ impl Query {
         Ok(Self { pairs })
     }
 
-    /// Takes the value of a key out.
+    /// Removes a key and returns its value.
     pub(crate) fn take(&mut self, key: &str) -> Option<String> {
         let at = self.pairs.iter().position(|(known, _)| known == key)?;
         Some(self.pairs.remove(at).1)
     }
 
-    /// The first key that nobody has taken.
+    /// The first key that has not been taken.
     pub(crate) fn first_key(&self) -> Option<&str> {
         self.pairs.first().map(|(key, _)| key.as_str())
     }

@@ -1,11 +1,11 @@
-//! A request: the state, what is asked about it, and for pictures their size and format.
+//! A request: the state, a question about it, and for pictures their size and format.
 
 use crate::ExplorerError;
 use crate::lesson_state::LessonState;
 use crate::query::Query;
 use scene_file::closest_name;
 
-/// Size of a picture where none is given; the lessons are made for its shape.
+/// The default picture size; the lessons are designed for its shape.
 pub(crate) const DEFAULT_SIZE: [u32; 2] = [640, 400];
 
 /// The largest side of a picture in pixels.
@@ -64,7 +64,7 @@ pub(crate) struct Request {
     /// The first row of a band, and the one after its last.
     pub(crate) rows: Option<[u32; 2]>,
     pub(crate) is_png: bool,
-    /// Column and row of a pixel.
+    /// The column and row of a pixel.
     pub(crate) pixel: Option<[u32; 2]>,
 }
 
@@ -146,7 +146,7 @@ fn malformed(key: &str, value: &str, help: &str) -> ExplorerError {
     ExplorerError::new("malformed_value", format!("`{key}` cannot be `{value}`"), help)
 }
 
-/// The error about a key that nobody knows, with the one that may have been meant.
+/// The error for an unknown key, with the key that may have been meant.
 fn unknown_key(key: &str, state: &LessonState) -> ExplorerError {
     let lesson = state.lesson;
     let own: Vec<&str> = lesson.parameters.iter().map(|parameter| parameter.key).collect();

@@ -1,4 +1,4 @@
-//! Everything that is said about a state, as JSON.
+//! The description of a state, as JSON.
 
 use crate::ExplorerError;
 use crate::depth_pane::depth_table_json;
@@ -71,7 +71,7 @@ fn value_json(value: ParameterValue) -> Json {
     }
 }
 
-/// The command that renders the same picture, in the folder that holds the models.
+/// The command that renders the same picture, to be run in the folder with the models.
 fn command(request: &Request, text: &str) -> String {
     let Request { state, size: [width, height], samples, .. } = request;
     match &state.model {
@@ -113,7 +113,7 @@ fn journey_json(
     json
 }
 
-/// Screen coordinates of the first view as those of the whole picture: a viewport begins elsewhere.
+/// Converts screen coordinates of the first view to the whole picture; a viewport has an offset.
 fn in_picture(
     screen: Point<Screen>,
     loaded: &LoadedScene,

@@ -6,11 +6,11 @@ use homog::{Bounds, Clip, HPoint, Point, Projective, World};
 use model::{MeshInstance, ModelInstance, Topology};
 use std::collections::BTreeMap;
 
-/// The most triangles that are drawn in the panes around the picture.
+/// The maximum number of triangles drawn in the panes beside the main picture.
 const MAX_DRAWN: usize = 10_000;
-/// The most triangles that are counted one by one.
+/// The maximum number of triangles that are counted individually.
 const MAX_COUNTED: usize = 300_000;
-/// The cells of the first grid that vertices are merged in, along the longest side.
+/// The number of cells along the longest side of the first grid that merges vertices.
 const FIRST_GRID: f64 = 96.0;
 
 /// A triangle in the world.
@@ -19,11 +19,11 @@ pub(crate) type WorldTriangle = [Point<World>; 3];
 /// The triangles of models in the world.
 #[derive(Debug)]
 pub(crate) struct WorldTriangles {
-    /// How many the models have.
+    /// The number of triangles of the models.
     pub(crate) count: usize,
-    /// Those that are counted: all, or of very large models those that are drawn.
+    /// The counted triangles: all of them, or for very large models only the drawn ones.
     pub(crate) counted: Vec<WorldTriangle>,
-    /// Fewer of them to draw; `None` if all are few.
+    /// A smaller set for drawing; `None` if the full set is small.
     reduced: Option<Vec<WorldTriangle>>,
 }
 
@@ -43,19 +43,19 @@ impl WorldTriangles {
         }
     }
 
-    /// Whether fewer triangles are drawn than the models have.
+    /// Whether fewer triangles are drawn than the models contain.
     pub(crate) fn is_reduced(&self) -> bool {
         self.drawn().len() < self.count
     }
 
-    /// Those that are drawn.
+    /// The drawn triangles.
     pub(crate) fn drawn(&self) -> &[WorldTriangle] {
         self.reduced.as_deref().unwrap_or(&self.counted)
     }
 }
 
-/// Visits the triangles of models: a list of those of a large model would not fit into the memory of
-/// a page.
+/// Visits the triangles of models; a list of a large model's triangles would not fit into a page's
+/// memory.
 fn visit_triangles(models: &[ModelInstance], visit: &mut dyn FnMut(WorldTriangle)) {
     for placed in models {
         for instance in placed.model.mesh_instances() {
@@ -85,11 +85,11 @@ fn visit_triangles_of_mesh(
     }
 }
 
-/// A cell of the grid that vertices are merged in.
+/// A cell of the grid that merges vertices.
 type Cell = [i32; 3];
 
-/// Fewer triangles of the same shape: vertices of one cell of a grid become the first of them, and
-/// triangles that lose a corner vanish (vertex clustering; Rossignac and Borrel 1993).
+/// Simplifies triangles: all vertices in a grid cell are replaced by the first, and triangles that
+/// lose a corner vanish (vertex clustering; Rossignac and Borrel 1993).
 fn merge_vertices(models: &[ModelInstance]) -> Vec<WorldTriangle> {
     let Some(bounds) = Bounds::from_points(model::world_points(models)) else { return Vec::new() };
     let size = bounds.max() - bounds.min();
@@ -104,7 +104,7 @@ fn merge_vertices(models: &[ModelInstance]) -> Vec<WorldTriangle> {
     }
 }
 
-/// The triangles whose corners are in three cells of this size, one for each three cells.
+/// The triangles whose corners are in three different cells of this size, one for each three cells.
 fn merge_in_grid(
     models: &[ModelInstance],
     origin: Point<World>,
@@ -136,15 +136,15 @@ pub(crate) enum Containment {
     Outside,
 }
 
-/// How many triangles are inside, clipped and outside, and by which planes.
+/// The numbers of triangles inside, clipped and outside, and the planes responsible.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(crate) struct Survey {
     pub(crate) inside: usize,
     pub(crate) clipped: usize,
     pub(crate) outside: usize,
-    /// By the planes left, right, bottom, top, near, far; a triangle may count for several.
+    /// For the planes left, right, bottom, top, near and far; a triangle may count for several.
     pub(crate) clipped_by: [usize; 6],
-    /// Wholly outside of one plane, in the same order.
+    /// Entirely outside one plane, in the same order.
     pub(crate) outside_of: [usize; 6],
     /// Triangles with a corner behind the eye.
     pub(crate) behind_eye: usize,
@@ -158,7 +158,7 @@ pub(crate) fn project(
     triangle.map(|point| world_to_clip.transform_point(point))
 }
 
-/// The effect of clipping on a triangle of clip space, and the planes that have it.
+/// The effect of clipping on a triangle in clip space, and the planes that cause it.
 pub(crate) fn classify(corners: [HPoint<Clip>; 3]) -> (Containment, Outcode) {
     let codes = corners.map(|corner| Volume::CHAPTER.outcode(corner));
     if Outcode::trivially_accepts(&codes) {
@@ -213,7 +213,7 @@ mod tests {
     use std::fmt::Write as _;
     use std::sync::Arc;
 
-    /// A grid of `side` × `side` squares on the unit square, as OBJ.
+    /// A grid of `side` × `side` squares on the unit square, in OBJ format.
     fn grid(side: usize) -> ModelInstance {
         let mut obj = String::new();
         let row = side + 1;

@@ -1,5 +1,5 @@
-//! The pane `volume`: the canonical view volume with what clipping and the divide leave in it, or a
-//! step on the way there.
+//! The pane `volume`: the canonical view volume and its contents after clipping and the divide, or
+//! a step on the way there.
 
 use crate::ExplorerError;
 use crate::facts::Facts;
@@ -16,8 +16,8 @@ use homog::{Affine, Clip, HPoint, Point, Projective, View, World};
 use pipeline::Scene;
 use projection::{Convention, Frustum, ViewVolume};
 
-/// How far out torn triangles are drawn, in half sides of the view volume: single precision ends
-/// somewhere.
+/// The limit up to which torn triangles are drawn, in half sides of the view volume; single
+/// precision has a finite range.
 const TORN_LIMIT: f64 = 1e6;
 
 /// The scene of the pane at a stage of the pipeline.
@@ -68,14 +68,14 @@ fn canonical_scene(
     Ok(scene)
 }
 
-/// Adds a triangle of clip space, divided by w: what clipping leaves of it, or all of it.
+/// Adds a clip-space triangle, divided by w: the clipped part, or the whole triangle.
 fn add_divided(geometry: &mut PaneGeometry, corners: [HPoint<Clip>; 3], stage: VolumeStage) {
     let (containment, _) = classify(corners);
     if stage == VolumeStage::Torn {
         let divided = corners.map(|corner| corner.divide().map(<[f64; 3]>::from));
         let [Some(a), Some(b), Some(c)] = divided else { return };
         let is_far = [a, b, c].as_flattened().iter().any(|c| c.abs() > TORN_LIMIT);
-        // Behind the eye in part: what a divide without clipping tears.
+        // Partly behind the eye: a divide without clipping tears it.
         match corners.iter().any(|corner| corner.w() <= 0.0) {
             true if is_far => {}
             true => geometry.add_edges(Containment::Clipped, [a, b, c]),
@@ -91,7 +91,7 @@ fn add_divided(geometry: &mut PaneGeometry, corners: [HPoint<Clip>; 3], stage: V
     }
 }
 
-/// View space behind some of the affine factors of a frustum, with the view volume as it is there.
+/// View space after some of the affine factors of a frustum, with its view volume.
 fn factor_scene(facts: &Facts, count: usize, observer: Observer) -> Result<Scene, ExplorerError> {
     let view = facts.view_projection;
     let to_stage = affine_factors(facts, count).unwrap_or(Affine::IDENTITY);
@@ -119,7 +119,7 @@ fn factor_scene(facts: &Facts, count: usize, observer: Observer) -> Result<Scene
     Ok(scene)
 }
 
-/// The first of the factors shear and scale; `None` if the view is no frustum.
+/// The product of the first `count` factors, shear and scale; `None` if the view is not a frustum.
 fn affine_factors(facts: &Facts, count: usize) -> Option<Affine<View, View>> {
     let ([left, right, bottom, top], [near, far]) = (facts.window?, facts.planes);
     let frustum = Frustum::new(left, right, bottom, top, near?, far?).ok()?;

@@ -60,7 +60,7 @@ impl Sentence {
     }
 }
 
-/// The language of texts that are said in one only.
+/// The language of texts that exist in only one language.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Language {
     /// English.

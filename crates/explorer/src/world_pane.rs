@@ -18,20 +18,21 @@ use homog::{HPoint, Plane, Point, View, World};
 use pipeline::Scene;
 use projection::{Convention, ViewVolume};
 
-/// The most view volumes that are drawn: those of all viewports of a sheet.
+/// The maximum number of view volumes drawn: enough for all viewports of a sheet.
 const MAX_VOLUMES: usize = 4;
-/// How far the framed part of a view volume goes, in distances of the farthest point of the models.
+/// The depth of the framed part of a view volume, as a multiple of the distance to the farthest
+/// model point.
 const MAX_FRAMED_DEPTH: f64 = 1.6;
 
-/// The point of the world that is pointed at, and the line on which it is seen.
+/// The highlighted point of the world, and the line of sight through it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Pointer {
     pub(crate) point: Option<Point<World>>,
     pub(crate) sight: Option<LineOfSight>,
 }
 
-/// The scene of the world from outside. It is framed around the scene of the lesson's defaults, so
-/// that it stands still while a value is dragged.
+/// The scene of the world from outside. It is framed around the scene with the lesson's defaults,
+/// so that it does not move while a value is dragged.
 ///
 /// # Errors
 /// The scene cannot be framed.
@@ -75,7 +76,7 @@ fn world_planes(view: &ViewProjection) -> [Plane<World>; 6] {
     volume.planes().map(|plane| Plane::from_raw(to_view * plane.raw()))
 }
 
-/// Cuts a triangle that is clipped into what is left of it and what is cut off.
+/// Splits a clipped triangle into the parts inside and outside.
 fn cut_at_planes(
     triangle: WorldTriangle,
     planes: &[Plane<World>; 6],
@@ -85,7 +86,7 @@ fn cut_at_planes(
     for plane in planes {
         let outwards = Plane::from_raw(-plane.raw());
         for piece in std::mem::take(&mut inside) {
-            // A piece on the plane is inside, and both sides of a cut would have it.
+            // A piece on the plane is inside, and both sides of a cut would contain it.
             if piece.iter().any(|corner| plane.evaluate(*corner) < 0.0) {
                 let cut_off = cut_triangle(piece, outwards);
                 for fan in cut_off.triangles() {
@@ -105,8 +106,8 @@ fn eye(view: &ViewProjection) -> Option<Point<World>> {
     Some(view.camera.view_to_world().transform_point(volume.eye()?.divide()?))
 }
 
-/// The points that the world is framed around: the models, the eyes and the corners of the volumes,
-/// those not far behind the models.
+/// The points around which the world is framed: the models, the eyes, and the corners of the
+/// volumes that are not far behind the models.
 fn framed_points(shown: &[&Scene], triangles: &[WorldTriangle]) -> Vec<Point<World>> {
     let mut points: Vec<Point<World>> = triangles.iter().flatten().copied().collect();
     for scene in shown.iter().take(MAX_VOLUMES) {
@@ -131,7 +132,7 @@ fn framed_points(shown: &[&Scene], triangles: &[WorldTriangle]) -> Vec<Point<Wor
     points
 }
 
-/// The names of the near and the far plane, at a corner of each.
+/// Labels for the near and the far plane, at a corner of each.
 fn plane_labels(view: &ViewProjection) -> Vec<Overlay> {
     let volume = ViewVolume::new(view.view_to_clip, Convention::CHAPTER);
     let Some(corners) = volume.corners() else { return Vec::new() };
@@ -154,8 +155,8 @@ mod tests {
         triangles.iter().map(area).sum()
     }
 
-    /// The parts of a triangle that passes the eye are the whole, and those inside are in the
-    /// volume.
+    /// The parts of a triangle that passes the eye make up the whole, and the inner parts are in
+    /// the volume.
     #[test]
     fn a_cut_loses_nothing() {
         let camera = Camera::look_to(Point::ORIGIN, -Vector::Z, Vector::Y).expect("a camera");

@@ -1,8 +1,7 @@
-//! Arrays of Python, checked: numbers of any dtype and any strides, in C order as this crate reads
-//! them.
+//! Validated Python arrays: numbers of any dtype and strides, converted to C order.
 //!
-//! NumPy itself makes the array contiguous and casts it; what it cannot read, and what is no real
-//! number, is an error that names the argument.
+//! NumPy itself makes the array contiguous and casts it. Unreadable objects and values that are not
+//! real numbers give an error that names the argument.
 
 use crate::failure::{Failure, Fallible};
 use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
@@ -17,10 +16,10 @@ pub(crate) struct Numbers<T> {
     pub(crate) values: Vec<T>,
 }
 
-/// Real numbers of an argument, as f32 or f64.
+/// Reads real numbers from an argument, as f32 or f64.
 ///
 /// # Errors
-/// If it is no array of numbers.
+/// If it is not an array of numbers.
 pub(crate) fn real_array<T: Element + Copy>(
     name: &str,
     value: &Bound<'_, PyAny>,
@@ -29,18 +28,18 @@ pub(crate) fn real_array<T: Element + Copy>(
     read_array(name, value, "fiu", dtype)
 }
 
-/// Integers of an argument.
+/// Reads integers from an argument.
 ///
 /// # Errors
-/// If it is no array of integers.
+/// If it is not an array of integers.
 pub(crate) fn integer_array(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Numbers<i64>> {
     read_array(name, value, "iu", "int64")
 }
 
-/// Bytes of an argument of the dtype uint8.
+/// Reads bytes from an argument with dtype uint8.
 ///
 /// # Errors
-/// If it is of another dtype.
+/// If it has another dtype.
 pub(crate) fn byte_array(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Numbers<u8>> {
     let dtype = as_array(name, value)?.getattr("dtype")?.str()?.to_string();
     if dtype != "uint8" {
@@ -49,7 +48,7 @@ pub(crate) fn byte_array(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Numbe
     read_array(name, value, "u", "uint8")
 }
 
-/// Elements of an argument whose kind of dtype is one of `kinds`, cast to `dtype`.
+/// Reads elements from an argument with one of the dtype `kinds`, cast to `dtype`.
 fn read_array<T: Element + Copy>(
     name: &str,
     value: &Bound<'_, PyAny>,
@@ -61,7 +60,7 @@ fn read_array<T: Element + Copy>(
     let given = as_array(name, value)?;
     let kind: String = given.getattr("dtype")?.getattr("kind")?.extract()?;
     let is_empty = given.getattr("size")?.extract::<usize>()? == 0;
-    // An empty list has the dtype float64.
+    // An empty list has dtype float64.
     let is_wanted = kinds.contains(kind.as_str()) || (is_empty && kind == "f");
     if !is_wanted {
         let wanted = if kinds == "iu" { "integers" } else { "real numbers" };
@@ -71,7 +70,7 @@ fn read_array<T: Element + Copy>(
     let options = pyo3::types::PyDict::new(py);
     options.set_item("dtype", dtype)?;
     options.set_item("order", "C")?;
-    // Casts that overflow are found by what they become; NumPy need not warn of them.
+    // Overflowing casts are detected from the result; NumPy does not always warn about them.
     let quiet = pyo3::types::PyDict::new(py);
     quiet.set_item("all", "ignore")?;
     let quiet = numpy.call_method("errstate", (), Some(&quiet))?;
@@ -84,13 +83,13 @@ fn read_array<T: Element + Copy>(
     Ok(Numbers { shape, values: array.to_vec()? })
 }
 
-/// Any object as an array, as `numpy.asarray` makes it.
+/// Converts any object to an array with `numpy.asarray`.
 pub(crate) fn as_array<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let numpy = value.py().import("numpy")?;
     numpy.call_method1("asarray", (value,)).map_err(|error| unreadable(name, error, value.py()))
 }
 
-/// The error of an object that is no array; what is no fault of the object passes.
+/// The error for an object that is not an array; errors not caused by the object pass through.
 fn unreadable(name: &str, error: PyErr, py: Python<'_>) -> PyErr {
     if !error.is_instance_of::<PyException>(py) {
         return error;
@@ -98,7 +97,7 @@ fn unreadable(name: &str, error: PyErr, py: Python<'_>) -> PyErr {
     Failure::argument(name, format!("cannot be read as an array: {}", error.value(py))).into()
 }
 
-/// A shape as NumPy prints it.
+/// Formats a shape as NumPy prints it.
 pub(crate) fn shape_text(shape: &[usize]) -> String {
     match shape {
         [one] => format!("({one},)"),
@@ -106,15 +105,15 @@ pub(crate) fn shape_text(shape: &[usize]) -> String {
     }
 }
 
-/// The error of an array of another shape.
+/// The error for an array with another shape.
 pub(crate) fn wrong_shape(name: &str, shape: &[usize], wanted: &str) -> Failure {
     Failure::argument(name, format!("shape {}, expected {wanted}", shape_text(shape)))
 }
 
-/// Rows of `N` numbers.
+/// Reads rows of `N` numbers.
 ///
 /// # Errors
-/// If the shape is another.
+/// If the shape is different.
 pub(crate) fn rows_of<T: Copy + Default, const N: usize>(
     name: &str,
     numbers: Numbers<T>,
@@ -126,10 +125,10 @@ pub(crate) fn rows_of<T: Copy + Default, const N: usize>(
     }
 }
 
-/// Rows of `N` finite numbers.
+/// Reads rows of `N` finite numbers.
 ///
 /// # Errors
-/// If the shape is another, or a number is not finite.
+/// If the shape is different, or a number is not finite.
 pub(crate) fn finite_rows<const N: usize>(
     name: &str,
     value: &Bound<'_, PyAny>,
@@ -145,10 +144,10 @@ pub(crate) fn finite_rows<const N: usize>(
     Ok(rows)
 }
 
-/// A matrix of finite numbers, row by row.
+/// Reads a matrix of finite numbers, row by row.
 ///
 /// # Errors
-/// If the shape is another, or a number is not finite.
+/// If the shape is different, or a number is not finite.
 pub(crate) fn matrix<const R: usize, const C: usize>(
     name: &str,
     value: &Bound<'_, PyAny>,
@@ -169,7 +168,7 @@ pub(crate) fn matrix<const R: usize, const C: usize>(
     Ok(rows)
 }
 
-/// A list of `N` finite numbers.
+/// Reads a list of `N` finite numbers.
 ///
 /// # Errors
 /// If there are more or fewer, or one is not finite.
@@ -186,10 +185,10 @@ pub(crate) fn vector<const N: usize>(name: &str, value: &Bound<'_, PyAny>) -> Py
     Ok(*values)
 }
 
-/// A new array of this shape with these elements, which are not copied.
+/// Makes a new array of this shape with these elements, without copying them.
 ///
 /// # Errors
-/// If the numbers of elements differ.
+/// If the number of elements does not match the shape.
 pub(crate) fn new_array<'py, T: Element>(
     py: Python<'py>,
     values: Vec<T>,

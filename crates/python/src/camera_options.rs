@@ -1,4 +1,4 @@
-//! The options of cameras: where it stands and which lens it has, as a scene file says it.
+//! Camera options: position and lens, in the terms of a scene file.
 
 use crate::arrays;
 use crate::failure::{Failure, Fallible};
@@ -12,17 +12,17 @@ use scene_file::file::{
     ProjectionFile, RotationFile, Triple, ViewFile,
 };
 
-/// Reads position, direction and lens of a camera.
+/// Reads the position, direction and lens of a camera.
 ///
 /// # Errors
-/// If an option has another type, is not finite, or makes no camera.
+/// If an option has the wrong type, is not finite, or does not define a camera.
 pub(crate) fn read_camera(options: &Keywords<'_, '_>) -> PyResult<CameraFile> {
     let (view, projection) = (read_view(options)?, read_lens(options)?);
     Ok(CameraFile { view, projection, ..CameraFile::default() })
 }
 
-/// Where the camera stands: by eye and target, by R and t, by a pose, by the name of a camera in
-/// the model, or from a direction.
+/// The camera position: from eye and target, R and t, a pose, the name of a camera in the model, or
+/// a direction.
 fn read_view(options: &Keywords<'_, '_>) -> PyResult<ViewFile> {
     if let Some(eye) = options.vector("eye")? {
         let target = options.vector("target")?.unwrap_or_default();
@@ -126,12 +126,12 @@ fn read_pose(options: &Keywords<'_, '_>, pose: &Bound<'_, PyAny>) -> PyResult<Vi
     Ok(ViewFile::Pose { rotation: rotation_file(rotation), eye: Triple(eye), axes })
 }
 
-/// A rotation as a scene file has it.
+/// A rotation in the form of a scene file.
 pub(crate) fn rotation_file([x, y, z]: [[f64; 3]; 3]) -> RotationFile {
     RotationFile::Rows((Triple(x), Triple(y), Triple(z)))
 }
 
-/// The lens; `None` if the options say nothing of it.
+/// The lens; `None` if the options do not specify one.
 fn read_lens(options: &Keywords<'_, '_>) -> PyResult<Option<ProjectionFile>> {
     let (near, far) = (options.positive("near")?, options.positive("far")?);
     if let Some(k) = options.value("K")? {
@@ -173,7 +173,7 @@ fn read_lens(options: &Keywords<'_, '_>) -> PyResult<Option<ProjectionFile>> {
     }))
 }
 
-/// The lens of a matrix K, or of (fx, fy, cx, cy).
+/// The lens from a matrix K or (fx, fy, cx, cy).
 fn read_intrinsics(
     options: &Keywords<'_, '_>,
     k: &Bound<'_, PyAny>,

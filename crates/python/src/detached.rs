@@ -1,12 +1,12 @@
-//! Work without Python's lock: other threads of Python go on, Ctrl-C stops a picture, and a panic
+//! Work without Python's lock: other Python threads continue, Ctrl-C stops a picture, and a panic
 //! becomes an exception.
 //!
 //! ```text
 //!  calling thread   waits, and looks for signals 20 times a second ─► CancelToken
 //!  worker           renders ────────────────────────────────────────────┘
 //! ```
-//! Python delivers signals to its main thread only, and only while that thread holds the lock; so
-//! it is the worker that renders.
+//! Python delivers signals only to its main thread, and only while that thread holds the lock, so a
+//! worker does the rendering.
 
 use crate::failure::Failure;
 use pipeline::CancelToken;
@@ -15,15 +15,15 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread::{self, Builder};
 use std::time::Duration;
 
-/// How long Ctrl-C may wait.
+/// The maximum delay of Ctrl-C.
 const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
-/// The stack of a worker in bytes: that of a program's main thread.
+/// The stack size of a worker in bytes: the same as for a program's main thread.
 const STACK_BYTES: usize = 8 << 20;
 
 /// Runs `work` in another thread without the lock, and waits for it.
 ///
 /// # Errors
-/// The exception of a signal's handler (`KeyboardInterrupt`), after `work` has come to its end; what
+/// The exception of a signal handler (`KeyboardInterrupt`), after `work` has ended; the error that
 /// `work` returns; a panic.
 pub(crate) fn run_detached<T, E>(
     py: Python<'_>,
@@ -39,7 +39,7 @@ where
             let (done, finished) = mpsc::channel::<()>();
             let token = &cancel;
             let worker = Builder::new().stack_size(STACK_BYTES).spawn_scoped(scope, move || {
-                // Dropped at the end, also by a panic: the receiver wakes up.
+                // Dropped at the end, even by a panic, which wakes the receiver.
                 let _done = done;
                 work(token)
             });

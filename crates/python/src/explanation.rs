@@ -27,7 +27,7 @@ enum ExplainedPart {
     Node(Choice),
 }
 
-/// Explains a part of a subject; returns JSON.
+/// Explains a part of a subject and returns JSON.
 #[pyfunction]
 pub(crate) fn explain(
     py: Python<'_>,
@@ -48,7 +48,7 @@ pub(crate) fn explain(
     })
 }
 
-/// Reads what is to be explained.
+/// Reads the subject of the explanation.
 fn read_part(options: &Keywords<'_, '_>) -> PyResult<ExplainedPart> {
     let given = ["point", "segment", "pixel", "node"];
     let mut found = Vec::new();
@@ -80,7 +80,7 @@ fn read_part(options: &Keywords<'_, '_>) -> PyResult<ExplainedPart> {
     })
 }
 
-/// Reads the conventions of view space, canonical volume and pixels.
+/// Reads the conventions for view space, canonical volume and pixels.
 fn read_conventions(options: &Keywords<'_, '_>) -> PyResult<ApiConventions> {
     let name = options.text("conventions")?.unwrap_or_else(|| "alberti".to_owned());
     let known =
@@ -114,7 +114,7 @@ fn explain_part(
     }
 }
 
-/// The first model with a node of this index or name.
+/// The first model with a node with this index or name.
 fn find_node<'a>(
     models: &'a [ModelInstance],
     wanted: &Choice,

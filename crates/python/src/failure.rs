@@ -1,4 +1,4 @@
-//! Failures: what every function of the package raises, as one Python exception.
+//! Failures: all errors of the package, as one Python exception.
 //!
 //! ```text
 //!  errors of the crates ─┐
@@ -14,45 +14,45 @@ use pyo3::prelude::*;
 
 pyo3::import_exception!(alberti._errors, AlbertiError);
 
-/// The code of arguments that make no sense.
+/// The code for invalid arguments.
 pub(crate) const INVALID_ARGUMENT: &str = "INVALID_ARGUMENT";
-/// The code of mistakes in scenes, and of cameras that cannot be.
+/// The code for errors in scenes and for impossible cameras.
 const SCENE_ERROR: &str = "SCENE_ERROR";
-/// The code of pictures that cannot be rendered.
+/// The code for pictures that cannot be rendered.
 const RENDER_ERROR: &str = "RENDER_ERROR";
-/// The code of panics.
+/// The code for panics.
 const INTERNAL_ERROR: &str = "INTERNAL_ERROR";
 
-/// The result of what can fail without Python.
+/// The result of operations that can fail without Python.
 pub(crate) type Fallible<T> = Result<T, Failure>;
 
-/// Why a call failed.
+/// The reason why a call failed.
 #[derive(Debug)]
 pub(crate) struct Failure {
-    /// The kind of fault, for programs.
+    /// The kind of error, for programs.
     pub(crate) code: &'static str,
-    /// Where: the argument, or the place in a file.
+    /// The location: the argument, or the position in a file.
     pub(crate) pointer: String,
-    /// The fault, in a sentence.
+    /// The problem, in a sentence.
     pub(crate) message: String,
     /// The remedy.
     pub(crate) help: Option<String>,
 }
 
 impl Failure {
-    /// An argument that makes no sense; `argument` is its name, with the index of an element.
+    /// An invalid argument; `argument` is its name, with the index of an element.
     pub(crate) fn argument(argument: impl Into<String>, message: impl Into<String>) -> Self {
         let (pointer, message) = (argument.into(), message.into());
         Self { code: INVALID_ARGUMENT, pointer, message, help: None }
     }
 
-    /// More than the limit allows.
+    /// An exceeded limit.
     pub(crate) fn limit(argument: &str, message: impl Into<String>, help: &str) -> Self {
         let (pointer, message) = (argument.to_owned(), message.into());
         Self { code: codes::LIMIT_EXCEEDED, pointer, message, help: Some(help.to_owned()) }
     }
 
-    /// A panic: a fault of this package.
+    /// A panic: a bug in this package.
     pub(crate) fn internal(panic: &(dyn std::any::Any + Send)) -> Self {
         let text = panic.downcast_ref::<String>().map(String::as_str);
         let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");
@@ -64,12 +64,12 @@ impl Failure {
         }
     }
 
-    /// This failure with advice.
+    /// Adds advice to this failure.
     pub(crate) fn with_help(self, help: impl Into<String>) -> Self {
         Self { help: Some(help.into()), ..self }
     }
 
-    /// This failure, at an argument if it is at no place yet.
+    /// Locates this failure at an argument, unless it already has a location.
     pub(crate) fn at(self, argument: &str) -> Self {
         let pointer = if self.pointer.is_empty() { argument.to_owned() } else { self.pointer };
         Self { pointer, ..self }

@@ -1,7 +1,6 @@
-//! Keyword arguments: a dictionary of options, each read by its name and type.
+//! Keyword arguments: a dictionary of options, each read by name and type.
 //!
-//! The signatures are those of the Python functions; an option that is absent or `None` was not
-//! given.
+//! The Python functions define the signatures; an option that is absent or `None` is not given.
 
 use crate::arrays;
 use crate::failure::Failure;
@@ -19,7 +18,7 @@ impl<'py> Keywords<'_, 'py> {
         Ok(self.0.get_item(name)?.filter(|value| !value.is_none()))
     }
 
-    /// An option of a type that Python's conversions know; `wanted` is that type in words.
+    /// An option of any type that PyO3 can convert; `wanted` describes the type in words.
     fn extract<T>(&self, name: &str, wanted: &str) -> PyResult<Option<T>>
     where
         T: for<'a> FromPyObject<'a, 'py>,
@@ -58,7 +57,7 @@ impl<'py> Keywords<'_, 'py> {
         Positive::new(number).map(Some).ok_or_else(wrong)
     }
 
-    /// A whole number from 0.
+    /// An integer of at least 0.
     pub(crate) fn count(&self, name: &str) -> PyResult<Option<usize>> {
         self.extract(name, "a whole number from 0")
     }
@@ -83,7 +82,7 @@ impl<'py> Keywords<'_, 'py> {
         self.value(name)?.map(|value| arrays::vector(name, &value)).transpose()
     }
 
-    /// A value that the library has a name for.
+    /// A value that the library identifies by name.
     pub(crate) fn named<T: NamedOption>(&self, name: &str) -> PyResult<Option<T>> {
         let Some(text) = self.text(name)? else { return Ok(None) };
         let wanted = plain_name(&text);
@@ -96,13 +95,14 @@ impl<'py> Keywords<'_, 'py> {
     }
 }
 
-/// A name without what differs between Python, flags and scene files: case, hyphens, underscores.
+/// A name without the differences between Python, flags and scene files: case, hyphens,
+/// underscores.
 pub(crate) fn plain_name(name: &str) -> String {
     let letters = name.chars().filter(|c| !matches!(c, '-' | '_' | ' '));
     letters.flat_map(char::to_lowercase).collect()
 }
 
-/// The error of a value of another type.
+/// The error for a value of another type.
 pub(crate) fn not_a(name: &str, value: &Bound<'_, PyAny>, wanted: &str) -> Failure {
     let found = value.repr().map_or_else(|_| "?".to_owned(), |text| text.to_string());
     let found: String = found.chars().take(80).collect();

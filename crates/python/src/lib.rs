@@ -1,7 +1,7 @@
-//! The extension module of the Python package `alberti`: what needs the crates.
+//! The extension module of the Python package `alberti`: the part that needs the crates.
 //!
-//! Signatures, documentation and types are those of the Python sources beside it, which pass their
-//! keyword arguments as dictionaries; every function here checks them and names what is wrong.
+//! Signatures, documentation and types are in the Python sources beside it, which pass their
+//! keyword arguments as dictionaries. Every function here validates them and names the invalid one.
 //!
 //! | for | file |
 //! | --- | --- |
@@ -32,8 +32,8 @@ mod subject;
 
 use pyo3::prelude::*;
 
-/// Runs the program `alberti` with its arguments, of which the first is its name; returns its exit
-/// code. `program` are the words that start it again.
+/// Runs the program `alberti` with its arguments, starting with its name, and returns its exit
+/// code. `program` is the command that restarts it.
 #[pyfunction]
 fn run_program(
     py: Python<'_>,
@@ -43,7 +43,7 @@ fn run_program(
     py.detach(|| alberti::run_within(program, arguments))
 }
 
-/// The functions and classes that the Python sources use.
+/// The functions and classes for the Python sources.
 #[pymodule]
 mod _native {
     #[pymodule_export]

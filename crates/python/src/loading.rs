@@ -1,4 +1,4 @@
-//! Loading: models and scenes from files and from memory, and subjects put together.
+//! Loads models and scenes from files and memory, and combines subjects.
 
 use crate::arrays;
 use crate::detached::run_detached;
@@ -17,7 +17,7 @@ use scene_file::file::Choice;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The source of a model: a file, or the content of one.
+/// The source of a model: a file, or its content.
 #[derive(FromPyObject)]
 enum Source {
     #[pyo3(transparent)]
@@ -26,14 +26,14 @@ enum Source {
     Path(PathBuf),
 }
 
-/// How a model is loaded and posed.
+/// Options for loading and posing a model.
 struct LoadRequest {
     import: ImportOptions,
     animation: Option<Choice>,
     time: Option<f64>,
 }
 
-/// Loads a model from a file, or from the bytes of one, whose name is `name`.
+/// Loads a model from a file, or from its bytes under the name `name`.
 #[pyfunction]
 pub(crate) fn load_model(
     py: Python<'_>,
@@ -59,7 +59,7 @@ pub(crate) fn load_model(
     })
 }
 
-/// Loads a scene from its file, or from a text whose paths begin at `folder`.
+/// Loads a scene from its file, or from a text with paths relative to `folder`.
 #[pyfunction]
 pub(crate) fn load_scene(
     py: Python<'_>,
@@ -78,7 +78,7 @@ pub(crate) fn load_scene(
     })
 }
 
-/// Several subjects as one, each with a pose: a 4 × 4 matrix from its world to the common one.
+/// Combines several subjects, each with a pose: a 4 × 4 matrix from its world to the common world.
 #[pyfunction]
 pub(crate) fn compose(parts: Vec<(Bound<'_, Subject>, Bound<'_, PyAny>)>) -> PyResult<Subject> {
     let mut models = Vec::new();
@@ -98,10 +98,10 @@ pub(crate) fn compose(parts: Vec<(Bound<'_, Subject>, Bound<'_, PyAny>)>) -> PyR
     Ok(Subject::new(origin, file, models))
 }
 
-/// A matrix whose last row is 0, 0, 0, 1, and which can be inverted.
+/// Reads an invertible matrix with the last row 0, 0, 0, 1.
 ///
 /// # Errors
-/// If it is another.
+/// If the matrix is different.
 pub(crate) fn affine_map<A: homog::Space, B: homog::Space>(
     name: &str,
     value: &Bound<'_, PyAny>,
@@ -131,7 +131,7 @@ fn pose_model(model: &mut Model, request: &LoadRequest) -> Fallible<()> {
     Ok(())
 }
 
-/// The options of loading.
+/// Reads the loading options.
 fn load_request(options: &Keywords<'_, '_>) -> PyResult<LoadRequest> {
     let name_or_index = |name: &str| -> PyResult<Option<NameOrIndex>> {
         Ok(choice(options, name)?.map(scene::name_or_index))
@@ -163,7 +163,7 @@ pub(crate) fn crease_angle(options: &Keywords<'_, '_>) -> PyResult<Option<f64>> 
     Ok(angle)
 }
 
-/// A part of a file, by its name or index.
+/// A part of a file, by name or index.
 fn choice(options: &Keywords<'_, '_>, name: &str) -> PyResult<Option<Choice>> {
     let Some(value) = options.value(name)? else { return Ok(None) };
     if let Ok(index) = value.extract::<usize>() {
@@ -175,7 +175,7 @@ fn choice(options: &Keywords<'_, '_>, name: &str) -> PyResult<Option<Choice>> {
     }
 }
 
-/// The limits of the importer: the defaults, and those that `limits` has.
+/// The importer limits: the defaults, overridden by `limits`.
 pub(crate) fn limits(options: &Keywords<'_, '_>) -> PyResult<Limits> {
     let mut limits = Limits::default();
     let Some(value) = options.value("limits")? else { return Ok(limits) };

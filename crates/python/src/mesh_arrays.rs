@@ -1,4 +1,4 @@
-//! Meshes as arrays of Python: vertices, faces, colors, textures and materials, checked.
+//! Meshes from Python arrays: vertices, faces, colors, textures and materials, validated.
 
 use crate::arrays::{self, Numbers};
 use crate::detached::run_detached;
@@ -14,10 +14,10 @@ use pipeline::Origin;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 
-/// A node of Python: its name, the index of its mesh, and the matrix to the model.
+/// A node from Python: its name, the index of its mesh, and the matrix to the model.
 type NodeOfPython<'py> = (Option<String>, usize, Bound<'py, PyAny>);
 
-/// Makes a model of meshes; without nodes each mesh is shown where its vertices say.
+/// Makes a model from meshes; without nodes each mesh is shown once, untransformed.
 #[pyfunction]
 pub(crate) fn build_model(
     py: Python<'_>,
@@ -124,7 +124,7 @@ fn read_mesh(mesh: &Keywords<'_, '_>, limits: &Limits) -> PyResult<MeshArrays> {
     })
 }
 
-/// Numbers of corners, and the vertices of all corners.
+/// The number of corners of each face, and the vertices of all corners.
 fn read_faces(faces: &Bound<'_, PyAny>, vertices: usize) -> PyResult<(Vec<u32>, Vec<u32>)> {
     let is_list = faces.is_instance_of::<PyList>() || faces.is_instance_of::<PyTuple>();
     if is_list && let Ok(polygons) = faces.extract::<Vec<Vec<i64>>>() {
@@ -157,7 +157,7 @@ fn read_faces(faces: &Bound<'_, PyAny>, vertices: usize) -> PyResult<(Vec<u32>, 
     }
 }
 
-/// Indices of vertices.
+/// Reads vertex indices.
 fn read_indices(name: &str, numbers: Numbers<i64>, vertices: usize) -> PyResult<Vec<u32>> {
     let [_, columns] = numbers.shape[..] else {
         return Err(arrays::wrong_shape(name, &numbers.shape, "two axes").into());
@@ -174,7 +174,7 @@ fn read_indices(name: &str, numbers: Numbers<i64>, vertices: usize) -> PyResult<
     Ok(indices?)
 }
 
-/// The error of an index out of range.
+/// The error for an index out of range.
 fn no_vertex(name: &str, [row, column]: [usize; 2], vertex: i64, vertices: usize) -> Failure {
     let message = format!("is {vertex}, and there are {vertices} vertices");
     Failure::argument(format!("{name}[{row}, {column}]"), message)

@@ -1,5 +1,5 @@
-//! Colors and textures of meshes: sRGB bytes and fractions become linear colors, arrays and files
-//! become images.
+//! Mesh colors and textures: converts sRGB bytes and fractions to linear colors, and arrays and
+//! files to images.
 
 use crate::arrays::{self, Numbers};
 use crate::failure::Failure;
@@ -9,7 +9,7 @@ use model::Image;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-/// Colors of the vertices and of the faces, linear; `counts` has their numbers.
+/// Linear colors of the vertices and faces; `counts` contains their numbers.
 pub(crate) fn read_colors(
     mesh: &Keywords<'_, '_>,
     counts: [usize; 2],
@@ -28,7 +28,8 @@ pub(crate) fn read_colors(
     }
 }
 
-/// sRGB colors of bytes or of fractions, as linear ones with alpha; and the shape they had.
+/// Converts sRGB colors, as bytes or fractions, to linear colors with alpha; also returns their
+/// shape.
 pub(crate) fn linear_colors(
     name: &str,
     value: &Bound<'_, PyAny>,
@@ -53,7 +54,7 @@ pub(crate) fn linear_colors(
     Ok((shape, values.chunks_exact(channels).map(to_linear).collect()))
 }
 
-/// The linear value of an sRGB channel: of bytes by the table, of fractions by the formula.
+/// The linear value of an sRGB channel: from the table for bytes, from the formula for fractions.
 fn linear_channel(channel: f64, most: f64) -> f32 {
     if most == 1.0 {
         return linear_fraction(channel);
@@ -61,7 +62,7 @@ fn linear_channel(channel: f64, most: f64) -> f32 {
     shade::color::srgb_to_linear_table()[channel as usize]
 }
 
-/// The linear value of an sRGB encoded one; both are in [0, 1].
+/// The linear value of an sRGB-encoded value; both are in [0, 1].
 fn linear_fraction(encoded: f64) -> f32 {
     shade::color::srgb_to_linear(encoded) as f32
 }

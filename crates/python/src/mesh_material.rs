@@ -1,7 +1,7 @@
-//! Materials of meshes: one color and metallic-roughness factors, or the keys of an MTL library, as
-//! trimesh keeps them.
+//! Mesh materials: one color and metallic-roughness factors, or the keys of an MTL library, as
+//! stored by trimesh.
 //!
-//! The keys become a material by the rule of the OBJ importer.
+//! The keys are converted to a material as in the OBJ importer.
 
 use crate::failure::Failure;
 use crate::keywords::{Keywords, not_a};
@@ -12,10 +12,10 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scene_file::file::Color;
 
-/// Reads the material; `None` if nothing is said of it.
+/// Reads the material; `None` if none is given.
 ///
 /// # Errors
-/// If a factor is not in its range, or a color is none.
+/// If a factor is out of range or a color is invalid.
 pub(crate) fn read_material(
     mesh: &Keywords<'_, '_>,
     [has_texture, has_colors]: [bool; 2],
@@ -42,7 +42,7 @@ pub(crate) fn read_material(
     Ok(Some(with_alpha_mode(material)))
 }
 
-/// A material that is blended if its color is translucent.
+/// Makes a material that is blended if its color is translucent.
 fn with_alpha_mode(material: Material) -> Material {
     let is_translucent = material.base_color[3] < 1.0;
     let alpha_mode = if is_translucent { AlphaMode::Blend } else { AlphaMode::Opaque };
@@ -59,7 +59,7 @@ fn fraction(mesh: &Keywords<'_, '_>, name: &str) -> PyResult<Option<f32>> {
     Err(Failure::argument(name, message).into())
 }
 
-/// A color by its name or by its channels.
+/// A color, by name or by channels.
 fn read_color(value: &Bound<'_, PyAny>) -> PyResult<[f32; 4]> {
     if let Ok(name) = value.extract::<String>() {
         let Some(color) = Color::parse(&name) else {
@@ -74,7 +74,7 @@ fn read_color(value: &Bound<'_, PyAny>) -> PyResult<[f32; 4]> {
     }
 }
 
-/// The material of the keys `Kd`, `Ks`, `Ns`, `illum`, `d` and `Tr`.
+/// Makes the material from the keys `Kd`, `Ks`, `Ns`, `illum`, `d` and `Tr`.
 fn read_mtl(keys: &Keywords<'_, '_>, has_texture: bool) -> PyResult<Material> {
     let number = |name: &str| Ok::<_, PyErr>(keys.number(name)?.map(|number| number as f32));
     let color = |name: &str| -> PyResult<Option<[f32; 3]>> {

@@ -18,18 +18,18 @@ use scene_file::file::{CameraFile, Positive, ProjectionFile, Triple, ViewFile};
 use scene_file::options::NamedOption as _;
 use std::path::PathBuf;
 
-/// A camera as it was described, and where that put it.
+/// A camera: its description and the resulting position.
 #[pyclass(frozen, module = "alberti._native", name = "Camera")]
 pub(crate) struct NativeCamera {
     /// The description.
     pub(crate) file: CameraFile,
-    /// Width and height of its pictures, if they are known.
+    /// Width and height of its pictures, if known.
     pub(crate) size: Option<(u32, u32)>,
-    /// Where it stands around the models of a picture; `None` before there is one.
+    /// The position around the models of a picture; `None` before the first picture.
     placed: Option<ViewProjection>,
 }
 
-/// Makes a camera of options: those of the functions of the class `Camera` in Python.
+/// Makes a camera from the options of the Python class `Camera`.
 #[pyfunction]
 pub(crate) fn make_camera(options: &Bound<'_, PyDict>) -> PyResult<NativeCamera> {
     let options = Keywords(options);
@@ -38,7 +38,7 @@ pub(crate) fn make_camera(options: &Bound<'_, PyDict>) -> PyResult<NativeCamera>
 }
 
 impl NativeCamera {
-    /// The camera of a scene: its place is kept, so that other pictures can be taken from it.
+    /// The camera of a scene, with its position, so that more pictures can be taken with it.
     pub(crate) fn of_scene(file: &CameraFile, scene: &Scene) -> Self {
         let view_projection = scene.view_projection;
         let mut file = file.clone();
@@ -59,7 +59,7 @@ impl NativeCamera {
         Self { file, size: Some(size), placed: Some(view_projection) }
     }
 
-    /// The camera in its place around models, for pictures of a size.
+    /// Places the camera around models, for pictures of the given size.
     pub(crate) fn place(
         &self,
         size: Option<(u32, u32)>,
@@ -91,8 +91,8 @@ impl NativeCamera {
     }
 }
 
-/// Whether a framed camera can be described by its place: classical projections cannot, as they
-/// fit their windows themselves.
+/// Whether a position describes a framed camera. Classical projections have none, because they fit
+/// their windows themselves.
 fn can_stand(file: &CameraFile) -> bool {
     let lens = file.projection.as_ref();
     lens.is_none_or(|lens| {
@@ -106,7 +106,7 @@ fn can_stand(file: &CameraFile) -> bool {
     })
 }
 
-/// The directions of the axes of camera space, by their name.
+/// The directions of the camera-space axes, by name.
 fn axes_by_name(name: &str) -> Fallible<CameraAxes> {
     let wanted = plain_name(name);
     let known = CameraAxes::ALL.iter().copied().find(|axes| plain_name(axes.name()) == wanted);
@@ -124,14 +124,14 @@ impl NativeCamera {
         self.size
     }
 
-    /// The matrix K with pixel centers at whole numbers.
+    /// The matrix K with pixel centers at integers.
     fn intrinsics<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let (placed, (width, height)) = self.place(None, &[])?;
         let size = [width, height];
         let lens = Intrinsics::from_view_to_clip(placed.view_to_clip, Convention::CHAPTER, size);
         let lens = lens.map_err(|error| Failure::argument("camera", error.to_string()))?;
         let rows = lens.in_pixel_centers(PixelCenters::Integer).to_rows();
-        // Without skew the entry is −0 as often as 0.
+        // Without skew, the entry may be −0.
         let entries = rows.as_flattened().iter().map(|entry| entry + 0.0).collect();
         arrays::new_array(py, entries, &[3, 3])
     }
@@ -151,7 +151,7 @@ impl NativeCamera {
         ))
     }
 
-    /// The matrix from view space to clip space in the convention of OpenGL.
+    /// The matrix from view space to clip space in OpenGL's convention.
     fn projection_matrix<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let placed = self.place(None, &[])?.0;
         let matrix = Convention::CHAPTER.convert(Convention::OPENGL, placed.view_to_clip);
@@ -159,7 +159,7 @@ impl NativeCamera {
         arrays::new_array(py, rows.to_vec(), &[4, 4])
     }
 
-    /// Pixel coordinates and depths of points in the world.
+    /// Pixel coordinates and depths of world points.
     fn project<'py>(
         &self,
         py: Python<'py>,
@@ -177,7 +177,7 @@ impl NativeCamera {
         ))
     }
 
-    /// Points in the world of pixel coordinates at depths.
+    /// World points at pixel coordinates and depths.
     fn unproject_pixels<'py>(
         &self,
         py: Python<'py>,
@@ -199,7 +199,7 @@ impl NativeCamera {
         arrays::new_array(py, points.into_flattened(), &[count, 3])
     }
 
-    /// Points in the world of all pixels of a depth image; NaN where it is infinite.
+    /// World points of all pixels in a depth image; NaN where it is infinite.
     fn unproject_image<'py>(
         &self,
         py: Python<'py>,

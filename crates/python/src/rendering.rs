@@ -1,4 +1,4 @@
-//! Rendering: pictures and passes as arrays, one or many, with renderers that are reused.
+//! Rendering: pictures and passes as arrays, one or many, with reused renderers.
 //!
 //! ```text
 //!  options ─► SceneFile ─► Scene ─► Renderer ─► Picture, PassBuffers ─► arrays
@@ -22,20 +22,21 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-/// The most pixels of a picture in memory: with four samples and all passes some four gigabytes.
+/// The maximum number of pixels of a picture: about four gigabytes with four samples and all
+/// passes.
 const MAX_PIXELS: u64 = 1 << 26;
-/// The most renderers that wait for their next picture.
+/// The maximum number of idle renderers.
 const MAX_IDLE_RENDERERS: usize = 8;
 
-/// Renderers between two pictures: the next one takes their memory.
+/// Idle renderers; the next picture reuses their memory.
 static IDLE_RENDERERS: Mutex<Vec<Renderer>> = Mutex::new(Vec::new());
 
-/// The subject of a picture, and its options.
+/// The subject and options of a picture.
 pub(crate) struct RenderJob<'a> {
     subject: &'a Subject,
-    /// The description of the scene, with the options of the call.
+    /// The scene description, with the options of the call.
     file: SceneFile,
-    /// Whether the colors are wanted.
+    /// Whether colors are requested.
     has_color: bool,
     passes: Vec<Pass>,
     threads: usize,
@@ -49,10 +50,10 @@ struct RenderedJob {
     warnings: Vec<String>,
 }
 
-/// The arrays by the names of their passes, the camera, and the warnings.
+/// The arrays by pass name, the camera, and the warnings.
 type FrameParts<'py> = (Bound<'py, PyDict>, NativeCamera, Vec<String>);
 
-/// Renders a picture and passes of a subject.
+/// Renders a picture and the passes of a subject.
 #[pyfunction]
 pub(crate) fn render<'py>(
     py: Python<'py>,
@@ -82,7 +83,7 @@ pub(crate) fn render_many<'py>(
     rendered.into_iter().map(|job| job.into_parts(py)).collect()
 }
 
-/// Colors over white without their alpha: (…, 4) becomes (…, 3).
+/// Blends colors over white and drops alpha: (…, 4) becomes (…, 3).
 #[pyfunction]
 pub(crate) fn over_white<'py>(
     py: Python<'py>,
@@ -100,7 +101,7 @@ pub(crate) fn over_white<'py>(
     new_array(py, colors, &[picture.height as usize, picture.width as usize, 3])
 }
 
-/// Colors (height, width, 4) as the bytes of a PNG file.
+/// Encodes colors (height, width, 4) as a PNG file.
 #[pyfunction]
 pub(crate) fn encode_png<'py>(
     py: Python<'py>,
@@ -111,7 +112,7 @@ pub(crate) fn encode_png<'py>(
     Ok(pyo3::types::PyBytes::new(py, &bytes))
 }
 
-/// A picture of colors with alpha.
+/// Reads a picture from colors with alpha.
 fn read_picture(rgba: &Bound<'_, PyAny>) -> PyResult<Picture> {
     use numpy::{PyArray3, PyArrayMethods as _, PyUntypedArrayMethods as _};
     let wrong = |_| PyErr::from(Failure::argument("rgba", "expected uint8 (height, width, 4)"));
@@ -127,18 +128,18 @@ fn read_picture(rgba: &Bound<'_, PyAny>) -> PyResult<Picture> {
     Ok(picture)
 }
 
-/// The error of an array that is no picture.
+/// The error for an array that is not a picture.
 fn wrong_picture() -> PyErr {
     Failure::argument("rgba", "expected uint8 (height, width, 4)").into()
 }
 
-/// The number of threads: as many as there are processors, unless it is given.
+/// The number of threads: one per processor by default.
 pub(crate) fn thread_count(given: Option<usize>) -> usize {
     let processors = || thread::available_parallelism().map_or(1, usize::from);
     given.unwrap_or_else(processors).clamp(1, 1024)
 }
 
-/// The error of pictures that are too large for memory.
+/// The error for pictures that are too large for memory.
 pub(crate) fn check_pixel_count(width: u64, height: u64) -> Fallible<()> {
     if width * height <= MAX_PIXELS {
         return Ok(());
@@ -148,7 +149,7 @@ pub(crate) fn check_pixel_count(width: u64, height: u64) -> Fallible<()> {
     Err(Failure::limit("size", message, help))
 }
 
-/// Reads the passes that are wanted: their names, and whether colors are among them.
+/// Reads the requested passes: their names, and whether colors are among them.
 fn read_passes(options: &Keywords<'_, '_>) -> PyResult<(bool, Vec<Pass>)> {
     let Some(value) = options.value("passes")? else { return Ok((true, Vec::new())) };
     let names = value.extract::<String>().map(|name| vec![name]);
@@ -175,7 +176,7 @@ fn read_passes(options: &Keywords<'_, '_>) -> PyResult<(bool, Vec<Pass>)> {
     Ok((has_color, passes))
 }
 
-/// Whether a name, in plain letters, means a pass: the library's own, or `ids` and `model_ids` …
+/// Whether a simplified name refers to a pass: by the library's name, or as `ids`, `model_ids` …
 fn means_pass(wanted: &str, pass: Pass) -> bool {
     let own = plain_name(pass.name());
     wanted == own
@@ -257,11 +258,11 @@ impl RenderedJob {
     }
 }
 
-/// A renderer that goes back to the others when it is dropped, unless a panic drops it.
+/// A renderer that returns to the pool when it is dropped, unless a panic drops it.
 struct IdleRenderer(Renderer);
 
 impl IdleRenderer {
-    /// One that has memory, or a new one.
+    /// A renderer from the pool, or a new one.
     fn take() -> Self {
         let mut idle = IDLE_RENDERERS.lock().unwrap_or_else(PoisonError::into_inner);
         Self(idle.pop().unwrap_or_default())
@@ -280,7 +281,7 @@ impl Drop for IdleRenderer {
     }
 }
 
-/// Renders jobs with as many workers; they take the next job by turns.
+/// Renders jobs with this number of workers; each takes the next open job.
 fn render_jobs(
     jobs: &[RenderJob<'_>],
     workers: usize,
@@ -322,7 +323,7 @@ fn render_jobs(
     for result in results {
         match result {
             Ok(done) => rendered.extend(done),
-            // Those that were canceled because of another come after it.
+            // Jobs canceled because of another failure come after it.
             Err(failure)
                 if first_failure.as_ref().is_none_or(|first| is_cause(&failure, first)) =>
             {
@@ -338,7 +339,7 @@ fn render_jobs(
     Ok(rendered.into_iter().map(|(_, job)| job).collect())
 }
 
-/// Whether a failure says more than another: it is not that of a job that was stopped.
+/// Whether a failure is more informative than another: it does not come from a canceled job.
 fn is_cause(one: &(usize, Failure), other: &(usize, Failure)) -> bool {
     let is_stopped = |failure: &Failure| failure.message.contains("canceled");
     (is_stopped(&one.1), one.0) < (is_stopped(&other.1), other.0)

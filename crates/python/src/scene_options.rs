@@ -1,4 +1,4 @@
-//! Options of pictures and drawings: what a call replaces in the description of a scene.
+//! Picture and drawing options: the parts of a scene description that a call replaces.
 
 use crate::failure::{Failure, Fallible};
 use crate::keywords::{Keywords, plain_name};
@@ -8,10 +8,10 @@ use pipeline::SceneFile;
 use pyo3::prelude::*;
 use scene_file::file::{BackgroundFile, Color, StyleFile};
 
-/// The description of a subject's scene with the options of a call.
+/// Applies the options of a call to the description of a subject's scene.
 ///
 /// # Errors
-/// If an option makes no sense.
+/// If an option is invalid.
 pub(crate) fn apply_options(subject: &Subject, options: &Keywords<'_, '_>) -> PyResult<SceneFile> {
     let mut file = subject.file.clone();
     if let Some(camera) = options.value("camera")? {
@@ -38,7 +38,7 @@ pub(crate) fn apply_options(subject: &Subject, options: &Keywords<'_, '_>) -> Py
     Ok(file)
 }
 
-/// A style by its name.
+/// Finds a style by name.
 fn style_by_name(name: &str) -> Fallible<StyleFile> {
     let wanted = plain_name(name);
     let known = StyleFile::NAMED.into_iter().find(|(known, _)| plain_name(known) == wanted);

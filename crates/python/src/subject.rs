@@ -1,5 +1,5 @@
-//! Subjects: what is rendered. Models in their places with a scene description, and the mip chains
-//! of their textures, which are made once and kept.
+//! Rendering subjects: placed models with a scene description, and the mip chains of their
+//! textures, which are computed once and kept.
 
 use crate::arrays;
 use crate::failure::{Failure, Fallible};
@@ -12,7 +12,7 @@ use self_cell::self_cell;
 use std::sync::{Arc, OnceLock};
 
 self_cell! {
-    /// Models and the mip chains of their textures, which borrow them.
+    /// Models and the mip chains of their textures, which borrow from them.
     struct TexturedModels {
         owner: Vec<ModelInstance>,
         #[covariant]
@@ -20,32 +20,32 @@ self_cell! {
     }
 }
 
-/// Models in their places, and how they are shown where a call leaves it open.
+/// Placed models, and the default settings for showing them.
 #[pyclass(frozen, module = "alberti._native")]
 pub(crate) struct Subject {
-    /// Where the scene comes from.
+    /// The source of the scene.
     pub(crate) origin: Origin,
     /// The description of the scene.
     pub(crate) file: SceneFile,
     /// The models, loaded and placed.
     pub(crate) models: Vec<ModelInstance>,
-    /// Folders that files of the scene may lie in, and how models are loaded.
+    /// The folders allowed for scene files, and the model loading options.
     options: ResolveOptions,
     /// The models with their textures; empty before the first picture.
     textured: OnceLock<TexturedModels>,
 }
 
 impl Subject {
-    /// A subject of models that are loaded.
+    /// Makes a subject from loaded models.
     pub(crate) fn new(origin: Origin, file: SceneFile, models: Vec<ModelInstance>) -> Self {
         let options = ResolveOptions::default();
         Self { origin, file, models, options, textured: OnceLock::new() }
     }
 
-    /// A scene, whose models are loaded.
+    /// Makes a subject from a scene and loads its models.
     ///
     /// # Errors
-    /// Every mistake of the scene; a model that cannot be loaded.
+    /// Every error in the scene; a model that cannot be loaded.
     pub(crate) fn from_scene(
         origin: Origin,
         file: SceneFile,
@@ -55,24 +55,24 @@ impl Subject {
         Ok(Self { options, ..Self::new(origin, file, models) })
     }
 
-    /// The scene that a description makes of the models.
+    /// The scene that results from a description and the models.
     ///
     /// # Errors
-    /// If something in it makes no sense.
+    /// If the description is invalid.
     pub(crate) fn resolve(&self, file: &SceneFile) -> Fallible<Scene> {
         let allowed = &self.options.import.allow_outside;
         let models = self.models.clone();
         Ok(Scene::from_models_allowing(&self.origin, file, &models, allowed)?)
     }
 
-    /// The mip chains of the models' textures.
+    /// The mip chains of the model textures.
     pub(crate) fn textures(&self) -> &Textures<'_> {
         let make =
             || TexturedModels::new(self.models.clone(), |models| Textures::for_models(models));
         self.textured.get_or_init(make).borrow_dependent()
     }
 
-    /// The models without repetition, in the order of the scene.
+    /// The models without duplicates, in scene order.
     fn distinct_models(&self) -> Vec<&Arc<model::Model>> {
         let mut distinct: Vec<&Arc<model::Model>> = Vec::new();
         for placed in &self.models {
@@ -86,13 +86,13 @@ impl Subject {
 
 #[pymethods]
 impl Subject {
-    /// The names of the models.
+    /// The model names.
     #[getter]
     fn name(&self) -> String {
         model::model_names(&self.models)
     }
 
-    /// The corners of the box around all vertices in the world, or None if there are none.
+    /// The corners of the world bounding box of all vertices, or None if there are none.
     fn bounds<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let Some(bounds) = Bounds::from_points(world_points(&self.models)) else {
             return Ok(None);
@@ -101,7 +101,7 @@ impl Subject {
         arrays::new_array(py, corners.as_flattened().to_vec(), &[2, 3]).map(Some)
     }
 
-    /// The numbers of points, lines and triangles.
+    /// The counts of points, lines and triangles.
     fn item_counts(&self) -> [usize; 3] {
         let mut counts = [0; 3];
         for placed in &self.models {
@@ -112,7 +112,7 @@ impl Subject {
         counts
     }
 
-    /// The warnings of the importer, without notes and hints.
+    /// The importer's warnings, without notes and hints.
     fn warnings(&self) -> Vec<String> {
         let models = self.distinct_models().into_iter();
         let warnings = models.flat_map(|model| {
@@ -123,7 +123,7 @@ impl Subject {
         warnings.collect()
     }
 
-    /// The names of nodes, meshes or materials of each distinct model; None where there is no name.
+    /// Node, mesh or material names of each distinct model; None for unnamed ones.
     fn part_names(&self, what: &str) -> PyResult<Vec<Vec<Option<String>>>> {
         let names = |model: &Arc<model::Model>| match what {
             "nodes" => Ok(model.nodes.iter().map(|part| part.name.clone()).collect()),

@@ -1,9 +1,9 @@
-"""Times beside those of pyrender with OSMesa, or of VTK where there is none.
+"""Compares speed with pyrender and OSMesa, or with VTK if OSMesa is missing.
 
     python compare_speed.py [alberti] [pyrender] [vtk]
 
 A sphere of 15,000 triangles with a texture of 1024 × 1024 texels: color, depth and ids at 640 × 480
-in one thread, warm; and 100 views at 256 × 256 in two. Every renderer runs in a process of its own.
+in one thread, warm; and 100 views at 256 × 256 in two. Every renderer runs in a separate process.
 """
 
 import os
@@ -35,7 +35,7 @@ def sphere():
 
 
 def report(name, call, count=15):
-    """Medians of wall clock and of the processor's time, all threads together."""
+    """Medians of wall-clock time and of CPU time over all threads."""
     for _ in range(3):
         call()
     walls, processors = [], []
@@ -165,7 +165,7 @@ def main():
         known[sys.argv[2]]()
         return
     for name in sys.argv[1:] or known:
-        # Threads of Mesa would be compared with one of ours.
+        # Otherwise several Mesa threads would be compared with one of ours.
         environment = {**os.environ, "LP_NUM_THREADS": "0"}
         command = [sys.executable, __file__, "only", name]
         done = subprocess.run(command, capture_output=True, text=True, env=environment)

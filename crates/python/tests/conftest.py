@@ -1,4 +1,4 @@
-"""Folders and models that the tests share."""
+"""Folders and models shared by the tests."""
 
 import os
 import shutil
@@ -12,7 +12,7 @@ PROJECT = Path(__file__).resolve().parents[3]
 
 
 def assets_folder():
-    """The folder of test models that is not part of the repository: `ASSETS`, or beside it."""
+    """The folder of test models outside the repository: `ASSETS`, or next to it."""
     given = os.environ.get("ASSETS")
     folder = Path(given) if given else PROJECT.parent / "shared" / "assets"
     return folder if folder.is_dir() else None
@@ -20,13 +20,13 @@ def assets_folder():
 
 @pytest.fixture(scope="session")
 def models():
-    """The models of the scenes."""
+    """The scene models."""
     return PROJECT / "scenes" / "models"
 
 
 @pytest.fixture(scope="session")
 def assets():
-    """Test models from elsewhere."""
+    """External test models."""
     folder = assets_folder()
     if folder is None:
         pytest.skip("SKIPPED: no folder of test models; set ASSETS")
@@ -35,7 +35,7 @@ def assets():
 
 @pytest.fixture(scope="session")
 def program():
-    """The program `alberti`: `ALBERTI`, or the command that the wheel installs."""
+    """The program `alberti`: `ALBERTI`, or the command installed by the wheel."""
     command = os.environ.get("ALBERTI") or shutil.which("alberti")
     if command is None:
         pytest.skip("SKIPPED: the program alberti is not installed; set ALBERTI")
@@ -67,7 +67,7 @@ def random_rotation(rng):
 
 
 def _report_skip(name, reason):
-    """Reports what is skipped where the summary of `cargo xtask test` reads it."""
+    """Reports skipped tests in the form that the summary of `cargo xtask test` reads."""
     reason = reason.removeprefix("Skipped: ").removeprefix("SKIPPED: ").splitlines()[0]
     log = os.environ.get("SKIP_LOG")
     if log:

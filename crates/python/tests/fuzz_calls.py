@@ -1,4 +1,4 @@
-"""Random calls, wrong and right: none of them may end the process, and none may keep memory.
+"""Random valid and invalid calls: none may end the process or leak memory.
 
     python fuzz_calls.py [CALLS] [SEED]
 
@@ -31,7 +31,7 @@ KINDS = ["f2", "f4", "f8", ">f8", "i1", "u1", "i4", ">i8", "u8", "c8", "?", "O",
 
 
 class Caller:
-    """A source of random arguments, the same for the same seed."""
+    """A source of random arguments, reproducible from a seed."""
 
     def __init__(self, seed):
         self.rng = random.Random(seed)
@@ -46,7 +46,7 @@ class Caller:
         return self.rng.random() < part
 
     def array(self, *shape):
-        """An array near this shape: mostly right, with some wrong kinds, sizes and numbers."""
+        """An array of about this shape: mostly valid, with some wrong kinds, sizes and numbers."""
         if self.rare(0.05):
             return self.pick(OBJECTS)
         if self.rare(0.1):
@@ -74,7 +74,7 @@ class Caller:
         return alberti.Model.from_arrays(self.numbers.normal(size=(count, 3)), faces)
 
     def options(self, **known):
-        """Some of the options; now and then of a wrong kind."""
+        """Some of the options, occasionally with a wrong type."""
         chosen = {name: value() for name, value in known.items() if self.rare(0.4)}
         for name in chosen:
             if name != "passes" and self.rare(0.08):
@@ -240,7 +240,7 @@ def main():
     warnings.simplefilter("ignore")
     right = sum(caller.call() for _ in range(count))
     print(f"{count} calls: {right} returned, {count - right} raised")
-    # A source of calls that are all wrong tests nothing.
+    # A source of only invalid calls would test nothing.
     assert 0.2 < right / count < 0.95
 
 

@@ -23,7 +23,7 @@ def random_camera(rng, skew=True):
 
 
 def points_ahead(rng, R, t, count=50):
-    """Points in the world whose coordinates in the camera are ahead of it."""
+    """World points in front of the camera."""
     inside = rng.uniform((-4, -4, 0.5), (4, 4, 20), (count, 3))
     return (inside - t) @ R
 
@@ -164,12 +164,12 @@ def test_pixels_agree_with_opencv_and_with_the_picture():
 
 
 def test_pictures_of_calibrated_cameras_agree_with_the_formula():
-    """Of 1,000 cameras and lens shifts: each pixel's position is projected to the pixel, by OpenCV
-    where it is installed, and the centroid of a square's coverage is where its center is projected.
+    """For 1,000 cameras and lens shifts, each pixel's position projects back to the pixel, with
+    OpenCV if it is installed, and the centroid of a square's coverage is the projection of its center.
 
-    A square that faces the camera is one in the picture, so that the centroid of its coverage is the
-    projection of its center. It is turned by a random angle, and the steps of 8 samples average out
-    along its sides.
+    A square that faces the camera is also a square in the picture, so the centroid of its coverage
+    is the projection of its center. It is rotated by a random angle, so that the steps of 8 samples
+    average out along its sides.
     """
     try:
         from cv2 import projectPoints
@@ -197,7 +197,7 @@ def test_pictures_of_calibrated_cameras_agree_with_the_formula():
         weight = frame.coverage / frame.coverage.sum()
         errors.append([(weight * columns).sum(), (weight * rows).sum()] - middle)
 
-        # The diagonal of the square is left out: there a center may lie just beside its triangle.
+        # Skip the diagonal of the square: a center there may be just outside its triangle.
         whole = frame.coverage == 1
         for axis, step in ((0, 1), (0, -1), (1, 1), (1, -1)):
             whole &= np.roll(frame.ids, step, axis) == frame.ids

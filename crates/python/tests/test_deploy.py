@@ -1,4 +1,4 @@
-"""What `deploy` ships: the job of Kubernetes by its published schema, the example of Ray on this machine."""
+"""Tests `deploy`: the Kubernetes job against its published schema, the Ray example locally."""
 
 import os
 import shutil
@@ -41,7 +41,7 @@ def test_job_treats_each_exit_code_by_its_meaning(job):
         for rule in rules
         for code in rule.get("onExitCodes", {}).get("values", [])
     }
-    # 3 is in no rule: it counts as a try.
+    # No rule mentions 3: it counts as a try.
     assert by_code == {1: "FailIndex", 2: "FailJob"}
 
 
@@ -73,11 +73,11 @@ def test_ray_draws_all_models_and_continues(models, tmp_path, short_folder):
     shutil.copy(models / "teapot.glb", inputs)
     shutil.copy(models / "table.glb", inputs / "below")
     (inputs / "broken.glb").write_text("broken")
-    # Nothing of a user's settings is read or written.
+    # No user settings are read or written.
     environment = os.environ | {
         "HOME": str(tmp_path),
         "RAY_AUTH_MODE": "disabled",
-        # Paths of sockets must be short.
+        # Socket paths must be short.
         "RAY_TMPDIR": str(short_folder),
         "RAY_USAGE_STATS_ENABLED": "0",
     }

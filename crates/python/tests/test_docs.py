@@ -1,4 +1,4 @@
-"""Documentation: the examples of the modules and of docs/python.md, and each row of its tables."""
+"""Documentation: the examples in the modules and in docs/python.md, and each row of its tables."""
 
 import doctest
 import importlib
@@ -39,7 +39,7 @@ def test_examples_of_the_page():
 
 
 def table_rows():
-    """The right column of every table with what another package has on the left."""
+    """The right column of every table whose left column lists another package's names."""
     rows = []
     for line in PAGE.read_text().splitlines():
         cells = re.split(r" \| ", line.strip("| \n"))
@@ -49,7 +49,7 @@ def table_rows():
 
 
 def namespace(folder):
-    """What the rows call their things."""
+    """The names used in the rows."""
     trimesh = pytest.importorskip("trimesh", reason="SKIPPED: trimesh is not installed")
     mesh = trimesh.creation.icosphere()
     model = alberti.load(PROJECT / "scenes" / "models" / "teapot.glb")

@@ -1,4 +1,4 @@
-"""Wrong input: an exception that names the argument and the value, and never an abort."""
+"""Invalid input gives an exception that names the argument and the value, and never aborts."""
 
 import pickle
 import signal
@@ -139,7 +139,7 @@ def test_renderings_are_refused(teapot, pointer, options):
             alberti.render_many([{"model": teapot, **options}])
 
 
-#: A pose that overflows with another such pose.
+#: A pose that overflows when combined with another one.
 FAR = [[1, 0, 0, 1.7e308], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
 
 

@@ -1,4 +1,4 @@
-"""Notebooks: they run, and their code is typed."""
+"""Notebooks run, and their code passes type checks."""
 
 import json
 import subprocess

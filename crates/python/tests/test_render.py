@@ -1,4 +1,4 @@
-"""Pictures and passes: against the program, against formulas, and among each other."""
+"""Pictures and passes, compared with the program, with formulas and with each other."""
 
 import io
 import subprocess
@@ -100,7 +100,7 @@ def test_rgb_is_over_white(teapot):
 
 def test_the_depth_of_a_plane_is_its_formula():
     # The plane z = 0 under a ray: eye + s · direction, with s = −eye.z / direction.z. One triangle
-    # that is larger than the picture, so that no pixel is at its border.
+    # larger than the picture, so that no pixel is on its border.
     corners = [[-1000, -1000, 0], [3000, -1000, 0], [-1000, 3000, 0]]
     plane = alberti.Model.from_arrays(corners, [[0, 1, 2]])
     rng = np.random.default_rng(1)
@@ -131,8 +131,8 @@ def test_distance_from_depth_is_the_pass(teapot):
     depth = alberti.render(teapot, size=(200, 150), passes="depth")
     hit = both.mask
     error = np.abs(depth.distance[hit] / both.distance[hit] - 1)
-    # Where snapping to 1/256 pixel puts a center outside of its triangle, the passes are of a point
-    # on its border, and not quite on the ray.
+    # If snapping to 1/256 pixel puts a center outside its triangle, the passes describe a point
+    # on its border, not quite on the ray.
     assert np.quantile(error, 0.99) < 3e-7 and error.max() < 1e-4
     assert np.isinf(depth.distance[~hit]).all()
 

@@ -1,4 +1,4 @@
-"""Many calls: none ends the process, and memory stays where it was."""
+"""Many calls: none ends the process, and memory use does not grow."""
 
 import subprocess
 import sys

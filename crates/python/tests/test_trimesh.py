@@ -1,4 +1,4 @@
-"""Objects of trimesh: the picture of a file is that which our own reader gives."""
+"""trimesh objects: the picture of a file matches the one from our own reader."""
 
 import alberti
 import numpy as np
@@ -95,7 +95,7 @@ def files():
 @pytest.mark.parametrize("path", files(), ids=lambda path: path.name)
 @pytest.mark.filterwarnings("ignore")
 def test_a_file_has_one_picture(path):
-    """Depths agree on all files; where trimesh changes what the file says, colors may not."""
+    """Depths agree for all files; colors may differ where trimesh changes the file's data."""
     try:
         ours = alberti.load(path, lenient=True)
     except alberti.AlbertiError as error:
@@ -115,7 +115,7 @@ def test_a_file_has_one_picture(path):
 
 
 def compare_pictures(name, first, second):
-    """The geometry is equal, but for what the table names; so are colors."""
+    """Geometry and colors are equal, except where the table says otherwise."""
     inside = first.mask & second.mask
     assert (first.mask != second.mask).mean() < DIFFERENT_SHAPES.get(name, 1e-4), "mask"
     if not inside.any():
@@ -130,31 +130,31 @@ def compare_pictures(name, first, second):
     assert (color > 2).mean() <= DIFFERENT_COLORS.get(name, 0.005), "color"
 
 
-# Where trimesh reads another shape than the file has: the part of the pixels that differ.
+# Files whose shape trimesh reads differently: the fraction of pixels that differ.
 DIFFERENT_SHAPES = {
     # Concave polygons are cut into fans.
     "concave_polygon.obj": 0.3,
     "space_in_material_name.obj": 0.3,
     "wallhole.obj": 0.03,
-    # Lines are dropped, and their ends kept as points.
+    # Lines are dropped, and their ends are kept as points.
     "testline.obj": 1,
-    # Objects of one id in two files of the archive are taken for one.
+    # Objects with the same id in two files of the archive are treated as one.
     "production_components.3mf": 1,
 }
-# Where trimesh splits a surface by its materials, so that borders between them are creases.
+# Files where trimesh splits a surface by material, which makes the borders creases.
 DIFFERENT_NORMALS = {"chair_model.obj": 0.03}
-# Where trimesh drops colors or materials.
+# Files where trimesh drops colors or materials.
 DIFFERENT_COLORS = {
     # A material whose name has spaces is not found.
     "box_mat_with_spaces.obj": 1,
-    # In OBJ colors of vertices multiply the plain material; arrays have no material then.
+    # In OBJ, vertex colors multiply the plain material; arrays have no material then.
     "cube_with_vertexcolors.obj": 1,
-    # Colors beside texture coordinates, of faces, as floats or named diffuse_red, or in the header.
+    # Colors beside texture coordinates, face colors, floats, diffuse_red, or in the header.
     "fuze.ply": 1,
     "multi.ply": 1,
     "pond.0.ply": 1,
     "20mm-xyz-cube.stl": 1,
-    # Materials and colors of 3MF.
+    # 3MF materials and colors.
     "P_XPM_0331_01.3mf": 1,
     "featuretype.3MF": 1,
     "chair_model.obj": 0.03,

@@ -17,31 +17,31 @@ use projection::DepthFormat;
 
 /// The color of text and axes.
 const INK: Ink = [26, 31, 38];
-/// The color of curves of normal depth.
+/// The color of normal-depth curves.
 const NORMAL_INK: Ink = [26, 86, 176];
-/// The color of curves of reversed depth, which are dashed as well.
+/// The color of reversed-depth curves, which are also dashed.
 const REVERSED_INK: Ink = [179, 38, 30];
 
 /// The page in millimeters: A4 landscape, or longer for long tables.
 const PAGE_SIZE: DVec2 = DVec2::new(297.0, 210.0);
 /// Width and height of each chart in millimeters.
 const CHART_SIZE: DVec2 = DVec2::new(150.0, 66.0);
-/// The upper left corner of the chart of depth.
+/// The upper left corner of the depth chart.
 const UPPER_CHART_CORNER: DVec2 = DVec2::new(24.0, 38.0);
-/// The upper left corner of the chart of resolution.
+/// The upper left corner of the resolution chart.
 const LOWER_CHART_CORNER: DVec2 = DVec2::new(24.0, 126.0);
 /// The upper left corner of the table.
 const TABLE_CORNER: DVec2 = DVec2::new(184.0, 36.0);
 
-/// The right ends of the table's columns in millimeters from its left; cells are aligned right, so
-/// that decimal points of a column stand close to each other.
+/// The right ends of the table's columns in millimeters from its left; cells are right-aligned, so
+/// that a column's decimal points nearly line up.
 const COLUMN_ENDS: [f64; 5] = [18.0, 38.0, 59.0, 80.0, 105.0];
 
 /// Letter height of the heading in millimeters.
 const HEADING_HEIGHT: f64 = 4.5;
 /// Letter height of notes and table in millimeters.
 const LETTER_HEIGHT: f64 = 2.3;
-/// Distance of the table's lines in letter heights.
+/// Line spacing of the table in letter heights.
 const LINE_SPACING: f64 = 2.1;
 
 /// Samples of a curve: more than a printer resolves, and enough for every tooth of the
@@ -49,10 +49,10 @@ const LINE_SPACING: f64 = 2.1;
 const CURVE_SAMPLES: u32 = 800;
 
 impl DepthTable {
-    /// Draws curves and table on a page, with this spacing of distances.
+    /// Draws curves and table on a page, with this distance spacing.
     ///
-    /// The charts have their own samples; `rows` appear in the table only. Each table line takes
-    /// 4.83 mm, so 31 rows fit on A4, and the page grows downwards beyond that.
+    /// The charts have their own samples; `rows` appear only in the table. Each table line takes
+    /// 4.83 mm, so 31 rows fit on A4; for more, the page grows downward.
     #[must_use]
     pub fn to_page(&self, rows: &[DepthRow], distances: Spacing) -> Page {
         let table_end = TABLE_CORNER.y + (rows.len() + 2) as f64 * LETTER_HEIGHT * LINE_SPACING;
@@ -69,9 +69,9 @@ impl DepthTable {
 
     /// The two charts: depth and resolution against distance.
     ///
-    /// The depth axis is linear and contains [0, 1], or [−1, 1] for OpenGL's range. A tick on it
-    /// marks the distance 2FN/(F + N) at which half of the range is spent. Normal curves are solid,
-    /// reversed ones dashed: readable without color.
+    /// The depth axis is linear and contains [0, 1], or [−1, 1] for OpenGL's range. A tick marks
+    /// the distance 2FN/(F + N) at which half of the range is used up. Normal curves are solid and
+    /// reversed ones dashed, to be readable without color.
     fn build_charts(&self, spacing: Spacing) -> [Chart; 2] {
         let samples = self.sample_rows(spacing);
         let [from, to] = self.distance_range();
@@ -123,12 +123,11 @@ impl DepthTable {
         ]
     }
 
-    /// Densely sampled rows, even on the axis of distances.
+    /// Densely sampled rows, evenly spaced on the distance axis.
     ///
     /// D(s) = N (E / N)^(s / samples) on a logarithmic axis, N + (E − N) s / samples on a linear
-    /// one. The first and the last sample
-    /// are the planes themselves, without the rounding of `exp`. Distances whose depth is not
-    /// representable are dropped.
+    /// one. The first and the last sample are the planes themselves, without the rounding of `exp`.
+    /// Distances whose depth cannot be represented are dropped.
     fn sample_rows(&self, spacing: Spacing) -> Vec<DepthRow> {
         let [near, end] = self.distance_range();
         let ratio = libm::log(end) - libm::log(near);
@@ -155,8 +154,8 @@ const fn spacing_name(spacing: Spacing) -> &'static str {
     }
 }
 
-/// The range of the resolution axis, finest to coarsest. Next to depth 0 floating-point resolution
-/// becomes arbitrarily fine; the finest fiftieth is left out, or nothing else could be read.
+/// The range of the resolution axis, finest to coarsest. Near depth 0, floating-point resolution
+/// becomes arbitrarily fine; the finest fiftieth is omitted to keep the rest readable.
 ///
 /// Fixed point has a constant step in depth, so all of its samples count. The last sample is
 /// excluded, since there is no step at the far plane. Sorting makes this O(n log n) in the samples.
@@ -169,12 +168,12 @@ fn step_range(samples: &[DepthRow], format: DepthFormat) -> [f64; 2] {
     let (Some(&finest), Some(&coarsest)) = (steps.get(steps.len() / left_out), steps.last()) else {
         return [0.5, 2.0];
     };
-    // A margin where all steps are equal.
+    // A margin, in case all steps are equal.
     if coarsest > finest * 2.0 { [finest, coarsest] } else { [finest * 0.5, finest * 4.0] }
 }
 
-/// The part of a curve that is not below a value, without the last sample: at the far plane there
-/// is no step.
+/// The part of a curve that is not below a value, without the last sample: there is no step at the
+/// far plane.
 fn drop_steps_below(mut curve: Curve, least: f64) -> Curve {
     curve.points.pop();
     curve.points.retain(|[_, step]| *step >= least);
@@ -183,8 +182,8 @@ fn drop_steps_below(mut curve: Curve, least: f64) -> Curve {
 
 /// Title and notes at the top of the page.
 ///
-/// Text is drawn as strokes of a plotter font, so the page needs no font file. The notes are one
-/// line, narrowed to 270 mm if they are longer.
+/// Text is drawn with a stroke font, so the page needs no font file. The notes are one line,
+/// compressed to 270 mm if they are longer.
 fn heading_layer(title: &str, notes: &[String]) -> Layer {
     let mut layer = Layer::new("heading", "heading", Pen::solid(LETTER_HEIGHT * 0.1, INK));
     let left = UPPER_CHART_CORNER.x - 12.0;
@@ -195,7 +194,7 @@ fn heading_layer(title: &str, notes: &[String]) -> Layer {
     layer
 }
 
-/// The rows as text, columns aligned right.
+/// The rows as text, with right-aligned columns.
 ///
 /// One group for each row, whose id is `row-0`, `row-1`, …; row 0 has the column names and a gap of
 /// 1.5 mm below it.
@@ -221,7 +220,7 @@ mod tests {
     use page::to_millimeters;
     use projection::Convention;
 
-    /// The drawn curve is the formula, F(D − N)/((F − N)D), to the micrometre of the page.
+    /// The drawn curve matches the formula, F(D − N)/((F − N)D), to a micrometer on the page.
     #[test]
     fn the_curve_is_drawn_where_the_formula_says() {
         let table = DepthTable::new(2.0, 40.0, Convention::WEBGPU, DepthFormat::Float32);

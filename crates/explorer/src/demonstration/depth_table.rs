@@ -1,8 +1,8 @@
 //! The depth table: distance against depth after the divide, and depth resolution (C48, C68; ZP-1).
 //!
-//! A perspective keeps lines straight at the price of depth: half of the range is spent on the
-//! distances from N to 2FN/(F + N). Stored depth is rounded, so that far away many distances share
-//! one value. Floating-point numbers are finest near 0; with the far plane there (*reversed depth*)
+//! A perspective keeps lines straight at the price of depth: half of the range is used for the
+//! distances from N to 2FN/(F + N). Stored depth is rounded, so far away many distances share one
+//! value. Floating-point numbers are finest near 0; with the far plane there (*reversed depth*)
 //! both effects cancel.
 //!
 //! ```text
@@ -16,24 +16,24 @@ use super::number_format::format_short;
 use projection::{Convention, DepthCurve, DepthFormat, ProjectionError, chapter};
 use std::fmt::Write as _;
 
-/// The rows of a table with default distances.
+/// The number of rows in a table with default distances.
 ///
 /// Enough to see the shape of the curve, and short enough for a terminal.
 const DEFAULT_ROWS: u32 = 16;
 
-/// The last distance of a table with an infinite far plane, in near distances.
+/// The last distance of a table with an infinite far plane, as a multiple of the near distance.
 const INFINITE_FAR_RATIO: f64 = 1e4;
 
 /// Depth against distance, in normal and in reversed depth.
 ///
-/// The convention is not stored: the two curves hold its range of depths in both directions.
+/// The convention is not stored: the two curves contain its depth range in both directions.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct DepthTable {
     /// Distance of the near plane.
     near: f64,
     /// Distance of the far plane, or infinity.
     far: f64,
-    /// The storage format, which decides the resolution.
+    /// The storage format, which determines the resolution.
     format: DepthFormat,
     /// Depth as a function of distance: normal, reversed.
     curves: [DepthCurve; 2],
@@ -48,19 +48,19 @@ pub struct DepthRow {
     pub depths: [f64; 2],
     /// Resolution: the smallest step away from the eye that changes the stored depth.
     ///
-    /// In world units, for a depth that is rounded to the table's storage format.
+    /// In world units, for a depth rounded to the table's storage format.
     pub steps: [f64; 2],
 }
 
 impl DepthTable {
-    /// The table of a perspective between two planes, in a convention's range of depths and in the
-    /// same range reversed. `far` may be infinite.
+    /// Creates the table of a perspective between two planes, in a convention's depth range and in
+    /// the same range reversed. `far` may be infinite.
     ///
     /// # Errors
     /// Unless 0 < near < far, and the format has 1 to 64 bits.
     ///
-    /// One row is computed as a test, so that planes too close to each other for f64 are refused
-    /// here and not in the middle of a table.
+    /// One row is computed as a test, so that planes too close together for f64 are rejected here
+    /// and not in the middle of a table.
     pub fn new(
         near: f64,
         far: f64,
@@ -74,7 +74,7 @@ impl DepthTable {
         Ok(table)
     }
 
-    /// The curves of normal and of reversed depth.
+    /// The curves of normal and reversed depth.
     #[must_use]
     pub const fn curves(&self) -> [DepthCurve; 2] {
         self.curves
@@ -127,7 +127,7 @@ impl DepthTable {
     }
 
     /// Notes on the whole table: the planes and format, the distance at which half of the range is
-    /// spent, and the distance N + F − NF/D to which the chapter's P moves the midpoint (C48).
+    /// used up, and the distance N + F − NF/D to which the chapter's P moves the midpoint (C48).
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         let format = match self.format {
@@ -163,7 +163,7 @@ impl DepthTable {
 
     /// Formats rows as plain text with aligned columns.
     ///
-    /// Notes first, one a line, then a blank line and the table, aligned right. All cells are
+    /// Notes first, one per line, then a blank line and the right-aligned table. All cells are
     /// ASCII, so the byte length is the width.
     #[must_use]
     pub fn to_text(&self, rows: &[DepthRow]) -> String {
@@ -182,8 +182,7 @@ impl DepthTable {
 
     /// Formats rows as a Markdown table.
     ///
-    /// The notes are a sentence above the table; the second line of the table aligns all columns
-    /// right.
+    /// The notes are a sentence above the table; the table's second line right-aligns all columns.
     #[must_use]
     pub fn to_markdown(&self, rows: &[DepthRow]) -> String {
         let mut text = self.notes().join("; ") + ".\n\n";
@@ -196,11 +195,11 @@ impl DepthTable {
         text
     }
 
-    /// The cells of a table, column names first. At the far plane there is no step: no depth is
-    /// farther.
+    /// The cells of a table, column names first. At the far plane there is no step, because no
+    /// depth is farther.
     ///
     /// Depths have four decimals, distances six and steps three significant digits. Adding 0 turns
-    /// −0 into 0, which a reader would take for a negative depth.
+    /// −0, which would look like a negative depth, into 0.
     pub(super) fn table_cells(&self, rows: &[DepthRow]) -> Vec<[String; 5]> {
         let names = ["distance", "depth", "reversed", "step", "step reversed"].map(str::to_owned);
         let fixed = |depth: f64| format!("{:.4}", depth + 0.0);
@@ -214,9 +213,9 @@ impl DepthTable {
         std::iter::once(names).chain(rows.iter().map(row)).collect()
     }
 
-    /// Formats rows as JSON with all digits, for programs: a list of numbers for each column.
+    /// Formats rows as JSON with all digits, for programs: a list of numbers per column.
     ///
-    /// The keys are those of the CSV columns, with `notes` for the sentences above the table.
+    /// The keys match the CSV columns, with `notes` for the sentences above the table.
     #[must_use]
     pub fn to_json(&self, rows: &[DepthRow]) -> String {
         let column = |of: fn(&DepthRow) -> f64| -> Vec<f64> { rows.iter().map(of).collect() };
@@ -234,8 +233,8 @@ impl DepthTable {
     /// Formats rows as CSV with all digits, for programs: a line of names, then a line per
     /// distance.
     ///
-    /// Decimals are the shortest that parse to the same f64. At the far plane the step is a number
-    /// here too, not a dash.
+    /// Decimals are the shortest that parse to the same f64. Here the step at the far plane is also
+    /// a number, not a dash.
     #[must_use]
     pub fn to_csv(&self, rows: &[DepthRow]) -> String {
         let mut text = "distance,depth,reversed_depth,step,reversed_step\n".to_owned();
@@ -270,7 +269,7 @@ mod tests {
         assert!(table.notes()[1].ends_with("= 3.8095"), "{:?}", table.notes());
     }
 
-    /// C48: n = −1, f = −3, z = −2 goes to −2.5.
+    /// C48: n = −1, f = −3, z = −2 maps to −2.5.
     #[test]
     fn the_middle_moves_away_from_the_eye() {
         let one_to_three = table(1.0, 3.0, Convention::CHAPTER, DepthFormat::Float32);

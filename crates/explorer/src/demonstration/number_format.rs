@@ -1,18 +1,18 @@
 //! Number formatting for captions and tables.
 //!
-//! Captions should be short and equal on every machine: the digits come from Rust's own correctly
+//! Captions should be short and identical on every machine: the digits come from Rust's correctly
 //! rounded formatting, never from a logarithm.
 
 /// Formats a number with at most `digits` significant digits, without trailing zeros; very small
-/// and very large ones with an exponent.
+/// and very large numbers get an exponent.
 ///
-/// Decimal notation from 1e-4 up to but not including 1e6, scientific outside. Positive infinity is
-/// `infinite`, as it appears for far planes; −∞ and NaN print as Rust prints them.
+/// Decimal notation is used from 1e-4 up to but not including 1e6, scientific notation otherwise.
+/// Positive infinity, as for far planes, is `infinite`; −∞ and NaN print as in Rust.
 pub(super) fn format_short(x: f64, digits: usize) -> String {
     if !x.is_finite() {
         return if x > 0.0 { "infinite".to_owned() } else { format!("{x}") };
     }
-    // Rounding before the choice of notation, so that 9.9996 counts as 10; −0 reads as 0.
+    // Round before choosing the notation, so that 9.9996 counts as 10; −0 becomes 0.
     let rounded: f64 = format!("{x:.*e}", digits.saturating_sub(1)).parse().unwrap_or(x);
     let rounded = rounded + 0.0;
     let size = rounded.abs();

@@ -1,7 +1,7 @@
 //! The family of planar projections: one subject in each, with class, formulas and measurements.
 //!
-//! The measurements come from the matrix, not from the name: lengths and directions in which a
-//! parallel projection draws the axes (C76, C77), vanishing points of a perspective (C80, C81).
+//! The measurements come from the matrix, not from the name: the lengths and directions of the axes
+//! in a parallel projection (C76, C77), and the vanishing points of a perspective (C80, C81).
 //!
 //! ```text
 //!  planar ─┬─ parallel ─┬─ orthographic: multiview, isometric, dimetric, trimetric
@@ -32,26 +32,26 @@ const INTRODUCTION: [&str; 4] = [
     "perspectives the vertical field of view, and vanishing points in half heights from the center.",
 ];
 
-/// The world axes by name, as unit vectors: their images give foreshortening and vanishing points.
+/// The world axes by name, as unit vectors; their images give foreshortening and vanishing points.
 const AXES: [(&str, Vector<World>); 3] = [("x", Vector::X), ("y", Vector::Y), ("z", Vector::Z)];
 
 /// A projection with its name.
 #[derive(Clone, PartialEq, Debug)]
 pub struct NamedProjection {
-    /// The name: lower case, hyphens. It becomes the id of the panel and, with blanks, its title.
+    /// The name in lowercase with hyphens. It becomes the panel's id and, with blanks, its title.
     pub name: String,
     /// The projection as a scene file describes it.
     pub projection: ProjectionFile,
 }
 
-/// Draws the models in each of the projections, from the default viewpoint of each; the camera of
-/// the scene is ignored. The number of threads does not change the panels.
+/// Draws the models in each projection, from its default viewpoint; the scene's camera is ignored.
+/// The number of threads does not change the panels.
 ///
 /// # Errors
 /// If the scene cannot be resolved, there is nothing to draw, or the picture has no pixels.
 ///
 /// The background is opaque white, as on paper. Panels keep the order of `members`; the title names
-/// the models. The cost is one resolution and one line drawing for each projection.
+/// the models. The scene is resolved and drawn once for each projection.
 pub fn projection_panels(
     origin: &Origin,
     file: &SceneFile,
@@ -109,7 +109,7 @@ fn projection_notes(
     notes
 }
 
-/// The first of some formulas that is an equation, in letters of the plotter font.
+/// The first equation among some formulas, in characters of the stroke font.
 fn formula_in_full(ids: &str) -> Option<String> {
     let (id, equation) = ids.split(", ").find_map(|id| {
         let equation = find_formula(id)?.equations().collect::<Vec<_>>().join(", ");
@@ -122,7 +122,7 @@ fn formula_in_full(ids: &str) -> Option<String> {
 
 /// The classes from below the root to this one, such as `parallel, oblique, cavalier`.
 ///
-/// The root, which every class shares, is left out.
+/// The root, which all classes share, is omitted.
 fn class_path(class: ProjectionClass) -> String {
     let mut names: Vec<&str> = class.ancestors().map(ProjectionClass::name).collect();
     names.pop();
@@ -130,11 +130,12 @@ fn class_path(class: ProjectionClass) -> String {
     names.join(", ")
 }
 
-/// The class of a projection: by its name, or for perspectives by the number of vanishing points.
+/// The class of a projection: from its name, or for perspectives from the number of vanishing
+/// points.
 ///
-/// The parallel kinds of a scene file are names of classes already. A perspective is of the class
-/// that its camera makes of it: turning the camera turns a one-point into a two-point perspective
-/// with the same lens.
+/// The parallel kinds in a scene file already are class names. The class of a perspective depends
+/// on its camera: turning the camera turns a one-point into a two-point perspective with the same
+/// lens.
 fn classify_projection(
     projection: &ProjectionFile,
     map: Projective<World, Clip>,
@@ -160,9 +161,9 @@ fn classify_projection(
     }
 }
 
-/// The formula ids of the projection's class, then those of its matrix, each once.
+/// The formula ids of the projection's class, then of its matrix, without duplicates.
 ///
-/// Order is class first, matrix second; a linear search removes duplicates from the few ids.
+/// A linear search removes the duplicates, because there are only a few ids.
 fn formula_list(class: ProjectionClass, view_projection: &ViewProjection) -> String {
     let named = match class {
         ProjectionClass::Multiview => "MV-1",
@@ -182,18 +183,18 @@ fn formula_list(class: ProjectionClass, view_projection: &ViewProjection) -> Str
     all.join(", ")
 }
 
-/// The window of a projection, in the units that its kind gives it.
+/// The window of a projection, in units that depend on its kind.
 enum ViewWindow {
     /// In units of the picture plane.
     Parallel(Window),
-    /// On the plane one unit ahead of the eye.
+    /// On the plane one unit in front of the eye.
     Perspective(Window),
 }
 
 /// The window of a decomposed projection; `None` if its matrix does not determine one.
 ///
-/// A frustum is measured by slopes (x and y per unit of distance), which do not depend on where its
-/// near plane lies.
+/// A frustum is measured by slopes (x and y per unit of distance), which do not depend on the
+/// position of its near plane.
 fn view_window(kind: &Decomposed) -> Option<ViewWindow> {
     Some(match kind {
         Decomposed::Frustum(frustum) => ViewWindow::Perspective(frustum.slopes()),
@@ -204,10 +205,10 @@ fn view_window(kind: &Decomposed) -> Option<ViewWindow> {
     })
 }
 
-/// Length and direction of each axis's unit in the picture, counterclockwise from the right.
+/// Length and direction of each axis unit in the picture, counterclockwise from the right.
 ///
 /// `pixels` is the length of a unit of the picture plane. If the matrix does not determine it, the
-/// longest axis counts as drawn to full scale, as the plan of a military projection.
+/// longest axis counts as drawn to full scale, as in the plan of a military projection.
 ///
 /// The image of an axis d is the vector M (d, 0), scaled from NDC to pixels. Its length over the
 /// length of a unit is the foreshortening ratio: √(2/3) = 0.816 for isometric, 1 and ½ for the
@@ -236,9 +237,9 @@ fn describe_axes(map: Projective<World, Clip>, size: DVec2, pixels: Option<f64>)
     drawn.join(" · ")
 }
 
-/// The vertical opening angle of a perspective.
+/// The vertical field of view of a perspective.
 ///
-/// atan(top) − atan(bottom), which is also right for windows off the line of sight.
+/// atan(top) − atan(bottom), which is also correct for windows off the line of sight.
 fn describe_opening_angle(slopes: Window) -> String {
     let degrees = (libm::atan(slopes.top()) - libm::atan(slopes.bottom())).to_degrees();
     format!("{}° high · ", format_short(degrees, 3))
@@ -246,8 +247,8 @@ fn describe_opening_angle(slopes: Window) -> String {
 
 /// The vanishing points of the axes, in half heights of the picture from its center.
 ///
-/// Axes parallel to the picture plane have their vanishing point at infinity and are left out.
-/// Units are equal on both axes: x is multiplied by the aspect ratio.
+/// Axes parallel to the picture plane have their vanishing point at infinity and are omitted. Both
+/// axes have the same unit: x is multiplied by the aspect ratio.
 fn describe_vanishing_points(map: Projective<World, Clip>, size: DVec2) -> String {
     let Ok(points) = principal_vanishing_points(map) else { return String::new() };
     let aspect = size.x / size.y;
@@ -271,8 +272,8 @@ mod tests {
         panels.panels[0].notes.clone()
     }
 
-    /// √(2/3) in isometric; √(8)/3 and √(2)/3 in the dimetric of 42° and 7°; depth in full and by
-    /// half; a plan with heights.
+    /// √(2/3) in isometric; √(8)/3 and √(2)/3 in the dimetric of 42° and 7°; depth at full and half
+    /// length; a plan with heights.
     #[test]
     fn parallel_projections_draw_the_axes_as_the_textbooks_say() {
         let cases = [

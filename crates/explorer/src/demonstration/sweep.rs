@@ -1,8 +1,8 @@
-//! Sweeps: one parameter of camera or lens from one value to another, a picture for each step (C62,
-//! C64, C94).
+//! Sweeps: one camera or lens parameter from one value to another, with a picture for each step
+//! (C62, C64, C94).
 //!
-//! Everything else stays as in the scene. Only where the parameter moves the camera are the near
-//! and far plane fitted again, since they would cut off what the step is to show.
+//! Everything else stays as in the scene. The near and far planes are refitted only if the
+//! parameter moves the camera, since they could cut off the subject.
 //!
 //! ```text
 //!  fov, lens       tan(fov / 2) = window height / (2 · near)      a smaller angle enlarges
@@ -25,26 +25,25 @@ use scene::Scene;
 use std::fmt;
 use step::SweepBase;
 
-/// The gap between a picture and the picture of its view volume below it, in millimeters.
+/// The gap between a picture and its view volume below, in millimeters.
 const PANEL_GAP: f64 = 4.0;
 
 /// The parameter of a sweep.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum SweepParameter {
-    /// Vertical field of view in degrees, from a fixed eye: small angles enlarge.
+    /// Vertical field of view in degrees, from a fixed eye: small angles magnify.
     Fov,
-    /// Height of the window of a parallel projection, with a fixed aspect ratio: small windows
-    /// enlarge.
+    /// Window height of a parallel projection, with a fixed aspect ratio: small windows magnify.
     Height,
-    /// Aspect ratio of the window, whatever the picture's: any other distorts.
+    /// Aspect ratio of the window; it distorts unless it matches the picture's.
     Aspect,
-    /// Distance of the near plane with a fixed angle: it only cuts off.
+    /// Distance of the near plane with a fixed angle: it only clips.
     Near,
-    /// Distance of the far plane: it only cuts off.
+    /// Distance of the far plane: it only clips.
     Far,
     /// Distance of the near plane with a fixed window on it (`glFrustum`): the angle changes.
     Lens,
-    /// Shift of the window to the right, in halves of its width: a lens shift.
+    /// Shift of the window to the right, in half widths: a lens shift.
     Shift,
     /// Distance of the eye from the center of the models along the line of sight.
     Distance,
@@ -63,13 +62,13 @@ pub struct Sweep {
     pub parameter: SweepParameter,
     /// The first value.
     ///
-    /// It may be greater than the last value: the sweep then runs downwards.
+    /// If it is greater than the last value, the sweep runs downward.
     pub from: f64,
     /// The last value.
     pub to: f64,
     /// The number of pictures, at least 1.
     pub steps: u32,
-    /// Whether each picture has a second one below it that shows its view volume around the models.
+    /// Whether a second picture below each one shows its view volume around the models.
     pub volumes: bool,
 }
 
@@ -105,9 +104,9 @@ impl SweepParameter {
         }
     }
 
-    /// Its effect on the picture, in the words of the lessons.
+    /// The effect on the picture, in the words of the lessons.
     ///
-    /// It is the title of the whole page, behind the name of the parameter.
+    /// It is the title of the whole page, after the name of the parameter.
     const fn caption(self) -> &'static str {
         match self {
             Self::Fov => "a smaller angle enlarges",
@@ -145,7 +144,7 @@ impl Sweep {
         (0..=last).map(value).collect()
     }
 
-    /// Camera and projection of each value, with a note on them.
+    /// Camera and projection for each value, with a note.
     ///
     /// # Errors
     /// If the scene's projection has no such parameter, or a value is out of range.
@@ -165,9 +164,9 @@ impl Sweep {
     /// # Errors
     /// As [`view_projections`](Self::view_projections), or if a picture has no pixels.
     ///
-    /// The panels have the ids `step-1`, `step-2`, … Each is drawn in turn with all threads. One
-    /// observer is fitted to all steps, so that the view volumes can be compared from panel to
-    /// panel.
+    /// The panels have the ids `step-1`, `step-2`, … They are drawn one by one, each with all
+    /// threads. One observer is fitted to all steps, so that the view volumes can be compared
+    /// between panels.
     pub fn draw_panels(&self, scene: &Scene, threads: usize) -> Result<Panels, DemonstrationError> {
         let mut scene = scene.clone();
         scene.image.background = [1.0; 4];
@@ -196,7 +195,7 @@ impl Sweep {
     }
 }
 
-/// A picture with its view volume below it, seen by an observer aside.
+/// A picture with its view volume below it, seen by an observer from the side.
 ///
 /// The scene is drawn a second time with the volume of its camera as an overlay, from the
 /// observer's view. Ids of layers are prefixed with `view-` and `volume-`, so that they stay unique
@@ -222,7 +221,7 @@ fn add_volume_panel(
 /// A trimetric view that shows the models, all eyes and all near windows; `None` without models.
 ///
 /// The near windows are the corners (±1, ±1, +1) of the canonical volume, mapped back to the world.
-/// Far windows are left out: they would shrink the models to a few pixels. The margin is 8 % on
+/// Far windows are not included: they would shrink the models to a few pixels. The margin is 8 % on
 /// each side.
 fn observer_view(scene: &Scene, views: &[(ViewProjection, String)]) -> Option<ViewProjection> {
     let mut points = scene.world_points();

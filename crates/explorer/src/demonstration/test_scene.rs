@@ -4,7 +4,7 @@ use scene::{Origin, ResolveOptions, Scene};
 use scene_file::SceneFile;
 use std::path::Path;
 
-/// The house of the lessons with default settings, at a small size.
+/// The lessons' house with default settings, at a small size.
 ///
 /// 320 × 240 pixels with hidden lines removed: fast in a debug build, and independent of materials
 /// and light.

@@ -1,5 +1,5 @@
-//! Wrap-around at w = 0: a floor that runs from ahead of the eye to behind it, divided at once and
-//! clipped first (C36).
+//! Wrap-around at w = 0: a floor that runs from in front of the eye to behind it, divided without
+//! clipping and clipped first (C36).
 //!
 //! ```text
 //!    from the side                  divided at once            clipped first
@@ -8,9 +8,9 @@
 //!    ahead        w = 0  behind       ╳   upside down,           /     \
 //!                                    ╱ ╲  in the sky            /       \
 //! ```
-//! A point at z = −ε has its image far below, one at z = +ε far above. The image of the segment
-//! between them passes through infinity, and the line that joins the images of its ends is the part
-//! that does not belong to it. Clipping against the near plane before the divide leaves w > 0.
+//! The image of a point at z = −ε is far below, at z = +ε far above. The image of the segment
+//! between them passes through infinity, and the line that connects the images of its ends is the
+//! part that does not belong to it. Clipping against the near plane before the divide leaves w > 0.
 
 use super::DemonstrationError;
 use super::number_format::format_short;
@@ -22,7 +22,7 @@ use homog::{Clip, HPoint, Ndc, Point, Projective, Vector, World};
 use page::{Cap, Group, Ink, Join, Label, Layer, LineType, Pen, Polyline, TextAlign};
 use projection::{Convention, Fov, Perspective};
 
-/// The color of boards ahead of the eye.
+/// The color of boards in front of the eye.
 const INK: Ink = [26, 31, 38];
 /// The color of boards that cross the plane of the eye.
 const RED: Ink = [179, 38, 30];
@@ -43,22 +43,22 @@ const NEAR: f64 = 0.5;
 /// Distance of the far plane.
 const FAR: f64 = 40.0;
 
-/// The z at which rows of boards begin and end, from far ahead to behind the eye. The third row
-/// crosses the plane of the eye, z = 0.
+/// The z at which rows of boards begin and end, from far in front of the eye to behind it. The
+/// third row crosses the plane of the eye, z = 0.
 const BOARD_ENDS: [f64; 5] = [-15.0, -9.0, -3.0, 3.0, 9.0];
 /// The x of the borders between boards.
 const BOARD_BORDERS: [f64; 5] = [-2.0, -1.0, 0.0, 1.0, 2.0];
 
-/// The layers of boards by their position to the eye: id, title, color.
+/// The layers of boards by their position relative to the eye: id, title, color.
 const BOARD_KINDS: [(&str, &str, Ink); 3] = [
     ("ahead", "boards ahead of the eye", INK),
     ("crossing", "boards that cross the plane of the eye", RED),
     ("behind", "boards behind the eye", BLUE),
 ];
 
-/// A board of the floor: index of its layer, corners.
+/// A board of the floor: the index of its layer and its corners.
 ///
-/// A board lies in the floor plane y = 0 and has an area of 1 × 6 world units.
+/// It is in the floor plane y = 0 and measures 1 × 6 world units.
 struct Board {
     /// Index into [`BOARD_KINDS`].
     kind: usize,
@@ -71,8 +71,8 @@ struct Board {
 /// # Errors
 /// None in practice: camera and projection are constants.
 ///
-/// The page depends on nothing but the constants of this file. The notes state the numbers behind
-/// the picture: w and image of two pairs of points, and the number of boards that clipping leaves.
+/// The page depends only on the constants in this file. The notes state the numbers behind the
+/// picture: w and image of two pairs of points, and the number of boards left after clipping.
 pub fn wraparound_panels() -> Result<Panels, DemonstrationError> {
     let world_to_clip = world_to_clip()?;
     let boards = floor_boards();
@@ -87,7 +87,7 @@ pub fn wraparound_panels() -> Result<Panels, DemonstrationError> {
 /// World to the chapter's canonical volume (PE-3), looking along −z.
 ///
 /// A vertical field of view of 60° from the eye's height. w = −z for the points of the floor, so
-/// the sign of z tells ahead from behind.
+/// the sign of z tells front from back.
 fn world_to_clip() -> Result<Projective<World, Clip>, DemonstrationError> {
     let eye = Point::new(0.0, EYE_HEIGHT, 0.0);
     let camera = Camera::look_to(eye, -Vector::Z, Vector::Y)?;
@@ -102,8 +102,8 @@ fn world_to_clip() -> Result<Projective<World, Clip>, DemonstrationError> {
 
 /// The boards of the floor, row by row.
 ///
-/// Four rows of four boards. A row is ahead if it ends at z < 0, behind if it begins at z ≥ 0, and
-/// else crosses the plane of the eye.
+/// Four rows of four boards. A row is in front if it ends at z < 0 and behind if it begins at z ≥
+/// 0; otherwise it crosses the plane of the eye.
 fn floor_boards() -> Vec<Board> {
     let mut boards = Vec::new();
     for end in BOARD_ENDS.windows(2) {
@@ -125,11 +125,11 @@ fn floor_boards() -> Vec<Board> {
     boards
 }
 
-/// The scene from the side, looking to the left: the visible part is left of the eye.
+/// The scene from the side, looking left: the visible part is to the left of the eye.
 ///
-/// An orthographic view along −x at 3.2 mm per world unit, drawn directly on the page and not
-/// through the pipeline. Dashed lines are the plane of the eye and the near plane, thin lines the
-/// opening angle of 60°.
+/// An orthographic view along −x at 3.2 mm per world unit, drawn directly on the page, not through
+/// the pipeline. Dashed lines are the plane of the eye and the near plane; thin lines show the
+/// field of view of 60°.
 fn side_panel(boards: &[Board]) -> Panel {
     let position = |z: f64, y: f64| DVec2::new(56.0 + z * 3.2, 40.0 - y * 3.2);
     let line = |a: [f64; 2], b: [f64; 2]| {
@@ -174,11 +174,11 @@ fn side_panel(boards: &[Board]) -> Panel {
     Panel { id, title, notes, page }
 }
 
-/// The perspective divide without clipping: images of the corners, joined.
+/// The perspective divide without clipping: the images of the corners, connected.
 ///
 /// This is the mistake that the lesson shows: the segment between the images of two corners with w
-/// of different signs is the complement of the true image. Only afterwards is the drawing cut at
-/// the border of the picture, which cannot repair it.
+/// of different signs is the complement of the true image. The drawing is cut at the border of the
+/// picture only afterward, which cannot repair it.
 fn divided_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
     let outline = |board: &Board| -> Vec<Polyline> {
         let images = board.corners.map(|corner| map.transform_point(corner).divide());
@@ -196,8 +196,8 @@ fn divided_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
 /// Clipping against the view volume, then the divide.
 ///
 /// Polygon clipping in homogeneous space (Sutherland and Hodgman, 1974; CL-3). Every remaining
-/// vertex has w ≥ near; the least w of all is printed. Boards behind the eye vanish, crossing ones
-/// keep their part ahead.
+/// vertex has w ≥ near; the smallest w is printed. Boards behind the eye vanish; crossing boards
+/// keep their front part.
 fn clipped_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
     let ring = |board: &Board| {
         clip_convex(&board.corners.map(|corner| map.transform_point(corner)), &Volume::CHAPTER)
@@ -222,9 +222,9 @@ fn clipped_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
     boards_panel("clipped", "clipped first", notes, boards, outline)
 }
 
-/// A picture of the boards by their outlines.
+/// A picture of the outlines of the boards.
 ///
-/// One layer for each kind of board with at least one line; empty layers are dropped.
+/// Each kind of board with at least one line has a layer; empty layers are dropped.
 fn boards_panel(
     id: &str,
     title: &str,
@@ -246,7 +246,7 @@ fn boards_panel(
 ///
 /// Reuses homogeneous segment clipping with w = 1 and z = 0. `None` if the line misses the picture.
 fn clip_to_picture([a, b]: [Point<Ndc>; 2]) -> Option<Polyline> {
-    // Divided already: w is 1, and depth is irrelevant.
+    // Already divided: w is 1, and depth is irrelevant.
     let flat = |p: Point<Ndc>| HPoint::<Clip>::new(p.x(), p.y(), 0.0, 1.0);
     let visible = clip_segment(flat(a), flat(b), &Volume::CHAPTER)?;
     Polyline::through_points(
@@ -262,7 +262,7 @@ fn to_page(image: Point<Ndc>) -> DVec2 {
 
 /// The w and the image of a point, in words.
 ///
-/// Image coordinates are NDC; they may be far outside of [−1, 1].
+/// Image coordinates are NDC; they may be far outside [−1, 1].
 fn describe_image(map: Projective<World, Clip>, point: Point<World>) -> String {
     let clip = map.transform_point(point);
     let Some(image) = clip.divide() else { return "has no image".to_owned() };
@@ -270,7 +270,7 @@ fn describe_image(map: Projective<World, Clip>, point: Point<World>) -> String {
     format!("has w = {w}, goes to ({x}, {y})")
 }
 
-/// A text as strokes.
+/// Text as strokes.
 fn label_strokes(words: &str, at: DVec2, align: TextAlign) -> Vec<Polyline> {
     Label::new(words, at, LETTER_HEIGHT).with_align(align).strokes()
 }
@@ -287,7 +287,7 @@ fn stroke_layer(id: &str, title: &str, ink: Ink, strokes: Vec<Polyline>) -> Laye
     layer
 }
 
-/// The layer with the pen width of letters.
+/// The layer with the pen width for text.
 fn with_thin_pen(mut layer: Layer) -> Layer {
     layer.pen.width = LETTER_HEIGHT * 0.1;
     layer
@@ -304,8 +304,8 @@ mod tests {
         lines.flat_map(|line| &line.points).map(|position| to_millimeters(*position).y).collect()
     }
 
-    /// The floor is below the horizon, which is the middle of the picture: nothing of it may be
-    /// drawn above.
+    /// The floor is below the horizon, which is the middle of the picture: none of it may be drawn
+    /// above.
     #[test]
     fn only_what_is_clipped_first_stays_below_the_horizon() {
         let panels = wraparound_panels().expect("the panels").panels;
@@ -316,16 +316,16 @@ mod tests {
             assert!(!heights.is_empty() && heights.iter().all(|y| *y > horizon), "{layer}");
         }
         assert!(stroke_heights(clipped, "behind").is_empty());
-        // The boards that cross are torn: they have ends above and below.
+        // The crossing boards are torn: they have ends above and below.
         let torn = stroke_heights(divided, "crossing");
         assert!(torn.iter().any(|y| *y > horizon) && torn.iter().any(|y| *y < horizon));
         let behind = stroke_heights(divided, "behind");
         assert!(!behind.is_empty() && behind.iter().all(|y| *y < horizon));
-        // What is ahead comes out alike.
+        // The front boards come out the same.
         assert!(stroke_heights(divided, "ahead").iter().all(|y| *y > horizon));
     }
 
-    /// z = ±ε goes to ∓∞: x/w and y/w for w = ∓z, with the cotangent of 30° across and upwards.
+    /// z = ±ε maps to ∓∞: x/w and y/w for w = ∓z, with the cotangent of 30° across and upward.
     #[test]
     fn the_numbers_are_those_of_the_formula() {
         let panels = wraparound_panels().expect("the panels").panels;
@@ -346,7 +346,7 @@ mod tests {
                 "{actual}: {ahead}, {behind}"
             );
         }
-        // The lower border of the picture cuts them: at y = −w.
+        // The lower border of the picture cuts them at y = −w.
         let least = format!("the least w that is divided by is {}", format_short(-y, 4));
         assert_eq!(panels[2].notes[1], least);
     }

@@ -1,14 +1,14 @@
-//! Answers that cannot be read.
+//! Errors in answers that cannot be read.
 
 use crate::words::{Sentence, sentence};
 use std::error::Error;
 use std::fmt;
 
-/// The reason why an answer cannot be compared: it is no list of numbers and formulas, or not of
-/// the size that is asked for.
+/// The reason why an answer cannot be compared: it is not a list of numbers and formulas, or it has
+/// the wrong size.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct AnswerError {
-    /// The fault and its remedy, without a full stop.
+    /// The problem and its remedy, without a final period.
     pub message: Sentence,
 }
 
@@ -17,7 +17,7 @@ impl AnswerError {
         Self { message: sentence(en, zh) }
     }
 
-    /// A part of an entry that cannot be there.
+    /// A part of an entry that is not allowed there.
     pub(super) fn unexpected(found: &str, entry: &str) -> Self {
         Self::new(
             format!("`{found}` is not expected there in `{entry}`"),
@@ -30,7 +30,7 @@ impl AnswerError {
         Self::new(format!("`{entry}` is not complete"), format!("`{entry}` 不完整"))
     }
 
-    /// A name that is no letter of the exercise.
+    /// A name that is not a symbol of the exercise.
     pub(super) fn unknown_name(name: &str, letters: &[&str]) -> Self {
         let known = letters.join(", ");
         let (en, zh) = if known.is_empty() {
@@ -44,7 +44,7 @@ impl AnswerError {
         )
     }
 
-    /// Two letters of which one stands as the subscript of the other.
+    /// Two symbols, with one as the subscript of the other.
     pub(super) fn subscript(written: &str, product: &str) -> Self {
         Self::new(
             format!("`{written}` has a subscript: if it is a product, write `{product}`"),
@@ -61,7 +61,7 @@ impl AnswerError {
         )
     }
 
-    /// A product behind a quotient, which readers take for a factor or for a divisor.
+    /// A product after a quotient, which could be read as a factor or as a divisor.
     pub(super) fn ambiguous_quotient(entry: &str) -> Self {
         Self::new(
             format!("`{entry}` can be read in two ways: write `a/(b*c)` or `a/b*c`"),

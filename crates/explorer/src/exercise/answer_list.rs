@@ -1,9 +1,9 @@
-//! Lists in brackets: matrices by rows, and factors before a list.
+//! Bracketed lists: matrices by rows, and factors in front of a list.
 
 use super::answer_error::AnswerError;
 use super::answer_text::{AnswerShape, split_at_blanks, split_at_top, split_row};
 
-/// A list in parentheses with what stands before and behind: `h (a, b, c)`, `(1, 2)/3`.
+/// A list in parentheses with the text before and after it: `h (a, b, c)`, `(1, 2)/3`.
 pub(super) struct FactoredList<'a> {
     text: &'a str,
     before: &'a str,
@@ -12,7 +12,7 @@ pub(super) struct FactoredList<'a> {
 }
 
 impl<'a> FactoredList<'a> {
-    /// The only list of the text, where it has one; `count` entries between blanks make a list.
+    /// The only list of the text, if there is one; `count` entries between blanks form a list.
     pub(super) fn find(text: &'a str, count: usize) -> Option<Self> {
         if split_at_top(text, is_separator).len() > 1 {
             return None;
@@ -34,7 +34,7 @@ impl<'a> FactoredList<'a> {
         Some(Self { text, before: text[..begin].trim(), list, behind: text[end + 1..].trim() })
     }
 
-    /// The entries times what stands before and behind; `count` of them make a list.
+    /// The entries, with the factors before and after the list; `count` of them form a list.
     pub(super) fn entries(&self, count: usize) -> Result<Vec<String>, AnswerError> {
         let entries = split_at_top(self.list, is_separator);
         let entries = match entries.as_slice() {
@@ -71,7 +71,7 @@ const fn is_separator(c: char) -> bool {
     matches!(c, ',' | ';')
 }
 
-/// Where parentheses that are in no others begin and end.
+/// The beginnings and ends of top-level parentheses.
 fn top_groups(text: &str) -> Vec<(usize, usize)> {
     let (mut groups, mut depth, mut begin) = (Vec::new(), 0_i32, 0);
     for (at, c) in text.char_indices() {
@@ -95,7 +95,7 @@ fn top_groups(text: &str) -> Vec<(usize, usize)> {
     groups
 }
 
-/// The inside of parentheses around the whole, as of the point `(1, 2, 3)`.
+/// The content of parentheses around the whole text, as in the point `(1, 2, 3)`.
 pub(super) fn without_outer_parentheses(text: &str) -> &str {
     let mut text = text.trim();
     while let [(0, end)] = *top_groups(text).as_slice()
@@ -113,7 +113,7 @@ pub(super) fn split_rows(text: &str, shape: AnswerShape) -> Result<Vec<Vec<Strin
         AnswerShape::Parts(_) => text,
     };
     let count = shape.row_lengths().into_iter().max().unwrap_or(0);
-    // A factor of the whole matrix; without one the parentheses are gone already.
+    // A factor of the whole matrix; without one, the parentheses are already gone.
     if let Some(matrix) = FactoredList::find(text, 0)
         && (matrix.list.contains(';') || matrix.list.contains('('))
         && !(matrix.before.is_empty() && matrix.behind.is_empty())
@@ -146,7 +146,7 @@ fn split_plain_rows(text: &str, count: usize) -> Result<Vec<Vec<String>>, Answer
     rows.map(split).collect()
 }
 
-/// Rows such as `(1 0) (0 1)` or `(1, 0), (0, 1)`, where all are in parentheses.
+/// Rows such as `(1 0) (0 1)` or `(1, 0), (0, 1)`, if all are in parentheses.
 fn rows_in_parentheses(text: &str) -> Option<Vec<&str>> {
     let groups = top_groups(text);
     let mut end = 0;
@@ -174,7 +174,7 @@ fn without_matrix_name(text: &str) -> &str {
     }
 }
 
-/// Rows without names, if all have one, as `u = …; v = …; w = …`.
+/// Rows without their names, if all have one, as in `u = …; v = …; w = …`.
 fn without_row_names(rows: Vec<&str>) -> Result<Vec<&str>, AnswerError> {
     let values: Vec<&str> =
         rows.iter().filter_map(|row| Some(row.split_once('=')?.1.trim())).collect();

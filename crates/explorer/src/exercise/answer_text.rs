@@ -1,22 +1,22 @@
-//! Answers as people type them, split into entries: matrices, points, lists and named formulas.
+//! Splits typed answers into entries: matrices, points, lists and named formulas.
 
 use super::answer_error::AnswerError;
 use super::answer_list::{FactoredList, split_rows, without_outer_parentheses};
 
-/// The longest answer that is read, in characters.
+/// The maximum length of an answer, in characters.
 const MAX_CHARACTERS: usize = 4000;
 
-/// The entries that an answer has.
+/// The shape of an answer.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum AnswerShape {
-    /// A matrix of so many rows and columns.
+    /// A matrix with this number of rows and columns.
     Matrix(usize, usize),
     /// Named numbers or formulas, in one part or several.
     Parts(&'static [&'static [&'static str]]),
 }
 
 impl AnswerShape {
-    /// The numbers of entries in each row.
+    /// The number of entries in each row.
     pub(super) fn row_lengths(self) -> Vec<usize> {
         match self {
             Self::Matrix(rows, columns) => vec![columns; rows],
@@ -25,10 +25,10 @@ impl AnswerShape {
     }
 }
 
-/// The entries of an answer, row by row. Their number is not checked.
+/// Splits an answer into entries, row by row. Their number is not checked.
 ///
 /// # Errors
-/// If there are none, or too much, or names that are not asked for.
+/// If there are none, if the answer is too long, or if it has unknown names.
 pub(super) fn split_answer(
     text: &str,
     shape: AnswerShape,
@@ -59,7 +59,7 @@ pub(super) fn split_answer(
     })
 }
 
-/// The text with plain signs, and with parentheses for all brackets but those of `n_{x}`.
+/// The text with plain operators, and with parentheses for all brackets except in `n_{x}`.
 fn plain_text(text: &str) -> String {
     let (mut plain, mut open_subscripts) = (String::new(), 0);
     for c in text.chars() {
@@ -73,8 +73,8 @@ fn plain_text(text: &str) -> String {
     plain
 }
 
-/// The character that stands for it in expressions: signs of typeset formulas, of full width, and
-/// line breaks.
+/// The equivalent character in expressions, for typeset operators, full-width characters and line
+/// breaks.
 fn plain_character(c: char) -> char {
     match c {
         '−' | '－' => '-',
@@ -91,7 +91,7 @@ fn plain_character(c: char) -> char {
     }
 }
 
-/// The pieces between separators outside of parentheses, without those that are blank.
+/// The pieces between separators outside parentheses, without blank ones.
 pub(super) fn split_at_top(text: &str, separates: fn(char) -> bool) -> Vec<&str> {
     let mut depth = 0_i32;
     let pieces = text.split(move |c| {
@@ -120,7 +120,7 @@ pub(super) fn split_at_blanks(row: &str) -> Vec<&str> {
         let (before, after) = (row[..at].trim_end(), row[at..].trim_start());
         let mut next = after.chars();
         let joins = match next.next() {
-            // A sign belongs to the entry that it touches.
+            // A sign belongs to the adjacent entry.
             Some('+' | '-') => next.next().is_none_or(char::is_whitespace),
             Some(c) => c == '°' || operator(c),
             None => true,
@@ -135,7 +135,7 @@ pub(super) fn split_at_blanks(row: &str) -> Vec<&str> {
     entries
 }
 
-/// Values in a row: a list, perhaps times a factor, or values with names.
+/// The values of a row: a list, optionally times a factor, or named values.
 fn split_values(text: &str, names: &[&str]) -> Result<Vec<String>, AnswerError> {
     let is_separator = |c: char| c == ';' || c == ',';
     let is_one = split_at_top(text, is_separator).len() <= 1 && text.matches('=').count() <= 1;

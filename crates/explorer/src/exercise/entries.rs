@@ -1,35 +1,35 @@
-//! Answers as numbers, and how two of them compare.
+//! Answers as numbers, and their comparison.
 
 use glam::{DMat3, DMat4};
 
-/// The entries of an answer, row by row, for one choice of the letters.
+/// The entries of an answer, row by row, for one set of values of the symbols.
 pub(super) type Entries = Vec<Vec<f64>>;
 
-/// The multiples of the right answer that are right, too.
+/// The multiples of the correct answer that are also correct.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Multiples {
     /// None: every entry counts.
     None,
-    /// All but 0: the answer stands for a point or a map in homogeneous coordinates.
+    /// All except 0: the answer is a point or a map in homogeneous coordinates.
     All,
-    /// Those by a positive factor, which keep the sign of w.
+    /// Positive multiples, which keep the sign of w.
     Positive,
 }
 
-/// The difference that rounding may make, relative to the entry.
+/// The allowed rounding error, relative to the entry.
 pub(super) const EXACT: f64 = 1e-9;
-/// The difference that somebody makes who rounds.
+/// The difference up to which an answer counts as rounded by hand.
 pub(super) const ROUNDED: f64 = 2e-3;
 
-/// Whether two answers have the same rows of the same lengths.
+/// Whether two answers have the same number of rows with the same lengths.
 pub(super) fn same_shape(a: &Entries, b: &Entries) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.len() == b.len())
 }
 
-/// The places, row and column from 0, at which an answer differs, for the multiple of the expected
+/// The positions, row and column from 0, where an answer differs from the multiple of the expected
 /// answer with the fewest differences.
 ///
-/// Both have the same shape.
+/// Both must have the same shape.
 pub(super) fn differing_places(
     given: &Entries,
     expected: &Entries,
@@ -65,7 +65,7 @@ fn all_places(entries: &Entries) -> impl Iterator<Item = (usize, usize)> {
     entries.iter().enumerate().flat_map(|(i, row)| (0..row.len()).map(move |j| (i, j)))
 }
 
-/// Rows and columns exchanged.
+/// Swaps rows and columns.
 pub(super) fn transposed(entries: &Entries) -> Entries {
     let columns = entries.iter().map(Vec::len).min().unwrap_or(0);
     (0..columns).map(|j| entries.iter().map(|row| row[j]).collect()).collect()
@@ -76,7 +76,7 @@ pub(super) fn rows_of(matrix: DMat4) -> Entries {
     matrix.transpose().to_cols_array_2d().map(Vec::from).to_vec()
 }
 
-/// The rows of a matrix of the plane.
+/// The rows of a 2D matrix.
 pub(super) fn planar_rows_of(matrix: DMat3) -> Entries {
     matrix.transpose().to_cols_array_2d().map(Vec::from).to_vec()
 }

@@ -10,12 +10,12 @@
 use super::answer_error::AnswerError;
 use std::f64::consts::PI;
 
-/// How deep brackets, roots and powers may be nested.
+/// The maximum nesting depth of brackets, roots and powers.
 const MAX_DEPTH: usize = 64;
-/// The longest name that is taken for letters in a row.
+/// The longest name that is read as a product of symbols.
 const MAX_NAME_BYTES: usize = 24;
 
-/// The letters of an exercise, with a value for each.
+/// The symbols of an exercise, with a value for each.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Letters<'a> {
     pub(super) names: &'a [&'a str],
@@ -23,8 +23,8 @@ pub(super) struct Letters<'a> {
 }
 
 impl Letters<'_> {
-    /// The value of a letter, or of letters in a row: `nf` is n times f. An underscore may stand
-    /// inside of the name of a letter, as in `n_x`, but not between two: `f_n` is no product.
+    /// The value of a symbol or a product of symbols: `nf` is n times f. An underscore may be part
+    /// of a symbol, as in `n_x`, but may not separate two: `f_n` is not a product.
     fn value(self, written: &str) -> Option<f64> {
         if written.is_empty() {
             return Some(1.0);
@@ -36,13 +36,13 @@ impl Letters<'_> {
         let mut begins: Vec<(&str, f64)> = begins
             .filter_map(|(name, value)| Some((without_name(written, name)?, *value)))
             .collect();
-        // The longest name first: z1z2 has no z.
+        // Longest name first: z1z2 does not contain z.
         begins.sort_by_key(|(rest, _)| rest.len());
         begins.into_iter().find_map(|(rest, value)| Some(value * self.value(rest)?))
     }
 }
 
-/// The text behind the name of a letter, in which underscores do not count.
+/// The text after the name of a symbol; underscores in the name are ignored.
 fn without_name<'a>(written: &'a str, name: &str) -> Option<&'a str> {
     let mut rest = written;
     for (at, c) in name.char_indices() {
@@ -54,10 +54,10 @@ fn without_name<'a>(written: &'a str, name: &str) -> Option<&'a str> {
     Some(rest)
 }
 
-/// The value of an expression for these values of its letters.
+/// Evaluates an expression for these values of its symbols.
 ///
 /// # Errors
-/// If it is no expression, or has no finite value.
+/// If it is not an expression, or has no finite value.
 pub(super) fn evaluate(entry: &str, letters: Letters<'_>) -> Result<f64, AnswerError> {
     let characters: Vec<char> = entry.chars().collect();
     let mut parser = Parser { entry, characters: &characters, at: 0, depth: 0, letters };
@@ -77,7 +77,7 @@ pub(super) fn evaluate(entry: &str, letters: Letters<'_>) -> Result<f64, AnswerE
     ))
 }
 
-/// The position in an expression, of which the value is found on the way.
+/// The position in an expression, which is evaluated while it is parsed.
 struct Parser<'a> {
     entry: &'a str,
     characters: &'a [char],
@@ -87,7 +87,7 @@ struct Parser<'a> {
 }
 
 impl Parser<'_> {
-    /// The next character that is not blank.
+    /// The next nonblank character.
     fn peek(&mut self) -> Option<char> {
         while self.characters.get(self.at).is_some_and(|c| c.is_whitespace()) {
             self.at += 1;
@@ -95,14 +95,14 @@ impl Parser<'_> {
         self.characters.get(self.at).copied()
     }
 
-    /// Passes the character, if it is the next one.
+    /// Skips the character if it is the next one.
     fn pass(&mut self, expected: char) -> bool {
         let found = self.peek() == Some(expected);
         self.at += usize::from(found);
         found
     }
 
-    /// The characters from here on that belong together.
+    /// The characters from here on that form one token.
     fn word(&mut self, belongs: fn(char) -> bool) -> String {
         let rest = self.characters.get(self.at..).unwrap_or_default();
         let word: String = rest.iter().copied().take_while(|c| belongs(*c)).collect();
@@ -201,7 +201,7 @@ impl Parser<'_> {
         if self.pass(')') { Ok(value) } else { Err(AnswerError::incomplete(self.entry)) }
     }
 
-    /// A decimal number, perhaps with an exponent, perhaps in degrees.
+    /// A decimal number, optionally with an exponent, optionally in degrees.
     fn number(&mut self) -> Result<f64, AnswerError> {
         let mut digits = self.word(|c| c.is_ascii_digit() || c == '.');
         if let Some(exponent) = self.exponent() {
@@ -212,7 +212,7 @@ impl Parser<'_> {
         Ok(if self.pass('°') { value * (PI / 180.0) } else { value })
     }
 
-    /// The exponent of a decimal number, where a digit follows the e.
+    /// The exponent of a decimal number, if a digit follows the e.
     fn exponent(&mut self) -> Option<String> {
         let rest = self.characters.get(self.at..)?;
         let sign = usize::from(matches!(rest.get(1), Some('-' | '+')));
@@ -224,7 +224,7 @@ impl Parser<'_> {
         Some(begin + &self.word(|c| c.is_ascii_digit()))
     }
 
-    /// A letter, letters in a row, or a function.
+    /// A symbol, a product of symbols, or a function.
     fn named(&mut self) -> Result<f64, AnswerError> {
         let written = self.word(|c| c.is_alphabetic() || c.is_ascii_digit() || c == '_');
         if let Some(value) = self.letters.value(&written) {

@@ -1,4 +1,4 @@
-//! Wrong answers that have a name.
+//! Common mistakes in answers.
 
 use super::Exercise;
 use super::answer_text::split_answer;
@@ -6,34 +6,34 @@ use super::entries::{Entries, transposed};
 use super::expression::{Letters, evaluate};
 use crate::words::{Words, words};
 
-/// A wrong answer that is often given, and why it is wrong.
+/// A common wrong answer and the reason why it is wrong.
 #[derive(Clone, Copy, Debug)]
 pub struct Mistake {
-    /// Its name, which stays the same between releases: `transposed`, `m18-sign`.
+    /// The identifier, which stays the same between releases: `transposed`, `m18-sign`.
     pub id: &'static str,
-    /// The mistake, and its remedy.
+    /// The mistake and its remedy.
     pub sentence: Words,
     pub(super) wrong: Wrong,
 }
 
-/// How a wrong answer follows from the right one.
+/// The way in which a wrong answer differs from the correct one.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Wrong {
-    /// Rows and columns are exchanged.
+    /// Rows and columns are swapped.
     Transposed,
-    /// All signs are turned.
+    /// All signs are flipped.
     Negated,
-    /// Two letters are exchanged, by their positions in the list of letters.
+    /// Two symbols, given by their positions in the list of symbols, are swapped.
     Exchanged(usize, usize),
-    /// Some entries are others: row and column from 0, and what stands there.
+    /// Some entries are replaced: row and column from 0, and the wrong entry.
     Places(&'static [(usize, usize, &'static str)]),
-    /// It is written down as a whole.
+    /// The whole wrong answer.
     Answer(&'static str),
-    /// It is one of several, each written down as a whole.
+    /// One of several whole wrong answers.
     AnyOf(&'static [&'static str]),
-    /// These letters stand in it, whatever else: `f_n` is printed for f n.
+    /// The answer contains any of these strings, such as `f_n` printed for f n.
     Written(&'static [&'static str]),
-    /// It is computed from the letters.
+    /// The wrong answer is computed from the symbols.
     Computed(fn(&[f64]) -> Option<Entries>),
 }
 
@@ -56,7 +56,7 @@ pub(super) const TRANSPOSED: Mistake = mistake(
 );
 
 impl Mistake {
-    /// Whether the answer has letters that make this mistake.
+    /// Whether the answer contains symbols that amount to this mistake.
     pub(super) fn is_written_in(&self, rows: &[Vec<String>]) -> bool {
         let Wrong::Written(all) = self.wrong else { return false };
         let belongs = |c: char| c.is_alphanumeric() || c == '_';
@@ -64,7 +64,7 @@ impl Mistake {
         written.any(|word| all.contains(&word.trim_start_matches(|c: char| c.is_ascii_digit())))
     }
 
-    /// The number of wrong answers that are this mistake.
+    /// The number of wrong answers for this mistake.
     pub(super) const fn variants(&self) -> usize {
         match self.wrong {
             Wrong::AnyOf(answers) => answers.len(),
@@ -73,7 +73,7 @@ impl Mistake {
         }
     }
 
-    /// A wrong answer for these values of the letters; `None` where it has none.
+    /// A wrong answer for these values of the symbols; `None` if there is none.
     pub(super) fn entries(
         &self,
         variant: usize,

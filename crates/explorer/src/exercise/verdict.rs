@@ -8,39 +8,39 @@ use crate::words::{Sentence, sentence};
 /// The verdict on an answer.
 #[derive(Clone, Debug)]
 pub enum Verdict {
-    /// It is right.
+    /// The answer is correct.
     Right,
-    /// It is a wrong answer that has a name.
+    /// The answer is a known mistake.
     Mistaken(&'static Mistake),
-    /// It is right to three digits or so.
+    /// The answer is correct to about three digits.
     Rounded,
-    /// It is wrong, in these entries.
+    /// These entries are wrong.
     Different {
-        /// Where it differs.
+        /// The entries that differ.
         differences: Vec<Difference>,
-        /// The number of all entries.
+        /// The total number of entries.
         count: usize,
-        /// Values of the letters for which it differs.
+        /// Values of the symbols for which it differs.
         letters: Vec<(&'static str, f64)>,
     },
 }
 
-/// An entry that is wrong.
+/// A wrong entry.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Difference {
-    /// Its row, or its part, from 0.
+    /// The row or part, from 0.
     pub row: usize,
-    /// Its place in the row, from 0.
+    /// The position in the row, from 0.
     pub column: usize,
     /// The name of the entry.
     pub name: Sentence,
-    /// The value of the entry, for the letters of the verdict.
+    /// The value of the entry, for the verdict's values of the symbols.
     pub value: f64,
-    /// Whether only its sign is wrong.
+    /// Whether only the sign is wrong.
     pub is_negated: bool,
 }
 
-/// The Chinese name of a named entry: letters stay as they are.
+/// The Chinese name of a named entry; symbols are not translated.
 pub(super) fn chinese_name(name: &'static str) -> &'static str {
     match name {
         "pixels" => "像素数",
@@ -49,7 +49,7 @@ pub(super) fn chinese_name(name: &'static str) -> &'static str {
     }
 }
 
-/// The name of an entry: by its name, or by its place.
+/// The name of an entry: its own name, or its position.
 pub(super) fn entry_name(shape: AnswerShape, row: usize, column: usize) -> Sentence {
     let (i, j) = (row + 1, column + 1);
     match shape {
@@ -67,13 +67,13 @@ pub(super) fn entry_name(shape: AnswerShape, row: usize, column: usize) -> Sente
 }
 
 impl Verdict {
-    /// Whether the answer is right.
+    /// Whether the answer is correct.
     #[must_use]
     pub const fn is_right(&self) -> bool {
         matches!(self, Self::Right)
     }
 
-    /// The verdict in a sentence, without a full stop.
+    /// The verdict in a sentence, without a final period.
     #[must_use]
     pub fn sentence(&self) -> Sentence {
         match self {
@@ -93,7 +93,7 @@ impl Verdict {
     }
 }
 
-/// The sentence about entries of which some are wrong.
+/// The sentence about an answer with some wrong entries.
 fn different(differences: &[Difference], count: usize, letters: &[(&str, f64)]) -> Sentence {
     let said: Vec<Sentence> = differences.iter().map(Difference::to_sentence).collect();
     let list =
@@ -129,7 +129,7 @@ impl Difference {
     }
 }
 
-/// A name in a Chinese sentence: blanks stand beside Latin letters only.
+/// A name in a Chinese sentence, with blanks only next to Latin letters.
 fn between_han(name: &str) -> String {
     let blank = |c: Option<char>| if c.is_some_and(|c| c.is_ascii()) { " " } else { "" };
     format!("{}{name}{}", blank(name.chars().next()), blank(name.chars().next_back()))

@@ -10,7 +10,7 @@ use crate::words::{Sentence, sentence, words};
 use explain::ApiConventions;
 use scene_file::file::ProjectionFile;
 
-/// The common parts of the chapter's lessons.
+/// The settings that the chapter's lessons share.
 const USUAL: Lesson =
     Lesson { source: Source::Chapter, conventions: ApiConventions::Chapter, ..Lesson::USUAL };
 
@@ -27,12 +27,12 @@ const fn plane_f(default: f64) -> Parameter {
 /// The window of the chapter.
 const WINDOW: [&str; 4] = ["l", "r", "b", "t"];
 
-/// The distances of the planes, which scene files have; n and f are coordinates.
+/// The distances of the planes, as used in scene files; n and f are coordinates.
 fn planes(values: &Values<'_>) -> [f64; 2] {
     values.scene_numbers(["n", "f"]).map(|z| -z)
 }
 
-/// OR-1: the orthographic view volume, in the chapter's own signs.
+/// OR-1: the orthographic view volume, with the chapter's signs.
 pub(super) static ORTHOGRAPHIC_VOLUME: Lesson = Lesson {
     id: "orthographic-volume",
     items: &["C7", "C8", "C34"],
@@ -113,7 +113,7 @@ fn opening_angle(facts: &Facts) -> Option<Sentence> {
     ))
 }
 
-/// The middle of the depths, and where P takes it.
+/// The middle of the depths, and its image under P.
 pub(super) static MIDPOINT_DEPTH: Lesson = Lesson {
     id: "midpoint-depth",
     items: &["C41", "C48"],

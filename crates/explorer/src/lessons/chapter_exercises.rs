@@ -1,4 +1,4 @@
-//! The exercises of the chapter that can be drawn.
+//! The chapter's exercises that can be drawn.
 
 use super::HOUSE;
 use crate::facts::Facts;

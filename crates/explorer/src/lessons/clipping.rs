@@ -9,7 +9,7 @@ use scene_file::file::{CameraFile, ProjectionFile};
 /// A floor that passes under the eye.
 const FLOOR: &str = "models/floor.glb";
 
-/// C36: what tears if w is divided by before clipping.
+/// C36: the tear that results if the divide by w precedes clipping.
 pub(super) static TEAR: Lesson = Lesson {
     id: "tear",
     source: Source::Chapter,

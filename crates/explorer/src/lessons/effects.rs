@@ -1,10 +1,10 @@
-//! Sentences that several lessons share: distortion by another aspect ratio, planes that cut off.
+//! Sentences that several lessons share: distortion by a different aspect ratio, clipping planes.
 
 use crate::facts::Facts;
 use crate::number_text::decimals;
 use crate::words::{Sentence, sentence};
 
-/// How the window's shape distorts, or that it does not.
+/// The distortion caused by the window's shape, if any.
 pub(super) fn distortion(facts: &Facts) -> Option<Sentence> {
     let stretch = facts.picture_aspect() / facts.window_aspect()?;
     if (stretch - 1.0).abs() < 5e-3 {

@@ -9,7 +9,7 @@ use crate::number_text::{decimals, scene_number};
 use crate::words::{Sentence, sentence, words};
 use scene_file::file::{CameraFile, InvalidNumber, ProjectionFile};
 
-/// C62: the field of view enlarges, a wrong aspect distorts, near and far only clip.
+/// C62: the field of view magnifies, a wrong aspect ratio distorts, near and far only clip.
 pub(super) static PERSPECTIVE: Lesson = Lesson {
     id: "perspective",
     items: &["C61", "C62", "C70", "C92", "C94"],
@@ -46,7 +46,7 @@ pub(super) static PERSPECTIVE: Lesson = Lesson {
     ..Lesson::USUAL
 };
 
-/// A perspective by its angle; through a window of another shape if the aspect ratio is not that of
+/// A perspective by its angle, through a window of another shape if the aspect ratio does not match
 /// the picture.
 fn perspective(values: &Values<'_>) -> Result<ProjectionFile, InvalidNumber> {
     let [fov, aspect, near] = ["fov", "aspect", "near"].map(|key| values.number(key));
@@ -60,7 +60,7 @@ fn perspective(values: &Values<'_>) -> Result<ProjectionFile, InvalidNumber> {
     ProjectionFile::frustum([-r, r, -t, t], planes)
 }
 
-/// C63, C64: the window stays, so near changes the angle; the apex that moves (M12).
+/// C63, C64: the window stays, so near changes the angle; the moving apex (M12).
 pub(super) static FRUSTUM: Lesson = Lesson {
     id: "frustum",
     items: &["C63", "C64", "C66", "M12"],

@@ -58,8 +58,8 @@ pub(super) static STEREO: Lesson = Lesson {
 fn stereo_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
     let Some([nearest, farthest]) = facts.model_range else { return Vec::new() };
     let [eyes, convergence] = ["eyes", "convergence"].map(|key| values.number(key));
-    // On the plane of convergence the image of a point at distance D is e (1 − c / D) farther right
-    // for the right eye.
+    // On the plane of convergence, the image of a point at distance D is e (1 − c / D) farther
+    // right for the right eye.
     let parallax = |distance: f64| eyes * (1.0 - convergence / distance);
     let sentence_for = |distance: f64, what: [&str; 2]| {
         let (shift, text) = (parallax(distance), decimals(distance, 2));
@@ -128,7 +128,7 @@ pub(super) static VIEWPORT: Lesson = Lesson {
     ..Lesson::USUAL
 };
 
-/// The rectangle in fractions of the picture, from its lower left corner; it ends at the borders.
+/// The rectangle in fractions of the picture, from its lower left corner, clamped to the borders.
 fn viewport_rectangle(values: &Values<'_>) -> [f64; 4] {
     let [x, y, width, height] = ["x", "y", "width", "height"].map(|key| values.number(key) / 100.0);
     [x, y, width.min(1.0 - x), height.min(1.0 - y)]
@@ -148,11 +148,11 @@ pub(super) fn framed_viewport(
     })
 }
 
-/// The remark on a scene of which only the viewports show something.
+/// The remark on a scene that shows models only in its viewports.
 pub(super) const AROUND_VIEWPORTS: &str =
     ": the scene's own camera looks away, so that only the viewport shows the model";
 
-/// A scene of which only the viewports show something.
+/// A scene that shows models only in its viewports.
 pub(super) fn around_viewports(viewports: Vec<ViewportFile>) -> LessonScene {
     let camera = CameraFile::look_to([0.0, 0.0, 100.0], [0.0, 0.0, 1.0]);
     let projection = ProjectionFile::perspective(35.0, [1.0, 2.0])?;
@@ -245,7 +245,7 @@ pub(super) static DEPTH_TABLE: Lesson = Lesson {
     ..Lesson::USUAL
 };
 
-/// The part of the depth range that the model takes.
+/// The part of the depth range that the model occupies.
 fn used_depths(facts: &Facts) -> Option<Sentence> {
     let [near, far] = facts.model_range?;
     let [low, high] = [facts.depth_at(near)?, facts.depth_at(far)?];

@@ -1,4 +1,4 @@
-//! The lesson of any model.
+//! The lesson for any model.
 
 use crate::facts::Facts;
 use crate::lesson::{Choice, Lesson, Source, choice, number};
@@ -7,7 +7,7 @@ use crate::number_text::decimals;
 use crate::words::{Sentence, sentence, words};
 use scene_file::file::{EnvironmentFile, ProjectionFile, StyleFile};
 
-/// The user's own model, by any projection.
+/// The user's own model, with any projection.
 pub(super) static MODEL: Lesson = Lesson {
     id: "model",
     source: Source::Own,
@@ -54,7 +54,7 @@ pub(super) static MODEL: Lesson = Lesson {
             _ => ProjectionFile::perspective(fov, None)?,
         };
         let angles = ["azimuth", "elevation"].map(|key| values.number(key));
-        // Classical projections have a direction of their own.
+        // Classical projections have their own direction.
         let from = (!projection.is_classical()).then_some(angles);
         let mut scene =
             model_scene(values.model.unwrap_or_default(), framed(projection, 5.0, from)?)?;

@@ -1,10 +1,10 @@
-//! The lesson of any scene file.
+//! The lesson for any scene file.
 
 use crate::lesson::{Lesson, Source};
 use crate::lessons::own_model;
 use crate::words::words;
 
-/// The user's own scene file, as it is.
+/// The user's own scene file, unchanged.
 pub(super) static SCENE: Lesson = Lesson {
     id: "scene",
     source: Source::Own,

@@ -11,7 +11,7 @@ use scene_file::file::{
     BackgroundFile, CameraFile, Color, ProjectionFile, StyleFile, ViewportFile,
 };
 
-/// The common parts of these lessons.
+/// The settings that these lessons share.
 const USUAL: Lesson = Lesson { source: Source::Slides, ..Lesson::USUAL };
 
 /// VV-2: shear, scale, depth.
@@ -75,7 +75,7 @@ pub(super) static NORMALIZATION: Lesson = Lesson {
     ..USUAL
 };
 
-/// WV-1, WV-2: stretched, or at one scale with bars beside it.
+/// WV-1, WV-2: stretched, or at a single scale with bars beside it.
 pub(super) static WINDOW_VIEWPORT: Lesson = Lesson {
     id: "window-viewport",
     items: &["C95", "C96"],
@@ -160,8 +160,8 @@ fn viewport(values: &Values<'_>) -> [f64; 2] {
     [0.01 * values.number("width") * width, 0.01 * values.number("height") * height]
 }
 
-/// Width and height in pixels of what the window is mapped to: the viewport, or the largest
-/// rectangle of the window's shape in it.
+/// Width and height in pixels of the window's image: the viewport, or the largest rectangle in it
+/// with the window's shape.
 fn shown_pixels(values: &Values<'_>) -> [f64; 2] {
     let viewport = viewport(values);
     if values.choice("fit") == "stretch" {

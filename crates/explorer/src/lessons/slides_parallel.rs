@@ -9,7 +9,7 @@ use projection::PrincipalView;
 use scene_file::SceneFile;
 use scene_file::file::{CameraFile, OverlayFile, ProjectionFile, ViewportFile, ViewportsScale};
 
-/// The common parts of these lessons.
+/// The settings that these lessons share.
 const USUAL: Lesson = Lesson { source: Source::Slides, panes: PARALLEL_PANES, ..Lesson::USUAL };
 
 /// MV-1 to MV-3: onto the principal planes.
@@ -86,7 +86,7 @@ fn four_views() -> LessonScene {
     })
 }
 
-/// AX-1: turned by α and tilted by β, then onto XOY.
+/// AX-1: rotated by α and tilted by β, then projected onto XOY.
 pub(super) static AXONOMETRIC: Lesson = Lesson {
     id: "axonometric",
     items: &["C76"],
@@ -101,7 +101,7 @@ pub(super) static AXONOMETRIC: Lesson = Lesson {
     ],
     describe: |values| {
         let [alpha, beta] = ["alpha", "beta"].map(|key| values.number(key));
-        // Straight from above, the direction alone does not say what is up in the picture.
+        // Straight from above, the direction does not determine which way is up in the picture.
         let from = Some([alpha, beta.min(89.9)]);
         let camera = framed(ProjectionFile::ORTHOGRAPHIC, 10.0, from)?;
         Ok(SceneFile { camera, ..with_axes(ProjectionFile::ORTHOGRAPHIC)? })

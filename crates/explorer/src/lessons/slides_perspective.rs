@@ -1,4 +1,4 @@
-//! The lessons of the slides on vanishing points: perspectives with one, two and three of them.
+//! The lessons of the slides on vanishing points: one-, two- and three-point perspectives.
 
 use crate::lesson::{Lesson, Source, Values, number};
 use crate::lesson_scene::{LessonScene, line_drawing};
@@ -7,7 +7,7 @@ use crate::words::{Sentence, sentence, words};
 use scene_file::SceneFile;
 use scene_file::file::{Finite, InvalidNumber, OverlayFile, ProjectionFile};
 
-/// The common parts of these lessons.
+/// The settings that these lessons share.
 const USUAL: Lesson = Lesson { source: Source::Slides, ..Lesson::USUAL };
 
 /// A construction: the house as a line drawing, with horizon and vanishing points.
@@ -16,7 +16,7 @@ fn construction(projection: ProjectionFile) -> LessonScene {
     Ok(SceneFile { overlays, ..line_drawing(projection, 16.0)? })
 }
 
-/// The bottom row of the matrix, as the slides speak of it.
+/// The bottom row of the matrix, in the terms of the slides.
 fn bottom_row(row: &str, which: [&str; 2]) -> Vec<Sentence> {
     vec![sentence(
         format!("The bottom row of the matrix is {row}: {}.", which[0]),
@@ -69,7 +69,7 @@ pub(super) static ONE_POINT: Lesson = Lesson {
     ..USUAL
 };
 
-/// TWO-1: uprights stay upright.
+/// TWO-1: verticals stay vertical.
 pub(super) static TWO_POINT: Lesson = Lesson {
     id: "two-point",
     items: &["C80", "C83"],

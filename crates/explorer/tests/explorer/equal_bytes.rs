@@ -1,5 +1,5 @@
-//! Equal bytes: bands and the whole, PNG and the renderer of scene files, one explorer and
-//! another.
+//! Identical bytes: from bands and the whole picture, from PNG and the scene renderer, from two
+//! explorers.
 
 use super::{explorer_with_models, json, lessons, scenes_folder};
 use explorer::Explorer;
@@ -25,8 +25,8 @@ fn bands_are_parts_of_the_whole() {
     }
 }
 
-/// The saved picture has the bytes of `alberti render` of the scene file that is shown, which is
-/// formatted as `alberti scene fmt` does it and has no lint.
+/// A saved picture has the same bytes as `alberti render` with the displayed scene file, which is
+/// formatted as by `alberti scene fmt` and has no lints.
 #[test]
 fn a_png_is_that_of_the_scene_file() {
     let mut explorer = explorer_with_models();
@@ -49,7 +49,7 @@ fn a_png_is_that_of_the_scene_file() {
     }
 }
 
-/// A scene file of one's own is drawn as the program draws it with the flags that are shown.
+/// The user's own scene file is drawn as the program draws it with the displayed flags.
 #[test]
 fn a_scene_file_is_drawn_as_it_is() {
     let mut explorer = Explorer::new();
@@ -75,7 +75,7 @@ fn a_scene_file_is_drawn_as_it_is() {
     }
 }
 
-/// Answers do not depend on what was asked before.
+/// Answers do not depend on earlier requests.
 #[test]
 fn kept_scenes_change_no_answer() {
     let mut used = explorer_with_models();

@@ -1,4 +1,4 @@
-//! Requests that cannot be answered are told, and the next one works.
+//! Requests that cannot be answered give errors, and the next request works.
 
 use super::{explorer_with_models, json, scenes_folder};
 use explorer::Explorer;
@@ -41,7 +41,7 @@ fn names_of_files_stay_in_the_folder() {
     }
 }
 
-/// A glTF file finds its buffer in the same folder of memory, and nothing outside of it.
+/// A glTF file finds its buffer in the same in-memory folder, and nothing outside it.
 #[test]
 fn companions_of_a_model_are_found() {
     let mut explorer = Explorer::new();
@@ -88,7 +88,7 @@ fn a_pixel_must_be_given_and_be_in_the_picture() {
     assert_eq!(code(&mut explorer, query), "nothing_there");
 }
 
-/// Queries with changed bytes are answered or refused; none of them panics.
+/// Queries with changed bytes are answered or rejected; none causes a panic.
 #[test]
 fn damaged_queries_are_answered_or_refused() {
     let mut explorer = explorer_with_models();
@@ -99,7 +99,7 @@ fn damaged_queries_are_answered_or_refused() {
         "what=pick&size=9x7&pixel=3,4&lesson=exercises&exercise=11&style=Lines",
         "what=picture&size=9x7&format=png&lesson=perspective&aspect=1.6&fov=70&lang=zh",
     ];
-    // A linear congruential generator, so that failures can be repeated.
+    // A linear congruential generator, so that failures are reproducible.
     let mut seed = 1_u64;
     let mut random = |below: usize| {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

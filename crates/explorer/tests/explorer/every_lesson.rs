@@ -1,11 +1,11 @@
-//! Every lesson: its defaults and the ends of its ranges give pictures, its texts are in both
+//! Every lesson: its defaults and the ends of its ranges give pictures, and its texts are in both
 //! languages.
 
 use super::{explorer_with_models, json, lessons};
 use explorer::Explorer;
 use serde_json::Value as Json;
 
-/// Requests that set one parameter after the other to the ends of its range, or to each choice.
+/// Requests that set one parameter after another to the ends of its range, or to each choice.
 fn extreme_states(lesson: &Json) -> Vec<String> {
     let id = lesson["id"].as_str().expect("an id");
     let mut states = vec![format!("lesson={id}")];
@@ -23,7 +23,7 @@ fn extreme_states(lesson: &Json) -> Vec<String> {
     states
 }
 
-/// How many pixels do not have the color of the upper left one.
+/// The number of pixels whose color differs from the upper left pixel.
 fn drawn_pixels(pixels: &[u8]) -> usize {
     let pixels = pixels.as_chunks::<4>().0;
     pixels.iter().filter(|pixel| **pixel != pixels[0]).count()
@@ -88,7 +88,7 @@ fn every_lesson_is_a_line_drawing_too() {
     }
 }
 
-/// The text of an object in both languages, neither of them empty, the Chinese one in Chinese.
+/// The text of an object in both languages: neither is empty, and the Chinese one is Chinese.
 fn assert_both_languages(words: &Json, what: &str) {
     let [en, zh] = ["en", "zh"].map(|language| words[language].as_str().expect("a text"));
     assert!(!en.is_empty() && en.is_ascii() || en.chars().all(|c| !is_chinese(c)), "{what}: {en}");
@@ -121,7 +121,7 @@ fn texts_are_in_both_languages() {
     }
 }
 
-/// A slider has its default on one of its steps, and its keys are none of the others.
+/// A slider's default and maximum are on its steps.
 #[test]
 fn sliders_can_show_their_defaults() {
     let mut explorer = explorer_with_models();

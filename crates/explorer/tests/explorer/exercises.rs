@@ -1,7 +1,7 @@
-//! Every exercise with right answers in several notations, its named wrong answers, and one that
-//! nobody gives.
+//! Every exercise with correct answers in several notations, its known mistakes, and an unknown
+//! wrong answer.
 //!
-//! The answers are written here by hand, and what is right is computed by the crates.
+//! The answers here are written by hand; the correct values are computed by the crates.
 
 mod cases;
 
@@ -18,7 +18,7 @@ fn cases() -> impl Iterator<Item = &'static Case> {
     CHAPTER.iter().chain(&OWN)
 }
 
-/// C38 to C47 and C104: the answers of the chapter's exercises and of the project's own.
+/// C38 to C47 and C104: the answers to the chapter's and the project's exercises.
 #[test]
 fn exercises_have_right_answers_in_several_notations() {
     for Case { number, right, .. } in cases() {
@@ -137,7 +137,7 @@ fn chinese_verdicts_name_the_entry_without_stray_blanks() {
     }
 }
 
-/// Effects of OpenGL's row on z-coordinates: copied as it stands, or for N = −n and F = −f.
+/// Effects of OpenGL's row on z-coordinates: copied unchanged, or for N = −n and F = −f.
 #[test]
 fn the_third_rows_of_exercise_2_take_near_and_far_where_the_verdicts_say() {
     let depths = |row: fn(f64, f64) -> [f64; 2]| {
@@ -152,7 +152,7 @@ fn the_third_rows_of_exercise_2_take_near_and_far_where_the_verdicts_say() {
     assert_ne!(copied, [1.0, -1.0]);
 }
 
-/// Whether the text has a Han character.
+/// Whether the text contains a Han character.
 fn is_chinese(text: &str) -> bool {
     text.chars().any(|c| ('\u{4e00}'..='\u{9fff}').contains(&c))
 }
@@ -168,7 +168,7 @@ fn every_text_is_in_both_languages() {
         texts.extend(exercise.mistakes.iter().map(|each| (each.sentence.en, each.sentence.zh)));
         for (en, zh) in texts {
             assert!(!is_chinese(en) && en.len() > 4, "{number}: {en}");
-            // What is a formula alone is the same in both.
+            // A text that is only a formula is the same in both.
             assert!(is_chinese(zh) || en == zh || !zh.is_ascii(), "{number}: {zh}");
             assert!(!zh.contains(['.', ';', '?']) || zh.contains('`') || is_chinese(zh), "{zh}");
             for half in [", ", "; ", ": "] {

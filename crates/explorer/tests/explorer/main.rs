@@ -1,4 +1,4 @@
-//! Tests of the explorer through its requests, with the models of the lessons.
+//! Tests the explorer through requests, with the lesson models.
 
 mod equal_bytes;
 mod errors;
@@ -10,12 +10,12 @@ use explorer::Explorer;
 use serde_json::Value as Json;
 use std::path::{Path, PathBuf};
 
-/// The folder of the scenes, which holds `models`.
+/// The scene folder, which contains `models`.
 fn scenes_folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
 }
 
-/// An explorer with the models of all lessons.
+/// An explorer with all lesson models.
 fn explorer_with_models() -> Explorer {
     let mut explorer = Explorer::new();
     for name in ["house", "crate", "mexican_hat", "mexican_hat_lines", "floor"] {
@@ -45,7 +45,7 @@ fn consequences(explorer: &mut Explorer, state: &str) -> Vec<String> {
     sentences.map(|sentence| sentence["en"].as_str().expect("English").to_owned()).collect()
 }
 
-/// The lessons of the catalogue.
+/// The lessons of the catalog.
 fn lessons(explorer: &mut Explorer) -> Vec<Json> {
     json(explorer, "what=lessons")["lessons"].as_array().expect("a list").clone()
 }

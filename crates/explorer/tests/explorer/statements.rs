@@ -1,4 +1,4 @@
-//! The statements of the lessons hold, by numbers that are computed here from the formulas.
+//! Checks the statements of the lessons against numbers computed here from the formulas.
 
 use super::{consequences, explorer_with_models, facts, json};
 use explorer::Explorer;
@@ -18,7 +18,7 @@ fn numbers(values: &Json) -> Vec<f64> {
     values.iter().map(|value| value.as_f64().expect("a number")).collect()
 }
 
-/// C64: the angle is 2 atan((t − b) / 2n) of a window that stays; far changes nothing but clipping.
+/// C64: for a fixed window the angle is 2 atan((t − b) / 2n); far changes only the clipping.
 #[test]
 fn near_changes_the_angle_of_a_frustum_and_far_only_clips() {
     let mut explorer = explorer_with_models();
@@ -31,7 +31,7 @@ fn near_changes_the_angle_of_a_frustum_and_far_only_clips() {
         let query = format!("what=picture&size=80x50&lesson=frustum&far={far}");
         explorer.answer(&query).expect("a picture").bytes
     };
-    // Behind the house, the far plane changes not even a pixel; within it, it cuts.
+    // Behind the house, the far plane does not change a single pixel; within it, it clips.
     let behind = picture(&mut explorer, 20.0);
     assert!(picture(&mut explorer, 60.0) == behind);
     assert!(picture(&mut explorer, 11.5) != behind);
@@ -57,7 +57,7 @@ fn the_apex_moves_only_in_the_lessons_own_frustum() {
     assert_eq!(numbers(&sheared["window"]).len(), 4);
     close(&sheared["window"][0], -1.0);
     close(&moved["window"][1], 3.0);
-    // With a centered window both are the same picture.
+    // With a centered window, both give the same picture.
     let picture = |explorer: &mut Explorer, apex: &str| {
         let query = format!("what=picture&size=80x50&lesson=frustum&apex={apex}");
         explorer.answer(&query).expect("a picture").bytes
@@ -67,7 +67,7 @@ fn the_apex_moves_only_in_the_lessons_own_frustum() {
     assert!(said.iter().any(|sentence| sentence.contains("moved to (1, 0.75)")), "{said:?}");
 }
 
-/// C62: the field of view enlarges, another aspect distorts, near and far only clip.
+/// C62: the field of view magnifies, another aspect ratio distorts, near and far only clip.
 #[test]
 fn a_small_field_of_view_enlarges_and_a_wrong_aspect_distorts() {
     let mut explorer = explorer_with_models();
@@ -81,7 +81,7 @@ fn a_small_field_of_view_enlarges_and_a_wrong_aspect_distorts() {
     assert!((narrow[1] / usual[1] - factor).abs() < 1e-9);
     let wide = ndc(&mut explorer, "aspect=3.2");
     assert!((wide[0] / usual[0] - 0.5).abs() < 1e-5 && (wide[1] - usual[1]).abs() < 1e-5);
-    // Near and far leave x and y alone.
+    // Near and far do not affect x and y.
     for planes in ["near=1", "near=6", "far=60"] {
         let other = ndc(&mut explorer, planes);
         assert!((other[0] - usual[0]).abs() < 1e-12 && (other[1] - usual[1]).abs() < 1e-12);
@@ -95,7 +95,7 @@ fn a_small_field_of_view_enlarges_and_a_wrong_aspect_distorts() {
     assert!(clipped["clipped_by"]["near"].as_u64() > Some(0));
 }
 
-/// Triangles inside, clipped and outside are all there are.
+/// Every triangle is inside, clipped or outside.
 #[test]
 fn every_triangle_is_counted_once() {
     let mut explorer = explorer_with_models();
@@ -158,7 +158,7 @@ fn half_of_the_depth_range_is_at_the_harmonic_mean() {
     }
 }
 
-/// PE-1: the middle of the depths goes to (n² + f²) / (n + f).
+/// PE-1: the middle of the depths maps to (n² + f²) / (n + f).
 #[test]
 fn the_middle_of_the_depths_moves_towards_far() {
     let mut explorer = explorer_with_models();
@@ -181,7 +181,7 @@ fn equal_foreshortening_is_isometric() {
     assert!(said[0].contains("trimetric"), "{said:?}");
 }
 
-/// C36: some corners are behind the eye, and what clipping leaves has w > 0.
+/// C36: some corners are behind the eye, and everything left after clipping has w > 0.
 #[test]
 fn a_floor_past_the_eye_has_corners_with_negative_w() {
     let mut explorer = explorer_with_models();
@@ -219,7 +219,7 @@ fn a_picked_point_is_seen_where_it_was_picked() {
     }
 }
 
-/// UN-2: the line of sight of the mouse meets what the pixel there shows.
+/// UN-2: the line of sight of the mouse meets the surface that the pixel there shows.
 #[test]
 fn picking_hits_what_is_seen() {
     let mut explorer = explorer_with_models();
@@ -240,7 +240,7 @@ fn screen_coordinates_begin_at_the_corner_of_the_viewport() {
     assert!((screen[1] - (80.0 + (ndc[1] + 1.0) * 120.0)).abs() < 1e-9, "{screen:?} {ndc:?}");
 }
 
-/// IN-1: f(t) is where on the image of the segment the point at t is seen.
+/// IN-1: f(t) is the position of the point at t on the image of the segment.
 #[test]
 fn f_of_t_is_the_fraction_of_the_image() {
     let mut explorer = explorer_with_models();
@@ -256,7 +256,7 @@ fn f_of_t_is_the_fraction_of_the_image() {
     assert!(fraction > 0.5 && said[0].contains(&expected), "{expected}: {said:?}");
 }
 
-/// OB-1, TWO-1, WV-2: what the classical lessons say of their numbers.
+/// OB-1, TWO-1, WV-2: the numbers in the classical lessons.
 #[test]
 fn classical_projections_are_named_by_their_numbers() {
     let mut explorer = explorer_with_models();

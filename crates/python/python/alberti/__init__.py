@@ -1,6 +1,6 @@
 """Pictures, depth, normals and ids of 3D models as NumPy arrays.
 
-Rendered on the CPU: no display, no OpenGL, no window; the same bits on every machine.
+Rendered on the CPU, without a display, a window or OpenGL; the same bits on every machine.
 
 >>> import alberti
 >>> cube = alberti.Model.from_arrays(

@@ -1,4 +1,4 @@
-"""Cameras: where they stand, their lenses, and the maps between points and pixels."""
+"""Cameras: position, lens, and the maps between points and pixels."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ if TYPE_CHECKING:
 
 
 class Camera:
-    """A camera: its position, its direction and its lens.
+    """A camera: position, direction and lens.
 
-    Made by :meth:`look_at`, :meth:`frame`, :meth:`from_intrinsics`, :meth:`from_opencv`,
+    Created by :meth:`look_at`, :meth:`frame`, :meth:`from_intrinsics`, :meth:`from_opencv`,
     :meth:`from_pytorch3d` or :meth:`from_pose`; immutable.
 
     Lengths are in the units of the model, angles in degrees, sizes ``(width, height)`` in pixels.
     The world is right-handed, and y points up in glTF. Pixel coordinates are ``(column, row)``,
     and the *center* of the upper left pixel is ``(0, 0)``, as in OpenCV and as arrays are indexed:
-    ``depth[row, column]``. Depth is measured along the axis of view, in front of the eye.
+    ``depth[row, column]``. Depth is measured along the view axis, in front of the eye.
 
-    Near and far plane follow the model unless they are given.
+    Near and far planes are fitted to the model by default.
     """
 
     __slots__ = ("_native",)
@@ -46,16 +46,16 @@ class Camera:
         near: float | None = None,
         far: float | None = None,
     ) -> Camera:
-        """A camera at ``eye`` that looks at ``target``.
+        """Make a camera at ``eye`` that looks at ``target``.
 
         Args:
             eye: Position (3,) in the world.
-            target: Point (3,) that becomes the center of the picture.
+            target: Point (3,) at the center of the picture.
             up: Direction (3,) that points up in the picture.
-            fov_y: Vertical field of view in degrees; 35 if no lens is given.
-            fov_x: Horizontal field of view in degrees, instead.
-            height: Height of the view volume: the projection is orthographic then.
-            size: Size of the pictures; needed by :meth:`project` and its like.
+            fov_y: Vertical field of view in degrees; 35 by default.
+            fov_x: Horizontal field of view in degrees, instead of ``fov_y``.
+            height: Height of the view volume; makes the projection orthographic.
+            size: Size of the pictures; required by :meth:`project` and similar methods.
             near: Distance of the near plane.
             far: Distance of the far plane.
 
@@ -77,17 +77,17 @@ class Camera:
         near: float | None = None,
         far: float | None = None,
     ) -> Camera:
-        """A camera at the distance at which everything just fits into the picture.
+        """Make a camera at the distance at which the model just fits into the picture.
 
-        It has its place once there is a picture: ``render(model, camera=…).camera``.
+        Its position is known only after rendering: ``render(model, camera=…).camera``.
 
         Args:
             direction: ``front``, ``back``, ``left``, ``right``, ``top``, ``bottom``,
                 ``three-quarter``, ``isometric``, ``dimetric`` or ``trimetric``; or a vector (3,)
                 from the model to the camera.
-            fov_y: Vertical field of view in degrees; 35 if not given.
+            fov_y: Vertical field of view in degrees; 35 by default.
             orthographic: Whether the projection is parallel.
-            padding: Margin on each side in percent of the picture's side; 5 if not given.
+            padding: Margin on each side in percent of the picture's side; 5 by default.
             size: Size of the pictures.
             near: Distance of the near plane.
             far: Distance of the far plane.
@@ -96,7 +96,7 @@ class Camera:
 
     @classmethod
     def from_model(cls, camera: str | int = 0, *, size: Size | None = None) -> Camera:
-        """A camera that is in the model's file, by its name or its index."""
+        """Take a camera from the model file, by name or index."""
         options: dict[str, Any] = {"of_model": camera, "size": size}
         return cls(_native.make_camera(options))
 
@@ -112,14 +112,14 @@ class Camera:
         near: float | None = None,
         far: float | None = None,
     ) -> Camera:
-        """A calibrated camera by its matrix K, for pictures of ``size``.
+        """Make a calibrated camera from its matrix K, for pictures of ``size``.
 
         Args:
             K: Matrix (3, 3) with fx, fy, cx, cy and skew in pixels, or (fx, fy, cx, cy).
-            size: Size ``(width, height)`` of the pictures that K is for.
+            size: Size ``(width, height)`` of the pictures to which K applies.
             pose: Matrix (4, 4) or (3, 4) from the camera to the world; without one the camera
                 frames the model, as :meth:`frame` does.
-            axes: Directions of the camera's axes in the pose; see :meth:`from_pose`.
+            axes: Directions of the camera axes in the pose; see :meth:`from_pose`.
             pixel_centers: ``integer``: the center of the first pixel is (0, 0), as in OpenCV; or
                 ``half``: it is (½, ½), as in COLMAP and OpenGL.
             near: Distance of the near plane.
@@ -143,16 +143,16 @@ class Camera:
         near: float | None = None,
         far: float | None = None,
     ) -> Camera:
-        """A camera in the convention of OpenCV and COLMAP: camera = R · world + t.
+        """Make a camera in the convention of OpenCV and COLMAP: camera = R · world + t.
 
-        The camera's x points to the right, y down, z ahead.
+        The camera's x axis points right, y down, z forward.
 
         Args:
-            K: Matrix (3, 3), or (fx, fy, cx, cy). Distortion is not modelled: undistort first.
+            K: Matrix (3, 3), or (fx, fy, cx, cy). Distortion is not modeled: undistort first.
             R: Rotation (3, 3); or a rotation vector (3,) in radians, as ``cv2.solvePnP`` returns
                 it; or a quaternion (4,) w, x, y, z, as in COLMAP's ``images.txt``.
             t: Translation (3,): the origin of the world in the camera's coordinates.
-            size: Size ``(width, height)`` of the pictures that K is for.
+            size: Size ``(width, height)`` of the pictures to which K applies.
             pixel_centers: ``integer`` for OpenCV, ``half`` for COLMAP.
             near: Distance of the near plane.
             far: Distance of the far plane.
@@ -177,15 +177,15 @@ class Camera:
         near: float | None = None,
         far: float | None = None,
     ) -> Camera:
-        """A camera in the convention of PyTorch3D: row vectors, camera = world · R + T.
+        """Make a camera in the convention of PyTorch3D: row vectors, camera = world · R + T.
 
-        The camera's x points to the left, y up, z ahead.
+        The camera's x axis points left, y up, z forward.
 
         Args:
             K: Matrix (3, 3), or (fx, fy, cx, cy), in pixels (``in_ndc=False``).
             R: Rotation (3, 3).
             T: Translation (3,).
-            size: Size ``(width, height)`` of the pictures that K is for.
+            size: Size ``(width, height)`` of the pictures to which K applies.
             pixel_centers: As for :meth:`from_intrinsics`.
             near: Distance of the near plane.
             far: Distance of the far plane.
@@ -207,16 +207,16 @@ class Camera:
         near: float | None = None,
         far: float | None = None,
     ) -> Camera:
-        """A camera by its pose: a matrix (4, 4) or (3, 4) from the camera to the world.
+        """Make a camera from its pose: a matrix (4, 4) or (3, 4) from the camera to the world.
 
         Args:
             pose: The matrix; its last column is the position of the eye.
-            axes: ``opengl``: x to the right, y up, z backwards, as in glTF, Blender, NeRF,
-                pyrender and trimesh; ``opencv``: x to the right, y down, z ahead; ``pytorch3d``:
-                x to the left, y up, z ahead.
-            fov_y: Vertical field of view in degrees; 35 if no lens is given.
-            fov_x: Horizontal field of view in degrees, instead.
-            height: Height of the view volume: the projection is orthographic then.
+            axes: ``opengl``: x right, y up, z backward, as in glTF, Blender, NeRF, pyrender and
+                trimesh; ``opencv``: x right, y down, z forward; ``pytorch3d``: x left, y up,
+                z forward.
+            fov_y: Vertical field of view in degrees; 35 by default.
+            fov_x: Horizontal field of view in degrees, instead of ``fov_y``.
+            height: Height of the view volume; makes the projection orthographic.
             size: Size of the pictures.
             near: Distance of the near plane.
             far: Distance of the far plane.
@@ -225,12 +225,12 @@ class Camera:
 
     @property
     def size(self) -> Size | None:
-        """Width and height of the pictures in pixels, if they are known."""
+        """Width and height of the pictures in pixels, if known."""
         return self._native.size
 
     @property
     def K(self) -> NDArray[np.float64]:
-        """The matrix K (3, 3) of intrinsic parameters, pixel centers at whole numbers."""
+        """The intrinsic matrix K (3, 3), with pixel centers at integers."""
         return self._native.intrinsics()
 
     @property
@@ -250,15 +250,15 @@ class Camera:
 
     @property
     def projection_matrix(self) -> NDArray[np.float64]:
-        """The matrix (4, 4) from view space to clip space, in the convention of OpenGL."""
+        """The matrix (4, 4) from view space to clip space, in OpenGL's convention."""
         return self._native.projection_matrix()
 
     def extrinsics(self, axes: str = "opencv") -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """R (3, 3) and t (3,) from the world to the camera; ``axes`` as for :meth:`from_pose`."""
+        """Return R (3, 3) and t (3,) from world to camera; ``axes`` as for :meth:`from_pose`."""
         return self._native.extrinsics(axes)
 
     def pose(self, axes: str = "opengl") -> NDArray[np.float64]:
-        """The matrix (4, 4) from the camera to the world; ``axes`` as for :meth:`from_pose`."""
+        """Return the matrix (4, 4) from camera to world; ``axes`` as for :meth:`from_pose`."""
         import numpy as np
 
         rotation, translation = self._native.extrinsics(axes)
@@ -268,20 +268,20 @@ class Camera:
         return pose
 
     def project(self, points: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Pixel coordinates (N, 2), column and row, and depths (N,) of points (N, 3).
+        """Project points (N, 3) to pixel coordinates (N, 2), column and row, and depths (N,).
 
-        Points that are not ahead of the eye have a depth of at most 0; in a perspective, their
+        Points that are not in front of the eye have a depth of at most 0; in a perspective, their
         coordinates are NaN.
         """
         return self._native.project(points)
 
     def unproject(self, depth: ArrayLike, pixels: ArrayLike | None = None) -> NDArray[np.float64]:
-        """Points in the world of depths along the axis.
+        """Return the world points at depths along the view axis.
 
         Args:
-            depth: Depths (height, width) of all pixels, as ``Frame.depth``; with ``pixels``, one
-                for each of them (N,).
-            pixels: Coordinates (N, 2), column and row; they need not be whole.
+            depth: Depths (height, width) of all pixels, like ``Frame.depth``; with ``pixels``, one
+                per pixel (N,).
+            pixels: Coordinates (N, 2), column and row; may be fractional.
 
         Returns:
             Points (height, width, 3) or (N, 3); NaN where the depth is infinite.
@@ -296,7 +296,7 @@ class Camera:
         return self._native.unproject_pixels(pixels, depth)
 
     def rays(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Origins and unit directions (height, width, 3) of the rays through all pixels."""
+        """Return origins and unit directions (height, width, 3) of the rays through all pixels."""
         return self._native.rays()
 
     def __repr__(self) -> str:
@@ -308,6 +308,6 @@ class Camera:
 
 
 def _given(arguments: dict[str, Any]) -> dict[str, Any]:
-    """The arguments of a class method without the class."""
+    """Return the arguments of a class method without the class."""
     del arguments["cls"]
     return arguments

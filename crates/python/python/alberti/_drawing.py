@@ -28,15 +28,15 @@ def draw(
     background: str | None = None,
     threads: int | None = None,
 ) -> Drawing:
-    """Draws the edges of a model or a scene, with hidden lines removed.
+    """Draw the edges of a model or a scene, with hidden lines removed.
 
     Args:
         model: As for :func:`alberti.render`.
         camera: As for :func:`alberti.render`.
-        size: As for :func:`alberti.render`; 96 pixels are an inch on paper.
+        size: As for :func:`alberti.render`; 96 pixels are one inch on paper.
         style: ``lines``, ``dashed`` (hidden lines dashed), ``silhouette``, ``outline`` (the
             silhouette as closed loops), ``technical`` (line types of ISO 128), ``wireframe`` or
-            ``depth-cued``; ``lines`` if not given.
+            ``depth-cued``; ``lines`` by default.
         background: As for :func:`alberti.render`; the color of the paper.
         threads: As for :func:`alberti.render`.
 
@@ -60,7 +60,7 @@ def draw(
 
 
 class Drawing:
-    """A line drawing: a page for SVG, PDF and DXF, and its segments as arrays."""
+    """A line drawing: a page as SVG, PDF or DXF, and its segments as arrays."""
 
     __slots__ = ("_native", "_segments")
 
@@ -82,20 +82,20 @@ class Drawing:
     def dxf(self) -> bytes:
         """The page as a DXF file (R2000).
 
-        In the unit of the model if the view is parallel, else in millimeters of paper.
+        In the model's unit if the view is parallel, otherwise in millimeters on paper.
         """
         return self._native.dxf()
 
     @property
     def camera(self) -> Camera:
-        """The camera in its place, with the size of the drawing."""
+        """The camera with its position and the size of the drawing."""
         return Camera(self._native.camera())
 
     @property
     def lines(self) -> NDArray[np.float64]:
         """Ends (N, 2, 2) of the segments of all edges: column and row in pixels, y down.
 
-        Visible ones; with hidden ones, too, if the style shows them: see :attr:`visible`.
+        Includes hidden segments if the style shows them; see :attr:`visible`.
         """
         return self._arrays()["ends"]  # type: ignore[no-any-return]
 
@@ -106,27 +106,27 @@ class Drawing:
 
     @property
     def classes(self) -> list[str]:
-        """Why each segment is drawn: ``silhouette``, ``boundary``, ``crease`` …"""
+        """Class of each segment: ``silhouette``, ``boundary``, ``crease`` …"""
         return self._arrays()["class"]  # type: ignore[no-any-return]
 
     @property
     def edges(self) -> NDArray[np.uint32]:
-        """Edge (N,) that each segment is a part of."""
+        """Edge (N,) to which each segment belongs."""
         return self._arrays()["edge"]  # type: ignore[no-any-return]
 
     @property
     def objects(self) -> list[str]:
-        """Name of the object that each segment belongs to."""
+        """Name of the object to which each segment belongs."""
         names: list[str] = self._arrays()["names"]
         return [names[index] for index in self._arrays()["object"]]
 
     @property
     def warnings(self) -> list[str]:
-        """What the drawing lacks; empty for most."""
+        """Warnings about missing parts; usually empty."""
         return self._native.warnings()
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the drawing as ``.svg``, ``.pdf`` or ``.dxf``, by the extension of the path."""
+        """Write the drawing as ``.svg``, ``.pdf`` or ``.dxf``, chosen by the path's extension."""
         ending = os.path.splitext(os.fspath(path))[1].lower()
         if ending not in (".svg", ".pdf", ".dxf"):
             raise AlbertiError(f"ends in {ending!r}, expected .svg, .pdf or .dxf", pointer="path")
@@ -135,11 +135,11 @@ class Drawing:
             file.write(content)
 
     def _repr_svg_(self) -> str:
-        """The drawing for Jupyter."""
+        """Return the drawing for Jupyter."""
         return self.svg
 
     def _arrays(self) -> dict[str, Any]:
-        """The segments, drawn when they are first asked for."""
+        """Return the segments, computed on first use."""
         if self._segments is None:
             self._segments = self._native.lines()
         return self._segments

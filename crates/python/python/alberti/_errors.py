@@ -7,16 +7,16 @@ from collections.abc import Iterable
 
 
 class AlbertiError(Exception):
-    """What every function raises for wrong input.
+    """Raised by every function for invalid input.
 
     Attributes:
-        code: The kind of fault, for programs: ``INVALID_ARGUMENT`` for an argument,
+        code: Kind of error, for programs: ``INVALID_ARGUMENT`` for an argument,
             ``SCENE_ERROR`` for a mistake in a scene or a camera, ``LIMIT_EXCEEDED``,
-            ``IO_ERROR``; for faults of files the codes of the importer, such as
+            ``IO_ERROR``; for errors in files an importer code, such as
             ``INVALID_DATA``.
-        pointer: Where: the argument (``faces[3, 1]``), or the place in a file, a JSON pointer in
-            glTF, else ``line 4, column 2``. May be empty.
-        help: What to do, if there is something.
+        pointer: Location: the argument (``faces[3, 1]``), or the position in a file, a JSON pointer
+            in glTF, otherwise ``line 4, column 2``. May be empty.
+        help: Suggested remedy, if there is one.
     """
 
     code: str
@@ -44,14 +44,14 @@ class AlbertiError(Exception):
 
 
 class AlbertiWarning(UserWarning):
-    """Something of a file was left out or corrected, or something of a picture is missing."""
+    """Part of a file was skipped or corrected, or part of a picture is missing."""
 
 
 _MOST_WARNINGS = 8
 
 
 def warn_all(messages: Iterable[str], stacklevel: int = 3) -> None:
-    """Warns of the first few messages, and of how many more there are."""
+    """Warn about the first few messages, and about the number of further ones."""
     messages = list(messages)
     for message in messages[:_MOST_WARNINGS]:
         _warnings.warn(message, AlbertiWarning, stacklevel=stacklevel + 1)

@@ -1,4 +1,4 @@
-"""Frames: what a rendering makes, as arrays."""
+"""Frames: rendering results as arrays."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ if TYPE_CHECKING:
 
 
 class Frame:
-    """A rendered picture and its passes, as arrays whose first row is the upper one.
+    """A rendered picture and its passes, as arrays with the top row first.
 
-    Every array is made once. A pass that was not asked for raises :class:`AlbertiError`.
+    Every array is created once. A pass that was not rendered raises :class:`AlbertiError`.
     """
 
     __slots__ = ("_arrays", "camera", "warnings")
 
-    #: The camera in its place, with the size of the frame.
+    #: The camera with its position and the size of the frame.
     camera: Camera
-    #: What is missing in the picture; empty for most.
+    #: Warnings about missing parts; usually empty.
     warnings: tuple[str, ...]
 
     def __init__(self, arrays: dict[str, Any], camera: _native.Camera, warnings: list[str]) -> None:
@@ -41,26 +41,26 @@ class Frame:
 
     @property
     def rgba(self) -> NDArray[np.uint8]:
-        """Colors (height, width, 4), sRGB with straight alpha; equal to those of the program."""
+        """Colors (height, width, 4), sRGB with straight alpha; identical to the program's."""
         return self._pass("rgba", "rgb")
 
     @property
     def rgb(self) -> NDArray[np.uint8]:
-        """Colors (height, width, 3), sRGB; over white where the background is transparent."""
+        """Colors (height, width, 3), sRGB; blended over white if the background is transparent."""
         if "rgb" not in self._arrays:
             self._arrays["rgb"] = _native.over_white(self.rgba)
         return self._arrays["rgb"]
 
     @property
     def depth(self) -> NDArray[np.float32]:
-        """Depth (height, width) along the axis of view, in scene units; inf where nothing is."""
+        """Depth (height, width) along the view axis, in scene units; inf for background."""
         return self._pass("depth")
 
     @property
     def distance(self) -> NDArray[np.float32]:
-        """Distance (height, width) from the eye along the ray; inf where nothing is.
+        """Distance (height, width) from the eye along the ray; inf for background.
 
-        Computed from the depth where only that was rendered.
+        Computed from the depth if only the depth was rendered.
         """
         if "distance" not in self._arrays and "depth" in self._arrays:
             self._arrays["distance"] = self.camera._native.distances(self.depth)
@@ -68,22 +68,22 @@ class Frame:
 
     @property
     def normal(self) -> NDArray[np.float32]:
-        """Unit normals (height, width, 3) in the world, of the visible side; 0 where nothing is."""
+        """Unit normals (height, width, 3) in the world, of the visible side; 0 for background."""
         return self._pass("normal")
 
     @property
     def view_normal(self) -> NDArray[np.float32]:
-        """Unit normals in view space: x to the right, y up, z towards the viewer."""
+        """Unit normals in view space: x right, y up, z toward the viewer."""
         return self._pass("view-normal")
 
     @property
     def position(self) -> NDArray[np.float32]:
-        """Positions (height, width, 3) in the world; 0 where nothing is."""
+        """Positions (height, width, 3) in the world; 0 for background."""
         return self._pass("position")
 
     @property
     def uv(self) -> NDArray[np.float32]:
-        """Texture coordinates (height, width, 2), v down in the texture; 0 where there are none."""
+        """Texture coordinates (height, width, 2), v down in the texture; 0 if there are none."""
         return self._pass("uv")
 
     @property
@@ -103,25 +103,25 @@ class Frame:
 
     @property
     def ids(self) -> NDArray[np.uint32]:
-        """Triangle (point, line) of each pixel, counted from 1 in scene order; 0 where nothing is.
+        """Triangle (point, line) of each pixel, counted from 1 in scene order; 0 for background.
 
-        For a model of one mesh, ``ids - 1`` is the row of ``faces``.
+        For a model with one mesh, ``ids - 1`` is the row of ``faces``.
         """
         return self._pass("id", "ids")
 
     @property
     def model_ids(self) -> NDArray[np.uint32]:
-        """Model of each pixel, counted from 1 in scene order; 0 where nothing is."""
+        """Model of each pixel, counted from 1 in scene order; 0 for background."""
         return self._pass("model", "model_ids")
 
     @property
     def node_ids(self) -> NDArray[np.uint32]:
-        """Node of each pixel: its index in ``Model.nodes`` plus 1; 0 where nothing is."""
+        """Node of each pixel: its index in ``Model.nodes`` plus 1; 0 for background."""
         return self._pass("node", "node_ids")
 
     @property
     def mesh_ids(self) -> NDArray[np.uint32]:
-        """Mesh of each pixel: its index in the file plus 1; 0 where nothing is."""
+        """Mesh of each pixel: its index in the file plus 1; 0 for background."""
         return self._pass("mesh", "mesh_ids")
 
     @property
@@ -131,7 +131,7 @@ class Frame:
 
     @property
     def mask(self) -> NDArray[np.bool_]:
-        """Whether there is something at the center of each pixel (height, width)."""
+        """Whether the center of each pixel (height, width) shows a surface."""
         import numpy as np
 
         for name in ("depth", "distance"):
@@ -141,24 +141,24 @@ class Frame:
         return np.greater(self.ids, 0)
 
     def points(self) -> NDArray[np.float64]:
-        """Points (N, 3) in the world of all pixels with a depth, row by row: a point cloud."""
+        """Return the world points (N, 3) of all pixels with a depth, row by row: a point cloud."""
         import numpy as np
 
         depth = self.depth
         return self.camera.unproject(depth)[np.isfinite(depth)]
 
     def png(self) -> bytes:
-        """The picture as the bytes of a PNG file, equal to those of the program."""
+        """Return the picture as the bytes of a PNG file, identical to the program's."""
         return _native.encode_png(self.rgba)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the picture as a PNG file."""
+        """Write the picture as a PNG file."""
         content = self.png()
         with open(path, "wb") as file:
             file.write(content)
 
     def _repr_png_(self) -> bytes | None:
-        """The picture for Jupyter."""
+        """Return the picture for Jupyter."""
         return self.png() if "rgba" in self._arrays else None
 
     def __repr__(self) -> str:
@@ -166,7 +166,7 @@ class Frame:
         return f"Frame({width} x {height}: {', '.join(self._arrays)})"
 
     def _pass(self, name: str, asked: str | None = None) -> NDArray[Any]:
-        """The array of a pass."""
+        """Return the array of a pass."""
         try:
             return self._arrays[name]
         except KeyError:

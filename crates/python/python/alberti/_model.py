@@ -1,4 +1,4 @@
-"""Models and scenes: what is rendered."""
+"""Models and scenes."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 
 class Model:
-    """A model: meshes with materials, in one pose. Made by :func:`load`, :meth:`from_arrays` or
-    :meth:`from_trimesh`; immutable, and rendered as often as you like.
+    """A model: meshes with materials, in one pose. Created by :func:`load`, :meth:`from_arrays` or
+    :meth:`from_trimesh`; immutable, and can be rendered any number of times.
     """
 
     __slots__ = ("_native",)
@@ -46,28 +46,28 @@ class Model:
         name: str = "mesh",
         limits: Mapping[str, int] | None = None,
     ) -> Model:
-        """A model of one mesh, or of a cloud of points.
+        """Make a model from one mesh or a point cloud.
 
         Args:
-            vertices: Positions (V, 3), any real dtype; computed with as float32.
-            faces: Indices (F, 3) of triangles or (F, n) of polygons, counter-clockwise seen from
-                outside; or a list of polygons of any lengths; None for points.
-            normals: Normals (V, 3) of any length; without them faces that meet at up to
+            vertices: Positions (V, 3), any real dtype; converted to float32.
+            faces: Indices (F, 3) of triangles or (F, n) of polygons, counterclockwise seen from
+                outside; or a list of polygons with any number of corners; None for points.
+            normals: Normals (V, 3) of any length; without them, faces that meet at up to
                 ``crease`` degrees are smooth.
             colors: sRGB colors of vertices (V, 3 or 4) or faces (F, 3 or 4): uint8, or floats
                 from 0 to 1.
             uv: Texture coordinates (V, 2) with (0, 0) at the lower left, as in OBJ and trimesh.
             texture: sRGB image uint8 (height, width, 3 or 4), or the bytes of a PNG, JPEG or WebP
                 file; needs ``uv``, and replaces ``colors``.
-            color: Color of the whole surface: "#rrggbb", the name of a color of CSS, or sRGB (3)
+            color: Color of the whole surface: "#rrggbb", the name of a CSS color, or sRGB (3)
                 or (4) as for ``colors``.
-            metallic: Metalness from 0 to 1; 0 if not given.
-            roughness: Roughness from 0 to 1; 0.6 if not given.
-            double_sided: Whether the back of faces is drawn too.
-            crease: Angle in degrees, 0 to 180: 30 if not given, 0 for flat faces.
-            up: Axis that points up in the vertices, ``x``, ``y`` or ``z``; the model is turned so
-                that it is y.
-            unit: Unit of length for drawings to scale; meters if not given.
+            metallic: Metalness from 0 to 1; 0 by default.
+            roughness: Roughness from 0 to 1; 0.6 by default.
+            double_sided: Whether the backs of faces are drawn too.
+            crease: Angle in degrees, 0 to 180; 30 by default, 0 for flat faces.
+            up: Axis that points up in the vertices, ``x``, ``y`` or ``z``; the model is rotated so
+                that it becomes y.
+            unit: Unit of length for drawings to scale; meters by default.
             name: Name of the mesh.
             limits: Limits on sizes, by name; see :func:`load`.
 
@@ -99,14 +99,14 @@ class Model:
     def from_trimesh(
         cls, scene: Any, *, up: str = "y", crease: float | None = None, unit: str | None = None
     ) -> Model:
-        """A model of a ``trimesh.Trimesh``, ``Scene``, ``PointCloud`` or ``Path3D``.
+        """Make a model from a ``trimesh.Trimesh``, ``Scene``, ``PointCloud`` or ``Path3D``.
 
-        Geometry is taken with the transforms of the graph, with normals where trimesh has those
-        of a file, vertex and face colors, texture coordinates and materials.
+        Includes the transforms of the scene graph, normals if trimesh loaded them from a file,
+        vertex and face colors, texture coordinates and materials.
 
         Args:
             scene: The object; trimesh itself is not imported here.
-            up: Axis that points up: trimesh leaves files as they are, so ``z`` for STL and 3MF.
+            up: Axis that points up: trimesh keeps file coordinates, so ``z`` for STL and 3MF.
             crease: As for :meth:`from_arrays`.
             unit: As for :meth:`from_arrays`.
         """
@@ -123,12 +123,12 @@ class Model:
 
     @property
     def bounds(self) -> NDArray[np.float64] | None:
-        """The least and the greatest corner (2, 3) of the box around it, None if it is empty."""
+        """Minimum and maximum corner (2, 3) of the bounding box; None if it is empty."""
         return self._native.bounds()
 
     @property
     def triangle_count(self) -> int:
-        """Number of triangles that are shown."""
+        """Number of visible triangles."""
         return self._native.item_counts()[2]
 
     @property
@@ -148,14 +148,14 @@ class Model:
 
     @property
     def warnings(self) -> list[str]:
-        """Everything that was left out or corrected while it was loaded."""
+        """Warnings from loading: parts that were skipped or corrected."""
         return self._native.warnings()
 
     def _names(self, what: str) -> list[str | None]:
         return [name for model in self._native.part_names(what) for name in model]
 
     def _repr_png_(self) -> bytes:
-        """A picture for Jupyter."""
+        """Return a picture for Jupyter."""
         from ._render import render
 
         return render(self, size=(480, 360)).png()
@@ -169,7 +169,7 @@ class Model:
 
 
 class Scene(Model):
-    """Models in their places, or a scene file with cameras, lights, styles and overlays."""
+    """Placed models, or a scene file with cameras, lights, styles and overlays."""
 
     __slots__ = ()
 
@@ -178,11 +178,11 @@ class Scene(Model):
         models: Sequence[Model] | _native.Subject,
         poses: Sequence[ArrayLike] | ArrayLike | None = None,
     ) -> None:
-        """A scene of models.
+        """Make a scene from models.
 
         Args:
             models: The models; the first has the id 1 in ``Frame.model_ids``.
-            poses: Matrix (4, 4) from each model to the world; the identity if not given.
+            poses: Matrix (4, 4) from each model to the world; the identity by default.
         """
         if isinstance(models, _native.Subject):
             super().__init__(models)
@@ -220,30 +220,29 @@ def load(
     lenient: bool = False,
     limits: Mapping[str, int] | None = None,
 ) -> Model:
-    """Loads a model: glTF, GLB, STL, OBJ, PLY or 3MF.
+    """Load a model: glTF, GLB, STL, OBJ, PLY or 3MF.
 
     Args:
-        source: Path of the file, or its content as bytes; bytes must be complete in themselves.
-        name: Name of the content in messages; ``part.obj`` says which format it is in.
-        up: Axis that points up in the file: z for STL and 3MF, y for all others if not given.
-        unit: Unit of length: ``millimeter``, ``meter`` …; what the file says if not given.
-        crease: Largest angle in degrees between faces that are shaded as one smooth surface where
-            the file has no normals; 30 if not given.
+        source: Path of the file, or its content as bytes; bytes must not refer to other files.
+        name: Name of the content in messages; ``part.obj`` also indicates the format.
+        up: Axis that points up in the file; by default z for STL and 3MF, y for all others.
+        unit: Unit of length: ``millimeter``, ``meter`` …; by default the file's unit.
+        crease: Largest angle in degrees between faces that are shaded as one smooth surface if
+            the file has no normals; 30 by default.
         scene: Scene of a glTF file, by name or index.
-        variant: Variant of its materials, by name or index.
-        animation: Animation that poses it, by name or index; the first if only ``time`` is given.
+        variant: Material variant, by name or index.
+        animation: Animation for the pose, by name or index; the first if only ``time`` is given.
         time: Time of the animation in seconds.
-        lenient: Whether what is broken is left out with a warning instead of an error.
-        limits: Largest sizes that are accepted, by name, such as ``{"array_bytes": 1 << 30}``:
+        lenient: Whether broken parts are skipped with a warning instead of an error.
+        limits: Maximum accepted sizes, by name, such as ``{"array_bytes": 1 << 30}``:
             file_bytes, total_bytes, json_depth, json_values, array_bytes, array_growth,
             image_side, image_texels, nodes, node_depth, scene_items.
 
     Raises:
-        AlbertiError: If the file cannot be read, breaks the rules of its format, or exceeds a
-            limit.
+        AlbertiError: If the file cannot be read, violates its format, or exceeds a limit.
 
     Warns:
-        AlbertiWarning: What was left out or corrected.
+        AlbertiWarning: For parts that were skipped or corrected.
     """
     options = {
         "up": up,
@@ -270,16 +269,16 @@ def load_scene(
     folder: str | os.PathLike[str] = "",
     limits: Mapping[str, int] | None = None,
 ) -> Scene:
-    """Loads a scene file (``.ron``) with its models, or a scene from its text.
+    """Load a scene file (``.ron``) with its models, or a scene from text.
 
     Args:
         path: Path of the scene file.
-        text: Text of a scene, instead.
-        folder: Folder that the paths in the text begin at.
+        text: Text of a scene, instead of a path.
+        folder: Folder to which paths in the text are relative.
         limits: As for :func:`load`.
 
     Raises:
-        AlbertiError: With the place of every mistake in the file.
+        AlbertiError: With the location of every mistake in the file.
     """
     if (path is None) == (text is None):
         raise AlbertiError("expected a path or a text, and not both", pointer="path")
@@ -288,7 +287,7 @@ def load_scene(
 
 
 def _content(source: Source) -> str | bytes:
-    """The path of a file, or its content."""
+    """Return the path of a file, or its content."""
     if isinstance(source, (bytes, bytearray, memoryview)):
         return bytes(source)
     try:
@@ -302,6 +301,6 @@ _AnyModel = TypeVar("_AnyModel", bound=Model)
 
 
 def _warned(model: _AnyModel) -> _AnyModel:
-    """Warns of what the importer reports."""
+    """Warn about everything that the importer reports."""
     warn_all(model.warnings)
     return model

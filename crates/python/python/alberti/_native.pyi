@@ -1,4 +1,4 @@
-"""Types of the extension module; the classes and functions around it are the interface."""
+"""Types of the extension module; the public interface is the Python code around it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rendering: one picture, or many; and the explanation of how points become pixels."""
+"""Render one picture or many, and explain how points become pixels."""
 
 from __future__ import annotations
 
@@ -29,33 +29,33 @@ def render(
     samples: int | None = None,
     threads: int | None = None,
 ) -> Frame:
-    """Renders a model or a scene.
+    """Render a model or a scene.
 
-    The picture is that of the command ``alberti render`` with the same options, bit for bit, with
-    any number of threads. Other threads of Python run meanwhile, and Ctrl-C stops it.
+    The picture matches the command ``alberti render`` with the same options, bit for bit, with
+    any number of threads. Other Python threads keep running, and Ctrl-C cancels it.
 
     Args:
-        model: A :class:`Model` or a :class:`Scene`; or an object of trimesh, which is converted.
+        model: A :class:`Model` or a :class:`Scene`; or a trimesh object, which is converted.
         camera: A :class:`Camera`, or the name of a direction to frame the model from, as for
-            ``Camera.frame``. Three-quarter view if not given, or the scene's.
-        size: ``(width, height)`` in pixels; the camera's if not given, else that of the scene,
-            else (960, 720).
-        passes: Names of what to render: ``rgb`` (or ``rgba``), ``depth``, ``distance``,
+            ``Camera.frame``. By default the scene's, or else a three-quarter view.
+        size: ``(width, height)`` in pixels; by default the camera's size, then the scene's,
+            then (960, 720).
+        passes: Names of the passes to render: ``rgb`` (or ``rgba``), ``depth``, ``distance``,
             ``normal``, ``view_normal``, ``position``, ``uv``, ``barycentric``, ``ids``,
             ``model_ids``, ``node_ids``, ``mesh_ids``, ``material_ids``, ``overdraw``,
-            ``coverage``. All but the first are of the surface at the center of each pixel.
+            ``coverage``. All except the first describe the surface at the center of each pixel.
         style: ``shaded``, ``flat``, ``gouraud``, ``clay``, ``matcap``, ``normals``, ``depth``,
             ``uv``, ``ids``, ``toon``, ``x-ray``, ``wireframe``, ``lines``, ``dashed``,
             ``silhouette``, ``outline``, ``technical`` or ``depth-cued``.
-        background: ``transparent``, ``#rrggbb``, or the name of a color of CSS.
-        samples: Samples per pixel for anti-aliasing: 1, 4, 8 or 16; 4 if not given.
-        threads: The most threads; one for each processor if not given.
+        background: ``transparent``, ``#rrggbb``, or the name of a CSS color.
+        samples: Samples per pixel for anti-aliasing: 1, 4, 8 or 16; 4 by default.
+        threads: Maximum number of threads; by default one per processor.
 
     Raises:
-        AlbertiError: If an argument makes no sense, or the picture is too large for memory.
+        AlbertiError: If an argument is invalid, or the picture is too large for memory.
 
     Warns:
-        AlbertiWarning: What the picture lacks.
+        AlbertiWarning: For missing parts of the picture.
 
     >>> model = Model.from_arrays([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     >>> camera = Camera.look_at((0.3, 0.3, 2), (0.3, 0.3, 0))
@@ -79,18 +79,18 @@ def render(
 
 
 def render_many(jobs: Iterable[Mapping[str, Any]], *, threads: int | None = None) -> list[Frame]:
-    """Renders many pictures at once, one in each thread.
+    """Render many pictures in parallel, one per thread.
 
     Args:
         jobs: The arguments of :func:`render` for each picture, as dictionaries with ``model``.
-        threads: The most threads; one for each processor if not given.
+        threads: Maximum number of threads; by default one per processor.
 
     Returns:
-        The frames, in the order of the jobs. All are in memory: a million views are rendered in
+        The frames, in the order of the jobs. All are kept in memory: render a million views in
         parts.
 
     Raises:
-        AlbertiError: For the first job that fails; ``pointer`` has its number.
+        AlbertiError: For the first job that fails; ``pointer`` gives its number.
 
     >>> model = Model.from_arrays([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     >>> views = [{"model": model, "camera": view, "size": (32, 32)} for view in ("front", "back")]
@@ -123,13 +123,13 @@ def explain(
     size: Size | None = None,
     conventions: str = "alberti",
 ) -> dict[str, Any]:
-    """Explains how a point, a segment, a pixel or a node goes through the viewing pipeline.
+    """Explain how a point, a segment, a pixel or a node goes through the viewing pipeline.
 
     Args:
-        model: What is rendered.
+        model: As for :func:`render`.
         point: Point (3,) in the world, or homogeneous (4,).
         segment: The two ends (2, 3) of a segment in the world.
-        pixel: Column and row: what is visible there, and why it has its color.
+        pixel: Column and row of a pixel: which surface it shows, and why it has its color.
         node: Name or index of a node: why it is visible or not.
         camera: As for :func:`render`.
         size: As for :func:`render`.
@@ -137,7 +137,7 @@ def explain(
 
     Returns:
         ``subject``, ``verdict`` and ``steps``, each with ``id``, ``title``, ``formula`` and
-        ``items``, which have ``id``, ``name`` and ``value``: the exact numbers of the renderer.
+        ``items``, which have ``id``, ``name`` and ``value``: the renderer's exact numbers.
 
     >>> model = Model.from_arrays([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     >>> [step["id"] for step in explain(model, point=(0.5, 0.5, 0))["steps"]][:2]
@@ -160,7 +160,7 @@ def explain(
 
 
 def _job(model: Any, options: dict[str, Any]) -> tuple[_native.Subject, dict[str, Any]]:
-    """The subject and the options of a rendering, with the camera as the extension has it."""
+    """Return subject and options for the extension, with its native camera."""
     if not isinstance(model, Model):
         if not type(model).__module__.startswith("trimesh"):
             message = f"is a {type(model).__name__}, expected a Model"

@@ -1,4 +1,4 @@
-"""Objects of trimesh as arrays. trimesh is never imported: its attributes are read."""
+"""trimesh objects as arrays. trimesh is never imported; only attributes are read."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from ._errors import AlbertiError
 
 
 def collect_meshes(scene: Any) -> tuple[list[dict[str, Any]], list[tuple[str | None, int, Any]]]:
-    """The meshes of a scene or a geometry, and the nodes that show them."""
+    """Return the meshes of a scene or a geometry, and the nodes that show them."""
     import numpy as np
 
     if not hasattr(scene, "geometry") or not hasattr(scene, "graph"):
@@ -28,7 +28,7 @@ def collect_meshes(scene: Any) -> tuple[list[dict[str, Any]], list[tuple[str | N
 
 
 def _mesh(geometry: Any, name: str) -> dict[str, Any]:
-    """The arrays of a Trimesh, a PointCloud or a Path3D."""
+    """Return the arrays of a Trimesh, a PointCloud or a Path3D."""
     import numpy as np
 
     if not hasattr(geometry, "vertices"):
@@ -54,14 +54,14 @@ def _mesh(geometry: Any, name: str) -> dict[str, Any]:
 
 
 def _add_normals(mesh: dict[str, Any], geometry: Any) -> None:
-    """Normals that the file had: those that trimesh computed are not kept apart otherwise."""
+    """Add normals from the cache, the only way to tell the file's normals from computed ones."""
     cache = getattr(getattr(geometry, "_cache", None), "cache", {})
     if "vertex_normals" in cache:
         mesh["normals"] = cache["vertex_normals"]
 
 
 def _add_visual(mesh: dict[str, Any], visual: Any) -> None:
-    """Colors, or a texture and a material."""
+    """Add colors, or a texture and a material."""
     import numpy as np
 
     kind = getattr(visual, "kind", None)
@@ -77,7 +77,7 @@ def _add_visual(mesh: dict[str, Any], visual: Any) -> None:
 
 
 def _add_material(mesh: dict[str, Any], material: Any) -> None:
-    """Image and factors of a material, those of Phong shading too."""
+    """Add the image and factors of a material, including Phong factors."""
     import numpy as np
 
     image = getattr(material, "baseColorTexture", None)
@@ -94,7 +94,7 @@ def _add_material(mesh: dict[str, Any], material: Any) -> None:
     if color is not None:
         mesh["color"] = np.asarray(color)
     if hasattr(material, "metallicFactor"):
-        # What is not given is 1 in glTF.
+        # Missing factors are 1 in glTF.
         metallic, roughness = material.metallicFactor, material.roughnessFactor
         mesh["metallic"] = 1.0 if metallic is None else float(metallic)
         mesh["roughness"] = 1.0 if roughness is None else float(roughness)
@@ -102,12 +102,12 @@ def _add_material(mesh: dict[str, Any], material: Any) -> None:
 
 
 def _is_placeholder(image: Any) -> bool:
-    """Whether trimesh filled an image in: four texels of one color."""
+    """Whether the image is trimesh's placeholder: four texels of one color."""
     return image.size == (2, 2) and image.getcolors(1) is not None
 
 
 def _diffuse(material: Any) -> Any:
-    """The diffuse color of a simple material; None for that which trimesh fills in."""
+    """Return the diffuse color of a simple material; None for trimesh's default color."""
     color = getattr(material, "diffuse", None)
     if color is None or list(color) == [102, 102, 102, 255]:
         return None
@@ -115,7 +115,7 @@ def _diffuse(material: Any) -> Any:
 
 
 def _numbers(value: Any) -> Any:
-    """The number or the numbers of a key of an MTL library; None if they are none."""
+    """Return one or more numbers of an MTL key; None if they are not valid numbers."""
     import numpy as np
 
     try:

@@ -1,8 +1,8 @@
 //! One step of a sweep: the scene's camera and projection with one parameter changed.
 //!
-//! The scene's projection is first decomposed into a frustum or an orthographic box, then one
-//! number of it is replaced. Parameters that a projection lacks (a height of a perspective, an
-//! angle of view of a parallel one) are refused with the one to vary instead.
+//! The scene's projection is first decomposed into a frustum or an orthographic box, then one of
+//! its numbers is replaced. Parameters that a projection lacks (the height of a perspective, the
+//! angle of a parallel projection) are rejected with a suggestion to vary another one.
 
 use super::super::DemonstrationError;
 use super::super::number_format::format_short;
@@ -17,13 +17,14 @@ use scene::{DepthSpan, Scene};
 
 /// The scene's view, decomposed into camera and parameters.
 ///
-/// Computed once for a sweep: the vertices of all models are collected here and not in each step.
+/// Computed once per sweep: the vertices of all models are collected here and not in each step.
 pub(super) struct SweepBase {
     /// The scene's camera.
     camera: Camera,
     /// The scene's projection.
     projection: BaseProjection,
-    /// The vertices of all models in world space, to fit near and far plane where the camera moves.
+    /// The vertices of all models in world space, to fit the near and far planes if the camera
+    /// moves.
     points: Vec<Point<World>>,
     /// The center of the models' bounding box.
     center: Point<World>,
@@ -42,8 +43,8 @@ enum BaseProjection {
 impl BaseProjection {
     /// The reason why the projection lacks a parameter; `None` if it has it.
     ///
-    /// An eye at infinity has no angle and no distance; the height of a perspective's window
-    /// depends on the plane it is measured on.
+    /// An eye at infinity has no angle and no distance; the window height of a perspective depends
+    /// on the plane on which it is measured.
     fn reason_unsupported(self, vary: SweepParameter) -> Option<&'static str> {
         let is_of_perspective = matches!(
             vary,
@@ -93,10 +94,10 @@ impl SweepBase {
         Ok(Self { camera, projection: lens, points, center, distance })
     }
 
-    /// Camera and projection with the parameter at a value, and a note on them.
+    /// Camera and projection with the parameter at a value, and a note.
     ///
-    /// Every step starts from the base and not from the step before, so that errors do not
-    /// accumulate and a single step equals that of a longer sweep.
+    /// Every step starts from the base and not from the previous step, so that errors do not
+    /// accumulate and a single step equals the same step of a longer sweep.
     ///
     /// | parameter | replaces | planes |
     /// | --- | --- | --- |
@@ -146,10 +147,10 @@ impl SweepBase {
         Ok((view_projection, self.describe_frustum(frustum, camera)))
     }
 
-    /// The requirement that a value violates, if it does.
+    /// The requirement that a value violates, if any.
     ///
-    /// The planes of a parallel projection may be negative: they can lie behind the eye. Values
-    /// that are not finite are refused for every parameter.
+    /// The planes of a parallel projection may be negative, that is, behind the eye. Values that
+    /// are not finite are rejected for every parameter.
     fn unmet_requirement(&self, vary: SweepParameter, value: f64) -> Option<&'static str> {
         let is_parallel = matches!(self.projection, BaseProjection::Parallel(_));
         let (is_allowed, allowed) = match vary {
@@ -168,7 +169,7 @@ impl SweepBase {
     /// The camera at a value of a parameter that moves it.
     ///
     /// A distance moves the eye along the gaze, e' = e + (d₀ − d) g, where d₀ is the distance in
-    /// the scene and g has unit length. The orientation stays.
+    /// the scene and g has unit length. The orientation does not change.
     fn camera_for_value(&self, vary: SweepParameter, value: f64) -> Result<Camera, String> {
         match vary {
             SweepParameter::Distance | SweepParameter::Dolly => {
@@ -183,7 +184,7 @@ impl SweepBase {
     /// The camera rotated about the vertical axis through the center.
     ///
     /// T(c) · R_y(φ) · T(−c) applied to the camera's frame, so position and orientation rotate
-    /// together and the center stays where it is in the picture.
+    /// together and the center does not move in the picture.
     fn orbit_camera(&self, degrees: f64) -> Result<Camera, String> {
         let center: Vector<World> = self.center - Point::ORIGIN;
         let rotation = Affine::<World, World>::translation(-center)
@@ -195,8 +196,8 @@ impl SweepBase {
 
     /// Camera and parallel projection with the parameter at a value, and a note.
     ///
-    /// A height keeps the aspect ratio, an aspect ratio keeps the height; both scale about the line
-    /// of sight. Only the angle moves the camera here, so only it fits the planes again.
+    /// A height keeps the aspect ratio, and an aspect ratio keeps the height; both scale about the
+    /// line of sight. Only the angle moves the camera here, so only it refits the planes.
     fn parallel_view_at(
         &self,
         vary: SweepParameter,
@@ -224,7 +225,7 @@ impl SweepBase {
             _ => (volume.near(), volume.far()),
         };
         if near >= far {
-            // The matrix would accept it, and look backwards through an inverted volume.
+            // The matrix would accept it and look backward through an inverted volume.
             let [near, far] = [near, far].map(|number| format_short(number, 6));
             return Err(format!("`far` ({far}) must lie beyond `near` ({near})"));
         }
@@ -237,7 +238,7 @@ impl SweepBase {
         Ok((view_projection, format!("{width} wide · {height} high · near {near} · far {far}")))
     }
 
-    /// The window one unit ahead of the eye at a value.
+    /// The window one unit in front of the eye at a value.
     ///
     /// Factors by which the slopes are multiplied:
     ///
@@ -246,7 +247,7 @@ impl SweepBase {
     ///  lens   n₀ / n                    the window on the near plane stays
     ///  dolly  d₀ / d                    the window at the center stays
     /// ```
-    /// The Lens formula is that of `glFrustum` with fixed sides.
+    /// The lens formula matches `glFrustum` with fixed sides.
     fn slopes_for_value(
         &self,
         vary: SweepParameter,
@@ -284,7 +285,7 @@ impl SweepBase {
     }
 }
 
-/// A window moved to the right by halves of its width.
+/// A window moved to the right by a number of half widths.
 ///
 /// A shift of 1 moves the left border onto the former center.
 fn shift_window(window: Window, halves: f64) -> Result<Window, ProjectionError> {

@@ -1,4 +1,4 @@
-//! Each parameter does what the lessons say, and nothing else.
+//! Each parameter does what the lessons say and nothing else.
 
 use super::*;
 use crate::demonstration::test_scene::house_scene;
@@ -33,7 +33,7 @@ fn assert_near(a: f64, b: f64) {
     assert!((a - b).abs() <= 1e-9 * a.abs().max(b.abs()).max(1.0), "{a} {b}");
 }
 
-/// A place off the line of sight, at the depth of the middle.
+/// A point off the line of sight, at the depth of the middle.
 fn point_beside(view_projection: &ViewProjection, middle: Point<World>) -> Point<World> {
     middle + view_projection.camera.u() * 1.5 + view_projection.camera.v()
 }
@@ -54,7 +54,7 @@ fn values_are_evenly_spaced_and_end_where_they_are_told() {
     assert_near(values[1] - values[0], values[3] - values[2]);
 }
 
-/// C62: sizes in the picture go with 1/tan(θ/2).
+/// C62: sizes in the picture are proportional to 1/tan(θ/2).
 #[test]
 fn a_smaller_angle_enlarges() {
     let (_, _, middle) = house_view();
@@ -103,7 +103,7 @@ fn near_and_far_move_nothing_in_the_picture() {
     }
 }
 
-/// C64: with the window as it is, half the distance is twice the tangent.
+/// C64: with the same window, half the distance gives twice the tangent.
 #[test]
 fn the_distance_of_a_fixed_window_is_a_lens() {
     let (_, base, middle) = house_view();
@@ -135,7 +135,7 @@ fn a_shift_moves_the_picture_as_it_is() {
     }
 }
 
-/// C94: what is at the depth of the middle keeps its size, what is before it does not.
+/// C94: objects at the depth of the middle keep their size, objects in front of it do not.
 #[test]
 fn a_dolly_zoom_keeps_the_middle() {
     let (_, base, middle) = house_view();
@@ -196,7 +196,7 @@ fn what_makes_no_sense_is_told() {
     assert!(message(SweepParameter::Fov, 40.0, &scene).contains("take a perspective"));
 }
 
-/// C94: borders and planes of a parallel view volume, each by itself.
+/// C94: the borders and planes of a parallel view volume, one at a time.
 #[test]
 fn a_parallel_window_is_varied_too() {
     let (_, _, mut scene) = house_scene();

@@ -69,7 +69,7 @@ pub(super) static MULTIPLES_OF_A_POINT: Exercise = Exercise {
     samples: &[&[3.0, 5.0, -2.0, 4.0], &[0.7, -1.3, 2.1, -0.6], &[-4.0, 2.5, 1.5, 1.25]],
     answer: |letters| {
         let [a, b, c, h] = letters.try_into().ok()?;
-        // Any affine map and point will do: here a translation of the origin.
+        // Any affine map and point works; here a translation of the origin.
         let map: Projective<View, View> = Affine::translation(Vector::new(a, b, c)).into();
         let image: [f64; 4] = map.transform_hpoint(HPoint::new(0.0, 0.0, 0.0, h)).into();
         Some(vec![image.to_vec()])

@@ -8,7 +8,7 @@ use crate::words::words;
 use homog::Point;
 use projection::Oblique;
 
-/// The image of (1, 1, z), of which x and y count.
+/// The image of (1, 1, z); only x and y are used.
 fn image(oblique: Oblique, z: f64) -> Entries {
     let image = oblique.onto_plane().transform_point(Point::new(1.0, 1.0, z));
     vec![vec![image.x(), image.y()]]

@@ -1,4 +1,4 @@
-//! Exercises on the matrix P and what it does: 3, 4, 6, 7, 8 and 9.
+//! Exercises on the matrix P and its effect: 3, 4, 6, 7, 8 and 9.
 
 use crate::exercise::answer_text::AnswerShape;
 use crate::exercise::entries::{Multiples, rows_of};
@@ -323,7 +323,7 @@ pub(super) static NEAR_CORNER: Exercise = Exercise {
     samples: &[&[4.0, 2.0, -1.0], &[1.7, -0.9, -0.4], &[-3.5, 6.0, -2.5]],
     answer: |letters| {
         let [r, t, n] = letters.try_into().ok()?;
-        // The other sides fall out: any that make a volume.
+        // The other sides cancel: any that form a volume work.
         let map = m_per(r - 3.0, r, t - 2.0, t, n, 3.0 * n).ok()?;
         let image: [f64; 4] = map.transform_point(Point::new(r, t, n)).into();
         Some(vec![image.to_vec()])

@@ -1,11 +1,11 @@
-//! Answers to the exercises: right ones, mistakes with their names, and others.
+//! Answers to the exercises: correct ones, known mistakes, and others.
 
-/// Right answers, and wrong ones with the names of their mistakes.
+/// Correct answers, and wrong ones with their mistakes.
 pub(super) struct Case {
     pub(super) number: u32,
     pub(super) right: &'static [&'static str],
     pub(super) mistaken: &'static [(&'static str, &'static str)],
-    /// A wrong answer without a name, and what is said about it.
+    /// An unknown wrong answer, and the verdict on it.
     pub(super) unknown: (&'static str, &'static str),
 }
 
