@@ -22,7 +22,7 @@ fn exercises_are_listed_asked_and_hinted_at() {
     for part in [
         "Exercise 3: The third row of P\n\n",
         "Find A and B.",
-        "Answer: `A, B`, in the letters n, f.",
+        "Answer: `A, B`, in terms of n, f.",
         "alberti exercise 3 --answer",
     ] {
         assert!(question.stdout.contains(part), "{part}: {}", question.stdout);

@@ -98,7 +98,7 @@ impl Exercise {
             zh += "，用 `2/3` 或 `sqrt(2)` 这样的数";
         } else {
             let letters = self.letters.join(", ");
-            en += &format!(", in the letters {letters}");
+            en += &format!(", in terms of {letters}");
             zh += &format!("，可用字母 {letters}");
         }
         match self.multiples {

@@ -83,7 +83,7 @@ fn rounded_answers_are_told_and_others_are_refused() {
         (
             2,
             "nx/(r-l) 0 0 -1/2 - l nx/(r-l); 0 ny/(t-b) 0 -1/2 - b ny/(t-b); 0 0 2/(n-f) -(n+f)/(n-f); 0 0 0 1",
-            "5 + 5 + 4 + 4 entries instead of 4 + 4 + 4 + 4: give a 4 × 4 matrix, its rows separated by `;`, in the letters nx, ny, l, r, b, t, n, f; a blank separates entries: write `l*nx`, or commas",
+            "5 + 5 + 4 + 4 entries instead of 4 + 4 + 4 + 4: give a 4 × 4 matrix, its rows separated by `;`, in terms of nx, ny, l, r, b, t, n, f; a blank separates entries: write `l*nx`, or commas",
         ),
         (2, "f_n, 1", "write `f*n`"),
         (5, "1 + (a, b, c, 1)", "write out each entry"),
