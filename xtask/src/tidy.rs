@@ -10,6 +10,7 @@ mod commits;
 mod crate_map;
 mod documents;
 mod names;
+mod phrases;
 mod scenes;
 mod signatures;
 mod size;
@@ -67,7 +68,9 @@ pub fn run_tidy(arguments: &[String]) -> Outcome {
     violations.extend(comments::wide_lines(&sources));
     violations.extend(comments::empty_openings(&sources));
     violations.extend(comments::unlisted_formulas(&sources)?);
-    violations.extend(words::machine_path_mentions(&source::text_files()?));
+    let files = source::text_files()?;
+    violations.extend(words::machine_path_mentions(&files));
+    violations.extend(phrases::phrases(&files));
     violations.extend(boundaries::dependencies()?);
     violations.extend(crate_map::outdated_map()?);
     violations.extend(crate_map::crate_lengths(&sources));
