@@ -96,7 +96,7 @@ fn a_broken_model_is_a_line_of_the_report_and_what_is_done_is_not_done_again() {
     let run = sandbox.run(&SMALL);
     assert_eq!(run.stdout, "2 rendered, 1 up to date, 1 failed\n", "content changed, picture gone");
     assert!(!run.stderr.contains("broken.glb"), "{}", run.stderr);
-    assert!(run.stderr.contains("1 in an earlier run; --retry-failed"), "{}", run.stderr);
+    assert!(run.stderr.contains("1 in an earlier run; use --retry-failed"), "{}", run.stderr);
     let run = sandbox.run(&[&SMALL[..], &["--retry-failed"]].concat());
     assert_eq!((run.code, run.stdout.as_str()), (1, "0 rendered, 3 up to date, 1 failed\n"));
     assert!(run.stderr.contains("broken.glb"), "it was tried again: {}", run.stderr);

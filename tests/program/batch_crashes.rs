@@ -111,7 +111,7 @@ fn check_remains(sandbox: &Sandbox, whole: &BTreeMap<String, Vec<u8>>, when: &st
 /// Checks that a batch is complete: `--verify` says so, and another run does nothing.
 fn check_complete(sandbox: &Sandbox, flags: &[&str]) {
     let run = sandbox.run(&batch_with(&[flags, &["--verify"]].concat()));
-    let expected = "18 whole, 0 missing, 0 wrong, 0 failed\n";
+    let expected = "18 intact, 0 missing, 0 wrong, 0 failed\n";
     assert_eq!((run.code, run.stdout.as_str()), (0, expected), "{}", run.stderr);
     let run = sandbox.run(&batch_with(flags));
     let expected = "0 rendered, 18 up to date, 0 failed\n";
@@ -235,7 +235,7 @@ fn records_that_are_torn_are_made_again() {
         let run = sandbox.run(&batch_with(&["--verify"]));
         let open = COUNT - left;
         assert_eq!(run.code, i32::from(open > 0), "{lost}: {}", run.stdout);
-        let expected = format!("{left} whole, {open} missing, 0 wrong, 0 failed\n");
+        let expected = format!("{left} intact, {open} missing, 0 wrong, 0 failed\n");
         assert!(run.stdout.ends_with(&expected), "{lost}: {}", run.stdout);
         let run = sandbox.run(&BATCH);
         assert_eq!(run.stdout, format!("{open} rendered, {left} up to date, 0 failed\n"));
@@ -385,7 +385,7 @@ fn a_disk_that_is_full_or_read_only_stops_the_run_and_the_next_one_goes_on() {
     let codes: Vec<&str> = stdout.lines().filter(|line| !line.contains(", ")).collect();
     let expected = ["full 3", "read-only 3", "room 0", "verify 0"].repeat(2);
     assert_eq!(codes, expected, "{stdout}{stderr}");
-    assert_eq!(stdout.matches("18 whole, 0 missing, 0 wrong, 0 failed").count(), 2, "{stdout}");
+    assert_eq!(stdout.matches("18 intact, 0 missing, 0 wrong, 0 failed").count(), 2, "{stdout}");
     assert!(stderr.contains("No space left") && stderr.contains("Read-only"), "{stderr}");
     assert!(!stderr.contains("failed:"), "{stderr}");
 }

@@ -90,7 +90,7 @@ fn pipes_and_folders_are_no_reports() {
     let run = run_in_time(&sandbox, &batch);
     assert_eq!(run.stdout, "0 rendered, 1 up to date, 0 failed\n", "{}", run.stderr);
     let run = run_in_time(&sandbox, &[&batch[..], &["--verify"]].concat());
-    assert_eq!(run.stdout, "1 whole, 0 missing, 0 wrong, 0 failed\n", "{}", run.stderr);
+    assert_eq!(run.stdout, "1 intact, 0 missing, 0 wrong, 0 failed\n", "{}", run.stderr);
     assert_eq!(run_in_time(&sandbox, &["batch", "--merge", "--out-dir", "out"]).code, 0);
     std::fs::remove_file(sandbox.path_of("out/crate.png")).expect("the picture");
     let pipe = Command::new("mkfifo").arg(sandbox.path_of("out/crate.png")).status();

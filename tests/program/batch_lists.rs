@@ -55,15 +55,15 @@ fn a_wrong_line_fails_by_its_number_and_the_others_run() {
         ("{\"input\": \"models/a.glb\", \"size\": \"8x8\"}", ""),
         ("{\"input\": \"models/a.glb\"", "not JSON"),
         ("[1]", "not a JSON object"),
-        ("{\"output\": \"x.png\"}", "`input` is missing"),
-        ("{\"input\": 3}", "`input` is no text"),
+        ("{\"output\": \"x.png\"}", "missing member `input`"),
+        ("{\"input\": 3}", "`input` must be a string"),
         ("{\"input\": \"models/a.glb\", \"sampels\": 4}", "did you mean `samples`?"),
         ("{\"input\": \"models/a.glb\", \"max_anisotropy\": 4}", "did you mean `max-anisotropy`?"),
         ("{\"input\": \"models/a.glb\", \"out-dir\": \"x\"}", "unknown member `out-dir`"),
-        ("{\"input\": \"models/a.glb\", \"output\": \"../x.png\"}", "below the output folder"),
-        ("{\"input\": \"models/a.glb\", \"output\": \"/x.png\"}", "below the output folder"),
+        ("{\"input\": \"models/a.glb\", \"output\": \"../x.png\"}", "outside the output folder"),
+        ("{\"input\": \"models/a.glb\", \"output\": \"/x.png\"}", "outside the output folder"),
         ("{\"input\": \"models/a.glb\", \"output\": \"x.jpg\"}", "end the name in .png"),
-        ("{\"input\": \"models/a.glb\", \"pictures\": []}", "no list of pictures"),
+        ("{\"input\": \"models/a.glb\", \"pictures\": []}", "must be a list of pictures"),
         ("{\"input\": \"models/a.glb\", \"pictures\": [{\"sice\": 1}]}", "pictures[0]: unknown"),
         ("{\"input\": \"models/a.glb\", \"samples\": 3}", "expected 1, 4, 8 or 16"),
         (
@@ -105,11 +105,11 @@ fn columns_of_csv_are_members() {
     assert_eq!((code, stdout.as_str()), (1, "2 rendered, 0 up to date, 1 failed\n"), "{stderr}");
     assert_eq!(sandbox.read_picture("out/a, b.png").0, 8);
     assert_eq!(sandbox.read_picture("out/3.png").0, 10);
-    assert!(stderr.contains("jobs.csv:4: the line has 2 fields, the header 5"), "{stderr}");
+    assert!(stderr.contains("jobs.csv:4: the line has 2 fields, but the header has 5"), "{stderr}");
     for (header, words) in [
         ("input,sise\n", "did you mean `size`?"),
-        ("output\n", "no column `input`"),
-        ("", "no column `input`"),
+        ("output\n", "missing column `input`"),
+        ("", "missing column `input`"),
         ("input,size,size\n", "twice"),
     ] {
         sandbox.write_file("wrong.csv", header);
@@ -188,5 +188,5 @@ fn one_scene_goes_over_many_models() {
     let (code, stdout, stderr) = run_list(&sandbox, "jobs.jsonl", &[]);
     assert_eq!((code, stdout.as_str()), (1, "1 rendered, 0 up to date, 1 failed\n"), "{stderr}");
     assert_eq!(sandbox.read_picture("named.png"), sandbox.read_picture("out/l.png"));
-    assert!(stderr.contains("jobs.jsonl:2: lineup.ron is a scene itself"), "{stderr}");
+    assert!(stderr.contains("jobs.jsonl:2: lineup.ron is a scene, not a model"), "{stderr}");
 }

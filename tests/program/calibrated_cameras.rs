@@ -95,5 +95,5 @@ fn the_matrix_of_a_calibrated_camera_is_built() {
     }
     let broken = sandbox.run(&["matrix", "--intrinsics=800,780,300,250,640.5,480,1,3"]);
     assert_eq!(broken.code, 1);
-    assert!(broken.stderr.contains("the width is 640.5: it must be a whole number"));
+    assert!(broken.stderr.contains("the width must be a whole number, not 640.5"));
 }

@@ -224,7 +224,7 @@ fn views_of_the_command_line_share_a_scale() {
     }
     let run = sandbox.run(&[&["render", "scene.ron"], &views[..]].concat());
     assert_eq!(run.code, 1);
-    assert!(run.stderr.contains("a perspective has no scale"), "{}", run.stderr);
+    assert!(run.stderr.contains("--same-scale needs a parallel projection"), "{}", run.stderr);
 }
 
 #[test]

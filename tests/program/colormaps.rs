@@ -177,11 +177,11 @@ fn flags_without_numbers_to_show_are_told() {
         (&["--scalar-range", "0,1"], "--scalar-range does nothing here: it needs --scalars"),
         (
             &["--scalars", "quality", "--style", "normals"],
-            "--scalars does nothing here: the `normals` style has no colors of vertices",
+            "--scalars does nothing here: the `normals` style does not show vertex colors",
         ),
         (
             &["--scalars", "quality", "--style", "lines"],
-            "--scalars does nothing here: a line drawing has no colors of vertices",
+            "--scalars does nothing here: a line drawing does not show vertex colors",
         ),
     ] {
         let (_, messages) = column_colors(&sandbox, &[&["scan.ply"], flags].concat(), 5);

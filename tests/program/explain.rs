@@ -90,7 +90,7 @@ fn vertices_and_triangles_come_from_the_mesh() {
         run.stderr
     );
     let run = sandbox.run(&["explain", "scene.ron", "--node", "0", "--vertex", "9"]);
-    assert!(run.stderr.contains("has 4 vertices; there is no vertex 9"), "{}", run.stderr);
+    assert!(run.stderr.contains("there is no vertex 9: primitive 0 has 4"), "{}", run.stderr);
 }
 
 #[test]
@@ -219,11 +219,11 @@ fn the_page_introduces_itself_with_its_units() {
 fn maps_without_a_scene_say_what_they_need() {
     let sandbox = Sandbox::new("explain_map_mistakes");
     for (flags, code, words) in [
-        (&["explain"][..], 1, "name a scene or a model to explain"),
+        (&["explain"][..], 1, "no scene or model to explain"),
         (&["explain", "--matrix", "1 2 3"], 2, "expected 16 numbers separated by commas, found 3"),
         (&["explain", "--planes", "0,1"], 1, "--planes 0,1"),
         (&["explain", "--planes", "-1,1"], 1, "same side of the eye"),
-        (&["explain", "--planes", "1,2", "--point", "0,0,0,0"], 2, "four zeros are no point"),
+        (&["explain", "--planes", "1,2", "--point", "0,0,0,0"], 2, "0,0,0,0 is not a point"),
         (&["explain", "--planes", "1,2", "--point", "1,2"], 2, "expected 3 or 4 numbers"),
         (&["explain", "--planes", "1,2", "--node", "0"], 2, "cannot be used with"),
     ] {

@@ -262,13 +262,13 @@ fn signed_planes_are_refused_where_distances_are_due() {
 fn flags_that_change_nothing_are_refused_by_name() {
     let sandbox = Sandbox::new("matrix_conflicts");
     for (flags, reason) in [
-        (&["--p", "-1,-3", "--reversed"][..], "--reversed changes nothing of --p"),
-        (&["--translate", "1,2,3", "--onto-plane"], "--onto-plane changes nothing of --translate"),
-        (&["--scale", "1,2,3", "--conventions", "vulkan"], "--conventions changes nothing of"),
-        (&["--oblique", "1,45", "--reversed"], "--reversed changes nothing of --oblique"),
+        (&["--p", "-1,-3", "--reversed"][..], "--reversed has no effect on --p"),
+        (&["--translate", "1,2,3", "--onto-plane"], "--onto-plane has no effect on --translate"),
+        (&["--scale", "1,2,3", "--conventions", "vulkan"], "--conventions has no effect on"),
+        (&["--oblique", "1,45", "--reversed"], "--reversed has no effect on --oblique"),
         (&["--oblique", "1,45,-1,1,-1,1,1,5", "--onto-plane"], "--onto-plane drops z"),
-        (&["--reversed", "1 0 0 0 1 0 0 0 1"], "--reversed is for matrices from parameters"),
-        (&["--conventions", "vulkan", "1 0 0 0 1 0 0 0 1"], "--conventions is for matrices"),
+        (&["--reversed", "1 0 0 0 1 0 0 0 1"], "--reversed applies only to matrices from"),
+        (&["--conventions", "vulkan", "1 0 0 0 1 0 0 0 1"], "--conventions applies only to"),
         (&["--point", "1,2,3", "1 0 0 0 1 0 0 0 1"], "--point needs a 4 × 4 matrix"),
     ] {
         let run = sandbox.run(&[&["matrix"], flags].concat());

@@ -75,11 +75,11 @@ fn errors_show_the_way_out() {
     for (command, words) in [
         (
             "matrix --look-to 0,1,0 0,-1,0 1,0,0",
-            "one list of 9 numbers is `--look-to 0,1,0,0,-1,0,1,0,0`",
+            "for one list of 9 numbers, write `--look-to 0,1,0,0,-1,0,1,0,0`",
         ),
         (
             "matrix --look-to 0,1,0",
-            "--look-to takes 6 or 9 numbers, found 3: one list joined by commas",
+            "--look-to takes 6 or 9 numbers, found 3; join them with commas",
         ),
         ("matrix --ortho -1,1,-1,1,0,1 1", "takes one list of numbers joined by commas"),
         ("explain --segment 0,0,0,1,1,1", "--planes N,F (the textbook's P) or --matrix NUMBERS"),

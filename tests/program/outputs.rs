@@ -114,7 +114,7 @@ fn pictures_come_from_the_standard_input_and_go_to_the_standard_output() {
     let run = sandbox.stderr_with_input(&["render", "-"], b"Scene(modles: [])");
     assert!(run.contains("--> <stdin>:1:7") && run.contains("did you mean `models`?"), "{run}");
     let run = sandbox.stderr_with_input(&["render", "-", "--max-file-bytes", "1k"], &model);
-    assert!(run.contains("--max-file-bytes allows more"), "{run}");
+    assert!(run.contains("raise --max-file-bytes"), "{run}");
 }
 
 #[test]

@@ -178,7 +178,7 @@ fn comparisons_print_figures_and_decide_the_exit_code() {
     assert_eq!(run.code, 0);
     assert_eq!(
         run.stderr,
-        "compared: agrees; greatest difference 0 of 255, 0 pixels (0.0000 %) beyond 0\n"
+        "compared: agrees; maximum difference 0 of 255; 0 pixels (0.0000 %) exceed the tolerance of 0\n"
     );
     let (width, height, _) = sandbox.read_picture("same.compare.png");
     assert_eq!((width, height), (360, 90));
@@ -187,7 +187,7 @@ fn comparisons_print_figures_and_decide_the_exit_code() {
     let flags = ["--compare", "expected.png", "--tolerance", "40"];
     let run = sandbox.run(&[&other[..], &flags, &SIZE].concat());
     assert_eq!(run.code, 1);
-    assert!(run.stderr.starts_with("compared: differs; greatest difference 255 of 255, "));
+    assert!(run.stderr.starts_with("compared: differs; maximum difference 255 of 255; "));
     assert!(sandbox.path_of("other.png").exists(), "the picture is there to be looked at");
     let run = sandbox.run(&["render", "crate.glb", "--size", "10x10", "--compare", "expected.png"]);
     assert_eq!(run.code, 1);

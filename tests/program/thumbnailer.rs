@@ -69,7 +69,7 @@ fn both_files_are_installed_for_a_user_and_removed_again() {
     let left = files_below(&data);
     assert!(left.contains(&"thumbnailers/other.thumbnailer".to_owned()), "{left:?}");
     assert!(!left.iter().any(|name| name.contains("alberti")), "{left:?}");
-    assert!(run("--uninstall").contains("is not there\n"));
+    assert!(run("--uninstall").contains("does not exist\n"));
 }
 
 #[test]
@@ -190,7 +190,7 @@ fn broken_and_huge_inputs_end_without_a_picture() {
     }
     assert_refuses(&sandbox, &["missing.stl", part], "missing.stl", &names);
     assert_refuses(&sandbox, &[".", part], "", &names);
-    let help = "--max-memory-bytes allows more";
+    let help = "raise --max-memory-bytes";
     assert_refuses(&sandbox, &["f.stl", part], help, &names);
     assert_refuses(&sandbox, &["g.stl", part, "--max-memory-bytes", "64MiB"], help, &names);
     sandbox.write_file(part, "the old picture");
@@ -209,7 +209,7 @@ fn an_input_that_never_comes_ends_after_the_time() {
     let run = RunResult::of(child.wait_with_output().expect("the program ends"));
     drop(pipe);
     assert_eq!(run.code, 1);
-    assert_eq!(run.stderr, "error: no picture after 1 s; --max-seconds allows more\n");
+    assert_eq!(run.stderr, "error: timed out after 1 s; raise --max-seconds\n");
     assert_eq!(sandbox.file_names(), [""; 0]);
 }
 

@@ -33,11 +33,11 @@ fn flags_that_do_nothing_are_told() {
         ),
         (
             &["--style", "shaded", "-o", "x.svg"],
-            "warning: --style shaded does nothing here: SVG output is always a line drawing; for surfaces write a .png\n",
+            "warning: --style shaded does nothing here: SVG output is always a line drawing; to show surfaces, write a .png\n",
         ),
         (
             &["--camera-axes", "opencv"],
-            "warning: --camera-axes does nothing here: it is about the numbers of --extrinsics or --pose\n",
+            "warning: --camera-axes does nothing here: it applies only to --extrinsics or --pose\n",
         ),
         (
             &["--arc-tolerance", "0.1"],

@@ -171,7 +171,7 @@ fn habits_that_were_tried_are_answered() {
     let sandbox = sandbox_with_teapot("tried_habits");
     std::fs::create_dir(sandbox.path_of("empty")).expect("a folder");
     for (words, told) in [
-        (&["render", "models/*.glb"][..], "this is a pattern that matches no file"),
+        (&["render", "models/*.glb"][..], "this pattern matches no file"),
         (&["render", "https://a.org/a.glb"], "fetch it first, as in `curl -O https://a.org/a.glb`"),
         (&["render", "teapot.glb", "--ambient-occlusion", "on"], "takes no value: leave out `on`"),
         (&["render", "teapot.glb", "-o", "."], ". is a folder\n  = help: name a file in it"),
@@ -196,7 +196,7 @@ fn habits_that_were_tried_are_answered() {
         (&["batch", "nothere", "--out-dir", "th"], "failed: nothere: the file does not exist"),
         (&["render", "+Iteapot.glb", "+W64", "+Oo.png"], "a flag begins with `--`"),
         (&["batch", "empty", "-o", "thumbs"], "use `--out-dir thumbs`"),
-        (&["batch", "empty", "--out-dir", "th"], "warning: there is nothing to draw"),
+        (&["batch", "empty", "--out-dir", "th"], "warning: nothing to draw"),
         (&["thumbnailer", "-s", "128", "teapot.glb", "t.png"], "--size 128` gives the side"),
         (
             &["render", "teapot.glb", "--size=8x8", "--background", "transparent", "-o", "a.jpg"],
@@ -213,7 +213,7 @@ fn habits_that_were_tried_are_answered() {
                 "-o",
                 "t.gif",
             ],
-            "viewers slow down a GIF of more than 50 frames a second",
+            "viewers slow down a GIF with more than 50 frames per second",
         ),
         (&["render", "teapot.glb", "--output-dir", "out"], "a template names the outputs"),
         (&["version"], "run `alberti --version`"),
@@ -226,7 +226,7 @@ fn habits_that_were_tried_are_answered() {
 /// Arguments of `alberti render teapot.glb`, and the answers.
 const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
     (&["-x"], "for axes use `--overlay axes`; a format needs no flag"),
-    (&["--threads", "0"], "leave it out to use all processors"),
+    (&["--threads", "0"], "omit the flag to use all processors"),
     (&["--camera=0,0,5"], "to place one use `--eye 0,0,5 --target 0,0,0`"),
     (&["--camera-view-up", "0,0,1"], "use `--view-up 0,0,1 --eye 4,3,6 --target 0,0,0`"),
     (&["--focal-length", "50"], "use `--fov 27`, the vertical angle of view of a 50 mm lens"),
@@ -289,7 +289,7 @@ const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
     (&["--size", "50%"], "`--scale 0.5` scales the width and height"),
     (&["--background", "rgba(255,255,255,0.5)"], "a background color has no alpha"),
     (&["-w", "64", "-h", "48"], "use `--size 64x48`"),
-    (&["-h", "48"], "`--size 1920x1080` gives the size"),
+    (&["-h", "48"], "`--size 1920x1080` sets the size"),
     (&["--width", "64", "--height", "48"], "use `--size 64x48`"),
     (&["--view", "45,30"], "for angles use `--azimuth 45 --elevation 30`"),
     (&["--elev", "30"], "use `--elevation 30`"),
@@ -301,7 +301,7 @@ const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
     (&["--color", "red"], "`--color` says when messages are colored"),
     (&["--output-dir", "out/"], "as in `-o 'out/{stem}.png'`"),
     (&["-o", "out/"], "is a folder"),
-    (&["\u{2014}size", "64x48"], "it begins with a dash and not with two hyphens"),
+    (&["\u{2014}size", "64x48"], "it begins with a dash; flags begin with two hyphens"),
     (&["-o", "a.exr"], "`--passes depth --pass-format exr -o picture.png`"),
     (&["--qwerty"], "`--qwerty` is not a flag of `alberti render`; `alberti render --help` lists"),
     (&["--samplse", "4"], "did you mean `--samples`?"),
@@ -319,7 +319,7 @@ const COMMAND_LINES: &[(&[&str], &str)] = &[
     (&["sheet", "teapot.glb", "--format", "svg"], "as in `-o sheet.pdf`, so leave it out"),
     (&["info", "-i", "teapot.glb"], "as in `alberti info model.glb`"),
     (&["animate", "teapot.glb", "--frames", "1..10", "-o", "a.gif"], "write `--frames 10`"),
-    (&["animate", "teapot.glb", "-o", "film"], "the name has no ending"),
+    (&["animate", "teapot.glb", "-o", "film"], "missing file extension"),
     (&["animate", "teapot.glb", "-ss", "1", "-o", "a.gif"], "use `--from 1`"),
     (&["render", "lfs.glb"], "this is a Git LFS pointer and not the model itself"),
     (&["render", "page.glb"], "this is a web page, which is not supported; download the model"),
@@ -337,7 +337,7 @@ const COMMAND_LINES: &[(&[&str], &str)] = &[
     (&["sheet", "teapot.glb", "--format", "svg"], "as in `-o sheet.pdf`, so leave it out"),
     (&["info", "-i", "teapot.glb"], "as in `alberti info model.glb`"),
     (&["animate", "teapot.glb", "--frames", "1..10", "-o", "a.gif"], "write `--frames 10`"),
-    (&["animate", "teapot.glb", "-o", "film"], "the name has no ending"),
+    (&["animate", "teapot.glb", "-o", "film"], "missing file extension"),
     (&["render", "scene.ron"], "scene.ron: the file does not exist"),
     (&["explore", "--host", "0.0.0.0"], "the page is served to this machine only"),
 ];
@@ -372,7 +372,7 @@ fn flags_without_an_effect_are_warnings() {
     let run = sandbox.run(&["render", "teapot.glb", "--size=8x8", "--format=JPEG", "-o", "a.png"]);
     assert_eq!(
         run.stderr,
-        "warning: a.png contains JPG, because --format overrides the ending of the name\n"
+        "warning: a.png contains JPG, because --format overrides the file extension\n"
     );
     let run = sandbox.run(&["render", "teapot.glb", "--size=8x8", "--fov", "0.785"]);
     assert_eq!(run.code, 0);
@@ -381,7 +381,7 @@ fn flags_without_an_effect_are_warnings() {
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let render = ["render", "teapot.glb", "--size=8x8"];
     let told = sandbox.stderr_with_output_in("a.png", &render);
-    let expected = "the picture is written to teapot.png, and nothing to the standard output";
+    let expected = "the picture is written to teapot.png, not to the standard output";
     assert!(told.contains(expected), "{told}");
     assert_eq!(sandbox.stderr_with_output_in("a.log", &render), "");
     std::fs::create_dir(sandbox.path_of("scenes")).expect("a folder");

@@ -29,8 +29,8 @@ use std::path::PathBuf;
 pub(crate) struct AnimateArgs {
     /// Scene (.ron) or model (.gltf, .glb, .stl, .obj, .ply, .3mf)
     input: PathBuf,
-    /// Output: NAME_{frame:04}.png for a file per frame, NAME.png for an animated PNG, NAME.gif, or
-    /// - for raw RGBA frames on the standard output
+    /// Output: NAME_{frame:04}.png for one file per frame, NAME.png for an animated PNG, NAME.gif,
+    /// or - for raw RGBA frames on the standard output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Rotate the models by this angle instead of playing their animation
@@ -50,13 +50,13 @@ pub(crate) struct AnimateArgs {
     /// Frames per second
     #[arg(long, value_name = "N", default_value = "30", value_parser = parse_frame_rate)]
     fps: f64,
-    /// Start time in seconds; one after --to plays the animation backwards [default: 0]
+    /// Start time in seconds; a time after --to plays the animation backward [default: 0]
     #[arg(long, value_name = "SECONDS", value_parser = parse_finite, allow_hyphen_values = true)]
     from: Option<Finite>,
     /// End time in seconds [default: the end of the animation]
     #[arg(long, value_name = "SECONDS", value_parser = parse_finite, allow_hyphen_values = true)]
     to: Option<Finite>,
-    /// Number of threads; the frames do not depend on it [default: one per core]
+    /// Number of threads; does not change the frames [default: one per core]
     #[arg(long, value_name = "N", value_parser = crate::options::parse_thread_count)]
     threads: Option<u16>,
     #[command(flatten)]
@@ -79,8 +79,8 @@ pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
     unused.iter().for_each(|warning| print_message("warning", warning));
     print_warnings::<drawing::Warning>(&scene, &[], false);
     if args.fps > MAX_GIF_FPS && args.output.extension().is_some_and(|ending| ending == "gif") {
-        let message = "viewers slow down a GIF of more than 50 frames a second: use --fps 50, or write an \
-                       animated PNG, as in -o film.png";
+        let message = "viewers slow down a GIF with more than 50 frames per second; use --fps 50, \
+                       or write an animated PNG, as in -o film.png";
         print_message("warning", message);
     }
     let film = args.build_sequence(&origin, &file, scene)?;

@@ -34,9 +34,9 @@ use std::path::PathBuf;
 
 /// Render, draw, validate and explain 3D models without a GPU, a display or a browser
 ///
-/// Models are glTF, STL, OBJ, PLY and 3MF files, recognized by their content.
+/// Reads glTF, STL, OBJ, PLY and 3MF, detected from the content.
 ///
-/// Output is deterministic: the bytes depend neither on the machine nor on the number of threads.
+/// Output is deterministic: the same bytes on every machine, with any number of threads.
 #[derive(Debug, Parser)]
 #[command(name = "alberti", version, max_term_width = 100, after_help = HELP_EXAMPLES)]
 pub(crate) struct Args {
@@ -45,8 +45,8 @@ pub(crate) struct Args {
     /// When to color messages; `auto` colors them on a terminal unless NO_COLOR is set
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
     pub(crate) color: ColorChoice,
-    /// Memory that the command may take, such as 2GiB, on Linux; one that needs more ends with an
-    /// error [default: no limit but those of single things]
+    /// Memory limit of the command, such as 2GiB; a command that needs more fails (Linux only)
+    /// [default: no overall limit]
     #[arg(long, global = true, value_name = "SIZE", value_parser = parse_memory_size)]
     pub(crate) max_memory: Option<u64>,
 }
@@ -62,8 +62,8 @@ Examples:
   alberti animate model.glb --turntable -o turn.png
   alberti batch models --out-dir thumbs --size 256x256
 
-  alberti sheet model.glb --paper a4              front, top, side and isometric view, to scale
-  alberti sheet part.stl --paper a4 --unit mm     a part in its true size, or to scale
+  alberti sheet model.glb --paper a4              front, top, side and isometric views, to scale
+  alberti sheet part.stl --paper a4 --unit mm     a part at its true size, or to scale
   alberti compare-projections model.glb           isometric, cavalier, two-point …, side by side
   alberti sweep model.glb --vary dolly --from 3 --to 12
   alberti curve depth --near 0.1 --far 1000 -o depth.svg
@@ -73,10 +73,10 @@ Examples:
   alberti scene init model.glb                    a scene file to start from
 
   alberti explain model.glb --point 0,1,0         a point through every stage of the pipeline
-  alberti explore model.glb                       the same live, in a browser on this machine
-  alberti matrix 1 0 0 0 …                        the transform or projection a matrix is
+  alberti explore model.glb                       the same, live in a browser on this machine
+  alberti matrix 1 0 0 0 …                        the transform or projection of a matrix
   alberti matrix --perspective 60,16/9,0.1,100    a matrix from parameters, or as code
-  alberti exercise 3 --answer 'A=1; B=0'          an answer to an exercise, checked
+  alberti exercise 3 --answer 'A=1; B=0'          a check of your answer to an exercise
   alberti demo wrap-around                        why clipping comes before the perspective divide
 
   alberti reference camera                        the meaning of a field or a flag
@@ -85,55 +85,55 @@ Exit codes:
   0  success
   1  the input is invalid or the work failed; existing output files are left untouched
   2  wrong usage
-  3  `batch` alone: the run could not go on, as where the disk is full; run it again
+  3  `batch` only: the run had to stop, for example because the disk is full; run it again
 `check` exits with 1 if there are errors, but not for warnings and notes. `render --compare` exits
-with 1 if the pictures differ, and writes all of its files. `exercise` exits with 1 if the answer is
-wrong. `batch` exits with 1 if jobs have failed, and with 128 plus the number of a signal that has
+with 1 if the pictures differ, but still writes all files. `exercise` exits with 1 if the answer is
+incorrect. `batch` exits with 1 if jobs failed, and with 128 plus the signal number if a signal
 interrupted it.";
 
 /// The commands, in the order of the help.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Render a scene or a model to a PNG, or draw it as lines to an SVG or a PDF
+    /// Render a model or scene to PNG, or as a line drawing to SVG, PDF or DXF
     Render(Deferred<RenderArgs>),
-    /// Draw the front, top, side and isometric view of a scene or a model on paper, to scale
+    /// Lay out front, top, side and isometric views on a sheet, to scale
     Sheet(Deferred<SheetArgs>),
     /// Print what a model contains: meshes, bounds, cameras, materials, extensions
     Info(Deferred<InfoArgs>),
     /// Validate a scene or a model and print every error with its location and a fix
     Check(Deferred<CheckArgs>),
-    /// Print the meaning of a 4x4 or 3x3 matrix, or build a matrix from parameters
+    /// Identify a 4x4 or 3x3 matrix, or build one from parameters
     Matrix(Deferred<MatrixArgs>),
-    /// Print every stage of the pipeline for a point, a segment, a pixel, a vertex or a triangle
+    /// Trace a point, segment, pixel, vertex or triangle through every stage of the pipeline
     Explain(Deferred<ExplainArgs>),
-    /// Explore the viewing pipeline in a browser: lessons, or a model
+    /// Explore the viewing pipeline in the browser, in lessons or with your own model
     Explore(ExploreArgs),
-    /// Print the exercises of the book, and check answers: what is wrong has a name
+    /// Show the book's exercises and check answers, naming the mistake
     Exercise(Deferred<ExerciseArgs>),
     /// Draw a subject in every classical projection, side by side, with formulas and numbers
     CompareProjections(Deferred<CompareProjectionsArgs>),
-    /// Draw a series of pictures that differ in one parameter of the camera, side by side
+    /// Draw a series of pictures that vary one camera parameter, side by side
     Sweep(Deferred<SweepArgs>),
-    /// Plot a function of the pipeline, with its table: depth against distance
+    /// Plot depth against distance, with a table
     Curve(CurveArgs),
-    /// Demonstrate the artifact that appears when a stage is omitted
+    /// Show the artifact that appears when a pipeline stage is skipped
     Demo(DemoArgs),
     /// Render a turntable or the model's own animation as an image sequence, APNG or GIF
     Animate(Deferred<AnimateArgs>),
-    /// Render many models: thumbnails, a report, a contact sheet
+    /// Render many models, with a report and a contact sheet
     Batch(Deferred<BatchArgs>),
-    /// Render what `batch` asks for
+    /// Render the jobs of `batch`
     #[command(hide = true)]
     BatchWorker(WorkerArgs),
-    /// Render a thumbnail within limits of time and memory, or install the thumbnailer
+    /// Render a thumbnail within time and memory limits, or install the thumbnailer
     Thumbnailer(Deferred<ThumbnailerArgs>),
     /// Create, validate, format and look up scene files
     Scene(SceneArgs),
-    /// Print the completion script of a shell
+    /// Print a shell completion script
     Completions(Deferred<CompletionArgs>),
     /// Print or write manual pages
     Man(Deferred<ManArgs>),
-    /// Print the reference of all flags, scene fields and formulas, or a JSON Schema
+    /// Look up flags, scene fields, formulas and JSON Schemas
     Reference(Deferred<FullReferenceArgs>),
 }
 
@@ -148,15 +148,15 @@ pub(crate) struct RenderArgs {
     /// [default: {stem}.png in the current folder, {stem}_{view}.png for several views]
     ///
     /// The name may be a template. {stem}, {camera}, {view}, {style}, {projection} and {variant}
-    /// are replaced by the input's name and the flags, {frame} by the index of the picture among
-    /// those of its input, {index} by its index among all. Indices start at 0; {index:04} has four
-    /// digits. Write {{ and }} for braces.
+    /// are replaced by values from the input's name and the flags, {frame} by the picture's index
+    /// for its input, {index} by its index among all pictures. Indices start at 0; {index:04} has
+    /// four digits. Write {{ and }} for braces.
     #[arg(help_heading = "Output", short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
     /// Output format [default: from the file extension; png on the standard output]
     #[arg(help_heading = "Output", long)]
     pub(crate) format: Option<OutputFormat>,
-    /// Quality of a JPEG, from 1 to 100 [default: 90]
+    /// JPEG quality, from 1 to 100 [default: 90]
     #[arg(help_heading = "Output", long, value_name = "N", value_parser = parse_quality)]
     pub(crate) quality: Option<u8>,
     /// Render again whenever the input or a file that it uses changes, until Ctrl+C
@@ -172,9 +172,10 @@ pub(crate) struct RenderArgs {
         conflicts_with_all = ["view", "camera", "azimuth", "elevation", "eye", "extrinsics", "pose"]
     )]
     pub(crate) views: Vec<NamedView>,
-    /// One scale for all --views: the same length is equally long in all pictures of an input
+    /// Use one scale for all --views, so that lengths can be compared between the pictures of an
+    /// input
     ///
-    /// The scale is the least at which each view fits. It needs a parallel projection, such as
+    /// It is the largest scale at which every view fits. It needs a parallel projection, such as
     /// --projection orthographic.
     #[arg(help_heading = "Camera", long, requires = "views")]
     pub(crate) same_scale: bool,
@@ -188,7 +189,7 @@ pub(crate) struct RenderArgs {
     pub(crate) compare: CompareArgs,
     #[command(flatten)]
     pub(crate) dxf: DxfArgs,
-    /// Number of threads; the picture does not depend on it [default: one per core]
+    /// Number of threads; does not change the picture [default: one per core]
     #[arg(help_heading = "Output", long, value_name = "N", value_parser = crate::options::parse_thread_count)]
     pub(crate) threads: Option<u16>,
     /// Print the time of each stage
@@ -202,7 +203,7 @@ pub(crate) struct RenderArgs {
     /// Print a JSON report: size, camera, models, times, warnings, files with their SHA-256
     #[arg(help_heading = "Output", long)]
     pub(crate) json: bool,
-    /// Print the picture in the terminal, by kitty's graphics protocol or as half blocks
+    /// Show the picture in the terminal, with kitty's graphics protocol or half blocks
     #[arg(help_heading = "Output", long, conflicts_with = "json")]
     pub(crate) show: bool,
     #[command(flatten)]
@@ -244,9 +245,9 @@ pub(crate) enum StyleArg {
     Flat,
     /// Gouraud shading: lit at the vertices, interpolated between them
     Gouraud,
-    /// Matte clay in the light of the scene
+    /// Matte clay, lit by the scene's lights
     Clay,
-    /// Material capture: shading by the normal in view space alone
+    /// Material capture: shading only by the view-space normal
     Matcap,
     /// World-space normals as colors: (n + 1) / 2
     Normals,
@@ -268,19 +269,19 @@ pub(crate) enum StyleArg {
     Lines,
     /// Line drawing with hidden lines dashed
     Dashed,
-    /// The outline alone
+    /// Only the outline
     Silhouette,
-    /// Closed loops around the whole and its holes, as for cutting; with --section, around what
-    /// is cut
+    /// Closed loops around the shape and its holes, as for cutting; with --section, around the cut
+    /// faces
     Outline,
-    /// Visible, hidden and tangent edges with the line types and widths of ISO 128; sections have
-    /// no hidden edges
+    /// Visible, hidden and tangent edges with ISO 128 line types and widths; sections have no
+    /// hidden edges
     Technical,
-    /// Black lines, and faces in shade hatched, as in patents
+    /// Black lines, with hatching on faces in shade, as in patents
     Patent,
-    /// As technical, in white on blue paper
+    /// Like technical, in white on blue paper
     Blueprint,
-    /// Pencil lines as drawn by hand
+    /// Pencil lines, as if drawn by hand
     Sketch,
 }
 
@@ -312,7 +313,7 @@ pub(crate) enum ProjectionArg {
     Isometric,
     /// Two axes at full length, the third at half
     Dimetric,
-    /// Each axis foreshortened by a factor of its own
+    /// A different foreshortening factor on each axis
     Trimetric,
     /// Oblique: the front in true shape, depth at full length at 45°
     Cavalier,
@@ -320,7 +321,7 @@ pub(crate) enum ProjectionArg {
     Cabinet,
     /// Oblique: the ground plan in true shape, heights vertical
     Military,
-    /// Perspective with one vanishing point, of the depth axis
+    /// Perspective with one vanishing point, for the depth axis
     OnePoint,
     /// Perspective with two vanishing points; verticals stay vertical
     TwoPoint,

@@ -26,61 +26,62 @@ use std::time::Duration;
 /// Arguments of `alberti batch`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct BatchArgs {
-    /// Models (.gltf, .glb, .stl, .obj, .ply, .3mf), scenes (.ron), folders, or lists of names
+    /// Models (.gltf, .glb, .stl, .obj, .ply, .3mf), scenes (.ron), folders, or lists of file names
     /// (.txt)
     ///
     /// A list has one file per line; `-` reads a list from the standard input.
     #[arg(required_unless_present_any = ["list", "merge"])]
     inputs: Vec<PathBuf>,
-    /// List of jobs, one a line: JSON (.jsonl) or CSV (.csv); `-` is the standard input
+    /// List of jobs, one per line: JSON (.jsonl) or CSV (.csv); `-` is the standard input
     ///
     /// {"input": "fox.glb", "output": "a.png", "size": "64x64"}: input is relative to the list,
-    /// output to the output folder, other members are flags of a picture by their names, which come
-    /// on top of those of the command. "pictures" is a list of such objects, for several pictures
-    /// of one input. The columns of a CSV file have the same names. The list is read as it is
+    /// output to the output folder. Other members are picture flags by name; they are added to the
+    /// flags of the command and override them. "pictures" is a list of such objects, for several
+    /// pictures of one input. The columns of a CSV file have the same names. The list is read as
     /// needed and may have any length.
     #[arg(long, value_name = "FILE")]
     list: Option<PathBuf>,
     /// Output folder for the pictures, the reports and the contact sheet
     #[arg(long, value_name = "DIR")]
     out_dir: PathBuf,
-    /// Names of the pictures, such as {prefix}/{stem}.png
+    /// Picture names, such as {prefix}/{stem}.png
     ///
-    /// {stem} and {name} are the input's name without and with its extension, {folder} its folder
-    /// below the one that was searched, {line} the number of its line or of the input, {picture}
-    /// that of the picture within its line, both from 1; {line:08} has eight digits. {prefix} are
-    /// two hexadecimal digits of a hash of the name, which spread many pictures over 256 folders.
+    /// {stem} and {name} are the input's name without and with its extension. {folder} is its
+    /// folder, relative to the folder that was searched. {line} is the number of its line or input,
+    /// {picture} the number of the picture within its line, both from 1; {line:08} has eight
+    /// digits. {prefix} is two hexadecimal digits of a hash of the name; it spreads the pictures
+    /// over 256 folders.
     #[arg(long, value_name = "TEMPLATE", value_parser = PictureName::parse)]
     name: Option<PictureName>,
     /// Process part I of N; `auto` takes both from the environment variables of an array job
     #[arg(long, value_name = "I/N|auto", value_parser = parse_shard)]
     shard: Option<Shard>,
-    /// Time of one picture, after which its job has failed; 0 is none
+    /// Time limit per picture in seconds; 0 means none
     #[arg(long, value_name = "N", default_value = "600", value_parser = clap::value_parser!(u32).range(0..=604_800))]
     job_seconds: u32,
-    /// Memory of one job, at least 64MiB, beyond which it has failed (Linux only)
+    /// Memory limit per job, at least 64MiB (Linux only)
     ///
-    /// It limits the sizes of files, arrays and images as well.
+    /// It also limits the sizes of files, arrays and images.
     #[arg(long, value_name = "SIZE", value_parser = parse_job_memory)]
     job_memory: Option<u64>,
     /// Render everything again, even if it is up to date
     #[arg(long)]
     force: bool,
-    /// Run jobs again that have failed in an earlier run and have not changed since
+    /// Retry jobs that failed in an earlier run and have not changed since
     #[arg(long)]
     retry_failed: bool,
-    /// Check that every job has a record, and every picture is there and whole; render nothing
+    /// Check that every job has a record and an intact picture; render nothing
     ///
-    /// Whatever is missing or wrong is printed one a line, and the exit code is 1.
+    /// Missing and wrong pictures are printed, one per line; the exit code is then 1.
     #[arg(long, conflicts_with_all = ["force", "retry_failed"])]
     verify: bool,
-    /// Merge the reports of all runs to report.jsonl and write the contact sheet; render nothing
+    /// Merge the reports of all runs into report.jsonl and write the contact sheet; render nothing
     #[arg(long, conflicts_with_all = ["force", "retry_failed", "verify"])]
     merge: bool,
-    /// Write the pictures to tar files of N pictures each, as WebDataset reads them
+    /// Write the pictures to tar files of N pictures each, for WebDataset
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     tar: Option<u32>,
-    /// Write counts and times to this file once a second, as text for Prometheus
+    /// Write counts and times to this file once a second, in the Prometheus text format
     #[arg(long, value_name = "FILE")]
     metrics: Option<PathBuf>,
     /// Number of models to render at a time [default: one per core]
@@ -166,17 +167,18 @@ fn merge_to_code(options: &BatchOptions) -> Result<u8, CliError> {
 /// Prints a summary of a merged report.
 ///
 /// ```text
-/// 990 pictures of 20.5 MB in all, 10 failed
-/// 0.3 s of work a job, 61.2 s for models/engine.glb
+/// 990 pictures, 20.5 MB in total, 10 failed
+/// 0.30 s per job on average, 61.20 s for models/engine.glb
 /// ```
 fn print_statistics(counts: &MergeCounts) -> Result<(), CliError> {
     let MergeCounts { done, failed, bytes, seconds, longest } = counts;
     let megabytes = *bytes as f64 / 1e6;
-    let mut text = format!("{done} pictures of {megabytes:.1} MB in all, {failed} failed\n");
+    let noun = if *done == 1 { "picture" } else { "pictures" };
+    let mut text = format!("{done} {noun}, {megabytes:.1} MB in total, {failed} failed\n");
     if let Some((longest, input)) = longest {
         let mean = seconds / (done + failed) as f64;
         let input = visible_text(input);
-        text += &format!("{mean:.2} s of work a job, {longest:.2} s for {input}\n");
+        text += &format!("{mean:.2} s per job on average, {longest:.2} s for {input}\n");
     }
     print_text(&text)
 }
@@ -189,7 +191,7 @@ fn run_to_code(options: &BatchOptions, jobs: ShardJobs) -> Result<u8, CliError> 
     match run_jobs(options, jobs, &program_command, display, tell_failure)? {
         RunEnd::Finished(counts) => print_summary(counts),
         RunEnd::Interrupted(signal) => {
-            print_message("error", "interrupted: run the command again to go on");
+            print_message("error", "interrupted; run the same command to continue");
             Ok(u8::try_from(128 + signal).unwrap_or(STOPPED))
         }
     }
@@ -203,15 +205,12 @@ fn run_to_code(options: &BatchOptions, jobs: ShardJobs) -> Result<u8, CliError> 
 fn print_summary(counts: RunCounts) -> Result<u8, CliError> {
     let RunCounts { rendered, up_to_date, failed, failed_before, .. } = counts;
     if failed_before > 0 {
-        let text = format!("{failed_before} in an earlier run; --retry-failed runs them again");
+        let text = format!("{failed_before} in an earlier run; use --retry-failed to try again");
         print_message("failed", &text);
     }
     let failed = failed + failed_before;
     if rendered + up_to_date + failed == 0 {
-        print_message(
-            "warning",
-            "there is nothing to draw: the inputs contain no models and no scenes",
-        );
+        print_message("warning", "nothing to draw: the inputs contain no models or scenes");
     }
     let text = format!("{rendered} rendered, {up_to_date} up to date, {failed} failed\n");
     print_text(&text)?;
@@ -223,8 +222,8 @@ fn parse_job_memory(text: &str) -> Result<u64, String> {
     if cfg!(target_os = "linux") {
         parse_memory_size(text)
     } else {
-        Err("only Linux holds a job to a number of bytes: leave the flag out, and limit what a \
-             model may demand by the flags --max-…"
+        Err("a memory limit per job is supported only on Linux; omit the flag and use the --max-… \
+             limits"
             .to_owned())
     }
 }

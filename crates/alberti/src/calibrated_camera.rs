@@ -11,10 +11,10 @@ use scene_file::file::{
 /// A camera as calibration, photogrammetry or a data set has it.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(crate) struct CalibratedCameraArgs {
-    /// Lens of a calibrated camera, by focal lengths and principal point in pixels
+    /// Camera intrinsics: focal lengths and principal point in pixels
     ///
-    /// Or all nine numbers of the matrix K, row by row. They are for pictures of the size of this
-    /// one.
+    /// Alternatively, all nine numbers of the matrix K, row by row. They must be for pictures of
+    /// the same size as this one.
     #[arg(
         help_heading = "Camera",
         long,

@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 pub(crate) enum ColorChoice {
     /// On a terminal, unless NO_COLOR is set
     Auto,
-    /// Also into files and pipes
+    /// In files and pipes, too
     Always,
     /// Never
     Never,

@@ -77,7 +77,7 @@ impl PictureComparison {
 }
 
 /// ```text
-/// compared: differs; greatest difference 12 of 255, 31 pixels (0.0045 %) beyond 0
+/// compared: differs; maximum difference 12 of 255; 31 pixels (0.0045 %) exceed the tolerance of 0
 /// ```
 impl fmt::Display for PictureComparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -86,7 +86,7 @@ impl fmt::Display for PictureComparison {
         let percent = 100.0 * self.differing_fraction();
         write!(
             f,
-            "compared: {verdict}; greatest difference {greatest} of 255, {beyond} pixels ({percent:.4} %) beyond {tolerance}"
+            "compared: {verdict}; maximum difference {greatest} of 255; {beyond} pixels ({percent:.4} %) exceed the tolerance of {tolerance}"
         )
     }
 }

@@ -21,7 +21,7 @@ pub(crate) struct CompareProjectionsArgs {
     /// Projections to show, in this order [default: all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     projections: Vec<ProjectionArg>,
-    /// Panels per row [default: a page that is about square]
+    /// Panels per row [default: chosen for a roughly square page]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=16))]
     columns: Option<u8>,
     #[command(flatten)]

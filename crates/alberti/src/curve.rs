@@ -32,20 +32,20 @@ struct DepthArgs {
     /// Distance of the far plane; `inf` for an infinite projection
     #[arg(long, value_name = "F", allow_hyphen_values = true)]
     far: f64,
-    /// Format of the depth buffer: fixed point of 1 to 64 bits, or 32f for floating point
+    /// Format of the depth buffer: fixed point with 1 to 64 bits, or 32f for floating point
     #[arg(long, value_name = "N|32f", default_value = "24", value_parser = parse_depth_format)]
     bits: DepthFormat,
     /// Depth of the near and the far plane; swapped for the reversed curve
     #[arg(long, value_name = "RANGE", default_value = "zero-one")]
     range: DepthRangeArg,
-    /// Distances of the table, separated by commas [default: 16 from near to far, in equal ratios]
+    /// Distances in the table, separated by commas [default: 16 from near to far, in equal ratios]
     #[arg(long, value_name = "DISTANCES", value_delimiter = ',', allow_hyphen_values = true)]
     distances: Vec<f64>,
-    /// Spacing of the plot's axis of distances
+    /// Spacing of the plot's distance axis
     #[arg(long, value_name = "SPACING", default_value = "logarithmic")]
     axis: AxisArg,
-    /// Output file: .svg, .pdf, .dxf or .png for the plot, .txt, .md, .csv or .json for the table alone
-    /// [default: the table on the standard output]
+    /// Output file: .svg, .pdf, .dxf or .png for the plot, .txt, .md, .csv or .json for only the
+    /// table [default: the table on the standard output]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }

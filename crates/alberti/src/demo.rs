@@ -18,7 +18,7 @@ pub(crate) struct DemoArgs {
 /// The demonstrations.
 #[derive(Debug, clap::Subcommand)]
 enum DemoSubject {
-    /// Draw a floor that extends behind the eye, clipped before the divide and not clipped
+    /// Draw a floor that extends behind the eye, with and without clipping before the divide
     ///
     /// Points behind the eye have w < 0: divided without clipping, they wrap around infinity and
     /// reappear on the wrong side of the picture.

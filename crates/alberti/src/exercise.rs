@@ -20,9 +20,9 @@ Examples:
   alberti exercise                                the list
   alberti exercise 3                              a question
   alberti exercise 3 --hint                       how to begin
-  alberti exercise 3 --answer 'A=1; B=0'          not right: the divide is forgotten …
+  alberti exercise 3 --answer 'A=1; B=0'          incorrect: the divide is missing …
 
-Exits with 0 if the answer is right, with 1 if it is wrong.";
+Exits with 0 if the answer is correct, with 1 if it is incorrect.";
 
 /// Arguments of `alberti exercise`.
 #[derive(Debug, clap::Args)]
@@ -32,9 +32,9 @@ pub(crate) struct ExerciseArgs {
     number: Option<u32>,
     /// Check an answer
     ///
-    /// Rows of a matrix are separated by `;`, numbers by blanks or commas. Fractions such as 7/3,
-    /// the letters of the exercise, + - * / ^ ( ), sqrt, sin, cos, tan, cot, atan, abs, pi and
-    /// degrees as 30° may stand in it; several values may be named, as in x=a+b; y=-a*b.
+    /// Separate the rows of a matrix with `;`, numbers with spaces or commas. Fractions such as
+    /// 7/3, the symbols of the exercise, + - * / ^ ( ), sqrt, sin, cos, tan, cot, atan, abs, pi and
+    /// degrees such as 30° are allowed. Name several values as in x=a+b; y=-a*b.
     #[arg(long, value_name = "ANSWER", allow_hyphen_values = true, requires = "number")]
     answer: Option<String>,
     /// Print the hints
@@ -114,7 +114,7 @@ fn numbered_exercise(number: u32, language: Language) -> Result<&'static Exercis
         let count = exercises().len();
         CliError::Usage(match language {
             Language::English => format!(
-                "there is no exercise {number}\n  = help: the exercises are 1 to {count}; `alberti exercise` lists them"
+                "there is no exercise {number}\n  = help: use 1 to {count}; `alberti exercise` lists them"
             ),
             Language::Chinese => format!(
                 "没有习题 {number}\n  = help: 习题编号为 1 到 {count}；`alberti exercise` 列出全部习题"

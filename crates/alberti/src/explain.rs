@@ -83,7 +83,7 @@ struct BareMapArgs {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Subject")]
 struct ExplainSubjectArgs {
-    /// Point in world space; with W a homogeneous point, or a direction if W is 0
+    /// Point in world space; add W for a homogeneous point, or W = 0 for a direction
     #[arg(
         long,
         value_name = "X,Y,Z[,W]",
@@ -92,7 +92,7 @@ struct ExplainSubjectArgs {
         conflicts_with_all = ["segment", "node"]
     )]
     point: Option<SubjectPoint>,
-    /// Pixel by column and row from the upper left: what is visible, and why it has its color
+    /// Pixel by column and row from the upper left: shows what is visible and explains the color
     #[arg(
         long,
         value_name = "X,Y",
@@ -109,7 +109,7 @@ struct ExplainSubjectArgs {
         conflicts_with = "node"
     )]
     segment: Option<[f64; 6]>,
-    /// Node of the model, by name or index: why it is visible or not
+    /// Node of the model, by name or index: explains why it is visible or not
     #[arg(long, value_name = "NAME|INDEX")]
     node: Option<String>,
     /// Vertex of the node's mesh, by index
@@ -118,10 +118,10 @@ struct ExplainSubjectArgs {
     /// Triangle of the node's mesh, by index
     #[arg(long, value_name = "INDEX", requires = "node")]
     triangle: Option<usize>,
-    /// Primitive of the mesh that has the vertex or triangle
+    /// Primitive of the mesh that contains the vertex or triangle
     #[arg(long, value_name = "INDEX", requires = "node", default_value_t = 0)]
     primitive: usize,
-    /// Model of the scene that has the node
+    /// Model of the scene that contains the node
     #[arg(long, value_name = "INDEX", requires = "node", default_value_t = 0)]
     model: usize,
 }
@@ -140,8 +140,8 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
         return write_explanation(args, &explanation, |explanation| Ok(explanation.to_string()));
     }
     let Some(input) = &args.input else {
-        let message = "name a scene or a model to explain\n  = help: --point and --segment need no \
-                       scene with --planes N,F (the textbook's P) or --matrix NUMBERS";
+        let message = "no scene or model to explain\n  = help: name one, or use --point or \
+                       --segment with --planes N,F (the textbook's P) or --matrix NUMBERS";
         return Err(CliError::Usage(message.to_owned()));
     };
     let (_, file, scene) = args.overrides.open_scene(input, &args.load_options)?;
@@ -225,7 +225,7 @@ impl ExplainSubjectArgs {
         let Some(node) = &self.node else { return Ok(explain_transforms(chain)) };
         let placed = scene.models.get(self.model).ok_or_else(|| {
             let count = scene.models.len();
-            format!("the scene has {count} models; there is no model {}", self.model)
+            format!("there is no model {}: the scene has {count}, numbered from 0", self.model)
         })?;
         self.explain_part(chain, placed, find_node(&placed.model, node)?)
     }
@@ -278,7 +278,7 @@ fn find_node(model: &Model, node: &str) -> Result<usize, String> {
             model.nodes.iter().filter_map(|node| node.name.as_deref()).take(12).collect();
         let count = model.nodes.len();
         format!(
-            "there is no node `{node}`; there are {count}, among them: {}",
+            "there is no node `{node}`; nodes of the model ({count}): {}",
             visible_text(&names.join(", "))
         )
     })
@@ -322,9 +322,7 @@ impl BareMapArgs {
 /// Parses sixteen numbers, boxed to keep the arguments of the command small.
 fn parse_matrix(text: &str) -> Result<Box<[f64; 16]>, String> {
     let one_word = |problem| {
-        format!(
-            "{problem}; they are one word, with commas or in quotation marks: \"1 0 0 0  0 1 …\""
-        )
+        format!("{problem}; write one word, with commas or in quotation marks: \"1 0 0 0  0 1 …\"")
     };
     parse_numbers(text).map(Box::new).map_err(one_word)
 }
@@ -338,7 +336,7 @@ pub(super) fn parse_point(text: &str) -> Result<SubjectPoint, String> {
     match numbers[..] {
         [x, y, z] => Ok(SubjectPoint::Cartesian([x, y, z])),
         [0.0, 0.0, 0.0, 0.0] => {
-            Err("four zeros are no point: choose w = 1, or 0 for a direction".to_owned())
+            Err("0,0,0,0 is not a point; use w = 1 for a point, w = 0 for a direction".to_owned())
         }
         [x, y, z, w] => Ok(SubjectPoint::Homogeneous([x, y, z, w])),
         _ => Err(format!("expected 3 or 4 numbers separated by commas, found {}", numbers.len())),

@@ -31,19 +31,19 @@ use token::new_token;
 pub(crate) struct ExploreArgs {
     /// Scene (.ron) or model (.gltf, .glb, .stl, .obj, .ply, .3mf) to explore
     ///
-    /// The files that it refers to come along. Without one the page begins with the first lesson;
-    /// files can also be dropped onto it.
+    /// The files that it refers to are served too. Without a model, the page starts with the first
+    /// lesson; you can also drop files onto it.
     input: Option<PathBuf>,
-    /// Port to listen on [default: one that is free]
+    /// Port to listen on [default: a free port]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     port: Option<u16>,
     /// Open the page in the default browser
     ///
-    /// The address, with its secret, is then an argument of another program, which other users of
-    /// the machine may be able to list.
+    /// The address, with its secret, is then an argument of another program, so other users of the
+    /// machine may be able to see it.
     #[arg(long)]
     open: bool,
-    /// Compute in this program rather than in the browser: faster, with the same bytes
+    /// Compute in this program instead of the browser: faster, with identical bytes
     #[arg(long)]
     native: bool,
 }
@@ -73,8 +73,8 @@ fn listen(port: u16) -> Result<(TcpListener, u16), CliError> {
         .and_then(|listener| listener.local_addr().map(|address| (listener, address.port())));
     listener.map_err(|error| {
         CliError::Usage(format!(
-            "cannot listen on 127.0.0.1:{port}: {error}\n  = help: choose another --port, or leave \
-             the flag out for one that is free"
+            "cannot listen on 127.0.0.1:{port}: {error}\n  = help: choose another --port, or omit \
+             the flag to use a free one"
         ))
     })
 }
@@ -91,6 +91,6 @@ fn open_browser(address: &str) {
     let mut command = Command::new(opener);
     command.arg(address).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     if let Err(error) = command.spawn() {
-        print_note(&format!("note: {opener} cannot be run ({error}); open the address by hand"));
+        print_note(&format!("note: cannot run {opener} ({error}); open the address yourself"));
     }
 }

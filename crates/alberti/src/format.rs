@@ -93,7 +93,7 @@ impl OutputFormat {
             ),
             "glb" | "gltf" | "obj" | "stl" | "ply" | "3mf" | "fbx" | "usdz" => unwritten(
                 "model",
-                "models are drawn here and not converted; use another program for that, such as Blender"
+                "models are drawn, not converted; use another program for that, such as Blender"
                     .into(),
             ),
             "dwg" => unwritten(
@@ -181,7 +181,7 @@ pub(crate) fn refuse_blender_path(output: &Path) -> Result<(), CliError> {
     let name = visible_path(output);
     match name.strip_prefix("//") {
         Some(rest) if !rest.contains('#') => Err(CliError::Usage(format!(
-            "{name}: two slashes at the beginning of a path have no meaning here\n  = help: for a path from the current folder on write -o {rest}"
+            "{name}: two slashes at the beginning of a path have no meaning here\n  = help: for a path in the current folder, write -o {rest}"
         ))),
         _ => Ok(()),
     }

@@ -33,7 +33,7 @@ pub(crate) fn group_commands(program: Command) -> Command {
 }
 
 /// The description of the command `help`.
-const HELP_OF_HELP: &str = "Print the help of a command";
+const HELP_OF_HELP: &str = "Print the help for a command";
 
 /// The help lines of a command: its name, and its wrapped description.
 fn command_lines(name: &str, about: &str) -> String {

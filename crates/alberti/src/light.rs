@@ -72,9 +72,9 @@ enum SwitchArg {
 /// The value of `--ground`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum GroundArg {
-    /// Shadow catcher: invisible except for the shadows on it, which the picture shows whole
+    /// Shadow catcher: invisible except for the shadows on it, which the picture shows completely
     Shadow,
-    /// The same, and the picture frames the models alone: shadows may leave it
+    /// The same, but the picture frames only the models, so shadows may extend beyond it
     CroppedShadow,
     /// No ground
     None,
@@ -191,7 +191,7 @@ fn turn_environment(file: &mut Option<EnvironmentFile>, degrees: f64) -> Result<
         Some(EnvironmentFile::Uniform { .. }) => {}
         None | Some(EnvironmentFile::Dark) => {
             return Err(CliError::Usage(
-                "--environment-rotation has no environment to turn\n  = help: add --environment studio, sky or a .hdr file"
+                "--environment-rotation has no environment to rotate\n  = help: add --environment studio, sky or a .hdr file"
                     .to_owned(),
             ));
         }

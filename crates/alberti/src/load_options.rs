@@ -14,12 +14,12 @@ use std::path::PathBuf;
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Input")]
 pub(crate) struct LoadArgs {
-    /// Skip whatever is broken, missing or unsupported, with a warning
+    /// Skip broken, missing or unsupported parts, with a warning
     #[arg(long)]
     lenient: bool,
-    /// Also allow files below this folder; can be repeated
+    /// Also allow files below this folder; repeatable
     ///
-    /// By default only files below the folder of the scene and of the model are read.
+    /// By default, only files below the folders of the scene and the model are read.
     #[arg(long, value_name = "DIR")]
     allow_outside: Vec<PathBuf>,
     /// Axis that points up in the file [default: z for STL and 3MF, y for all others]
@@ -29,8 +29,8 @@ pub(crate) struct LoadArgs {
     /// mm for STL and 3MF, m for all others]
     #[arg(long, value_parser = option_parser::<LengthUnit>())]
     pub(crate) unit: Option<LengthUnit>,
-    /// Largest angle between faces of one smooth surface: for shading where a file has no normals,
-    /// and for the edges of line drawings, whatever normals it has [default: 30]
+    /// Crease angle: faces that meet at up to this angle are smooth; applies to shading if the file
+    /// has no normals, and always to the edges of line drawings [default: 30]
     #[arg(long, value_name = "DEGREES", value_parser = parse_crease_angle)]
     pub(crate) crease: Option<f64>,
     #[command(flatten)]

@@ -20,7 +20,7 @@ pub(crate) struct CompletionArgs {
 /// Arguments of `alberti man`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ManArgs {
-    /// Command, such as render or scene init [default: the program as a whole]
+    /// Command, such as render or scene init [default: the whole program]
     command: Vec<String>,
     /// Write the pages of the program and of every command into this folder
     #[arg(long, value_name = "DIR", conflicts_with = "command")]

@@ -29,14 +29,14 @@ Examples:
   alberti matrix --look-at 0,2,-5,0,0,0 --conventions direct3d
                                                   XMMatrixLookAtLH
   alberti matrix --viewport 640,480 --perspective 60,4/3,0.1,100 --look-at 4,3,6,0,0,0 --point 0,1,0
-                                                  a point of the world to pixels";
+                                                  a world-space point mapped to pixels";
 
 /// The languages of `--code`, with their names and descriptions.
 const LANGUAGES: [(&str, &str, CodeLanguage); 5] = [
     ("c", "C array of 16 doubles, column by column", CodeLanguage::C),
     ("glsl", "GLSL mat4", CodeLanguage::Glsl),
     ("python", "Python list of rows", CodeLanguage::Python),
-    ("rust", "Rust array of columns, as glam takes them", CodeLanguage::Rust),
+    ("rust", "Rust array of columns, as in glam", CodeLanguage::Rust),
     ("latex", "LaTeX bmatrix", CodeLanguage::Latex),
 ];
 
@@ -52,14 +52,14 @@ fn code_parser() -> impl TypedValueParser<Value = CodeLanguage> {
 /// Arguments of `alberti matrix`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = format!(
-    "In all matrices from parameters but --p, {DISTANCES}.\n\n{EXAMPLES}"
+    "For all matrices from parameters except --p, {DISTANCES}.\n\n{EXAMPLES}"
 ))]
 pub(crate) struct MatrixArgs {
     /// Sixteen or nine numbers, row by row [default: read from the standard input]
     ///
-    /// Brackets and commas between them are ignored; fractions such as 2/3 are numbers. Source code
-    /// of C, GLSL, Python and Rust is accepted as --code prints it: mat constructors are read
-    /// column by column, other code as its comments say or else row by row.
+    /// Brackets and commas between them are ignored, and fractions such as 2/3 are allowed. Source
+    /// code in C, GLSL, Python and Rust is accepted in the form that --code prints: mat
+    /// constructors are read column by column, other code as its comments say, or else row by row.
     #[arg(allow_hyphen_values = true)]
     numbers: Vec<String>,
     /// Read the numbers column by column, as OpenGL, glTF and glam store them
@@ -68,10 +68,10 @@ pub(crate) struct MatrixArgs {
     /// Print the report as JSON
     #[arg(long)]
     json: bool,
-    /// Print the matrix alone, as source code or LaTeX
+    /// Print only the matrix, as source code or LaTeX
     #[arg(long, value_name = "LANGUAGE", conflicts_with = "json", value_parser = code_parser())]
     code: Option<CodeLanguage>,
-    /// Map a point by the matrix; with W a homogeneous point, or a direction if W is 0
+    /// Map a point by the matrix; add W for a homogeneous point, or W = 0 for a direction
     #[arg(
         long,
         value_name = "X,Y,Z[,W]",
@@ -90,7 +90,7 @@ pub(crate) struct MatrixArgs {
     /// Exchange the depths of near and far (reversed z)
     #[arg(long)]
     reversed: bool,
-    /// Drop z, as the projections of the textbooks do: --oblique, --axonometric, --n-point
+    /// Drop z, as textbook projections do: --oblique, --axonometric, --n-point
     #[arg(long)]
     onto_plane: bool,
     #[command(flatten)]

@@ -22,8 +22,8 @@ pub(crate) struct ModelStateArgs {
     /// Time of the animation and of the scene's camera path, in seconds [default: 0, with
     /// --animation]
     ///
-    /// Of a scene with a camera path this is the still that `animate` shows at that time; models
-    /// then move if the scene or --animation names their animation.
+    /// For a scene with a camera path, renders the frame that `animate` shows at that time. Models
+    /// move only if the scene or --animation names their animation.
     #[arg(help_heading = "Input", long, value_name = "SECONDS", value_parser = parse_time, allow_hyphen_values = true)]
     pub(crate) time: Option<Finite>,
 }

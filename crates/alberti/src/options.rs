@@ -63,7 +63,7 @@ where
 pub(crate) fn parse_thread_count(text: &str) -> Result<u16, String> {
     let count = text.parse().ok().filter(|count| (1..=256).contains(count));
     count.ok_or_else(|| {
-        "expected a whole number from 1 to 256; leave it out to use all processors".to_owned()
+        "expected a whole number from 1 to 256; omit the flag to use all processors".to_owned()
     })
 }
 

@@ -23,14 +23,14 @@ pub(super) struct PanelSubjectArgs {
     /// Render style; styles other than line drawings embed raster images in the page
     #[arg(long, default_value = "lines")]
     style: StyleArg,
-    /// Guides drawn over the panels; can be repeated
+    /// Guides drawn over the panels; repeatable
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     overlay: Vec<OverlayArg>,
     #[command(flatten)]
     section: SectionArgs,
     #[command(flatten)]
     model_state: ModelStateArgs,
-    /// Number of threads; the page does not depend on it [default: one per core]
+    /// Number of threads; does not change the page [default: one per core]
     #[arg(long, value_name = "N", value_parser = crate::options::parse_thread_count)]
     pub(super) threads: Option<u16>,
     #[command(flatten)]
@@ -47,7 +47,7 @@ fn parse_panel_size(text: &str) -> Result<(u32, u32), String> {
     let size = parse_image_size(text)?;
     let fits = size.0.max(size.1) <= MAX_PANEL_SIDE;
     fits.then_some(size)
-        .ok_or_else(|| format!("the width and height of a panel are at most {MAX_PANEL_SIDE}"))
+        .ok_or_else(|| format!("a panel can be at most {MAX_PANEL_SIDE} pixels wide and high"))
 }
 
 impl PanelSubjectArgs {

@@ -29,10 +29,10 @@ use schema::SchemaName;
 /// Arguments of `alberti reference` and `alberti scene doc`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ReferenceArgs {
-    /// Flag, command, type, field, path of fields or formula [default: all flags and fields]
+    /// Flag, command, type, field, field path or formula [default: all flags and fields]
     ///
-    /// For example --size, render, LookAt, camera.projection or PE-1, the id of a formula; a word
-    /// of a formula's name or text lists the ids. `formulas` lists all of these.
+    /// For example --size, render, LookAt, camera.projection or the formula id PE-1. A word from a
+    /// formula's name or text lists the matching ids; `formulas` lists all formulas.
     #[arg(allow_hyphen_values = true)]
     word: Option<String>,
     /// Output format
@@ -45,10 +45,10 @@ pub(crate) struct ReferenceArgs {
 pub(crate) struct FullReferenceArgs {
     #[command(flatten)]
     sections: ReferenceArgs,
-    /// Print the JSON Schema of what a command writes
+    /// Print the JSON Schema of a command's output
     ///
-    /// Draft 2020-12. New members may come in any release; the version in a document rises when one
-    /// is removed or changes its meaning.
+    /// Draft 2020-12. Any release may add members. The version in a document increases when a
+    /// member is removed or changes its meaning.
     #[arg(long, value_name = "NAME", conflicts_with_all = ["word", "format"])]
     schema: Option<SchemaName>,
 }

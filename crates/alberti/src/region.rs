@@ -16,12 +16,12 @@ pub(crate) struct RegionArgs {
     bits: Option<u32>,
     /// Render only this rectangle: column and row of its upper left pixel, width, height
     ///
-    /// Its pixels are identical to those of the whole picture.
+    /// Its pixels are identical to the same pixels of the whole picture.
     #[arg(help_heading = "Picture", long, value_name = "X,Y,W,H", value_parser = parse_region)]
     crop: Option<PixelRect>,
     /// Render only the I-th of N horizontal bands, counted from the top
     ///
-    /// The bands of --crop, or of the whole picture, stacked from 1/N to N/N, are that picture.
+    /// Stacked from 1/N to N/N, the bands give the whole picture, or the --crop.
     #[arg(help_heading = "Picture", long, value_name = "I/N", value_parser = parse_band)]
     band: Option<[u32; 2]>,
 }

@@ -59,7 +59,7 @@ fn render_all(args: &RenderArgs) -> Result<ExitCode, CliError> {
         let output =
             tasks.first().and_then(|task| task.output.as_deref()).unwrap_or(Path::new("-"));
         let message = format!(
-            "the picture is written to {}, and nothing to the standard output; for that use `-o -`",
+            "the picture is written to {}, not to the standard output; for that, use `-o -`",
             visible_path(output)
         );
         print_message("warning", &message);
@@ -222,7 +222,7 @@ pub(super) fn open_input(
     if input.to_str().is_none() {
         let name = visible_path(input);
         return Err(CliError::Usage(format!(
-            "{name}: the name of the file is not UTF-8\n  = help: rename the file, or its folder"
+            "{name}: the file name is not UTF-8\n  = help: rename the file or its folder"
         )));
     }
     if is_scene_file(input) {
@@ -272,13 +272,15 @@ pub(super) fn missing_input_help(input: &Path) -> Option<String> {
     }
     if word.contains(['*', '?']) {
         return Some(
-            "this is a pattern that matches no file, or that was quoted: leave out the quotation \
-             marks, or run `alberti batch models --out-dir pictures` for all models in a folder"
+            "this pattern matches no file, or was quoted; remove the quotation marks, or run \
+             `alberti batch models --out-dir pictures` for all models in a folder"
                 .to_owned(),
         );
     }
     if word.starts_with(['–', '—']) {
-        return Some("it begins with a dash and not with two hyphens, as in `--size`".to_owned());
+        return Some(
+            "it begins with a dash; flags begin with two hyphens, as in `--size`".to_owned(),
+        );
     }
     if word.ends_with(".json") {
         return Some(format!(
@@ -317,7 +319,7 @@ pub(super) fn read_stdin(options: &ImportOptions) -> Result<Vec<u8>, CliError> {
     let read = std::io::stdin().lock().take(limit.saturating_add(1)).read_to_end(&mut bytes);
     read.map_err(|cause| stdin_error(&cause.to_string()))?;
     if bytes.len() as u64 > limit {
-        let why = format!("it has more than {limit} bytes; --max-file-bytes allows more");
+        let why = format!("it has more than {limit} bytes; raise --max-file-bytes");
         return Err(stdin_error(&why));
     }
     Ok(bytes)

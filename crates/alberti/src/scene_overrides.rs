@@ -62,10 +62,10 @@ pub(crate) struct SceneOverrideArgs {
     pub(crate) viewpoint: ViewpointArgs,
     #[command(flatten)]
     pub(crate) calibrated: CalibratedCameraArgs,
-    /// Draw lines exactly and completely however long it takes, also of crowds of surfaces
+    /// Draw lines exactly and completely however long it takes, even for very many surfaces
     #[arg(help_heading = "Lines", long)]
     pub(crate) no_line_limits: bool,
-    /// Guides drawn over the picture; can be repeated
+    /// Guides drawn over the picture; repeatable
     #[arg(help_heading = "Picture", long, value_name = "WHAT", value_delimiter = ',')]
     pub(crate) overlay: Vec<OverlayArg>,
     #[command(flatten)]
@@ -81,7 +81,7 @@ pub(crate) struct SceneOverrideArgs {
     /// Up to this many trilinear samples are taken along the longer axis of a pixel's footprint.
     #[arg(help_heading = "Picture", long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8))]
     pub(crate) max_anisotropy: Option<u32>,
-    /// Side of the points of a model in pixels, from 1 to 256 [default: 3]
+    /// Size of the points of a model in pixels, from 1 to 256 [default: 3]
     #[arg(help_heading = "Picture", long, value_name = "N", value_parser = parse_point_size)]
     pub(crate) point_size: Option<PointSize>,
     #[command(flatten)]

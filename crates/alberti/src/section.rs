@@ -5,10 +5,10 @@ use scene_file::file::{SceneFile, SectionFile};
 /// Section planes of a line drawing.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(crate) struct SectionArgs {
-    /// Cut the models of a line drawing open at a plane; can be repeated
+    /// Cut the models in a line drawing open at a plane; repeatable
     ///
-    /// x=0.5 removes everything with a greater x, -x=0.5 everything with a smaller one. Six numbers
-    /// are a point of the plane and the direction that is removed, such as 0,1,0,1,0,1.
+    /// x=0.5 removes everything with a larger x, -x=0.5 everything with a smaller one. Six numbers
+    /// are a point on the plane and the direction to remove, such as 0,1,0,1,0,1.
     #[arg(
         help_heading = "Lines",
         long = "section",
@@ -41,7 +41,7 @@ impl SectionArgs {
 /// If the text has another form, a number is not finite, or the normal is zero.
 fn parse_section_plane(text: &str) -> Result<SectionFile, String> {
     let fault = || {
-        "expected a plane such as x=0.5 or -z=0, or six numbers: a point and the direction that is removed".to_owned()
+        "expected a plane such as x=0.5 or -z=0, or six numbers: a point and the direction to remove".to_owned()
     };
     let number = |text: &str| text.trim().parse::<f64>().map_err(|_| fault());
     let (point, normal) = if let Some((axis, at)) = text.split_once('=') {

@@ -41,8 +41,8 @@ pub(crate) struct SheetArgs {
     input: PathBuf,
     /// Output file: .pdf, .svg, .dxf or .png [default: the input's name with .pdf, in the current folder]
     ///
-    /// Several pages are those of one PDF; in the other formats each is a file: out.svg stands for
-    /// out-1.svg, out-2.svg and so on, and {page} in a name for the number.
+    /// A PDF holds all pages. Other formats get one file per page: out.svg becomes out-1.svg,
+    /// out-2.svg and so on; {page} in a name is the page number.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Paper size [default: a3]
@@ -61,11 +61,11 @@ pub(crate) struct SheetArgs {
     /// Axonometric view beside the three principal views [default: isometric]
     #[arg(long, value_name = "VIEW", value_parser = option_parser::<AxonometricView>())]
     axonometric: Option<AxonometricView>,
-    /// Hidden lines of views along the axes that are not cut [default: as in the scene's line
-    /// style, else dashed]
+    /// Hidden lines in uncut views along the axes [default: as in the scene's line style, else
+    /// dashed]
     #[arg(long, value_parser = option_parser::<HiddenLines>())]
     hidden_lines: Option<HiddenLines>,
-    /// Fill of the faces under the lines: grays or hatchings tell parts apart [default: as in the
+    /// Fill of the faces under the lines: grays or hatching distinguish parts [default: as in the
     /// scene's line style, else none]
     #[arg(long, value_name = "FILL", value_parser = option_parser::<FaceFill>())]
     face_fill: Option<FaceFill>,
@@ -78,7 +78,7 @@ pub(crate) struct SheetArgs {
     /// Author in the title block
     #[arg(long)]
     author: Option<String>,
-    /// Date in the title block, as it is to be printed
+    /// Date in the title block, as it should be printed
     #[arg(long)]
     date: Option<String>,
     /// Drawing number in the title block
@@ -90,19 +90,19 @@ pub(crate) struct SheetArgs {
     /// Border around the drawing area [default: plain]
     #[arg(long, value_parser = option_parser::<SheetFrame>())]
     frame: Option<SheetFrame>,
-    /// Unit in which lengths are written [default: in if the model is in inches or feet, else mm]
+    /// Unit for lengths [default: in if the model is in inches or feet, else mm]
     #[arg(long, value_name = "UNIT", value_parser = option_parser::<DimensionUnit>())]
     dimension_unit: Option<DimensionUnit>,
-    /// Most decimals of lengths [default: 2 in millimeters, 3 in inches]
+    /// Maximum number of decimals in lengths [default: 2 in millimeters, 3 in inches]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=6))]
     decimals: Option<u32>,
-    /// Sign before decimals [default: point]
+    /// Decimal separator [default: point]
     #[arg(long, value_parser = option_parser::<DecimalMark>())]
     decimal_mark: Option<DecimalMark>,
-    /// Dots to the inch of a PNG, from 10 to 1200 [default: 150]
+    /// Resolution of a PNG in dpi, from 10 to 1200 [default: 150]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(10..=1200))]
     dpi: Option<u32>,
-    /// Say how much of the drawing area the views fill, and why the scale is not larger
+    /// Report how much of the drawing area the views fill, and why the scale is not larger
     #[arg(long)]
     explain_scale: bool,
     #[command(flatten)]
@@ -113,7 +113,7 @@ pub(crate) struct SheetArgs {
     section: SectionArgs,
     #[command(flatten)]
     model_state: ModelStateArgs,
-    /// Number of threads; the sheet does not depend on it [default: one per core]
+    /// Number of threads; does not change the sheet [default: one per core]
     #[arg(long, value_name = "N", value_parser = crate::options::parse_thread_count)]
     threads: Option<u16>,
     #[command(flatten)]
@@ -231,7 +231,7 @@ pub(super) fn rasterize_page<W>(page: &Page<W>, dpi: u32) -> Result<Picture, Cli
         page.to_picture(width, height)
     };
     size().ok_or_else(|| {
-        let message = format!("the paper is too large for a picture of {dpi} dots to the inch");
+        let message = format!("the paper is too large for a picture at {dpi} dpi");
         CliError::Usage(message)
     })
 }

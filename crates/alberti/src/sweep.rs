@@ -32,10 +32,10 @@ pub(crate) struct SweepArgs {
     /// Number of panels; their values are evenly spaced
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u32).range(1..=64))]
     steps: u32,
-    /// Draw below each panel its view volume and eye, seen from outside
+    /// Draw the view volume and eye below each panel, seen from outside
     #[arg(long)]
     view_volumes: bool,
-    /// Panels per row [default: a page that is about square]
+    /// Panels per row [default: chosen for a roughly square page]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=16))]
     columns: Option<u8>,
     /// Initial view: frame all models from this direction
@@ -55,7 +55,7 @@ enum VaryArg {
     Fov,
     /// Height of the window of a parallel projection
     Height,
-    /// Aspect ratio of the window; the picture keeps its own, so others distort
+    /// Aspect ratio of the window; the picture keeps its own, so a different one distorts
     Aspect,
     /// Distance of the near plane
     Near,
@@ -67,7 +67,7 @@ enum VaryArg {
     Shift,
     /// Distance of the eye from the center of the models
     Distance,
-    /// Dolly zoom: the distance, with the field of view that keeps the size of the center
+    /// Dolly zoom: the distance, with a field of view that keeps the center the same size
     Dolly,
     /// Orbit angle around the models in degrees, counterclockwise seen from above
     Angle,

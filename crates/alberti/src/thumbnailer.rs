@@ -34,7 +34,7 @@ use std::sync::Arc;
 pub(crate) struct ThumbnailerArgs {
     /// Model (.gltf, .glb, .stl, .obj, .ply, .3mf) or scene (.ron)
     ///
-    /// Broken, missing and unsupported parts are left out, as far as something is left to show.
+    /// Broken, missing and unsupported parts are skipped if anything is left to show.
     #[arg(required_unless_present_any = ["install", "uninstall", "print"], requires = "output")]
     input: Option<PathBuf>,
     /// Picture to write: a PNG
@@ -42,27 +42,27 @@ pub(crate) struct ThumbnailerArgs {
     /// Width and height of the picture in pixels
     #[arg(long, value_name = "N", default_value = "256", value_parser = clap::value_parser!(u32).range(1..=4096))]
     size: u32,
-    /// Time after which the program ends without a picture
+    /// Time limit in seconds; the program then exits without a picture
     #[arg(long, value_name = "N", default_value = "10", value_parser = clap::value_parser!(u32).range(1..=86_400))]
     max_seconds: u32,
-    /// Memory of the program, at least 64MiB, which limits the sizes of files, arrays and images
+    /// Memory limit, at least 64MiB; it also limits the sizes of files, arrays and images
     ///
-    /// An input that would need more ends with an error before it is read. On Linux the system
-    /// holds the program to this number besides (RLIMIT_DATA).
+    /// An input that would need more is rejected before it is read. On Linux the system enforces
+    /// this limit too (RLIMIT_DATA).
     #[arg(long, value_name = "SIZE", default_value = "1GiB", value_parser = parse_memory_size)]
     max_memory_bytes: u64,
     /// Install the thumbnailer and the MIME types for the current user, or below --prefix
     ///
     /// Writes thumbnailers/alberti.thumbnailer and mime/packages/alberti.xml to $XDG_DATA_HOME,
-    /// which is ~/.local/share if it is not set, and runs update-mime-database. File managers use
-    /// them once they are started again. Files that had no thumbnail before are tried again after
-    /// ~/.cache/thumbnails/fail is removed.
+    /// which is ~/.local/share if it is not set, and runs update-mime-database. Restart file
+    /// managers to use them. To retry files that had no thumbnail before, remove
+    /// ~/.cache/thumbnails/fail.
     #[arg(long, conflicts_with_all = ["input", "uninstall", "print"])]
     install: bool,
     /// Remove the files that --install writes
     #[arg(long, conflicts_with_all = ["input", "print"])]
     uninstall: bool,
-    /// Folder to install in, such as /usr/local; the files are below DIR/share
+    /// Folder to install in, such as /usr/local; the files go below DIR/share
     #[arg(long, value_name = "DIR", conflicts_with_all = ["input", "print"])]
     prefix: Option<PathBuf>,
     /// Print one of the two files that --install writes, for packages
@@ -161,8 +161,8 @@ fn with_memory_help(error: CliError) -> CliError {
             if diagnostic.code == codes::LIMIT_EXCEEDED =>
         {
             CliError::Usage(format!(
-                "{}: {}\n  = help: --max-memory-bytes allows more; `alberti render` has a flag for \
-                 each limit",
+                "{}: {}\n  = help: raise --max-memory-bytes; `alberti render` has a flag for each \
+                 limit",
                 visible_path(file),
                 visible_text(&diagnostic.message)
             ))

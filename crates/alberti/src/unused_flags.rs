@@ -37,7 +37,7 @@ pub(super) fn find_unused_flags(
     if let (Some(output), true) = (&task.output, named.is_some_and(|named| named != task.format)) {
         let format = task.format.extension().to_uppercase();
         warnings.push(format!(
-            "{} contains {format}, because --format overrides the ending of the name",
+            "{} contains {format}, because --format overrides the file extension",
             visible_path(output)
         ));
     }
@@ -50,7 +50,7 @@ pub(super) fn find_unused_flags(
         );
     }
     if args.region.asks_sixteen_bits() && task.format != OutputFormat::Png {
-        warnings.push("--bits 16 does nothing here: only a PNG has 16 bits a channel".to_owned());
+        warnings.push("--bits 16 does nothing here: only a PNG has 16 bits per channel".to_owned());
     }
     warnings
 }
@@ -94,8 +94,7 @@ pub(super) fn find_unused_overrides(
         warnings.push(format!("{} {verb} nothing here: {reason}", list_flags(&unused)));
     }
     if flags.calibrated.has_axes_alone() {
-        let message =
-            "--camera-axes does nothing here: it is about the numbers of --extrinsics or --pose";
+        let message = "--camera-axes does nothing here: it applies only to --extrinsics or --pose";
         warnings.push(message.to_owned());
     }
     warnings
@@ -107,7 +106,7 @@ fn undrawn_style(task: &RenderTask) -> Option<String> {
     let name = style.to_possible_value()?.get_name().to_owned();
     let format = task.format.extension().to_uppercase();
     Some(format!(
-        "--style {name} does nothing here: {format} output is always a line drawing; for surfaces write a .png"
+        "--style {name} does nothing here: {format} output is always a line drawing; to show surfaces, write a .png"
     ))
 }
 

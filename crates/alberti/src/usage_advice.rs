@@ -102,7 +102,7 @@ fn advise_on_help(error: &Error, words: &[OsString], program: &Command) -> Optio
         && let Some(pair) = all.windows(2).find(number)
     {
         return Some(format!(
-            "`-h` prints the help, and `{}` is not a part of that; `--size 1920x1080` gives the size",
+            "`-h` prints the help and does not take `{}`; `--size 1920x1080` sets the size",
             pair[1]
         ));
     }

@@ -13,7 +13,7 @@ use scene_file::file::{
 pub(crate) struct ViewpointArgs {
     /// Frame all models from this angle around them: 0 is the front, 90 the right side
     ///
-    /// With --azimuth or --elevation alone the other angle is 0.
+    /// If only one of --azimuth and --elevation is given, the other angle is 0.
     #[arg(
         help_heading = "Camera",
         long,
@@ -68,7 +68,7 @@ pub(crate) struct ViewpointArgs {
     /// Vertical field of view of a perspective, between 0 and 180 [default: 35]
     #[arg(help_heading = "Camera", long, value_name = "DEGREES", value_parser = parse_field_of_view, conflicts_with = "intrinsics")]
     fov: Option<FieldOfView>,
-    /// Show everything this many times larger, about the center of the picture
+    /// Magnify the view by this factor, about the center of the picture
     #[arg(help_heading = "Camera", long, value_name = "FACTOR", value_parser = parse_zoom)]
     zoom: Option<Positive>,
 }

@@ -44,12 +44,13 @@ impl CsvRecord {
                 return Ok(state);
             }
             (FieldState::Plain, '"') => {
-                return Err("a quote within a field: write the field in quotes, and the quote \
-                            twice"
-                    .to_owned());
+                return Err(
+                    "a quote inside an unquoted field; quote the field, and double the quote"
+                        .to_owned(),
+                );
             }
             (FieldState::AfterQuote, c) if c != '"' => {
-                return Err(format!("`{c}` after a quoted field: a comma has to follow"));
+                return Err(format!("unexpected `{c}` after a quoted field; expected a comma"));
             }
             _ => {}
         }

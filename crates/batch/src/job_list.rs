@@ -138,7 +138,7 @@ impl JobList {
         };
         let fault = |what: &str| {
             BatchError::Unusable(format!(
-                "{}:1: {what}\n  = help: the first line names the columns: input, and as needed \
+                "{}:1: {what}\n  = help: the first line names the columns: input and, if needed, \
                  output, scene and flags such as size",
                 self.name
             ))
@@ -149,14 +149,14 @@ impl JobList {
             .map(|column| column.trim_start_matches('\u{feff}').trim().to_owned())
             .collect();
         if !columns.iter().any(|column| column == "input") {
-            return Err(fault("no column `input`"));
+            return Err(fault("missing column `input`"));
         }
         for (at, column) in columns.iter().enumerate() {
             if let Err(what) = self.context.check_member(column) {
                 return Err(fault(&what));
             }
             if columns[..at].contains(column) {
-                return Err(fault(&format!("the column `{column}` is there twice")));
+                return Err(fault(&format!("duplicate column `{column}`")));
             }
         }
         self.columns = Some(columns);
@@ -176,7 +176,7 @@ impl JobList {
         self.position.0 += length as u64;
         if length as u64 > MAX_LINE_BYTES {
             return Err(BatchError::Unusable(format!(
-                "{}:{}: a line has {MAX_LINE_BYTES} bytes at most",
+                "{}:{}: the line is too long; at most {MAX_LINE_BYTES} bytes are allowed",
                 self.name, self.line
             )));
         }
@@ -197,7 +197,7 @@ impl JobList {
             }
             line = match self.next_line()? {
                 Some(line) => line,
-                None => return Ok(Err("a quoted field has no end".to_owned())),
+                None => return Ok(Err("a quoted field is not closed".to_owned())),
             };
         }
     }
@@ -224,7 +224,7 @@ impl JobList {
         let columns = self.columns.as_deref().unwrap_or_default();
         if fields.len() != columns.len() {
             return Err(format!(
-                "the line has {} fields, the header {}",
+                "the line has {} fields, but the header has {}",
                 fields.len(),
                 columns.len()
             ));
@@ -289,7 +289,7 @@ type Members = Result<Map<String, Value>, String>;
 fn json_members(line: &[u8]) -> Members {
     match serde_json::from_slice(line) {
         Ok(Value::Object(members)) => Ok(members),
-        Ok(_) => Err("the line is not a JSON object, such as {\"input\": \"fox.glb\"}".to_owned()),
+        Ok(_) => Err("the line is not a JSON object such as {\"input\": \"fox.glb\"}".to_owned()),
         Err(error) => {
             let text = error.to_string();
             let what = text.split(" at line ").next().unwrap_or_default();

@@ -35,10 +35,7 @@ impl ListContext {
         let wanted = name.trim_start_matches('-').replace('_', "-");
         let known: Vec<&str> = OWN_MEMBERS.into_iter().chain(self.flags.names()).collect();
         let help = closest_name(&wanted, &known).map_or_else(
-            || {
-                "members are input, output, scene, bytes, pictures, and the flags of a picture"
-                    .to_owned()
-            },
+            || "use input, output, scene, bytes, pictures or a picture flag".to_owned(),
             |best| format!("did you mean `{best}`?"),
         );
         let name = visible_text(name);
@@ -60,13 +57,13 @@ impl LineReader<'_> {
     /// If a member is unknown, missing, or of the wrong type.
     pub(super) fn read_group(&self, members: &Map<String, Value>) -> Result<JobGroup, String> {
         let given = text_member(members, "input")?;
-        let given = given.ok_or("the member `input` is missing")?;
+        let given = given.ok_or("missing member `input`")?;
         if given.is_empty() {
             return Err("the member `input` is empty".to_owned());
         }
         let bytes = match members.get("bytes") {
             None | Some(Value::Null) => None,
-            Some(value) => Some(value.as_u64().ok_or("the member `bytes` is no number of bytes")?),
+            Some(value) => Some(value.as_u64().ok_or("`bytes` must be a whole number")?),
         };
         let flags = self.flags_of(members)?;
         let pictures = match members.get("pictures") {
@@ -75,17 +72,18 @@ impl LineReader<'_> {
                 return Ok(JobGroup { jobs: vec![one], bytes });
             }
             Some(Value::Array(pictures)) if !pictures.is_empty() => pictures,
-            Some(_) => return Err("the member `pictures` is no list of pictures".to_owned()),
+            Some(_) => return Err("`pictures` must be a list of pictures".to_owned()),
         };
         if members.contains_key("output") {
-            return Err("each of the `pictures` has an `output` of its own".to_owned());
+            return Err("`output` does not go with `pictures`; give each picture its own `output`"
+                .to_owned());
         }
         let mut jobs: Vec<BatchJob> = Vec::new();
         for (at, picture) in pictures.iter().enumerate() {
             let job = self.read_picture(Path::new(given), members, picture, &flags, at + 1);
             let job = job.map_err(|what| format!("pictures[{at}]: {what}"))?;
             if jobs.iter().any(|other| other.output == job.output) {
-                return Err(format!("two of the `pictures` have the name {}", job.output));
+                return Err(format!("two of the `pictures` have the same output {}", job.output));
             }
             jobs.push(job);
         }
@@ -102,10 +100,10 @@ impl LineReader<'_> {
         number: usize,
     ) -> Result<BatchJob, String> {
         let own =
-            picture.as_object().ok_or("a picture is an object, such as {\"view\": \"top\"}")?;
+            picture.as_object().ok_or("a picture must be an object such as {\"view\": \"top\"}")?;
         for member in ["input", "bytes", "pictures"] {
             if own.contains_key(member) {
-                return Err(format!("`{member}` is a member of the line, not of a picture"));
+                return Err(format!("`{member}` belongs to the line, not to a picture"));
             }
         }
         let flags = self.context.flags.merge(flags, &self.flags_of(own)?);
@@ -177,7 +175,7 @@ fn text_member<'a>(members: &'a Map<String, Value>, name: &str) -> Result<Option
     match members.get(name) {
         None | Some(Value::Null) => Ok(None),
         Some(Value::String(text)) => Ok(Some(text)),
-        Some(_) => Err(format!("the member `{name}` is no text")),
+        Some(_) => Err(format!("`{name}` must be a string")),
     }
 }
 

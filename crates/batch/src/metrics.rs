@@ -62,11 +62,11 @@ impl RunCounts {
             ("failed", self.failed),
             ("failed_before", self.failed_before),
         ];
-        head(&mut text, "jobs_total", "counter", "Jobs of this run that are settled.");
+        head(&mut text, "jobs_total", "counter", "Finished jobs of this run, by status.");
         for (status, count) in jobs {
             let _ = writeln!(text, "alberti_batch_jobs_total{{status=\"{status}\"}} {count}");
         }
-        head(&mut text, "job_seconds", "histogram", "Time of a job, with loading and writing.");
+        head(&mut text, "job_seconds", "histogram", "Time per job, including loading and writing.");
         let mut below = 0;
         for (bound, count) in BOUNDS.iter().zip(self.histogram) {
             below += count;
@@ -75,11 +75,16 @@ impl RunCounts {
         let _ = writeln!(text, "alberti_batch_job_seconds_bucket{{le=\"+Inf\"}} {}", self.worked());
         let _ = writeln!(text, "alberti_batch_job_seconds_sum {}", self.seconds);
         let _ = writeln!(text, "alberti_batch_job_seconds_count {}", self.worked());
-        head(&mut text, "picture_bytes_total", "counter", "Size of the pictures of this run.");
+        head(
+            &mut text,
+            "picture_bytes_total",
+            "counter",
+            "Total size of the pictures of this run.",
+        );
         let _ = writeln!(text, "alberti_batch_picture_bytes_total {}", self.bytes);
         head(&mut text, "worker_restarts_total", "counter", "Workers that were replaced.");
         let _ = writeln!(text, "alberti_batch_worker_restarts_total {}", self.restarts);
-        head(&mut text, "run_seconds", "gauge", "Time since the beginning of the run.");
+        head(&mut text, "run_seconds", "gauge", "Time since the start of the run.");
         let _ = writeln!(text, "alberti_batch_run_seconds {elapsed:.1}");
         text
     }

@@ -58,7 +58,7 @@ impl FailureList {
     ///
     /// ```text
     /// failed: models/broken.glb: …
-    /// failed: 17 more, which the report has
+    /// failed: 17 more; see the report
     /// ```
     pub(super) fn tell(&self, mut tell: impl FnMut(&str)) {
         for (_, text) in &self.first {
@@ -66,7 +66,7 @@ impl FailureList {
         }
         let rest = self.count - self.first.len();
         if rest > 0 {
-            tell(&format!("{rest} more, which the report has"));
+            tell(&format!("{rest} more; see the report"));
         }
     }
 }
@@ -126,11 +126,11 @@ pub(super) fn worker_end_message(end: &WorkerEnd, text: &str, policy: JobPolicy)
     let what = match end {
         WorkerEnd::TimedOut => {
             let seconds = policy.limit.unwrap_or_default().as_secs();
-            return format!("no picture after {seconds} s\n  = help: --job-seconds allows more");
+            return format!("timed out after {seconds} s\n  = help: raise --job-seconds");
         }
         WorkerEnd::Signal(9) => {
-            "the worker was killed (SIGKILL), twice: the system ends programs so that take all \
-             memory"
+            "the worker was killed twice (SIGKILL), which is how the system stops programs that \
+             use up the memory"
                 .to_owned()
         }
         WorkerEnd::Signal(signal) => {
@@ -145,7 +145,7 @@ pub(super) fn worker_end_message(end: &WorkerEnd, text: &str, policy: JobPolicy)
         }
     };
     if text.contains("memory allocation of") {
-        return format!("out of memory: {what}: {text}\n  = help: --job-memory allows more");
+        return format!("out of memory: {what}: {text}\n  = help: raise --job-memory");
     }
     if text.is_empty() { what } else { format!("{what}: {text}") }
 }

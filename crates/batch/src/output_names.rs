@@ -33,7 +33,7 @@ pub(super) fn same_output_fault(lines: [u64; 2], output: &str) -> String {
     let [first, second] = lines;
     let output = files::visible_text(output);
     format!(
-        "lines {first} and {second} have the same output {output}\n  = help: give each picture an \
-         output of its own"
+        "lines {first} and {second} have the same output {output}\n  = help: give each picture its \
+         own output"
     )
 }

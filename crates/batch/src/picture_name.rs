@@ -42,7 +42,7 @@ impl PictureName {
     /// If a field is unknown, or the name does not end in `.png`.
     pub fn parse(text: &str) -> Result<Self, String> {
         if !has_png_extension(text) {
-            return Err("pictures are PNG files: end the name in .png".to_owned());
+            return Err("pictures are PNG files; end the name in .png".to_owned());
         }
         Self::parse_fields(text).map(Self)
     }
@@ -108,12 +108,14 @@ pub(super) fn check_picture_name(name: &str) -> Result<(), String> {
     let is_normal = path.components().all(|part| matches!(part, Component::Normal(_)));
     if !is_normal || name.contains('\0') {
         return Err(format!(
-            "the picture {shown} would not be below the output folder\n  = help: give a relative \
+            "the picture {shown} would be outside the output folder\n  = help: give a relative \
              path without `.` and `..`"
         ));
     }
     if !has_png_extension(name) {
-        return Err(format!("the picture {shown} is no PNG file\n  = help: end the name in .png"));
+        return Err(format!(
+            "the picture {shown} is not a PNG file\n  = help: end the name in .png"
+        ));
     }
     Ok(())
 }

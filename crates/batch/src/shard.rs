@@ -260,17 +260,19 @@ fn shard_of_task(
     let count = match (wanted, count) {
         (Some(wanted), Some(count)) if wanted != count => {
             return Err(format!(
-                "the array job has {count} tasks, not {wanted}; a part of its tasks can be run \
-                 again with --shard I/{wanted}"
+                "the array job has {count} tasks, not {wanted}; to run some of its tasks again, \
+                 use --shard I/{wanted}"
             ));
         }
         (None, None) => {
-            return Err(format!("{name} is set, but no number of tasks; write --shard auto/N"));
+            return Err(format!(
+                "{name} is set, but the number of tasks is not; use --shard auto/N"
+            ));
         }
         (wanted, count) => wanted.or(count).unwrap_or(1),
     };
     Shard::new(index, count).ok_or_else(|| {
-        format!("{name} is that of task {} of {count}; there are too few shards", index + 1)
+        format!("{name} selects task {}, but there are only {count} shards", index + 1)
     })
 }
 

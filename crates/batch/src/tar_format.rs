@@ -65,7 +65,10 @@ fn append_block(
 ) -> Result<()> {
     let size = format!("{:011o}\0", content.len());
     if size.len() != SIZE.len() {
-        return Err(Error::new(ErrorKind::FileTooLarge, "a file in a tar has less than 8 GiB"));
+        return Err(Error::new(
+            ErrorKind::FileTooLarge,
+            "a file in a tar must be smaller than 8 GiB",
+        ));
     }
     header[SIZE].copy_from_slice(size.as_bytes());
     header[MODE].copy_from_slice(b"0000644\0");
@@ -136,7 +139,7 @@ pub(super) fn read_archive(
         if number(CHECKSUM) != Some(header_sum(&header).into()) {
             return Err(damaged("the checksum of a header is wrong"));
         }
-        let size = number(SIZE).ok_or_else(|| damaged("a size is no number"))?;
+        let size = number(SIZE).ok_or_else(|| damaged("a size is not a number"))?;
         let mut content = reader.take(size);
         if header[TYPE] == b'x' && size <= MAX_NAME_RECORD {
             let mut record = String::new();

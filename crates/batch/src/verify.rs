@@ -78,7 +78,8 @@ impl VerdictCounts {
             Verdict::Missing(why) => (&mut self.missing, Some(format!("missing: {why}"))),
             Verdict::Wrong(why) => (&mut self.wrong, Some(format!("wrong: {why}"))),
             Verdict::Failed => {
-                let words = "failed: its message is in the report; --retry-failed runs it again";
+                let words =
+                    "failed: see the report for its message; use --retry-failed to retry it";
                 (&mut self.failed, Some(words.to_owned()))
             }
         };
@@ -88,7 +89,7 @@ impl VerdictCounts {
 
     fn summary(self) -> String {
         let Self { whole, missing, wrong, failed } = self;
-        format!("{whole} whole, {missing} missing, {wrong} wrong, {failed} failed")
+        format!("{whole} intact, {missing} missing, {wrong} wrong, {failed} failed")
     }
 
     const fn is_all_whole(self) -> bool {
@@ -144,7 +145,7 @@ impl<'a> Verifier<'a> {
     fn verify_job(&mut self, job: &BatchJob, key: &str) -> Verdict {
         let hash = record_hash(&job.output, key);
         let begin = self.records.partition_point(|(other, _)| *other < hash);
-        let mut verdict = Verdict::Missing("no run has a record of it with these flags and files");
+        let mut verdict = Verdict::Missing("no run has recorded it with these flags and files");
         let mut at = begin;
         while let Some((_, picture)) = self.records.get(at).filter(|(other, _)| *other == hash) {
             match *picture {
@@ -172,10 +173,10 @@ impl<'a> Verifier<'a> {
         let found = match tar {
             Some(tar) => self.picture_in_tar(output, tar),
             None => match open_file(&self.out_dir.join(output)) {
-                Err(_) => return Verdict::Missing("the picture is not there"),
+                Err(_) => return Verdict::Missing("the picture does not exist"),
                 Ok(file) if file.metadata().is_ok_and(|data| data.len() != recorded.bytes) => {
                     return Verdict::Wrong(format!(
-                        "it has not the {} bytes of its record",
+                        "its size is not the recorded {} bytes",
                         recorded.bytes
                     ));
                 }
@@ -186,7 +187,7 @@ impl<'a> Verifier<'a> {
         };
         match found {
             Ok(found) if found == recorded => Verdict::Whole,
-            Ok(_) => Verdict::Wrong("its SHA-256 is not that of its record".to_owned()),
+            Ok(_) => Verdict::Wrong("its SHA-256 is not the recorded one".to_owned()),
             Err(fault) => Verdict::Wrong(fault),
         }
     }
@@ -317,6 +318,6 @@ mod tests {
         assert!(counts.is_all_whole());
         assert!(counts.count_verdict(&Verdict::Failed).is_some());
         assert!(!counts.is_all_whole());
-        assert_eq!(counts.summary(), "1 whole, 0 missing, 0 wrong, 1 failed");
+        assert_eq!(counts.summary(), "1 intact, 0 missing, 0 wrong, 1 failed");
     }
 }

@@ -52,8 +52,7 @@ impl WorkerProcess {
         program: WorkerProgram<'_>,
         memory: Option<u64>,
     ) -> Result<Self, BatchError> {
-        let fault =
-            |cause| BatchError::Unusable(format!("cannot start a worker of the batch: {cause}"));
+        let fault = |cause| BatchError::Unusable(format!("cannot start a batch worker: {cause}"));
         let mut command = program().map_err(fault)?;
         // The last output of a worker goes to the report, where a backtrace is useless.
         command.arg("batch-worker").env("RUST_BACKTRACE", "0");
@@ -86,8 +85,9 @@ impl WorkerProcess {
     /// If the request cannot be serialized.
     pub(super) fn send(&mut self, request: &WorkRequest) -> Result<(), BatchError> {
         self.error_text.lock().unwrap_or_else(PoisonError::into_inner).clear();
-        let mut line = serde_json::to_vec(request)
-            .map_err(|error| BatchError::Unusable(format!("no request for a worker: {error}")))?;
+        let mut line = serde_json::to_vec(request).map_err(|error| {
+            BatchError::Unusable(format!("cannot serialize the request: {error}"))
+        })?;
         line.push(b'\n');
         let _ = self.requests.write_all(&line);
         Ok(())

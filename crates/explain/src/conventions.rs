@@ -208,7 +208,7 @@ impl FromStr for ApiConventions {
 
     fn from_str(name: &str) -> Result<Self, String> {
         let known = Self::ALL.into_iter().find(|conventions| conventions.name() == name);
-        known.ok_or_else(|| format!("there are no conventions `{name}`"))
+        known.ok_or_else(|| format!("unknown conventions `{name}`"))
     }
 }
 

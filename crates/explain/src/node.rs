@@ -97,7 +97,7 @@ fn explain_absence(model: &Model, node: usize) -> String {
         Some(_) if !model.node_instances().iter().any(|at| at.node == node) => {
             "It is not below a root of the scene that is shown.".to_owned()
         }
-        Some(_) => "It shows its mesh at no place at all.".to_owned(),
+        Some(_) => "Its mesh has no instances.".to_owned(),
     }
 }
 

@@ -34,7 +34,7 @@ pub fn explain_pixel(
 ) -> Result<Explanation, String> {
     let pixel = inspect_pixel(scene, x, y).map_err(|error| error.to_string())?.ok_or_else(|| {
         let (width, height) = (scene.image.width, scene.image.height);
-        format!("there is no shaded pixel ({x}, {y}): the picture has {width} x {height}, and line drawings have none")
+        format!("there is no shaded pixel ({x}, {y}): the picture is {width} x {height}, and line drawings have no shaded pixels")
     })?;
     let mut steps = Vec::new();
     steps.extend(

@@ -66,8 +66,8 @@ pub fn explain_vertex(
     let position = *skinned.positions.get(vertex.index).ok_or_else(|| {
         let count = skinned.positions.len();
         format!(
-            "primitive {} has {count} vertices; there is no vertex {}",
-            vertex.primitive, vertex.index
+            "there is no vertex {}: primitive {} has {count}, numbered from 0",
+            vertex.index, vertex.primitive
         )
     })?;
     let to_world = skinned.to_model.then(model_instance.model_to_world);
@@ -155,13 +155,14 @@ pub(super) fn find_shown_primitive(
     let instance = instance.ok_or_else(|| {
         let shown: Vec<String> =
             model.mesh_instances().take(12).map(|at| describe_node(model, at.node)).collect();
-        format!("{} shows no mesh; these do: {}", describe_node(model, node), shown.join(", "))
+        let name = describe_node(model, node);
+        format!("{name} does not show a mesh; these nodes do: {}", shown.join(", "))
     })?;
     let mesh = model.nodes.get(node).and_then(|node| model.meshes.get(node.mesh?));
     let primitives = mesh.map_or(&[][..], |mesh| &mesh.primitives);
     let primitive = primitives.get(primitive).ok_or_else(|| {
-        let name = describe_node(model, node);
-        format!("{name} shows {} primitives; there is no primitive {primitive}", primitives.len())
+        let (name, count) = (describe_node(model, node), primitives.len());
+        format!("there is no primitive {primitive}: {name} shows {count}, numbered from 0")
     })?;
     Ok((instance, primitive))
 }

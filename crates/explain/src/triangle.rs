@@ -36,12 +36,15 @@ pub fn explain_triangle(
 ) -> Result<Explanation, String> {
     let (instance, shown) = find_shown_primitive(&model_instance.model, node, primitive)?;
     if shown.topology != Topology::Triangles {
-        return Err(format!("primitive {primitive} has no triangles, but points or lines"));
+        return Err(format!("primitive {primitive} has points or lines, not triangles"));
     }
     let triangles = shown.indices.as_chunks::<3>().0;
     let (triangle, count) = (triangle_index, triangles.len());
-    let missing =
-        || format!("primitive {primitive} has {count} triangles; there is no triangle {triangle}");
+    let missing = || {
+        format!(
+            "there is no triangle {triangle}: primitive {primitive} has {count}, numbered from 0"
+        )
+    };
     let indices = *triangles.get(triangle_index).ok_or_else(missing)?;
     let skinned = model_instance.model.skin_primitive(instance, shown);
     let mesh = indices.map(|at| model_point(skinned.positions[at as usize]));

@@ -41,19 +41,19 @@ impl Panorama {
         let fits = |side: usize| (1..=MAX_HDR_SIDE).contains(&side);
         if !fits(width) || !fits(height) || width * height > MAX_HDR_TEXELS {
             return Err(format!(
-                "the picture has {width} x {height} texels; each side has {MAX_HDR_SIDE} at most, all have {MAX_HDR_TEXELS}"
+                "invalid size {width} x {height}; at most {MAX_HDR_SIDE} texels per side and {MAX_HDR_TEXELS} in total are allowed"
             ));
         }
         // Any row takes at least four bytes; a row of runs takes four bytes plus two for each 127
         // texels of a channel.
         if data.len() / 4 < height {
-            return Err("the file ends before its picture does".to_owned());
+            return Err("the file is truncated".to_owned());
         }
         let mut rows = HalvedRows::new(width, height, most);
         let mut rest = data;
         let mut row = vec![[0; 4]; width];
         for _ in 0..height {
-            rest = read_scanline(rest, &mut row).ok_or("the file ends before its picture does")?;
+            rest = read_scanline(rest, &mut row).ok_or("the file is truncated")?;
             rows.push_row(0, row.iter().map(|&texel| decode_rgbe(texel)).collect());
         }
         Ok(Self {
@@ -156,7 +156,7 @@ fn parse_hdr_header(bytes: &[u8]) -> Result<(usize, usize, &[u8]), String> {
         rest = &rest[end + 1..];
         Some(line)
     };
-    let no_header = "it does not begin as a Radiance picture does";
+    let no_header = "it does not begin with a valid Radiance header";
     let first = next().ok_or(no_header)?;
     if !first.starts_with(b"#?") {
         return Err(no_header.to_owned());
@@ -164,7 +164,7 @@ fn parse_hdr_header(bytes: &[u8]) -> Result<(usize, usize, &[u8]), String> {
     for _ in 0..1000 {
         let line = next().ok_or(no_header)?;
         if line.starts_with(b"FORMAT=") && line != b"FORMAT=32-bit_rle_rgbe" {
-            return Err("its texels are not 32-bit_rle_rgbe, which alone is read".to_owned());
+            return Err("unsupported texel format; only 32-bit_rle_rgbe is supported".to_owned());
         }
         if line.is_empty() {
             break;
@@ -176,7 +176,7 @@ fn parse_hdr_header(bytes: &[u8]) -> Result<(usize, usize, &[u8]), String> {
             let side = |text: &str| text.parse::<usize>().map_err(|_| no_header.to_owned());
             Ok((side(width)?, side(height)?, rest))
         }
-        _ => Err(format!("its rows run as `{size}` says; only -Y … +X … is read")),
+        _ => Err(format!("unsupported row order `{size}`; only -Y … +X … is supported")),
     }
 }
 

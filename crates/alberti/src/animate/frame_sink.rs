@@ -71,7 +71,7 @@ impl FrameSink {
             NameTemplate::parse(&name, &["stem"], &["frame"]).map_err(CliError::Usage)?;
         if template.has_field("frame") {
             if !name.to_lowercase().ends_with(".png") {
-                let help = "frames are written as PNG: NAME_{frame:04}.png";
+                let help = "write frames as PNG: NAME_{frame:04}.png";
                 return Err(CliError::Usage(format!(
                     "{name} does not end in .png\n  = help: {help}"
                 )));
@@ -86,12 +86,12 @@ impl FrameSink {
             }
             ending => {
                 let what = if ending.is_some() {
-                    "this ending is not supported"
+                    "unsupported file extension"
                 } else {
-                    "the name has no ending"
+                    "missing file extension"
                 };
                 Err(CliError::Usage(format!(
-                    "{name}: {what}\n  = help: write NAME.gif or NAME.png for one animated file, NAME_{{frame:04}}.png for a file per frame, or - for raw frames"
+                    "{name}: {what}\n  = help: write NAME.gif or NAME.png for one animated file, NAME_{{frame:04}}.png for one file per frame, or - for raw frames"
                 )))
             }
         }
@@ -135,7 +135,7 @@ impl FrameSink {
         let (Ok(width), Ok(height)) = (u16::try_from(width), u16::try_from(height)) else {
             let most = u16::MAX;
             return Err(CliError::Usage(format!(
-                "the width and height of a GIF are at most {most}, but the frames are {width} x {height}"
+                "a GIF can be at most {most} pixels wide and high, but the frames are {width} x {height}"
             )));
         };
         let fault = |error| gif_error(output, error);

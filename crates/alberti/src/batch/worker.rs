@@ -42,15 +42,16 @@ pub(crate) fn run(args: &WorkerArgs) -> Result<(), CliError> {
     let mut answers = std::io::stdout().lock();
     for line in std::io::stdin().lock().lines() {
         let request: WorkRequest = serde_json::from_str(&line?)
-            .map_err(|error| CliError::Usage(format!("not a request of a batch: {error}")))?;
+            .map_err(|error| CliError::Usage(format!("invalid batch request: {error}")))?;
         for picture in &request.pictures {
             let (answer, mut png) = worker.answer(&request.input, picture);
             if !matches!(picture.target, PictureTarget::Pipe) {
                 png.clear();
             }
             let framed = FramedAnswer { answer, follows: png.len() as u64 };
-            let mut bytes = serde_json::to_vec(&framed)
-                .map_err(|error| CliError::Usage(format!("no answer: {error}")))?;
+            let mut bytes = serde_json::to_vec(&framed).map_err(|error| {
+                CliError::Usage(format!("cannot serialize the answer: {error}"))
+            })?;
             bytes.push(b'\n');
             bytes.extend(png);
             answers.write_all(&bytes).and_then(|()| answers.flush())?;

@@ -99,7 +99,7 @@ fn open_scene_around(
 ) -> Result<(Origin, SceneFile), CliError> {
     if is_scene_file(input) {
         return Err(CliError::Usage(format!(
-            "{} is a scene itself and no model for {}",
+            "{} is a scene, not a model for {}",
             visible_path(input),
             visible_path(scene)
         )));
@@ -116,7 +116,7 @@ fn open_scene_around(
     }
     if !is_there {
         return Err(CliError::Usage(format!(
-            "the scene {} has no place for the input\n  = help: add one: models: [Model(path: \
+            "the scene {} has no model for the input\n  = help: add models: [Model(path: \
              \"{INPUT_PATH}\")]",
             visible_path(scene)
         )));

@@ -46,7 +46,7 @@ impl ModelFiles {
             }
             let total: usize = files.values().map(Vec::len).sum();
             if total as u64 > Limits::default().total_bytes {
-                return Err(cannot_read(too_large("its files together have", total as u64)));
+                return Err(cannot_read(too_large("its files total", total as u64)));
             }
         }
         Ok(Self { name, files })

@@ -62,19 +62,19 @@ pub(super) fn parse_request(head: &[u8], port: u16) -> Result<Request, Response<
     let mut lines = head.split("\r\n");
     let first: Vec<&str> = lines.next().unwrap_or_default().split(' ').collect();
     let [method, target, "HTTP/1.1" | "HTTP/1.0"] = first[..] else {
-        return refuse(400, "This is no request of HTTP/1.1.");
+        return refuse(400, "Not an HTTP/1.1 request.");
     };
     let Some(headers) = lines.map(split_header).collect::<Option<Vec<_>>>() else {
         return refuse(400, "A header has no name.");
     };
     check_origin(&headers, port)?;
     if !matches!(method, "GET" | "HEAD") {
-        return refuse(405, "Only GET and HEAD are answered.");
+        return refuse(405, "Only GET and HEAD are supported.");
     }
     let (path, query) = target.split_once('?').unwrap_or((target, ""));
     match path.strip_prefix('/').and_then(percent_decode) {
         Some(path) => Ok(Request { is_head: method == "HEAD", path, query: query.to_owned() }),
-        None => refuse(400, "The path cannot be read."),
+        None => refuse(400, "The path is invalid."),
     }
 }
 

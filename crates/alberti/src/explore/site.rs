@@ -74,7 +74,8 @@ impl Site {
         visitor: &mut impl Visitor,
     ) -> Option<Response<'_>> {
         let Some(path) = strip_token(&request.path, &self.token) else {
-            let text = "Open the whole address that `alberti explore` has printed: it is secret.";
+            let text =
+                "Open the full address that `alberti explore` printed; it contains a secret.";
             return Some(Response::text(403, text));
         };
         let path = if path.is_empty() { INDEX } else { path };
@@ -83,7 +84,7 @@ impl Site {
         }
         Some(match self.files.get(path) {
             Some(bytes) => Response::ok(content_type(path), bytes.as_slice()),
-            None => Response::text(404, "There is no such file."),
+            None => Response::text(404, "File not found."),
         })
     }
 
@@ -100,8 +101,8 @@ impl Site {
                 let error = json!({ "code": code, "message": message, "help": help });
                 Response::ok("application/problem+json", error.to_string().into_bytes())
             }
-            Err(Unanswered::Busy) => Response::text(503, "Too many others wait; ask again later."),
-            Err(Unanswered::Failed) => Response::text(500, "The computation has failed."),
+            Err(Unanswered::Busy) => Response::text(503, "Too many requests; try again later."),
+            Err(Unanswered::Failed) => Response::text(500, "The computation failed."),
             Err(Unanswered::Abandoned) => return None,
         })
     }
@@ -116,8 +117,8 @@ fn draws(query: &str) -> bool {
 fn start_lane(explorer: Explorer) -> Result<Lane, CliError> {
     Lane::start(explorer).map_err(|error| {
         CliError::Usage(format!(
-            "cannot start a thread: {error}\n  = help: end other programs, or raise the limit of \
-             processes"
+            "cannot start a thread: {error}\n  = help: close other programs, or raise the process \
+             limit"
         ))
     })
 }

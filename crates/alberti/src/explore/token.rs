@@ -15,8 +15,8 @@ const TOKEN_BYTES: usize = 16;
 pub(super) fn new_token() -> Result<String, CliError> {
     let bytes = random_bytes().map_err(|error| {
         CliError::Usage(format!(
-            "cannot read random bytes from the system: {error}\n  = help: the address of the page \
-             must be secret; check that /dev/urandom can be read"
+            "cannot read random bytes from the system: {error}\n  = help: the page address must be \
+             secret; check that /dev/urandom is readable"
         ))
     })?;
     Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())

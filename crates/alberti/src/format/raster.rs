@@ -69,7 +69,7 @@ impl OutputFormat {
             return Ok(());
         }
         Err(CliError::Usage(format!(
-            "a {name} has at most {most} pixels along a side, and the picture has {width} x {height}\n  = help: write a .png"
+            "a {name} can have at most {most} pixels per side, but the picture has {width} x {height}\n  = help: write a .png"
         )))
     }
 }

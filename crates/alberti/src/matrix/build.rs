@@ -14,8 +14,9 @@ use recognition::parse_number;
 
 /// The sentence on near and far for all flags except `--p`, in the help and in messages.
 pub(super) const DISTANCES: &str = "near and far are distances ahead of the eye, 0 < near < far \
-    (--ortho and --oblique also take near = 0 and, but for the conventions alberti and chapter, a \
-    near plane behind the eye, as glOrtho's -1,1); the textbook's coordinates n and f, 0 > n > f, are near = -n and far = -f";
+    (--ortho and --oblique also accept near = 0 and, except with the conventions alberti and \
+    chapter, a near plane behind the eye, as in glOrtho's -1,1); the textbook's coordinates n and \
+    f, 0 > n > f, are near = -n and far = -f";
 
 /// Options that change the matrices of some flags.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -54,74 +55,75 @@ const FLAGS: [BuilderFlag; 16] = [
         "FOVY,ASPECT,NEAR,FAR",
         &[Conventions, Reversed],
         build_perspective,
-        "Perspective by its vertical field of view in degrees; FAR may be `inf`",
+        "Perspective from its vertical field of view in degrees; FAR may be `inf`",
     ),
     flag(
         "frustum",
         "L,R,B,T,NEAR,FAR",
         &[Conventions, Reversed],
         build_frustum,
-        "Perspective by its window on the near plane, as glFrustum; FAR may be `inf`",
+        "Perspective from its window on the near plane, like glFrustum; FAR may be `inf`",
     ),
     flag(
         "moved-apex",
         "L,R,B,T,NEAR,FAR",
         &[Conventions, Reversed],
         build_moved_apex,
-        "Perspective of the WebGL lesson: its apex moved behind the window's center",
+        "Perspective of the WebGL lesson, with its apex moved behind the window's center",
     ),
     flag(
         "intrinsics",
         "FX,FY,CX,CY,WIDTH,HEIGHT,NEAR,FAR",
         &[Conventions, Reversed],
         build_intrinsics,
-        "Perspective of a calibrated camera by its matrix K for pictures of WIDTH x HEIGHT, pixel \
-         centers at whole numbers as in OpenCV",
+        "Perspective of a calibrated camera from its matrix K, for pictures of WIDTH x HEIGHT \
+         pixels; pixel centers are at whole numbers, as in OpenCV",
     ),
     flag(
         "ortho",
         "L,R,B,T,NEAR,FAR",
         &[Conventions, Reversed],
         build_ortho,
-        "Orthographic box, as glOrtho",
+        "Orthographic box, like glOrtho",
     ),
-    flag("p", "N,F", &[], build_p, "The textbook's P for its signed n and f, such as -1,-10"),
+    flag("p", "N,F", &[], build_p, "The textbook's P from its signed n and f, such as -1,-10"),
     flag(
         "oblique",
         "LENGTH,ANGLE[,L,R,B,T,NEAR,FAR]",
         &[Conventions, Reversed, OntoPlane],
         build_oblique,
-        "Oblique projection by the drawn length of a unit of depth and its angle in degrees; with \
-         six more numbers the whole volume",
+        "Oblique projection from the drawn length of a unit of depth and its angle in degrees; six \
+         more numbers define the whole volume",
     ),
     flag(
         "axonometric",
         "ALPHA,BETA",
         &[OntoPlane],
         build_axonometric,
-        "Axonometric projection by the angles about y and x in degrees; 45,35.26439 is isometric",
+        "Axonometric projection from the angles about y and x in degrees; 45,35.26439 is isometric",
     ),
     flag(
         "n-point",
         "P,Q,R",
         &[OntoPlane],
         build_n_point,
-        "One-, two- or three-point perspective by its bottom row (p, q, r, 1)",
+        "One-, two- or three-point perspective from its bottom row (p, q, r, 1)",
     ),
     flag(
         "look-at",
         "EYE,TARGET[,UP]",
         &[Conventions],
         build_look_at,
-        "Camera by its eye, the point it looks at and, unless it is y, the direction that is up; \
-         with --conventions direct3d in a left-handed world (XMMatrixLookAtLH)",
+        "Camera from its eye, the point it looks at and, unless it is y, the up direction; with \
+         --conventions direct3d in a left-handed world (XMMatrixLookAtLH)",
     ),
     flag(
         "look-to",
         "EYE,DIRECTION[,UP]",
         &[Conventions],
         build_look_to,
-        "Camera by its eye, the direction it looks in (the gaze) and, unless it is y, up",
+        "Camera from its eye, its viewing direction (the gaze) and, unless it is y, the up \
+         direction",
     ),
     flag(
         "viewport",
@@ -135,7 +137,7 @@ const FLAGS: [BuilderFlag; 16] = [
         "L,R,B,T,L,R,B,T",
         &[],
         build_window_to_viewport,
-        "Window to viewport: left, right, bottom and top of both",
+        "Window to viewport: left, right, bottom and top of each",
     ),
     flag("translate", "X,Y,Z", &[], build_translation, "Translation"),
     flag("scale", "X,Y,Z", &[], build_scale, "Scale"),
@@ -175,7 +177,8 @@ impl clap::FromArgMatches for BuildArgs {
 
 impl clap::Args for BuildArgs {
     fn augment_args(command: Command) -> Command {
-        let heading = "Matrix from parameters; several multiply, the rightmost is applied first";
+        let heading = "Matrix from parameters; several are multiplied, and the rightmost is \
+                       applied first";
         let arg = |flag: &BuilderFlag| {
             Arg::new(flag.name)
                 .long(flag.name)
@@ -214,7 +217,7 @@ impl NumberList {
 /// The message for a list with too many or too few numbers.
 pub(super) fn wrong_count(flag: &str, expected: &str, found: usize) -> CliError {
     CliError::Usage(format!(
-        "{flag} takes {expected} numbers, found {found}: one list joined by commas, without blanks"
+        "{flag} takes {expected} numbers, found {found}; join them with commas, without spaces"
     ))
 }
 
@@ -250,8 +253,9 @@ impl BuildOptions {
     /// Refuses modifiers without a matrix to build.
     pub(super) fn check_unused(self) -> Result<(), CliError> {
         self.given().next().map_or(Ok(()), |(_, name)| {
-            let message =
-                format!("{name} is for matrices from parameters: --perspective, --ortho, …");
+            let message = format!(
+                "{name} applies only to matrices from parameters: --perspective, --ortho, …"
+            );
             Err(CliError::Usage(message))
         })
     }
@@ -260,7 +264,7 @@ impl BuildOptions {
     pub(super) fn refuse_volume(self, what: &str) -> Result<(), CliError> {
         let refused = self.given().find(|(modifier, _)| *modifier != OntoPlane);
         refused.map_or(Ok(()), |(_, name)| {
-            Err(CliError::Usage(format!("{name} changes nothing of {what}: leave it out")))
+            Err(CliError::Usage(format!("{name} has no effect on {what}; omit it")))
         })
     }
 
@@ -276,7 +280,7 @@ impl BuildOptions {
             };
             let asked = names(calls.iter().map(|(at, _)| &FLAGS[*at]).collect());
             let users = names(FLAGS.iter().filter(|flag| obeys(flag)).collect());
-            let message = format!("{name} changes nothing of {asked}: it is for {users}");
+            let message = format!("{name} has no effect on {asked}; it applies to {users}");
             return Err(CliError::Usage(message));
         }
         Ok(())
@@ -341,9 +345,9 @@ impl BuildArgs {
         let written = Self::as_written(*at, list);
         let joined = numbers.join(",");
         Err(CliError::Usage(format!(
-            "`{rest}` behind `{written}`: --{} takes one list of numbers joined by commas, without \
-             blanks\n  = help: one list of {count} numbers is `{written},{joined}`; a matrix of \
-             numbers cannot stand beside one from parameters",
+            "unexpected `{rest}` after `{written}`: --{} takes one list of numbers joined by \
+             commas, without spaces\n  = help: for one list of {count} numbers, write \
+             `{written},{joined}`; give either a matrix of numbers or one from parameters, not both",
             flag.name
         )))
     }

@@ -140,7 +140,7 @@ pub(super) fn build_intrinsics(list: &NumberList, options: BuildOptions) -> Buil
     check_distances("intrinsics", near, far, 0.0)?;
     let side = |name: &str, value: f64| {
         let is_whole = value >= 1.0 && value <= f64::from(u32::MAX) && value == libm::floor(value);
-        let message = || format!("--intrinsics: the {name} is {value}: it must be a whole number");
+        let message = || format!("--intrinsics: the {name} must be a whole number, not {value}");
         is_whole.then_some(value as u32).ok_or_else(|| CliError::Usage(message()))
     };
     let size = [side("width", width)?, side("height", height)?];
@@ -195,7 +195,8 @@ pub(super) fn build_oblique(list: &NumberList, options: BuildOptions) -> Built {
     let numbers: [f64; 6] = NumberList(rest.to_vec()).exactly("oblique with a volume")?;
     let [l, r, b, t, n, f] = numbers;
     if options.onto_plane {
-        let message = "--onto-plane drops z, which --oblique with a volume keeps: leave one out";
+        let message = "--onto-plane drops z, but --oblique with a volume keeps it; remove one of \
+                       them";
         return Err(CliError::Usage(message.to_owned()));
     }
     check_distances("oblique", n, f, least_near(options))?;
@@ -280,8 +281,8 @@ fn camera_of(subject: String, camera: Camera, options: BuildOptions) -> BuiltMat
     let side = if left_handed { -1.0 } else { 1.0 };
     let turn = DMat4::from_diagonal(glam::DVec4::new(side, 1.0, side, 1.0));
     let note = left_handed.then_some(
-        "XMMatrixLookAtLH: the world is left-handed, too, and z is the distance ahead; for a \
-         right-handed world (glTF) take --conventions webgpu",
+        "XMMatrixLookAtLH: the world is left-handed too, and z is the distance ahead; for a \
+         right-handed world (glTF), use --conventions webgpu",
     );
     let view = camera.world_to_view().raw();
     let rotation = without_noise(DMat4::from_mat3(DMat3::from_mat4(view)));

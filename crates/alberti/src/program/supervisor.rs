@@ -70,12 +70,12 @@ fn memory_limit(words: &[OsString]) -> Option<(u64, String)> {
     let args = usage_advice::parse_args(&words).ok()?;
     let size = |bytes: u64| format!("{} MiB", bytes >> 20);
     if let Some(bytes) = args.max_memory {
-        let help = "a smaller picture, fewer samples or a larger `--max-memory` help";
+        let help = "use a smaller picture, fewer samples or a larger `--max-memory`";
         return Some((bytes, format!("--max-memory allows {}\n  = help: {help}", size(bytes))));
     }
     if matches!(args.command, Command::Thumbnailer(_)) {
         let help = "raise --max-memory-bytes";
-        return Some((0, format!("this thumbnail needs more than it may take\n  = help: {help}")));
+        return Some((0, format!("this thumbnail needs more than the limit\n  = help: {help}")));
     }
     let bytes = of_system?;
     Some((0, format!("the system allows {}\n  = help: raise the limit (`ulimit`)", size(bytes))))

@@ -69,7 +69,7 @@ pub(super) fn list_section(
     let entries: Vec<ReferenceEntry> = formulas.map(entry).collect();
     let section = ReferenceSection {
         title: "Formulas".to_owned(),
-        about: "alberti reference ID, such as PE-1, prints one.".to_owned(),
+        about: "To print one, run alberti reference with its id, such as PE-1.".to_owned(),
         entries,
     };
     (!section.entries.is_empty()).then_some(section)

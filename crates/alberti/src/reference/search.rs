@@ -225,10 +225,7 @@ fn unknown_word(sections: &[ReferenceSection], word: &str) -> String {
         word == name
     };
     let hint = closest_name(last, &names).filter(begins_alike).map_or_else(
-        || {
-            "`alberti scene doc` lists all fields of scenes, `alberti --help` all commands"
-                .to_owned()
-        },
+        || "`alberti scene doc` lists all scene fields, `alberti --help` all commands".to_owned(),
         |name| format!("did you mean `{name}`?"),
     );
     format!("the reference has nothing named `{word}`\n  = help: {hint}")

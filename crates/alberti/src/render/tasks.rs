@@ -103,7 +103,8 @@ fn refuse_words_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
     let name = visible_path(word);
     let help = match word.to_string_lossy().chars().next() {
         Some('-') => {
-            "everything after `--` is taken as a model; leave `--` and what follows out".to_owned()
+            "everything after `--` is taken as a model; remove `--` and everything after it"
+                .to_owned()
         }
         Some('+') => format!(
             "{name} is taken as a model; a flag begins with `--`, or with `-` and one letter"

@@ -43,7 +43,7 @@ pub(super) fn repeat(
         }
         let count = before.len();
         let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
-        print_note(&format!("watching {files}; Ctrl+C ends"));
+        print_note(&format!("watching {files}; press Ctrl+C to stop"));
         let mut now = stamp_files(inputs);
         while now == before {
             sleep(INTERVAL);

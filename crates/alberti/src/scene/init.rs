@@ -233,7 +233,7 @@ fn write_views(text: &mut String, scene: &Scene) {
     let triple = |p: glam::DVec3| format!("({:.4}, {:.4}, {:.4})", p.x, p.y, p.z);
     text.push_str("// Everything, from the front, a little from the right and from above.\n");
     text.push_str(
-        "view: Frame(from: ThreeQuarter, padding_percent: 5),\n// That place in numbers:\n",
+        "view: Frame(from: ThreeQuarter, padding_percent: 5),\n// The same view in numbers:\n",
     );
     let _ = writeln!(text, "// view: LookAt(eye: {}, target: {}),", triple(eye), triple(target));
     let mut cameras = Vec::new();
@@ -244,7 +244,7 @@ fn write_views(text: &mut String, scene: &Scene) {
         cameras.push(name.map_or(format!("Index({number})"), |name| format!("Name({name:?})")));
     }
     if !cameras.is_empty() {
-        text.push_str("// Cameras of the model; they bring their projections along:\n");
+        text.push_str("// Cameras of the model; they include their projections:\n");
     }
     for camera in cameras {
         let _ = writeln!(text, "// view: FromModel({camera}),");

@@ -10,18 +10,18 @@ use scene_file::file::{Finite, ScalarsFile, SceneFile};
 /// The colors of scalars and depths; each flag replaces what the scene file says of all models.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(crate) struct ColormapArgs {
-    /// Color the model by this scalar attribute of its vertices: a custom attribute of glTF such as
-    /// `_TEMPERATURE`, or a property of PLY such as `quality`
+    /// Color the model by this scalar vertex attribute: a custom glTF attribute such as
+    /// `_TEMPERATURE`, or a PLY property such as `quality`
     ///
-    /// The leading underscore may be left out. `alberti info` lists the attributes. The colors
+    /// The leading underscore may be omitted. `alberti info` lists the attributes. The colors
     /// replace the materials; values that are not finite are gray.
     #[arg(help_heading = "Picture", long, value_name = "NAME")]
     scalars: Option<String>,
     /// Colors for --scalars [default: viridis] and for --style depth [default: grayscale]
     #[arg(help_heading = "Picture", long, value_parser = option_parser::<Colormap>())]
     colormap: Option<Colormap>,
-    /// Values of the first and the last color of --scalars [default: the smallest and the largest
-    /// value of the model]
+    /// Values that get the first and the last color of --scalars [default: the model's smallest and
+    /// largest value]
     #[arg(
         help_heading = "Picture",
         long,
@@ -75,7 +75,7 @@ impl ColormapArgs {
                 false => format!("the `{style}` style"),
             };
             warnings
-                .push(format!("--scalars does nothing here: {shown} has no colors of vertices"));
+                .push(format!("--scalars does nothing here: {shown} does not show vertex colors"));
         }
         if self.colormap.is_some() && !has_scalars && !shows_depth {
             let use_of = "it needs --scalars or --style depth";

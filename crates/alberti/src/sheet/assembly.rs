@@ -11,8 +11,8 @@ use std::path::PathBuf;
 /// Flags of the pages that show the models as an assembly of parts.
 #[derive(Debug, clap::Args)]
 pub(super) struct AssemblyArgs {
-    /// Add a list of the parts: equal nodes with meshes, counted; with a name also as a file, .csv
-    /// or .json
+    /// Add a parts list that counts identical parts; with a file name, also write it as .csv or
+    /// .json
     #[arg(
         long,
         value_name = "FILE",
@@ -21,10 +21,10 @@ pub(super) struct AssemblyArgs {
         value_parser = parse_list_file
     )]
     parts_list: Option<Option<PathBuf>>,
-    /// Add a page that shows the assembly with the number of each item of the list
+    /// Add a page that shows the assembly with the item numbers of the parts list
     #[arg(long)]
     balloons: bool,
-    /// Move the parts on that page apart, with their paths
+    /// Move the parts on that page apart, and draw their paths
     #[arg(
         long,
         value_name = "AXIS",
@@ -33,7 +33,7 @@ pub(super) struct AssemblyArgs {
         value_parser = option_parser::<ExplosionAxis>()
     )]
     exploded: Option<Option<ExplosionAxis>>,
-    /// Add a page with the principal views of each item of the list
+    /// Add a page with the principal views of each item in the parts list
     #[arg(long)]
     part_sheets: bool,
 }

@@ -35,8 +35,8 @@ impl PageNames {
         // Braces in a name without a field stay unchanged.
         let is_template = name.contains("{page");
         if is_template && format == OutputFormat::Pdf {
-            let help = "\n  = help: leave out {page}: a PDF holds all pages";
-            return Err(CliError::Usage(format!("the output {name} is one file{help}")));
+            let help = "\n  = help: remove {page}; a PDF holds all pages";
+            return Err(CliError::Usage(format!("the output {name} is a single file{help}")));
         }
         let parse = || NameTemplate::parse(&name, &["stem"], &["page"]).map_err(CliError::Usage);
         let template = if is_template { Some(parse()?) } else { None };

@@ -40,7 +40,7 @@ impl Deadline {
         };
         let started = std::thread::Builder::new().name("deadline".to_owned()).spawn(watch);
         started.map(|_| deadline).map_err(|cause| {
-            CliError::Usage(format!("cannot start the thread of --max-seconds: {cause}"))
+            CliError::Usage(format!("cannot start the thread for --max-seconds: {cause}"))
         })
     }
 
@@ -60,7 +60,7 @@ impl Deadline {
 
 /// The error for a thumbnail that took too long.
 pub(super) fn timeout(seconds: u32) -> CliError {
-    CliError::Usage(format!("no picture after {seconds} s; --max-seconds allows more"))
+    CliError::Usage(format!("timed out after {seconds} s; raise --max-seconds"))
 }
 
 /// Ends the process without waiting for its other threads.

@@ -77,11 +77,11 @@ fn escape_value(text: &str) -> String {
 pub(super) fn install_files(prefix: Option<&Path>) -> Result<(), CliError> {
     let folder = data_folder(prefix)?;
     let program = std::env::current_exe().map_err(|cause| {
-        CliError::Usage(format!("the path of the program is not known: {cause}"))
+        CliError::Usage(format!("cannot find the path of the program: {cause}"))
     })?;
     if program.file_stem().is_some_and(|name| name.to_string_lossy().starts_with("python")) {
-        let message = "the program runs inside of Python, which file managers cannot call\n  = help: \
-                       install it with cargo install --path crates/alberti";
+        let message = "the program runs inside Python, where file managers cannot start it\n  = \
+                       help: install it with cargo install --path crates/alberti";
         return Err(CliError::Usage(message.to_owned()));
     }
     let mut done = String::new();
@@ -114,7 +114,7 @@ pub(super) fn remove_files(prefix: Option<&Path>) -> Result<(), CliError> {
                 done += &format!("removed {}\n", path.display());
             }
             Err(cause) if cause.kind() == ErrorKind::NotFound => {
-                done += &format!("{} is not there\n", path.display());
+                done += &format!("{} does not exist\n", path.display());
             }
             Err(cause) => {
                 return Err(CliError::Usage(format!("cannot remove {}: {cause}", path.display())));
@@ -142,7 +142,9 @@ fn data_folder(prefix: Option<&Path>) -> Result<PathBuf, CliError> {
         |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
     let of_home = || named("HOME").map(|home| home.join(".local/share"));
     named("XDG_DATA_HOME").or_else(of_home).ok_or_else(|| {
-        CliError::Usage("neither XDG_DATA_HOME nor HOME names a folder; --prefix does".to_owned())
+        CliError::Usage(
+            "neither XDG_DATA_HOME nor HOME names a folder; use --prefix DIR".to_owned(),
+        )
     })
 }
 
@@ -155,7 +157,7 @@ fn update_database(folder: &Path) -> Result<String, CliError> {
         Ok(status) if status.success() => Ok(format!("ran {call}\n")),
         Ok(status) => Err(CliError::Usage(format!("{call} failed: {status}"))),
         Err(cause) if cause.kind() == ErrorKind::NotFound => Ok(format!(
-            "update-mime-database is not installed (shared-mime-info); to be run: {call}\n"
+            "update-mime-database is not installed (shared-mime-info); install it and run {call}\n"
         )),
         Err(cause) => Err(CliError::Usage(format!("cannot run {call}: {cause}"))),
     }
