@@ -62,7 +62,7 @@ fn two_lines_of_one_output_are_refused() {
     let stdout = String::from_utf8(stdout).expect("UTF-8");
     assert_eq!((code, stdout.as_str()), (1, "1 rendered, 0 up to date, 1 failed\n"));
     let report = sandbox.run(&["batch", "--merge", "--out-dir", "out"]);
-    assert!(report.stdout.contains("1 pictures of"), "{}", report.stdout);
+    assert!(report.stdout.starts_with("1 picture"), "{}", report.stdout);
 }
 
 #[test]
@@ -96,7 +96,7 @@ fn pipes_and_folders_are_no_reports() {
     let pipe = Command::new("mkfifo").arg(sandbox.path_of("out/crate.png")).status();
     assert!(pipe.expect("mkfifo").success());
     let run = run_in_time(&sandbox, &[&batch[..], &["--verify"]].concat());
-    assert_eq!(run.stdout.lines().last(), Some("0 whole, 1 missing, 0 wrong, 0 failed"));
+    assert_eq!(run.stdout.lines().last(), Some("0 intact, 1 missing, 0 wrong, 0 failed"));
 }
 
 #[test]

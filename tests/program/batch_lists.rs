@@ -110,7 +110,7 @@ fn columns_of_csv_are_members() {
         ("input,sise\n", "did you mean `size`?"),
         ("output\n", "missing column `input`"),
         ("", "missing column `input`"),
-        ("input,size,size\n", "twice"),
+        ("input,size,size\n", "duplicate column `size`"),
     ] {
         sandbox.write_file("wrong.csv", header);
         let (code, _, stderr) = run_list(&sandbox, "wrong.csv", &[]);

@@ -117,9 +117,18 @@ fn every_type_of_a_public_field_can_be_named() {
         fs::read_to_string(alberti_tests::project_root().join(listing)).expect("a listing")
     };
     let listing = read("scene-file");
-    let others =
-        ["camera", "drawing", "hidden-line", "model", "page", "projection", "shade", "sheet"]
-            .map(read);
+    let others = [
+        "camera",
+        "drawing",
+        "hidden-line",
+        "homog",
+        "model",
+        "page",
+        "projection",
+        "shade",
+        "sheet",
+    ]
+    .map(read);
     let mut known: Vec<&str> = vec!["Option", "Vec", "String", "Box", "Self"];
     // Items are at the beginning of a line: `shade::ImageFit`.
     let items = others.iter().flat_map(|other| other.lines()).chain(listing.lines());
