@@ -62,7 +62,7 @@ pub fn random_projection(name: &str, r: &mut Random) -> String {
             format!("x: ({x}, {y1}), y: {y}, z: ({z}, {y2})")
         }
         "NPoint" => {
-            // Some so large that a part of the models is behind the eye.
+            // Some so large that part of the models is behind the eye.
             let [p, q, r] = [0; 3].map(|_| if r.once_in(4) { 0.0 } else { r.between(-1.2, 1.2) });
             format!("p: {p}, q: {q}, r: {r}")
         }
