@@ -222,7 +222,7 @@ fn symbolic_links_do_not_lead_a_scene_out_of_its_folder() {
     let render = ["render", "scenes/scene.ron", "-o", "out.png", "--size", "16x16"];
     let run = sandbox.run(&render);
     assert!(
-        run.code == 1 && run.stderr.contains("leads out of the scene's folder"),
+        run.code == 1 && run.stderr.contains("points outside the scene's folder"),
         "{}",
         run.stderr
     );

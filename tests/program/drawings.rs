@@ -329,7 +329,7 @@ fn sheets_take_their_lines_from_the_style_of_the_scene() {
     assert!(creases.contains("isometric-visible-crease"));
     assert!(!smooth.contains("isometric-visible-crease"));
     let (messages, _) = sheet("style: Toon", &[]);
-    assert!(messages.contains("do not show the style of the scene"), "{messages}");
+    assert!(messages.contains("ignore the style of the scene"), "{messages}");
     let (messages, _) = sheet("sheet: (title: \"轴承\")", &[]);
     assert!(messages.contains("轴承"), "{messages}");
 }

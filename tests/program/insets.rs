@@ -96,7 +96,7 @@ fn a_viewport_of_a_drawing_has_the_lines_of_its_camera() {
     sandbox.write_file("scene.ron", "Scene(models: [(path: \"crate.glb\")], stereo: Anaglyph())");
     let run = sandbox.run(&["render", "scene.ron", "-o", "anaglyph.svg"]);
     assert_eq!(run.code, 0);
-    assert!(run.stderr.contains("only PNG pictures have anaglyphs"), "{}", run.stderr);
+    assert!(run.stderr.contains("only PNG pictures can be anaglyphs"), "{}", run.stderr);
 }
 
 #[test]

@@ -118,15 +118,19 @@ fn shadows_and_the_ground_are_switched_by_flags() {
 fn settings_of_shadows_out_of_range_are_pointed_at() {
     let sandbox = sandbox_with_model("shadow_settings", "crate.glb");
     for (field, location, message) in [
-        ("shadows: On(size: 10)", "2:19", "a shadow map cannot have 10 texels on a side"),
+        ("shadows: On(size: 10)", "2:19", "invalid shadow map size: 10 texels per side"),
         ("shadows: On(softness_degrees: 40)", "2:31", "an angle from 0 to 30 degrees"),
         (
             "lights: [Directional(direction: (0, -1, 0), intensity: 1, shadows: On(size: 9000))]",
             "2:77",
-            "a shadow map cannot have 9000 texels on a side",
+            "invalid shadow map size: 9000 texels per side",
         ),
         ("ambient_occlusion: (radius: 0)", "2:29", "a number greater than 0"),
-        ("image: (max_anisotropy: 9)", "2:25", "anisotropic filtering cannot take 9 samples"),
+        (
+            "image: (max_anisotropy: 9)",
+            "2:25",
+            "invalid number of samples for anisotropic filtering: 9",
+        ),
         ("ground: Shadow(height: inf)", "2:24", "a finite number"),
     ] {
         sandbox

@@ -39,7 +39,7 @@ fn shadow_maps_have_a_limit_together() {
     let scene = format!("Scene(models: [(path: \"crate.glb\")], lights: [{light}, {light}])");
     let message = refusal("many_texels", &scene);
     assert!(message.contains("the shadow maps of 2 lights have 134217728 texels"), "{message}");
-    assert!(message.contains("= help: `size: 5792` for each is possible"), "{message}");
+    assert!(message.contains("= help: use `size: 5792` for each"), "{message}");
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn included_files_have_a_limit_together() {
     sandbox.write_file("scene.ron", format!("Scene(include: [{includes}])"));
     let run = sandbox.run(&["render", "scene.ron", "-o", "picture.png"]);
     assert_eq!(run.code, 1);
-    let message = "the included files have more than 4194304 bytes together";
+    let message = "the included files total more than 4194304 bytes";
     assert!(run.stderr.contains(message), "{}", &run.stderr[..run.stderr.len().min(500)]);
     // Reported once, not for each of the skipped files.
     assert_eq!(run.stderr.matches(message).count(), 1);

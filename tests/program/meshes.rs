@@ -83,7 +83,7 @@ fn scene_files_have_axis_unit_and_crease_angle_and_flags_go_before_them() {
     assert_near(front_size(&sandbox, &["scene.ron", "--unit", "mm", "--up", "z"])[1], 30.0);
     scene("crease_degrees: 181");
     let run = sandbox.run(&["scene", "check", "scene.ron"]);
-    assert!(run.stdout.contains("there is no crease angle of 181 degrees"), "{}", run.stdout);
+    assert!(run.stdout.contains("invalid crease angle: 181 degrees"), "{}", run.stdout);
     let run = sandbox.run(&["render", "part.stl", "--crease", "181"]);
     assert_eq!(run.code, 2);
     let two = "Scene(models: [(path: \"part.stl\"), (path: \"part.stl\", unit: Inch)], sheet: ())";

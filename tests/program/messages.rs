@@ -90,8 +90,8 @@ fn what_makes_no_sense_is_pointed_at_as_well() {
     }
     for (model, words) in [
         ("no_such.glb", "no_such.glb"),
-        ("/etc/hostname", "leads out of the scene's folder"),
-        ("../crate.glb", "leads out of the scene's folder"),
+        ("/etc/hostname", "points outside the scene's folder"),
+        ("../crate.glb", "points outside the scene's folder"),
         ("scene.ron", "scene.ron"),
     ] {
         sandbox.write_file("scene.ron", format!("Scene(models: [\n  (path: \"{model}\"),\n])"));

@@ -117,19 +117,19 @@ const SUSPICIOUS: &[(&str, &str, &str, &str)] = &[
         "camera: (view: LookTo(eye: (0, 0.5, 90), gaze: (0, 0, -1)), projection: Perspective(near: 1, far: 9))",
         "nothing-visible",
         "3:11",
-        "all of it is outside of the far plane",
+        "all of it is outside the far plane",
     ),
     (
         "camera: (view: LookAt(eye: (0.1, 0.3, 0.1), target: (0, 0.2, -5)), projection: Perspective(near: 0.01, far: 9))",
         "camera-inside",
         "3:18",
-        "is inside of crate",
+        "is inside crate",
     ),
     (
         "camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0)), projection: Perspective(near: 0.001, far: 50))",
         "wasteful-depth-range",
         "",
-        "times nearer than the nearest thing",
+        "times closer than the nearest surface",
     ),
     (
         "camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0)), projection: Perspective(near: 1, far: 7))",
@@ -187,7 +187,7 @@ const SUSPICIOUS: &[(&str, &str, &str, &str)] = &[
         "255 times as bright as white",
     ),
     ("stereo: Anaglyph(eye_distance: 65)", "wide-stereo", "3:34", "the scene's units"),
-    ("ground: Shadow(height: 1)", "ground-above-models", "3:26", "leave `height` out"),
+    ("ground: Shadow(height: 1)", "ground-above-models", "3:26", "remove `height`"),
     (
         "camera_path: (keys: [(time: 0, eye: (0, 0, 9), target: (0, 0, 0)), (time: 2, eye: (0, 0, -9), target: (0, 0, 0))])",
         "camera-path-turns-over",
@@ -235,7 +235,7 @@ fn models_that_hide_each_other_or_are_specks_are_named() {
         format!("(path: \"crate.glb\", instances: Grid(count: (2, 1, 2), step: {step}))")
     };
     let output = check(&grid("(3, 0, 0)"));
-    let told = "warning[coincident-instances]: of 4 instances 2 stand where another one is";
+    let told = "warning[coincident-instances]: 2 of 4 instances coincide with another one";
     assert!(output.contains(told) && output.contains("scene.ron:2:72"), "{output}");
     assert!(!check(&grid("(3, 0, 3)")).contains("warning["));
     let output = check(
@@ -296,7 +296,7 @@ fn a_model_beside_the_picture_is_named() {
         output.contains("warning[model-not-visible]") && output.contains("scene.ron:2:33"),
         "{output}"
     );
-    assert!(output.contains("all of it is outside of the right"), "{output}");
+    assert!(output.contains("all of it is outside the right"), "{output}");
     let run = sandbox.run(&["scene", "check", "scene.ron", "--json"]);
     let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
     let advice = &report["files"][0]["advice"][0];
@@ -394,9 +394,9 @@ fn includes_go_neither_in_circles_nor_astray() {
         assert!(run.stdout.contains(words), "{words}\n{}", run.stdout);
     }
     for (path, words) in [
-        ("../outside.ron", "leads out of the scene's folder"),
+        ("../outside.ron", "points outside the scene's folder"),
         ("no.ron", "in/no.ron: the file does not exist; check the name"),
-        ("/etc/hostname", "leads out of the scene's folder"),
+        ("/etc/hostname", "points outside the scene's folder"),
     ] {
         sandbox.write_file("in/c.ron", format!("Scene(\n  include: \"{path}\",\n)"));
         let run = sandbox.run(&["render", "in/c.ron"]);

@@ -43,7 +43,7 @@ fn the_scale_is_explained() {
     let told = explain(&["--paper", "a4"]);
     assert!(told.starts_with("the views fill ") && told.contains(" at 1:1; at 2:1, the"), "{told}");
     let told = explain(&["--scale", "1:2"]);
-    assert!(told.ends_with(" at 1:2; this scale was asked for\n"), "{told}");
+    assert!(told.ends_with(" at 1:2; this scale was requested\n"), "{told}");
 }
 
 #[test]
@@ -119,8 +119,11 @@ fn a_title_block_of_ones_own_is_read_or_its_mistake_is_shown() {
             good.replace("title}", "titel}"),
             "block.svg, line 2, column 1: there is no field `titel`",
         ),
-        (good.replace("<rect", "<ellipse"), "block.svg, line 1, column 26: `ellipse` is not read"),
-        ("\u{0}".to_owned(), "a title block is an SVG file"),
+        (
+            good.replace("<rect", "<ellipse"),
+            "block.svg, line 1, column 26: `ellipse` is not supported",
+        ),
+        ("\u{0}".to_owned(), "a title block must be an SVG file"),
     ] {
         sandbox.write_file("block.svg", svg);
         for command in
@@ -134,7 +137,7 @@ fn a_title_block_of_ones_own_is_read_or_its_mistake_is_shown() {
     }
     write_scene(&sandbox, "scene.ron", "title_block: \"../block.svg\"");
     let run = sandbox.run(&["sheet", "scene.ron", "-o", "no.svg"]);
-    assert!(run.code == 1 && run.stderr.contains("leads out of the scene's folder"));
+    assert!(run.code == 1 && run.stderr.contains("points outside the scene's folder"));
     assert!(!sandbox.file_names().contains(&"no.svg".to_owned()));
 }
 
@@ -143,7 +146,7 @@ fn numbers_that_make_no_sense_are_mistakes() {
     let sandbox = Sandbox::new("sheet_numbers");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     for (fields, told) in [
-        ("decimals: 7", "7 decimals are more than 6"),
+        ("decimals: 7", "too many decimal places: 7; at most 6 are allowed"),
         ("sheet_number: (3, 2)", "there is no sheet 3 of 2"),
         ("sheet_number: (0, 2)", "there is no sheet 0 of 2"),
     ] {
@@ -168,7 +171,7 @@ fn a_check_of_the_scene_warns_of_what_the_sheet_lacks() {
         (
             format!("paper: A4, scale: (4, 3)), sections: [{}]", many.join(", ")),
             "sheet-view-missing",
-            "there is no place for the section",
+            "there is no room for the section",
         ),
     ] {
         let text = format!("Scene(models: [(path: \"box.gltf\")], sheet: Sheet({fields})");
@@ -198,7 +201,7 @@ fn a_check_of_the_scene_reads_title_blocks_where_it_may() {
     sandbox.write_file("inner/scene.ron", text);
     let check = ["scene", "check", "inner/scene.ron"];
     let run = sandbox.run(&check);
-    assert!(run.stdout.contains("leads out of the scene's folder"), "{}", run.stdout);
+    assert!(run.stdout.contains("points outside the scene's folder"), "{}", run.stdout);
     let run = sandbox.run(&[&check[..], &["--allow-outside", "."]].concat());
     assert!(run.stdout.contains("warning[missing-glyph]"), "{}", run.stdout);
 }

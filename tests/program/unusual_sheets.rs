@@ -61,7 +61,7 @@ fn names_of_parts_are_drawn_and_quoted_in_one_short_line() {
         assert!(line.chars().count() < 300, "{line}");
         assert!(!line.chars().any(|c| c.is_control() || c == '\u{202e}'), "{line:?}");
     }
-    assert!(run.stderr.contains("the letters of drawings lack"), "{}", run.stderr);
+    assert!(run.stderr.contains("the drawing font lacks"), "{}", run.stderr);
     let list = std::fs::read_to_string(sandbox.path_of("list.csv")).expect("a list");
     assert!(list.contains(",evil,") && list.contains(",bolt [31m,"), "{list}");
 }
@@ -73,7 +73,7 @@ fn cuts_through_open_meshes_have_a_message() {
     open.truncate(open.rfind("f ").expect("a face"));
     let flags = [&ALL_PAGES[..], &["--section", "z=0.5"]].concat();
     let (_, run) = draw_everywhere("unusual_open", &open, &flags);
-    assert!(run.stderr.contains("does not close"), "{}", run.stderr);
+    assert!(run.stderr.contains("is not closed"), "{}", run.stderr);
 }
 
 #[test]

@@ -227,7 +227,7 @@ fn habits_that_were_tried_are_answered() {
 const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
     (&["-x"], "for axes use `--overlay axes`; a format needs no flag"),
     (&["--threads", "0"], "omit the flag to use all processors"),
-    (&["--camera=0,0,5"], "to place one use `--eye 0,0,5 --target 0,0,0`"),
+    (&["--camera=0,0,5"], "to place a camera, use `--eye 0,0,5 --target 0,0,0`"),
     (&["--camera-view-up", "0,0,1"], "use `--view-up 0,0,1 --eye 4,3,6 --target 0,0,0`"),
     (&["--focal-length", "50"], "use `--fov 27`, the vertical angle of view of a 50 mm lens"),
     (&["--max-size=100"], "`--max-file-bytes 100MiB`"),
@@ -411,29 +411,32 @@ fn scenes_of_other_languages_are_answered() {
     sandbox.write_file("lower.ron", "Scene(models: [model(path: \"teapot.glb\")])\n");
     sandbox.write_file("scene.json", "{\"models\": [\"teapot.glb\"]}\n");
     for (words, told) in [
-        (&["scene", "check", "hash.ron"][..], "colors are written in quotation marks: \"#ff8800\""),
-        (&["scene", "check", "number.ron"], "colors are written in quotation marks: \"#ff8800\""),
+        (&["scene", "check", "hash.ron"][..], "write the color in quotation marks: \"#ff8800\""),
+        (&["scene", "check", "number.ron"], "write the color in quotation marks: \"#ff8800\""),
         (
             &["scene", "check", "light.ron"],
             "write one of Directional(…), Point(…), Spot(…), FromModels",
         ),
         (&["scene", "check", "turned.ron"], "a camera has no rotation angles"),
-        (&["scene", "check", "frame.ron"], "the moment of an animation is a model's `time`"),
+        (
+            &["scene", "check", "frame.ron"],
+            "to choose a moment of an animation, set a model's `time`",
+        ),
         (&["scene", "check", "exposure.ron"], "write it as image: (exposure_ev: …)"),
-        (&["scene", "check", "size.ron"], "the size is written size: (640, 480)"),
-        (&["scene", "check", "type.ron"], "leave out `Style(…)` and write Toon()"),
+        (&["scene", "check", "size.ron"], "write the size as size: (640, 480)"),
+        (&["scene", "check", "type.ron"], "remove `Style(…)` and write Toon()"),
         (&["scene", "check", "bare.ron"], "write Model(path: \"teapot.glb\")"),
         (&["scene", "check", "lower.ron"], "write Model(…), or just (…)"),
         (&["render", "scene.json"], "this looks like a scene in JSON"),
         (&["info", "scene.ron"], "this is a scene and not a model"),
         (&["scene", "check", "teapot.glb"], "teapot.glb is not a scene"),
-        (&["scene", "check", "scene.ron"], "comments begin with `//`"),
+        (&["scene", "check", "scene.ron"], "start comments with `//`"),
         (&["scene", "check", "pov.ron"], "pov.ron: 1 mistake"),
         (&["scene", "check", "json.ron"], "this looks like JSON"),
         (&["scene", "check", "yaml.ron"], "this looks like YAML"),
         (
             &["scene", "check", "quoted.ron"],
-            "strings are written in double quotation marks: \"teapot.glb\"",
+            "write strings in double quotation marks: \"teapot.glb\"",
         ),
     ] {
         let run = sandbox.run(words);

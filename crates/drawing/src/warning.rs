@@ -105,16 +105,16 @@ impl fmt::Display for Warning {
         match self {
             Self::Lines(warning) => warning.fmt(f),
             Self::SectionsIgnored => f.write_str(
-                "sections do nothing here: only line drawings can be cut; choose a style such as \
+                "sections are ignored: they cut only line drawings; choose a style such as \
                  `--style lines`",
             ),
             Self::AnaglyphIgnored => f.write_str(
-                "only PNG pictures have anaglyphs: \
-                 this one shows the view of the scene's camera alone",
+                "only PNG pictures can be anaglyphs: this one shows only the view of the scene's \
+                 camera",
             ),
             Self::ImagesNotInDxf => f.write_str(
-                "DXF has lines, areas and texts, but no images: \
-                 backgrounds and fills of faces are left out",
+                "DXF has lines, areas and text, but no images: backgrounds and face fills are \
+                 omitted",
             ),
             Self::LabelNotDrawn { text, fault } => write!(
                 f,
@@ -122,23 +122,22 @@ impl fmt::Display for Warning {
                 visible_excerpt(text),
                 match fault {
                     LabelFault::BehindEye => "behind the eye",
-                    LabelFault::Outside => "outside of the picture",
+                    LabelFault::Outside => "outside the picture",
                 }
             ),
             Self::GlyphsMissing { text, characters } => {
                 let [characters, text] = [characters, text].map(|text| visible_excerpt(text));
                 write!(
                     f,
-                    "the letters of drawings lack {characters} of \"{text}\": \
-                     boxes are in their place"
+                    "the drawing font lacks {characters} in \"{text}\": boxes are drawn instead"
                 )
             }
             Self::OutlinesTraced => f.write_str(
-                "so many faces overlap that their outlines are traced on a fine grid, and are not exact",
+                "so many faces overlap that their outlines are traced on a fine grid and are not exact",
             ),
             Self::OutlinesLeftOut => f.write_str(
-                "the models have so many copies that their outlines would take long, and they are left \
-                 out: `--no-line-limits` draws them",
+                "the models have so many copies that drawing their outlines would take too long, \
+                 so they are omitted: `--no-line-limits` draws them",
             ),
             Self::PictureEmpty { reason } => write!(f, "the picture is empty: {reason}"),
         }
@@ -154,7 +153,7 @@ mod tests {
         let (text, characters) =
             ("a\u{7}\u{202e}b\u{5d0}".to_owned(), "\u{7}\u{202e}\u{5d0}".to_owned());
         let message = Warning::GlyphsMissing { text, characters }.to_string();
-        assert!(message.contains("lack \\u{7}\\u{202e}\u{5d0} of"), "{message}");
+        assert!(message.contains("lacks \\u{7}\\u{202e}\u{5d0} in"), "{message}");
         assert!(message.contains("\"a\\u{7}\\u{202e}b\u{5d0}\""), "{message}");
     }
 }

@@ -19,9 +19,9 @@ pub enum DrawError {
     /// Mesh copies have too many triangles for a line drawing, and
     /// [`DrawOptions::is_unlimited`](crate::DrawOptions::is_unlimited) is not set.
     #[error(
-        "lines of {count} triangles would take long: the models have only {distinct}, and copies of them \
-         may have {most} together; show fewer copies, choose a style that shows surfaces, or lift \
-         the limit (`--no-line-limits`)"
+        "drawing lines of {count} triangles would take too long: the models have only {distinct}, \
+         and all copies together may have at most {most}; use fewer copies, choose a style that \
+         shows surfaces, or lift the limit (`--no-line-limits`)"
     )]
     TooManyCopies {
         /// The number of triangles in all copies.

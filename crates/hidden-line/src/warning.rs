@@ -66,43 +66,42 @@ impl fmt::Display for Warning {
         match self {
             Self::SectionOpen { object } => write!(
                 f,
-                "the cut through `{}` does not close, because its surface is open: \
-                 the section has no cap and no hatching there",
+                "the cut through `{}` is not closed, because its surface is open: the section has \
+                 no cap and no hatching there",
                 visible_excerpt(object)
             ),
             Self::SectionTooComplex { object } => write!(
                 f,
-                "the cut through `{}` has too many points: \
-                 the section has no cap and no hatching",
+                "the cut through `{}` has too many points: the section has no cap and no hatching \
+                 there",
                 visible_excerpt(object)
             ),
             Self::SectionMisses { number } => {
-                write!(f, "section {number} cuts nothing: its plane lies beside the models")
+                write!(f, "section {number} cuts nothing: its plane misses the models")
             }
             Self::SectionRemovesAll { number } => write!(
                 f,
-                "section {number} would remove everything: all models lie on the side of its plane \
-                 that is cut away"
+                "section {number} would remove everything: all models are on the removed side of \
+                 its plane"
             ),
             Self::CutOutsDrawnWhole => f.write_str(
                 "textures cut shapes such as leaves out of some faces: lines show the edges of the \
                  whole faces",
             ),
             Self::CrowdApproximated => f.write_str(
-                "so many surfaces lie behind each other that lines behind gaps of a pixel or two are \
-                 left out: `--no-line-limits` draws them, and may take long",
+                "so many surfaces overlap that lines behind gaps of a pixel or two are omitted: \
+                 `--no-line-limits` draws them, but may take a long time",
             ),
             Self::IntersectionsIncomplete => f.write_str(
                 "so many faces may intersect that not all were compared: \
                  some intersection edges may be missing",
             ),
             Self::HatchingIncomplete => f.write_str(
-                "there are too many hatch lines, and some are missing: increase their spacing",
+                "there are too many hatch lines, so some are missing: increase their spacing",
             ),
             Self::VisibilityIncomplete => f.write_str(
-                "so many faces lie before and behind each other that not all lines were compared \
-                 with all of them, and some hidden lines are drawn: leave out parts of the model, \
-                 or simplify its meshes",
+                "too many faces overlap to compare every line with every face, so some hidden \
+                 lines are drawn: remove parts of the model, or simplify its meshes",
             ),
         }
     }

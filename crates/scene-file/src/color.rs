@@ -57,7 +57,7 @@ pub fn color_names() -> impl Iterator<Item = &'static str> {
 impl Declared for Color {
     const ENTRY: &'static TypeEntry = &TypeEntry {
         name: "Color",
-        doc: "A color in sRGB in quotation marks: \"#rgb\", \"#rrggbb\", or the name of a color of CSS such as \"white\".",
+        doc: "An sRGB color in quotation marks: \"#rgb\", \"#rrggbb\", or a CSS color name such as \"white\".",
         shape: Shape::Plain(Notation {
             check: check_color,
             form: Form::Text,
@@ -87,7 +87,7 @@ fn check_color(node: &Node<'_>, checker: &mut Checker<'_>) {
     let help = match &node.kind {
         NodeKind::String(_) => return check_color_string(node, checker),
         NodeKind::Word(word) if Color::parse(word).is_some() => {
-            format!("colors are written in quotation marks: \"{word}\"")
+            format!("write the color in quotation marks: \"{word}\"")
         }
         NodeKind::Group(_) => color_of_numbers(node).map_or_else(hex_help, |[r, g, b]| {
             format!("write \"#{r:02x}{g:02x}{b:02x}\", if the numbers are sRGB from 0 to 1")
@@ -95,7 +95,7 @@ fn check_color(node: &Node<'_>, checker: &mut Checker<'_>) {
         NodeKind::Number(word)
             if word.starts_with("0x") && Color::parse(&word.replacen("0x", "#", 1)).is_some() =>
         {
-            format!("colors are written in quotation marks: \"{}\"", word.replacen("0x", "#", 1))
+            format!("write the color in quotation marks: \"{}\"", word.replacen("0x", "#", 1))
         }
         _ => hex_help(),
     };
@@ -108,7 +108,7 @@ fn check_light_color(node: &Node<'_>, checker: &mut Checker<'_>) {
         (NodeKind::String(_), _) => check_color_string(node, checker),
         (_, Some(group)) => check_three_numbers(node, group, checker),
         _ => {
-            let help = "linear red, green and blue such as (1, 0.9, 0.8), or \"#ffe0c0\"";
+            let help = "write linear red, green and blue such as (1, 0.9, 0.8), or \"#ffe0c0\"";
             checker.report_type(node, "a color", Some(help.to_owned()));
         }
     }
@@ -159,7 +159,7 @@ impl LightColor {
 impl Declared for LightColor {
     const ENTRY: &'static TypeEntry = &TypeEntry {
         name: "LightColor",
-        doc: "The color of light: linear red, green and blue such as (1, 0.9, 0.8), or a color in sRGB such as \"#ffe0c0\" or \"white\".",
+        doc: "The color of light: linear red, green and blue such as (1, 0.9, 0.8), or an sRGB color such as \"#ffe0c0\" or \"white\".",
         shape: Shape::Plain(Notation {
             check: check_light_color,
             form: Form::Any(Finite::value_type),

@@ -141,7 +141,7 @@ impl SceneErrors {
         if let Some(more) = count.checked_sub(Self::SHOWN).filter(|more| *more > 0) {
             let mistakes = if more == 1 { "mistake" } else { "mistakes" };
             text.push_str(&format!(
-                "\n\n… and {more} more {mistakes}; `alberti scene check` lists all"
+                "\n\n… and {more} more {mistakes}; `alberti scene check` lists them all"
             ));
         }
         text

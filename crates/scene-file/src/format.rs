@@ -42,7 +42,7 @@ pub fn format_source(file: &str, text: &str) -> Result<String, SceneErrors> {
         return Ok(page);
     }
     // No text is known to get here; a user's file is not the place to find one.
-    let message = "this file cannot be formatted without changing what it means".to_owned();
+    let message = "this file cannot be formatted without changing its meaning".to_owned();
     let error =
         SceneError { file: file.into(), source: text.into(), span: 0..0, message, help: None };
     Err(error.into())

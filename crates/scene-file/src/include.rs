@@ -200,9 +200,9 @@ impl IncludeResolver<'_> {
         open: &mut Vec<(PathBuf, String)>,
     ) -> Result<MergedScene, (String, Option<&'static str>)> {
         if !self.scene.allows_path(path, self.allowed) {
-            let help = "keep included files below the scene's folder, or allow another with --allow-outside DIR";
+            let help = "keep included files below the scene's folder, or allow another folder with --allow-outside DIR";
             let message =
-                format!("the path \"{}\" leads out of the scene's folder", path.display());
+                format!("the path \"{}\" points outside the scene's folder", path.display());
             return Err((message, Some(help)));
         }
         // Reported only once.
@@ -221,15 +221,15 @@ impl IncludeResolver<'_> {
             let help = Some("remove one of these includes");
             return Err((format!("the file includes itself: {circle}"), help));
         }
-        let help = Some("check the path: it begins at the folder of this file");
+        let help = Some("check the path; it is relative to the folder of this file");
         let text = read_scene_text(&whole).map_err(|error| (error.to_string(), help))?;
         let text = SourceText::from(text);
         let read: usize = self.includes.files.iter().map(|(_, text)| text.len()).sum();
         if read + text.len() > MAX_INCLUDED_BYTES {
             self.is_full = true;
             let message = format!(
-                "the included files have more than {MAX_INCLUDED_BYTES} bytes together, each \
-                 counted as often as it is included"
+                "the included files total more than {MAX_INCLUDED_BYTES} bytes; a file counts each \
+                 time it is included"
             );
             return Err((message, Some("include fewer or smaller files")));
         }

@@ -66,12 +66,12 @@ fn numbers_out_of_range_are_named_with_their_path() {
         (
             "lights: [Ambient(intensity: ?)]",
             "-1",
-            "`lights[0].Ambient.intensity`: expected 0 or a greater number, found -1",
+            "`lights[0].Ambient.intensity`: expected 0 or a positive number, found -1",
         ),
         (
             "lights: [Ambient(intensity: ?)]",
             "inf",
-            "`lights[0].Ambient.intensity`: expected 0 or a greater number, found inf",
+            "`lights[0].Ambient.intensity`: expected 0 or a positive number, found inf",
         ),
         (
             "camera: (view: LookTo(eye: (0, ?, 0), gaze: (0, 0, 1)))",
@@ -113,16 +113,16 @@ fn errors_of_grammar_are_pointed_at() {
     let begin = "a scene looks like this: Scene(models: [(path: \"model.glb\")])";
     check("", "the file is empty", (1, 1), begin);
     check("[]", "this is not a scene", (1, 1), begin);
-    check("Scene(", "the file ends too early", (1, 6), "close the `(` of line 1");
+    check("Scene(", "the file ends too early", (1, 6), "close the `(` on line 1");
     check(
         "Scene(models: [(path: \"a.glb\")]) more",
-        "there is something behind the scene's last bracket",
+        "unexpected text after the scene's closing bracket",
         (1, 34),
-        "a file has one scene: put it inside of the brackets, or remove it",
+        "a file holds one scene; move the text inside the brackets, or remove it",
     );
     check(
         "Scene(models: [(scale: 3)])",
-        "the field `path` of `Model` is missing",
+        "missing field `path` in `Model`",
         (1, 16),
         "add `path: …`",
     );
@@ -130,13 +130,13 @@ fn errors_of_grammar_are_pointed_at() {
         "Scene(models: [(path: a)])",
         "`models[0].path`: expected a string, found `a`",
         (1, 23),
-        "strings are written in double quotation marks: \"a\"",
+        "write strings in double quotation marks: \"a\"",
     );
     check(
         &scene_with("image: (size: (800.5, 600))"),
         "`image.size[0]`: expected a whole number, found `800.5`",
         (3, 18),
-        "such as 4, without a decimal point",
+        "write a whole number such as 4, without a decimal point",
     );
 }
 
@@ -164,7 +164,7 @@ fn errors_of_grammar_do_not_hide_others_nor_cause_them() {
             "(models: [], style: , image: (sise: (1, 1)))",
             vec![(1, 21, "expected a value here"), (1, 31, "unexpected field")],
         ),
-        ("(models: [(path: \"a.glb)], style: Falt)", vec![(1, 18, "the string that begins here")]),
+        ("(models: [(path: \"a.glb)], style: Falt)", vec![(1, 18, "this string is not closed")]),
         (
             "(models: [(path: \"a.glb\"], camera: (view: Frame()",
             vec![(1, 25, comma), (1, 49, "the file ends too early")],

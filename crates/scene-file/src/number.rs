@@ -30,7 +30,7 @@ checked_number! {
 }
 checked_number! {
     /// 0 or a number greater than 0.
-    NonNegative, "0 or a greater number", |x| x >= 0.0
+    NonNegative, "0 or a positive number", |x| x >= 0.0
 }
 checked_number! {
     /// A field of view in degrees, between 0 and 180, both excluded.
@@ -260,7 +260,7 @@ impl Default for Scale {
 impl Declared for Scale {
     const ENTRY: &'static TypeEntry = &TypeEntry {
         name: "Scale",
-        doc: "A factor for each axis; none of them is 0. Written as one number or as three.",
+        doc: "A nonzero factor for each axis. Written as one number or as three.",
         shape: Shape::Plain(Notation {
             check: check_scale,
             form: Form::Any(Finite::value_type),

@@ -88,45 +88,45 @@ named_values! {
         Turbo = "A rainbow from dark blue through green to dark red.",
         Inferno = "From black through red to light yellow, perceptually uniform.",
         Grayscale = "From black to white.",
-        CoolWarm = "From blue through light gray to red, for values on both sides of a middle.",
+        CoolWarm = "From blue through light gray to red, for values on both sides of a center.",
     }
 }
 
 named_values! {
     /// The pixel coordinates of the center of the upper left pixel.
     PixelCenters as "PixelCenters" {
-        Integer = "(0, 0): OpenCV, and most of computer vision. The middle of 640 columns is 319.5.",
-        Half = "(0.5, 0.5): OpenGL and COLMAP. The middle of 640 columns is 320.",
+        Integer = "(0, 0): OpenCV and most of computer vision. The center of 640 columns is 319.5.",
+        Half = "(0.5, 0.5): OpenGL and COLMAP. The center of 640 columns is 320.",
     }
 }
 
 named_values! {
     /// The directions of a camera's axes.
     CameraAxes as "CameraAxes" {
-        OpenCv = "x to the right, y down, z ahead: OpenCV, COLMAP, ROS.",
-        OpenGl = "x to the right, y up, z backwards: OpenGL, Blender, glTF, NeRF.",
-        Pytorch3d = "x to the left, y up, z ahead: PyTorch3D.",
+        OpenCv = "x to the right, y down, z forward: OpenCV, COLMAP, ROS.",
+        OpenGl = "x to the right, y up, z backward: OpenGL, Blender, glTF, NeRF.",
+        Pytorch3d = "x to the left, y up, z forward: PyTorch3D.",
     }
 }
 
 named_values! {
     /// The edges that a line drawing shows.
     EdgeSelection as "EdgeSelection" {
-        Facets = "The sides of all triangles.",
+        Facets = "The edges of all triangles.",
         Features = "Silhouettes, boundaries, creases, intersections of surfaces, and edges between materials.",
-        Tangents = "Features; edges between materials are narrow where widths are those of ISO 128.",
-        Contours = "Silhouettes and boundaries, also where they run before other surfaces.",
-        Silhouette = "The outline alone: nothing is beside it.",
-        Outline = "Closed loops around the whole and its holes, as for cutting; with `sections`, around what they cut.",
+        Tangents = "Features; with ISO 128 line widths, edges between materials are narrow.",
+        Contours = "Silhouettes and boundaries, including those in front of other surfaces.",
+        Silhouette = "Only the outline against the background.",
+        Outline = "Closed loops around the whole shape and its holes, for example for cutting; with `sections`, around the cuts.",
     }
 }
 
 named_values! {
     /// The treatment of hidden lines.
     HiddenLines as "HiddenLines" {
-        Removed = "Hidden lines are left out.",
+        Removed = "Hidden lines are omitted.",
         Dashed = "Hidden lines are dashed.",
-        FirstLayer = "Hidden lines are dashed behind one wall, which is two faces, and left out behind more: for assemblies.",
+        FirstLayer = "Hidden lines are dashed behind one wall (two faces) and omitted behind more; for assemblies.",
         Drawn = "Hidden lines are drawn like visible ones.",
     }
 }
@@ -134,8 +134,8 @@ named_values! {
 named_values! {
     /// The method of finding silhouettes of smooth surfaces.
     SilhouetteMethod as "Silhouettes" {
-        Facets = "Sides of triangles: exact for the mesh, in zigzag where it stands for a curved surface.",
-        Interpolated = "Across the triangles, where the interpolated normal is at a right angle to the line of sight: smooth, but approximate, with possible gaps at cusps.",
+        Facets = "Triangle edges: exact for the mesh, but zigzag where it represents a curved surface.",
+        Interpolated = "Across the triangles, where the interpolated normal is perpendicular to the line of sight: smooth but approximate, with possible gaps at cusps.",
     }
 }
 
@@ -143,22 +143,22 @@ named_values! {
     /// The fill of the faces under the lines.
     FaceFill as "FaceFill" {
         None = "Nothing: the paper shows.",
-        Flat = "Each face in one tone of its own color, in light from above the viewer's left shoulder: an image of 300 dots per inch under the lines.",
-        Hatching = "Hatch lines, closer where that light leaves the face darker. They are as exact as the edges.",
-        ShadeHatching = "Hatch lines as well, by the light alone: the colors of the materials make no difference.",
-        Gray = "Areas of gray by the base colors of the materials, whatever the light. Cuts stay blank.",
-        PartHatching = "Hatch lines by the object: neighbors differ in angle or distance. Where sections cut, cuts alone are hatched.",
+        Flat = "Each face in one tone of its color, lit from above the viewer's left shoulder: a 300 dpi image under the lines.",
+        Hatching = "Hatch lines, closer together where that light leaves the face darker. They are as exact as the edges.",
+        ShadeHatching = "Hatch lines that depend only on the light, not on the colors of the materials.",
+        Gray = "Gray areas from the base colors of the materials, regardless of the light. Cuts stay blank.",
+        PartHatching = "Hatch lines per object: neighbors differ in angle or spacing. With sections, only the cuts are hatched.",
     }
 }
 
 named_values! {
     /// The direction in which the parts of an exploded view move.
     ExplosionAxis as "ExplosionAxis" {
-        Auto = "Along the axis on which most parts are in line with the largest one, or on which they move least.",
+        Auto = "Along the axis on which most parts line up with the largest one, or on which they move the least.",
         X = "To the left and to the right.",
         Y = "Up and down.",
         Z = "To the front and to the back.",
-        All = "Each part away from the largest one, along the axis on which it is farthest from it.",
+        All = "Each part moves away from the largest one, along the axis on which it is farthest from it.",
     }
 }
 
@@ -174,7 +174,7 @@ named_values! {
 named_values! {
     /// The shape of line joins.
     Join as "Join" {
-        Miter = "The outer sides meet in a point.",
+        Miter = "The outer edges meet in a point.",
         Round = "With a disc around the corner.",
         Bevel = "The corner is cut off.",
     }
@@ -194,8 +194,8 @@ named_values! {
     /// The fit of a picture to the image.
     ImageFit as "Fit" {
         Stretch = "Stretched to the size of the image.",
-        Cover = "As small as covers the whole image; what is too much is cut off on both sides alike.",
-        Contain = "As large as fits into the image, in the middle.",
+        Cover = "The smallest size that covers the whole image; the excess is cropped equally on both sides.",
+        Contain = "The largest size that fits into the image, centered.",
     }
 }
 
@@ -204,25 +204,25 @@ named_values! {
     Pass as "Pass" {
         Depth = "The distance from the eye along the view axis, in units of the scene.",
         Distance = "The distance from the eye, in units of the scene.",
-        Normal = "The unit normal in the world, on the visible side, without normal maps.",
-        ViewNormal = "The unit normal in view space: x to the right, y up, z towards the viewer.",
-        Position = "The position in the world, in units of the scene.",
+        Normal = "The unit normal in world space, on the visible side, without normal maps.",
+        ViewNormal = "The unit normal in view space: x to the right, y up, z toward the viewer.",
+        Position = "The position in world space, in units of the scene.",
         Uv = "The texture coordinates of `TEXCOORD_0`.",
         Barycentric = "The barycentric coordinates in the triangle, from 0 to 1; they add up to 1.",
-        Id = "The index of the point, line or triangle in the scene, from 1; 0 where nothing is.",
+        Id = "The index of the point, line or triangle in the scene, from 1; 0 for the background.",
         Model = "The index of the model in the scene, from 1.",
         Node = "The index of the node in its model, from 1.",
         Mesh = "The index of the mesh in its model, from 1.",
-        Material = "The index of the material in its model, from 1; 0 also for the default one.",
-        Overdraw = "The count of fragments that cover the pixel's center, hidden ones too.",
-        Coverage = "The fraction of the pixel's samples that something covers, from 0 to 1.",
+        Material = "The index of the material in its model, from 1; also 0 for the default material.",
+        Overdraw = "The number of fragments that cover the pixel center, including hidden ones.",
+        Coverage = "The fraction of the pixel's samples that are covered, from 0 to 1.",
     }
 }
 
 named_values! {
     /// The file format of passes.
     PassEncoding as "PassEncoding" {
-        Png = "PNG of 16 bits; the text chunk `Description` says what the codes mean.",
+        Png = "16-bit PNG; the text chunk `Description` explains the codes.",
         Npy = "NumPy arrays: f32, or u32 for whole numbers.",
         Exr = "OpenEXR images: f32, or u32 for whole numbers.",
     }
@@ -250,17 +250,17 @@ named_values! {
         Top = "From +y.",
         Bottom = "From −y.",
         Isometric = "From (1, 1, 1): all three axes equally foreshortened.",
-        Dimetric = "x and y foreshortened alike, z half as much again: 7° and 42° on the page.",
-        Trimetric = "Each axis foreshortened by a factor of its own.",
-        ThreeQuarter = "From the front, a little from the right and from above.",
+        Dimetric = "x and y equally foreshortened, z half as long: 7° and 42° on the page.",
+        Trimetric = "A different foreshortening factor on each axis.",
+        ThreeQuarter = "From the front, slightly from the right and from above.",
     }
 }
 
 named_values! {
     /// The border around the drawing area of a sheet (ISO 5457).
     SheetFrame as "Frame" {
-        Plain = "A line, with marks at the middles of its sides.",
-        Zones = "Also letters and numbers of zones, and trimming marks.",
+        Plain = "A line with a mark at the middle of each side.",
+        Zones = "Also zone letters and numbers, and trimming marks.",
     }
 }
 
@@ -277,7 +277,7 @@ named_values! {
     /// The unit in which lengths are written on a sheet.
     DimensionUnit as "DimensionUnit" {
         Millimeter = "Millimeters.",
-        Inch = "Inches, as decimals.",
+        Inch = "Decimal inches.",
         FootInch = "Feet and inches, with sixteenths of an inch.",
     }
 }
@@ -293,7 +293,7 @@ named_values! {
 named_values! {
     /// The arrangement of views on a sheet (ISO 5456-2).
     SheetAngle as "ProjectionAngle" {
-        First = "First angle: the view from above lies below the front view.",
-        Third = "Third angle: the view from above lies above the front view.",
+        First = "First angle: the top view is below the front view.",
+        Third = "Third angle: the top view is above the front view.",
     }
 }

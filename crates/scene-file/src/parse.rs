@@ -107,7 +107,7 @@ fn hash_comment(source: &str) -> Option<Mistake> {
         let before = &source[..at];
         let is_comment = before.matches("/*").count() > before.matches("*/").count();
         if text.starts_with('#') && !text.starts_with("#!") && !is_comment {
-            let help = "comments begin with `//`".to_owned();
+            let help = "start comments with `//`".to_owned();
             return Some(Mistake::new(at..at + 1, "unexpected `#`".to_owned(), Some(help)));
         }
     }
@@ -134,7 +134,7 @@ fn check_text(source: &str) -> (Option<Node<'_>>, Vec<Mistake>) {
     mistakes.sort_by_key(|mistake| mistake.span.start);
     if let Some(next) = mistakes.get(MAX_MISTAKES) {
         let message = format!("there are more than {MAX_MISTAKES} mistakes");
-        let help = "correct those before this one first; no others are reported".to_owned();
+        let help = "correct the mistakes above first; the rest are not reported".to_owned();
         let last = Mistake::new(next.span.clone(), message, Some(help));
         mistakes.truncate(MAX_MISTAKES);
         mistakes.push(last);
@@ -151,11 +151,11 @@ fn other_text(source: &str) -> String {
         line.trim_end().ends_with(':') && name.chars().all(|c| c.is_alphanumeric() || c == '_')
     };
     let language = if text.starts_with(['{', '[']) && text.contains('"') {
-        "this looks like JSON, and scenes are written in RON; "
+        "this looks like JSON, but scenes are written in RON; "
     } else if text.starts_with("---") || begins_field(text.lines().next().unwrap_or_default()) {
-        "this looks like YAML, and scenes are written in RON; "
+        "this looks like YAML, but scenes are written in RON; "
     } else if text.starts_with('<') {
-        "this looks like XML, and scenes are written in RON; "
+        "this looks like XML, but scenes are written in RON; "
     } else {
         ""
     };

@@ -55,7 +55,7 @@ fn unreadable_message(path: &Path, cause: &std::io::Error) -> String {
     match cause.kind() {
         std::io::ErrorKind::NotFound => format!("{path}: the file does not exist; check the name"),
         std::io::ErrorKind::InvalidData => format!(
-            "{path} is not a scene: it is not a text in UTF-8\n  = help: a model is checked by `alberti check`, and drawn by `alberti render`"
+            "{path} is not a scene: it is not UTF-8 text\n  = help: check a model with `alberti check`, and draw it with `alberti render`"
         ),
         _ => format!("cannot read {path}: {cause}"),
     }
@@ -200,7 +200,7 @@ pub(super) fn read_scene_text(path: &Path) -> Result<String, UnreadableScene> {
     }
     let length = metadata.len();
     if length > MAX_SCENE_BYTES {
-        let why = format!("it has {length} bytes; a scene file has {MAX_SCENE_BYTES} at most");
+        let why = format!("it has {length} bytes; a scene file may have at most {MAX_SCENE_BYTES}");
         return Err(unreadable(std::io::Error::other(why)));
     }
     let text = std::fs::read_to_string(path).map_err(unreadable)?;

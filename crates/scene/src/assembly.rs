@@ -54,7 +54,7 @@ fn check_density_names(
     for (at, density) in file.densities.iter().enumerate() {
         if density.of != "*" && names.binary_search(&density.of.as_str()).is_err() {
             let path = [Field("sheet"), Field("densities"), Index(at), Field("of")];
-            let message = format!("no part and no material is called `{}`", density.of);
+            let message = format!("there is no part or material named `{}`", density.of);
             let help = suggest_name(&density.of, &names);
             return Err(origin.error_at(&path, message, help));
         }

@@ -104,8 +104,8 @@ fn resolve_gradient(
     size: (u32, u32),
 ) -> Result<Gradient, SceneError> {
     if !(2..=MAX_GRADIENT_COLORS).contains(&colors.len()) {
-        let message = format!("a gradient cannot have {} colors", colors.len());
-        let help = Some("from 2 to 16 are possible; one alone is Color(\"#…\")");
+        let message = format!("a gradient needs 2 to 16 colors, not {}", colors.len());
+        let help = Some("for a single color, write Color(\"#…\")");
         return Err(background_error(origin, &[Field("colors")], message, help));
     }
     let (width, height) = size;

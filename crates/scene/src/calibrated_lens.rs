@@ -50,7 +50,7 @@ pub(super) fn check_calibrated_shape(
         return None;
     }
     let message = format!(
-        "the intrinsics are for pictures of {width} x {height} pixels, and {columns} x {rows} has another shape"
+        "the intrinsics are for pictures of {width} x {height} pixels, but {columns} x {rows} has a different aspect ratio"
     );
     let help = format!("make the image {width} x {height}, or a multiple of it");
     let path = [&PROJECTION_PATH[..], &[Field("size")]].concat();

@@ -48,19 +48,15 @@ impl CameraPath {
             origin.error_at(&at, message, Some(help.to_owned()))
         };
         if !(2..=MAX_KEYS).contains(&path.keys.len()) {
-            let message = format!("a camera path cannot have {} keys", path.keys.len());
-            return Err(fault(&[], message, "from 2 to 10,000 are possible"));
+            let message = format!("invalid number of camera path keys: {}", path.keys.len());
+            return Err(fault(&[], message, "use 2 to 10,000 keys"));
         }
         for (at, pair) in (1..).zip(path.keys.windows(2)) {
             let [before, after] = [pair[0].time.value(), pair[1].time.value()];
             if before >= after {
                 let message =
-                    format!("the key at {after} s does not come after that at {before} s");
-                return Err(fault(
-                    &[Index(at), Field("time")],
-                    message,
-                    "put the keys in the order of their times",
-                ));
+                    format!("the times of keys must increase, but {after} s follows {before} s");
+                return Err(fault(&[Index(at), Field("time")], message, "sort the keys by time"));
             }
         }
         let usual = match &file.camera.projection {
@@ -70,7 +66,7 @@ impl CameraPath {
         let angled = path.keys.iter().position(|key| key.fov_y_degrees.is_some());
         if let (None, Some(at)) = (usual, angled) {
             let message = "the scene's projection has no vertical field of view".to_owned();
-            let help = "leave it out, or choose Perspective() with fov_y_degrees or without";
+            let help = "remove it, or choose Perspective(), with or without fov_y_degrees";
             return Err(fault(&[Index(at), Field("fov_y_degrees")], message, help));
         }
         let usual = usual.unwrap_or_default();
@@ -118,7 +114,7 @@ impl CameraPath {
         image: ImageSpec,
     ) -> Result<ViewProjection, SceneError> {
         resolve_view_projection(origin, &self.camera_at(time), models, image).map_err(|error| {
-            let message = format!("{:.3} s along the camera path: {}", time, error.message);
+            let message = format!("at {:.3} s on the camera path: {}", time, error.message);
             origin.error_at(&[Field("camera_path"), Field("keys")], message, error.help)
         })
     }
@@ -321,10 +317,10 @@ mod tests {
     #[test]
     fn ways_that_make_no_sense_are_told() {
         for (fields, told) in [
-            ("keys: []", "cannot have 0 keys"),
+            ("keys: []", "camera path keys: 0"),
             (
                 "keys: [(time: 0, eye: (0, 0, 0), target: (0, 0, 9)), (time: 0, eye: (0, 0, 0), target: (0, 0, 9))]",
-                "does not come after",
+                "times of keys must increase",
             ),
         ] {
             let error = path(fields).expect_err(fields);

@@ -28,7 +28,7 @@ pub(super) fn resolve_caption(
 ) -> Result<Option<String>, SceneError> {
     match caption {
         Some(text) if text.trim().is_empty() => {
-            let help = "write one, such as \"Front\", or leave `caption` out".to_owned();
+            let help = "write text such as \"Front\", or remove `caption`".to_owned();
             Err(origin.error_at(&[Field("caption")], "the caption has no text", Some(help)))
         }
         caption => Ok(caption.cloned()),

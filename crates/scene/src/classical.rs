@@ -89,9 +89,9 @@ impl CameraResolver<'_> {
             .map_err(fault)?
             .depth_preserving();
         let image = ProjectedBounds::from_points(&points, depth_kept).ok_or_else(|| {
-            let help = "smaller p, q and r move the eye away: below 0.5 in all they always do";
+            let help = "reduce p, q and r to move the eye away; values below 0.5 always suffice";
             self.projection_error_with(
-                "a part of the models is behind the eye",
+                "part of the models is behind the eye",
                 Some(help.to_owned()),
             )
         })?;
@@ -161,8 +161,8 @@ pub(super) fn check_classical_projection(
 
 /// The error for a perspective from vanishing points with a camera position.
 fn own_eye_error(origin: &Origin) -> SceneError {
-    let help = "take Frame(from: …), or leave the view out".to_owned();
-    let message = "a perspective by vanishing points finds its own eye";
+    let help = "use Frame(from: …), or remove the view".to_owned();
+    let message = "a perspective from vanishing points finds its own eye position";
     origin.error_at(&VIEW_PATH, message, Some(help))
 }
 

@@ -51,7 +51,8 @@ pub(super) fn resolve_dimensions(
 ) -> Result<(bool, Vec<Dimension>), SceneError> {
     let list = &file.dimensions.0;
     if list.len() > MAX_DIMENSIONS {
-        let message = format!("{} dimensions are more than {MAX_DIMENSIONS}", list.len());
+        let message =
+            format!("too many dimensions: {}; at most {MAX_DIMENSIONS} are allowed", list.len());
         return Err(origin.error_at(&[Field("sheet"), Field("dimensions")], message, None));
     }
     let picking = Picking::new(origin, models);
@@ -102,8 +103,8 @@ impl DimensionResolver<'_> {
             | DimensionFile::Angle { decimals, .. } => *decimals,
         };
         if let Some(decimals) = decimals.filter(|decimals| *decimals > MAX_DECIMALS) {
-            let message = format!("a number cannot have {decimals} decimal places");
-            return Err(self.error(&[Field("decimals")], message, Some("0 to 6 are possible")));
+            let message = format!("too many decimal places: {decimals}");
+            return Err(self.error(&[Field("decimals")], message, Some("use 0 to 6")));
         }
         match entry {
             DimensionFile::Chain { points, .. } if points.len() < 2 => {
@@ -111,13 +112,13 @@ impl DimensionResolver<'_> {
                 Err(self.error(&[Field("points")], message, None))
             }
             DimensionFile::Baseline { to, .. } if to.is_empty() => {
-                Err(self.error(&[Field("to")], "there is nothing to measure to", None))
+                Err(self.error(&[Field("to")], "`to` needs at least one point", None))
             }
             DimensionFile::LargestDiameters { count, .. }
                 if !(1..=MAX_DIAMETERS).contains(count) =>
             {
-                let message = format!("the count cannot be {count}");
-                Err(self.error(&[Field("count")], message, Some("1 to 50 are possible")))
+                let message = format!("invalid count: {count}");
+                Err(self.error(&[Field("count")], message, Some("use 1 to 50")))
             }
             DimensionFile::Length { direction, side: Some(side), .. }
             | DimensionFile::Chain { direction, side: Some(side), .. }
@@ -137,11 +138,12 @@ impl DimensionResolver<'_> {
         let is_level = matches!(side, DimensionSide::Above | DimensionSide::Below);
         let (message, help) = match (direction, is_level) {
             (LengthDirection::Horizontal, false) => {
-                ("a horizontal length cannot stand beside the part", "write Above or Below")
+                ("a horizontal length cannot be placed beside the part", "write Above or Below")
             }
-            (LengthDirection::Vertical, true) => {
-                ("a vertical length cannot stand above or below the part", "write Left or Right")
-            }
+            (LengthDirection::Vertical, true) => (
+                "a vertical length cannot be placed above or below the part",
+                "write Left or Right",
+            ),
             _ => return Ok(()),
         };
         Err(self.error(&[Field("side")], message, Some(help)))
@@ -224,7 +226,7 @@ impl DimensionResolver<'_> {
         let picked = [self.pick(from, &[Field("from")])?, self.pick(to, &[Field("to")])?];
         let feet = picked[0].perpendicular_to(&picked[1]).ok_or_else(|| {
             let message = format!("{} and {} are not parallel", picked[0].noun(), picked[1].noun());
-            let help = "measure from a point of one, such as Vertex(near: …), to the other";
+            let help = "measure from a point on one, such as Vertex(near: …), to the other";
             self.error(&[Field("to")], message, Some(help))
         })?;
         Ok(feet.map(Point::from_raw).to_vec())

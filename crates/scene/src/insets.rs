@@ -60,7 +60,10 @@ pub(super) fn resolve_insets(
         return faults.take(resolve_stereo(origin, file, stereo, models?, access));
     }
     if file.viewports.len() > MAX_VIEWPORTS {
-        let message = format!("{} viewports are more than {MAX_VIEWPORTS}", file.viewports.len());
+        let message = format!(
+            "too many viewports: {}; at most {MAX_VIEWPORTS} are allowed",
+            file.viewports.len()
+        );
         faults.report(origin.error_at(&[Field("viewports")], message, None));
         return None;
     }
@@ -130,8 +133,8 @@ fn resolve_viewport_rect(
         (None, Some((x, y, w, h))) => (PixelRect { x, y, width: w, height: h }, "pixels"),
         (at, _) => {
             let message = match at {
-                None => "nothing says where the viewport is",
-                Some(_) => "both `at` and `pixels` say where the viewport is",
+                None => "the viewport has no position",
+                Some(_) => "`at` and `pixels` both give the position of the viewport",
             };
             let help = "write at: (0.7, 0, 0.3, 0.3): left, top, width and height";
             let at = [Field("viewports"), Index(number)];
@@ -146,12 +149,12 @@ fn resolve_viewport_rect(
     }
     let PixelRect { x, y, width: across, height: down } = region;
     let message = format!(
-        "the viewport of {across} x {down} pixels at ({x}, {y}) is empty or not in the picture of {width} x {height}"
+        "the viewport of {across} x {down} pixels at ({x}, {y}) is empty or not inside the picture of {width} x {height}"
     );
     let help = if field == "at" {
-        "left, top, width and height; left and width together are 1 at most, as are top and height"
+        "give left, top, width and height; left + width and top + height must be at most 1"
     } else {
-        "pixels fit one size of the picture; fractions fit all, also with --size: at: (0.5, 0, 0.5, 0.5) is the upper right quarter"
+        "pixels suit only one picture size; fractions suit every size, even with --size: at: (0.5, 0, 0.5, 0.5) is the upper right quarter"
     };
     Err(origin.error_at(&place(field), message, Some(help.to_owned())))
 }
@@ -165,8 +168,8 @@ fn resolve_border(
     let Some(border) = &viewport.border else { return Ok(None) };
     let place = |field| [Field("viewports"), Index(number), Field("border"), Field(field)];
     if !(1..=MAX_BORDER_WIDTH).contains(&border.width) {
-        let message = format!("a border cannot be {} pixels wide", border.width);
-        let help = Some(format!("from 1 to {MAX_BORDER_WIDTH} are possible"));
+        let message = format!("invalid border width: {} pixels", border.width);
+        let help = Some(format!("use 1 to {MAX_BORDER_WIDTH}"));
         return Err(origin.error_at(&place("width"), message, help));
     }
     Ok(Some((border.color.0, border.width)))
@@ -196,8 +199,8 @@ fn resolve_stereo(
         origin.error_at(&[Field("stereo")], message, Some(help.to_owned()))
     };
     if !file.viewports.is_empty() {
-        let help = "leave one of them out";
-        return Err(fault("a scene has viewports or is in stereo, and not both", help).into());
+        let help = "remove one of them";
+        return Err(fault("a scene can have viewports or be in stereo, but not both", help).into());
     }
     let (width, height) = file.view_size();
     let (beside, apart, convergence) = match stereo {
@@ -205,7 +208,7 @@ fn resolve_stereo(
         StereoFile::Anaglyph { eye_distance, convergence } => (false, eye_distance, convergence),
     };
     if beside && width < 2 {
-        return Err(fault("the picture is too narrow for two", "make it wider").into());
+        return Err(fault("the picture is too narrow for two views", "make it wider").into());
     }
     // With an odd number of columns both share the middle one, and the right eye's is visible.
     let half = if beside { width.div_ceil(2) } else { width };
@@ -217,15 +220,15 @@ fn resolve_stereo(
     let middle = resolve_without_insets(origin, &inner, Some(models), access, &mut faults);
     let middle = faults.finish(origin, middle)?;
     if middle.view_projection.viewer().raw().w == 0.0 {
-        let help = "choose one, such as Perspective(), or leave `stereo` out";
-        return Err(fault("eyes see the same in a parallel projection", help).into());
+        let help = "choose a perspective, such as Perspective(), or remove `stereo`";
+        return Err(fault("both eyes see the same in a parallel projection", help).into());
     }
     let plane = convergence.map_or_else(
         || models_center_depth(middle.view_projection, models),
         |all| Some(all.value()),
     );
     let Some(plane) = plane else {
-        let help = "say how far ahead the eyes converge: 2";
+        let help = "set the distance at which the eyes converge: 2";
         return Err(fault("the middle of the models is behind the camera", help).into());
     };
     let apart = apart.map_or(plane / CONVERGENCE_PER_EYE_DISTANCE, Positive::value);

@@ -34,8 +34,8 @@ pub(super) fn check_instance_counts(origin: &Origin, file: &SceneFile) -> Result
         total = total.saturating_add(count);
         if total > MAX_INSTANCES {
             let message =
-                format!("the scene has {total} copies of models, more than {MAX_INSTANCES}");
-            let help = Some("show fewer, or put several into one model".to_owned());
+                format!("the scene has {total} model copies; at most {MAX_INSTANCES} are allowed");
+            let help = Some("use fewer, or combine several in one model".to_owned());
             return Err(origin.error_at(&instances_path(number, &[]), message, help));
         }
     }
@@ -65,8 +65,8 @@ fn checked_instance_count(
         Some(InstancesFile::List(_)) | None => instances_path(number, &[]),
         Some(_) => instances_path(number, &[field]),
     };
-    let help = Some("at least 1; leave `instances` out for one".to_owned());
-    Err(origin.error_at(&at, "there is not one copy of the model", help))
+    let help = Some("use at least 1; for a single copy, remove `instances`".to_owned());
+    Err(origin.error_at(&at, "the model has no copies", help))
 }
 
 /// Places the instances of a model, which all share its data.
@@ -94,8 +94,9 @@ pub(super) fn instantiate_model(
     model.for_each_scene_point(|_| vertices += 1);
     let all = vertices.saturating_mul(entry.instance_count());
     if all > MAX_INSTANCE_VERTICES {
-        let message = format!("the copies have {all} vertices, more than {MAX_INSTANCE_VERTICES}");
-        let help = Some("show fewer, or a simpler model".to_owned());
+        let message =
+            format!("the copies have {all} vertices; at most {MAX_INSTANCE_VERTICES} are allowed");
+        let help = Some("use fewer copies, or a simpler model".to_owned());
         return Err(origin.error_at(&instances_path(number, &[]), message, help));
     }
     let ways = instance_transforms(origin, number, instances)?;
@@ -147,8 +148,8 @@ fn instance_transforms(
             rotate_copies,
         } => {
             let at = || {
-                let help = Some("write one such as (0, 1, 0), for a level circle".to_owned());
-                let message = "the axis of the circle is (0, 0, 0), which has no length";
+                let help = Some("write one such as (0, 1, 0), for a horizontal circle".to_owned());
+                let message = "the axis of the circle must not be (0, 0, 0)";
                 origin.error_at(&instances_path(number, &[Field("axis")]), message, help)
             };
             let axis = normalize_vector(axis.0).ok_or_else(at)?;
@@ -287,13 +288,17 @@ mod tests {
     #[test]
     fn what_makes_no_sense_is_told_at_its_place() {
         for (model, told, mark) in [
-            ("instances: Grid(count: (2, 0, 2), step: (1, 1, 1))", "not one copy", "(2, 0, 2)"),
-            ("instances: Circle(count: 0, radius: 1)", "not one copy", "0"),
-            ("instances: List([])", "not one copy", "List([])"),
-            ("instances: Circle(count: 3, radius: 1, axis: (0, 0, 0))", "no length", "(0, 0, 0)"),
+            ("instances: Grid(count: (2, 0, 2), step: (1, 1, 1))", "no copies", "(2, 0, 2)"),
+            ("instances: Circle(count: 0, radius: 1)", "no copies", "0"),
+            ("instances: List([])", "no copies", "List([])"),
+            (
+                "instances: Circle(count: 3, radius: 1, axis: (0, 0, 0))",
+                "must not be (0, 0, 0)",
+                "(0, 0, 0)",
+            ),
             (
                 "instances: Grid(count: (4294967295, 4294967295, 4294967295), step: (1, 1, 1))",
-                "more than 100000",
+                "at most 100000",
                 "Grid(count: (4294967295, 4294967295, 4294967295), step: (1, 1, 1))",
             ),
         ] {

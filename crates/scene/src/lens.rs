@@ -113,7 +113,7 @@ pub(super) fn check_lens(origin: &Origin, projection: &ProjectionFile) -> Option
     check_lens_fields(origin, projection).or_else(|| {
         let error = check_planes(projection)?;
         let is_order = matches!(error, ProjectionError::FarNotBeyondNear { .. });
-        let order = "planes are distances from the eye: the near one is the smaller";
+        let order = "planes are distances from the eye; `near` must be the smaller one";
         let help = is_order.then(|| order.to_owned());
         Some(origin.error_at(&PROJECTION_PATH, error.to_string(), help))
     })
@@ -146,7 +146,7 @@ fn check_fields_of_view(origin: &Origin, projection: &ProjectionFile) -> Option<
     .collect();
     let &[first, second, ..] = given.as_slice() else { return None };
     let message = format!("`{second}` and `{first}` both give the field of view");
-    let help = "keep one of them: the other follows from the shape of the image".to_owned();
+    let help = "keep one of them; the other follows from the aspect ratio".to_owned();
     let path = [&PROJECTION_PATH[..], &[Field(second)]].concat();
     Some(origin.error_at(&path, message, Some(help)))
 }
@@ -167,7 +167,7 @@ fn check_orthographic_window(origin: &Origin, projection: &ProjectionFile) -> Op
         let message = format!("`height` and `{first}` both give the window");
         ("height", message, "keep the height, or the four borders".to_owned())
     } else if !missing.is_empty() {
-        let message = format!("the window has `{}` alone", given.join("`, `"));
+        let message = format!("the window has only `{}`", given.join("`, `"));
         let rest: Vec<String> = missing.iter().map(|name| format!("`{name}: …`")).collect();
         (first, message, format!("add {}, or give the height instead", rest.join(", ")))
     } else {

@@ -113,11 +113,12 @@ fn limit_shadow_maps(
     let count = shadows.len();
     let side = libm::sqrt(MAX_SHADOW_TEXELS as f64 / count as f64) as u32;
     if let Some(path) = chosen_size_path(file) {
+        let noun = if count == 1 { "light" } else { "lights" };
         let message = format!(
-            "the shadow maps of {count} lights have {texels} texels together, more than \
-             {MAX_SHADOW_TEXELS}"
+            "the shadow maps of {count} {noun} have {texels} texels in total; at most \
+             {MAX_SHADOW_TEXELS} are allowed"
         );
-        let help = format!("`size: {}` for each is possible", side.max(LEAST_SHADOW_SIDE));
+        let help = format!("use `size: {}` for each", side.max(LEAST_SHADOW_SIDE));
         return Err(origin.error_at(&path, message, Some(help)));
     }
     for shadow in &mut shadows {
@@ -265,11 +266,7 @@ fn resolve_direction(
     Vector::<World>::from(direction.0).normalized().ok_or_else(|| {
         let path = [Field("lights"), Index(index), Field("direction")];
         let help = "write one such as (-1, -2, -1): from the right, above and the front".to_owned();
-        origin.error_at(
-            &path,
-            "the direction of the light is (0, 0, 0), which has no length",
-            Some(help),
-        )
+        origin.error_at(&path, "the direction of the light must not be (0, 0, 0)", Some(help))
     })
 }
 
@@ -293,9 +290,8 @@ fn resolve_cone(origin: &Origin, index: usize, light: &LightFile) -> Result<[f32
         return Ok([inner, outer].map(|angle| libm::cos(angle.to_radians()) as f32));
     }
     let path = [Field("lights"), Index(index), Field("outer_cone_degrees")];
-    let message =
-        format!("the falloff of a spot cannot begin at {inner} degrees and end at {outer}");
-    let help = "0 <= inner_cone_degrees < outer_cone_degrees <= 90".to_owned();
+    let message = format!("invalid spot falloff from {inner} to {outer} degrees");
+    let help = "choose 0 <= inner_cone_degrees < outer_cone_degrees <= 90".to_owned();
     Err(origin.error_at(&path, message, Some(help)))
 }
 

@@ -141,7 +141,7 @@ pub fn lint_description(origin: &Origin, file: &SceneFile) -> Vec<Lint> {
     let insets = file.viewports.iter().filter_map(|viewport| viewport.style.as_ref());
     let cuts_drawing = file.sheet.is_some() || insets.chain([&file.style]).any(is_drawn);
     if !file.sections.is_empty() && !cuts_drawing {
-        let message = "sections cut line drawings, and this scene has none";
+        let message = "sections cut only line drawings, but this scene has none";
         let help = "choose style: Lines(), or draw the scene with `alberti sheet`".to_owned();
         let error = origin.error_at(&[Field("sections")], message, Some(help));
         advice.push(Lint { code: "sections-ignored", error });
@@ -197,7 +197,7 @@ impl Linter<'_> {
         let advice = unseen.map(|(number, instance, survey)| {
             let what = describe_rejection(self.scene, &survey);
             let message = format!("{} is not in the picture: {what}", self.model_name(instance));
-            let help = "place it where the camera looks, or leave it out".to_owned();
+            let help = "place it where the camera looks, or remove it".to_owned();
             let fault =
                 self.origin.error_at(&[Field("models"), Index(number)], message, Some(help));
             Lint { code: "model-not-visible", error: fault }
@@ -224,8 +224,8 @@ impl Linter<'_> {
         let number = self.surveys.iter().position(VisibilitySurvey::encloses_eye)?;
         let [x, y, z] = eye.raw().to_array();
         let message =
-            format!("the eye at ({x:.3}, {y:.3}, {z:.3}) is inside of {}", self.model_name(number));
-        let help = "move the eye out; Frame(…) finds a place from which everything is seen";
+            format!("the eye at ({x:.3}, {y:.3}, {z:.3}) is inside {}", self.model_name(number));
+        let help = "move the eye out, or use Frame(…), which shows everything";
         let fault =
             self.origin.error_at(&[Field("camera"), Field("view")], message, Some(help.to_owned()));
         Some(Lint { code: "camera-inside", error: fault })
@@ -244,9 +244,9 @@ impl Linter<'_> {
             (Some(projection), _) => {
                 let [left, right, bottom, top] = given_window(projection)?;
                 let what = match projection {
-                    ProjectionFile::Orthographic { .. } => "the window of the Orthographic",
-                    ProjectionFile::ApexMovedFrustum { .. } => "the window of the ApexMovedFrustum",
-                    _ => "the window of the Frustum",
+                    ProjectionFile::Orthographic { .. } => "the window of Orthographic",
+                    ProjectionFile::ApexMovedFrustum { .. } => "the window of ApexMovedFrustum",
+                    _ => "the window of Frustum",
                 };
                 (what, ((right - left) / (top - bottom)).abs(), "projection")
             }
@@ -268,12 +268,15 @@ impl Linter<'_> {
         let effect = if place == "projection" {
             "everything is stretched"
         } else {
-            "it shows more, or less, at the sides"
+            "it shows more or less at the sides"
         };
         let message =
-            format!("{what} is {shape:.3} : 1 and the picture {picture:.3} : 1: {effect}");
+            format!("{what} is {shape:.3} : 1, but the picture is {picture:.3} : 1: {effect}");
         let width = libm::round(view_size.y * shape).max(1.0);
-        let help = format!("a picture of that shape: image: (size: ({width}, {}))", image.height);
+        let help = format!(
+            "for a picture of that shape, write image: (size: ({width}, {}))",
+            image.height
+        );
         let fault = self.origin.error_at(&[Field("camera"), Field(place)], message, Some(help));
         Some(Lint { code: "aspect-mismatch", error: fault })
     }
@@ -290,7 +293,7 @@ impl Linter<'_> {
             return None;
         }
         let message = "there is no light: surfaces will be black";
-        let help = "leave `lights` out, or add one: lights: [Directional(direction: (-1, -2, -1), intensity: 3), Ambient(intensity: 1)]";
+        let help = "remove `lights`, or add one: lights: [Directional(direction: (-1, -2, -1), intensity: 3), Ambient(intensity: 1)]";
         let fault = self.origin.error_at(&[Field("lights")], message, Some(help.to_owned()));
         Some(Lint { code: "no-light", error: fault })
     }
@@ -308,8 +311,8 @@ impl Scene {
             let fix = suggest_visibility_fix(self, &whole);
             format!("{}; {fix}", describe_rejection(self, &whole))
         } else {
-            "what it would show is seen edge-on, transparent, or too small; look from another \
-             side, or from nearer"
+            "everything is edge-on, transparent or too small; look from another side, or move \
+             closer"
                 .to_owned()
         }
     }
@@ -333,13 +336,13 @@ fn describe_rejection(scene: &Scene, survey: &VisibilitySurvey) -> String {
     let whole: Vec<String> = whole.map(|(plane, _)| plane.to_string()).collect();
     match whole.as_slice() {
         [] => {
-            let each = counts.map(|(plane, count)| format!("{count} outside of {plane}"));
+            let each = counts.map(|(plane, count)| format!("{count} outside the {plane} plane"));
             let each = each.collect::<Vec<_>>().join(", ");
-            format!("of {} points, lines and triangles {each}", survey.total)
+            format!("of {} points, lines and triangles, {each}", survey.total)
         }
-        [plane] => format!("all of it is outside of the {plane} plane"),
+        [plane] => format!("all of it is outside the {plane} plane"),
         [planes @ .., last] => {
-            format!("all of it is outside of the {} and the {last} plane", planes.join(", the "))
+            format!("all of it is outside the {} and the {last} plane", planes.join(", the "))
         }
     }
 }
@@ -351,10 +354,15 @@ fn suggest_visibility_fix(scene: &Scene, survey: &VisibilitySurvey) -> String {
     let span = survey.depth_range();
     let in_depth = span.filter(|_| of(PlaneIndex::NEAR) || of(PlaneIndex::FAR));
     match in_depth {
-        _ if is_behind_eye(scene, survey) => "turn the camera around, or write `view: Frame(from: Front)`".to_owned(),
+        _ if is_behind_eye(scene, survey) => {
+            "turn the camera around, or write `view: Frame(from: Front)`".to_owned()
+        }
         Some((near, far)) => format!(
-            "it is {near:.4} to {far:.4} in front of the eye: leave `near` and `far` out, or set them around that"
+            "it is {near:.4} to {far:.4} in front of the eye: remove `near` and `far`, or make them enclose that range"
         ),
-        None => "look towards it, or write `view: Frame(from: Front)`, which finds the place to look from".to_owned(),
+        None => {
+            "look toward it, or write `view: Frame(from: Front)`, which finds a suitable position"
+                .to_owned()
+        }
     }
 }

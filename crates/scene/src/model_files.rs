@@ -139,16 +139,17 @@ pub(super) fn check_model_paths(
 
 /// The error if the models up to this one take more memory than a scene allows.
 fn scene_bytes_error(origin: &Origin, number: usize, most: u64) -> SceneError {
-    let message = format!("with this model, those of the scene take more than {} MiB", most >> 20);
-    let help = "leave out models, simplify them or use smaller textures; \
-                `--max-scene-bytes` allows more";
+    let message =
+        format!("with this model, the models of the scene take more than {} MiB", most >> 20);
+    let help = "remove models, simplify them or use smaller textures; or raise `--max-scene-bytes`";
     origin.error_at(&[Field("models"), Index(number)], message, Some(help.to_owned()))
 }
 
 /// The error for a model whose path leads outside the scene's folder.
 fn outside_folder_error(origin: &Origin, index: usize, entry: &ModelFile) -> SceneError {
-    let help = "keep models below the scene's folder, or allow another with --allow-outside DIR";
-    let message = format!("the path \"{}\" leads out of the scene's folder", entry.path);
+    let help = "keep models below the scene's folder, or allow another folder with --allow-outside \
+                DIR";
+    let message = format!("the path \"{}\" points outside the scene's folder", entry.path);
     let path = [Field("models"), Index(index), Field("path")];
     origin.error_at(&path, message, Some(help.to_owned()))
 }
@@ -293,8 +294,8 @@ fn resolve_crease(
         return Ok(Some(angle));
     }
     let at = [Field("models"), Index(number), Field("crease_degrees")];
-    let help = "give an angle from 0 to 180".to_owned();
-    Err(origin.error_at(&at, format!("there is no crease angle of {angle} degrees"), Some(help)))
+    let help = "use an angle from 0 to 180 degrees".to_owned();
+    Err(origin.error_at(&at, format!("invalid crease angle: {angle} degrees"), Some(help)))
 }
 
 /// Reports a scene, a variant or a scalar attribute that the model lacks as a mistake in the scene
@@ -330,7 +331,7 @@ pub fn select_animation(
 ) -> Result<usize, (String, Option<String>)> {
     let count = model.animations.len();
     if count == 0 {
-        let help = "leave out the animation and the time; to turn a model that has none, run \
+        let help = "remove the animation and the time; to turn a model without animations, run \
                     `alberti animate model.glb --turntable -o turn.gif`";
         return Err((format!("`{}` has no animations", model.name), Some(help.to_owned())));
     }

@@ -23,7 +23,7 @@ impl Outputs {
     pub fn from_scene_file(origin: &Origin, file: &SceneFile) -> Result<Self, SceneError> {
         let bits = file.image.bits;
         if bits != 8 && bits != 16 {
-            let message = format!("a channel cannot have {bits} bits");
+            let message = format!("invalid number of bits per channel: {bits}");
             let help = Some("write 8 or 16".to_owned());
             return Err(origin.error_at(&[Field("image"), Field("bits")], message, help));
         }
@@ -59,7 +59,7 @@ mod tests {
     fn mistakes_are_pointed_at() {
         let error = outputs("image: Image(bits: 10)").expect_err("ten bits");
         assert_eq!(error.first().line_and_column(), (2, 22));
-        assert_eq!(error.first().message, "a channel cannot have 10 bits");
+        assert_eq!(error.first().message, "invalid number of bits per channel: 10");
         let error = outputs("passes: (write: [Depht])").expect_err("no such pass");
         assert_eq!(error.first().help.as_deref(), Some("did you mean `Depth`?"));
     }

@@ -38,7 +38,7 @@ pub(super) fn resolve_overlays(
             }
             OverlayFile::Label { text, .. } if text.trim().is_empty() => {
                 let at = [Field("overlays"), Index(number), Field("text")];
-                let help = "write one, such as \"A\", or leave the label out".to_owned();
+                let help = "write text such as \"A\", or remove the label".to_owned();
                 return Err(origin.error_at(&at, "the label has no text", Some(help)));
             }
             OverlayFile::Label { at, text, offset, color, size, leader } => {

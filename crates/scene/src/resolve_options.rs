@@ -41,7 +41,7 @@ impl ResolveOptions {
             return Ok(());
         }
         let message = format!(
-            "the picture has {width} x {height} pixels; a scene can ask for {MAX_PIXELS} at most"
+            "the picture has {width} x {height} pixels; a scene may request at most {MAX_PIXELS}"
         );
         let help = format!("`--size {width}x{height}` on the command line renders it anyway");
         Err(origin.error_at(&[Field("image"), Field("size")], message, Some(help)))

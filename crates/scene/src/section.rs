@@ -17,7 +17,8 @@ pub(super) fn resolve_sections(
     faults: &mut Diagnostics,
 ) -> Option<Vec<Plane<World>>> {
     if sections.len() > MAX_SECTIONS {
-        let message = format!("{} sections are more than {MAX_SECTIONS}", sections.len());
+        let message =
+            format!("too many sections: {}; at most {MAX_SECTIONS} are allowed", sections.len());
         faults.report(origin.error_at(&[Field("sections")], message, None));
     }
     let numbered = sections.iter().enumerate();
@@ -38,9 +39,8 @@ fn resolve_section(
     let unit = Normal::<World>::new(-x / largest, -y / largest, -z / largest).normalized();
     let fault = || {
         let path = [Field("sections"), Index(at), Field("normal")];
-        let help =
-            "the normal points to the half that is removed, such as normal: (0, 0, 1)".to_owned();
-        origin.error_at(&path, "a section needs a direction: its normal has no length", Some(help))
+        let help = "point the normal to the half to remove, such as normal: (0, 0, 1)".to_owned();
+        origin.error_at(&path, "the normal of a section must not be (0, 0, 0)", Some(help))
     };
     let unit = unit.filter(|_| largest > 0.0).ok_or_else(fault)?;
     Ok(Plane::through(Point::from(section.point.0), unit))

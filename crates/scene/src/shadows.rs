@@ -20,9 +20,9 @@ pub(super) fn resolve_shadow(
     let Some(&ShadowsFile::On { size, softness_degrees }) = file else { return Ok(None) };
     let size = size.unwrap_or(DEFAULT_MAP_SIZE);
     if !(64..=8192).contains(&size) {
-        let message = format!("a shadow map cannot have {size} texels on a side");
+        let message = format!("invalid shadow map size: {size} texels per side");
         let path: Vec<PathStep<'_>> = path.iter().copied().chain([Field("size")]).collect();
-        let help = Some("from 64 to 8192 are possible, such as 2048".to_owned());
+        let help = Some("use 64 to 8192, such as 2048".to_owned());
         return Err(origin.error_at(&path, message, help));
     }
     let degrees =

@@ -64,16 +64,17 @@ pub(super) fn share_scale_of_viewports(
     if scales.len() < 2 {
         let count = if scales.is_empty() { "are none" } else { "is one" };
         let message = format!(
-            "a shared scale needs two parallel views among the viewports, and there {count}"
+            "a shared scale needs two parallel views among the viewports, but there {count}"
         );
-        let help = "choose projections such as Orthographic() or Isometric, or leave `viewports_scale` out";
+        let help =
+            "choose projections such as Orthographic() or Isometric, or remove `viewports_scale`";
         return Err(origin.error_at(&[Field("viewports_scale")], message, Some(help.to_owned())));
     }
     for (number, (inset, viewport)) in insets.iter().zip(&file.viewports).enumerate() {
         let camera = viewport.camera.as_ref().unwrap_or(&file.camera);
         if inset.scene.pixels_per_unit().is_some() && has_own_scale(camera) {
-            let message = "this view has a scale of its own, and is to share that of the others";
-            let help = "leave its `height` or window out, or `viewports_scale: Shared`".to_owned();
+            let message = "this view sets its own scale, but must share the scale of the others";
+            let help = "remove its `height` or window, or `viewports_scale: Shared`".to_owned();
             let origin = origin.for_viewport(number);
             return Err(origin.error_at(&PROJECTION_PATH, message, Some(help)));
         }

@@ -102,7 +102,7 @@ pub fn resolve_sheet(
     let turns = file.orientation.is_none();
     let sheets = sheets.collect::<Result<_, _>>()?;
     let chosen = Sheet::smallest_of(sheets, turns, content.models, content.sections);
-    chosen.ok_or_else(|| origin.error_at(&[Field("sheet")], "there is no paper", None))
+    chosen.ok_or_else(|| origin.error_at(&[Field("sheet")], "there is no paper size", None))
 }
 
 /// The paper sizes to choose from, smallest first.
@@ -193,8 +193,9 @@ fn resolve_template(
     let Some(path) = &file.title_block else { return Ok(None) };
     let at = [Field("sheet"), Field("title_block")];
     let bytes = read_image_bytes(origin, &at, path, allowed)?;
-    let text = String::from_utf8(bytes)
-        .map_err(|_| origin.error_at(&at, format!("{path} is no text, as SVG is"), None))?;
+    let text = String::from_utf8(bytes).map_err(|_| {
+        origin.error_at(&at, format!("{path} is not an SVG file: it is not UTF-8 text"), None)
+    })?;
     let template = TitleBlockTemplate::parse(&text);
     template.map(Some).map_err(|error| origin.error_at(&at, format!("{path}, {error}"), None))
 }
@@ -203,7 +204,7 @@ fn resolve_template(
 fn resolve_numbers(origin: &Origin, file: &SheetFile) -> Result<NumberFormat, SceneError> {
     let most = NumberFormat::MAX_DECIMALS;
     let fault = |decimals: u32| {
-        let message = format!("{decimals} decimals are more than {most}");
+        let message = format!("too many decimal places: {decimals}; at most {most} are allowed");
         origin.error_at(&[Field("sheet"), Field("decimals")], message, None)
     };
     let decimals = match file.decimals {
@@ -248,7 +249,7 @@ fn resolve_unit(
     let first = units.next().unwrap_or_default();
     let Some(other) = units.find(|unit| *unit != first) else { return Ok(first) };
     let message = format!("some models are in {} and others in {}", first.symbol(), other.symbol());
-    let help = "say which unit the sheet is to have: unit: Millimeter".to_owned();
+    let help = "set the unit of the sheet: unit: Millimeter".to_owned();
     Err(origin.error_at(&[Field("sheet")], message, Some(help)))
 }
 

@@ -206,15 +206,15 @@ pub(super) fn resolve_image_size(
     if fits(width) && fits(height) {
         return Ok((width, height));
     }
-    let message = format!("a picture cannot have {width} x {height} pixels");
-    let help = format!("each side must be between 1 and {MAX_IMAGE_SIDE}");
+    let message = format!("invalid picture size: {width} x {height} pixels");
+    let help = format!("each side must be from 1 to {MAX_IMAGE_SIDE} pixels");
     Err(origin.error_at(&[Field("image"), Field("size")], message, Some(help)))
 }
 
 /// The number of coverage samples.
 fn resolve_samples(origin: &Origin, file: &SceneFile) -> Result<Samples, SceneError> {
     Samples::from_count(file.image.samples).ok_or_else(|| {
-        let message = format!("a pixel cannot have {} samples", file.image.samples);
+        let message = format!("invalid number of samples per pixel: {}", file.image.samples);
         let help = Some("write 1, 4, 8 or 16".to_owned());
         origin.error_at(&[Field("image"), Field("samples")], message, help)
     })
@@ -226,7 +226,7 @@ fn resolve_max_anisotropy(origin: &Origin, file: &SceneFile) -> Result<u32, Scen
     if (1..=8).contains(&max_anisotropy) {
         return Ok(max_anisotropy);
     }
-    let message = format!("anisotropic filtering cannot take {max_anisotropy} samples");
-    let help = Some("from 1 to 8 are possible".to_owned());
+    let message = format!("invalid number of samples for anisotropic filtering: {max_anisotropy}");
+    let help = Some("use 1 to 8".to_owned());
     Err(origin.error_at(&[Field("image"), Field("max_anisotropy")], message, help))
 }

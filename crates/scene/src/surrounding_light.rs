@@ -111,8 +111,10 @@ pub(super) fn resolve_environment(
         EnvironmentFile::Sky { sun, strength } => {
             let sun = normalize_direction(sun.0).ok_or_else(|| {
                 let at = [Field("environment"), Field("sun")];
-                let help = Some("such as (1, 1, 1): to the right, above and before".to_owned());
-                origin.error_at(&at, "the sun's direction is (0, 0, 0), which has no length", help)
+                let help = Some(
+                    "write one such as (1, 1, 1): to the right, above and in front".to_owned(),
+                );
+                origin.error_at(&at, "the direction to the sun must not be (0, 0, 0)", help)
             })?;
             let strength = strength.value() as f32;
             let bits = sun.map(|c| u64::from(c.to_bits()));
@@ -177,19 +179,19 @@ pub(super) fn read_image_bytes(
     allowed: &[PathBuf],
 ) -> Result<Vec<u8>, SceneError> {
     if !origin.allows_path(Path::new(path), allowed) {
-        let help =
-            "keep pictures below the scene's folder, or allow another with --allow-outside DIR";
-        let message = format!("the path \"{path}\" leads out of the scene's folder");
+        let help = "keep pictures below the scene's folder, or allow another folder with --allow-outside \
+             DIR";
+        let message = format!("the path \"{path}\" points outside the scene's folder");
         return Err(origin.error_at(at, message, Some(help.to_owned())));
     }
     let full = origin.folder.join(path);
     let unreadable = |cause: std::io::Error| {
-        let help = "check the path: it begins at the folder of the scene".to_owned();
+        let help = "check the path; it is relative to the folder of the scene".to_owned();
         origin.error_at(at, format!("cannot read {path}: {cause}"), Some(help))
     };
     let about = std::fs::metadata(&full).map_err(unreadable)?;
     if !about.is_file() || about.len() > MAX_FILE_BYTES {
-        let message = format!("{path} is no file of at most {MAX_FILE_BYTES} bytes");
+        let message = format!("{path} is not a file of at most {MAX_FILE_BYTES} bytes");
         return Err(origin.error_at(at, message, None));
     }
     std::fs::read(&full).map_err(unreadable)

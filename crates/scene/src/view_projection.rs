@@ -111,7 +111,7 @@ pub(super) fn select_lens<'a>(
 impl<'a> CameraResolver<'a> {
     /// The error for a skewed lens, for which no camera position can be found.
     fn skewed_framing_error(&self, error: &ProjectionError) -> SceneError {
-        let help = "say where the camera is: view: LookAt(…), Extrinsics(…) or Pose(…)";
+        let help = "give the position of the camera: view: LookAt(…), Extrinsics(…) or Pose(…)";
         self.projection_error_with(error.to_string(), Some(help.to_owned()))
     }
 
@@ -361,7 +361,7 @@ impl<'a> CameraResolver<'a> {
                 let target =
                     numbers.get(3..6).map_or_else(|| "0,0,0".to_owned(), |it| it.join(","));
                 format!(
-                    "`--camera` names a camera of the model; to place one use `--eye {eye} --target {target}`"
+                    "`--camera` names a camera of the model; to place a camera, use `--eye {eye} --target {target}`"
                 )
             } else {
                 "use `--view front` or `--eye 4,3,6 --target 0,0,0` instead, and `--projection` \

@@ -190,8 +190,9 @@ pub enum SheetError {
     },
     /// A view extends beyond the frame at the requested position.
     #[error(
-        "view {number} of the sheet, the {view}, reaches beyond the frame at its place: its center must be from {:.0} to {:.0} mm \
-         from the left and from {:.0} to {:.0} mm from the top",
+        "view {number} of the sheet, the {view}, extends beyond the frame at this position: its \
+         center must be from {:.0} to {:.0} mm from the left and from {:.0} to {:.0} mm from the \
+         top",
         x[0], x[1], y[0], y[1]
     )]
     Outside {
@@ -205,7 +206,7 @@ pub enum SheetError {
         y: [f64; 2],
     },
     #[error(
-        "the views do not fit on {paper} at {scale}: they need {} x {} mm, and {:.0} x {:.0} mm are available{remedy}",
+        "the views do not fit on {paper} at {scale}: they need {} x {} mm, but {:.0} x {:.0} mm are available{remedy}",
         in_few_digits(need[0]), in_few_digits(need[1]), available[0], available[1]
     )]
     /// The views are too large for the paper.

@@ -163,45 +163,45 @@ impl fmt::Display for SheetWarning {
             Self::Drawing(warning) => warning.fmt(f),
             Self::SectionOblique { number } => write!(
                 f,
-                "section {number} has neither a cut line nor a view of its own on the sheet: its plane is \
-                 oblique to the front, the top and the side view, and only an axonometric view shows it"
+                "section {number} has no cut line and no separate view on the sheet: its plane is \
+                 oblique to the front, top and side views, so only an axonometric view shows it"
             ),
             Self::ViewLeftOut { view } => write!(
                 f,
-                "there is no place for the {view} beside the other views, and it is left out: \
-                 use larger paper or a smaller scale"
+                "there is no room for the {view}, so it is omitted: use larger paper or a smaller \
+                 scale"
             ),
             Self::DimensionLeftOut { dimension, fault } => {
                 write!(f, "{dimension} is not on the sheet: {fault}")
             }
             Self::CutLineNotShown { section } => write!(
                 f,
-                "no view of the sheet looks along the steps of section {section}, so none has its \
-                 line"
+                "no view of the sheet looks along the steps of section {section}, so none shows \
+                 its line"
             ),
             Self::ViewOverlaps { view, other } => write!(
                 f,
-                "the {view} lies over the {other} at the place that it was given: move one of them, \
-                 or choose a smaller scale"
+                "the {view} overlaps the {other} at its requested position: move one of them, or \
+                 choose a smaller scale"
             ),
             Self::OverlayNotOnSheets { overlay } => write!(
                 f,
-                "sheets show labels and axes of the scene's overlays, but not the {overlay}"
+                "sheets show only labels and axes from the scene's overlays, not the {overlay}"
             ),
             Self::LabelNotInView { text, view, fault } => {
                 write!(f, "the label \"{}\" is not in the {view}: {fault}", visible_excerpt(text))
             }
             Self::StyleIgnored => f.write_str(
-                "sheets are line drawings, and do not show the style of the scene: \
-                 `style: Lines(…)` sets their lines",
+                "sheets are line drawings and ignore the style of the scene: set their lines with \
+                 `style: Lines(…)`",
             ),
             Self::Assembly(warning) => warning.fmt(f),
             Self::NothingDrawn => f.write_str(
-                "the views are empty: the models have neither lines nor faces, or these have no size",
+                "the views are empty: the models have no lines or faces, or their size is zero",
             ),
             Self::ViewsTiny => f.write_str(
-                "the views are smaller than a millimeter of the paper: \
-                 set the unit of the model, or a larger scale",
+                "the views are smaller than a millimeter on paper: set the unit of the model, or a \
+                 larger scale",
             ),
         }
     }
@@ -210,9 +210,9 @@ impl fmt::Display for SheetWarning {
 impl fmt::Display for SheetLabelFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Far => "its point is too far from the models; move it nearer to them",
-            Self::NoRoom => "there is no place for it; take larger paper, or fewer labels",
-            Self::TooMany => "a view has at most 100; leave some out",
+            Self::Far => "its point is too far from the models; move it closer",
+            Self::NoRoom => "there is no room for it; use larger paper, or fewer labels",
+            Self::TooMany => "a view can have at most 100 labels; remove some",
         })
     }
 }

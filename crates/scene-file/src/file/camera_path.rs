@@ -35,7 +35,7 @@ scene_struct! {
 named_enum! {
     /// The interpolation between keyframes.
     pub enum CurveFile as "Curve" {
-        Linear = "Straight lines, with a jerk at each keyframe.",
-        Smooth = "A smooth curve through all keyframes (Catmull and Rom). With 8 evenly spaced keyframes and the first repeated it is a circle to 1 %, with 12 to 0.2 %.",
+        Linear = "Straight lines, with an abrupt change at each keyframe.",
+        Smooth = "A smooth Catmull-Rom curve through all keyframes. It approximates a circle to 1% with 8 evenly spaced keyframes and the first repeated, and to 0.2% with 12.",
     }
 }

@@ -233,7 +233,7 @@ named_values! {
     /// The direction along which a length is measured.
     LengthDirection as "LengthDirection" {
         Aligned = "From the first point to the last.",
-        Horizontal = "Across the view, from left to right.",
-        Vertical = "Up the view.",
+        Horizontal = "Horizontally in the view, from left to right.",
+        Vertical = "Vertically in the view, from bottom to top.",
     }
 }

@@ -15,7 +15,7 @@ pub struct Paths(pub Vec<String>);
 impl Declared for Paths {
     const ENTRY: &'static TypeEntry = &TypeEntry {
         name: "Paths",
-        doc: "One path, `\"studio.ron\"`, or several, `[\"studio.ron\", \"paper.ron\"]`, from the folder of the file that names them.",
+        doc: "One path, `\"studio.ron\"`, or several, `[\"studio.ron\", \"paper.ron\"]`, relative to the folder of the file that includes them.",
         shape: Shape::Plain(Notation {
             check: check_paths,
             form: Form::Any(String::value_type),

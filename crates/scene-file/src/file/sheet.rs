@@ -119,17 +119,17 @@ named_enum! {
         A5 = "148 × 210 mm.",
         Letter = "8½ × 11 inches.",
         Tabloid = "11 × 17 inches.",
-        Auto = "The smallest of A4 to A0 that holds the views at 1:1 or larger, or at the scale \
-                that is given; if A0 does not, the smallest of which the next larger one gives no \
-                larger scale.",
+        Auto = "The smallest of A4 to A0 that holds the views at 1:1 or larger, or at the given \
+                scale. If A0 is too small, the smallest size for which the next larger one allows \
+                no larger scale.",
     }
 }
 
 named_enum! {
     /// The orientation of the paper.
     pub enum PageOrientation as "Orientation" {
-        Portrait = "Upright.",
-        Landscape = "On its long side.",
+        Portrait = "Taller than wide.",
+        Landscape = "Wider than tall.",
     }
 }
 
@@ -145,9 +145,9 @@ named_enum! {
     /// The fourth view of a sheet.
     pub enum AxonometricView as "AxonometricView" {
         None = "No fourth view.",
-        Isometric = "All axes foreshortened alike.",
-        Dimetric = "x and y foreshortened alike: 7° and 42°.",
-        Trimetric = "Each axis foreshortened by a factor of its own.",
-        ThreeQuarter = "From the front, a little from the right and from above.",
+        Isometric = "All axes equally foreshortened.",
+        Dimetric = "x and y equally foreshortened: 7° and 42°.",
+        Trimetric = "A different foreshortening factor on each axis.",
+        ThreeQuarter = "From the front, slightly from the right and from above.",
     }
 }

@@ -116,6 +116,6 @@ named_enum! {
     pub enum AxisFile as "Axis" {
         X = "To the right in the front view.",
         Y = "Up in the front view.",
-        Z = "Towards the viewer of the front view.",
+        Z = "Toward the viewer of the front view.",
     }
 }

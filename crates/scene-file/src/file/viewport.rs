@@ -40,7 +40,7 @@ named_enum! {
     /// ones. Perspectives have no scale and are not changed.
     pub enum ViewportsScale as "ViewportsScale" {
         Individual = "Each view fills its rectangle.",
-        Shared = "The same length is equally long in all parallel views, at the least scale at which each fits: a line parallel to the picture plane, or in an oblique projection to its front. No view may give the size of its window.",
+        Shared = "All parallel views share the largest scale at which every view fits, so that lengths can be compared: of lines parallel to the picture plane, or in an oblique projection to its front. No view may set the size of its window.",
     }
 }
 

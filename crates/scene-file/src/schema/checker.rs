@@ -272,7 +272,7 @@ impl<'a> Checker<'a> {
                         meant.extend(sibling);
                     }
                     Some(field) if found.iter().any(|(other, _)| other.name == field.name) => {
-                        let message = format!("the field `{}` is there twice", field.name);
+                        let message = format!("duplicate field `{}`", field.name);
                         self.report(
                             key.span.clone(),
                             message,
@@ -289,7 +289,7 @@ impl<'a> Checker<'a> {
         for field in declared.iter().filter(|_| !has_unexplained) {
             let is_there = field.is_optional || meant.contains(&field.name);
             if !is_there && !found.iter().any(|(other, _)| other.name == field.name) {
-                let message = format!("the field `{}` of `{}` is missing", field.name, owner.shown);
+                let message = format!("missing field `{}` in `{}`", field.name, owner.shown);
                 let help = format!("add `{}: …`", field.name);
                 self.report(span.clone(), message, Some(help));
             }
@@ -313,16 +313,16 @@ impl<'a> Checker<'a> {
         // The only required field, such as `path` in `Model("model.glb")`.
         let mut required = declared.iter().filter(|field| !field.is_optional);
         let only = required.next().filter(|_| required.next().is_none());
-        let mut help = "a field is written `name: value`".to_owned();
+        let mut help = "write fields as `name: value`".to_owned();
         match (&item.value.kind, only) {
             (NodeKind::String(_), Some(field)) if found.len() <= 80 => {
                 help =
                     format!("write {}({}: {})", owner.shown, field.name, found.trim_matches('`'));
             }
-            (NodeKind::Number(_), _) => help += "; numbers have a decimal point and no comma",
+            (NodeKind::Number(_), _) => help += "; in numbers, write a decimal point, not a comma",
             _ => {}
         }
-        let message = format!("expected the name of a field, found {found}");
+        let message = format!("expected a field name, found {found}");
         self.report(item.value.span.clone(), message, Some(help));
     }
 
@@ -390,7 +390,7 @@ impl<'a> Checker<'a> {
                 && name == entry.name
             {
                 let inner = &self.source[value.span.clone()];
-                help = format!("leave out `{name}(…)` and write {inner}");
+                help = format!("remove `{name}(…)` and write {inner}");
             }
             self.report(span, message, Some(help));
         }

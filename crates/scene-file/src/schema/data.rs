@@ -117,8 +117,7 @@ pub(crate) fn push_field<T: SceneValue>(
 /// Reads a value by its name.
 pub(crate) fn read_named<T: NamedOption>(data: &Data) -> Result<T, String> {
     let (name, _) = data.variant();
-    T::from_name(name)
-        .ok_or_else(|| format!("`{name}` is not one of the values of {}", T::TYPE_NAME))
+    T::from_name(name).ok_or_else(|| format!("`{name}` is not a value of {}", T::TYPE_NAME))
 }
 
 /// Writes the name of a value.

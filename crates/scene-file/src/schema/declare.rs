@@ -189,7 +189,7 @@ macro_rules! scene_enum {
                         $({ $($field: $type $(= $default)?),* })?
                         $(($inner))?
                     ),)*
-                    (name, _) => Err(format!("`{name}` is not one of the variants of {}", $shown)),
+                    (name, _) => Err(format!("`{name}` is not a variant of {}", $shown)),
                 }
             }
 

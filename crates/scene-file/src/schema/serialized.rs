@@ -113,7 +113,7 @@ impl<'de> Visitor<'de> for PlainVisitor<'_> {
     type Value = Data;
 
     fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("a value of a scene")
+        formatter.write_str("a scene value")
     }
 
     fn visit_bool<E: Error>(self, value: bool) -> Result<Data, E> {
@@ -231,7 +231,7 @@ impl<'de> Visitor<'de> for VariantVisitor {
     type Value = Data;
 
     fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("the name of a variant")
+        formatter.write_str("a variant name")
     }
 
     fn visit_enum<A: EnumAccess<'de>>(self, data: A) -> Result<Data, A::Error> {
@@ -265,7 +265,7 @@ impl Visitor<'_> for NameOf<'_> {
     type Value = usize;
 
     fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("the name of a field or of a variant")
+        formatter.write_str("a field or variant name")
     }
 
     fn visit_str<E: Error>(self, name: &str) -> Result<usize, E> {
@@ -279,7 +279,7 @@ impl Visitor<'_> for NameOf<'_> {
 
     fn visit_u64<E: Error>(self, index: u64) -> Result<usize, E> {
         let known = usize::try_from(index).ok().filter(|index| (self.1)(*index).is_some());
-        known.ok_or_else(|| E::custom("there is no field or variant of this index"))
+        known.ok_or_else(|| E::custom("there is no field or variant with this index"))
     }
 }
 

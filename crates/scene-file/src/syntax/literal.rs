@@ -41,17 +41,17 @@ fn unescape_character(rest: &str) -> Result<(Option<char>, usize), &'static str>
             let code = digits.and_then(|digits| u8::from_str_radix(digits, 16).ok());
             let code = code
                 .filter(u8::is_ascii)
-                .ok_or("\\x is followed by two hexadecimal digits up to 7f")?;
+                .ok_or("\\x must be followed by two hexadecimal digits, up to 7f")?;
             Ok((Some(char::from(code)), 3))
         }
         Some('u') => {
-            let problem = "\\u is followed by a character's code, such as \\u{e9}";
+            let problem = "\\u must be followed by a character code, such as \\u{e9}";
             let digits = rest[1..].strip_prefix('{').and_then(|rest| rest.split_once('}'));
             let (digits, _) = digits.filter(|(digits, _)| is_hexadecimal(digits)).ok_or(problem)?;
             let code = u32::from_str_radix(digits, 16).ok().and_then(char::from_u32);
             Ok((Some(code.ok_or(problem)?), 3 + digits.len()))
         }
-        _ => Err("there is no such escape: a backslash is written \\\\"),
+        _ => Err("unknown escape; write a backslash as \\\\"),
     }
 }
 

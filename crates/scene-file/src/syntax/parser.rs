@@ -104,10 +104,10 @@ impl<'a> Parser<'a> {
                 {
                     return;
                 }
-                ("the string that begins here has no end", "close it with a quotation mark")
+                ("this string is not closed", "close it with a quotation mark")
             }
             TokenKind::BlockComment if !last.text.ends_with("*/") => {
-                ("the comment that begins here has no end", "close it with */")
+                ("this comment is not closed", "close it with */")
             }
             _ => return,
         };
@@ -136,8 +136,8 @@ impl<'a> Parser<'a> {
         let is_scene = matches!(root.kind, NodeKind::Group(_) | NodeKind::Invalid);
         if let Some(token) = self.peek().filter(|_| is_scene && !self.is_unreliable) {
             let end = self.tokens.last().map_or(token.start, |last| last.span().end);
-            let message = "there is something behind the scene's last bracket";
-            let help = "a file has one scene: put it inside of the brackets, or remove it";
+            let message = "unexpected text after the scene's closing bracket";
+            let help = "a file holds one scene; move the text inside the brackets, or remove it";
             self.report(token.start..end, message, help);
         }
         Some(root)
@@ -183,7 +183,7 @@ impl<'a> Parser<'a> {
                 self.at += 2;
                 let span = number.start..second.span().end;
                 let help = format!("write ({}, {})", number.text, second.text);
-                self.report(span.clone(), "two numbers stand in brackets here", help);
+                self.report(span.clone(), "a pair of numbers goes in brackets", help);
                 Node { span, kind: NodeKind::Invalid }
             }
             None => Node { span: number.span(), kind: NodeKind::Number(number.text) },
@@ -192,7 +192,7 @@ impl<'a> Parser<'a> {
 
     /// Reports that a value is missing before `token`, and skips tokens that cannot begin one.
     fn missing_value(&mut self, token: Token<'a>) -> Node<'a> {
-        self.report(token.span(), "expected a value here", "a field is written `name: value`");
+        self.report(token.span(), "expected a value here", "write fields as `name: value`");
         if matches!(token.kind, TokenKind::Word | TokenKind::Colon) {
             self.at += 1;
         }
@@ -210,7 +210,7 @@ impl<'a> Parser<'a> {
             self.report(
                 open.span(),
                 "the brackets are nested too deeply",
-                "no field of a scene needs that many",
+                "no scene field needs that many",
             );
             self.is_unreliable = true;
             self.at = self.tokens.len();
@@ -248,7 +248,7 @@ impl<'a> Parser<'a> {
         }
         let line = line_of(self.source, open.start);
         let help =
-            format!("the `{}` of line {line} is closed by `{}`", open.text, closing(open.text));
+            format!("close the `{}` on line {line} with `{}`", open.text, closing(open.text));
         self.report(close.span(), "expected a comma or a closing bracket here", help);
         // Brackets that the rest of the text closes but does not open.
         let mut depth = 0_usize;
@@ -277,7 +277,7 @@ impl<'a> Parser<'a> {
         let end = self.source.trim_end().len();
         let last = self.source[..end].chars().next_back().map_or(0, char::len_utf8);
         let help = self.open.last().map(|open| {
-            format!("close the `{}` of line {}", open.text, line_of(self.source, open.start))
+            format!("close the `{}` on line {}", open.text, line_of(self.source, open.start))
         });
         self.report(
             end - last..end,
@@ -316,7 +316,7 @@ impl<'a> Parser<'a> {
         let key = Key { name: name.strip_prefix("r#").unwrap_or(name), span: first.span() };
         self.at += 1;
         if lacks_colon {
-            self.report(second.span(), "expected a colon here", "a field is written `name: value`");
+            self.report(second.span(), "expected a colon here", "write fields as `name: value`");
             self.at += usize::from(matches!(second.text, "=" | ";"));
         } else {
             self.at += 1;
@@ -337,9 +337,9 @@ impl<'a> Parser<'a> {
         }
         let is_missing = token.kind != TokenKind::Colon && !matches!(token.text, "=" | ";");
         let help = if is_missing {
-            "put a comma before it: fields and elements are separated by commas"
+            "put a comma before it; commas separate fields and elements"
         } else {
-            "fields and elements are separated by commas"
+            "separate fields and elements with commas"
         };
         let first = token.text.chars().next().map_or(0, char::len_utf8);
         self.report(

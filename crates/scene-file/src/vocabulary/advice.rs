@@ -6,12 +6,12 @@ const ADVICE: &[(&str, &str, &str)] = &[
     (
         "Sheet",
         "view layout arrangement",
-        "a sheet has a front, a top and a side view and a fourth one: choose side_view: Left or Right, and axonometric_view: Isometric, Dimetric, Trimetric, ThreeQuarter or None; or name all of them: views: [View(from: Front), View(from: Top)]",
+        "a sheet has a front, a top, a side and a fourth view: choose side_view: Left or Right, and axonometric_view: Isometric, Dimetric, Trimetric, ThreeQuarter or None; or list all views: views: [View(from: Front), View(from: Top)]",
     ),
     (
         "CameraPath",
         "turntable orbit spin circle rotate",
-        "`alberti animate SCENE --turntable -o turn.png` rotates the models without a path; a path is written camera_path: (keys: [(time: 0, eye: (0, 2, 6), target: (0, 0, 0)), (time: 2, eye: (6, 2, 0), target: (0, 0, 0))])",
+        "`alberti animate SCENE --turntable -o turn.png` rotates the models without a path; to define a path, write camera_path: (keys: [(time: 0, eye: (0, 2, 6), target: (0, 0, 0)), (time: 2, eye: (6, 2, 0), target: (0, 0, 0))])",
     ),
     (
         "Camera",
@@ -21,71 +21,71 @@ const ADVICE: &[(&str, &str, &str)] = &[
     (
         "Scene",
         "frame",
-        "the moment of an animation is a model's `time`, in seconds, or `--time 1.5`; sheet: (frame: …) is the border of a drawing",
+        "to choose a moment of an animation, set a model's `time` in seconds, or use `--time 1.5`; sheet: (frame: …) sets the border of a drawing",
     ),
-    ("Scene", "resolution", "the size of the picture is written image: (size: (640, 480))"),
+    ("Scene", "resolution", "write the picture size as image: (size: (640, 480))"),
     ("Scene", "exposure exposureev exposurevalue ev", "write it as image: (exposure_ev: …)"),
-    ("Image", "width height", "the size is written size: (640, 480)"),
-    ("Scene", "width height", "the size of the picture is written image: (size: (640, 480))"),
+    ("Image", "width height", "write the size as size: (640, 480)"),
+    ("Scene", "width height", "write the picture size as image: (size: (640, 480))"),
     (
         "Scene",
         "time",
-        "write models: [(path: \"model.glb\", time: …)] for an animation; a still of a camera path is `alberti render SCENE --time 2`",
+        "write models: [(path: \"model.glb\", time: …)] for an animation; for a still of a camera path, run `alberti render SCENE --time 2`",
     ),
     (
         "Section",
         "plane cut clip clippingplane x y z front top side axis offset distance at",
-        "write sections: [(point: (0, 0, 0), normal: (0, 0, 1))]: a point of the plane, and the direction of what is removed",
+        "write sections: [(point: (0, 0, 0), normal: (0, 0, 1))]: a point on the plane, and a normal toward the half to remove",
     ),
     (
         "Projection::OnePoint",
         "fov fovy fovydegrees fieldofview angle focallength",
-        "write distance: 3, the distance of the eye in half heights of the picture: the greater, the narrower",
+        "write distance: 3, the distance of the eye in half picture heights; larger values narrow the view",
     ),
     (
         "Projection::OnePoint",
         "vanishingpoint vp center z",
-        "write at: (0.35, 0.45), from −1 at the bottom of the picture to 1 at its top",
+        "write at: (0.35, 0.45), from −1 at the bottom of the picture to 1 at the top",
     ),
     (
         "Projection::TwoPoint",
         "fov fovy fovydegrees fieldofview angle focallength distance",
-        "the vanishing points decide: x: (-3.2, 0.4), z: (2.4, 0.4), where farther apart is narrower; or choose projection: Perspective(fov_y_degrees: 35)",
+        "the vanishing points set the field of view: x: (-3.2, 0.4), z: (2.4, 0.4); farther apart, they narrow it; or choose projection: Perspective(fov_y_degrees: 35)",
     ),
     (
         "Projection::TwoPoint",
         "at vanishingpoint vanishingpoints vp left right points horizon",
-        "both vanishing points have a name: x: (-3.2, 0.4), z: (2.4, 0.4), from −1 at the bottom of the picture to 1 at its top",
+        "name both vanishing points: x: (-3.2, 0.4), z: (2.4, 0.4), from −1 at the bottom of the picture to 1 at the top",
     ),
     (
         "Projection::ThreePoint",
         "fov fovy fovydegrees fieldofview angle focallength distance at vanishingpoint vanishingpoints",
-        "the vanishing points decide: x: (-3.2, 1.2), y: (0.1, -5), z: (2.4, 1.2), where farther apart is narrower",
+        "the vanishing points set the field of view: x: (-3.2, 1.2), y: (0.1, -5), z: (2.4, 1.2); farther apart, they narrow it",
     ),
     (
         "View::Frame",
         "distance zoom eye position target lookat scale height elevation",
-        "Frame finds the distance itself: camera: (zoom: 2) beside the view makes everything twice as large, padding_percent: 20 moves the eye away; with view: LookAt(eye: (0, 2, 6), target: (0, 0, 0)) you place it",
+        "Frame finds the distance itself: padding_percent: 20 moves the eye away, and camera: (zoom: 2) doubles the size; to place the eye yourself, write view: LookAt(eye: (0, 2, 6), target: (0, 0, 0))",
     ),
     (
         "View::Frame",
         "angle azimuth yaw pitch",
-        "write from: Direction((1, 1, 1)), the direction from which everything is seen",
+        "write from: Direction((1, 1, 1)), the direction from the models to the camera",
     ),
     (
         "Overlay",
         "dimensions dimension measure measures",
-        "dimensions are drawn on sheets: remove it, write sheet: (dimensions: true) and draw with `alberti sheet`",
+        "dimensions are drawn only on sheets: remove this overlay, write sheet: (dimensions: true) and run `alberti sheet`",
     ),
     (
         "Ground::Shadow",
         "color colour material texture size albedo basecolor",
-        "the ground only shows shadows; what is behind them is the background: image: (background: Color(\"#f4f1ea\"))",
+        "the ground shows only shadows; for a color behind them, set image: (background: Color(\"#f4f1ea\"))",
     ),
     (
         "Ground::Shadow",
         "opacity alpha strength intensity darkness softness blur",
-        "lights decide: with Ambient(intensity: 1) or an environment a shadow is paler, with shadows: On(softness_degrees: 4) softer",
+        "the lights set this: Ambient(intensity: 1) or an environment makes shadows paler, and shadows: On(softness_degrees: 4) makes them softer",
     ),
     (
         "Background::Gradient",
@@ -100,7 +100,7 @@ const ADVICE: &[(&str, &str, &str)] = &[
     (
         "Light::Directional",
         "target lookat towards",
-        "write direction: (-1, -2, -1), the way in which the light travels: from the light to the models",
+        "write direction: (-1, -2, -1), the direction in which the light travels: from the light to the models",
     ),
     (
         "Light",
@@ -115,17 +115,17 @@ const ADVICE: &[(&str, &str, &str)] = &[
     (
         "Lines",
         "hatch hatching hatched",
-        "write face_fill: Hatching; cuts of `sections` are always hatched, at hatch_spacing_mm",
+        "write face_fill: Hatching; cuts made by `sections` are always hatched, with hatch_spacing_mm",
     ),
     (
         "Lines",
         "hatchangle hatchdirection hatchdegrees",
-        "the direction of hatch lines is fixed; hatch_spacing_mm: 2 is their distance",
+        "the direction of hatch lines is fixed; hatch_spacing_mm: 2 sets their spacing",
     ),
     (
         "Lines",
         "stroke line pen",
-        "write width: Px(2) for how wide the lines are, color: \"black\" for their color",
+        "write width: Px(2) for the line width, color: \"black\" for the line color",
     ),
     (
         "Light",
@@ -135,7 +135,7 @@ const ADVICE: &[(&str, &str, &str)] = &[
     (
         "Image",
         "format filetype file output path name",
-        "remove it: the name of the output says it, as in `alberti render SCENE -o picture.png`, .svg, .pdf or .dxf",
+        "remove this field; the name of the output sets the format, as in `alberti render SCENE -o picture.png`, .svg, .pdf or .dxf",
     ),
     (
         "Instances",
@@ -155,7 +155,7 @@ const ADVICE: &[(&str, &str, &str)] = &[
     (
         "CameraPath",
         "duration seconds length loop closed time times fps frames speed",
-        "the times of the keys decide: the path ends at the last key, and closes if that is like the first: keys: [(time: 0, eye: (0, 2, 6), target: (0, 0, 0)), (time: 2, eye: (6, 2, 0), target: (0, 0, 0))]",
+        "the times of the keys set the duration: the path ends at the last key, and closes if the last key repeats the first: keys: [(time: 0, eye: (0, 2, 6), target: (0, 0, 0)), (time: 2, eye: (6, 2, 0), target: (0, 0, 0))]",
     ),
     (
         "Viewport",
@@ -194,7 +194,7 @@ const ADVICE: &[(&str, &str, &str)] = &[
     (
         "EdgeSelection",
         "technical blueprint",
-        "`--style technical` stands for Lines(edges: Tangents, hidden: Dashed, width: Iso(0.5))",
+        "`--style technical` is short for Lines(edges: Tangents, hidden: Dashed, width: Iso(0.5))",
     ),
     ("Style", "hatched hatching hatch engraving", "write style: Lines(face_fill: Hatching)"),
 ];

@@ -17,7 +17,7 @@ pub(super) fn angle_points(from: &Picked, to: &Picked) -> Result<[DVec3; 3], Fau
         (Picked::Edge(a), Picked::Edge(b)) => between_edges(a, b),
         (Picked::Face(a), Picked::Face(b)) => between_faces(a, b),
         _ => Err((
-            "an angle is between two edges or two faces, or between points at a vertex",
+            "an angle needs two edges, two faces, or a vertex and two points",
             "add vertex: …, or pick two edges",
         )),
     }
@@ -33,7 +33,7 @@ fn between_edges(a: &PickedFeature, b: &PickedFeature) -> Result<[DVec3; 3], Fau
     let apart = (q - p).dot(normal.normalize()).abs();
     if apart > SKEW * p.distance(q) {
         return Err((
-            "the edges do not lie in one plane",
+            "the edges are not in one plane",
             "pick edges of one face, or give a vertex and two points",
         ));
     }

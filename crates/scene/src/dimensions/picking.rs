@@ -150,8 +150,8 @@ impl<'a> Picking<'a> {
     ) -> Result<T, SceneError> {
         found.ok_or_else(|| {
             let help = match noun {
-                "circle" => "circles are edges of at least eight equal parts",
-                _ => "there is nothing of this kind to be picked",
+                "circle" => "a circle needs at least eight equal edges",
+                _ => "there is nothing of this kind to pick",
             };
             self.origin.error_at(path, format!("there is no {noun} here"), Some(help.to_owned()))
         })
@@ -168,8 +168,8 @@ impl<'a> Picking<'a> {
             node.map(|name| self.objects(name, place.number, path, "node")).transpose()?;
         let point = match (place.near, place.fraction) {
             (Some(_), Some(_)) => {
-                let help = "give `near` in the world, or `fraction` of a box".to_owned();
-                let message = "a place has one point";
+                let help = "give `near` in world space or `fraction` of a box, not both".to_owned();
+                let message = "`near` and `fraction` both give the point";
                 return Err(self.origin.error_at(path, message, Some(help)));
             }
             (Some(near), None) => near.0.into(),
@@ -210,8 +210,8 @@ impl<'a> Picking<'a> {
             return Err(error(field, format!("there is no node `{name}`"), help));
         }
         if number >= count {
-            let message = format!("there is no node `{name}` with the number {number}");
-            let help = format!("there are {count}; numbers begin at 0");
+            let message = format!("there is no node `{name}` with number {number}");
+            let help = format!("numbers start at 0; the highest is {}", count - 1);
             return Err(error("number", message, Some(help)));
         }
         Ok(nodes.swap_remove(number))

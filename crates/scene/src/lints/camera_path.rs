@@ -40,11 +40,11 @@ pub(super) fn lint_camera_path(origin: &Origin, file: &SceneFile) -> Option<Lint
                 continue;
             }
             let (what, help) = if is_at_target {
-                ("passes through its target", "lead it around the target with another key")
+                ("passes through its target", "add a key that leads it around the target")
             } else {
                 (
-                    "looks along its view-up vector, and the picture turns over",
-                    "lead it past that direction with another key, or give the keys another `up`",
+                    "looks along its view-up vector, so the picture flips",
+                    "add a key that leads it past that direction, or give the keys a different `up`",
                 )
             };
             let message = format!("at {time:.3} s the camera {what}");

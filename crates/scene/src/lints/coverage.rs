@@ -20,7 +20,7 @@ pub(super) fn lint_tiny_picture(adviser: &Linter<'_>) -> Option<Lint> {
     let message = format!(
         "the models cover less than a thousandth of the picture: {across:.1} x {down:.1} pixels"
     );
-    let help = "move the camera nearer, or use Frame(…), which fills the picture".to_owned();
+    let help = "move the camera closer, or use Frame(…), which fills the picture".to_owned();
     let error = adviser.origin.error_at(&[Field("camera")], message, Some(help));
     Some(Lint { code: "tiny-picture", error })
 }
@@ -37,8 +37,8 @@ pub(super) fn lint_tiny_models(adviser: &Linter<'_>) -> Vec<Lint> {
             return None;
         }
         let name = adviser.model_name(instance);
-        let message = format!("{name} covers {across:.2} x {down:.2} pixels of the picture");
-        let help = "files have differing units, glTF meters and STL millimeters: give it a larger `scale`, or leave it out".to_owned();
+        let message = format!("{name} covers only {across:.2} x {down:.2} pixels of the picture");
+        let help = "file formats differ in units, such as meters in glTF and millimeters in STL: give it a larger `scale`, or remove it".to_owned();
         let path = [Field("models"), Index(number)];
         let error = adviser.origin.error_at(&path, message, Some(help));
         Some(Lint { code: "tiny-model", error })

@@ -19,15 +19,16 @@ pub(super) fn lint_depth_clipping(adviser: &Linter<'_>) -> Vec<Lint> {
     for (_, instance, survey) in models.filter(|(_, _, survey)| survey.inside > 0) {
         let sides = [("near", survey.before_near), ("far", survey.behind_far)];
         for (plane, vertices) in sides.into_iter().filter(|(_, vertices)| *vertices > 0) {
+            let noun = if vertices == 1 { "vertex" } else { "vertices" };
             let message = format!(
-                "the {plane} plane cuts off {vertices} vertices of {}",
+                "the {plane} plane cuts off {vertices} {noun} of {}",
                 adviser.model_name(instance)
             );
             let (near, far) = survey.depth_range().unwrap_or_default();
             let help = if plane == "near" {
                 format!("it begins {near:.4} in front of the eye: set `near` to less than that")
             } else {
-                format!("it ends {far:.4} in front of the eye: leave `far` out, or set it to more")
+                format!("it ends {far:.4} in front of the eye: remove `far`, or set it to more")
             };
             let fault = adviser.origin.error_at(&plane_path(adviser, plane), message, Some(help));
             let code = if plane == "near" { "cut-by-near" } else { "cut-by-far" };
@@ -51,9 +52,9 @@ pub(super) fn lint_depth_range(adviser: &Linter<'_>) -> Option<Lint> {
     }
     let times = nearest / near;
     let message = format!(
-        "the near plane at {near} is {times:.0} times nearer than the nearest thing, at {nearest:.4}: that wastes depth"
+        "the near plane at {near} is {times:.0} times closer than the nearest surface, at {nearest:.4}, which wastes depth precision"
     );
-    let help = format!("leave `near` out, or set it to {:.4}", 0.99 * nearest);
+    let help = format!("remove `near`, or set it to {:.4}", 0.99 * nearest);
     let fault = adviser.origin.error_at(&plane_path(adviser, "near"), message, Some(help));
     Some(Lint { code: "wasteful-depth-range", error: fault })
 }

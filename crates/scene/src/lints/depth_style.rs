@@ -15,7 +15,7 @@ pub(super) fn lint_white_background(origin: &Origin, file: &SceneFile) -> Option
     if file.style != StyleFile::Depth || color.0.iter().any(|channel| *channel < WHITE) {
         return None;
     }
-    let message = "the style Depth is white where it is near, and so is this background";
+    let message = "the style Depth draws near surfaces white, and this background is white too";
     let help = "choose a dark one: background: Color(\"black\")".to_owned();
     let error = origin.error_at(&[Field("image"), Field("background")], message, Some(help));
     Some(Lint { code: "depth-on-white", error })

@@ -28,7 +28,7 @@ pub(super) fn lint_coincident_instances(adviser: &Linter<'_>) -> Vec<Lint> {
             continue;
         }
         let others = count - transforms.len();
-        let message = format!("of {count} instances {others} stand where another one is");
+        let message = format!("{others} of {count} instances coincide with another one");
         let path = [Field("models"), Index(number), Field("instances"), Field("step")];
         let (path, help) = match &entry.instances {
             Some(InstancesFile::Grid { .. }) => {
@@ -36,9 +36,9 @@ pub(super) fn lint_coincident_instances(adviser: &Linter<'_>) -> Vec<Lint> {
             }
             Some(InstancesFile::Circle { .. }) => (
                 &path[..3],
-                "give the circle a larger `radius`, and less than a turn of `sweep_degrees`",
+                "give the circle a larger `radius`, and `sweep_degrees` of less than a full turn",
             ),
-            _ => (&path[..3], "give each a `translation` of its own, or leave the others out"),
+            _ => (&path[..3], "give each a different `translation`, or remove the duplicates"),
         };
         let error = adviser.origin.error_at(path, message, Some(help.to_owned()));
         advice.push(Lint { code: "coincident-instances", error });

@@ -42,7 +42,7 @@ pub(super) fn lint_light_colors(origin: &Origin, file: &SceneFile) -> Vec<Lint> 
         }
         let message = format!("this color is {brightest} times as bright as white, (1, 1, 1)");
         let help = "write it with numbers from 0 to 1 or as \"#ffe0c0\", and make the light \
-                    stronger by its `intensity`";
+                    stronger with its `intensity`";
         let place = [Field("lights"), Index(number), Field("color")];
         let error = origin.error_at(&place, message, Some(help.to_owned()));
         Some(Lint { code: "color-above-one", error })

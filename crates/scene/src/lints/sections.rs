@@ -25,18 +25,19 @@ pub(super) fn lint_idle_sections(adviser: &Linter<'_>) -> Vec<Lint> {
         let (code, message) = if most <= tolerance {
             (
                 "section-removes-all",
-                "this section removes everything: all models lie on the side that its normal points to",
+                "this section removes everything: all models are on the side its normal points to",
             )
         } else if least >= -tolerance {
             (
                 "section-misses",
-                "this section cuts nothing: no model lies on the side that its normal points to",
+                "this section cuts nothing: no model is on the side its normal points to",
             )
         } else {
             continue;
         };
         let [x, y, z] = bounds.center().raw().to_array();
-        let help = format!("move it into the models, such as point: ({x:.3}, {y:.3}, {z:.3})");
+        let help =
+            format!("move it into the models, for example with point: ({x:.3}, {y:.3}, {z:.3})");
         let path = [Field("sections"), Index(number)];
         let error = adviser.origin.error_at(&path, message, Some(help));
         advice.push(Lint { code, error });

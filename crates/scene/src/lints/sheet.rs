@@ -17,12 +17,12 @@ pub(super) fn lint_sheet(adviser: &Linter<'_>, allowed_folders: &[PathBuf]) -> V
     let warnings = sheet.and_then(|sheet| sheet.check_layout(&scene.models, &scene.sections).ok());
     let to_lint = |warning: SheetWarning| {
         let (code, help) = match &warning {
-            SheetWarning::ViewLeftOut { .. } => ("sheet-view-missing", "or leave the view out"),
+            SheetWarning::ViewLeftOut { .. } => ("sheet-view-missing", "or remove the view"),
             SheetWarning::SectionOblique { .. } => {
-                ("section-oblique", "turn the section, or look at it by `alberti render`")
+                ("section-oblique", "turn the section, or view it with `alberti render`")
             }
             SheetWarning::Drawing(Warning::GlyphsMissing { .. }) => {
-                ("missing-glyph", "letters are those of Latin alphabets, with digits and signs")
+                ("missing-glyph", "use letters of Latin alphabets, digits and common symbols")
             }
             SheetWarning::OverlayNotOnSheets { .. } => {
                 ("overlay-not-on-sheet", "`alberti render` draws it in pictures")

@@ -36,7 +36,7 @@ pub(super) fn lint_flat_stereo(adviser: &Linter<'_>) -> Option<Lint> {
     let message = format!(
         "the stereo pair shows no depth: the eyes' pictures differ by {depth:.2} pixels from the nearest to the farthest point"
     );
-    let help = "set a larger eye_distance, or leave it out: a thirtieth of the convergence";
+    let help = "set a larger eye_distance, or remove it to use a thirtieth of the convergence";
     let error = adviser.origin.error_at(&[Field("stereo")], message, Some(help.to_owned()));
     Some(Lint { code: "flat-stereo", error })
 }
@@ -58,7 +58,7 @@ pub(super) fn lint_wide_stereo(adviser: &Linter<'_>) -> Option<Lint> {
         "the eyes are {base:.4} apart and the models {away:.4} away: the two pictures cannot be fused"
     );
     let help = format!(
-        "lengths are in the scene's units, meters in glTF: leave eye_distance out, or set it to {:.4}, a thirtieth of the distance",
+        "lengths are in the scene's units, which are meters in glTF: remove eye_distance, or set it to {:.4}, a thirtieth of the distance",
         away / 30.0
     );
     let path = [Field("stereo"), Field("eye_distance")];

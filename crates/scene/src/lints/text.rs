@@ -42,10 +42,10 @@ fn lint_label(origin: &Origin, scene: &Scene, number: usize, label: &PointLabel)
     let view_height = scene.image.view_size().y / f64::from(scene.image.height);
     let place = match label.fault(&scene.view_projection, view_height)? {
         LabelFault::BehindEye => "behind the eye",
-        LabelFault::Outside => "outside of the picture",
+        LabelFault::Outside => "outside the picture",
     };
     let message = format!("the label \"{}\" is not drawn: its point is {place}", label.text);
-    let help = "move the point, or leave the label out".to_owned();
+    let help = "move the point, or remove the label".to_owned();
     let at = [Field("overlays"), Index(number), Field("at")];
     Some(Lint { code: "label-not-visible", error: origin.error_at(&at, message, Some(help)) })
 }
@@ -57,6 +57,6 @@ fn lint_glyphs(origin: &Origin, text: &str, label: Option<usize>) -> Option<Lint
         Some(number) => vec![Field("overlays"), Index(number), Field("text")],
         None => vec![Field("caption")],
     };
-    let help = "letters are those of Latin alphabets, with digits and signs".to_owned();
+    let help = "use letters of Latin alphabets, digits and common symbols".to_owned();
     Some(Lint { code: "missing-glyph", error: origin.error_at(&at, message, Some(help)) })
 }

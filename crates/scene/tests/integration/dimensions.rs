@@ -112,8 +112,8 @@ fn mistakes_are_shown_where_they_are() {
         (
             "Length(from: Point((0, 0, 0)), to: Node(name: \"roof\", number: 1))",
             "1",
-            "with the number 1",
-            "there are 1",
+            "with number 1",
+            "highest is 0",
         ),
         ("Diameter(circle: (near: (0, 0, 0)))", "(near: (0, 0, 0))", "there is no circle", "eight"),
         ("Chain(points: [Point((0, 0, 0))])", "[Point((0, 0, 0))]", "at least two points", ""),
@@ -126,7 +126,7 @@ fn mistakes_are_shown_where_they_are() {
         (
             "Length(from: Vertex(near: (0, 0, 0), fraction: (0, 0, 0)), to: Point((0, 0, 0)))",
             "Vertex(near: (0, 0, 0), fraction: (0, 0, 0))",
-            "one point",
+            "both give the point",
             "near",
         ),
         (
@@ -135,14 +135,14 @@ fn mistakes_are_shown_where_they_are() {
             "parallel",
             "distance",
         ),
-        ("Radius(circle: (near: (0, 0, 0)), decimals: 7)", "7", "7 decimal places", "0 to 6"),
+        ("Radius(circle: (near: (0, 0, 0)), decimals: 7)", "7", "decimal places: 7", "0 to 6"),
         (
             "Length(from: Point((0, 0, 0)), to: Point((1, 0, 0)), direction: Vertical, side: Above)",
             "Above",
-            "cannot stand above",
+            "cannot be placed above",
             "Left or Right",
         ),
-        ("LargestDiameters(count: 0)", "0", "cannot be 0", "1 to 50"),
+        ("LargestDiameters(count: 0)", "0", "count: 0", "1 to 50"),
     ] {
         let error = sheet_with(&format!("[Overall, {dimension}]")).expect_err(dimension);
         let shown = &error.source[error.span.clone()];

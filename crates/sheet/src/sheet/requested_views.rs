@@ -60,7 +60,7 @@ impl ViewPlan {
             return Ok(());
         }
         if let Some(request) = requests.get(MAX_REQUESTS) {
-            let reason = format!("there are more than {MAX_REQUESTS} views");
+            let reason = format!("a sheet can have at most {MAX_REQUESTS} views");
             let (number, view) = (MAX_REQUESTS + 1, request.title());
             return Err(SheetError::Request { number, view, reason });
         }
@@ -135,7 +135,7 @@ impl RequestPlanner<'_> {
 
     /// A letter not used by another view.
     fn next_letter(&mut self) -> Result<char, Fault> {
-        self.letters.next().ok_or_else(|| fault("there are more than 26 letters to give"))
+        self.letters.next().ok_or_else(|| fault("the views need more than 26 letters"))
     }
 
     /// Checks that a requested view exists only once.
@@ -162,7 +162,7 @@ impl RequestPlanner<'_> {
         let index = self.index_of(name)?;
         let one = &self.views[index];
         if one.composition != Composition::Whole {
-            return Err(fault(format!("the {name} view is broken or cut in part already")));
+            return Err(fault(format!("the {name} view is already broken or partly cut")));
         }
         Ok(index)
     }
@@ -182,14 +182,14 @@ impl RequestPlanner<'_> {
         let offset = whole.image_of(center);
         let reach = whole.size * 0.5 + radius * whole.millimeters_per_unit;
         if !offset.is_finite() || offset.abs().cmpge(reach).any() {
-            return Err(fault("its circle lies beside the view"));
+            return Err(fault("its circle is outside the view"));
         }
         let shown = match &mother.composition {
             Composition::Broken(part) => part.shortened(offset),
             _ => Some(offset),
         };
         let Some(at) = shown else {
-            return Err(fault("its center is in the part of the view that is left out"));
+            return Err(fault("its center is in the omitted part of the view"));
         };
         let composition = match &mother.composition {
             Composition::Broken(_) => Composition::Whole,
@@ -212,12 +212,13 @@ impl RequestPlanner<'_> {
 
     /// Adds a view onto an oblique face, and its arrow.
     fn add_auxiliary(&mut self, facing: Vector<World>, place: &ViewPlace) -> Result<(), Fault> {
-        let gaze = -unit_vector(facing).ok_or_else(|| fault("its direction has no length"))?;
+        let gaze =
+            -unit_vector(facing).ok_or_else(|| fault("its direction must not be (0, 0, 0)"))?;
         let letter = self.next_letter()?;
         let auxiliary = self.subject.auxiliary_view(gaze, letter)?.with_lines_of(&self.views);
         let marked = mark_direction(&mut self.views, gaze, letter);
         if !marked {
-            return Err(fault("no view of the sheet sees its direction from the side"));
+            return Err(fault("no view of the sheet shows its direction from the side"));
         }
         self.views.push(PlannedView { place: place.clone(), ..auxiliary });
         Ok(())
@@ -260,13 +261,13 @@ impl RequestPlanner<'_> {
     fn cutting_plane(&self, index: usize, point: Point<World>) -> Result<Plane<World>, Fault> {
         let one = &self.views[index];
         if !one.view.sections.is_empty() {
-            return Err(fault("a section cuts this view already"));
+            return Err(fault("a section already cuts this view"));
         }
         let [x, y, z] = one.view.camera.gaze().raw().to_array();
         let plane = Plane::through(point, Normal::new(x, y, z));
         let heights = || self.subject.points.iter().map(|point| plane.evaluate(*point));
         if !heights().any(|height| height > 0.0) || !heights().any(|height| height < 0.0) {
-            return Err(fault("its plane lies beside the models and cuts nothing"));
+            return Err(fault("its plane misses the models and cuts nothing"));
         }
         Ok(plane)
     }
@@ -283,12 +284,12 @@ impl RequestPlanner<'_> {
             None => (0..self.views.len()).filter(|at| shows(&self.views[*at])).collect(),
         };
         if indices.is_empty() || !indices.iter().all(|at| shows(&self.views[*at])) {
-            return Err(fault("this view does not show the axis in its true length"));
+            return Err(fault("this view does not show the axis at its true length"));
         }
         for index in indices {
             let one = &mut self.views[index];
             if one.composition != Composition::Whole {
-                return Err(fault("the view is broken or cut in part already"));
+                return Err(fault("the view is already broken or partly cut"));
             }
             let at = |end: f64| one.view.image_of(Point::from_raw(DVec3::AXES[axis.min(2)] * end));
             let paper_axis = usize::from(one.view.direction_of(direction).x.abs() < 0.5);
@@ -296,7 +297,7 @@ impl RequestPlanner<'_> {
             let part = Break { axis: paper_axis, from: a.min(b), to: a.max(b) };
             let half = one.view.size[paper_axis] * 0.5;
             if !(-half < part.from && part.from < part.to && part.to < half) {
-                return Err(fault("the part that is left out must lie within the models"));
+                return Err(fault("the omitted part must be inside the models"));
             }
             one.view.size -= part.length();
             one.composition = Composition::Broken(part);
@@ -311,7 +312,8 @@ impl RequestPlanner<'_> {
         corners: &[Point<World>],
         place: &ViewPlace,
     ) -> Result<(), Fault> {
-        let removed = unit_vector(removed).ok_or_else(|| fault("its direction has no length"))?;
+        let removed =
+            unit_vector(removed).ok_or_else(|| fault("its direction must not be (0, 0, 0)"))?;
         let along = check_steps(removed, corners)?;
         let letter = self.next_letter()?;
         let [x, y, z] = (-removed).raw().to_array();

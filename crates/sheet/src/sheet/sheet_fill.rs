@@ -138,10 +138,10 @@ impl Sheet {
 impl fmt::Display for SheetFill {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (percent, scale) = (libm::round(self.fraction * 100.0), self.scale);
-        write!(f, "the views fill {percent} % of the drawing area at {scale}; ")?;
+        write!(f, "the views fill {percent}% of the drawing area at {scale}; ")?;
         self.limit.fmt(f)?;
         match self.between {
-            Some(between) => write!(f, "; {between}, which is no standard scale, fits"),
+            Some(between) => write!(f, "; {between}, which is not a standard scale, fits"),
             None => Ok(()),
         }
     }
@@ -150,12 +150,12 @@ impl fmt::Display for SheetFill {
 impl fmt::Display for ScaleLimit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Given => f.write_str("this scale was asked for"),
+            Self::Given => f.write_str("this scale was requested"),
             Self::Largest => f.write_str("there is no larger standard scale"),
             Self::TooLarge { scale, need, available } => write!(
                 f,
-                "at {scale}, the next standard scale, front, top and side view need \
-                 {:.0} x {:.0} mm, and {:.0} x {:.0} mm are available",
+                "at {scale}, the next standard scale, the front, top and side views need \
+                 {:.0} x {:.0} mm, but {:.0} x {:.0} mm are available",
                 need[0], need[1], available[0], available[1]
             ),
             Self::NoRoom { scale, views } => write!(
@@ -179,9 +179,9 @@ mod tests {
         let limit = ScaleLimit::TooLarge { scale: next, need, available };
         assert_eq!(
             fill(limit, DrawingScale::new(1, 4).ok()).to_string(),
-            "the views fill 38 % of the drawing area at 1:5; at 1:2, the next standard scale, \
-             front, top and side view need 391 x 262 mm, and 257 x 158 mm are available; \
-             1:4, which is no standard scale, fits"
+            "the views fill 38% of the drawing area at 1:5; at 1:2, the next standard scale, \
+             the front, top and side views need 391 x 262 mm, but 257 x 158 mm are available; \
+             1:4, which is not a standard scale, fits"
         );
         let views = ["section A-A", "isometric view"].map(str::to_owned).to_vec();
         let text = fill(ScaleLimit::NoRoom { scale: next, views }, None).to_string();

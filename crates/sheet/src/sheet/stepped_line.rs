@@ -71,7 +71,7 @@ pub(super) fn check_steps(
     if corners.len() < 4 || !corners.len().is_multiple_of(2) {
         let count = corners.len();
         return Err(fault(format!(
-            "its line has {count} corners: two for each plane are needed, and two planes at least"
+            "its line has {count} corners; it needs two for each plane, and at least two planes"
         )));
     }
     if corners.len() > MAX_CORNERS {
@@ -90,15 +90,17 @@ pub(super) fn check_steps(
             return Err(fault(format!(
                 "its line from corner {from} to corner {to} must run {}",
                 if index % 2 == 0 {
-                    "on in the direction of the first two corners, at right angles to `removed`"
+                    "in the direction of the first two corners, perpendicular to `removed`"
                 } else {
-                    "in the direction of `removed` or against it: a step"
+                    "parallel to `removed`, as a step"
                 }
             )));
         }
     }
     if along.dot(removed).abs() > PARALLEL_TOLERANCE {
-        return Err(fault("its first two corners must lie at right angles to `removed`"));
+        return Err(fault(
+            "the line between its first two corners must be perpendicular to `removed`",
+        ));
     }
     Ok(along)
 }

@@ -165,13 +165,19 @@ impl TitleBlockTemplate {
     /// unknown fields.
     pub fn parse(svg: &str) -> Result<Self, TemplateError> {
         if svg.len() > MAX_LENGTH {
-            let message = format!("a title block has at most {MAX_LENGTH} bytes");
+            let message = format!("a title block can have at most {MAX_LENGTH} bytes");
             return Err(TemplateError::at(svg, 0, message));
         }
         let mut reader = MarkupReader::new(svg);
         let root = match reader.next()? {
             Some(Event::Start(root)) if root.name == "svg" => root,
-            _ => return Err(TemplateError::at(svg, 0, "a title block is an SVG file: <svg …>")),
+            _ => {
+                return Err(TemplateError::at(
+                    svg,
+                    0,
+                    "a title block must be an SVG file: <svg …>",
+                ));
+            }
         };
         let size = view_box_size(svg, &root)?;
         let mut template = Self { size, lines: Vec::new(), texts: Vec::new() };
@@ -180,7 +186,7 @@ impl TitleBlockTemplate {
         while let Some(event) = reader.next()? {
             match (event, &mut text) {
                 (Event::Start(element), Some(_)) => {
-                    let message = format!("`{}` cannot be within a text", element.name);
+                    let message = format!("`{}` cannot be inside a text element", element.name);
                     return Err(TemplateError::at(svg, element.at, message));
                 }
                 (Event::Start(element), None) if element.name == "text" => {
@@ -227,8 +233,8 @@ impl TitleBlockTemplate {
             "path" => parse_path(svg, element.attribute("d"))?,
             other => {
                 let message = format!(
-                    "`{other}` is not read: a title block has line, rect, polyline, polygon, path, \
-                     text and g"
+                    "`{other}` is not supported; use line, rect, polyline, polygon, path, text \
+                     or g"
                 );
                 return Err(TemplateError::at(svg, element.at, message));
             }
@@ -257,7 +263,7 @@ impl TitleBlockTemplate {
             "middle" => TextAlign::Middle,
             "end" => TextAlign::End,
             other => {
-                let message = format!("`{other}` is no text-anchor: start, middle or end");
+                let message = format!("`{other}` is not a text-anchor; use start, middle or end");
                 return Err(TemplateError::at(svg, element.at, message));
             }
         };
@@ -336,7 +342,7 @@ fn text_parts(content: &str) -> Result<Vec<TextPart>, String> {
             continue;
         }
         let (name, after) =
-            after.split_once('}').ok_or("a `{` without its `}`; `{{` is a brace")?;
+            after.split_once('}').ok_or("`{` without `}`; write `{{` for a brace")?;
         let found = FIELDS.iter().find(|(known, _)| *known == name.trim());
         let (_, field) = found.ok_or_else(|| {
             let names: Vec<&str> = FIELDS.iter().map(|(name, _)| *name).collect();
@@ -350,7 +356,7 @@ fn text_parts(content: &str) -> Result<Vec<TextPart>, String> {
     }
     let is_symbol = |part: &TextPart| *part == TextPart::Field(TemplateField::Projection);
     if parts.len() > 1 && parts.iter().any(is_symbol) {
-        return Err("{projection} is a symbol, and needs a text element of its own".to_owned());
+        return Err("{projection} is a symbol and needs a separate text element".to_owned());
     }
     Ok(parts)
 }
@@ -360,14 +366,16 @@ fn view_box_size(svg: &str, root: &Element<'_>) -> Result<DVec2, TemplateError> 
     let fault = |message: &str| TemplateError::at(svg, root.at, message);
     let numbers = parse_numbers(svg, root.attribute("viewBox"))?;
     let [x, y, width, height] = numbers[..] else {
-        return Err(fault("an SVG with millimeters as its unit has viewBox=\"0 0 180 30\""));
+        return Err(fault(
+            "the view box needs four numbers in millimeters, such as viewBox=\"0 0 180 30\"",
+        ));
     };
     if [x, y] != [0.0, 0.0] {
-        return Err(fault("the view box begins at 0 0"));
+        return Err(fault("the view box must begin at 0 0"));
     }
     let is_size = |side: f64| (1.0..=MAX_SIDE).contains(&side);
     if !(is_size(width) && is_size(height)) {
-        return Err(fault("the sides of the view box are from 1 to 1000 millimeters"));
+        return Err(fault("the sides of the view box must be from 1 to 1000 millimeters"));
     }
     Ok(DVec2::new(width, height))
 }

@@ -53,41 +53,42 @@ impl fmt::Display for AssemblyWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoParts => f.write_str(
-                "there are no parts to list or to number: the models have no lines or triangles",
+                "there are no parts to list or number: the models have no lines or triangles",
             ),
             Self::MassUnknown { part } => write!(
                 f,
-                "the mass of `{}` is not known: its mesh is not closed, so it has no volume",
+                "the mass of `{}` is unknown: its mesh is not closed, so it has no volume",
                 visible_excerpt(part)
             ),
             Self::NamesUnreadable { name, count } => write!(
                 f,
-                "the letters of drawings lack characters of {count} {} in the parts list, \
-                 such as \"{}\": boxes are in their place",
+                "the drawing font lacks characters in {count} {} in the parts list, such as \
+                 \"{}\": boxes are drawn instead",
                 if *count == 1 { "name" } else { "names" },
                 visible_excerpt(name)
             ),
             Self::NotVisible { number, part, count } => write!(
                 f,
-                "{count} {} no balloon, such as item {number}, `{}`: nothing is seen of it in the \
-                 view of the assembly, because other parts hide it or it has no size; \
-                 an exploded view, or another axonometric view, may show what is hidden",
+                "{count} {} no balloon, such as item {number}, `{}`: it is not visible in the \
+                 assembly view, because other parts hide it or its size is zero; an exploded view, \
+                 or another axonometric view, may show it",
                 if *count == 1 { "item has" } else { "items have" },
                 visible_excerpt(part)
             ),
             Self::BalloonsLeftOut { number, count } => write!(
                 f,
-                "{count} {} no place around the view, the first of them {number}: use larger paper",
-                if *count == 1 { "balloon finds" } else { "balloons find" }
+                "{count} {} no room around the view, starting with number {number}: use larger \
+                 paper",
+                if *count == 1 { "balloon has" } else { "balloons have" }
             ),
             Self::TooManyPartsToExplode { most } => write!(
                 f,
-                "the assembly has more than {most} parts, and is not exploded: \
-                 draw a part of the model"
+                "the assembly has more than {most} parts, so it is not exploded: draw a part of \
+                 the model"
             ),
             Self::PartSheetsLeftOut { count } => write!(
                 f,
-                "there are too many parts for a sheet of each: the last {count} {} none",
+                "there are too many parts for part sheets: the last {count} {} none",
                 if *count == 1 { "item has" } else { "items have" }
             ),
         }

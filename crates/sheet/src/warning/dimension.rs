@@ -31,16 +31,16 @@ impl fmt::Display for DimensionFault {
         match self {
             Self::NoSuchView(view) => write!(f, "there is no {view} view"),
             Self::Foreshortened { view, shown_in } => {
-                write!(f, "the {view} view does not show it true")?;
+                write!(f, "the {view} view does not show its true size")?;
                 match shown_in {
                     Some(other) => write!(f, ", but the {other} view does"),
                     None => f.write_str(", and no other view does"),
                 }
             }
-            Self::NowhereTrue => f.write_str("no view of the sheet shows it true"),
+            Self::NowhereTrue => f.write_str("no view of the sheet shows its true size"),
             Self::CutAway => f.write_str("a section removes what it measures"),
             Self::NoExtent => f.write_str("there is nothing to measure between its points"),
-            Self::NoRoom => f.write_str("there is no free place for its number"),
+            Self::NoRoom => f.write_str("there is no room for its number"),
         }
     }
 }

@@ -283,7 +283,7 @@ fn sections_and_details_know_what_a_broken_view_leaves_out() {
     let views = vec![broken, detail(point(0.0, 20.0, 15.0), 10.0)];
     let error = a3(views).draw(&model, &[], 1).expect_err("left out");
     assert!(error.to_string().contains("view 2 of the sheet"), "{error}");
-    assert!(error.to_string().contains("left out"), "{error}");
+    assert!(error.to_string().contains("omitted part"), "{error}");
 }
 
 #[test]
@@ -379,10 +379,10 @@ fn requests_that_make_no_sense_are_errors_that_name_them() {
     let half = |of| ViewRequest::HalfSection { of, point: None, side: ViewSide::Right };
     for (views, expected) in [
         (vec![named(NamedView::Top), detail(point(0.0, 0.0, 0.0), 5.0)], "has no front view"),
-        (vec![detail(point(90.0, 0.0, 0.0), 5.0)], "beside the view"),
+        (vec![detail(point(90.0, 0.0, 0.0), 5.0)], "outside the view"),
         (vec![detail(point(0.0, 0.0, 0.0), 0.0)], "radius"),
-        (vec![broken(0.0, 30.0)], "within the models"),
-        (vec![broken(5.0, 5.0)], "within the models"),
+        (vec![broken(0.0, 30.0)], "inside the models"),
+        (vec![broken(5.0, 5.0)], "inside the models"),
         (vec![broken(0.0, 5.0), half(NamedView::Front)], "already"),
         (vec![half(NamedView::Front), half(NamedView::Front)], "already"),
         (vec![named(NamedView::Top), named(NamedView::Top)], "twice"),
@@ -396,7 +396,7 @@ fn requests_that_make_no_sense_are_errors_that_name_them() {
         ),
         (
             vec![ViewRequest::Auxiliary { facing: Vector::ZERO, place: ViewPlace::default() }],
-            "no length",
+            "must not be (0, 0, 0)",
         ),
         (vec![detail(point(0.0, 0.0, 0.0), 5.0); 40], "more than"),
     ] {

@@ -30,11 +30,9 @@ impl Checker<'_> {
         let list = self.write_as_list(node, &ValueType::List(Box::new(element.clone())));
         let help = match (list, self.path.last()) {
             (Some(list), Some(Segment::Field(name))) => {
-                format!("lists are written in square brackets: {name}: {list}")
+                format!("write lists in square brackets: {name}: {list}")
             }
-            _ => {
-                "lists are written in square brackets, also those of one element: [ … ]".to_owned()
-            }
+            _ => "write lists in square brackets, even with one element: [ … ]".to_owned(),
         };
         if !self.told_lists.contains(&node.span.start) {
             self.report_type(node, "a list", Some(help));
@@ -63,8 +61,8 @@ impl Checker<'_> {
         self.path.push(Segment::Index(index));
         self.scopes.push(item.span());
         if let Some(key) = &item.key {
-            let message = format!("elements of lists have no names, found `{}: …`", key.name);
-            let help = "remove the name, or put it in round brackets".to_owned();
+            let message = format!("list elements have no names, found `{}: …`", key.name);
+            let help = "remove the name, or put the field in round brackets".to_owned();
             self.report(key.span.clone(), message, Some(help));
         } else {
             self.check(&item.value, element);

@@ -17,15 +17,14 @@ impl Checker<'_> {
             let number = parse_number(word);
             if number.is_none() {
                 let help = self.suggest_fraction(word, expected);
-                let help =
-                    help.unwrap_or_else(|| "numbers are written like 4, -1.5 or 2e-3".to_owned());
+                let help = help.unwrap_or_else(|| "write numbers like 4, -1.5 or 2e-3".to_owned());
                 self.report_type(node, expected, Some(help));
             }
             return number;
         }
         let help = match node.kind {
-            NodeKind::String(_) => "numbers are written without quotation marks, such as 1.5",
-            _ => "numbers are written like 4, -1.5 or 2e-3",
+            NodeKind::String(_) => "write numbers without quotation marks, such as 1.5",
+            _ => "write numbers like 4, -1.5 or 2e-3",
         };
         self.report_type(node, expected, Some(help.to_owned()));
         None
@@ -47,12 +46,12 @@ impl Checker<'_> {
     /// Decimal, hexadecimal, octal and binary, with underscores, as in RON. `4.0` is refused with a
     /// hint to drop the decimal point.
     pub(crate) fn check_whole_number(node: &Node<'_>, checker: &mut Checker<'_>) {
-        let help = || Some("such as 4".to_owned());
+        let help = || Some("write a whole number such as 4".to_owned());
         let NodeKind::Number(word) = node.kind else {
             return checker.report_type(node, "a whole number", help());
         };
         let Some(value) = parse_integer(word) else {
-            let help = Some("such as 4, without a decimal point".to_owned());
+            let help = Some("write a whole number such as 4, without a decimal point".to_owned());
             return checker.report_type(node, "a whole number", help);
         };
         if u32::try_from(value).is_err() {
@@ -92,7 +91,7 @@ impl Checker<'_> {
                 NodeKind::Word(word) | NodeKind::Number(word) => word.trim_matches('\''),
                 _ => "like this",
             };
-            let help = format!("strings are written in double quotation marks: \"{written}\"");
+            let help = format!("write strings in double quotation marks: \"{written}\"");
             self.report_type(node, "a string", Some(help));
             return None;
         };
@@ -100,7 +99,7 @@ impl Checker<'_> {
             Ok(text) => Some(text),
             Err((offset, problem)) => {
                 let start = node.span.start + offset;
-                let help = "a raw string has no escapes: r\"C:\\path\"".to_owned();
+                let help = "or write a raw string, which has no escapes: r\"C:\\path\"".to_owned();
                 self.report(start..start + 1, problem, Some(help));
                 None
             }
@@ -128,7 +127,9 @@ fn suggest_tuple(node: &Node<'_>, count: usize, checker: &Checker<'_>) -> Option
             _ => vec![number, number],
         },
         _ if count == 4 => {
-            return Some("such as (0, 0, 0.5, 0.5): left, top, width and height".to_owned());
+            return Some(
+                "write (0, 0, 0.5, 0.5), for example: left, top, width and height".to_owned(),
+            );
         }
         _ => return None,
     };
@@ -149,7 +150,7 @@ impl Checker<'_> {
             "step" => "0",
             _ => return None,
         };
-        Some(format!("along x, y and z, and y is up; on the ground write ({x}, {height}, {z})"))
+        Some(format!("give x, y and z, where y is up; on the ground write ({x}, {height}, {z})"))
     }
 }
 

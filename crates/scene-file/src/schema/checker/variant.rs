@@ -86,7 +86,7 @@ impl Checker<'_> {
             [SyntaxItem { key: None, value: Node { span, kind: NodeKind::Group(_) } }]
                 if is_struct =>
             {
-                let message = format!("`{name}` has its fields in one pair of brackets");
+                let message = format!("`{name}` takes its fields in one pair of brackets");
                 self.report(span.clone(), message, Some(format!("write {name}(…)")));
             }
             _ => {

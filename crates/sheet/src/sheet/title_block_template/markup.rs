@@ -93,7 +93,7 @@ impl<'a> Element<'a> {
         let own = text.trim();
         let own = own.strip_suffix("mm").or_else(|| own.strip_suffix("px")).unwrap_or(own);
         parse_number(own).ok_or_else(|| {
-            TemplateError::at(source, at, format!("`{text}` is no number for `{name}`"))
+            TemplateError::at(source, at, format!("`{text}` is not a number for `{name}`"))
         })
     }
 
@@ -109,7 +109,7 @@ impl<'a> Element<'a> {
             return Ok(number);
         }
         let at = self.attribute(name).map_or(self.at, |(_, at)| at);
-        Err(TemplateError::at(source, at, format!("`{name}` is greater than 0")))
+        Err(TemplateError::at(source, at, format!("`{name}` must be greater than 0")))
     }
 
     /// Checks for unsupported attributes that would change the drawing, such as a transform.
@@ -122,9 +122,9 @@ impl<'a> Element<'a> {
                 let remedy = match *name {
                     "transform" => "write coordinates as they are on the paper",
                     "style" => "write stroke-width, font-size and text-anchor as attributes",
-                    _ => "leave it out",
+                    _ => "remove it",
                 };
-                let message = format!("`{name}` of `{}` is not read: {remedy}", self.name);
+                let message = format!("`{name}` of `{}` is not supported; {remedy}", self.name);
                 Err(TemplateError::at(source, *at, message))
             }
         }
@@ -163,7 +163,7 @@ impl<'a> MarkupReader<'a> {
             } else if let Some(after) = rest.strip_prefix("<!--") {
                 self.skip_past(after, "-->", 4)?;
             } else if rest.starts_with("<!") {
-                return Err(self.fault("a document type or CDATA is not read: remove it"));
+                return Err(self.fault("document types and CDATA are not supported; remove them"));
             } else if let Some(after) = rest.strip_prefix("</") {
                 return self.end_tag(after).map(Some);
             } else if rest.starts_with('<') {
@@ -186,7 +186,7 @@ impl<'a> MarkupReader<'a> {
 
     /// Skips past the end of a comment or an instruction.
     fn skip_past(&mut self, rest: &str, end: &str, begun: usize) -> Result<(), TemplateError> {
-        let length = rest.find(end).ok_or_else(|| self.fault(format!("`{end}` is missing")))?;
+        let length = rest.find(end).ok_or_else(|| self.fault(format!("missing `{end}`")))?;
         self.at += begun + length + end.len();
         Ok(())
     }
@@ -205,10 +205,10 @@ impl<'a> MarkupReader<'a> {
 
     /// Reads the end tag after `</`.
     fn end_tag(&mut self, after: &'a str) -> Result<Event<'a>, TemplateError> {
-        let end = after.find('>').ok_or_else(|| self.fault("`>` is missing"))?;
+        let end = after.find('>').ok_or_else(|| self.fault("missing `>`"))?;
         let name = after[..end].trim();
         if self.open.last() != Some(&name) {
-            return Err(self.fault(format!("`{name}` is closed where it is not open")));
+            return Err(self.fault(format!("`{name}` is closed but not open")));
         }
         self.open.pop();
         self.at += 2 + end + 1;
@@ -235,7 +235,7 @@ impl<'a> MarkupReader<'a> {
             self.skip_space();
             let rest = &self.source[self.at..];
             let quote = rest.chars().next().filter(|c| matches!(c, '"' | '\''));
-            let quote = quote.ok_or_else(|| self.fault("a value in quotes is missing"))?;
+            let quote = quote.ok_or_else(|| self.fault("missing value in quotes"))?;
             let length = rest[1..].find(quote);
             let length = length.ok_or_else(|| self.fault("the quote is not closed"))?;
             attributes.push((own, &rest[1..=length], self.at + 1));
@@ -254,7 +254,7 @@ impl<'a> MarkupReader<'a> {
         let is_name = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | ':' | '.');
         let length = rest.find(|c| !is_name(c)).unwrap_or(rest.len());
         if length == 0 {
-            return Err(self.fault("a name is missing"));
+            return Err(self.fault("missing name"));
         }
         self.at += length;
         Ok(&rest[..length])
@@ -267,7 +267,7 @@ impl<'a> MarkupReader<'a> {
 
     fn expect(&mut self, character: char) -> Result<(), TemplateError> {
         if !self.source[self.at..].starts_with(character) {
-            return Err(self.fault(format!("`{character}` is missing")));
+            return Err(self.fault(format!("missing `{character}`")));
         }
         self.at += character.len_utf8();
         Ok(())
@@ -282,9 +282,9 @@ impl<'a> MarkupReader<'a> {
         while let Some((before, after)) = left.split_once('&') {
             text.push_str(before);
             let (name, after) =
-                after.split_once(';').ok_or_else(|| self.fault("`&` without `;`: write &amp;"))?;
+                after.split_once(';').ok_or_else(|| self.fault("`&` without `;`; write &amp;"))?;
             let replaced = reference(name);
-            text.push(replaced.ok_or_else(|| self.fault(format!("`&{name};` is unknown")))?);
+            text.push(replaced.ok_or_else(|| self.fault(format!("unknown reference `&{name};`")))?);
             left = after;
         }
         text.push_str(left);

@@ -59,7 +59,7 @@ pub(super) fn parse_numbers(
     let Some((text, start)) = attribute else { return Ok(Vec::new()) };
     let number = |(word, at): (&str, usize)| {
         parse_number(word)
-            .ok_or_else(|| TemplateError::at(source, at, format!("`{word}` is no number")))
+            .ok_or_else(|| TemplateError::at(source, at, format!("`{word}` is not a number")))
     };
     words(text, start).into_iter().map(number).collect()
 }
@@ -80,7 +80,7 @@ pub(super) fn parse_path(
             command = Some(letter);
             if letter.eq_ignore_ascii_case(&'z') {
                 let line =
-                    lines.last_mut().ok_or_else(|| fault("a path begins with M".to_owned()))?;
+                    lines.last_mut().ok_or_else(|| fault("a path must begin with M".to_owned()))?;
                 line.1 = true;
                 pen = line.0[0];
                 command = None;
@@ -91,18 +91,18 @@ pub(super) fn parse_path(
             let found = words.next();
             let (word, at) = found.unwrap_or(("the end", start + text.len()));
             parse_number(word).ok_or_else(|| {
-                TemplateError::at(source, at, format!("a number is missing before `{word}`"))
+                TemplateError::at(source, at, format!("missing number before `{word}`"))
             })
         };
-        let letter = command.ok_or_else(|| fault(format!("`{word}` follows no command")))?;
+        let letter = command.ok_or_else(|| fault(format!("`{word}` does not follow a command")))?;
         let origin = if letter.is_ascii_lowercase() { pen } else { DVec2::ZERO };
         let to = match letter.to_ascii_uppercase() {
             'M' | 'L' => origin + DVec2::new(number()?, number()?),
             'H' => DVec2::new(origin.x + number()?, pen.y),
             'V' => DVec2::new(pen.x, origin.y + number()?),
             _ => {
-                let remedy = "a title block has straight lines: M, L, H, V and Z";
-                return Err(fault(format!("the command `{letter}` is not read: {remedy}")));
+                let remedy = "use straight lines: M, L, H, V and Z";
+                return Err(fault(format!("the command `{letter}` is not supported; {remedy}")));
             }
         };
         if letter.eq_ignore_ascii_case(&'m') {
@@ -111,7 +111,7 @@ pub(super) fn parse_path(
             command = Some(if letter == 'm' { 'l' } else { 'L' });
         } else {
             match lines.last_mut() {
-                None => return Err(fault("a path begins with M".to_owned())),
+                None => return Err(fault("a path must begin with M".to_owned())),
                 // After Z, the next line begins where the last one began.
                 Some((_, true)) => lines.push((vec![pen, to], false)),
                 Some((points, false)) => points.push(to),
