@@ -1,11 +1,11 @@
 // The words of the page itself, in English and Chinese. Words about a lesson come from the engine.
 
 const TEXTS = {
-  explorer: ['explorer', '视图流水线'],
+  explorer: ['explorer', '观察流水线'],
   skip: ['Skip to the parameters', '跳到参数'],
-  lesson: ['Lesson', '课题'],
-  previous: ['Previous lesson', '上一课题'],
-  next: ['Next lesson', '下一课题'],
+  lesson: ['Lesson', '课'],
+  previous: ['Previous lesson', '上一课'],
+  next: ['Next lesson', '下一课'],
   language: ['Language', '语言'],
   theme: ['Theme', '外观'],
   themeAuto: ['As the system', '跟随系统'],
@@ -62,7 +62,7 @@ const TEXTS = {
   noModel: ['None of these files is a model.', '这些文件中没有模型。'],
   noModelHelp: ['Choose a .glb, .gltf, .stl, .obj, .ply, .3mf or .ron file.', '请选择 .glb、.gltf、.stl、.obj、.ply、.3mf 或 .ron 文件。'],
   hugeModel: ['{0} is larger than {1} MB.', '{0} 大于 {1} MB。'],
-  hugeModelHelp: ['Use the program: `alberti explore --native MODEL`.', '请使用程序:`alberti explore --native MODEL`。'],
+  hugeModelHelp: ['Use the program: `alberti explore --native MODEL`.', '请使用程序：`alberti explore --native MODEL`。'],
   died: ['The computation stopped: {0}', '计算中止：{0}'],
   diedHelp: [
     'It is started again with the next change. If it was short of memory, undo the change or choose a smaller model.',
@@ -73,9 +73,9 @@ const TEXTS = {
     'Reload the page. If that does not help, use another browser, or run `alberti explore --native`.',
     '请重新加载页面。若仍不行，请换用其他浏览器，或运行 `alberti explore --native`。',
   ],
-  badLinkHelp: ['The lesson is shown with its defaults.', '课题以默认值显示。'],
+  badLinkHelp: ['The lesson is shown with its defaults.', '本课以默认值显示。'],
   style: ['Style', '样式'],
-  styleDefault: ['as the lesson', '按课题'],
+  styleDefault: ['as the lesson', '按本课'],
   allSteps: ['Every step, with its formulas', '每一步及其公式'],
   inside: ['inside', '在内'],
   clipped: ['clipped', '被裁剪'],
@@ -84,8 +84,8 @@ const TEXTS = {
   outcodeOutside: ['Outcode {0}: outside of {1}.', '区域码 {0}：在 {1} 之外。'],
   sources: {
     learnwebgl: ['Learn WebGL', 'Learn WebGL'],
-    chapter: ['The chapter on viewing', '教材“视图”一章'],
-    slides: ['The lecture slides', '课程幻灯片'],
+    chapter: ['The chapter on viewing', '教科书“观察”一章'],
+    slides: ['The lecture slides', '课件'],
     own: ['Your own model', '自己的模型'],
   },
 };

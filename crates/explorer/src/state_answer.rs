@@ -105,7 +105,7 @@ fn journey_json(
     json["spaces"] = json!([
         {"space": "model", "label": {"en": "model", "zh": "模型坐标"}, "value": model},
         {"space": "world", "label": {"en": "world", "zh": "世界坐标"}, "value": <[f64; 3]>::from(pin)},
-        {"space": "view", "label": {"en": "view (camera)", "zh": "观察（相机）坐标"}, "value": <[f64; 3]>::from(view)},
+        {"space": "view", "label": {"en": "view (camera)", "zh": "观察坐标"}, "value": <[f64; 3]>::from(view)},
         {"space": "clip", "label": {"en": "clip, before the divide by w", "zh": "裁剪坐标（透视除法之前）"}, "value": <[f64; 4]>::from(clip)},
         {"space": "ndc", "label": {"en": "NDC, after the divide", "zh": "规范化设备坐标（透视除法之后）"}, "value": ndc.map(<[f64; 3]>::from)},
         {"space": "screen", "label": {"en": "screen: pixel, pixel, depth", "zh": "屏幕坐标：像素与深度"}, "value": screen},
@@ -163,7 +163,7 @@ fn clipping_sentences(facts: &Facts) -> Vec<Sentence> {
     if survey.inside + survey.clipped == 0 && all > 0 {
         sentences.push(sentence(
             "Nothing of the model is inside the view volume: the picture is empty.",
-            "模型完全在视见体之外：画面是空的。",
+            "模型完全在视见体之外：图像是空的。",
         ));
     }
     sentences

@@ -44,7 +44,7 @@ pub struct Difference {
 pub(super) fn chinese_name(name: &'static str) -> &'static str {
     match name {
         "pixels" => "像素数",
-        "outcode" => "外码",
+        "outcode" => "区域码",
         letters => letters,
     }
 }

@@ -15,12 +15,12 @@ const USUAL: Lesson =
     Lesson { source: Source::Chapter, conventions: ApiConventions::Chapter, ..Lesson::USUAL };
 
 const fn plane_n(default: f64) -> Parameter {
-    let label = words("n, near (a z-coordinate)", "n，近（z 坐标）");
+    let label = words("n, near (a z-coordinate)", "n，近平面（z 坐标）");
     number("n", label, "", [-11.0, -1.0], [0.1, default])
 }
 
 const fn plane_f(default: f64) -> Parameter {
-    let label = words("f, far (a z-coordinate)", "f，远（z 坐标）");
+    let label = words("f, far (a z-coordinate)", "f，远平面（z 坐标）");
     number("f", label, "", [-60.0, -11.5], [0.5, default])
 }
 
@@ -39,7 +39,7 @@ pub(super) static ORTHOGRAPHIC_VOLUME: Lesson = Lesson {
     title: words("Orthographic view volume", "正交视见体"),
     statement: words(
         "The box [l, r] × [b, t] × [f, n] of camera space becomes the canonical view volume [−1, 1]³ by a scale and a translation. The camera looks along −z, so 0 > n > f. w stays 1: nothing shrinks with distance.",
-        "相机空间中的长方体 [l, r] × [b, t] × [f, n] 经缩放和平移变成规范视见体 [−1, 1]³。相机看向 −z，所以 0 > n > f。w 始终为 1：物体不随距离变小。",
+        "观察坐标系中的长方体 [l, r] × [b, t] × [f, n] 经缩放和平移变成规范视见体 [−1, 1]³。相机看向 −z，所以 0 > n > f。w 始终为 1：物体不随距离变小。",
     ),
     parameters: &[
         number("l", words("l, left", "l，左"), "", [-8.0, -0.5], [0.1, -4.8]),
@@ -76,7 +76,7 @@ pub(super) static PERSPECTIVE_VOLUME: Lesson = Lesson {
     title: words("Perspective view volume", "透视视见体"),
     statement: words(
         "P keeps the plane z = n as it is and squeezes the planes behind it, until the truncated pyramid is the box of the orthographic view; then M_orth does the rest: M_per = M_orth P. The window [l, r] × [b, t] lies on z = n.",
-        "P 保持 z = n 平面不变，并压缩它后面的平面，使截头锥体变成正交视图的长方体；其余由 M_orth 完成：M_per = M_orth P。窗口 [l, r] × [b, t] 位于 z = n 上。",
+        "P 保持 z = n 平面不变，并压缩它后面的平面，使视锥体变成正交视见体的长方体；其余由 M_orth 完成：M_per = M_orth P。窗口 [l, r] × [b, t] 位于 z = n 上。",
     ),
     parameters: &[
         number("l", words("l, left", "l，左"), "", [-4.0, -0.2], [0.05, -2.4]),
@@ -120,7 +120,7 @@ pub(super) static MIDPOINT_DEPTH: Lesson = Lesson {
     title: words("Depth of the midpoint", "中点的深度"),
     statement: words(
         "P keeps the order of depths but not their ratios: the middle z = (n + f)/2 goes to (n² + f²)/(n + f), which is nearer to f. The farther apart n and f are, the more of the range is spent near the eye.",
-        "P 保持深度的次序，但不保持比例：中点 z = (n + f)/2 变到 (n² + f²)/(n + f)，更靠近 f。n 与 f 相差越大，深度范围越多地用在近处。",
+        "P 保持深度的次序，但不保持比例：中点 z = (n + f)/2 映为 (n² + f²)/(n + f)，更靠近 f。n 与 f 相差越大，深度范围就越多地用在近处。",
     ),
     parameters: &[plane_n(-4.0), plane_f(-40.0)],
     describe: |values| house_scene(ProjectionFile::perspective(40.0, planes(values))?),
@@ -134,7 +134,7 @@ pub(super) static MIDPOINT_DEPTH: Lesson = Lesson {
                 "The middle z = {middle} goes to {image}; in the canonical view volume, where near is 1 and far −1, that is {depth} and not 0."
             ),
             format!(
-                "中点 z = {middle} 变到 {image}；在近为 1、远为 −1 的规范视见体中是 {depth}，而不是 0。"
+                "中点 z = {middle} 映为 {image}；在近平面为 1、远平面为 −1 的规范视见体中，深度是 {depth}，而不是 0。"
             ),
         )]
     },

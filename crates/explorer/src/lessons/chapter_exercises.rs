@@ -20,7 +20,7 @@ pub(super) static EXERCISES: Lesson = Lesson {
     title: words("Exercises", "习题"),
     statement: words(
         "Figures to the chapter's exercises: 2, M_vp M_orth maps a window to pixels; 7, M_per takes the corner (r, t, n) to (1, 1, 1); 10, the camera at (0, 1, 0) that looks down; 11, where the point at fraction t of a segment has its image.",
-        "本章习题的图：2，M_vp M_orth 把窗口映射到像素；7，M_per 把角点 (r, t, n) 变到 (1, 1, 1)；10，位于 (0, 1, 0) 向下看的相机；11，线段上比例 t 处的点的像在哪里。",
+        "本章习题的图：2，M_vp M_orth 把窗口映射到像素；7，M_per 把角点 (r, t, n) 映为 (1, 1, 1)；10，位于 (0, 1, 0) 向下看的相机；11，线段上比例 t 处的点的像在哪里。",
     ),
     models: &[HOUSE, CRATE],
     parameters: &[
@@ -118,7 +118,7 @@ fn exercise_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
         }
         "10" => vec![sentence(
             "w = (0, 1, 0), u = t × w = (0, 0, 1), v = w × u = (1, 0, 0): x of the world points up in the picture, z to the right.",
-            "w = (0, 1, 0)，u = t × w = (0, 0, 1)，v = w × u = (1, 0, 0)：世界的 x 轴在画面中向上，z 轴向右。",
+            "w = (0, 1, 0)，u = t × w = (0, 0, 1)，v = w × u = (1, 0, 0)：世界的 x 轴在图像中向上，z 轴向右。",
         )],
         "11" => {
             let world_to_clip = facts.view_projection.world_to_clip();
@@ -133,7 +133,7 @@ fn exercise_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
                     "w is {start} at a and {end} at b: the point at {t} of the segment has its image at f(t) = {image} of the segment's image."
                 ),
                 format!(
-                    "a 处 w 为 {start}，b 处 w 为 {end}：线段上 {t} 处的点，其像在像线段的 f(t) = {image} 处。"
+                    "a 处 w 为 {start}，b 处 w 为 {end}：线段上 {t} 处的点，其像位于线段的像的 f(t) = {image} 处。"
                 ),
             )]
         }
@@ -144,7 +144,7 @@ fn exercise_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
                 decimals(height - 0.5, 1)
             ),
             format!(
-                "窗口的角点 (r, t, n) 变到 (1, 1, 1)，也就是画面的右上角：({}, {})。",
+                "窗口的角点 (r, t, n) 映为 (1, 1, 1)，也就是图像的右上角：({}, {})。",
                 decimals(width - 0.5, 1),
                 decimals(height - 0.5, 1)
             ),

@@ -17,7 +17,7 @@ pub(super) static TEAR: Lesson = Lesson {
     title: words("Clip before the divide", "先裁剪，后做透视除法"),
     statement: words(
         "Behind the eye w is negative. Divided by it, a point comes out upside down and in front, and a triangle with corners on both sides is torn through infinity. So clipping comes first, where w is still a coordinate.",
-        "视点之后 w 为负。除以它，点会颠倒并出现在前方；两侧都有顶点的三角形会被撕裂到无穷远。所以先裁剪，这时 w 还是一个坐标。",
+        "视点之后 w 为负。除以它，点会上下颠倒，出现在前方；两侧都有顶点的三角形会被撕裂到无穷远。所以先裁剪，这时 w 还是一个坐标。",
     ),
     models: &[FLOOR],
     parameters: &[
@@ -26,7 +26,7 @@ pub(super) static TEAR: Lesson = Lesson {
             words("order", "次序"),
             &[
                 Choice {
-                    value: "divide", label: words("divide first (wrong)", "先除（错误）")
+                    value: "divide", label: words("divide first (wrong)", "先做透视除法（错误）")
                 },
                 Choice { value: "clip", label: words("clip first", "先裁剪") },
             ],
@@ -65,7 +65,7 @@ fn tear_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
     sentences.push(match values.choice("order") {
         "divide" => sentence(
             "Divided first, they land where nothing is: the view volume pane shows what would be drawn.",
-            "如果先除，它们会落到本来没有东西的地方：视见体窗格显示会画出什么。",
+            "如果先做透视除法，它们会落到本来没有东西的地方：视见体窗格显示会画出什么。",
         ),
         _ => sentence(
             "Clipped first, every corner that is left has w > 0.",

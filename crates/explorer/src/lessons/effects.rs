@@ -10,7 +10,7 @@ pub(super) fn distortion(facts: &Facts) -> Option<Sentence> {
     if (stretch - 1.0).abs() < 5e-3 {
         return Some(sentence(
             "The window has the shape of the picture: nothing is distorted.",
-            "窗口与画面的宽高比相同：没有变形。",
+            "窗口与图像的宽高比相同：没有变形。",
         ));
     }
     let (window, picture) =
@@ -22,7 +22,7 @@ pub(super) fn distortion(facts: &Facts) -> Option<Sentence> {
              times as wide as it should be."
         ),
         format!(
-            "窗口为 {window} : 1，画面为 {picture} : 1：所有物体的宽度是应有宽度的 {stretch} 倍。"
+            "窗口为 {window} : 1，图像为 {picture} : 1：所有物体的宽度是应有宽度的 {stretch} 倍。"
         ),
     ))
 }

@@ -16,7 +16,7 @@ pub(super) static PERSPECTIVE: Lesson = Lesson {
     title: words("Perspective", "透视投影"),
     statement: words(
         "A smaller field of view enlarges. An aspect ratio that is not the picture's distorts. The near and far planes only clip: they move nothing.",
-        "视场角越小，物体越大。宽高比与画面不一致时图像会变形。近平面和远平面只裁剪，不移动任何东西。",
+        "视场角越小，物体越大。宽高比与图像不一致时，物体会变形。近平面和远平面只裁剪，不移动任何物体。",
     ),
     parameters: &[
         number(
@@ -67,7 +67,7 @@ pub(super) static FRUSTUM: Lesson = Lesson {
     title: words("Frustum", "视锥体（frustum）"),
     statement: words(
         "The window on the near plane keeps its size, so the distance of the near plane changes the lens angle; the far plane only clips. Left, right, bottom and top move the window. The lesson's createFrustum moves the apex behind the window's center instead of shearing the volume: another picture unless the window is centered.",
-        "近平面上的窗口大小不变，所以近平面的距离会改变视角；远平面只裁剪。左、右、下、上移动窗口。教程中的 createFrustum 把顶点移到窗口中心的正后方，而不是剪切视锥体：除非窗口居中，否则画面不同。",
+        "近平面上的窗口大小不变，所以近平面的距离会改变视场角；远平面只裁剪。左、右、下、上移动窗口。教程中的 createFrustum 把顶点移到窗口中心的正后方，而不是对视锥体作错切：除非窗口居中，否则图像不同。",
     ),
     parameters: &[
         number("left", words("left", "左"), "", [-4.0, 0.0], [0.1, -2.4]),
@@ -118,7 +118,7 @@ fn frustum_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
         let angle = decimals(vertical, 1);
         all.push(sentence(
             format!("near {near}: the window keeps its size, so the vertical angle is {angle}°."),
-            format!("近平面 {near}：窗口大小不变，所以垂直视角为 {angle}°。"),
+            format!("近平面 {near}：窗口大小不变，所以垂直视场角为 {angle}°。"),
         ));
     }
     let center = [("left", "right"), ("bottom", "top")]
@@ -132,11 +132,11 @@ fn frustum_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
         ),
         ("moved", false) => sentence(
             format!("The apex has moved to ({x}, {y}), right behind the window's center: the eye is not where the camera is, and the picture agrees with glFrustum's only on the near plane."),
-            format!("顶点移到了窗口中心正后方的 ({x}, {y})：视点不在相机处，画面只在近平面上与 glFrustum 一致。"),
+            format!("顶点移到了窗口中心正后方的 ({x}, {y})：视点不在相机处，图像只在近平面上与 glFrustum 一致。"),
         ),
         _ => sentence(
             format!("The window's center is at ({x}, {y}), beside the line of sight: the volume is sheared, and the apex stays in the eye."),
-            format!("窗口中心在 ({x}, {y})，偏离视线：视锥体被剪切，顶点仍在视点。"),
+            format!("窗口中心在 ({x}, {y})，偏离视线：视锥体经过错切，顶点仍在视点。"),
         ),
     });
     all.extend(distortion(facts));
@@ -151,7 +151,7 @@ pub(super) static ORTHO: Lesson = Lesson {
     title: words("Orthographic projection", "正交投影"),
     statement: words(
         "A box of the world is shown without foreshortening: what is twice as far is as large. A smaller window enlarges; near and far only clip, and near may even be behind the camera.",
-        "长方体视见体中的物体没有近大远小：远一倍的物体同样大。窗口越小，物体越大；近、远平面只裁剪，近平面甚至可以在相机后面。",
+        "长方体视见体中的物体没有近大远小：远一倍的物体同样大。窗口越小，物体越大；近平面和远平面只裁剪，近平面甚至可以在相机后面。",
     ),
     parameters: &[
         number("left", words("left", "左"), "", [-8.0, 0.0], [0.1, -4.8]),

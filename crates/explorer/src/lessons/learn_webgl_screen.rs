@@ -21,7 +21,7 @@ pub(super) static STEREO: Lesson = Lesson {
     title: words("Stereo pair", "立体像对"),
     statement: words(
         "Two eyes look in one direction through off-axis windows that agree at the convergence distance. What is there has no parallax; what is nearer stands out of the picture. The eyes are not turned towards each other, and the apex is not moved: both would give vertical parallax or another picture.",
-        "两只眼睛朝同一方向，透过在会聚距离上重合的离轴窗口观看。会聚距离处没有视差；更近的物体凸出画面。眼睛不向内转动，也不移动顶点：那样会产生垂直视差或不同的画面。",
+        "两只眼睛朝同一方向，透过在会聚距离上重合的离轴窗口观看。会聚距离处没有视差；更近的物体凸出画面。眼睛不向内转动，也不移动顶点：那样会产生垂直视差或不同的图像。",
     ),
     parameters: &[
         number("eyes", words("distance of the eyes", "两眼间距"), "", [0.02, 1.5], [0.02, 0.6]),
@@ -34,7 +34,7 @@ pub(super) static STEREO: Lesson = Lesson {
         ),
         choice(
             "mode",
-            words("pictures", "画面"),
+            words("pictures", "图像"),
             &[
                 Choice { value: "side", label: words("side by side", "左右并列") },
                 Choice { value: "anaglyph", label: words("red and cyan", "红青立体") },
@@ -94,7 +94,7 @@ pub(super) static VIEWPORT: Lesson = Lesson {
     title: words("Viewport", "视口"),
     statement: words(
         "The viewport transform maps x and y from −1 … 1 to a rectangle of the picture, as glViewport(x, y, width, height) does; y counts from the bottom. A rectangle of another shape than the window distorts.",
-        "视口变换把 −1 … 1 的 x、y 映射到画面中的一个矩形，如 glViewport(x, y, width, height)；y 从下往上数。矩形与窗口的宽高比不同时图像变形。",
+        "视口变换把 −1 … 1 的 x、y 映射到图像中的一个矩形，如 glViewport(x, y, width, height)；y 自下而上数。矩形与窗口的宽高比不同时，物体会变形。",
     ),
     parameters: &[
         number("x", words("x, left", "x，左"), "%", [0.0, 80.0], [1.0, 10.0]),
@@ -119,7 +119,7 @@ pub(super) static VIEWPORT: Lesson = Lesson {
                 "glViewport({x}, {y}, {w}, {h}): x_s = {x} + (x + 1) · {w} / 2, y_s = {y} + (y + 1) · {h} / 2 from the bottom."
             ),
             format!(
-                "glViewport({x}, {y}, {w}, {h})：x_s = {x} + (x + 1) · {w} / 2，y_s = {y} + (y + 1) · {h} / 2（从下往上）。"
+                "glViewport({x}, {y}, {w}, {h})：x_s = {x} + (x + 1) · {w} / 2，y_s = {y} + (y + 1) · {h} / 2（自下而上）。"
             ),
         )];
         all.extend(distortion(facts));
@@ -166,13 +166,13 @@ pub(super) static PICKING: Lesson = Lesson {
     title: words("Picking", "拾取"),
     statement: words(
         "A pixel goes back: to −1 … 1, then by the inverse matrix to a point on the near plane and one on the far plane, divided by w. The line through both is the line of sight; the first triangle on it is what is picked.",
-        "像素沿管线返回：先变到 −1 … 1，再用逆矩阵变成近平面和远平面上的点并除以 w。过这两点的直线就是视线；视线上的第一个三角形就是被拾取的物体。",
+        "像素沿观察流水线返回：先映射到 −1 … 1，再用逆矩阵求出近平面和远平面上的点，并除以 w。过这两点的直线就是拾取射线；射线上的第一个三角形就是被拾取的物体。",
     ),
     parameters: &[
         number("x", words("x of the mouse", "鼠标 x"), "%", [0.0, 100.0], [0.5, 50.0]),
         number(
             "y",
-            words("y of the mouse, from the top", "鼠标 y（从上往下）"),
+            words("y of the mouse, from the top", "鼠标 y（自上而下）"),
             "%",
             [0.0, 100.0],
             [0.5, 60.0],
@@ -194,7 +194,7 @@ pub(super) static PICKING: Lesson = Lesson {
             format!(
                 "NDC ({x}, {y}): the line of sight runs from {near} on the near plane to {far} on the far plane."
             ),
-            format!("NDC ({x}, {y})：视线从近平面上的 {near} 到远平面上的 {far}。"),
+            format!("NDC ({x}, {y})：拾取射线从近平面上的 {near} 到远平面上的 {far}。"),
         )];
         all.push(match line.first_hit(&facts.loaded.models.triangles.counted) {
             Some(hit) => {
@@ -204,7 +204,7 @@ pub(super) static PICKING: Lesson = Lesson {
                     format!("它首先在 {hit} 处与模型相交。"),
                 )
             }
-            None => sentence("It misses the model.", "它没有碰到模型。"),
+            None => sentence("It misses the model.", "它与模型不相交。"),
         });
         all
     },

@@ -24,7 +24,7 @@ pub(super) static MODEL: Lesson = Lesson {
             &[
                 Choice { value: "perspective", label: words("perspective", "透视投影") },
                 Choice { value: "orthographic", label: words("orthographic", "正交投影") },
-                Choice { value: "isometric", label: words("isometric", "等轴测") },
+                Choice { value: "isometric", label: words("isometric", "正等测") },
                 Choice { value: "cavalier", label: words("cavalier", "斜等测") },
                 Choice { value: "cabinet", label: words("cabinet", "斜二测") },
                 Choice {

@@ -11,7 +11,7 @@ pub(super) static SCENE: Lesson = Lesson {
     title: words("Your own scene", "自己的场景"),
     statement: words(
         "Any scene file with its own camera, lights and style: what its view volume holds, and the way of its points.",
-        "任何场景文件，连同它自己的相机、光源和样式：它的视见体包含什么，其中的点走过怎样的路。",
+        "任何场景文件，连同它自己的相机、光源和样式：它的视见体包含什么，其中的点经过哪些变换。",
     ),
     models: &[],
     pin: [0.0, 0.0, 0.0],

@@ -34,7 +34,7 @@ pub(super) static NORMALIZATION: Lesson = Lesson {
                 },
                 Choice { value: "2", label: words("shear and scale", "错切与缩放") },
                 Choice { value: "1", label: words("shear", "错切") },
-                Choice { value: "0", label: words("none: view space", "无：观察空间") },
+                Choice { value: "0", label: words("none: view space", "无：观察坐标系") },
             ],
         ),
         number("left", words("left", "左"), "", [-4.0, 0.0], [0.1, -1.2]),
@@ -143,11 +143,11 @@ pub(super) static WINDOW_VIEWPORT: Lesson = Lesson {
         vec![match sx == sy {
             true => sentence(
                 format!("sx = sy = {sx} pixels a unit: shapes are kept."),
-                format!("sx = sy = {sx} 像素每单位：形状不变。"),
+                format!("sx = sy = {sx} 像素/单位：形状不变。"),
             ),
             false => sentence(
                 format!("sx = {sx} and sy = {sy} pixels a unit: shapes are distorted."),
-                format!("sx = {sx}，sy = {sy} 像素每单位：形状变形。"),
+                format!("sx = {sx}，sy = {sy} 像素/单位：形状改变。"),
             ),
         }]
     },
@@ -179,7 +179,7 @@ pub(super) static MEXICAN_HAT: Lesson = Lesson {
     title: words("Mexican hat", "墨西哥帽"),
     statement: words(
         "The indices of a grid are a window too: i from 0 to n − 1 goes to x = 2 i/(n − 1) − 1 from −1 to 1, and the height over each point makes a mesh.",
-        "网格的下标也是一个窗口：i 从 0 到 n − 1 变到 x = 2 i/(n − 1) − 1，从 −1 到 1；每个点上的高度构成网格曲面。",
+        "网格的下标也构成一个窗口：i 从 0 到 n − 1 映为 x = 2 i/(n − 1) − 1，从 −1 到 1；每个点上的高度构成网格曲面。",
     ),
     models: &[HAT, HAT_LINES],
     parameters: &[
@@ -221,7 +221,7 @@ pub(super) static MEXICAN_HAT: Lesson = Lesson {
     consequences: |_, _| {
         vec![sentence(
             "The grid has 49 × 49 points: i = 0, 24, 48 go to x = −1, 0, 1; each of the 48 × 48 squares is two triangles, 4608 in all.",
-            "网格有 49 × 49 个点：i = 0、24、48 变到 x = −1、0、1；48 × 48 个方格各分成两个三角形，共 4608 个。",
+            "网格有 49 × 49 个点：i = 0、24、48 映为 x = −1、0、1；48 × 48 个方格各分成两个三角形，共 4608 个。",
         )]
     },
     ..USUAL

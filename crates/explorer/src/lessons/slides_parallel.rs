@@ -19,7 +19,7 @@ pub(super) static MULTIVIEW: Lesson = Lesson {
     title: words("Multiview projection", "三视图"),
     statement: words(
         "Each view projects orthographically onto a principal plane: the front onto XOY leaves z out, the side onto YOZ leaves x out, the top onto ZOX leaves y out. Faces parallel to the plane keep their true shape; no single view shows the whole.",
-        "每个视图都正交投影到一个坐标平面：主视图投影到 XOY 面，去掉 z；侧视图投影到 YOZ 面，去掉 x；俯视图投影到 ZOX 面，去掉 y。平行于投影面的面保持真实形状；单个视图不能表示整个物体。",
+        "每个视图都正交投影到一个坐标平面：主视图投影到 XOY 面，去掉 z；侧视图投影到 YOZ 面，去掉 x；俯视图投影到 ZOX 面，去掉 y。平行于投影平面的面保持真实形状；单个视图不能表示整个物体。",
     ),
     parameters: &[choice(
         "view",
@@ -27,7 +27,7 @@ pub(super) static MULTIVIEW: Lesson = Lesson {
         &[
             Choice {
                 value: "all",
-                label: words("front, top, side, isometric", "主、俯、侧视图与等轴测图"),
+                label: words("front, top, side, isometric", "主、俯、侧视图与正等测图"),
             },
             Choice { value: "front", label: words("front, onto XOY", "主视图（XOY 面）") },
             Choice {
@@ -93,7 +93,7 @@ pub(super) static AXONOMETRIC: Lesson = Lesson {
     title: words("Axonometric projection", "轴测投影"),
     statement: words(
         "The object is turned by α about y and tilted by β about x, then projected orthographically: all three axes show. Equal foreshortening of three axes is isometric, of two dimetric, of none trimetric; the squares of the factors always sum to 2.",
-        "物体先绕 y 轴旋转 α，再绕 x 轴旋转 β，然后正交投影：三个轴都可见。三个轴的变形系数相等为等轴测，两个相等为二轴测，都不等为三轴测；系数的平方和恒为 2。",
+        "物体先绕 y 轴旋转 α，再绕 x 轴旋转 β，然后正交投影：三个轴都可见。三个轴向伸缩系数相等为正等测，两个相等为正二测，都不等为正三测；系数的平方和恒为 2。",
     ),
     parameters: &[
         number("alpha", words("α, about y", "α，绕 y 轴"), "°", [-90.0, 90.0], [0.5, 45.0]),
@@ -128,14 +128,14 @@ fn foreshortening(values: &Values<'_>) -> Sentence {
     let [x, y, z] = factors;
     let equal = [(x, y), (y, z), (z, x)].iter().filter(|(a, b)| (a - b).abs() < 2e-3).count();
     let (kind, kind_zh) = match equal {
-        3 => ("isometric", "等轴测"),
-        0 => ("trimetric", "三轴测"),
-        _ => ("dimetric", "二轴测"),
+        3 => ("isometric", "正等测"),
+        0 => ("trimetric", "正三测"),
+        _ => ("dimetric", "正二测"),
     };
     let [x, y, z] = factors.map(|factor| decimals(factor, 3));
     sentence(
         format!("Foreshortening: x {x}, y {y}, z {z}: {kind}."),
-        format!("变形系数：x {x}，y {y}，z {z}：{kind_zh}。"),
+        format!("轴向伸缩系数：x {x}，y {y}，z {z}：{kind_zh}。"),
     )
 }
 
@@ -146,12 +146,12 @@ pub(super) static OBLIQUE: Lesson = Lesson {
     title: words("Oblique projection", "斜投影"),
     statement: words(
         "The projectors are parallel to each other, but not perpendicular to the picture: the front keeps its true shape, and depth recedes at the angle φ with the length L₁ = cot α. Cavalier has L₁ = 1, cabinet ½; L₁ = 0 is orthographic.",
-        "投影线互相平行但不垂直于投影面：正面保持真实形状，深度沿角 φ 方向以长度 L₁ = cot α 画出。斜等测 L₁ = 1，斜二测 L₁ = ½；L₁ = 0 就是正投影。",
+        "投影线互相平行但不垂直于投影平面：正面保持真实形状，深度沿角 φ 方向以长度 L₁ = cot α 画出。斜等测 L₁ = 1，斜二测 L₁ = ½；L₁ = 0 就是正交投影。",
     ),
     parameters: &[
         number(
             "length",
-            words("L₁, drawn length of depth", "L₁，深度的画出长度"),
+            words("L₁, drawn length of depth", "L₁，单位深度画出的长度"),
             "",
             [0.0, 1.5],
             [0.01, 1.0],
@@ -167,7 +167,7 @@ pub(super) static OBLIQUE: Lesson = Lesson {
         let length = values.number("length");
         let alpha = decimals(libm::atan2(1.0, length).to_degrees(), 1);
         let (name, name_zh) = match length {
-            0.0 => ("orthographic", "正投影"),
+            0.0 => ("orthographic", "正交投影"),
             0.5 => ("cabinet", "斜二测"),
             1.0 => ("cavalier", "斜等测"),
             _ => ("oblique", "斜投影"),
@@ -177,7 +177,7 @@ pub(super) static OBLIQUE: Lesson = Lesson {
                 "The projectors meet the picture at α = {alpha}°: {name}. x_p = x + z L₁ cos φ, y_p = y + z L₁ sin φ."
             ),
             format!(
-                "投影线与投影面的夹角 α = {alpha}°：{name_zh}。x_p = x + z L₁ cos φ，y_p = y + z L₁ sin φ。"
+                "投影线与投影平面的夹角 α = {alpha}°：{name_zh}。x_p = x + z L₁ cos φ，y_p = y + z L₁ sin φ。"
             ),
         )]
     },

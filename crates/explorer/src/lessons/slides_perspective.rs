@@ -59,7 +59,7 @@ pub(super) static ONE_POINT: Lesson = Lesson {
                     scene_number(values.number("y"))
                 ),
                 &format!(
-                    "只有 z 方向的直线相交，灭点距画面中心 ({}, {}) 个半高；视点在画面前 {distance} 个半高处",
+                    "只有 z 方向的直线相交，灭点距图像中心 ({}, {}) 个半高；视点在画面前 {distance} 个半高处",
                     scene_number(values.number("x")),
                     scene_number(values.number("y"))
                 ),
@@ -76,14 +76,14 @@ pub(super) static TWO_POINT: Lesson = Lesson {
     title: words("Two-point perspective", "两点透视"),
     statement: words(
         "Uprights are parallel to the picture and stay upright; lines along x and along z meet in two vanishing points on the horizon. Points close together look like a wide-angle lens.",
-        "竖直线平行于画面，保持竖直；x 方向和 z 方向的直线分别交于地平线上的两个灭点。两灭点靠得越近，越像广角镜头。",
+        "竖直线平行于画面，保持竖直；x 方向和 z 方向的直线分别交于视平线上的两个灭点。两灭点靠得越近，越像广角镜头。",
     ),
     parameters: &[
         number("x", words("vanishing point of x", "x 方向灭点"), "", [-6.0, -1.2], [0.05, -2.4]),
         number("z", words("vanishing point of z", "z 方向灭点"), "", [1.2, 6.0], [0.05, 1.8]),
         number(
             "horizon",
-            words("height of the horizon", "地平线高度"),
+            words("height of the horizon", "视平线高度"),
             "",
             [-0.9, 0.9],
             [0.01, 0.4],
@@ -130,7 +130,7 @@ pub(super) static THREE_POINT: Lesson = Lesson {
         number("z", words("vanishing point of z", "z 方向灭点"), "", [1.8, 4.0], [0.05, 2.4]),
         number(
             "horizon",
-            words("height of the horizon", "地平线高度"),
+            words("height of the horizon", "视平线高度"),
             "",
             [0.6, 1.8],
             [0.02, 1.2],

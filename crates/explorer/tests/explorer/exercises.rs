@@ -118,7 +118,7 @@ fn chinese_verdicts_name_the_entry_without_stray_blanks() {
     for (number, answer, said) in [
         (20, "125, 36", "不对：你的 y 等于 36"),
         (22, "13", "不对：你的像素数等于 13"),
-        (19, "20", "不对：你的外码等于 20"),
+        (19, "20", "不对：你的区域码等于 20"),
         (21, "100 0 -190; 0 50 -30; 0 1 1", "不对：你的第 3 行第 2 列等于 1"),
         (3, "n+f, 2f", "不对：取 n = -1，f = -5 时，你的 B 等于 -10"),
         (20, "1, 2", "不对：2 个元素中错了 2 个：你的 x 等于 1；你的 y 等于 2"),
@@ -131,7 +131,7 @@ fn chinese_verdicts_name_the_entry_without_stray_blanks() {
     ] {
         assert_eq!(check(number, answer).sentence().zh, said, "{number}, {answer}");
     }
-    for (number, form) in [(22, "`像素数`"), (19, "`外码`"), (9, "`x, y, z, w; x, y, z`")] {
+    for (number, form) in [(22, "`像素数`"), (19, "`区域码`"), (9, "`x, y, z, w; x, y, z`")] {
         let said = find_exercise(number).expect("an exercise").form();
         assert!(said.zh.starts_with(form), "{number}: {}", said.zh);
     }

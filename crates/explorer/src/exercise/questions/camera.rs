@@ -18,7 +18,7 @@ pub(super) static CAMERA_ABOVE: Exercise = Exercise {
     title: words("A camera above", "俯视的相机"),
     question: words(
         "The eye is at e = (0, 1, 0), the gaze is g = (0, −1, 0), the view-up vector is t = (1, 1, 0). With w = −g/‖g‖, u = (t × w)/‖t × w‖ and v = w × u, write the matrix M_cam from world to camera coordinates.",
-        "视点 e = (0, 1, 0)，视线方向 g = (0, −1, 0)，向上向量 t = (1, 1, 0)。取 w = −g/‖g‖，u = (t × w)/‖t × w‖，v = w × u，写出从世界坐标到相机坐标的矩阵 M_cam。",
+        "视点 e = (0, 1, 0)，视线方向 g = (0, −1, 0)，观察向上向量 t = (1, 1, 0)。取 w = −g/‖g‖，u = (t × w)/‖t × w‖，v = w × u，写出从世界坐标到观察坐标的矩阵 M_cam。",
     ),
     hints: &[
         words(
@@ -54,7 +54,7 @@ pub(super) static CAMERA_ABOVE: Exercise = Exercise {
             "up-for-v",
             Wrong::Answer("0 0 1 0; 1/√2 1/√2 0 -1/√2; 0 1 0 -1; 0 0 0 1"),
             "the view-up vector was taken for v: it need not be perpendicular to the gaze, and v = w × u",
-            "把向上向量当成了 v：它不必与视线垂直，v = w × u",
+            "把观察向上向量当成了 v：它不必与视线垂直，v = w × u",
         ),
         mistake(
             "eye-forgotten",
@@ -66,7 +66,7 @@ pub(super) static CAMERA_ABOVE: Exercise = Exercise {
             "eye-added",
             Wrong::Places(&[(2, 3, "1")]),
             "the eye was added: M_cam takes it to the origin, so it is subtracted",
-            "加上了视点：M_cam 应把视点变到原点，所以要减去它",
+            "加上了视点：M_cam 应把视点映为原点，所以要减去它",
         ),
         mistake(
             "order-exchanged",
@@ -81,7 +81,7 @@ pub(super) static CAMERA_ABOVE: Exercise = Exercise {
             "inverse",
             Wrong::Computed(|_| Some(rows_of(camera_above()?.view_to_world().raw()))),
             "this takes camera coordinates to the world: the way back",
-            "这是从相机坐标回到世界坐标的矩阵，方向反了",
+            "这是从观察坐标回到世界坐标的矩阵，方向反了",
         ),
         mistake(
             "m11-third-row-flat",
@@ -122,10 +122,10 @@ pub(super) static CAMERA_ABOVE: Exercise = Exercise {
 
 pub(super) static CAMERA_COORDINATES: Exercise = Exercise {
     number: 13,
-    title: words("Camera coordinates", "相机坐标"),
+    title: words("Camera coordinates", "观察坐标"),
     question: words(
         "The eye is at (2, 0, 0), the gaze is (−1, 0, 0), the view-up vector is (0, 1, 0); the camera looks along −z of its own coordinates, x to the right, y up. What are the camera coordinates of the world's point (−1, 2, −4)?",
-        "视点在 (2, 0, 0)，视线方向为 (−1, 0, 0)，向上向量为 (0, 1, 0)；相机沿自身坐标系的 −z 方向看，x 向右，y 向上。世界坐标系的点 (−1, 2, −4) 的相机坐标是什么？",
+        "视点在 (2, 0, 0)，视线方向为 (−1, 0, 0)，观察向上向量为 (0, 1, 0)；相机沿自身坐标系的 −z 方向看，x 向右，y 向上。世界坐标系的点 (−1, 2, −4) 的观察坐标是什么？",
     ),
     hints: &[
         words(

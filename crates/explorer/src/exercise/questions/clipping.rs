@@ -82,10 +82,10 @@ pub(super) static CLIPPED_SEGMENT: Exercise = Exercise {
 
 pub(super) static OUTCODE: Exercise = Exercise {
     number: 19,
-    title: words("An outcode", "外码"),
+    title: words("An outcode", "区域码"),
     question: words(
         "An outcode has a bit for each plane that a point is outside of: left 1, right 2, bottom 4, top 8, near 16, far 32, for the volume −w ≤ x, y, z ≤ w with near at z = −w. What is the outcode, as a number, of the clip-space point (3, −3/2, −4, 2)?",
-        "外码对点所越出的每个平面置一位：左 1、右 2、下 4、上 8、近 16、远 32；视见体为 −w ≤ x, y, z ≤ w，近平面在 z = −w。裁剪空间的点 (3, −3/2, −4, 2) 的外码是哪个数？",
+        "点每越出一个平面，区域码中就有一位置位：左 1、右 2、下 4、上 8、近 16、远 32；视见体为 −w ≤ x, y, z ≤ w，近平面在 z = −w。裁剪空间的点 (3, −3/2, −4, 2) 的区域码是哪个数？",
     ),
     hints: &[
         words(
@@ -112,7 +112,7 @@ pub(super) static OUTCODE: Exercise = Exercise {
             "inside-bits",
             Wrong::Answer("1+4+8+32"),
             "these are the planes that it is inside of: the bits say outside",
-            "这些是点在其内侧的平面：外码的位表示外侧",
+            "这些是点在其内侧的平面：区域码的位表示外侧",
         ),
         mistake(
             "one-plane-only",
@@ -142,7 +142,7 @@ pub(super) static OUTCODE: Exercise = Exercise {
             "near-and-far-exchanged",
             Wrong::Answer("2+32"),
             "near and far are exchanged, as in the textbook, whose near plane is at z = w: here it is at z = −w",
-            "近与远互换了，如教科书那样近平面在 z = w：这里近平面在 z = −w",
+            "近平面与远平面互换了，如教科书那样近平面在 z = w：这里近平面在 z = −w",
         ),
         mistake(
             "inside",

@@ -12,7 +12,7 @@ pub(super) static DEPTH_ZERO: Exercise = Exercise {
     title: words("Where depth is 0", "深度为 0 处"),
     question: words(
         "OpenGL's perspective has its near plane at the distance N = 2 and its far plane at F = 40; their depths z_ndc are −1 and +1. At which distance D from the eye is z_ndc = 0?",
-        "OpenGL 的透视投影，近平面距离 N = 2，远平面距离 F = 40；它们的深度 z_ndc 为 −1 和 +1。距离视点 D 为多少处 z_ndc = 0？",
+        "OpenGL 的透视投影，近平面距离 N = 2，远平面距离 F = 40；它们的深度 z_ndc 为 −1 和 +1。到视点的距离 D 为多少时 z_ndc = 0？",
     ),
     hints: &[
         words(
@@ -98,7 +98,7 @@ pub(super) static REVERSED_DEPTH: Exercise = Exercise {
             "not-reversed",
             Wrong::Computed(|_| depth(Convention::WEBGPU, true)),
             "near and far are exchanged: this is the depth from 0 at the near to 1 at the far plane",
-            "近与远互换了：这是近平面为 0、远平面为 1 的深度",
+            "近平面与远平面互换了：这是近平面为 0、远平面为 1 的深度",
         ),
         mistake(
             "linear",

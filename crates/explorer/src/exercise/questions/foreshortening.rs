@@ -12,7 +12,7 @@ pub(super) static IMAGE_PARAMETER: Exercise = Exercise {
     title: words("f(t)", "f(t)"),
     question: words(
         "After M_per the ends of a segment are the homogeneous points r (with w_r) and R (with w_R), both w of the same sign. The point r + t (R − r) has its image at the fraction f(t) of the image segment. Find f(t).",
-        "经过 M_per 后，线段两端是齐次点 r（w 为 w_r）和 R（w 为 w_R），两个 w 同号。点 r + t (R − r) 的像位于像线段的比例 f(t) 处。求 f(t)。",
+        "经过 M_per 后，线段两端是齐次点 r（w 为 w_r）和 R（w 为 w_R），两个 w 同号。点 r + t (R − r) 的像位于线段的像的比例 f(t) 处。求 f(t)。",
     ),
     hints: &[
         words(
@@ -166,7 +166,7 @@ pub(super) static MIDDLE_OF_THE_IMAGE: Exercise = Exercise {
             "forwards",
             Wrong::Answer("4/5"),
             "this is f(1/2), where the middle of the segment is seen; the other way round is asked",
-            "这是 f(1/2)，即线段中点的像的位置；题目问的是反过来",
+            "这是 f(1/2)，即线段中点的像的位置；题目问的正好相反",
         ),
         mistake(
             "ratio-of-weights",

@@ -13,7 +13,7 @@ pub(super) static MULTIPLES_OF_A_POINT: Exercise = Exercise {
     title: words("Multiples of a point", "点的倍数"),
     question: words(
         "An affine matrix M (bottom row 0 0 0 1) takes (x, y, z, 1) to (a, b, c, 1). To what does it take (h x, h y, h z, h), another name of the same point?",
-        "仿射矩阵 M（最后一行为 0 0 0 1）把 (x, y, z, 1) 变到 (a, b, c, 1)。它把同一点的另一写法 (h x, h y, h z, h) 变到什么？",
+        "仿射矩阵 M（最后一行为 0 0 0 1）把 (x, y, z, 1) 映为 (a, b, c, 1)。它把同一点的另一写法 (h x, h y, h z, h) 映为什么？",
     ),
     hints: &[
         words(

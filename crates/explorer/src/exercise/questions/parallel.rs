@@ -19,7 +19,7 @@ pub(super) static CABINET: Exercise = Exercise {
     title: words("Cabinet projection", "斜二测投影"),
     question: words(
         "An oblique projection onto z = 0 takes (x, y, z) to (x + z L cos φ, y + z L sin φ). For a cabinet projection with φ = 30°, find the image (x, y) of (1, 1, 4).",
-        "向 z = 0 的斜投影把 (x, y, z) 变到 (x + z L cos φ, y + z L sin φ)。对 φ = 30° 的斜二测投影，求 (1, 1, 4) 的像 (x, y)。",
+        "向 z = 0 的斜投影把 (x, y, z) 映为 (x + z L cos φ, y + z L sin φ)。对 φ = 30° 的斜二测投影，求 (1, 1, 4) 的像 (x, y)。",
     ),
     hints: &[
         words(
@@ -67,7 +67,7 @@ pub(super) static CABINET: Exercise = Exercise {
             "depth-dropped",
             Wrong::Answer("1, 1"),
             "z was dropped: that is the orthographic image, the foot of the oblique one (M25)",
-            "z 被丢掉了：这是正投影的像，即斜投影的垂足（M25）",
+            "z 被丢掉了：这是正交投影的像，即斜投影的垂足（M25）",
         ),
         mistake(
             "foot-forgotten",

@@ -67,13 +67,13 @@ pub(super) static THIRD_ROW_OF_P: Exercise = Exercise {
             "m-orth",
             Wrong::Answer("2/(n-f), -(n+f)/(n-f)"),
             "this is the third row of M_orth: it takes n and f to +1 and −1, without a divide",
-            "这是 M_orth 的第三行：它不经除法就把 n 和 f 变到 +1 和 −1",
+            "这是 M_orth 的第三行：它不经除法就把 n 和 f 映为 +1 和 −1",
         ),
         mistake(
             "m-per",
             Wrong::Answer("(n+f)/(n-f), -2*n*f/(n-f)"),
             "this is the third row of M_per = M_orth P: it takes n and f to +1 and −1, and P keeps them",
-            "这是 M_per = M_orth P 的第三行：它把 n 和 f 变到 +1 和 −1，而 P 保持它们不变",
+            "这是 M_per = M_orth P 的第三行：它把 n 和 f 映为 +1 和 −1，而 P 保持它们不变",
         ),
         mistake(
             "m5-subscript",
@@ -89,7 +89,7 @@ pub(super) static THIRD_ROW_OF_P: Exercise = Exercise {
                 "-(n+f)/(f-n), -2*n*f/(f-n)",
             ]),
             "this is like the third row of OpenGL's perspective, which takes near and far to −1 and +1: P keeps z = n and z = f",
-            "这像 OpenGL 透视矩阵的第三行，它把近平面和远平面变到 −1 和 +1：P 应保持 z = n 和 z = f 不变",
+            "这像 OpenGL 透视矩阵的第三行，它把近平面和远平面映为 −1 和 +1：P 应保持 z = n 和 z = f 不变",
         ),
     ],
     shape: AnswerShape::Parts(&[&["A", "B"]]),
@@ -107,7 +107,7 @@ pub(super) static ORDER_OF_DEPTHS: Exercise = Exercise {
     title: words("The order of depths", "深度的次序"),
     question: words(
         "P takes z to z' = n + f − f n/z. To see that it keeps the order of depths, write the difference z1' − z2' with the factor (z1 − z2).",
-        "P 把 z 变到 z' = n + f − f n/z。为说明它保持深度的次序，把差 z1' − z2' 写成含因子 (z1 − z2) 的形式。",
+        "P 把 z 映为 z' = n + f − f n/z。为说明它保持深度的次序，把差 z1' − z2' 写成含因子 (z1 − z2) 的形式。",
     ),
     hints: &[
         words("n + f falls out of the difference.", "相减时 n + f 消去。"),
@@ -170,7 +170,7 @@ pub(super) static INVERSE_OF_P: Exercise = Exercise {
     hints: &[
         words(
             "P takes (x, y, z, 1) to (n x, n y, (n + f) z − f n, z): the last number is the old z.",
-            "P 把 (x, y, z, 1) 变到 (n x, n y, (n + f) z − f n, z)：最后一个数就是原来的 z。",
+            "P 把 (x, y, z, 1) 映为 (n x, n y, (n + f) z − f n, z)：最后一个数就是原来的 z。",
         ),
         words(
             "With z = w' and z' = (n + f) w' − f n, the old w = 1 is ((n + f) w' − z')/(f n).",
@@ -249,7 +249,7 @@ pub(super) static NEAR_CORNER: Exercise = Exercise {
     title: words("The corner (r, t, n)", "角点 (r, t, n)"),
     question: words(
         "M_per = M_orth P takes the view volume with the window [l, r] × [b, t] on z = n to [−1, 1]³; 0 > n > f, and w = z. To which homogeneous point (x, y, z, w) does M_per take (r, t, n, 1), before the divide?",
-        "M_per = M_orth P 把 z = n 上以 [l, r] × [b, t] 为窗口的视见体变到 [−1, 1]³；0 > n > f，且 w = z。除法之前，M_per 把 (r, t, n, 1) 变到哪个齐次点 (x, y, z, w)？",
+        "M_per = M_orth P 把 z = n 上以 [l, r] × [b, t] 为窗口的视见体映为 [−1, 1]³；0 > n > f，且 w = z。除法之前，M_per 把 (r, t, n, 1) 映为哪个齐次点 (x, y, z, w)？",
     ),
     hints: &[
         words(
@@ -258,7 +258,7 @@ pub(super) static NEAR_CORNER: Exercise = Exercise {
         ),
         words(
             "M_orth takes (r, t, n) to (1, 1, 1), and it is affine.",
-            "M_orth 把 (r, t, n) 变到 (1, 1, 1)，而它是仿射变换。",
+            "M_orth 把 (r, t, n) 映为 (1, 1, 1)，而它是仿射变换。",
         ),
     ],
     letters: &["r", "t", "n"],
@@ -285,13 +285,13 @@ pub(super) static NEAR_CORNER: Exercise = Exercise {
             "sign-of-w",
             Wrong::Negated,
             "this is the image by −M_per, whose w is positive ahead of the eye: the same place, but M_per has w = z",
-            "这是 −M_per 的像，它使眼前的 w 为正：位置相同，但 M_per 的 w = z",
+            "这是 −M_per 的像，它使视点前方的 w 为正：位置相同，但 M_per 的 w = z",
         ),
         mistake(
             "m8-depth-reversed",
             Wrong::Places(&[(0, 2, "-n")]),
             "near and far are exchanged as in OpenGL (M8): here z = n goes to +1",
-            "近与远按 OpenGL 的方式互换了（M8）：这里 z = n 变到 +1",
+            "近平面与远平面按 OpenGL 的方式互换了（M8）：这里 z = n 映为 +1",
         ),
         mistake(
             "p-only",
@@ -303,13 +303,13 @@ pub(super) static NEAR_CORNER: Exercise = Exercise {
             "not-mapped",
             Wrong::Answer("r, t, n, 1"),
             "this is the point itself: P keeps it, but M_orth takes it to the corner of the cube",
-            "这是点本身：P 保持它不动，但 M_orth 要把它变到立方体的角点",
+            "这是点本身：P 保持它不动，但 M_orth 要把它映为立方体的角点",
         ),
         mistake(
             "only-w-multiplied",
             Wrong::Answer("r, t, n, n"),
             "w is right, but x, y and z are the point's own: P multiplies them by n, and M_orth takes them on to the corner of the cube",
-            "w 正确，但 x、y、z 仍是点自身的：P 使它们乘上 n，M_orth 再把它们变到立方体的角点",
+            "w 正确，但 x、y、z 仍是点自身的：P 使它们乘上 n，M_orth 再把它们映为立方体的角点",
         ),
         mistake(
             "only-w-kept",
@@ -353,7 +353,7 @@ pub(super) static P_OF_ONE_AND_TWO: Exercise = Exercise {
             "near-and-far-exchanged",
             Wrong::Places(&[(0, 0, "2"), (1, 1, "2")]),
             "near and far are exchanged: x and y have the factor n",
-            "近与远互换了：x 和 y 的因子是 n",
+            "近平面与远平面互换了：x 和 y 的因子是 n",
         ),
         mistake(
             "difference-for-sum",

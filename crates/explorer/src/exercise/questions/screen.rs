@@ -23,7 +23,7 @@ pub(super) static PIXEL_POSITION: Exercise = Exercise {
     title: words("A position in the image", "图像中的位置"),
     question: words(
         "In an image of 200 × 100 pixels, pixel (i, j) covers [i, i + 1) × [j, j + 1), and rows are counted from the top. At which position, in pixels, is the point (x, y) = (1/4, 3/10) of normalized device coordinates, y up?",
-        "200 × 100 像素的图像中，像素 (i, j) 覆盖 [i, i + 1) × [j, j + 1)，行自上而下计数。归一化设备坐标（y 向上）的点 (x, y) = (1/4, 3/10) 位于图像的什么位置（以像素计）？",
+        "200 × 100 像素的图像中，像素 (i, j) 覆盖 [i, i + 1) × [j, j + 1)，行自上而下计数。规范化设备坐标（y 向上）的点 (x, y) = (1/4, 3/10) 位于图像的什么位置（以像素计）？",
     ),
     hints: &[
         words(
@@ -82,10 +82,10 @@ pub(super) static PIXEL_POSITION: Exercise = Exercise {
 
 pub(super) static TOP_LEFT_RULE: Exercise = Exercise {
     number: 22,
-    title: words("The top-left rule", "左上规则"),
+    title: words("The top-left rule", "左上填充规则"),
     question: words(
         "Pixel (i, j) has its center at (i + ½, j + ½), and y runs down. The triangle with the corners (½, ½), (9/2, ½), (½, 9/2) has centers on all of its edges. By the top-left rule, how many pixels are its own?",
-        "像素 (i, j) 的中心在 (i + ½, j + ½)，y 向下。三角形的顶点为 (½, ½)、(9/2, ½)、(½, 9/2)，它的每条边上都有像素中心。按左上规则，它拥有多少个像素？",
+        "像素 (i, j) 的中心在 (i + ½, j + ½)，y 向下。三角形的顶点为 (½, ½)、(9/2, ½)、(½, 9/2)，它的每条边上都有像素中心。按左上填充规则，它拥有多少个像素？",
     ),
     hints: &[
         words(

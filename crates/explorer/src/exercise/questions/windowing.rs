@@ -21,7 +21,7 @@ pub(super) static ROWS_FROM_THE_TOP: Exercise = Exercise {
     title: words("Rows from the top", "自上而下的像素行"),
     question: words(
         "An image has nx × ny pixels with their centers at whole numbers, and its rows are counted from the top. Write the viewport matrix: x = −1 goes to −½, x = +1 to nx − ½, y = +1 to −½, y = −1 to ny − ½, and z stays as it is.",
-        "图像有 nx × ny 个像素，像素中心位于整数处，行自上而下计数。写出视口矩阵：x = −1 变到 −½，x = +1 变到 nx − ½，y = +1 变到 −½，y = −1 变到 ny − ½，z 保持不变。",
+        "图像有 nx × ny 个像素，像素中心位于整数处，行自上而下计数。写出视口矩阵：x = −1 映为 −½，x = +1 映为 nx − ½，y = +1 映为 −½，y = −1 映为 ny − ½，z 保持不变。",
     ),
     hints: &[
         words(
@@ -85,16 +85,16 @@ pub(super) static ONE_WINDOWING: Exercise = Exercise {
     title: words("One windowing", "一次窗口变换"),
     question: words(
         "M_orth takes the box [l, r] × [b, t] × [f, n] to [−1, 1]³, with 0 > n > f, z = n to +1 and z = f to −1. M_vp takes [−1, 1]² to the image [−½, nx − ½] × [−½, ny − ½], rows counted from the bottom, and keeps z. Write their product M_vp M_orth as one matrix.",
-        "M_orth 把长方体 [l, r] × [b, t] × [f, n] 变到 [−1, 1]³，其中 0 > n > f，z = n 变到 +1，z = f 变到 −1。M_vp 把 [−1, 1]² 变到图像 [−½, nx − ½] × [−½, ny − ½]，行自下而上计数，z 不变。把乘积 M_vp M_orth 写成一个矩阵。",
+        "M_orth 把长方体 [l, r] × [b, t] × [f, n] 映为 [−1, 1]³，其中 0 > n > f，z = n 映为 +1，z = f 映为 −1。M_vp 把 [−1, 1]² 映为图像 [−½, nx − ½] × [−½, ny − ½]，行自下而上计数，z 不变。把乘积 M_vp M_orth 写成一个矩阵。",
     ),
     hints: &[
         words(
             "The product is one windowing: l goes to −½ and r to nx − ½, b to −½ and t to ny − ½.",
-            "乘积就是一次窗口变换：l 变到 −½，r 变到 nx − ½，b 变到 −½，t 变到 ny − ½。",
+            "乘积就是一次窗口变换：l 映为 −½，r 映为 nx − ½，b 映为 −½，t 映为 ny − ½。",
         ),
         words(
             "A map of [l, r] to [L, R] has the scale (R − L)/(r − l), and takes l to L.",
-            "把 [l, r] 变到 [L, R] 的映射，比例是 (R − L)/(r − l)，并把 l 变到 L。",
+            "把 [l, r] 映为 [L, R] 的映射，比例是 (R − L)/(r − l)，并把 l 映为 L。",
         ),
     ],
     letters: &["nx", "ny", "l", "r", "b", "t", "n", "f"],
@@ -118,31 +118,31 @@ pub(super) static ONE_WINDOWING: Exercise = Exercise {
             "viewport-forgotten",
             Wrong::Computed(|letters| Some(rows_of(viewport_and_box(letters)?[1]))),
             "this is M_orth alone: the pixels are missing",
-            "这只是 M_orth：还没有变到像素",
+            "这只是 M_orth：还没有变换到像素",
         ),
         mistake(
             "depth-reversed",
             Wrong::Places(&[(2, 2, "2/(f-n)"), (2, 3, "-(n+f)/(f-n)")]),
             "the third row takes z = n to −1 and z = f to +1, as OpenGL's depth runs: here n goes to +1, f to −1",
-            "第三行把 z = n 变到 −1、z = f 变到 +1，这是 OpenGL 的深度方向：这里 n 变到 +1，f 变到 −1",
+            "第三行把 z = n 映为 −1、z = f 映为 +1，这是 OpenGL 的深度方向：这里 n 映为 +1，f 映为 −1",
         ),
         mistake(
             "opengl-distances",
             Wrong::Places(&[(2, 3, "(n+f)/(n-f)")]),
             "the third row is OpenGL's, which is made for distances N and F: n and f are z-coordinates here, and z = n goes to +1",
-            "第三行是 OpenGL 的写法，用的是距离 N 和 F：这里 n 和 f 是 z 坐标，z = n 应变到 +1",
+            "第三行是 OpenGL 的写法，用的是距离 N 和 F：这里 n 和 f 是 z 坐标，z = n 应映为 +1",
         ),
         mistake(
             "viewport-offset-lost",
             Wrong::Places(&[(0, 3, "-(r+l)*nx/(2*(r-l))"), (1, 3, "-(t+b)*ny/(2*(t-b))")]),
             "the viewport's own offsets (nx − 1)/2 and (ny − 1)/2 are missing: the middle of the box goes to the middle of the image",
-            "缺少视口自身的偏移 (nx − 1)/2 和 (ny − 1)/2：长方体的中央应变到图像的中央",
+            "缺少视口自身的偏移 (nx − 1)/2 和 (ny − 1)/2：长方体的中央应映为图像的中央",
         ),
         mistake(
             "sign-of-the-offset",
             Wrong::Places(&[(0, 3, "-1/2+l*nx/(r-l)"), (1, 3, "-1/2+b*ny/(t-b)")]),
             "the offsets have the wrong sign: put x = l and y = b in, which go to −½",
-            "偏移的符号不对：代入 x = l 和 y = b 验证，它们应变到 −½",
+            "偏移的符号不对：代入 x = l 和 y = b 验证，它们应映为 −½",
         ),
         TRANSPOSED,
     ],
@@ -174,7 +174,7 @@ pub(super) static WINDOW_TO_VIEWPORT: Exercise = Exercise {
     title: words("Window to viewport", "窗口到视口"),
     question: words(
         "Write the 3 × 3 matrix that takes the window [2, 6] × [1, 3] to the viewport [10, 410] × [20, 120], for points (x, y, 1) in a column.",
-        "写出把窗口 [2, 6] × [1, 3] 变到视口 [10, 410] × [20, 120] 的 3 × 3 矩阵，点写成列 (x, y, 1)。",
+        "写出把窗口 [2, 6] × [1, 3] 映为视口 [10, 410] × [20, 120] 的 3 × 3 矩阵，点写成列 (x, y, 1)。",
     ),
     hints: &[
         words(
@@ -204,7 +204,7 @@ pub(super) static WINDOW_TO_VIEWPORT: Exercise = Exercise {
             "window-corner-forgotten",
             Wrong::Places(&[(0, 2, "10"), (1, 2, "20")]),
             "the window's corner is missing: (2, 1) must go to (10, 20)",
-            "缺少窗口的角点：(2, 1) 应变到 (10, 20)",
+            "缺少窗口的角点：(2, 1) 应映为 (10, 20)",
         ),
         mistake(
             "window-corner-not-scaled",
