@@ -105,7 +105,7 @@ fn labels_that_are_not_in_the_picture_are_named() {
     let wanted = [
         "the label \"B\" is not drawn: its point is behind the eye",
         "the label \"far 漢\" is not drawn: its point is outside the picture",
-        "lack 漢 of \"far 漢\"",
+        "the drawing font lacks 漢 in \"far 漢\"",
     ];
     let (stderr, layers) = draw_with_messages(&sandbox, &fields);
     let png = sandbox.run(&["render", "scene.ron", "-o", "out.png"]);

@@ -72,7 +72,7 @@ fn texts_of_a_pdf_are_found_by_another_reader() {
     );
     let run = sandbox.run(&["sheet", "scene.ron", "-o", "out.pdf"]);
     // The letters are invisible, but the text is found.
-    assert!(run.code == 0 && run.stderr.contains("lack 轴承 of"), "{}", run.stderr);
+    assert!(run.code == 0 && run.stderr.contains("the drawing font lacks 轴承"), "{}", run.stderr);
     let read = |flags: &[&str]| {
         let path = sandbox.path_of("out.pdf").display().to_string();
         let run = Command::new("pdftotext").args(flags).args([path.as_str(), "-"]).output();

@@ -26,7 +26,8 @@ pub(super) static TEAR: Lesson = Lesson {
             words("order", "次序"),
             &[
                 Choice {
-                    value: "divide", label: words("divide first (wrong)", "先做透视除法（错误）")
+                    value: "divide",
+                    label: words("divide first (wrong)", "先做透视除法（错误）"),
                 },
                 Choice { value: "clip", label: words("clip first", "先裁剪") },
             ],
