@@ -114,7 +114,8 @@ fn sparse_cases() -> Vec<Case> {
             &[0, 3],
             json!({"count": 2}),
             refused(
-                "/accessors/0/sparse/indices: element 3 is to be replaced and there are 3; export the file again",
+                "/accessors/0/sparse/indices: the sparse index 3 is out of range for a count of \
+                 3; export the file again",
             ),
         ),
         case("falling", &[2, 0], json!({"count": 2}), Expected::Loads),
@@ -178,13 +179,15 @@ fn zero_cases() -> Vec<Case> {
     };
     let grown = |bytes: u64| {
         Expected::Says(format!(
-            "/accessors/0/count: the arrays take {bytes} bytes up to here, more than 64 times the files; \
+            "/accessors/0/count: the arrays take {bytes} bytes so far, more than 64 times the \
+             size of the files; \
              raise the limit `array_growth` (--max-array-growth) if you trust the file"
         ))
     };
     let large = |bytes: u64| {
         Expected::Says(format!(
-            "/accessors/0/count: the arrays take {bytes} bytes up to here, more than the limit of 4294967296; \
+            "/accessors/0/count: the arrays take {bytes} bytes so far, more than the limit of \
+             4294967296; \
              raise the limit `array_bytes` (--max-array-bytes) if you trust the file"
         ))
     };

@@ -54,11 +54,11 @@ pub fn animation_cases() -> Vec<Case> {
     cases.extend(member_cases(&whole));
     let warns = |text: &str| Expected::Warns(text.to_owned());
     let matrix = "/animations/0/channels/0/target/node node 2 has a matrix, which cannot be animated; \
-                  the channel is left out";
+                  the channel is skipped";
     let node = whole.clone().with_value("/animations/0/channels/0/target/node", json!(2));
     cases.push(Case::from_document("animation: of a matrix", &node, warns(matrix)));
-    let few = "/animations/0/samplers/0/output 6 numbers are not enough, or too many, for 2 keys; \
-               the channel is left out";
+    let few = "/animations/0/samplers/0/output wrong number of values: 6 values for 2 keys; \
+               the channel is skipped";
     let cubic = whole.with_value("/animations/0/samplers/0/interpolation", json!("CUBICSPLINE"));
     cases.push(Case::from_document("animation: too few values", &cubic, warns(few)));
     cases

@@ -63,8 +63,8 @@ fn jpeg_cases() -> [Case; 4] {
             "JPEG with colour finer than brightness",
             &jpeg_header(64, 64, &[0x11, 0x11, 0x22]),
             warning_containing(
-                "the JPEG has more samples of its colour than of its brightness; save it with the \
-                 usual sampling (4:4:4, 4:2:2 or 4:2:0)",
+                "the JPEG has more samples for color than for brightness; save it with a common \
+                 subsampling (4:4:4, 4:2:2 or 4:2:0)",
             ),
         ),
         textured_case("JPEG without data", &jpeg_header(64, 64, &[0x11; 3]), Expected::Loads),
@@ -96,9 +96,7 @@ pub fn image_cases() -> Vec<Case> {
         textured_case(
             "100,000 squared",
             &png_with_false_size(100_000, 100_000, 8, 6),
-            warning_containing(
-                "the image says 100000 x 100000 texels, which cannot be in 74 bytes",
-            ),
+            warning_containing("the image declares 100000 x 100000 texels, too many for 74 bytes"),
         ),
         textured_case(
             "16,384 squared without data",
@@ -108,7 +106,7 @@ pub fn image_cases() -> Vec<Case> {
         textured_case(
             "2^31 wide",
             &png_with_false_size(i32::MAX as u32, 1, 8, 6),
-            warning_containing("the image says 2147483647 x 1 texels, which cannot be in 74 bytes"),
+            warning_containing("the image declares 2147483647 x 1 texels, too many for 74 bytes"),
         ),
         textured_case(
             "20,000 wide",
@@ -121,23 +119,23 @@ pub fn image_cases() -> Vec<Case> {
             "text",
             b"hello",
             warning_containing(
-                "this is of an unknown format; only PNG, JPEG, WebP and KTX2 are read",
+                "this is an unknown format; only PNG, JPEG, WebP and KTX2 are supported",
             ),
         ),
         textured_case(
             "GIF",
             b"GIF89a",
-            warning_containing("this is a GIF image; only PNG, JPEG, WebP and KTX2 are read"),
+            warning_containing("this is a GIF image; only PNG, JPEG, WebP and KTX2 are supported"),
         ),
         textured_case(
             "KTX",
             b"\xABKTX 11\xBB\r\n\x1A\n",
-            warning_containing("this is a KTX image; only PNG, JPEG, WebP and KTX2 are read"),
+            warning_containing("this is a KTX image; only PNG, JPEG, WebP and KTX2 are supported"),
         ),
         textured_case(
             "KTX2",
             b"\xABKTX 20\xBB\r\n\x1A\n",
-            warning_containing("the KTX2 image is cut off"),
+            warning_containing("the KTX2 image is truncated"),
         ),
     ];
     cases.extend(jpeg_cases());

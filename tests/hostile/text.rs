@@ -125,11 +125,12 @@ fn version_cases() -> Vec<Case> {
     };
     let unknown = |member: &str, version: &str| {
         refusal_containing(&format!(
-            "/asset/{member}: the file is glTF {version} and only glTF 2.0 is read; convert it to glTF 2.0"
+            "/asset/{member}: the file is glTF {version}, but only glTF 2.0 is supported; \
+             convert it to glTF 2.0"
         ))
     };
     let missing = refusal_containing(
-        "/asset/version: the version of glTF is missing; check that this is a glTF file; \
+        "/asset/version: the glTF version is missing; check that this is a glTF file; \
          a glTF 2.0 file says \"asset\": {\"version\": \"2.0\"}",
     );
     vec![
@@ -151,12 +152,13 @@ fn extension_cases() -> Vec<Case> {
     };
     let lacking = |name: &str, reason: &str| {
         refusal_containing(&format!(
-            "/extensionsRequired/0: the file requires the extension {name}: {reason}; export the file without it, or load what can be loaded with --lenient"
+            "/extensionsRequired/0: the file requires the extension {name}: {reason}; export the \
+             file without it, or load the rest with --lenient"
         ))
     };
     vec![
-        required("ACME_gizmo", lacking("ACME_gizmo", "it is not known here")),
-        required("", lacking("", "it is not known here")),
+        required("ACME_gizmo", lacking("ACME_gizmo", "it is not supported")),
+        required("", lacking("", "it is not supported")),
         required("KHR_texture_basisu", Expected::LoadsClean),
         required("KHR_materials_unlit", Expected::LoadsClean),
     ]
@@ -191,8 +193,7 @@ fn container_cases() -> Vec<Case> {
     }
     let mut longer = encode_glb(json.as_bytes(), &bytes);
     longer.extend([0; 5]);
-    let ignored =
-        Expected::Warns(" there is more after the end; it is ignored (bytes: 5)".to_owned());
+    let ignored = Expected::Warns(" ignored 5 bytes after the end of the GLB".to_owned());
     cases.push(Case::new("glb with more after it", longer, ignored));
     cases.push(Case::new(
         "glb without binary chunk",

@@ -7,8 +7,8 @@ use serde_json::json;
 use std::fs;
 use std::path::Path;
 
-const OUTSIDE: &str = "copy the file beside the model and name it by a relative path, or allow its folder with \
-                       --allow-outside DIR";
+const OUTSIDE: &str = "copy the file next to the model and refer to it by a relative path, or \
+                       allow its folder with --allow-outside DIR";
 
 /// A case's name, and its fault.
 pub type UriResult = (String, Result<(), String>);
@@ -97,7 +97,7 @@ fn check_in_memory(uri: &str, document: &Document, expected: &Expected) -> Resul
     if is_data || uri.is_empty() {
         return check_load_result(&loaded, expected);
     }
-    let problem = format!("the model is in memory and may not read the file {uri:?}");
+    let problem = format!("the model is in memory and cannot read the file {uri:?}");
     check_load_result(
         &loaded,
         &fault_at(
@@ -175,15 +175,15 @@ fn fault_at(problem: &str, remedy: &str) -> Expected {
 }
 
 fn outside_folder(uri: &str) -> Expected {
-    fault_at(&format!("{uri:?} is outside of the model's folder"), OUTSIDE)
+    fault_at(&format!("{uri:?} is outside the model's folder"), OUTSIDE)
 }
 
 fn missing_file(uri: &str) -> Expected {
-    fault_at(&format!("the file {uri:?} does not exist"), "put it beside the model")
+    fault_at(&format!("the file {uri:?} does not exist"), "put it next to the model")
 }
 
 fn unsupported_scheme(scheme: &str, uri: &str) -> Expected {
-    fault_at(&format!("the scheme {scheme:?} of {uri:?} is not read"), OUTSIDE)
+    fault_at(&format!("the scheme {scheme:?} of {uri:?} is not supported"), OUTSIDE)
 }
 
 fn uri_table(models: &Path) -> Vec<(String, Expected)> {
@@ -263,12 +263,15 @@ fn symlink_cases() -> Vec<(String, Expected)> {
         ("x:y.bin".to_owned(), Expected::LoadsClean),
         ("in.bin".to_owned(), Expected::LoadsClean),
         ("twice.bin".to_owned(), Expected::LoadsClean),
-        ("out.bin".to_owned(), fault_at("\"out.bin\" leads out of the model's folder", OUTSIDE)),
+        ("out.bin".to_owned(), fault_at("\"out.bin\" points outside the model's folder", OUTSIDE)),
         (
             "up/secret.bin".to_owned(),
-            fault_at("\"up/secret.bin\" leads out of the model's folder", OUTSIDE),
+            fault_at("\"up/secret.bin\" points outside the model's folder", OUTSIDE),
         ),
-        ("zero.bin".to_owned(), fault_at("\"zero.bin\" leads out of the model's folder", OUTSIDE)),
+        (
+            "zero.bin".to_owned(),
+            fault_at("\"zero.bin\" points outside the model's folder", OUTSIDE),
+        ),
         ("self.bin".to_owned(), missing_file("self.bin")),
         ("dangling.bin".to_owned(), missing_file("dangling.bin")),
     ]

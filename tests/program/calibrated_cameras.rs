@@ -69,8 +69,8 @@ fn wrong_cameras_are_told() {
         (&["--intrinsics", "800,780,300"][..], 2, "found 3 numbers"),
         (&["--intrinsics", "0,780,300,250"], 2, "focal lengths must be greater than 0"),
         (&["--extrinsics", "1,2,3"], 2, "expected 12 numbers"),
-        (&["--extrinsics", "2,0,0,0,0,2,0,0,0,0,2,0"], 1, "the matrix is no rotation"),
-        (&["--pose", "1,0,0,0,0,1,0,0,0,0,-1,0"], 1, "the matrix mirrors"),
+        (&["--extrinsics", "2,0,0,0,0,2,0,0,0,0,2,0"], 1, "the matrix is not a rotation"),
+        (&["--pose", "1,0,0,0,0,1,0,0,0,0,-1,0"], 1, "the matrix is a reflection"),
         (&["--pose", EXTRINSICS, "--view", "front"], 2, "cannot be used with"),
         (&["--intrinsics", "8,8,3,2", "--projection", "isometric"], 2, "cannot be used with"),
     ] {

@@ -136,7 +136,7 @@ fn a_format_without_scalars_is_refused() {
     sandbox.write_file("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     let run = sandbox.run(&["render", "a.obj", "--scalars", "quality"]);
     assert_eq!(run.code, 1);
-    assert!(run.stderr.contains("have no scalar attributes like `quality`"), "{}", run.stderr);
+    assert!(run.stderr.contains("have no scalar attributes such as `quality`"), "{}", run.stderr);
 }
 
 #[test]

@@ -260,7 +260,7 @@ fn drawing_errors_are_reported_and_leave_no_file() {
     for (more, message) in [
         ("style: Lines(width: Iso(0.4))", "ISO 128 has no line group of width 0.4"),
         ("style: Lines(color: \"bleu\")", "`bleu` is not a color"),
-        ("sheet: (scale: (1, 0))", "scale of the thing"),
+        ("sheet: (scale: (1, 0))", "scale of the object"),
         ("camera: (projection: NPoint())", "p, q and r are all 0"),
         ("camera: (projection: NPoint(r: -3))", "behind the eye"),
         ("camera: (projection: Axonometric(x: 1, y: 1, z: 9))", "no axonometric projection"),

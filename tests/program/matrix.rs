@@ -47,7 +47,7 @@ fn json_names_steps_and_items() {
 fn what_is_no_matrix_is_refused_with_the_reason() {
     let sandbox = Sandbox::new("matrix_refused");
     for (numbers, reason) in [
-        ("1 2 3", "expected 16 numbers, or 9 of a 3 × 3 matrix, found 3"),
+        ("1 2 3", "expected 16 numbers, or 9 for a 3 × 3 matrix, found 3"),
         ("one", "`one` is not a number"),
         (
             "1/0 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1",
@@ -201,7 +201,7 @@ fn refused_parameters_are_named() {
             ["--perspective", "60,1,2,1"],
             "`far` (1) must lie beyond `near` (2) along the line of sight",
         ),
-        (["--n-point", "0,0,0"], "p, q and r are all 0: that is a parallel projection"),
+        (["--n-point", "0,0,0"], "p, q and r are all 0: this is a parallel projection"),
     ] {
         let run = sandbox.run(&[&["matrix"], &flags[..]].concat());
         assert_eq!((run.code, run.stdout.as_str()), (1, ""), "{flags:?}");
@@ -230,7 +230,7 @@ fn pasted_code_is_read_back() {
     let bare = "mat4(1,0,0,0, 0,1,0,0, 0,0,1,0, 2.0f,3.0f,4.0f,1)";
     let run = sandbox.run(&["matrix", bare]);
     assert!(run.stdout.contains("It is a translation by (2, 3, 4)."), "{}", run.stdout);
-    assert!(run.stdout.contains("column by column, as mat constructors are"), "{}", run.stdout);
+    assert!(run.stdout.contains("column by column, as in mat constructors"), "{}", run.stdout);
 }
 
 /// Near and far are distances; the textbook's coordinates are refused with the sentence from the

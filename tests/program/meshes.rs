@@ -151,7 +151,8 @@ fn content_decides_and_a_name_that_lies_is_told() {
     let sandbox = Sandbox::new("stl_names");
     sandbox.write_file("part.glb", stl_box([1.0; 3]));
     let run = sandbox.run(&["render", "part.glb"]);
-    let note = "note: part: the name says glTF, but this is STL; rename it to end in .stl\n";
+    let note = "note: part: the name suggests glTF, but the content is STL; \
+                rename it to end in .stl\n";
     assert_eq!((run.code, run.stderr.as_str()), (0, note));
     let run = sandbox.run(&["check", "part.glb"]);
     assert!(run.code == 0 && run.stdout.contains("note[MISLEADING_NAME]"), "{}", run.stdout);

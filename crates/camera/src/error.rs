@@ -15,7 +15,7 @@ pub enum CameraError {
         value: Vector<World>,
     },
     /// The gaze is the zero vector, which has no direction.
-    #[error("the gaze is the zero vector: it must point where the camera looks")]
+    #[error("the gaze is the zero vector: it must point in the direction the camera looks")]
     ZeroGaze,
     /// Eye and target are the same point, so there is no direction between them.
     #[error("eye and target are both {eye}: move one of them")]
@@ -24,7 +24,7 @@ pub enum CameraError {
         eye: Point<World>,
     },
     /// The view-up is the zero vector.
-    #[error("the view-up is the zero vector: it must point somewhere upwards in the picture")]
+    #[error("the view-up is the zero vector: it must point upward in the picture")]
     ZeroUp,
     /// View-up and gaze are parallel, so no side of the picture is up.
     #[error(
@@ -39,7 +39,7 @@ pub enum CameraError {
         suggestion: Vector<World>,
     },
     /// The eye is too far away for its distance to be computed.
-    #[error("the eye {eye} is too far from the origin: coordinates may reach {limit:e}")]
+    #[error("the eye {eye} is too far from the origin: coordinates must not exceed {limit:e}")]
     EyeTooFar {
         /// The eye as given.
         eye: Point<World>,
@@ -63,7 +63,7 @@ pub enum CameraError {
         value: f64,
     },
     /// A number is too large to compute with.
-    #[error("the {name} is {value:e}: its size must not be above {limit:e}")]
+    #[error("the {name} is {value:e}: its magnitude must not exceed {limit:e}")]
     TooLarge {
         /// The input.
         name: &'static str,
@@ -74,18 +74,21 @@ pub enum CameraError {
     },
     /// A matrix that should be a rotation has rows that are not perpendicular unit vectors.
     #[error(
-        "the matrix is no rotation: dot products of its rows are off by {deviation:.2e}, \
-         and 1e-4 is allowed"
+        "the matrix is not a rotation: dot products of its rows are off by {deviation:.2e}, and \
+         at most 1e-4 is allowed"
     )]
     NotRotation {
         /// The largest difference of a dot product of two rows from 1 or 0.
         deviation: f64,
     },
     /// A matrix that should be a rotation mirrors instead.
-    #[error("the matrix mirrors, its determinant is negative: negate one of its rows or columns")]
+    #[error(
+        "the matrix is a reflection (its determinant is negative): \
+         negate one of its rows or columns"
+    )]
     MirroringRotation,
     /// A quaternion is zero and does not represent a rotation.
-    #[error("the quaternion is zero: one of its four numbers must be different from 0")]
+    #[error("the quaternion is zero: at least one of its four numbers must be nonzero")]
     ZeroQuaternion,
     /// Two opposite sides of the window coincide.
     #[error(
@@ -108,14 +111,18 @@ pub enum CameraError {
         corner: Point<World>,
     },
     /// The sides of the screen are not perpendicular.
-    #[error("the sides of the screen are not at right angles: their angle has the cosine {cosine}")]
+    #[error(
+        "the sides of the screen are not at right angles: \
+         the cosine of their angle is {cosine}"
+    )]
     SkewedScreen {
         /// The cosine of the angle between them.
         cosine: f64,
     },
     /// The eye is in the plane of the screen or behind it.
     #[error(
-        "the eye is {distance} in front of the screen: it must be in front, where left is left"
+        "the eye is at distance {distance} from the screen: the distance must be positive, so \
+         check the order of the corners"
     )]
     EyeBehindScreen {
         /// Its distance from the screen's plane, not positive.
@@ -154,7 +161,7 @@ pub enum FramingError {
         top: f64,
     },
     /// The opening angle is not between 0 and π.
-    #[error("the opening angle is {radians} rad: it must lie between 0 and pi, both excluded")]
+    #[error("the opening angle is {radians} rad: it must be greater than 0 and less than pi")]
     Angle {
         /// The angle as given.
         radians: f64,

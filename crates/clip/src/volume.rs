@@ -23,18 +23,18 @@ use thiserror::Error;
 pub enum VolumeError {
     /// A plane has coefficients that are infinite, NaN, or all zero.
     #[error(
-        "plane {coefficients:?} has no sides: its four coefficients must be finite and not all zero"
+        "{coefficients:?} is not a plane: its four coefficients must be finite and not all zero"
     )]
     NoPlane {
         /// The coefficients (a, b, c, d).
         coefficients: [f64; 4],
     },
     /// All slots for planes are taken.
-    #[error("a volume holds {MAX_PLANES} planes at most, six for the box and ten more")]
+    #[error("a volume holds at most {MAX_PLANES} planes: six for the box and ten more")]
     TooManyPlanes,
     /// A guard band factor is out of range.
     #[error(
-        "guard band factor {name} = {value} is not allowed: it must lie from 1 to {max}",
+        "guard band factor {name} = {value} is not allowed: it must be from 1 to {max}",
         max = Volume::MAX_GUARD_BAND
     )]
     GuardBand {

@@ -65,7 +65,7 @@ codes! {
             ACCESSOR_ANIMATION_SAMPLER_OUTPUT_NON_NORMALIZED_QUATERNION;
         "clamp them to the valid range" => ACCESSOR_NON_CLAMPED ACCESSOR_INVALID_SIGN;
         "correct the JSON, or export the file again" => INVALID_JSON;
-        "copy the file beside the model and refer to it by a relative path" => IO_ERROR;
+        "copy the file next to the model and refer to it by a relative path" => IO_ERROR;
         "write a relative path with / and %20 for spaces, or correct the base64" => INVALID_URI;
         "write data:application/octet-stream;base64," => BUFFER_DATA_URI_MIME_TYPE_INVALID;
         "the file is truncated or was assembled wrongly: copy or export it again" =>

@@ -108,7 +108,7 @@ pub(crate) fn format_name(bytes: &[u8]) -> &'static str {
 pub fn decode_bounded(bytes: &[u8], most: u64) -> Result<Image, String> {
     let (width, height) = image_size(bytes)?;
     if u64::from(width) * u64::from(height) > most {
-        return Err(format!("the image has {width} x {height} texels, more than {most} in all"));
+        return Err(format!("the image has {width} x {height} texels, more than {most} in total"));
     }
     decode_rgba(bytes)
 }
@@ -130,12 +130,12 @@ pub(crate) fn decode_rgba(bytes: &[u8]) -> Result<Image, String> {
 /// Decoders are written for well-formed files; an index out of range in one of them must not end
 /// the program because of a single texture.
 fn catch_decoder_panic<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
-    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err("the decoder gave up".to_owned()))
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err("the decoder failed".to_owned()))
 }
 
 /// The message for a header that declares more texels than the bytes can encode.
 fn decompression_bomb(width: u32, height: u32, bytes: usize) -> String {
-    format!("the image says {width} x {height} texels, which cannot be in {bytes} bytes")
+    format!("the image declares {width} x {height} texels, too many for {bytes} bytes")
 }
 
 /// Number of texels allowed for an image of almost no bytes, in formats that can store a flat color
@@ -201,9 +201,9 @@ impl ImageFormat {
             [b'G', b'I', b'F', b'8', ..] => "a GIF image",
             [b'B', b'M', ..] => "a BMP image",
             [b'<', ..] => "an SVG image or a web page",
-            _ => "of an unknown format",
+            _ => "an unknown format",
         };
-        Err(format!("this is {other}; only {READ_FORMATS} are read"))
+        Err(format!("this is {other}; only {READ_FORMATS} are supported"))
     }
 }
 
@@ -242,7 +242,9 @@ fn decode_png(bytes: &[u8]) -> Result<Image, String> {
             let pairs = grey.as_chunks().0.iter();
             checked_image(width, height, pairs.map(|&[y, alpha]| [y, y, y, alpha]).collect())
         }
-        (color, depth) => Err(format!("the PNG is {color:?} of {depth:?} bits after reading")),
+        (color, depth) => Err(format!(
+            "the PNG decodes to {color:?} with bit depth {depth:?}, which is not supported"
+        )),
     }
 }
 
@@ -271,7 +273,9 @@ fn decode_jpeg(bytes: &[u8]) -> Result<Image, String> {
     let mut decoder = jpeg_decoder(bytes);
     decoder.decode_headers().map_err(|error| jpeg_problem(&error))?;
     if let Some(space @ (ColorSpace::CMYK | ColorSpace::YCCK)) = decoder.input_colorspace() {
-        return Err(format!("the JPEG is in {space:?}, for printing; only RGB and grey are read"));
+        return Err(format!(
+            "the JPEG is in {space:?}, for printing; only RGB and gray are supported"
+        ));
     }
     let info = decoder.info().ok_or("the JPEG has no header")?;
     let (width, height) = (u32::from(info.width), u32::from(info.height));
@@ -362,6 +366,6 @@ mod tests {
             assert_eq!(image.rgba, [[128, 128, 128, 255]; 64], "{components} components");
         }
         let message = decode_rgba(&jpeg(4)).unwrap_err();
-        assert_eq!(message, "the JPEG is in CMYK, for printing; only RGB and grey are read");
+        assert_eq!(message, "the JPEG is in CMYK, for printing; only RGB and gray are supported");
     }
 }

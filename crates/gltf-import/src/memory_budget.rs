@@ -38,13 +38,13 @@ impl<'a> MemoryBudget<'a> {
     pub fn charge_bytes(&self, pointer: &str, bytes: u64, files: u64) -> Result<(), Diagnostic> {
         let made = self.allocated.get().saturating_add(bytes);
         self.allocated.set(made);
-        let what = format!("the arrays take {made} bytes up to here");
+        let what = format!("the arrays take {made} bytes so far");
         let Limits { array_bytes, array_growth, .. } = *self.limits;
         if made > array_bytes {
             return Err(Diagnostic::limit_exceeded(pointer, &what, "array_bytes", array_bytes));
         }
         if made.saturating_sub(FREE_ARRAY_BYTES) > files.saturating_mul(array_growth) {
-            let message = format!("{what}, more than {array_growth} times the files");
+            let message = format!("{what}, more than {array_growth} times the size of the files");
             let help = Diagnostic::raise_limit_help("array_growth");
             return Err(Diagnostic::error(codes::LIMIT_EXCEEDED, pointer, message, &help));
         }

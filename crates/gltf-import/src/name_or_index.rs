@@ -41,10 +41,10 @@ impl NameOrIndex {
                 _ => format!("there is no {what} `{wanted}`"),
             };
             let help = match available.as_slice() {
-                [] => format!("leave the {what} out"),
+                [] => format!("omit the {what}"),
                 _ if wanted.ends_with(".ron") => format!(
-                    "a {what} is chosen by its name or index in the file; a scene file is an input \
-                     by itself: `alberti render {wanted}`"
+                    "a {what} is chosen by its name or index in the file; to render a scene \
+                     file, make it the input: `alberti render {wanted}`"
                 ),
                 [only] => format!("the only one is {only}"),
                 available => format!("choose one of {}", available.join(", ")),
@@ -70,6 +70,6 @@ mod tests {
         assert_eq!(diagnostic.message, "there is no scene `night`");
         assert_eq!(diagnostic.help.unwrap(), "choose one of 0 `day`, 1, 2 `7`");
         let diagnostic = NameOrIndex::Index(0).find_among(&[], "variant", "/v").unwrap_err();
-        assert_eq!(diagnostic.help.unwrap(), "leave the variant out");
+        assert_eq!(diagnostic.help.unwrap(), "omit the variant");
     }
 }

@@ -62,7 +62,8 @@ impl ScalarColors {
     #[must_use]
     pub fn unsupported_in(&self, format: &str) -> Diagnostic {
         let attribute = &self.attribute;
-        let message = format!("vertices in {format} have no scalar attributes like `{attribute}`");
+        let message =
+            format!("vertices in {format} have no scalar attributes such as `{attribute}`");
         let help = "convert the model to PLY or glTF with the attribute";
         Diagnostic::error(codes::NO_SUCH_ITEM, "", message, help)
     }

@@ -129,7 +129,7 @@ impl<'a> UriResolver<'a> {
         };
         self.bytes_read.set(self.bytes_read.get().saturating_add(bytes.len() as u64));
         if self.bytes_read.get() > self.limits.total_bytes {
-            let what = format!("{} bytes have been read up to here", self.bytes_read.get());
+            let what = format!("{} bytes have been read so far", self.bytes_read.get());
             return Err(Diagnostic::limit_exceeded(
                 pointer,
                 &what,
@@ -167,7 +167,8 @@ impl<'a> UriResolver<'a> {
         }
         Err(match uri_scheme(uri) {
             Some(scheme) => {
-                forbidden_path(pointer, &format!("the scheme {scheme:?} of {uri:?} is not read"))
+                let message = format!("the scheme {scheme:?} of {uri:?} is not supported");
+                forbidden_path(pointer, &message)
             }
             None => missing_file(pointer, uri),
         })
@@ -185,7 +186,7 @@ impl<'a> UriResolver<'a> {
     ) -> Result<Option<Vec<u8>>, Diagnostic> {
         match &self.source {
             AssetSource::Nowhere => {
-                let message = format!("the model is in memory and may not read the file {uri:?}");
+                let message = format!("the model is in memory and cannot read the file {uri:?}");
                 let help = "load the model from its own file, or export it as a .glb, which \
                             contains everything";
                 Err(Diagnostic::error(codes::FORBIDDEN_PATH, pointer, message, help))
@@ -198,9 +199,8 @@ impl<'a> UriResolver<'a> {
                 read_file(&path, self.limits, pointer).map(Some)
             }
             AssetSource::Memory(folder, base) => {
-                let outside = || {
-                    forbidden_path(pointer, &format!("{path:?} is outside of the model's folder"))
-                };
+                let outside =
+                    || forbidden_path(pointer, &format!("{path:?} is outside the model's folder"));
                 let path = normalize_path(base, path).ok_or_else(outside)?;
                 Ok(folder.file(&path).map(<[u8]>::to_vec))
             }
@@ -225,7 +225,7 @@ impl AssetSandbox {
     /// one to another.
     fn path_below_root(&self, name: &str, pointer: &str) -> Result<PathBuf, Diagnostic> {
         let outside =
-            || Err(forbidden_path(pointer, &format!("{name:?} is outside of the model's folder")));
+            || Err(forbidden_path(pointer, &format!("{name:?} is outside the model's folder")));
         let has_drive_letter = cfg!(windows) && name.contains(':');
         if name.starts_with(['/', '\\']) || name.contains('\0') || has_drive_letter {
             return outside();
@@ -249,7 +249,7 @@ impl AssetSandbox {
         if !self.contains_path(&path) {
             return Err(forbidden_path(
                 pointer,
-                &format!("{uri:?} leads out of the model's folder"),
+                &format!("{uri:?} points outside the model's folder"),
             ));
         }
         if !path.is_file() {
@@ -293,9 +293,8 @@ pub fn read_file(path: &Path, limits: &Limits, pointer: &str) -> Result<Vec<u8>,
 /// Canonical path of a folder in which the user allows files.
 fn canonical_allowed_folder(folder: &Path) -> Result<PathBuf, Diagnostic> {
     folder.canonicalize().map_err(|error| {
-        let message =
-            format!("the folder {}, allowed for files, cannot be used: {error}", folder.display());
-        Diagnostic::error(codes::IO_ERROR, "", message, "name a folder that exists")
+        let message = format!("cannot use the allowed folder {}: {error}", folder.display());
+        Diagnostic::error(codes::IO_ERROR, "", message, "give a folder that exists")
     })
 }
 
@@ -313,7 +312,7 @@ fn unreadable_file(pointer: &str, path: &Path, error: &std::io::Error) -> Diagno
     let (message, help) = match error.kind() {
         std::io::ErrorKind::NotFound => (format!("{name} does not exist"), "check the name"),
         std::io::ErrorKind::PermissionDenied => {
-            (format!("{name} may not be read"), "check its permissions")
+            (format!("{name} cannot be read: permission denied"), "check its permissions")
         }
         _ => (format!("{name} cannot be read: {error}"), "check the file"),
     };
@@ -323,7 +322,7 @@ fn unreadable_file(pointer: &str, path: &Path, error: &std::io::Error) -> Diagno
 /// The error for a missing file.
 pub fn missing_file(pointer: &str, name: &str) -> Diagnostic {
     let message = format!("the file {name:?} does not exist");
-    Diagnostic::error(codes::IO_ERROR, pointer, message, "put it beside the model")
+    Diagnostic::error(codes::IO_ERROR, pointer, message, "put it next to the model")
 }
 
 /// Checks the size of a file that is in memory.
@@ -345,8 +344,8 @@ pub fn check_file_size(length: usize, limits: &Limits) -> Result<(), Diagnostic>
 
 /// The error for a path outside the sandbox.
 fn forbidden_path(pointer: &str, message: &str) -> Diagnostic {
-    let help = "copy the file beside the model and name it by a relative path, or allow its folder \
-                  with --allow-outside DIR";
+    let help = "copy the file next to the model and refer to it by a relative path, or allow its \
+                folder with --allow-outside DIR";
     Diagnostic::error(codes::FORBIDDEN_PATH, pointer, message.to_owned(), help)
 }
 
@@ -370,7 +369,8 @@ fn decode_data_uri(data: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
         return Err(Diagnostic::invalid(pointer, "the data URI has no comma before its data"));
     };
     if !kind.to_ascii_lowercase().ends_with(";base64") {
-        let message = "the data URI is neither base64 nor has it two digits after every %";
+        let message =
+            "the data URI is neither base64 nor percent-encoded with two digits after every %";
         return percent_decode_bytes(data).ok_or_else(|| Diagnostic::invalid(pointer, message));
     }
     let standard = GeneralPurpose::new(&alphabet::STANDARD, LENIENT_BASE64).decode(data);

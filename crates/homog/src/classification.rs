@@ -119,16 +119,16 @@ impl fmt::Display for MapKind {
 impl fmt::Display for KindReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::OriginStays => f.write_str("w stays and so does the origin"),
+            Self::OriginStays => f.write_str("w does not change, and neither does the origin"),
             Self::OriginMoves { to: [x, y, z] } => {
-                write!(f, "w stays, but the origin moves to ({x}, {y}, {z})")
+                write!(f, "w does not change, but the origin moves to ({x}, {y}, {z})")
             }
             Self::WVaries { bottom_row } => {
                 f.write_str("w = ")?;
                 write_linear_form(f, *bottom_row)?;
                 f.write_str(" depends on the point")
             }
-            Self::WVanishes => f.write_str("w is 0 everywhere, so that no point has an image"),
+            Self::WVanishes => f.write_str("w is 0 everywhere, so no point has an image"),
         }
     }
 }
@@ -231,7 +231,7 @@ mod tests {
         let turn = Affine::<Model, World>::rotation_z(0.3);
         assert_eq!(
             turn.classify().to_string(),
-            "linear: w stays and so does the origin; invertible"
+            "linear: w does not change, and neither does the origin; invertible"
         );
         let moved = turn.then(Affine::<World, World>::translation(Vector::new(0.0, 2.5, 0.0)));
         assert_eq!(moved.classify().reason, KindReason::OriginMoves { to: [0.0, 2.5, 0.0] });

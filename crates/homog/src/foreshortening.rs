@@ -18,8 +18,8 @@ use crate::{HPoint, Space};
 /// The w values of the ends do not allow f(t).
 #[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
 #[error(
-    "a segment with w from {start} to {end} has no image in one piece: both must be finite, not 0 \
-     and of one sign"
+    "a segment with w from {start} to {end} has no connected image: both values must be finite, \
+     nonzero and of the same sign"
 )]
 pub struct SegmentCrossesEyePlane {
     /// w at the start.

@@ -38,7 +38,7 @@ impl<S: Space> fmt::Display for HPointKind<S> {
                 f.write_str("the point at infinity along ")?;
                 fmt::Display::fmt(direction, f)
             }
-            Self::Invalid => f.write_str("no point at all"),
+            Self::Invalid => f.write_str("not a point"),
         }
     }
 }

@@ -162,7 +162,7 @@ impl MeshArrays {
         ];
         for (array, found, expected) in lengths {
             if let Some(found) = found.filter(|found| *found != expected) {
-                let message = format!("it has {found} entries, and there are {expected}");
+                let message = format!("it has {found} entries, but {expected} are expected");
                 return Err(wrong_arrays(&format!("{location}/{array}"), message));
             }
         }
@@ -188,11 +188,12 @@ impl MeshArrays {
         let corners: u64 = self.lengths.iter().map(|&length| u64::from(length)).sum();
         let is_polygon = |&length: &u32| length >= 3;
         if corners != self.corners.len() as u64 || !self.lengths.iter().all(is_polygon) {
-            let message = format!("they are not those of {} corners", self.corners.len());
+            let corners = self.corners.len();
+            let message = format!("the lengths must be at least 3 and add up to {corners} corners");
             return Err(wrong_arrays(&format!("{location}/lengths"), message));
         }
         if !self.line_ends.len().is_multiple_of(2) {
-            let message = "a line has two ends".to_owned();
+            let message = "lines need an even number of ends".to_owned();
             return Err(wrong_arrays(&format!("{location}/line_ends"), message));
         }
         Ok(())

@@ -126,11 +126,7 @@ const MISLEADING: [&[u8]; 6] =
 
 /// Unsupported formats: their first bytes, name and remedy.
 const FOREIGN_FORMATS: [(&[u8], &str, &str); 19] = [
-    (
-        b"version https://git-lfs",
-        "a Git LFS pointer and not the model itself",
-        "run `git lfs pull`",
-    ),
+    (b"version https://git-lfs", "a Git LFS pointer", "run `git lfs pull`"),
     (b"<!DOCTYPE", "a web page", "download the model again"),
     (b"<!doctype", "a web page", "download the model again"),
     (b"<html", "a web page", "download the model again"),
@@ -145,9 +141,9 @@ const FOREIGN_FORMATS: [(&[u8], &str, &str); 19] = [
     (b"PXR-USDC", "a USD file", "export it as .glb from the program that made it"),
     (b"#usda", "a USD file", "export it as .glb from the program that made it"),
     (b"BLENDER", "a Blender file", "export it as .glb from Blender"),
-    (b"\x89PNG", "a PNG picture", GIVE_A_MODEL),
-    (b"\xff\xd8\xff", "a JPEG picture", GIVE_A_MODEL),
-    (b"PK\x03\x04", "a ZIP archive", "extract it, and give a model in it"),
+    (b"\x89PNG", "a PNG image", GIVE_A_MODEL),
+    (b"\xff\xd8\xff", "a JPEG image", GIVE_A_MODEL),
+    (b"PK\x03\x04", "a ZIP archive", "extract it and give a model from it"),
     (b"%PDF", "a PDF file", GIVE_A_MODEL),
     (b"# vtk", "a VTK file", "convert it to .ply or .stl, for example with ParaView"),
     (b"OFF", "an OFF file", "convert it to .ply or .obj, for example with MeshLab"),
@@ -158,7 +154,7 @@ const FOREIGN_FORMATS: [(&[u8], &str, &str); 19] = [
 /// The error for a scene file where a model is expected.
 fn scene_as_model() -> Diagnostic {
     let help = "`alberti scene check` checks it, and `alberti render` draws it";
-    Diagnostic::error(codes::UNKNOWN_FORMAT, "", "this is a scene and not a model", help)
+    Diagnostic::error(codes::UNKNOWN_FORMAT, "", "this is a scene, not a model", help)
 }
 
 /// The error for a file whose format neither its content nor its name shows.
@@ -169,7 +165,7 @@ fn unknown_format(bytes: &[u8]) -> Diagnostic {
     let (message, help) = match known {
         Some((_, name, help)) => (format!("this is {name}, which is not supported"), *help),
         None if bytes.is_empty() => ("the file is empty".to_owned(), "export it again"),
-        None if is_text => ("this is a text and not a model".to_owned(), WRITE_A_SCENE),
+        None if is_text => ("this is text, not a model".to_owned(), WRITE_A_SCENE),
         None => ("this is not a model in a known format".to_owned(), GIVE_A_MODEL),
     };
     Diagnostic::error(codes::UNKNOWN_FORMAT, "", message, help)

@@ -141,7 +141,8 @@ fn complete_model(
 /// The note about a file whose name suggests another format than its content.
 fn misleading_name(path: &Path, format: FileFormat) -> Option<Diagnostic> {
     let named = FileFormat::from_extension(path).filter(|named| *named != format)?;
-    let message = format!("the name says {}, but this is {}", named.name(), format.name());
+    let message =
+        format!("the name suggests {}, but the content is {}", named.name(), format.name());
     let help = format!("rename it to end in .{}", format.extensions().last()?);
     let fault = Diagnostic::error(codes::MISLEADING_NAME, "", message, &help);
     Some(fault.with_severity(Severity::Info))
@@ -164,7 +165,7 @@ pub(crate) fn surface_without_area(model: &Model) -> Option<Diagnostic> {
     };
     let help = "export the model again";
     let fault =
-        || Diagnostic::error(codes::LEFT_OUT, "", "no triangle of the file has an area", help);
+        || Diagnostic::error(codes::LEFT_OUT, "", "no triangle in the file has an area", help);
     (!triangles.any(has_area)).then(|| fault().with_severity(Severity::Warning))
 }
 

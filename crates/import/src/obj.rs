@@ -116,20 +116,23 @@ fn read_libraries(
         let is_one = words.clone().nth(1).is_none();
         match read_library(token.to_text(), resolver) {
             Ok(library) => libraries.push(library),
-            Err(fault) if is_one => warnings.downgrade(&fault, "its materials are plain"),
+            Err(fault) if is_one => warnings.downgrade(&fault, "the default material is used"),
             Err(_) => {
                 for name in words.take(MAX_LIBRARIES - tried) {
                     tried += 1;
                     match read_library(name, resolver) {
                         Ok(library) => libraries.push(library),
-                        Err(fault) => warnings.downgrade(&fault, "its materials are plain"),
+                        Err(fault) => warnings.downgrade(&fault, "the default material is used"),
                     }
                 }
             }
         }
     }
     if tried >= MAX_LIBRARIES {
-        warnings.push_warning("", format!("of material libraries only {MAX_LIBRARIES} are read"));
+        warnings.push_warning(
+            "",
+            format!("only the first {MAX_LIBRARIES} material libraries are read"),
+        );
     }
     libraries
 }
@@ -218,7 +221,7 @@ fn report_undefined(names: &[&[u8]], warnings: &mut ImportWarnings) {
     if names.len() > NAMED {
         list.push_str(&format!(" and {} more", names.len() - NAMED));
     }
-    let message = format!("no material library defines {list}: the surfaces are plain");
+    let message = format!("no material library defines {list}; the default material is used");
     warnings.push_warning("", message);
 }
 
@@ -229,9 +232,15 @@ fn report_missing_uvs(model: &Model, warnings: &mut ImportWarnings) {
     let bare = primitives.filter(|at| at.uvs.is_empty() && at.material.is_some_and(has_textures));
     let count = bare.count();
     if count > 0 {
-        let message = format!(
-            "{count} surfaces have textures, but no texture coordinates: drawn without them"
-        );
+        let message = match count {
+            1 => "1 surface has textures but no texture coordinates; \
+                  it is drawn without textures"
+                .to_owned(),
+            _ => format!(
+                "{count} surfaces have textures but no texture coordinates; \
+                 they are drawn without textures"
+            ),
+        };
         warnings.push_warning("", message);
     }
 }

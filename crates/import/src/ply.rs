@@ -74,7 +74,7 @@ pub(super) fn import_ply(
     let mut warnings = ImportWarnings::new(options.lenient);
     let header = Header::from_bytes(bytes)?;
     for (line, text) in &header.stray_lines {
-        let message = format!("`{text}` is not a line of a PLY header; it is taken for a comment");
+        let message = format!("`{text}` is not a line of a PLY header; it is treated as a comment");
         warnings.push_warning(&format!("line {line}"), message);
     }
     let scalar_attributes = vertices::scalar_attributes(&header);
@@ -132,7 +132,7 @@ fn read_body(
             _ => body.skip_element(element),
         };
         if let Err(fault) = read {
-            warnings.downgrade_if_lenient(fault, "what follows is left out")?;
+            warnings.downgrade_if_lenient(fault, "the rest of the file is skipped")?;
             break;
         }
     }
@@ -142,8 +142,8 @@ fn read_body(
     let without_area = contents.faces.without_area;
     if without_area > 0 {
         let message = match without_area {
-            1 => "a face with fewer than three corners is left out".to_owned(),
-            _ => format!("{without_area} faces with fewer than three corners are left out"),
+            1 => "a face with fewer than three corners is skipped".to_owned(),
+            _ => format!("{without_area} faces with fewer than three corners are skipped"),
         };
         warnings.push_warning("element face", message);
     }

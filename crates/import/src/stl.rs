@@ -174,7 +174,7 @@ fn starts_with(text: &[u8], word: &[u8]) -> bool {
 
 /// The error for a file that ends too early; in lenient mode, the existing part is read.
 fn truncated(location: &str, message: String) -> Diagnostic {
-    let help = "the file is cut off: copy or export it again";
+    let help = "the file is truncated: copy or export it again";
     Diagnostic::error(codes::INVALID_DATA, location, message, help)
 }
 

@@ -110,7 +110,7 @@ fn read_parts(
             Ok(content) => content,
             Err(fault) if parts.parts.is_empty() => return Err(fault),
             Err(fault) => {
-                warnings.downgrade_if_lenient(fault, "it is left out")?;
+                warnings.downgrade_if_lenient(fault, "it is skipped")?;
                 continue;
             }
         };
@@ -129,7 +129,7 @@ fn read_parts(
             }
         }
         if parts.parts.first().is_some_and(|main| main.unit != part.unit) {
-            let message = "the part is in another unit than the model; the model's is taken";
+            let message = "the part's unit differs from the model's; the model's unit is used";
             warnings.push_warning(&entry, message);
         }
         parts.by_name.insert(entry, parts.parts.len());
@@ -168,7 +168,7 @@ fn assemble(
     let build = &parts.parts[0].items;
     let mut items = assembly.resolve(build, part_of(0), warnings)?;
     if build.is_empty() && index > 0 {
-        warnings.push_warning("", "nothing is to be built; all objects are shown");
+        warnings.push_warning("", "the build section is empty; all objects are shown");
         items = assembly.top_objects();
     }
     Ok((assembly, items))

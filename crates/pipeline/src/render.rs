@@ -118,7 +118,7 @@ pub enum RenderError {
     #[error("the picture was canceled")]
     Canceled,
     /// Ambient occlusion needs the whole depth buffer, and the picture is larger than one tile.
-    #[error("ambient occlusion is for pictures of {} pixels a side at most", raster::MAX_SIDE)]
+    #[error("ambient occlusion supports pictures up to {0} x {0} pixels", raster::MAX_SIDE)]
     OcclusionTooLarge,
     /// There are more points, lines and triangles than primitive ids.
     #[error("the scene has more than {} points, lines and triangles", u32::MAX)]

@@ -71,7 +71,7 @@ pub fn p_inverse_scaled(n: f64, f: f64) -> Result<Projective<View, View>, Projec
 fn check_same_side(n: f64, f: f64) -> Result<(), ProjectionError> {
     for (parameter, value) in [("n", n), ("f", f)] {
         if check_finite(parameter, value)? == 0.0 {
-            let allowed = "a plane beside the eye, not through it";
+            let allowed = "a plane that does not pass through the eye";
             return Err(ProjectionError::OutOfRange { parameter, value, allowed });
         }
     }

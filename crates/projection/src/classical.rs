@@ -120,7 +120,7 @@ impl Classical {
             let behind = ProjectionError::OutOfRange {
                 parameter,
                 value: distance,
-                allowed: "before the eye, where r z + 1 > 0 with z = −distance",
+                allowed: "in front of the eye, where r z + 1 > 0 with z = −distance",
             };
             perspective.depth_on_axis(-distance).map(|z| -z).ok_or(behind)
         };

@@ -66,7 +66,7 @@ impl ConstructedPerspective {
             check_picture_point("vanishing point of z", z)?,
         );
         if check_finite("fraction", fraction)? <= 0.0 || fraction >= 1.0 {
-            let allowed = "between 0 and 1, both excluded";
+            let allowed = "between 0 and 1, exclusive";
             return Err(ProjectionError::OutOfRange {
                 parameter: "fraction",
                 value: fraction,
@@ -78,7 +78,7 @@ impl ConstructedPerspective {
         let length = libm::hypot(horizon.x, horizon.y);
         let distance = length * libm::sqrt(fraction * (1.0 - fraction));
         if !is_usable_distance(distance) {
-            let reason = "the points coincide or lie too far apart";
+            let reason = "the points coincide or are too far apart";
             return Err(ProjectionError::ImpossibleVanishingPoints { reason });
         }
         let across = DVec2::new(-horizon.y, horizon.x) / length;

@@ -119,14 +119,17 @@ pub enum DecomposeError {
         column: usize,
     },
     /// More than one dimension is lost.
-    #[error("the matrix has rank {rank}; a projection keeps at least a picture, rank 3")]
+    #[error("the matrix has rank {rank}; a projection has rank 3 or 4")]
     RankTooLow {
         /// Its rank.
         rank: usize,
     },
     /// The x and y axes of the picture are not perpendicular, or the depth depends on the position
     /// in an unknown way.
-    #[error("the axes of the picture are not at right angles: no projection here shears so")]
+    #[error(
+        "the axes of the picture are not at right angles: \
+         no supported projection has this shear"
+    )]
     Sheared,
     /// Near and far make no sense in this convention.
     #[error("in this convention near and far would be {near} and {far}; allowed: 0 < near < far")]

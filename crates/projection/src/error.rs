@@ -62,16 +62,16 @@ pub enum ProjectionError {
     #[error("the center of projection lies on the projection plane")]
     CenterOnPlane,
     /// There is no vanishing point (p = q = r = 0), hence no perspective.
-    #[error("p, q and r are all 0: that is a parallel projection, it has no vanishing point")]
+    #[error("p, q and r are all 0: this is a parallel projection, without vanishing points")]
     NoVanishingPoint,
     /// No eye has these two or three vanishing points.
-    #[error("no eye sees these vanishing points at right angles: {reason}")]
+    #[error("no eye sees these vanishing points in perpendicular directions: {reason}")]
     ImpossibleVanishingPoints {
         /// The reason.
         reason: &'static str,
     },
     /// No axonometric projection has these three foreshortening ratios.
-    #[error("no axonometric projection shortens the axes as {x} : {y} : {z}; {reason}")]
+    #[error("no axonometric projection foreshortens the axes as {x} : {y} : {z}; {reason}")]
     ImpossibleForeshortening {
         /// The ratio of the x axis.
         x: f64,
@@ -83,7 +83,7 @@ pub enum ProjectionError {
         reason: &'static str,
     },
     /// The frustum's window is not centered on the line of sight, so no field of view describes it.
-    #[error("the window is off center; a perspective by field of view cannot show it")]
+    #[error("the window is off center; a field of view cannot describe it")]
     OffCenter,
     /// Each parameter is valid, but the matrix would overflow or underflow.
     #[error("the {what} is too large, too small or too extreme to compute with")]
@@ -112,7 +112,7 @@ pub(crate) fn check_opening_angle(
     parameter: &'static str,
     value: f64,
 ) -> Result<f64, ProjectionError> {
-    let allowed = "between 0 and π radians, both excluded";
+    let allowed = "between 0 and π radians, exclusive";
     if check_finite(parameter, value)? > 0.0 && value < core::f64::consts::PI {
         Ok(value)
     } else {

@@ -32,7 +32,7 @@
 //! let wrong = Perspective::new(Fov::Vertical(45.0), 16.0 / 9.0, 0.5, 100.0);
 //! assert_eq!(
 //!     wrong.expect_err("45 radians").to_string(),
-//!     "`vertical field of view` is 45; allowed: between 0 and π radians, both excluded",
+//!     "`vertical field of view` is 45; allowed: between 0 and π radians, exclusive",
 //! );
 //! # Ok::<(), projection::ProjectionError>(())
 //! ```

@@ -82,7 +82,7 @@ impl NPoint {
         let reciprocal = |parameter, at: Option<f64>| match at {
             None => Ok(0.0),
             Some(0.0) => {
-                let allowed = "any coordinate but 0";
+                let allowed = "any coordinate except 0";
                 Err(ProjectionError::OutOfRange { parameter, value: 0.0, allowed })
             }
             Some(value) => Ok(1.0 / check_finite(parameter, value)?),

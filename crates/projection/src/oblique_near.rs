@@ -44,14 +44,18 @@ pub fn oblique_near_plane(
     let plane = normalized_plane(plane)?;
     let side = plane.evaluate(eye);
     if side.is_nan() || side >= 0.0 {
-        return Err(out_of_range("plane at the eye", side, "below 0: the eye behind it"));
+        return Err(out_of_range(
+            "plane at the eye",
+            side,
+            "below 0, with the eye behind the plane",
+        ));
     }
     // The corner farthest behind the plane keeps the far depth.
     let seen = clip_to_view.raw().transpose() * plane.raw();
     let corner = DVec4::new(seen.x.signum(), seen.y.signum(), convention.far_depth(), 1.0);
     let farthest = plane.evaluate(clip_to_view.transform_hpoint(HPoint::from_raw(corner)));
     if farthest.is_nan() || farthest <= 0.0 {
-        let allowed = "above 0: something visible before it";
+        let allowed = "above 0, with something visible in front of the plane";
         return Err(out_of_range("plane at the far corner", farthest, allowed));
     }
     let depths = convention.far_depth() - convention.near_depth();

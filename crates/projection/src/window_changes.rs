@@ -75,7 +75,7 @@ fn angle_slope(parameter: &'static str, angle: f64) -> Result<f64, ProjectionErr
     if check_finite(parameter, angle)?.abs() < FRAC_PI_2 {
         return Ok(libm::tan(angle));
     }
-    let allowed = "between −π/2 and π/2 radians, both excluded";
+    let allowed = "between −π/2 and π/2 radians, exclusive";
     Err(ProjectionError::OutOfRange { parameter, value: angle, allowed })
 }
 

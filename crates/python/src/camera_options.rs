@@ -160,7 +160,7 @@ fn read_lens(options: &Keywords<'_, '_>) -> PyResult<Option<ProjectionFile>> {
         FieldOfView::new(angle).map(Some).ok_or_else(|| Failure::argument(name, wrong).into())
     };
     if angles.iter().all(Option::is_some) {
-        let message = "only one of fov_y and fov_x can be given: the size has the other";
+        let message = "give only one of fov_y and fov_x: the other follows from the size";
         return Err(Failure::argument("fov_x", message).into());
     }
     Ok(Some(ProjectionFile::Perspective {

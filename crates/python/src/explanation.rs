@@ -57,7 +57,7 @@ fn read_part(options: &Keywords<'_, '_>) -> PyResult<ExplainedPart> {
     }
     let [(name, value)] = &found[..] else {
         let [_, (second, _), ..] = &found[..] else { return Ok(ExplainedPart::Transforms) };
-        let message = "only one of point, segment, pixel and node can be explained";
+        let message = "give only one of point, segment, pixel and node";
         return Err(Failure::argument(*second, message).into());
     };
     Ok(match *name {
@@ -135,7 +135,7 @@ fn find_node<'a>(
         let count: usize = models.iter().map(|placed| placed.model.nodes.len()).sum();
         Failure::argument(
             "node",
-            format!("is {wanted}, and no model has it; there are {count} nodes"),
+            format!("is {wanted}, but no model has it; there are {count} nodes"),
         )
     })
 }

@@ -59,7 +59,7 @@ impl Failure {
         Self {
             code: INTERNAL_ERROR,
             pointer: String::new(),
-            message: format!("a fault of the renderer: {text}"),
+            message: format!("internal error in the renderer: {text}"),
             help: Some("please report it with the input".to_owned()),
         }
     }

@@ -59,7 +59,7 @@ impl<'py> Keywords<'_, 'py> {
 
     /// An integer of at least 0.
     pub(crate) fn count(&self, name: &str) -> PyResult<Option<usize>> {
-        self.extract(name, "a whole number from 0")
+        self.extract(name, "a whole number, 0 or greater")
     }
 
     /// Width and height in pixels.

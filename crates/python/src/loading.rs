@@ -88,7 +88,7 @@ pub(crate) fn compose(parts: Vec<(Bound<'_, Subject>, Bound<'_, PyAny>)>) -> PyR
         for placed in &part.get().models {
             let model_to_world = placed.model_to_world.then(pose);
             if !model_to_world.is_finite() {
-                let message = "together with the poses within the scene it is not finite";
+                let message = "combined with the poses in the scene, it is not finite";
                 return Err(Failure::argument(name, message).into());
             }
             models.push(ModelInstance { model: Arc::clone(&placed.model), model_to_world });
@@ -184,10 +184,10 @@ pub(crate) fn limits(options: &Keywords<'_, '_>) -> PyResult<Limits> {
     };
     for (key, value) in given {
         let name = key.extract::<String>();
-        let name = name.map_err(|_| not_a("limits", &key, "names of limits"))?;
+        let name = name.map_err(|_| not_a("limits", &key, "the name of a limit"))?;
         let argument = format!("limits[{name:?}]");
         let Ok(number) = value.extract::<u64>() else {
-            return Err(not_a(&argument, &value, "a whole number from 0").into());
+            return Err(not_a(&argument, &value, "a whole number, 0 or greater").into());
         };
         let size = usize::try_from(number).unwrap_or(usize::MAX);
         match name.as_str() {

@@ -176,6 +176,6 @@ fn read_indices(name: &str, numbers: Numbers<i64>, vertices: usize) -> PyResult<
 
 /// The error for an index out of range.
 fn no_vertex(name: &str, [row, column]: [usize; 2], vertex: i64, vertices: usize) -> Failure {
-    let message = format!("is {vertex}, and there are {vertices} vertices");
+    let message = format!("is {vertex}, but there are {vertices} vertices");
     Failure::argument(format!("{name}[{row}, {column}]"), message)
 }

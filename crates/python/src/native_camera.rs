@@ -67,15 +67,15 @@ impl NativeCamera {
     ) -> Fallible<(ViewProjection, (u32, u32))> {
         let Some(size) = size.or(self.size) else {
             let help =
-                "give the camera a size=(width, height), or take that of a frame: frame.camera";
+                "give the camera size=(width, height), or use a frame's camera: frame.camera";
             return Err(Failure::argument("size", "the camera has no size").with_help(help));
         };
         if let Some(placed) = self.placed.filter(|_| self.size == Some(size)) {
             return Ok((placed, size));
         }
         if matches!(self.file.view, ViewFile::Frame { .. }) && models.is_empty() {
-            let help = "render a picture and take its camera: frame.camera; or give eye and target";
-            let message = "the camera frames a model, and has no place without one";
+            let help = "use the camera of a rendered picture, frame.camera, or give eye and target";
+            let message = "the camera frames a model and has no position without one";
             return Err(Failure::argument("camera", message).with_help(help));
         }
         let mut file = SceneFile { camera: self.file.clone(), ..SceneFile::default() };
@@ -188,7 +188,7 @@ impl NativeCamera {
         let pixels = arrays::rows_of::<f64, 2>("pixels", pixels, "N")?;
         let depths = arrays::real_array::<f64>("depth", depth, "float64")?;
         if depths.shape != [pixels.len()] {
-            let wanted = format!("({},), one for each pixel", pixels.len());
+            let wanted = format!("({},), one per pixel", pixels.len());
             return Err(arrays::wrong_shape("depth", &depths.shape, &wanted).into());
         }
         let rays = self.rays_of_pixels()?;
@@ -209,7 +209,7 @@ impl NativeCamera {
         let rays = self.rays_of_pixels()?;
         let [width, height] = rays.size;
         if depths.shape != [height, width] {
-            let wanted = format!("({height}, {width}), that of the camera's pictures");
+            let wanted = format!("({height}, {width}), the size of the camera's pictures");
             return Err(arrays::wrong_shape("depth", &depths.shape, &wanted).into());
         }
         let points: Vec<[f64; 3]> = py.detach(|| {

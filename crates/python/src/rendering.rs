@@ -154,7 +154,7 @@ fn read_passes(options: &Keywords<'_, '_>) -> PyResult<(bool, Vec<Pass>)> {
     let Some(value) = options.value("passes")? else { return Ok((true, Vec::new())) };
     let names = value.extract::<String>().map(|name| vec![name]);
     let Ok(names) = names.or_else(|_| value.extract::<Vec<String>>()) else {
-        return Err(not_a("passes", &value, "names of passes").into());
+        return Err(not_a("passes", &value, "pass names").into());
     };
     let (mut has_color, mut passes) = (false, Vec::new());
     for name in names {

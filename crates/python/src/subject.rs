@@ -129,7 +129,7 @@ impl Subject {
             "nodes" => Ok(model.nodes.iter().map(|part| part.name.clone()).collect()),
             "meshes" => Ok(model.meshes.iter().map(|part| part.name.clone()).collect()),
             "materials" => Ok(model.materials.iter().map(|part| part.name.clone()).collect()),
-            _ => Err(PyErr::from(Failure::argument("what", "nodes, meshes or materials"))),
+            _ => Err(PyErr::from(Failure::argument("what", "expected nodes, meshes or materials"))),
         };
         self.distinct_models().into_iter().map(names).collect()
     }

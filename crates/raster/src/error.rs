@@ -8,8 +8,8 @@ use crate::MAX_SIDE;
 pub enum RasterError {
     /// The picture has no pixels or extends beyond [`MAX_SIDE`].
     #[error(
-        "a picture of {width} x {height} pixels from pixel ({x}, {y}) on cannot be drawn; each side must be at least 1 \
-         and end within {MAX_SIDE}"
+        "cannot draw a picture of {width} x {height} pixels from pixel ({x}, {y}); each side \
+         must be at least 1 and must end within {MAX_SIDE}"
     )]
     Size {
         /// The first column.

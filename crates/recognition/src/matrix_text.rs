@@ -26,7 +26,7 @@ pub enum GivenMatrix {
 pub struct ParsedMatrix {
     /// The matrix.
     pub matrix: GivenMatrix,
-    /// For example `column by column, as mat constructors are`; `None` for plain numbers.
+    /// For example `column by column, as in mat constructors`; `None` for plain numbers.
     pub order: Option<&'static str>,
 }
 
@@ -38,7 +38,7 @@ pub enum MatrixTextError {
     #[error("`{0}` is not a number")]
     NotANumber(String),
     /// There are neither sixteen nor nine numbers.
-    #[error("expected 16 numbers, or 9 of a 3 × 3 matrix, found {0}")]
+    #[error("expected 16 numbers, or 9 for a 3 × 3 matrix, found {0}")]
     WrongCount(usize),
 }
 
@@ -49,15 +49,15 @@ const ORDERS: [(&str, bool, &str); 13] = [
     ("row by row", false, "row by row, as its comment says"),
     ("column-major", true, "column by column, as its comment says"),
     ("row-major", false, "row by row, as its comment says"),
-    ("from_cols", true, "column by column, as from_cols is"),
-    ("fromarray", true, "column by column, as fromArray is"),
-    ("bmatrix", false, "row by row, as LaTeX is"),
-    ("mat4x4", true, "column by column, as mat constructors are"),
-    ("mat3x3", true, "column by column, as mat constructors are"),
-    ("mat4(", true, "column by column, as mat constructors are"),
-    ("mat3(", true, "column by column, as mat constructors are"),
-    ("=", false, "row by row, which is assumed of source code; --column-major reads columns"),
-    ("(", false, "row by row, which is assumed of source code; --column-major reads columns"),
+    ("from_cols", true, "column by column, as in from_cols"),
+    ("fromarray", true, "column by column, as in fromArray"),
+    ("bmatrix", false, "row by row, as in LaTeX"),
+    ("mat4x4", true, "column by column, as in mat constructors"),
+    ("mat3x3", true, "column by column, as in mat constructors"),
+    ("mat4(", true, "column by column, as in mat constructors"),
+    ("mat3(", true, "column by column, as in mat constructors"),
+    ("=", false, "row by row, as assumed for source code; --column-major reads columns"),
+    ("(", false, "row by row, as assumed for source code; --column-major reads columns"),
 ];
 
 /// Parses the rows of a matrix from sixteen or nine numbers, separated by any brackets, commas and
@@ -72,7 +72,7 @@ const ORDERS: [(&str, bool, &str); 13] = [
 /// let parsed = parse_matrix("mat3(1, 0, 0, 0, 1, 0, 2/3, 0.5, 1)", false)?;
 /// let rows = [[1.0, 0.0, 2.0 / 3.0], [0.0, 1.0, 0.5], [0.0, 0.0, 1.0]];
 /// assert_eq!(parsed.matrix, GivenMatrix::Plane(rows));
-/// assert_eq!(parsed.order, Some("column by column, as mat constructors are"));
+/// assert_eq!(parsed.order, Some("column by column, as in mat constructors"));
 /// # Ok::<(), recognition::MatrixTextError>(())
 /// ```
 ///
@@ -184,7 +184,7 @@ mod tests {
         assert_eq!(parse("(1 0 0 0) (0 1 0 0) (0 0 1 0) (2 0.5 -1000 1)", true), space);
         let plane = GivenMatrix::Plane([[1.0, 0.0, -0.5], [0.0, 1.0, 2.0], [0.0, 0.0, 1.0]]);
         assert_eq!(parse("1 0 -.5 0 1 2 0 0 1", false), Ok(plane));
-        let message = "expected 16 numbers, or 9 of a 3 × 3 matrix, found 3";
+        let message = "expected 16 numbers, or 9 for a 3 × 3 matrix, found 3";
         assert_eq!(parse("1 2 3", false), Err(message.to_owned()));
         assert_eq!(parse("1 x", false), Err("`x` is not a number".to_owned()));
     }

@@ -99,35 +99,34 @@ impl Misprint {
     pub const fn description(self) -> &'static str {
         match self {
             Self::PerspectiveLeftOut => {
-                "P is missing: w stays 1, so that dividing by it foreshortens nothing"
+                "P is missing: w stays 1, so dividing by it foreshortens nothing"
             }
             Self::RepeatedTranslation => {
-                "the third row repeats the second's offset: t_y stands in the place of t_z"
+                "the third row repeats the second row's offset: t_y where t_z belongs"
             }
-            Self::DepthReversed => {
-                "x and y are right, but near and far have changed places in depth"
-            }
+            Self::DepthReversed => "x and y are correct, but near and far are swapped in depth",
             Self::NegativeW => "w is negative in front of the eye",
             Self::ThirdRowFlat => {
                 "the third row ignores z: every point gets the same depth, and there is no inverse"
             }
             Self::ApexMoved => {
-                "the offsets stand in the last column: the apex moves behind the window's center"
+                "the offsets are in the last column: the apex moves behind the window's center"
             }
-            Self::BottomRowOne => {
-                "the bottom row is (0, 0, −1, 1), so that w is the distance plus 1"
-            }
+            Self::BottomRowOne => "the bottom row is (0, 0, −1, 1), so w is the distance plus 1",
             Self::OrthoOffsetSign => {
-                "the depth offset has the wrong sign: the box seems to lie behind the eye"
+                "the depth offset has the wrong sign: the box appears to be behind the eye"
             }
-            Self::FrustumOffsetOne => "the x offset is 1, right only for a window that begins at 0",
+            Self::FrustumOffsetOne => {
+                "the x offset is 1, correct only for a window that begins at 0"
+            }
             Self::HalfOfTangent => "the tangent was halved instead of the angle",
             Self::Degrees => "the angle was read as radians but is in degrees",
             Self::LastRowNegated => {
-                "last row negated: w does not go with the depth row, and no plane ahead is near or far"
+                "the last row is negated: w does not match the depth row, and no plane in front \
+                 is near or far"
             }
-            Self::WrongSign => "one sign is wrong: with it turned, the matrix is rigid",
-            Self::Transposed => "rows and columns are exchanged: this matrix is for row vectors",
+            Self::WrongSign => "one sign is wrong: with it flipped, the matrix is rigid",
+            Self::Transposed => "rows and columns are swapped: this matrix is for row vectors",
         }
     }
 
@@ -135,18 +134,16 @@ impl Misprint {
     #[must_use]
     pub const fn remedy(self) -> &'static str {
         match self {
-            Self::PerspectiveLeftOut => "use M_per = M_orth P in place of M_orth",
+            Self::PerspectiveLeftOut => "use M_per = M_orth P instead of M_orth",
             Self::RepeatedTranslation => "the third row ends with t_z",
             Self::DepthReversed => {
-                "multiply by diag(1, 1, −1, 1) on the left, or name the convention meant"
+                "multiply by diag(1, 1, −1, 1) on the left, or name the intended convention"
             }
-            Self::NegativeW => {
-                "multiply the matrix by −1 before clipping; as a map it stays the same"
-            }
+            Self::NegativeW => "multiply the matrix by −1 before clipping; the map stays the same",
             Self::ThirdRowFlat => "the translation's third row is (0, 0, 1, −z)",
             Self::ApexMoved => {
-                "for an eye at the origin put (right+left)/(right−left) into the third column; \
-                keep the matrix if the apex is meant to move"
+                "for an eye at the origin, put (right+left)/(right−left) into the third column; \
+                 keep the matrix if the apex is meant to move"
             }
             Self::BottomRowOne => "set the last entry to 0",
             Self::OrthoOffsetSign => "the third row ends with −(far+near)/(far−near)",
@@ -154,7 +151,7 @@ impl Misprint {
             Self::HalfOfTangent => "the entries are 1/(aspect tan(fovy/2)) and 1/tan(fovy/2)",
             Self::Degrees => "convert first: radians = degrees π/180",
             Self::LastRowNegated => "negate the last row",
-            Self::WrongSign => "turn the sign of this entry",
+            Self::WrongSign => "flip the sign of this entry",
             Self::Transposed => "transpose the matrix",
         }
     }

@@ -42,7 +42,7 @@ pub enum ViewportError {
     },
     /// A parameter is too large or too small, or parameters differ too much in size, for finite
     /// maps in both directions.
-    #[error("{name} is too large or too small to reckon with")]
+    #[error("{name} is too large or too small to compute with")]
     OutOfRange {
         /// The parameter or the result.
         name: &'static str,

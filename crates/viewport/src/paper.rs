@@ -165,7 +165,7 @@ impl DrawingScale {
     /// Returns an error if either is 0.
     pub fn new(paper: u32, thing: u32) -> Result<Self, ViewportError> {
         check_positive("scale on paper", paper.into())?;
-        check_positive("scale of the thing", thing.into())?;
+        check_positive("scale of the object", thing.into())?;
         Ok(Self { paper, thing })
     }
 

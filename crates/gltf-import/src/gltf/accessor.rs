@@ -154,7 +154,10 @@ impl<'a> AccessorReader<'a> {
         let view = self.buffers.buffer_view(view, &format!("{}/bufferView", block.pointer))?;
         let stride = view.stride.unwrap_or(block.size);
         if stride < block.size && block.count > 1 {
-            let message = format!("the stride is {stride}, an element has {} bytes", block.size);
+            let message = format!(
+                "the stride of {stride} bytes is smaller than an element of {} bytes",
+                block.size
+            );
             return Err(Diagnostic::invalid(&format!("{}/byteStride", view.pointer), message));
         }
         let stride = stride.max(block.size);
@@ -165,7 +168,8 @@ impl<'a> AccessorReader<'a> {
             None => {
                 let (count, pointer, available) = (block.count, view.pointer, view.bytes.len());
                 let message = format!(
-                    "{count} elements from byte {offset} on need {length} bytes, and {pointer} has {available}"
+                    "{count} elements from byte {offset} need {length} bytes, but {pointer} has \
+                     {available}"
                 );
                 Err(Diagnostic::invalid(block.pointer, message))
             }
@@ -192,7 +196,7 @@ impl<'a> AccessorReader<'a> {
         let count = usize::try_from(json.count.0).unwrap_or(usize::MAX);
         let pointer = format!("{}/sparse/indices", base.pointer);
         let Checked::Valid(IndexComponentType(component)) = json.indices.component_type else {
-            let message = "the component type is not one of 5121, 5123 and 5125";
+            let message = "the component type must be 5121, 5123 or 5125";
             return Err(Diagnostic::invalid(&format!("{pointer}/componentType"), message));
         };
         let block = ElementLayout { pointer: &pointer, count, size: component.size() };
@@ -208,7 +212,8 @@ impl<'a> AccessorReader<'a> {
             normalized: false,
         })?;
         if let Some(&index) = indices.iter().find(|&&index| index as usize >= base.count) {
-            let message = format!("element {index} is to be replaced and there are {}", base.count);
+            let message =
+                format!("the sparse index {index} is out of range for a count of {}", base.count);
             return Err(Diagnostic::invalid(&pointer, message));
         }
         let pointer = format!("{}/sparse/values", base.pointer);
@@ -238,11 +243,11 @@ struct ElementLayout<'a> {
 /// One of them is not a value that the specification allows (glTF 2.0 §3.6.2.2).
 fn accessor_format(json: &Accessor, pointer: &str) -> Result<(ComponentType, Type), Diagnostic> {
     let Checked::Valid(component) = json.component_type else {
-        let message = "the component type is not one of 5120, 5121, 5122, 5123, 5125 and 5126";
+        let message = "the component type must be 5120, 5121, 5122, 5123, 5125 or 5126";
         return Err(Diagnostic::invalid(&format!("{pointer}/componentType"), message));
     };
     let Checked::Valid(shape) = json.type_ else {
-        let message = "the type is not one of SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 and MAT4";
+        let message = "the type must be SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4";
         return Err(Diagnostic::invalid(&format!("{pointer}/type"), message));
     };
     Ok((component.0, shape))

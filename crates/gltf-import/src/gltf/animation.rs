@@ -54,7 +54,7 @@ pub(super) fn import_animations(
         let reader = AnimationReader { source, samplers: &json.samplers, animation: at };
         let mut keep = |read: Result<AnimationChannel, Diagnostic>| match read {
             Err(diagnostic) if diagnostic.is_downgradable() => {
-                warnings.downgrade(&diagnostic, "the channel is left out");
+                warnings.downgrade(&diagnostic, "the channel is skipped");
                 Ok(())
             }
             read => read.map(|channel| channels.push(channel)),
@@ -108,7 +108,7 @@ impl AnimationReader<'_> {
             Checked::Valid(JsonProperty::MorphTargetWeights) => NodeProperty::Weights,
             Checked::Invalid => {
                 let pointer = format!("{pointer}/target/path");
-                return Err(Diagnostic::invalid(&pointer, "the path is not known"));
+                return Err(Diagnostic::invalid(&pointer, "unknown path"));
             }
         };
         if property != NodeProperty::Weights && target.trs.is_none() {
@@ -134,7 +134,7 @@ impl AnimationReader<'_> {
             animation_pointer::resolve_pointer(self.source.root, targets, &json.target)
         else {
             let pointer = format!("{pointer}/target/extensions/KHR_animation_pointer/pointer");
-            let message = format!("\"{}\" is nothing that can be animated here", json.target);
+            let message = format!("\"{}\" is not a property that can be animated", json.target);
             return Err(Diagnostic::invalid(&pointer, message));
         };
         let curve = self.read_sampler(json.sampler, kind, &format!("{pointer}/sampler"))?;
@@ -186,7 +186,7 @@ impl AnimationReader<'_> {
             Checked::Valid(JsonInterpolation::CubicSpline) => Interpolation::CubicSpline,
             Checked::Invalid => {
                 let pointer = format!("{pointer}/interpolation");
-                return Err(Diagnostic::invalid(&pointer, "the interpolation is not known"));
+                return Err(Diagnostic::invalid(&pointer, "unknown interpolation"));
             }
         };
         let times = self.read_key_times(json.input.value(), &format!("{pointer}/input"))?;
@@ -216,11 +216,8 @@ impl AnimationReader<'_> {
             ChannelValueKind::Numbers(width) => width,
         };
         if values.len() != rows * width || width == 0 {
-            let message = format!(
-                "{} numbers are not enough, or too many, for {} keys",
-                values.len(),
-                times.len()
-            );
+            let message =
+                format!("wrong number of values: {} values for {} keys", values.len(), times.len());
             return Err(Diagnostic::invalid(&pointer, message));
         }
         Ok(AnimationCurve { interpolation, times, values, components: width })
@@ -236,12 +233,15 @@ impl AnimationReader<'_> {
     fn read_key_times(&self, accessor: usize, pointer: &str) -> Result<Vec<f32>, Diagnostic> {
         let elements = self.source.resolve_accessor(accessor, pointer)?;
         if (elements.element_type, elements.component_type) != (Type::Scalar, ComponentType::F32) {
-            return Err(Diagnostic::invalid(pointer, "the times must be SCALAR of floats"));
+            return Err(Diagnostic::invalid(pointer, "the times must be floats of type SCALAR"));
         }
         let times = self.source.read_floats::<1>(&elements)?.into_flattened();
         let rise = times.windows(2).all(|pair| pair[0] < pair[1]);
         if times.is_empty() || !rise || times.iter().any(|time| !time.is_finite()) {
-            return Err(Diagnostic::invalid(pointer, "the times are not finite numbers that rise"));
+            return Err(Diagnostic::invalid(
+                pointer,
+                "the times must be finite and strictly increasing",
+            ));
         }
         Ok(times)
     }

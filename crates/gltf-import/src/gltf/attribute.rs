@@ -169,7 +169,7 @@ impl AttributeReader<'_, '_> {
         match checked {
             Err(diagnostic) if diagnostic.is_downgradable() => {
                 let name = pointer.rsplit('/').next().unwrap_or(pointer);
-                self.warnings.downgrade(&diagnostic, &format!("the attribute {name} is left out"));
+                self.warnings.downgrade(&diagnostic, &format!("the attribute {name} is skipped"));
                 Ok(None)
             }
             values => values.map(Some),
@@ -198,7 +198,12 @@ impl AttributeReader<'_, '_> {
             nonfinite += 1;
         }
         if nonfinite > 0 {
-            let message = format!("coordinates are no numbers; they are 0 (vertices: {nonfinite})");
+            let (noun, verb) =
+                if nonfinite == 1 { ("vertex", "has") } else { ("vertices", "have") };
+            let message = format!(
+                "{nonfinite} {noun} {verb} texture coordinates that are not finite; \
+                 they are set to 0"
+            );
             self.warnings.push_warning(pointer, message);
         }
         Ok(Some(uvs))

@@ -122,7 +122,7 @@ impl<'a> Buffers<'a> {
         checked_slice(bytes, start, length).ok_or_else(|| {
             let available = bytes.len();
             let message = format!(
-                "bytes {start} to {start} + {length} are not all in buffer {buffer}, which has {available}"
+                "bytes {start} to {start} + {length} exceed buffer {buffer} of {available} bytes"
             );
             Diagnostic::invalid(user, message)
         })
@@ -146,7 +146,7 @@ impl<'a> Buffers<'a> {
         let all = match (&json.uri, self.binary_chunk) {
             (None, Some(chunk)) if buffer == 0 => chunk,
             (None, _) => {
-                let message = "the buffer has no data: no URI, and no binary chunk for it";
+                let message = "the buffer has no data: it has neither a URI nor a binary chunk";
                 return Err(Diagnostic::missing_data(&format!("/buffers/{buffer}"), message));
             }
             (Some(uri), _) => match read.get() {

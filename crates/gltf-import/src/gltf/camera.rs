@@ -25,7 +25,7 @@ pub(super) fn import_cameras(
         let kind = camera_projection(json, &format!("/cameras/{at}"));
         usable.push(kind.is_ok());
         let kind = kind.unwrap_or_else(|diagnostic| {
-            warnings.downgrade(&diagnostic, "the camera is left out");
+            warnings.downgrade(&diagnostic, "the camera is skipped");
             DEFAULT_PROJECTION
         });
         lenses.push(ModelCamera { name: json.name.clone(), projection: kind });
@@ -49,7 +49,7 @@ fn camera_projection(json: &Camera, pointer: &str) -> Result<CameraProjection, D
         (Checked::Valid(Type::Orthographic), _, Some(json)) => {
             orthographic_projection(json, pointer)
         }
-        (Checked::Valid(_), ..) => Err(Diagnostic::invalid(pointer, "its numbers are missing")),
+        (Checked::Valid(_), ..) => Err(Diagnostic::invalid(pointer, "its parameters are missing")),
         (Checked::Invalid, ..) => {
             let message = "the type is neither perspective nor orthographic";
             Err(Diagnostic::invalid(&format!("{pointer}/type"), message))
@@ -67,7 +67,7 @@ fn perspective_projection(
 ) -> Result<CameraProjection, Diagnostic> {
     let out_of_range = |member: &str, value: f64, rule: &str| {
         let pointer = format!("{pointer}/perspective/{member}");
-        Err(Diagnostic::invalid(&pointer, format!("{member} is {value} and must be {rule}")))
+        Err(Diagnostic::invalid(&pointer, format!("{member} is {value} but must be {rule}")))
     };
     let (fov_y, near) = (f64::from(json.yfov), f64::from(json.znear));
     let far = json.zfar.map_or(f64::INFINITY, f64::from);
@@ -99,7 +99,7 @@ fn orthographic_projection(
 ) -> Result<CameraProjection, Diagnostic> {
     let out_of_range = |member: &str, value: f64, rule: &str| {
         let pointer = format!("{pointer}/orthographic/{member}");
-        Err(Diagnostic::invalid(&pointer, format!("{member} is {value} and must be {rule}")))
+        Err(Diagnostic::invalid(&pointer, format!("{member} is {value} but must be {rule}")))
     };
     let (half_width, half_height) = (f64::from(json.xmag).abs(), f64::from(json.ymag).abs());
     let (near, far) = (f64::from(json.znear), f64::from(json.zfar));
@@ -110,7 +110,7 @@ fn orthographic_projection(
         return out_of_range("ymag", half_height, "above 0");
     }
     if !(near >= 0.0 && near.is_finite()) {
-        return out_of_range("znear", near, "0 or above");
+        return out_of_range("znear", near, "at least 0");
     }
     if !(far > near && far.is_finite()) {
         return out_of_range("zfar", far, "above znear");
@@ -150,12 +150,12 @@ mod tests {
     #[test]
     fn numbers_that_make_none() {
         for (yfov, znear, zfar, aspect, message) in [
-            (0.0, 1.0, 2.0, 1.0, "yfov is 0 and must be above 0 and below pi"),
-            (4.0, 1.0, 2.0, 1.0, "yfov is 4 and must be above 0 and below pi"),
-            (0.5, 0.0, 2.0, 1.0, "znear is 0 and must be above 0"),
-            (0.5, -1.0, 2.0, 1.0, "znear is -1 and must be above 0"),
-            (0.5, 2.0, 2.0, 1.0, "zfar is 2 and must be above znear"),
-            (0.5, 1.0, 2.0, 0.0, "aspectRatio is 0 and must be above 0"),
+            (0.0, 1.0, 2.0, 1.0, "yfov is 0 but must be above 0 and below pi"),
+            (4.0, 1.0, 2.0, 1.0, "yfov is 4 but must be above 0 and below pi"),
+            (0.5, 0.0, 2.0, 1.0, "znear is 0 but must be above 0"),
+            (0.5, -1.0, 2.0, 1.0, "znear is -1 but must be above 0"),
+            (0.5, 2.0, 2.0, 1.0, "zfar is 2 but must be above znear"),
+            (0.5, 1.0, 2.0, 0.0, "aspectRatio is 0 but must be above 0"),
         ] {
             let perspective =
                 json!({"yfov": yfov, "znear": znear, "zfar": zfar, "aspectRatio": aspect});
@@ -165,9 +165,9 @@ mod tests {
             assert_eq!(read_camera(camera), Err((pointer, message.to_owned())));
         }
         for (xmag, znear, zfar, message) in [
-            (0.0, 0.0, 2.0, "xmag is 0 and must be above 0"),
-            (1.0, -1.0, 2.0, "znear is -1 and must be 0 or above"),
-            (1.0, 0.0, 0.0, "zfar is 0 and must be above znear"),
+            (0.0, 0.0, 2.0, "xmag is 0 but must be above 0"),
+            (1.0, -1.0, 2.0, "znear is -1 but must be at least 0"),
+            (1.0, 0.0, 0.0, "zfar is 0 but must be above znear"),
         ] {
             let orthographic = json!({"xmag": xmag, "ymag": 1, "znear": znear, "zfar": zfar});
             let camera = json!({"type": "orthographic", "orthographic": orthographic});
@@ -175,6 +175,6 @@ mod tests {
         }
         assert_eq!(read_camera(json!({"type": "fisheye"})).unwrap_err().0, "/cameras/0/type");
         let lacking = json!({"type": "perspective"});
-        assert_eq!(read_camera(lacking).unwrap_err().1, "its numbers are missing");
+        assert_eq!(read_camera(lacking).unwrap_err().1, "its parameters are missing");
     }
 }

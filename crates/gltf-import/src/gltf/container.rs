@@ -33,7 +33,7 @@ const HEADER: usize = 12;
 /// Size of a chunk header in bytes: length and type.
 const CHUNK_HEADER: usize = 8;
 /// The advice for files that end too early, mostly because of interrupted downloads.
-const TRUNCATED: &str = "the file is cut off: copy or export it again";
+const TRUNCATED: &str = "the file is truncated: copy or export it again";
 
 impl Container {
     /// Locates the JSON and the binary chunk, in text or GLB form.
@@ -72,10 +72,9 @@ impl Container {
         let end = check_glb_header(bytes, warnings)?;
         if end < bytes.len() {
             let more = bytes.len() - end;
-            warnings.push_warning(
-                "",
-                format!("there is more after the end; it is ignored (bytes: {more})"),
-            );
+            let plural = if more == 1 { "" } else { "s" };
+            let message = format!("ignored {more} byte{plural} after the end of the GLB");
+            warnings.push_warning("", message);
         }
         let mut chunks = GlbChunks { bytes: &bytes[..end], offset: HEADER };
         let Some((b"JSON", json)) = chunks.next(warnings)? else {
@@ -102,18 +101,21 @@ fn check_glb_header(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<usize
         return Err(Diagnostic::error(
             codes::UNSUPPORTED_VERSION,
             "",
-            format!("the file is glTF {version}.0 and only glTF 2 is read"),
+            format!("the file is glTF {version}.0, but only glTF 2 is supported"),
             "convert it to glTF 2.0",
         ));
     }
     if length > bytes.len() {
-        let message = format!("the header says {length} bytes, the file has {}", bytes.len());
-        warnings
-            .downgrade_if_lenient(format_error(&message, TRUNCATED), "what is there is read")?;
+        let message =
+            format!("the header declares {length} bytes, but the file has {}", bytes.len());
+        warnings.downgrade_if_lenient(
+            format_error(&message, TRUNCATED),
+            "the available data is read",
+        )?;
         return Ok(bytes.len());
     }
     if length < HEADER + CHUNK_HEADER {
-        let message = format!("the header says {length} bytes, too few for any content");
+        let message = format!("the header declares {length} bytes, too few for any content");
         return Err(format_error(&message, "export the file again"));
     }
     Ok(length)
@@ -152,9 +154,11 @@ impl<'a> GlbChunks<'a> {
         let (length, kind) = (read_u32(header, 0).unwrap_or(usize::MAX), header.last_chunk());
         let (start, left) = (self.offset + CHUNK_HEADER, data.len());
         if length > left {
-            let message = format!("a chunk says {length} bytes, {left} are left");
-            warnings
-                .downgrade_if_lenient(format_error(&message, TRUNCATED), "what is there is read")?;
+            let message = format!("a chunk declares {length} bytes, but only {left} are left");
+            warnings.downgrade_if_lenient(
+                format_error(&message, TRUNCATED),
+                "the available data is read",
+            )?;
         }
         self.offset = start + length.min(left);
         Ok(kind.map(|kind| (kind, start..self.offset)))
@@ -209,14 +213,17 @@ mod tests {
         assert_eq!(message(b""), "the file is empty");
         assert!(message(b"OBJ").starts_with("this is not a glTF file"));
         assert_eq!(message(b"glTF\x02"), "the file has only 5 bytes");
-        assert_eq!(message(&glb(1, 12, &[])), "the file is glTF 1.0 and only glTF 2 is read");
+        assert_eq!(message(&glb(1, 12, &[])), "the file is glTF 1.0, but only glTF 2 is supported");
         assert_eq!(
             message(&glb(2, 4_000_000_000, &[])),
-            "the header says 4000000000 bytes, the file has 12"
+            "the header declares 4000000000 bytes, but the file has 12"
         );
-        assert_eq!(message(&glb(2, 3, &[])), "the header says 3 bytes, too few for any content");
+        assert_eq!(
+            message(&glb(2, 3, &[])),
+            "the header declares 3 bytes, too few for any content"
+        );
         let long = glb(2, 24, &[(b"JSON", u32::MAX, b"{}  ")]);
-        assert_eq!(message(&long), "a chunk says 4294967295 bytes, 4 are left");
+        assert_eq!(message(&long), "a chunk declares 4294967295 bytes, but only 4 are left");
         let wrong = glb(2, 24, &[(b"BIN\0", 4, b"{}  ")]);
         assert_eq!(message(&wrong), "the first chunk is not JSON");
     }
@@ -229,7 +236,7 @@ mod tests {
             let diagnostic = cut.unwrap_err();
             assert_eq!(diagnostic.code, codes::NOT_GLTF, "cut at {end}");
             if end >= HEADER {
-                let expected = format!("the header says 36 bytes, the file has {end}");
+                let expected = format!("the header declares 36 bytes, but the file has {end}");
                 assert_eq!(diagnostic.message, expected);
             }
         }

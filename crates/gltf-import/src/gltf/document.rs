@@ -85,7 +85,7 @@ pub fn check_json_limits(text: &[u8], limits: &Limits) -> Result<(), Diagnostic>
                 depth += 1;
                 values += if byte == b'{' { 10 } else { 1 };
                 if depth > limits.json_depth.min(127) {
-                    let what = format!("brackets are nested {depth} deep at byte {at}");
+                    let what = format!("brackets are nested {depth} levels deep at byte {at}");
                     return Err(Diagnostic::limit_exceeded(
                         "",
                         &what,
@@ -143,7 +143,7 @@ fn end_of_string(text: &[u8], mut at: usize) -> usize {
 fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<(), Diagnostic> {
     let asset = &value["asset"];
     let Some(version) = asset["version"].as_str() else {
-        let message = "the version of glTF is missing";
+        let message = "the glTF version is missing";
         let help = if value["asset"].is_null() && value["models"].is_array() {
             "this looks like a scene in JSON; scenes are written in RON, in a file that ends in \
              .ron: Scene(models: [(path: \"model.glb\")])"
@@ -161,7 +161,7 @@ fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<()
         Diagnostic::error(
             codes::UNSUPPORTED_VERSION,
             &format!("/asset/{key}"),
-            format!("the file is glTF {version} and only glTF 2.0 is read"),
+            format!("the file is glTF {version}, but only glTF 2.0 is supported"),
             "convert it to glTF 2.0",
         )
     };
@@ -322,13 +322,13 @@ mod tests {
         assert_eq!(message(r#""asset": {"version": "2.1"}"#), None);
         assert_eq!(
             message(r#""asset": {"version": "1.0"}"#).unwrap(),
-            "the file is glTF 1.0 and only glTF 2.0 is read"
+            "the file is glTF 1.0, but only glTF 2.0 is supported"
         );
         assert_eq!(
             message(r#""asset": {"version": "2.1", "minVersion": "2.1"}"#).unwrap(),
-            "the file is glTF 2.1 and only glTF 2.0 is read"
+            "the file is glTF 2.1, but only glTF 2.0 is supported"
         );
-        assert_eq!(message("").unwrap(), "the version of glTF is missing");
+        assert_eq!(message("").unwrap(), "the glTF version is missing");
     }
 
     #[test]

@@ -95,10 +95,7 @@ pub(super) fn decode_draco(
     let view = extension.get("bufferView").and_then(Value::as_u64);
     let ids = extension.get("attributes").and_then(Value::as_object);
     let (Some(view), Some(ids)) = (view, ids) else {
-        return Err(Diagnostic::invalid(
-            &pointer,
-            "the members `bufferView` and `attributes` are due",
-        ));
+        return Err(Diagnostic::invalid(&pointer, "`bufferView` and `attributes` are required"));
     };
     let view = usize::try_from(view).unwrap_or(usize::MAX);
     let bytes = source.buffers.buffer_view(view, &format!("{pointer}/bufferView"))?.bytes;
@@ -107,7 +104,7 @@ pub(super) fn decode_draco(
     for &(accessor, _) in &attributes {
         let count = source.resolve_accessor(accessor, &pointer)?.count;
         if *vertices.get_or_insert(count) != count {
-            let message = "the attributes of a primitive must have equally many elements";
+            let message = "the attributes of a primitive must have the same number of elements";
             return Err(Diagnostic::invalid(&format!("/accessors/{accessor}/count"), message));
         }
     }
@@ -151,7 +148,7 @@ fn stream_attributes(
         let name = semantic.to_string();
         let Some(id) = ids.get(&name) else { continue };
         let id = id.as_u64().and_then(|id| u32::try_from(id).ok()).ok_or_else(|| {
-            Diagnostic::invalid(&format!("{pointer}/attributes/{name}"), "an integer is due")
+            Diagnostic::invalid(&format!("{pointer}/attributes/{name}"), "expected an integer")
         })?;
         attributes.push((accessor.value(), id));
     }
@@ -162,7 +159,7 @@ fn stream_attributes(
 impl DracoStream<'_> {
     /// Built without the feature `draco`, every stream is data that cannot be read.
     fn decode_mesh(self) -> Result<DracoData, Diagnostic> {
-        Err(Diagnostic::missing_data(&self.pointer, "the data is compressed by Draco"))
+        Err(Diagnostic::missing_data(&self.pointer, "the data is compressed with Draco"))
     }
 }
 
@@ -202,8 +199,10 @@ mod decoder {
             })?;
             if mesh.num_points() != self.vertices {
                 let (actual, promised) = (mesh.num_points(), self.vertices);
-                let message =
-                    format!("the stream has {actual} vertices and the accessors {promised}");
+                let message = format!(
+                    "the stream has {actual} vertices, but the accessors \
+                     declare {promised}"
+                );
                 return Err(Diagnostic::invalid(&self.pointer, message));
             }
             let indices = self.decode_indices(&mesh)?;
@@ -223,7 +222,8 @@ mod decoder {
             if let Some((accessor, count)) = self.indices
                 && actual != count
             {
-                let message = format!("there are {count} indices and {actual} in the Draco stream");
+                let message =
+                    format!("the accessor has {count} indices, but the Draco stream has {actual}");
                 return Err(Diagnostic::invalid(&format!("/accessors/{accessor}/count"), message));
             }
             let accessor = self.indices.map_or(0, |(accessor, _)| accessor);

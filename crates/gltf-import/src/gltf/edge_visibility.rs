@@ -73,7 +73,7 @@ impl EdgeReader<'_, '_> {
     fn warn_if_soft(&mut self, read: Result<(), Diagnostic>) -> Result<(), Diagnostic> {
         match read {
             Err(diagnostic) if diagnostic.is_downgradable() => {
-                self.warnings.downgrade(&diagnostic, "its edges are left out");
+                self.warnings.downgrade(&diagnostic, "its edges are skipped");
                 Ok(())
             }
             read => read,
@@ -99,7 +99,7 @@ impl EdgeReader<'_, '_> {
         for (at, json) in strings.into_iter().flatten().enumerate() {
             let pointer = format!("{pointer}/lineStrings/{at}");
             let Some(accessor) = index_member(json, "indices") else {
-                return Err(Diagnostic::invalid(&pointer, "the member `indices` is due"));
+                return Err(Diagnostic::invalid(&pointer, "`indices` is required"));
             };
             let (vertices, restart) =
                 self.read_line_indices(accessor, &format!("{pointer}/indices"))?;
@@ -120,7 +120,7 @@ impl EdgeReader<'_, '_> {
     fn read_outline(&mut self, json: &Value, edges: &mut PrimitiveEdges) -> Result<(), Diagnostic> {
         let pointer = format!("{}/extensions/{OUTLINE_EXTENSION}/indices", self.pointer);
         let Some(accessor) = index_member(json, "indices") else {
-            return Err(Diagnostic::invalid(&pointer, "an index is due"));
+            return Err(Diagnostic::invalid(&pointer, "expected an index"));
         };
         let (vertices, _) = self.read_line_indices(accessor, &pointer)?;
         let lines = EdgeList { vertex_pairs: vertices.as_chunks().0.to_vec(), material: None };
@@ -145,13 +145,14 @@ impl EdgeReader<'_, '_> {
         if (elements.element_type, elements.component_type) != (Type::Scalar, ComponentType::U8) {
             return Err(Diagnostic::invalid(
                 pointer,
-                "the visibility must be SCALAR of unsigned bytes",
+                "the visibility must be unsigned bytes of type SCALAR",
             ));
         }
         let (actual, expected) = (elements.count, (6 * self.triangles).div_ceil(8));
         if actual != expected {
+            let triangles = self.triangles;
             let message =
-                format!("{actual} bytes for {} triangles, not {expected}", self.triangles);
+                format!("expected {expected} bytes for {triangles} triangles, found {actual}");
             return Err(Diagnostic::invalid(pointer, message));
         }
         self.source.charge_array(accessor, self.triangles, 3)?;
@@ -188,9 +189,8 @@ impl EdgeReader<'_, '_> {
         lines.vertex_pairs.retain(|ends| ends.iter().all(|&end| (end as usize) < self.vertices));
         let dropped = before - lines.vertex_pairs.len();
         if dropped > 0 {
-            let message = format!(
-                "edges use vertices that do not exist; they are left out (edges: {dropped})"
-            );
+            let plural = if dropped == 1 { "" } else { "s" };
+            let message = format!("skipped {dropped} edge{plural} with missing vertices");
             self.warnings.push_warning(pointer, message);
         }
         lines

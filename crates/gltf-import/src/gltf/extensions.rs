@@ -29,26 +29,26 @@ use ExtensionSupport::{Full, Harmless, None as Never, Partly, Without};
 
 /// Draco is an optional feature of this crate, on by default.
 const DRACO_SUPPORT: ExtensionSupport =
-    if cfg!(feature = "draco") { Full } else { Never("data compressed by Draco is not read") };
+    if cfg!(feature = "draco") { Full } else { Never("Draco compression is not supported") };
 
 /// Basis Universal is an optional feature of this crate, on by default.
 const BASISU_SUPPORT: ExtensionSupport =
-    if cfg!(feature = "basisu") { Full } else { Never("KTX2 images are not read") };
+    if cfg!(feature = "basisu") { Full } else { Never("KTX2 images are not supported") };
 
 /// WebP is an optional feature of this crate, on by default.
 const WEBP_SUPPORT: ExtensionSupport =
-    if cfg!(feature = "webp") { Full } else { Never("WebP images are not read") };
+    if cfg!(feature = "webp") { Full } else { Never("WebP images are not supported") };
 
 /// All known extensions, sorted by name.
 ///
 /// An extension that is not listed is ignored without a warning if a file merely uses it, and
 /// rejected if a file requires it.
 const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
-    ("CESIUM_primitive_outline", Partly("the outlines are drawn in line drawings alone")),
+    ("CESIUM_primitive_outline", Partly("the outlines appear only in line drawings")),
     ("EXT_mesh_features", Harmless),
     ("EXT_mesh_gpu_instancing", Full),
     ("EXT_mesh_manifold", Harmless),
-    ("EXT_mesh_primitive_edge_visibility", Partly("the edges are drawn in line drawings alone")),
+    ("EXT_mesh_primitive_edge_visibility", Partly("the edges appear only in line drawings")),
     ("EXT_meshopt_compression", Full),
     ("EXT_structural_metadata", Harmless),
     ("EXT_texture_webp", WEBP_SUPPORT),
@@ -57,10 +57,13 @@ const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
     ("KHR_lights_punctual", Full),
     (
         "KHR_materials_anisotropy",
-        Partly("under an environment approximate: reflections are bent, but not stretched"),
+        Partly("approximate under an environment: reflections are bent but not stretched"),
     ),
     ("KHR_materials_clearcoat", Full),
-    ("KHR_materials_diffuse_transmission", Without("light through surfaces is not shown")),
+    (
+        "KHR_materials_diffuse_transmission",
+        Without("light that passes through surfaces is not shown"),
+    ),
     ("KHR_materials_dispersion", Full),
     ("KHR_materials_emissive_strength", Full),
     ("KHR_materials_ior", Full),
@@ -70,7 +73,7 @@ const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
     ("KHR_materials_specular", Full),
     (
         "KHR_materials_transmission",
-        Partly("thick or rough glass shows the opaque surfaces of the picture behind it alone"),
+        Partly("thick or rough glass shows only the opaque surfaces behind it"),
     ),
     ("KHR_materials_unlit", Full),
     ("KHR_materials_variants", Full),
@@ -85,7 +88,7 @@ const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
     ("MSFT_lod", Without("the finest level is shown")),
     ("MSFT_packing_normalRoughnessMetallic", Harmless),
     ("MSFT_packing_occlusionRoughnessMetallic", Harmless),
-    ("MSFT_texture_dds", Never("DDS images are not read")),
+    ("MSFT_texture_dds", Never("DDS images are not supported")),
 ];
 
 /// Checks `extensionsRequired`: unsupported ones are an error, or a warning in lenient mode. Warns
@@ -103,13 +106,13 @@ pub(super) fn check_extensions(
         let reason = match find_support(name) {
             Some(Never(reason)) => *reason,
             Some(_) => continue,
-            None => "it is not known here",
+            None => "it is not supported",
         };
         let diagnostic = Diagnostic::error(
             codes::UNSUPPORTED_REQUIRED_EXTENSION,
             &format!("/extensionsRequired/{at}"),
             format!("the file requires the extension {name}: {reason}"),
-            "export the file without it, or load what can be loaded with --lenient",
+            "export the file without it, or load the rest with --lenient",
         );
         warnings.downgrade_if_lenient(diagnostic, "it is ignored")?;
     }

@@ -37,8 +37,7 @@ pub(super) fn import_instances(
         };
         let pointer = format!("/nodes/{at}/extensions/{EXTENSION}");
         if node.skin.is_some() || node.mesh.is_none() {
-            let message =
-                "only a mesh without skin can be shown many times; the places are not used";
+            let message = "only a mesh without a skin can have instances; they are ignored";
             warnings.push_warning(&pointer, message);
             continue;
         }
@@ -61,8 +60,9 @@ pub(super) fn import_instances(
             all.into_iter().flatten().filter(is_visible).collect();
         if transforms.len() < count {
             let dropped = count - transforms.len();
+            let plural = if dropped == 1 { "" } else { "s" };
             let message =
-                format!("places are no finite ones; they are left out (places: {dropped})");
+                format!("skipped {dropped} instance{plural} with a transform that is not finite");
             warnings.push_warning(&pointer, message);
         }
         node.instance_transforms = Some(transforms);
@@ -93,7 +93,10 @@ fn instance_transforms(
     let mut counts = counts.into_iter().flatten();
     let count = counts.next().unwrap_or(0);
     if counts.any(|other| other != count) {
-        return Err(Diagnostic::invalid(pointer, "the attributes have not equally many elements"));
+        return Err(Diagnostic::invalid(
+            pointer,
+            "the attributes must have the same number of elements",
+        ));
     }
     source.buffers.charge_bytes(
         pointer,
@@ -135,7 +138,7 @@ impl InstanceAttributes<'_> {
         let Some(value) = self.attributes.get(name) else { return Ok(None) };
         let pointer = format!("{}/{name}", self.pointer);
         let accessor =
-            value.as_u64().ok_or_else(|| Diagnostic::invalid(&pointer, "an index is due"))?;
+            value.as_u64().ok_or_else(|| Diagnostic::invalid(&pointer, "expected an index"))?;
         let accessor = usize::try_from(accessor).unwrap_or(usize::MAX);
         let elements = self.source.resolve_accessor(accessor, &pointer)?;
         format.check_elements(&elements, &pointer)?;

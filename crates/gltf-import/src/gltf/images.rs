@@ -227,7 +227,7 @@ fn image_bytes<'a>(
             Ok(source.buffers.buffer_view(view.value(), &user)?.bytes.into())
         }
         (None, None) => {
-            Err(Diagnostic::invalid(pointer, "the image has neither URI nor buffer view"))
+            Err(Diagnostic::invalid(pointer, "the image has neither a URI nor a buffer view"))
         }
     }
 }

@@ -133,7 +133,7 @@ fn repair_at(document: &mut Value, pointer: &str) -> Option<&'static str> {
     match *steps.as_slice() {
         [] => None,
         [collection] => {
-            document.as_object_mut()?.remove(collection).map(|_| "all of it is left out")
+            document.as_object_mut()?.remove(collection).map(|_| "all of it is skipped")
         }
         [collection, at] => replace_with_empty(document, collection, at),
         [collection, at, ..] => {
@@ -156,12 +156,12 @@ fn remove_member(document: &mut Value, pointer: &str) -> Option<&'static str> {
     match document.pointer_mut(parent)? {
         Value::Object(members) => {
             let key = last.replace("~1", "/").replace("~0", "~");
-            members.remove(&key).map(|_| "it is left out")
+            members.remove(&key).map(|_| "it is skipped")
         }
         Value::Array(items) if UNREFERENCED_LISTS.contains(&name) => {
             let at = last.parse().ok().filter(|&at: &usize| at < items.len())?;
             items.remove(at);
-            Some("it is left out")
+            Some("it is skipped")
         }
         Value::Array(_) => remove_member(document, parent),
         _ => None,
@@ -186,13 +186,13 @@ fn replace_with_empty(document: &mut Value, collection: &str, at: &str) -> Optio
         // Not a collection whose items are referred to by index: the whole member is removed.
         _ => {
             let members = document.as_object_mut()?;
-            return members.remove(collection).map(|_| "all of it is left out");
+            return members.remove(collection).map(|_| "all of it is skipped");
         }
     };
     let slot = document.get_mut(collection)?.as_array_mut()?.get_mut(at.parse::<usize>().ok()?)?;
     let changes = *slot != nothing;
     *slot = nothing;
-    changes.then_some("an empty one takes its place")
+    changes.then_some("an empty one replaces it")
 }
 
 #[cfg(test)]

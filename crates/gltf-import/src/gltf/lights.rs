@@ -31,7 +31,7 @@ pub(super) fn import_lights(
         let parsed = parse_light(json, &format!("/extensions/{EXTENSION}/lights/{at}"), warnings);
         is_valid.push(parsed.is_ok());
         lights.push(parsed.unwrap_or_else(|diagnostic| {
-            warnings.downgrade(&diagnostic, "the light is left out");
+            warnings.downgrade(&diagnostic, "the light is skipped");
             PunctualLight {
                 name: None,
                 color: [0.0; 3],
@@ -65,7 +65,7 @@ fn attach_lights(
         } else {
             let pointer = format!("/nodes/{at}/extensions/{EXTENSION}/light");
             let diagnostic = Diagnostic::unresolved_index(&pointer, "light", light, is_valid.len());
-            warnings.downgrade(&diagnostic, "the node carries none");
+            warnings.downgrade(&diagnostic, "the node has no light");
         }
     }
 }
@@ -80,7 +80,7 @@ fn parse_light(
     warnings: &mut ImportWarnings,
 ) -> Result<PunctualLight, Diagnostic> {
     let Some(json) = json.as_object() else {
-        return Err(Diagnostic::invalid(pointer, "an object is due"));
+        return Err(Diagnostic::invalid(pointer, "expected an object"));
     };
     let mut numbers = LightNumbers { json, pointer, warnings };
     let intensity = numbers.read_number("intensity", 1.0, [0.0, f32::MAX]);
@@ -98,13 +98,13 @@ fn parse_light(
             let inner = numbers.read_number("innerConeAngle", 0.0, [0.0, FRAC_PI_2]);
             let outer = numbers.read_number("outerConeAngle", FRAC_PI_4, [0.0, FRAC_PI_2]);
             if inner >= outer {
-                let message = "innerConeAngle is not less than outerConeAngle; it is a little less";
+                let message = "innerConeAngle is not less than outerConeAngle; it is reduced";
                 numbers.warnings.push_warning(pointer, message);
             }
             LightKind::Spot { range, inner_cone_angle: inner, outer_cone_angle: outer }
         }
         _ => {
-            let message = "the type is not one of directional, point and spot";
+            let message = "the type must be directional, point or spot";
             return Err(Diagnostic::invalid(&format!("{pointer}/type"), message));
         }
     };
@@ -141,7 +141,8 @@ impl LightNumbers<'_, '_> {
             Some(given) if (min..=max).contains(&given) => given,
             _ => {
                 let clamped = given.map_or(default, |given| given.clamp(min, max));
-                let message = format!("{value} is no number in [{min}, {max}]; it is {clamped}");
+                let message =
+                    format!("{value} is not a number in [{min}, {max}]; {clamped} is used");
                 self.warnings.push_warning(&format!("{}/{member}", self.pointer), message);
                 clamped
             }

@@ -135,7 +135,7 @@ impl<'a> MaterialReader<'a, '_> {
                 f32::MAX => format!("not at least {min}"),
                 _ => format!("not in [{min}, {max}]"),
             };
-            let message = format!("{given:?} is {range}; it is {numbers:?}");
+            let message = format!("{given:?} is {range}; {numbers:?} is used");
             self.warnings.push_warning(&self.member_pointer(member), message);
         }
     }
@@ -153,7 +153,7 @@ impl<'a> MaterialReader<'a, '_> {
                 AlphaMode::Mask { cutoff: json.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0) }
             }
             Checked::Invalid => {
-                let message = "the alpha mode is not one of OPAQUE, MASK and BLEND; it is OPAQUE";
+                let message = "the alpha mode must be OPAQUE, MASK or BLEND; OPAQUE is used";
                 self.warnings.push_warning(&self.member_pointer("alphaMode"), message);
                 AlphaMode::Opaque
             }
@@ -189,12 +189,12 @@ impl<'a> MaterialReader<'a, '_> {
                 }
                 None => {
                     let expected = match numbers.len() {
-                        1 => "a number is due".to_owned(),
-                        several => format!("{several} numbers are due"),
+                        1 => "expected a number".to_owned(),
+                        several => format!("expected {several} numbers"),
                     };
                     self.warnings.push_warning(
                         &self.member_pointer(path),
-                        format!("{expected}; the usual is used"),
+                        format!("{expected}; the default is used"),
                     );
                 }
             }
@@ -382,7 +382,9 @@ pub(super) fn warn_of_missing_texcoords(model: &Model, warnings: &mut ImportWarn
             if let Some((_, TextureInfo { uv_set, .. })) =
                 missing.filter(|_| primitive.item_count() > 0)
             {
-                let message = format!("its texture needs TEXCOORD_{uv_set}; it is shown without");
+                let message = format!(
+                    "its texture needs TEXCOORD_{uv_set}; the primitive is shown without it"
+                );
                 warnings
                     .push_warning(&format!("/meshes/{at}/primitives/{primitive_index}"), message);
             }

@@ -74,15 +74,17 @@ impl CompressedView {
         let Some((name, value)) = extension else { return Ok(None) };
         let pointer = format!("{view}/extensions/{name}");
         let members = value.as_object();
-        let members = members.ok_or_else(|| Diagnostic::invalid(&pointer, "an object is due"))?;
+        let members = members.ok_or_else(|| Diagnostic::invalid(&pointer, "expected an object"))?;
         let packed = Self::from_members(members, pointer)?;
         if packed.decompressed_length() == json.byte_length.0 {
             return Ok(Some(packed));
         }
         let Self { count, stride, .. } = packed;
         let length = json.byte_length.0;
-        let message =
-            format!("{count} elements of {stride} bytes are compressed, not {length} bytes");
+        let message = format!(
+            "{count} compressed elements of {stride} bytes do not match a \
+             byteLength of {length}"
+        );
         Err(Diagnostic::invalid(&format!("{view}/byteLength"), message))
     }
 
@@ -90,7 +92,8 @@ impl CompressedView {
     fn from_members(members: &Map<String, Value>, pointer: String) -> Result<Self, Diagnostic> {
         let integer_member = |key: &str| {
             let integer_member = members.get(key).and_then(Value::as_u64);
-            let missing = || Diagnostic::invalid(&format!("{pointer}/{key}"), "an integer is due");
+            let missing =
+                || Diagnostic::invalid(&format!("{pointer}/{key}"), "expected an integer");
             integer_member.ok_or_else(missing)
         };
         let size = |key: &str| Ok(usize::try_from(integer_member(key)?).unwrap_or(usize::MAX));
@@ -100,11 +103,11 @@ impl CompressedView {
         let (count, stride) = (size("count")?, size("byteStride")?);
         let mode = CompressionMode::from_members(members, &pointer)?;
         if let Err(allowed) = mode.check_stride(stride) {
-            let message = format!("the stride is {stride} and must be {allowed}");
+            let message = format!("the stride is {stride} but must be {allowed}");
             return Err(Diagnostic::invalid(&format!("{pointer}/byteStride"), message));
         }
         if mode == CompressionMode::Triangles && !count.is_multiple_of(3) {
-            let message = format!("{count} indices are no triangles");
+            let message = format!("{count} indices do not form triangles: not a multiple of 3");
             return Err(Diagnostic::invalid(&format!("{pointer}/count"), message));
         }
         Ok(Self { pointer, buffer, offset, length, count, stride, mode })
@@ -154,7 +157,7 @@ impl CompressionMode {
     /// Reads mode and filter.
     fn from_members(members: &Map<String, Value>, pointer: &str) -> Result<Self, Diagnostic> {
         let string_member =
-            |key: &str| members.get(key).map(|value| value.as_str().unwrap_or("no string"));
+            |key: &str| members.get(key).map(|value| value.as_str().unwrap_or("not a string"));
         let filter = match string_member("filter") {
             None | Some("NONE") => MeshoptFilter::None,
             Some("OCTAHEDRAL") => MeshoptFilter::Octahedral,
@@ -162,7 +165,7 @@ impl CompressionMode {
             Some("EXPONENTIAL") => MeshoptFilter::Exponential,
             Some("COLOR") => MeshoptFilter::Color,
             Some(other) => {
-                let message = format!("the filter {other:?} is not known");
+                let message = format!("unknown filter {other:?}");
                 return Err(Diagnostic::invalid(&format!("{pointer}/filter"), message));
             }
         };

@@ -35,11 +35,11 @@ impl NodeTransform {
         let nodes = document.get_mut("nodes").and_then(Value::as_array_mut);
         let take = |(node_index, node): (usize, &mut Value)| match node.as_object_mut() {
             Some(node) => Self::take_transform(node, node_index),
-            None => Err(Diagnostic::invalid(&format!("/nodes/{node_index}"), "an object is due")),
+            None => Err(Diagnostic::invalid(&format!("/nodes/{node_index}"), "expected an object")),
         };
         let downgrade = |taken: Result<Self, Diagnostic>| match taken {
             Err(diagnostic) => warnings
-                .downgrade_if_lenient(diagnostic, "the node stays where its parent is")
+                .downgrade_if_lenient(diagnostic, "its transform is ignored")
                 .map(|()| Self::Trs(Trs::default())),
             taken => taken,
         };
@@ -84,7 +84,7 @@ impl NodeTransform {
         match self {
             Self::Matrix(columns) => affine_from_columns(columns).ok_or_else(|| {
                 let row = [3, 7, 11, 15].map(|node_index| columns[node_index]);
-                let message = format!("the last row of the matrix is {row:?} and not [0, 0, 0, 1]");
+                let message = format!("the last row of the matrix is {row:?}, not [0, 0, 0, 1]");
                 Diagnostic::invalid(&format!("{pointer}/matrix"), message)
             }),
             Self::Trs(trs) => trs.to_affine().ok_or_else(|| {
@@ -124,7 +124,7 @@ fn take_numbers<const N: usize>(
         Some(numbers) => Ok(Some(numbers)),
         None => Err(Diagnostic::invalid(
             &format!("/nodes/{node_index}/{key}"),
-            format!("{N} numbers are due"),
+            format!("expected {N} numbers"),
         )),
     }
 }

@@ -86,11 +86,11 @@ pub(super) fn import_meshes(
             };
             primitives.push(match reader.read_primitive() {
                 Err(diagnostic) if diagnostic.code == codes::MISSING_DATA => {
-                    warnings.downgrade(&diagnostic, "the primitive is left out");
+                    warnings.downgrade(&diagnostic, "the primitive is skipped");
                     Primitive::default()
                 }
                 Err(diagnostic) => {
-                    warnings.downgrade_if_lenient(diagnostic, "the primitive is left out")?;
+                    warnings.downgrade_if_lenient(diagnostic, "the primitive is skipped")?;
                     Primitive::default()
                 }
                 Ok(primitive) => primitive,
@@ -129,7 +129,7 @@ impl<'a> PrimitiveReader<'a, '_> {
     fn read_primitive(mut self) -> Result<Primitive, Diagnostic> {
         let Checked::Valid(mode) = self.json.mode else {
             let pointer = format!("{}/mode", self.pointer);
-            return Err(Diagnostic::invalid(&pointer, "the mode is not one of 0 to 6"));
+            return Err(Diagnostic::invalid(&pointer, "the mode must be from 0 to 6"));
         };
         let (material, variants) = (self.checked_material(), self.read_variants());
         let needs_tangents = self.needs_tangents(material, &variants);
@@ -242,7 +242,7 @@ impl<'a> PrimitiveReader<'a, '_> {
     {
         let Some(accessor) = self.attribute_accessor(Semantic::Positions) else {
             self.warnings
-                .push_warning(&self.pointer, "there are no positions; the primitive is left out");
+                .push_warning(&self.pointer, "the primitive has no positions; it is skipped");
             return Ok(None);
         };
         let pointer = format!("{}/attributes/POSITION", self.pointer);
@@ -283,8 +283,7 @@ impl<'a> PrimitiveReader<'a, '_> {
         }
         let has_vertices = |item: &[u32]| item.iter().all(|&i| (i as usize) < vertices);
         let dropped = retain_items(primitive, has_vertices);
-        let message =
-            format!("items use vertices that do not exist; they are left out (items: {dropped})");
+        let message = format!("skipped {} with missing vertices", item_count(primitive, dropped));
         self.warnings.push_warning(&format!("{}/indices", self.pointer), message);
     }
 
@@ -304,8 +303,8 @@ impl<'a> PrimitiveReader<'a, '_> {
         let dropped = retain_items(primitive, has_places);
         positions.iter_mut().filter(|p| !is_place(p)).for_each(|p| *p = [0.0; 3]);
         primitive.positions = positions;
-        let message =
-            format!("items have corners at no finite place; they are left out (items: {dropped})");
+        let items = item_count(primitive, dropped);
+        let message = format!("skipped {items} with a position that is not finite");
         self.warnings.push_warning(&format!("{}/attributes/POSITION", self.pointer), message);
     }
 
@@ -382,12 +381,17 @@ impl<'a> PrimitiveReader<'a, '_> {
         let normals::NormalRepairs { lengths, replaced } = normals::normalize_normals(primitive);
         let pointer = format!("{}/attributes/NORMAL", self.pointer);
         if lengths > 0 {
-            let message = "normals were not of unit length; they are now";
-            self.warnings.push_warning(&pointer, format!("{message} (normals: {lengths})"));
+            let plural = if lengths == 1 { "" } else { "s" };
+            let message =
+                format!("normalized {lengths} normal{plural} that did not have unit length");
+            self.warnings.push_warning(&pointer, message);
         }
         if replaced > 0 {
-            let message = "normals had no direction; they follow the faces";
-            self.warnings.push_warning(&pointer, format!("{message} (normals: {replaced})"));
+            let message = match replaced {
+                1 => "replaced 1 normal without a direction by a face normal".to_owned(),
+                _ => format!("replaced {replaced} normals without a direction by face normals"),
+            };
+            self.warnings.push_warning(&pointer, message);
         }
     }
 
@@ -403,6 +407,17 @@ impl<'a> PrimitiveReader<'a, '_> {
         self.warnings.downgrade(&diagnostic, "the default material is used");
         None
     }
+}
+
+/// A number of points, lines or triangles, with the noun.
+fn item_count(primitive: &Primitive, count: usize) -> String {
+    let noun = match primitive.topology {
+        Topology::Points => "point",
+        Topology::Lines => "line",
+        Topology::Triangles => "triangle",
+    };
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {noun}{plural}")
 }
 
 /// Reads the sets of joints and weights, up to the first that is missing or invalid.

@@ -57,7 +57,7 @@ fn read_node(
     let mut placement = document.node_transforms.get(at);
     let to_parent = match placement.map_or(Ok(Affine::IDENTITY), |p| p.to_affine(&pointer)) {
         Err(diagnostic) => {
-            warnings.downgrade_if_lenient(diagnostic, "the node stays where its parent is")?;
+            warnings.downgrade_if_lenient(diagnostic, "its transform is ignored")?;
             placement = None;
             Affine::IDENTITY
         }
@@ -67,8 +67,10 @@ fn read_node(
     let mesh = checked_index(json.mesh, "mesh", root.meshes.len(), &pointer, warnings)?;
     let mut skin = checked_index(json.skin, "skin", root.skins.len(), &pointer, warnings)?;
     if skin.is_some() && mesh.is_none() {
-        warnings
-            .push_warning(&format!("{pointer}/skin"), "there is no mesh that the skin could bend");
+        warnings.push_warning(
+            &format!("{pointer}/skin"),
+            "the skin has no effect: the node has no mesh",
+        );
         skin = None;
     }
     let camera = checked_index(json.camera, "camera", root.cameras.len(), &pointer, warnings)?;
@@ -105,7 +107,7 @@ fn checked_index<T>(
         Some(index) if index >= count => {
             let diagnostic =
                 Diagnostic::unresolved_index(&format!("{node}/{what}"), what, index, count);
-            warnings.downgrade_if_lenient(diagnostic, "the node is without it").map(|()| None)
+            warnings.downgrade_if_lenient(diagnostic, "the reference is ignored").map(|()| None)
         }
         index => Ok(index),
     }
@@ -133,11 +135,11 @@ fn link_parents(nodes: &mut [Node], warnings: &mut ImportWarnings) -> Result<(),
                 }
                 None => Diagnostic::unresolved_index(&pointer, "node", child, count),
                 Some(Some(other)) => {
-                    let message = format!("node {child} is a child of node {other} already");
+                    let message = format!("node {child} already has a parent, node {other}");
                     Diagnostic::invalid(&pointer, message)
                 }
             };
-            warnings.downgrade_if_lenient(diagnostic, "it is no child here")?;
+            warnings.downgrade_if_lenient(diagnostic, "the reference is ignored")?;
         }
         nodes[parent].children = linked;
     }
@@ -168,9 +170,9 @@ fn update_global_transforms(
         if visited[at] {
             continue;
         }
-        let message = format!("node {at} is below itself");
+        let message = format!("node {at} is its own descendant");
         let diagnostic = Diagnostic::invalid(&format!("/nodes/{at}/children"), message);
-        warnings.downgrade_if_lenient(diagnostic, "it is taken for a root")?;
+        warnings.downgrade_if_lenient(diagnostic, "it is treated as a root")?;
         if let Some(parent) = nodes[at].parent.take() {
             nodes[parent].children.retain(|&child| child != at);
         }
@@ -208,9 +210,9 @@ fn update_transforms_below(
         let parent = nodes[at].parent.map_or(Affine::IDENTITY, |parent| nodes[parent].to_model);
         nodes[at].to_model = nodes[at].to_parent.then(parent);
         if !nodes[at].to_model.is_finite() {
-            let message = "the product of the transforms down to here is too large for numbers";
+            let message = "the accumulated transform overflows";
             let diagnostic = Diagnostic::invalid(&format!("/nodes/{at}"), message);
-            warnings.downgrade_if_lenient(diagnostic, "it is shown where its parent is")?;
+            warnings.downgrade_if_lenient(diagnostic, "its transform is ignored")?;
             (nodes[at].to_parent, nodes[at].to_model) = (Affine::IDENTITY, parent);
             nodes[at].trs = Some(Trs::default());
         }
@@ -281,7 +283,7 @@ fn is_scene_root(
 ) -> bool {
     let mut parent = nodes[at].parent;
     if parent.is_some() {
-        warnings.push_warning(scene, format!("node {at} is listed, but it is no root"));
+        warnings.push_warning(scene, format!("node {at} is listed as a root but has a parent"));
     }
     while let Some(node) = parent {
         if listed[node] {

@@ -93,7 +93,7 @@ pub(super) fn variant_materials(
             Some(Diagnostic::unresolved_index(&pointer, "material", material, root.materials.len()))
         };
         if let Some(diagnostic) = diagnostic {
-            warnings.downgrade(&diagnostic, "it is left out");
+            warnings.downgrade(&diagnostic, "it is skipped");
         }
     }
     assignments

@@ -22,7 +22,7 @@ pub(super) fn import_skins(
     for at in 0..source.root.skins.len() {
         match read_skin(source, at) {
             Err(diagnostic) if diagnostic.is_downgradable() => {
-                warnings.downgrade(&diagnostic, "the skin is left out");
+                warnings.downgrade(&diagnostic, "the skin is skipped");
                 skins.push(Skin { joints: Vec::new(), inverse_bind_matrices: Vec::new() });
             }
             skin => skins.push(skin?),
@@ -47,7 +47,7 @@ fn read_skin(source: &AccessorReader<'_>, at: usize) -> Result<Skin, Diagnostic>
         return Err(Diagnostic::unresolved_index(&pointer, "node", joints[slot], count));
     }
     if joints.is_empty() {
-        return Err(Diagnostic::invalid(&format!("/skins/{at}/joints"), "there are no joints"));
+        return Err(Diagnostic::invalid(&format!("/skins/{at}/joints"), "the skin has no joints"));
     }
     let Some(accessor) = json.inverse_bind_matrices else {
         return Ok(Skin { inverse_bind_matrices: vec![Affine::IDENTITY; joints.len()], joints });
@@ -55,7 +55,7 @@ fn read_skin(source: &AccessorReader<'_>, at: usize) -> Result<Skin, Diagnostic>
     let pointer = format!("/skins/{at}/inverseBindMatrices");
     let elements = source.resolve_accessor(accessor.value(), &pointer)?;
     if (elements.element_type, elements.component_type) != (Type::Mat4, ComponentType::F32) {
-        return Err(Diagnostic::invalid(&pointer, "the matrices must be MAT4 of floats"));
+        return Err(Diagnostic::invalid(&pointer, "the matrices must be floats of type MAT4"));
     }
     if elements.count < joints.len() {
         let message = format!("{} matrices for {} joints", elements.count, joints.len());

@@ -29,7 +29,7 @@ pub(super) fn import_textures(root: &Root, warnings: &mut ImportWarnings) -> Vec
                     let count = root.samplers.len();
                     let diagnostic =
                         Diagnostic::unresolved_index(&pointer, "sampler", index.value(), count);
-                    warnings.downgrade(&diagnostic, "the texture is read in the usual way");
+                    warnings.downgrade(&diagnostic, "the default sampler is used");
                     Sampler::default()
                 },
                 convert_sampler,

@@ -25,8 +25,8 @@ pub(super) fn check_chroma_sampling(file: &[u8]) -> Result<(), String> {
             .map(|component| split_nibbles(component[1]))
             .any(|[h, v]| h > across || v > down)
         {
-            return Err("the JPEG has more samples of its colour than of its brightness; \
-                        save it with the usual sampling (4:4:4, 4:2:2 or 4:2:0)"
+            return Err("the JPEG has more samples for color than for brightness; save it with a \
+                        common subsampling (4:4:4, 4:2:2 or 4:2:0)"
                 .to_owned());
         }
     }

@@ -64,28 +64,28 @@ impl<'a> FaultCounts<'a> {
         let kinds = [
             (
                 self.short_elements,
-                "an element with too few vertices is left out",
-                "elements with too few vertices are left out",
+                "an element with too few vertices is skipped",
+                "elements with too few vertices are skipped",
             ),
             (
                 self.missing_uvs,
-                "a reference to texture coordinates that do not exist",
-                "references to texture coordinates that do not exist",
+                "a reference to missing texture coordinates is ignored",
+                "references to missing texture coordinates are ignored",
             ),
             (
                 self.missing_normals,
-                "a reference to a normal that does not exist: it is computed",
-                "references to normals that do not exist: they are computed",
+                "a reference to a missing normal is replaced by a computed normal",
+                "references to missing normals are replaced by computed normals",
             ),
             (
                 self.broken_uvs,
-                "a texture coordinate that is not a number is 0",
-                "texture coordinates that are not numbers are 0",
+                "a texture coordinate that is not a number is set to 0",
+                "texture coordinates that are not numbers are set to 0",
             ),
             (
                 self.further_statements,
-                "one more statement is not read",
-                "more statements are not read",
+                "one more statement is ignored",
+                "more statements are ignored",
             ),
         ];
         let told = kinds.map(|(fault, one, many)| match fault.count {
@@ -96,8 +96,8 @@ impl<'a> FaultCounts<'a> {
         for (name, fault) in &self.statements {
             let name: String = String::from_utf8_lossy(name).chars().take(32).collect();
             let message = match fault.count {
-                1 => format!("a statement {name:?} is not read"),
-                count => format!("{count} statements {name:?} are not read"),
+                1 => format!("a {name:?} statement is ignored"),
+                count => format!("{count} {name:?} statements are ignored"),
             };
             told.push((*fault, message));
         }

@@ -97,7 +97,7 @@ pub(super) fn parse_mtl<'a>(
     for (what, (count, offset)) in unread {
         let location = format!("{name}: {}", lines.locate(offset));
         let times = if count == 1 { String::new() } else { format!(" ({count} times)") };
-        warnings.push_warning(&location, format!("{what} is not read{times}"));
+        warnings.push_warning(&location, format!("{what} is ignored{times}"));
     }
     parser.materials
 }
@@ -176,7 +176,10 @@ impl<'a> MtlParser<'a> {
                 material.numbers.insert(name, number);
             }
             (None, _) => {
-                self.count_unread(&format!("{} without number", keyword.to_text()), keyword.offset);
+                self.count_unread(
+                    &format!("{} without a number", keyword.to_text()),
+                    keyword.offset,
+                );
             }
             _ => {}
         }
@@ -222,7 +225,7 @@ impl<'a> MtlParser<'a> {
         if name.is_empty() {
             self.count_unread(&keyword.to_text(), keyword.offset);
         } else if texture.file.bytes.is_empty() {
-            self.count_unread(&format!("{} without file", keyword.to_text()), keyword.offset);
+            self.count_unread(&format!("{} without a file", keyword.to_text()), keyword.offset);
         } else if let Some(material) = self.materials.last_mut() {
             material.textures.insert(name, texture);
         }

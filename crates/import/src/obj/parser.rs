@@ -253,7 +253,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         let location = self.lines.locate(offset);
         let help = "export the file again, or load it with --lenient";
         let fault = Diagnostic::error(codes::INVALID_DATA, &location, message, help);
-        self.warnings.downgrade_if_lenient(fault, "the element is left out")
+        self.warnings.downgrade_if_lenient(fault, "the element is skipped")
     }
 
     /// A reference to a vertex: `p`, `p/t`, `p//n` or `p/t/n`.

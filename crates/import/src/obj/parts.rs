@@ -72,7 +72,7 @@ pub(super) fn split_elements(
                     // Counting lines takes time, so only the first has a location.
                     if broken == 0 {
                         let fault = broken_vertex(&LineCounter::new(text).locate(offset));
-                        warnings.downgrade_if_lenient(fault, "the element is left out")?;
+                        warnings.downgrade_if_lenient(fault, "the element is skipped")?;
                     }
                     broken += 1;
                     continue;
@@ -95,7 +95,10 @@ pub(super) fn split_elements(
         }
     }
     if broken > 1 {
-        let message = format!("{} more elements with broken vertices are left out", broken - 1);
+        let message = match broken - 1 {
+            1 => "skipped 1 more element with broken vertices".to_owned(),
+            more => format!("skipped {more} more elements with broken vertices"),
+        };
         warnings.push_warning("", message);
     }
     if cutter.fans > 0 {
@@ -111,7 +114,7 @@ pub(super) fn split_elements(
 
 /// The error for an element with a vertex that has no position.
 fn broken_vertex(location: &str) -> Diagnostic {
-    let message = "an element has this vertex, which is not three finite numbers";
+    let message = "an element uses this vertex, which does not have three finite coordinates";
     let help = "export the file again, or load it with --lenient";
     Diagnostic::error(codes::INVALID_DATA, location, message, help)
 }

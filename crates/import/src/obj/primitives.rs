@@ -46,7 +46,10 @@ pub(super) fn build_primitives(
         primitives.push(GroupPrimitive { group: part.key.group, primitive });
     }
     if replaced > 0 {
-        let message = format!("{replaced} normals have no direction: they follow from the shape");
+        let message = match replaced {
+            1 => "replaced 1 normal without a direction by a computed normal".to_owned(),
+            _ => format!("replaced {replaced} normals without a direction by computed normals"),
+        };
         warnings.push_warning("", message);
     }
     Ok(primitives)
@@ -97,7 +100,7 @@ fn linear_colors(file: &ObjFile<'_>, warnings: &mut ImportWarnings) -> Vec<[f32;
     // Vertices without a color are white.
     let is_of_bytes = file.colors.as_flattened().iter().any(|&channel| channel > 1.0);
     if is_of_bytes {
-        warnings.push_warning("", "vertex colors exceed 1: they are taken as numbers up to 255");
+        warnings.push_warning("", "vertex colors exceed 1; they are read as numbers from 0 to 255");
     }
     let scale = if is_of_bytes { 1.0 / 255.0 } else { 1.0 };
     let linear = |color: &[f32; 4]| {

@@ -234,7 +234,7 @@ fn read_image<'a>(
 fn unread_image<'a>(name: &[u8]) -> TextureImage<'a> {
     let name = String::from_utf8_lossy(name).into_owned();
     let location = format!("texture {}", shorten(&name));
-    let message = format!("of image files only {MAX_IMAGES} are read");
+    let message = format!("only the first {MAX_IMAGES} image files are read");
     let bytes = Err(Diagnostic::missing_data(&location, &message));
     TextureImage { name, location, bytes: Some(bytes) }
 }
@@ -304,8 +304,10 @@ fn remove_height_maps(
     for &image in &height_maps {
         let name = model.image_infos[image].uri.as_deref().unwrap_or_default();
         let location = format!("texture {}", shorten(name));
-        warnings
-            .push_warning(&location, "this bump map is a height map: only normal maps are read");
+        warnings.push_warning(
+            &location,
+            "this bump map is a height map; only normal maps are supported",
+        );
     }
     for material in &mut model.materials {
         let textures = &model.textures;

@@ -69,10 +69,12 @@ impl<'a> Body<'a> {
     pub(super) fn longer_records(&self) -> Option<(&str, String)> {
         let (place, count) = self.longer.as_ref()?;
         let message = match count {
-            1 => "a record has more numbers than the header declares; the others are left out"
+            1 => "a record has more numbers than the header declares; the extra numbers are \
+                  skipped"
                 .to_owned(),
             _ => format!(
-                "{count} records from here on have more numbers than the header declares; the others are left out"
+                "{count} records from here on have more numbers than the header declares; the \
+                 extra numbers are skipped"
             ),
         };
         Some((place, message))
@@ -123,9 +125,9 @@ impl<'a> Body<'a> {
             return Ok(number as usize);
         }
         let message = if number >= 0.0 && number.fract() == 0.0 {
-            format!("a list of {number} numbers begins here, and the file does not have as many")
+            format!("a list of {number} numbers begins here, but the file is too short for it")
         } else {
-            format!("the length of a list is {number} here, and must be a whole number")
+            format!("the length of this list is {number} but must be a whole number")
         };
         Err(self.fault(&message))
     }
@@ -181,7 +183,7 @@ impl<'a> Body<'a> {
             }
             None => {
                 let word: String = String::from_utf8_lossy(token).chars().take(32).collect();
-                Err(self.fault(&format!("{word:?} is no number")))
+                Err(self.fault(&format!("{word:?} is not a number")))
             }
         }
     }
@@ -255,6 +257,6 @@ mod tests {
         let mut body = Body::new(b"1\r\n2  x", 0, Encoding::Ascii);
         body.skip_numbers(2, ScalarType::U8).unwrap();
         let message = body.next_number(ScalarType::U8).unwrap_err().sentence();
-        assert!(message.starts_with("line 2, column 4: \"x\" is no number"), "{message}");
+        assert!(message.starts_with("line 2, column 4: \"x\" is not a number"), "{message}");
     }
 }

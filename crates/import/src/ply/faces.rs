@@ -69,7 +69,7 @@ pub(super) fn read_faces(
     let has = |kind| kinds.contains(&kind);
     if !has(FaceProperty::Corners) {
         if element.count > 0 {
-            let message = "the faces have no list `vertex_indices`; they are left out";
+            let message = "the faces have no list `vertex_indices`; they are skipped";
             warnings.push_warning("element face", message);
         }
         body.skip_element(element)?;
@@ -88,9 +88,9 @@ pub(super) fn read_faces(
     for _ in 0..element.count {
         match record.read(body, &element.properties, &kinds, vertices) {
             Ok(None) => faces.push_face(&record),
-            Ok(Some(fault)) => warnings.downgrade_if_lenient(fault, "the face is left out")?,
+            Ok(Some(fault)) => warnings.downgrade_if_lenient(fault, "the face is skipped")?,
             Err(fault) => {
-                warnings.downgrade_if_lenient(fault, "the faces from here on are left out")?;
+                warnings.downgrade_if_lenient(fault, "the remaining faces are skipped")?;
                 break;
             }
         }
@@ -272,7 +272,7 @@ pub(super) fn read_edges(
             None => edges.extend(ends.map(|end| end as u32)),
             Some(&end) => {
                 let fault = no_such_vertex(body, end, vertices);
-                warnings.downgrade_if_lenient(fault, "the edge is left out")?;
+                warnings.downgrade_if_lenient(fault, "the edge is skipped")?;
             }
         }
     }

@@ -152,7 +152,8 @@ impl Header {
                 }
                 _ => Err(()),
             }) else {
-                return Err(Diagnostic::invalid(&location, "the header is not text here"));
+                let message = "the header contains bytes that are not text";
+                return Err(Diagnostic::invalid(&location, message));
             };
             let mut words = line.split_ascii_whitespace();
             match words.next() {
@@ -236,7 +237,7 @@ fn parse_encoding(name: Option<&str>, location: &str) -> Result<Encoding, Diagno
         other => Err(Diagnostic::error(
             codes::UNSUPPORTED_VERSION,
             location,
-            format!("the format {:?} is none of PLY's", shorten(other.unwrap_or(""))),
+            format!("unknown PLY format {:?}", shorten(other.unwrap_or(""))),
             "write `ascii`, `binary_little_endian` or `binary_big_endian`",
         )),
     }
@@ -249,7 +250,8 @@ fn parse_element<'a>(
 ) -> Result<PlyElement, Diagnostic> {
     let (name, count) = (words.next().unwrap_or(""), words.next().unwrap_or(""));
     let Ok(count) = count.parse() else {
-        let message = format!("the number of {:?} is {:?}", shorten(name), shorten(count));
+        let (name, count) = (shorten(name), shorten(count));
+        let message = format!("the count of {name:?} must be a whole number, not {count:?}");
         return Err(Diagnostic::invalid(location, message));
     };
     Ok(PlyElement { name: name.to_owned(), count, properties: Vec::new() })
@@ -263,7 +265,7 @@ fn parse_property<'a>(
     let mut next = || words.next().unwrap_or("");
     let scalar_type = |name: &str| {
         ScalarType::from_name(name).ok_or_else(|| {
-            let message = format!("{:?} is not a type of PLY", shorten(name));
+            let message = format!("unknown PLY type {:?}", shorten(name));
             Diagnostic::invalid(location, message)
         })
     };
@@ -348,9 +350,12 @@ mod tests {
             ("ply\nelement vertex 1\n", "line 2: the file ends before `end_header`"),
             ("ply\nend_header\n", "line 2: the header has no `format` line"),
             ("ply\nformat ascii 1.0\nproperty int x\n", "line 3: there is a property before the"),
-            ("ply\nelement vertex -1\n", "line 2: the number of \"vertex\" is \"-1\""),
-            ("ply\nelement a 1\nproperty half x\n", "line 3: \"half\" is not a type of PLY"),
-            ("ply\nformat text 1.0\n", "line 2: the format \"text\" is none of PLY's"),
+            (
+                "ply\nelement vertex -1\n",
+                "line 2: the count of \"vertex\" must be a whole number, not \"-1\"",
+            ),
+            ("ply\nelement a 1\nproperty half x\n", "line 3: unknown PLY type \"half\""),
+            ("ply\nformat text 1.0\n", "line 2: unknown PLY format \"text\""),
             ("ply\nelment vertex 1\n", "line 2: a line of a PLY header cannot begin with `elment`"),
         ];
         for (text, expected) in table {

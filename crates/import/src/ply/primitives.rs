@@ -57,7 +57,10 @@ pub(crate) fn build_primitives(
     let points: Vec<u32> = (0..all).filter(is_usable).collect();
     let lost = (ends - edges.len()) / 2 + (all as usize - points.len());
     if lost > 0 {
-        let message = format!("{lost} points and edges are left out: they are not finite");
+        let message = match lost {
+            1 => "skipped 1 point or edge that is not finite".to_owned(),
+            _ => format!("skipped {lost} points and edges that are not finite"),
+        };
         warnings.push_warning("element vertex", message);
     }
     for (position, _) in vertices.positions.iter_mut().zip(&is_finite).filter(|(_, is)| !**is) {
@@ -124,11 +127,13 @@ fn triangulate_faces(
         begin += length;
     }
     if left_out > 0 {
-        let message = format!("{left_out} faces are left out: their vertices are not finite");
+        let plural = if left_out == 1 { "" } else { "s" };
+        let message = format!("skipped {left_out} face{plural} with vertices that are not finite");
         warnings.push_warning("element face", message);
     }
     if fans > 0 {
-        let message = format!("{fans} polygons cross themselves; they are cut as far as possible");
+        let message =
+            format!("{fans} polygons cross themselves; they are triangulated as far as possible");
         warnings.push_warning("element face", message);
     }
     triangles
@@ -189,7 +194,8 @@ fn build_surface(
     let crease_angle = options.crease_degrees();
     let (primitives, replaced) = surfaces::build_primitives(surface, crease_angle, &attributes_at);
     if replaced > 0 && vertices.normals.is_some() {
-        let message = format!("{replaced} normals without a direction are replaced");
+        let plural = if replaced == 1 { "" } else { "s" };
+        let message = format!("replaced {replaced} normal{plural} without a direction");
         warnings.push_warning("element vertex", message);
     }
     primitives

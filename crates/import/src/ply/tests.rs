@@ -181,7 +181,7 @@ fn faults_have_a_place_and_lenient_reading_goes_on() {
     assert!(message.starts_with(&format!("byte {}", truncated.len() - 1)), "{message}");
     assert!(corners(&load_leniently(&truncated)).is_empty());
     let word = triangle("", ["", "x", ""], FACE, "3 0 1 2");
-    assert!(fault(word.as_bytes()).starts_with("line 11, column 7: \"x\" is no number"));
+    assert!(fault(word.as_bytes()).starts_with("line 11, column 7: \"x\" is not a number"));
 }
 
 #[test]
@@ -273,5 +273,5 @@ fn a_scalar_property_that_is_not_there_is_an_error_with_those_that_are() {
     let missing = "the vertices have no scalar attribute `red`; choose one of `flags`, `quality`";
     assert_eq!(fault("a.ply", QUALITIES, "red"), missing);
     let message = fault("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "quality");
-    assert!(message.contains("have no scalar attributes like `quality`"), "{message}");
+    assert!(message.contains("have no scalar attributes such as `quality`"), "{message}");
 }

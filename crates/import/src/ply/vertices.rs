@@ -119,7 +119,7 @@ pub(super) fn read_vertices(
                 body.end_record();
             }
             Err(fault) => {
-                warnings.downgrade_if_lenient(fault, "the vertices from here on are left out")?;
+                warnings.downgrade_if_lenient(fault, "the remaining vertices are skipped")?;
                 break;
             }
         }
@@ -203,7 +203,8 @@ pub(super) fn linearize_colors(
     let alpha = scalar_of(3);
     let mut scales = [scalar.color_scale(), alpha.map_or(1.0, ScalarType::color_scale)];
     if scales[0] == 1.0 && colors.iter().any(|color| color[..3].iter().any(|&x| x > 1.0)) {
-        warnings.push_warning(location, "the colors exceed 1; they are taken for 0 to 255");
+        warnings
+            .push_warning(location, "the colors exceed 1; they are read as numbers from 0 to 255");
         scales[0] = 255.0;
         if alpha == Some(scalar) {
             scales[1] = 255.0;
@@ -211,7 +212,7 @@ pub(super) fn linearize_colors(
     }
     let has_alpha = alpha.is_some() && colors.iter().any(|color| color[3] > 0.0);
     if alpha.is_some() && !has_alpha && !colors.is_empty() {
-        warnings.push_warning(location, "alpha is 0 everywhere; the colors are taken for opaque");
+        warnings.push_warning(location, "alpha is 0 everywhere; the colors are treated as opaque");
     }
     let table = linear_table();
     for color in colors {

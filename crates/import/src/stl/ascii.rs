@@ -43,12 +43,12 @@ pub(super) fn read_solids(
     };
     while let Some(token) = reader.scanner.next_token() {
         if let Err(diagnostic) = reader.read_statement(token) {
-            let consequence = "it is left out";
+            let consequence = "it is skipped";
             reader.warnings.downgrade_if_lenient(diagnostic, consequence)?;
         }
     }
     if reader.is_open {
-        let message = "the last solid has no end; the file may be cut off";
+        let message = "the last solid has no end; the file may be truncated";
         let location = reader.lines.locate(text.len());
         reader.warnings.push_warning(&location, message);
     }
@@ -185,7 +185,7 @@ impl<'a> SolidReader<'a, '_> {
     fn require(&mut self, wanted: &str) -> Result<Token<'a>, Diagnostic> {
         self.scanner.next_token().ok_or_else(|| {
             let location = self.lines.locate(self.text.len());
-            truncated(&location, format!("the text ends where {wanted} should be"))
+            truncated(&location, format!("the file ends where {wanted} is expected"))
         })
     }
 
@@ -221,7 +221,7 @@ impl<'a> SolidReader<'a, '_> {
         }
         self.solids.push(solid);
         if self.solids.len() > self.limits.nodes {
-            let what = format!("the file has {} solids or more", self.solids.len());
+            let what = format!("the file has at least {} solids", self.solids.len());
             let location = self.lines.locate(self.scanner.offset());
             let limit = self.limits.nodes as u64;
             return Err(Diagnostic::limit_exceeded(&location, &what, "nodes", limit));
@@ -232,7 +232,7 @@ impl<'a> SolidReader<'a, '_> {
     /// The error for an unexpected token.
     fn unexpected(&mut self, token: Token<'_>, wanted: &str) -> Diagnostic {
         let shown = token.bytes.get(..40).unwrap_or(token.bytes);
-        let message = format!("{:?} is not {wanted}", String::from_utf8_lossy(shown));
+        let message = format!("expected {wanted}, found {:?}", String::from_utf8_lossy(shown));
         let location = self.lines.locate(token.offset);
         Diagnostic::error(codes::INVALID_DATA, &location, message, "export the file again")
     }

@@ -80,7 +80,7 @@ fn corners(facet: &[u8; TRIANGLE_BYTES]) -> [[f32; 3]; 3] {
 /// The error for a file that ends, or fails, while it is read.
 fn unreadable_body(triangle: usize, error: &std::io::Error) -> Diagnostic {
     let location = format!("byte {}", HEADER_BYTES + triangle * TRIANGLE_BYTES);
-    let message = format!("the file cannot be read any further: {error}");
+    let message = format!("cannot read the rest of the file: {error}");
     Diagnostic::error(codes::IO_ERROR, &location, message, "copy or export it again")
 }
 
@@ -93,22 +93,21 @@ fn count_triangles(
     let declared = declared_triangles(header).unwrap_or(0);
     let present = length / TRIANGLE_BYTES;
     if declared > present {
-        let message = format!("the file declares {declared} triangles and has {present}");
-        let consequence = "those that are whole are read";
+        let message = format!("the file declares {declared} triangles but has {present}");
+        let consequence = "the complete triangles are read";
         warnings.downgrade_if_lenient(truncated("byte 80", message), consequence)?;
         return Ok(present);
     }
     if declared == 0 && present > 0 {
-        let message = format!("the file declares no triangles and has {present}; all are read");
+        let message = format!("the file declares no triangles but has {present}; all are read");
         warnings.push_warning("byte 80", message);
         return Ok(present);
     }
     let end = declared * TRIANGLE_BYTES;
     if length > end {
-        let message = format!(
-            "there is more after the last triangle; it is ignored (bytes: {})",
-            length - end
-        );
+        let more = length - end;
+        let plural = if more == 1 { "" } else { "s" };
+        let message = format!("ignored {more} byte{plural} after the last triangle");
         warnings.push_warning(&format!("byte {}", HEADER_BYTES + end), message);
     }
     Ok(declared)
@@ -119,7 +118,7 @@ pub(super) fn no_stl(bytes: &[u8]) -> Diagnostic {
     let message = match bytes.len() {
         0 => "the file is empty".to_owned(),
         length => {
-            format!("this is no STL file: it has {length} bytes and does not begin with solid")
+            format!("this is not an STL file: it has {length} bytes and does not begin with solid")
         }
     };
     Diagnostic::error(codes::INVALID_DATA, "", message, "give an STL file, or export it again")

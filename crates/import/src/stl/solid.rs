@@ -74,8 +74,12 @@ impl Solid {
     /// Warns of skipped triangles.
     pub(super) fn warn_of_omissions(&self, warnings: &mut ImportWarnings) {
         if let Some(location) = &self.first_omitted {
-            let message = "triangles have corners at no finite place; they are left out";
-            warnings.push_warning(location, format!("{message} (triangles: {})", self.omitted));
+            let plural = if self.omitted == 1 { "" } else { "s" };
+            let message = format!(
+                "skipped {} triangle{plural} with corners that are not finite",
+                self.omitted
+            );
+            warnings.push_warning(location, message);
         }
     }
 

@@ -104,7 +104,7 @@ fn corners_at_no_finite_place_are_left_out() {
     let model = read(&binary(b"", &facets));
     assert_eq!(model.meshes[0].primitives[0].item_count(), 2);
     let warning = model.warnings[0].sentence();
-    let message = "triangles have corners at no finite place; they are left out (triangles: 1)";
+    let message = "skipped 1 triangle with corners that are not finite";
     assert_eq!(warning, format!("byte 134: {message}"));
     let text = ascii("\n").replacen("vertex 1e0 0", "vertex inf 0", 1);
     assert_eq!(
@@ -130,7 +130,7 @@ fn a_surface_without_area_is_a_warning() {
     let told: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();
     assert_eq!(
         told,
-        ["warning[LEFT_OUT] no triangle of the file has an area; export the model again"]
+        ["warning[LEFT_OUT] no triangle in the file has an area; export the model again"]
     );
     assert!(read(&binary(b"", &[(line, 0), (SQUARE[0], 0)])).warnings.is_empty());
 }
@@ -148,9 +148,9 @@ fn files_that_are_cut_off_say_so_and_are_read_leniently() {
     let file = binary(b"solid", &SQUARE.map(|corners| (corners, 0)));
     let text = ascii("\n");
     for (bytes, message) in [
-        (&file[..150], "byte 80: the file declares 2 triangles and has 1; the file is cut off"),
-        (b"part", "this is no STL file: it has 4 bytes and does not begin with solid"),
-        (&text.as_bytes()[..200], "line 13, column 12: the text ends where a number should be"),
+        (&file[..150], "byte 80: the file declares 2 triangles but has 1; the file is truncated"),
+        (b"part", "this is not an STL file: it has 4 bytes and does not begin with solid"),
+        (&text.as_bytes()[..200], "line 13, column 12: the file ends where a number is expected"),
         (b"", "the file is empty"),
     ] {
         let said = refusal(bytes);
@@ -163,7 +163,7 @@ fn files_that_are_cut_off_say_so_and_are_read_leniently() {
         assert!(!model.warnings.is_empty());
     }
     let model = read(text.strip_suffix("endsolid the part").unwrap().as_bytes());
-    let message = "the last solid has no end; the file may be cut off";
+    let message = "the last solid has no end; the file may be truncated";
     assert_eq!(model.warnings[0].sentence(), format!("line 16, column 1: {message}"));
 }
 
@@ -176,13 +176,10 @@ fn numbers_of_triangles_that_are_wrong() {
     assert_eq!(model.meshes[0].primitives[0].item_count(), 2);
     assert_eq!(
         model.warnings[0].sentence(),
-        "byte 80: the file declares no triangles and has 2; all are read"
+        "byte 80: the file declares no triangles but has 2; all are read"
     );
     let model = read(&[&file[..], b"more"].concat());
-    assert_eq!(
-        model.warnings[0].sentence(),
-        "byte 184: there is more after the last triangle; it is ignored (bytes: 4)"
-    );
+    assert_eq!(model.warnings[0].sentence(), "byte 184: ignored 4 bytes after the last triangle");
 }
 
 #[test]
@@ -191,15 +188,23 @@ fn words_of_no_form_have_a_line_and_a_column() {
         (
             "vertex 1e0",
             "vertex 1,5",
-            "line 5, column 8: \"1,5\" is not a number; export the file again",
+            "line 5, column 8: expected a number, found \"1,5\"; export the file again",
         ),
         ("outer", "inner", "line 2, column 20: \"outer\" is not reached"),
-        ("endloop", "vertex 1 2 3\nendloop", "line 7, column 1: \"vertex\" is not endloop; export"),
-        ("endfacet", "endfacets", "line 8, column 1: \"endfacets\" is not endfacet; export the"),
+        (
+            "endloop",
+            "vertex 1 2 3\nendloop",
+            "line 7, column 1: expected endloop, found \"vertex\"; export",
+        ),
+        (
+            "endfacet",
+            "endfacets",
+            "line 8, column 1: expected endfacet, found \"endfacets\"; export the",
+        ),
         (
             "endfacet\n",
             "endfacet\ncolor 1 0 0\n",
-            "line 9, column 1: \"color\" is not facet; export",
+            "line 9, column 1: expected facet, found \"color\"; export",
         ),
     ] {
         let text = ascii("\n").replacen(from, to, 1);
@@ -282,6 +287,6 @@ fn names_that_lie_are_noted() {
     let file = binary(b"", &SQUARE.map(|corners| (corners, 0)));
     let model = load_bytes("part.glb", &file, &ImportOptions::default()).unwrap();
     assert_eq!(model.warnings[0].severity, Severity::Info);
-    let sentence = "the name says glTF, but this is STL; rename it to end in .stl";
+    let sentence = "the name suggests glTF, but the content is STL; rename it to end in .stl";
     assert_eq!(model.warnings[0].sentence(), sentence);
 }

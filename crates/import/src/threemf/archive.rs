@@ -64,7 +64,7 @@ impl<'a> Archive<'a> {
         let mut entries = Vec::new();
         for _ in 0..count {
             let Some((entry, next)) = read_entry(bytes, at) else {
-                let message = "the directory of the zip archive is broken here";
+                let message = "the directory of the zip archive is broken";
                 return Err(Diagnostic::invalid(&format!("byte {at}"), message));
             };
             if !entry.name.ends_with('/') {
@@ -108,13 +108,13 @@ impl<'a> Archive<'a> {
                 inflate(data, size).map(Cow::Owned).map_err(|message| broken(&message))?
             }
             method => {
-                let message = format!("the entry is compressed by method {method}");
-                let help = "save the file with deflate, the method of 3MF";
+                let message = format!("the entry uses the unsupported compression method {method}");
+                let help = "save the file with deflate compression, which 3MF uses";
                 return Err(Diagnostic::error(codes::MISSING_DATA, location, message, help));
             }
         };
         if content.len() as u64 != entry.size || crc32fast::hash(&content) != entry.crc {
-            return Err(broken("the content does not have the checksum of the archive"));
+            return Err(broken("the content does not match the checksum in the archive"));
         }
         Ok(content)
     }
@@ -139,7 +139,10 @@ impl<'a> Archive<'a> {
 fn inflate(data: &[u8], size: usize) -> Result<Vec<u8>, String> {
     // One byte of deflated data expands to at most 1,032 bytes.
     if size / 1032 > data.len() {
-        return Err(format!("{size} bytes cannot be in {} compressed ones", data.len()));
+        let packed = data.len();
+        return Err(format!(
+            "the entry declares {size} bytes, too many for {packed} compressed bytes"
+        ));
     }
     let framed = [&[0x78, 0x01], data, &[0; 4]].concat();
     let mut decoder = Decompressor::new();
@@ -149,7 +152,7 @@ fn inflate(data: &[u8], size: usize) -> Result<Vec<u8>, String> {
     while !decoder.is_done() {
         let (consumed, produced) = decoder
             .read(&framed[read..], &mut content, written, true)
-            .map_err(|error| format!("the entry is not deflated: {error:?}"))?;
+            .map_err(|error| format!("the deflate data of the entry is broken: {error:?}"))?;
         (read, written) = (read + consumed, written + produced);
         if consumed == 0 && produced == 0 {
             break;
@@ -157,7 +160,7 @@ fn inflate(data: &[u8], size: usize) -> Result<Vec<u8>, String> {
     }
     match decoder.is_done() && written == size {
         true => Ok(content),
-        false => Err("the entry does not have the size that the archive says".to_owned()),
+        false => Err("the entry does not have the size that the archive declares".to_owned()),
     }
 }
 

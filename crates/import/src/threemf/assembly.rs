@@ -102,7 +102,7 @@ impl Assembly {
                     let message =
                         format!("there is no object {}{}", reference.id, place.unwrap_or_default());
                     let fault = Diagnostic::invalid(&reference.location, message);
-                    warnings.downgrade_if_lenient(fault, "it is left out")?;
+                    warnings.downgrade_if_lenient(fault, "it is skipped")?;
                 }
             }
         }
@@ -152,7 +152,7 @@ impl Assembly {
             nodes += self.objects[item.object].nodes;
             depth = depth.max(self.objects[item.object].depth);
             if nodes > limits.nodes as u64 {
-                let what = format!("the build has {nodes} nodes and more");
+                let what = format!("the build has at least {nodes} nodes");
                 let limit = limits.nodes as u64;
                 return Err(Diagnostic::limit_exceeded("", &what, "nodes", limit));
             }
@@ -164,7 +164,8 @@ impl Assembly {
         }
         if self.hidden > 0 {
             let count = self.hidden;
-            let message = format!("{count} objects of the type support or other are left out");
+            let plural = if count == 1 { "" } else { "s" };
+            let message = format!("skipped {count} object{plural} of type support or other");
             warnings.push_warning("", message);
         }
         package.charge_bytes("", nodes * size_of::<Node>() as u64)
@@ -196,7 +197,7 @@ impl Assembly {
                 Progress::Begun => {
                     let location = &self.objects[at].location;
                     let fault = Diagnostic::invalid(location, "the object contains itself");
-                    warnings.downgrade_if_lenient(fault, "it is left out there")?;
+                    warnings.downgrade_if_lenient(fault, "that reference is skipped")?;
                     self.objects[at].components[next].object = REMOVED;
                     stack.push((at, next + 1));
                 }
@@ -241,9 +242,9 @@ impl Assembly {
                 parent.map_or(Affine::IDENTITY, |parent: usize| model.nodes[parent].to_model);
             let mut to_parent = placement.transform;
             if !to_parent.then(around).is_finite() {
-                let message = "the product of the transforms down to here is too large for numbers";
+                let message = "the accumulated transform overflows";
                 let fault = Diagnostic::invalid(&object.location, message);
-                warnings.downgrade_if_lenient(fault, "it is shown where its parent is")?;
+                warnings.downgrade_if_lenient(fault, "its transform is ignored")?;
                 to_parent = Affine::IDENTITY;
             }
             let at = model.nodes.len();

@@ -80,7 +80,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
         self.namespaces.check_required(&root, &location, self.warnings)?;
         part.unit = self.read_unit(&root);
         if let Err(fault) = self.read_model(&mut part) {
-            self.warnings.downgrade_if_lenient(fault, "what follows is left out")?;
+            self.warnings.downgrade_if_lenient(fault, "the rest of the part is skipped")?;
         }
         Ok(part)
     }
@@ -96,7 +96,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
             Some(b"foot") => LengthUnit::Foot,
             Some(_) => {
                 let location = self.xml.location_of(root);
-                self.warnings.push_warning(&location, "the unit is unknown; it is taken for mm");
+                self.warnings.push_warning(&location, "unknown unit; millimeters are used");
                 LengthUnit::Millimeter
             }
         }
@@ -123,7 +123,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
         }
         let (name, support) = self.namespaces.support_of(element.prefix());
         if matches!(support, Support::LeftOut | Support::Refused) {
-            self.say_once(element, name, &format!("{name} are not read and left out"));
+            self.say_once(element, name, &format!("skipped unsupported {name}"));
         }
         false
     }
@@ -171,7 +171,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
             Ok(None) => return Ok(()),
             Err(message) => {
                 let location = self.xml.location_of(start);
-                self.warnings.push_warning(&location, format!("{message}; it is left out"));
+                self.warnings.push_warning(&location, format!("{message}; it is skipped"));
                 return Ok(());
             }
         };
@@ -182,11 +182,11 @@ impl<'a, 'w> PartReader<'a, 'w> {
         match start.local_name() {
             "multiproperties" => {
                 let message =
-                    "layers of properties are approximated by their colors, or by the last texture";
+                    "property layers are approximated by their colors or by the last texture";
                 self.say_once(start, "multiproperties", message);
             }
             "compositematerials" => {
-                let message = "mixed materials are shown in the mean of their colors";
+                let message = "mixed materials are shown in their average color";
                 self.say_once(start, "compositematerials", message);
             }
             _ => {}
@@ -244,16 +244,16 @@ impl<'a, 'w> PartReader<'a, 'w> {
             self.package.charge_bytes(&location, size_of::<ObjectReference>() as u64)?;
             let Some(id) = parse_id(&child, "objectid") else {
                 let fault = Diagnostic::invalid(&location, format!("the {name} has no objectid"));
-                self.warnings.downgrade_if_lenient(fault, "it is left out")?;
+                self.warnings.downgrade_if_lenient(fault, "it is skipped")?;
                 continue;
             };
             let transform = match child.attribute("transform").map(parse_transform) {
                 None => Affine::IDENTITY,
                 Some(Some(transform)) => transform,
                 Some(None) => {
-                    let message = "the transform is not made of twelve finite numbers";
+                    let message = "the transform must be twelve finite numbers";
                     let fault = Diagnostic::invalid(&location, message);
-                    self.warnings.downgrade_if_lenient(fault, "it is shown without one")?;
+                    self.warnings.downgrade_if_lenient(fault, "it is shown without a transform")?;
                     Affine::IDENTITY
                 }
             };

@@ -84,21 +84,21 @@ impl<'a> Namespaces<'a> {
             let (name, support) = self.support_of(prefix.as_bytes());
             match support {
                 Support::Read | Support::Refused | Support::Ignored if name.is_empty() => {
-                    let message = format!("the required extension {prefix:?} is not known");
+                    let message = format!("unknown required extension {prefix:?}");
                     let help = "export the file without it";
                     let code = codes::UNSUPPORTED_REQUIRED_EXTENSION;
                     let fault = Diagnostic::error(code, location, message, help);
                     warnings.downgrade_if_lenient(fault, "it is ignored")?;
                 }
                 Support::Refused => {
-                    let message = format!("the file requires {name}, which is not read");
+                    let message = format!("the file requires {name}, which is not supported");
                     let help = "export the file without it";
                     let code = codes::UNSUPPORTED_REQUIRED_EXTENSION;
                     let fault = Diagnostic::error(code, location, message, help);
                     warnings.downgrade_if_lenient(fault, "it is ignored")?;
                 }
                 Support::LeftOut => {
-                    let message = format!("the file requires {name}, which are left out");
+                    let message = format!("the file requires {name}; this part is skipped");
                     warnings.push_warning(location, message);
                 }
                 _ => {}

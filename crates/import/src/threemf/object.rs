@@ -96,7 +96,7 @@ impl PartReader<'_, '_> {
             if !is_finite(&position) {
                 let message = "the vertex does not have three finite coordinates";
                 let fault = Diagnostic::invalid(&self.xml.location_of(&vertex), message);
-                self.warnings.downgrade_if_lenient(fault, "its triangles are left out")?;
+                self.warnings.downgrade_if_lenient(fault, "its triangles are skipped")?;
             }
             mesh.positions.push(position);
         }
@@ -119,7 +119,7 @@ impl PartReader<'_, '_> {
                         Diagnostic::invalid(&location, message + ", counted from 0")
                     }
                 };
-                self.warnings.downgrade_if_lenient(fault, "the triangle is left out")?;
+                self.warnings.downgrade_if_lenient(fault, "the triangle is skipped")?;
                 continue;
             }
             if !corners.iter().filter_map(position).all(is_finite) {

@@ -38,11 +38,12 @@ impl<'a> Package<'a> {
         let mut parts = BTreeMap::new();
         for (at, entry) in archive.entries.iter().enumerate() {
             if !is_part_name(&entry.name) {
-                let message = "the name leads out of the archive; the entry is left out";
+                let message = "the name points outside the archive; the entry is skipped";
                 warnings.push_warning(&entry.name, message);
             } else if *parts.entry(entry.name.to_ascii_lowercase()).or_insert(at) != at {
-                let fault = Diagnostic::invalid(&entry.name, "the archive has two such entries");
-                warnings.downgrade_if_lenient(fault, "the first is read")?;
+                let fault =
+                    Diagnostic::invalid(&entry.name, "the archive has two entries with this name");
+                warnings.downgrade_if_lenient(fault, "the first is used")?;
             }
         }
         Ok(Self { archive, parts, budget: MemoryBudget::new(limits) })
@@ -97,7 +98,7 @@ impl<'a> Package<'a> {
             match find_model_target(&decode_text(&content)) {
                 Ok(Some(target)) if self.part_name(&target).is_some() => return Ok(target),
                 Ok(_) => {}
-                Err(fault) => warnings.downgrade_if_lenient(fault, "it is left out")?,
+                Err(fault) => warnings.downgrade_if_lenient(fault, "it is skipped")?,
             }
         }
         let mut models = self.archive.entries.iter().map(|entry| entry.name.as_str()).filter(|n| {
@@ -109,7 +110,7 @@ impl<'a> Package<'a> {
             let help = "give a .gltf, .glb, .stl, .obj, .ply or .3mf file";
             return Err(Diagnostic::error(codes::UNKNOWN_FORMAT, RELATIONSHIPS, message, help));
         };
-        let message = format!("no relationship leads to a 3D model; {model} is taken for it");
+        let message = format!("no relationship leads to a 3D model; {model} is used");
         warnings.push_warning(RELATIONSHIPS, message);
         Ok(model.to_owned())
     }

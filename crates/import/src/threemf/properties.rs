@@ -253,7 +253,7 @@ impl PartProperties {
                 let group = self.group(id).filter(|group| group.kind == GroupKind::Base);
                 let group = group.ok_or_else(|| no_group(id))?;
                 let indices = element.attribute("matindices").and_then(parse_indices);
-                let indices = indices.ok_or("matindices is no list of numbers")?;
+                let indices = indices.ok_or("matindices is not a list of numbers")?;
                 let base =
                     |&index: &u32| group.entries.get(index as usize).map(|p| palette.color_of(p));
                 let bases: Option<Vec<_>> = indices.iter().map(base).collect();
@@ -261,7 +261,7 @@ impl PartProperties {
             }
             "multiproperties" => {
                 let ids = element.attribute("pids").and_then(parse_indices);
-                let ids = ids.ok_or("pids is no list of numbers")?;
+                let ids = ids.ok_or("pids is not a list of numbers")?;
                 let methods = element.text_attribute("blendmethods").unwrap_or_default();
                 // The first layer has no method.
                 let mut methods = std::iter::once("mix").chain(methods.split_ascii_whitespace());

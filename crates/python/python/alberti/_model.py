@@ -281,7 +281,7 @@ def load_scene(
         AlbertiError: With the location of every mistake in the file.
     """
     if (path is None) == (text is None):
-        raise AlbertiError("expected a path or a text, and not both", pointer="path")
+        raise AlbertiError("expected a path or a text, not both", pointer="path")
     place = os.fspath(folder if path is None else path)
     return _warned(Scene(_native.load_scene(place, text, {"limits": limits})))
 

@@ -164,7 +164,7 @@ def _job(model: Any, options: dict[str, Any]) -> tuple[_native.Subject, dict[str
     if not isinstance(model, Model):
         if not type(model).__module__.startswith("trimesh"):
             message = f"is a {type(model).__name__}, expected a Model"
-            help = "load(path), Model.from_arrays(…) and Model.from_trimesh(…) make one"
+            help = "create one with load(path), Model.from_arrays(…) or Model.from_trimesh(…)"
             raise AlbertiError(message, pointer="model", help=help)
         model = Model.from_trimesh(model)
     camera = options.get("camera")

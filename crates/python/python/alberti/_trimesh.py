@@ -32,7 +32,7 @@ def _mesh(geometry: Any, name: str) -> dict[str, Any]:
     import numpy as np
 
     if not hasattr(geometry, "vertices"):
-        message = f"is a {type(geometry).__name__}, expected an object of trimesh with vertices"
+        message = f"is a {type(geometry).__name__}, expected a trimesh object with vertices"
         raise AlbertiError(message, pointer="scene")
     mesh: dict[str, Any] = {"name": name, "vertices": np.asarray(geometry.vertices)}
     if hasattr(geometry, "faces"):

@@ -7,25 +7,25 @@
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 pub(super) enum StreamError {
     /// The first byte does not match the codec.
-    #[error("the stream begins with {0:#04x}, which is no version of its mode that is known")]
+    #[error("the stream begins with {0:#04x}, an unknown version of its mode")]
     Header(u8),
     /// There are fewer bytes than the elements need.
     #[error("the stream ends too early")]
     Short,
     /// There are more bytes than the elements need.
-    #[error("the stream has bytes left over at its end: {0}")]
+    #[error("extra bytes at the end of the stream: {0}")]
     Long(usize),
     /// An element refers to one that has not been decoded yet.
     #[error("the stream refers to an edge or vertex before the first")]
     Unwritten,
     /// The delta mode of a channel is not known.
-    #[error("the stream has a channel of the unknown mode {0:#04x}")]
+    #[error("a channel of the stream has the unknown mode {0:#04x}")]
     Channel(u8),
     /// The table of common vertex codes breaks its rules.
-    #[error("the stream's table of corners is not valid")]
+    #[error("the corner table of the stream is not valid")]
     Table,
     /// A variable-length integer has too many bytes.
-    #[error("a number of the stream has more than five bytes")]
+    #[error("a number in the stream has more than five bytes")]
     Number,
 }
 

@@ -133,35 +133,39 @@ fn what_the_json_may_say() {
         (json!({}), 48, None),
         (json!({"filter": "COLOR"}), 48, None),
         (json!({"mode": "INDICES", "byteStride": 2}), 12, None),
-        (json!({}), 49, Some("/byteLength: 6 elements of 8 bytes are compressed, not 49 bytes")),
-        (json!({"mode": "TRIANGLES"}), 48, Some("/byteStride: the stride is 8 and must be 2 or 4")),
+        (
+            json!({}),
+            49,
+            Some("/byteLength: 6 compressed elements of 8 bytes do not match a byteLength of 49"),
+        ),
+        (json!({"mode": "TRIANGLES"}), 48, Some("/byteStride: the stride is 8 but must be 2 or 4")),
         (
             json!({"mode": "TRIANGLES", "byteStride": 2, "count": 4}),
             8,
-            Some("/count: 4 indices are no triangles"),
+            Some("/count: 4 indices do not form triangles: not a multiple of 3"),
         ),
         (
             json!({"mode": "EDGES"}),
             48,
             Some("/mode: the mode must be ATTRIBUTES, TRIANGLES or INDICES, not \"EDGES\""),
         ),
-        (json!({"filter": "SMALL"}), 48, Some("/filter: the filter \"SMALL\" is not known")),
+        (json!({"filter": "SMALL"}), 48, Some("/filter: unknown filter \"SMALL\"")),
         (
             json!({"filter": "QUATERNION", "byteStride": 4}),
             24,
-            Some("/byteStride: the stride is 4 and must be 8"),
+            Some("/byteStride: the stride is 4 but must be 8"),
         ),
         (
             json!({"mode": "INDICES", "byteStride": 4, "filter": "COLOR"}),
             24,
             Some("/filter: only the mode ATTRIBUTES may have a filter"),
         ),
-        (json!({"count": "six"}), 48, Some("/count: an integer is due")),
-        (json!({"byteOffset": -1}), 48, Some("/byteOffset: an integer is due")),
+        (json!({"count": "six"}), 48, Some("/count: expected an integer")),
+        (json!({"byteOffset": -1}), 48, Some("/byteOffset: expected an integer")),
         (
             json!({"byteStride": 260}),
             1560,
-            Some("/byteStride: the stride is 260 and must be a multiple of 4 from 4 to 256"),
+            Some("/byteStride: the stride is 260 but must be a multiple of 4 from 4 to 256"),
         ),
     ] {
         let mut extension = good.clone();

@@ -29,9 +29,10 @@ pub(in super::super) fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
     match u64::from(width) * u64::from(height) {
         0 => Err("the KTX2 image has no texels".to_owned()),
         1..=MAX_TEXELS => Ok((width, height)),
-        _ => {
-            Err(format!("the KTX2 image has {width} x {height} texels; 16384 x 16384 can be read"))
-        }
+        _ => Err(format!(
+            "the KTX2 image has {width} x {height} texels; \
+             at most 16384 x 16384 are supported"
+        )),
     }
 }
 
@@ -100,7 +101,9 @@ impl<'a> Ktx2File<'a> {
         check_shape(bytes)?;
         let level_count = word(bytes, 40)?.max(1);
         if level_count > MAX_LEVELS {
-            return Err(format!("the KTX2 image has {level_count} mip levels"));
+            return Err(format!(
+                "the KTX2 image has {level_count} mip levels; at most {MAX_LEVELS} are allowed"
+            ));
         }
         let descriptor = part(bytes, u64::from(word(bytes, 48)?), u64::from(word(bytes, 52)?))?;
         let (encoding, channels) = read_encoding(word(bytes, 12)?, descriptor)?;
@@ -111,8 +114,8 @@ impl<'a> Ktx2File<'a> {
             (2, TexelEncoding::Uastc | TexelEncoding::Rgb8 | TexelEncoding::Rgba8) => true,
             _ => {
                 return Err(format!(
-                    "the KTX2 image is {encoding:?} in the supercompression scheme {scheme}, \
-                     which is not read"
+                    "the KTX2 image is {encoding:?} with supercompression scheme {scheme}, which \
+                     is not supported"
                 ));
             }
         };
@@ -182,7 +185,7 @@ impl<'a> Ktx2File<'a> {
         let [endpoints, selectors] = [next_part(4)?, next_part(8)?];
         let tables = next_part(12)?;
         if word(data, 20)? & IS_P_FRAME != 0 {
-            return Err("the KTX2 image is a frame of a video that depends on others".to_owned());
+            return Err("the KTX2 image is a video frame that depends on other frames".to_owned());
         }
         let slice = |offset: usize| {
             part(self.level, u64::from(word(data, offset)?), u64::from(word(data, offset + 4)?))
@@ -212,7 +215,7 @@ fn check_shape(bytes: &[u8]) -> Result<(), String> {
         (_, _, 1) => return Ok(()),
         _ => (faces, "faces"),
     };
-    Err(format!("the KTX2 image has {count} {what}; a texture of glTF has one"))
+    Err(format!("the KTX2 image has {count} {what}; a glTF texture has one"))
 }
 
 /// The encoding, and the channel of each sample (for Basis Universal).
@@ -231,16 +234,16 @@ fn read_encoding(format: u32, descriptor: &[u8]) -> Result<(TexelEncoding, Vec<u
         (0, 166) => TexelEncoding::Uastc,
         (0, model) => {
             return Err(format!(
-                "the KTX2 image has the color model {model}; ETC1S and UASTC of Basis Universal, \
-                 and RGB and RGBA of 8 bits are read"
+                "the KTX2 image has color model {model}; only Basis Universal (ETC1S, UASTC) and \
+                 8-bit RGB and RGBA are supported"
             ));
         }
         (23 | 29, _) => TexelEncoding::Rgb8,
         (37 | 43, _) => TexelEncoding::Rgba8,
         (format, _) => {
             return Err(format!(
-                "the KTX2 image has Vulkan's format {format}; ETC1S and UASTC of Basis Universal, \
-                 and RGB and RGBA of 8 bits are read"
+                "the KTX2 image has Vulkan format {format}; only Basis Universal (ETC1S, UASTC) \
+                 and 8-bit RGB and RGBA are supported"
             ));
         }
     };
@@ -265,7 +268,8 @@ fn read_orientation(mut entries: &[u8]) -> [bool; 2] {
 /// A little-endian number of 32 bits.
 fn word(bytes: &[u8], at: usize) -> Result<u32, String> {
     let word = bytes.get(at..).and_then(<[u8]>::first_chunk);
-    word.map(|word| u32::from_le_bytes(*word)).ok_or_else(|| "the KTX2 image is cut off".to_owned())
+    word.map(|word| u32::from_le_bytes(*word))
+        .ok_or_else(|| "the KTX2 image is truncated".to_owned())
 }
 
 /// A little-endian number of 64 bits.
@@ -281,7 +285,7 @@ fn part(bytes: &[u8], offset: u64, length: u64) -> Result<&[u8], String> {
     };
     let name = || {
         format!(
-            "the KTX2 image is cut off: {length} bytes at {offset} are beyond its {}",
+            "the KTX2 image is truncated: {length} bytes at offset {offset} exceed its {} bytes",
             bytes.len()
         )
     };
@@ -347,7 +351,7 @@ pub(super) mod tests {
         refused(&HeaderFields { scheme: 1, ..usual.clone() }, "supercompression scheme 1");
         refused(&HeaderFields { scheme: 3, ..usual.clone() }, "supercompression scheme 3");
         refused(&HeaderFields { color_model: 167, ..usual.clone() }, "color model 167");
-        refused(&HeaderFields { format: 145, ..usual.clone() }, "Vulkan's format 145");
+        refused(&HeaderFields { format: 145, ..usual.clone() }, "Vulkan format 145");
         refused(&HeaderFields { size: [0, 4], ..usual.clone() }, "no texels");
         refused(&HeaderFields { size: [1 << 20, 1 << 20], ..usual }, "1048576 x 1048576 texels");
     }

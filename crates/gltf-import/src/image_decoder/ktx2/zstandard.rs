@@ -21,7 +21,7 @@ pub(super) fn decompress(frame: &[u8], length: usize) -> Result<Vec<u8>, String>
     let window = header.header.window_size().map_err(|_| broken())?;
     if window > MAX_WINDOW_BYTES.max(length as u64) {
         return Err(format!(
-            "the Zstandard data of the KTX2 image wants a window of {window} bytes"
+            "the Zstandard data of the KTX2 image needs a window of {window} bytes"
         ));
     }
     let mut decoder = StreamingDecoder::new(frame).map_err(|_| broken())?;

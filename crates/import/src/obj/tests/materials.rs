@@ -172,7 +172,7 @@ fn texture_options_that_a_material_can_have_are_kept() {
     assert_eq!(model.images[0].as_ref().unwrap().rgba, [[255, 0, 0, 255]]);
     let told = warnings(&model);
     for expected in ["`-boost`", "`-t`", "`map_Ks`"] {
-        assert!(told.contains(&format!("{expected} is not read")), "{told}");
+        assert!(told.contains(&format!("{expected} is ignored")), "{told}");
     }
     assert_eq!(told.lines().count(), 3, "{told}");
     assert!(told.starts_with("a.mtl: line 4, column 8: "), "{told}");
@@ -269,7 +269,7 @@ fn libraries_are_found_by_whole_names_by_several_and_once() {
     folder.write("a.obj", square().replace("a.mtl", "gone.mtl"));
     let model = folder.load("a.obj");
     assert!(
-        warnings(&model).contains("the file \"gone.mtl\" does not exist; its materials are plain")
+        warnings(&model).contains("the file \"gone.mtl\" does not exist; the default material")
     );
     assert!(warnings(&model).contains("no material library defines \"m\""));
     assert_eq!((model.materials[0].name.as_deref(), model.materials[0].metallic), (Some("m"), 0.0));
@@ -282,7 +282,7 @@ fn libraries_and_textures_may_be_in_the_file() {
     assert_eq!(model.materials[0].roughness, 0.25);
     assert_eq!(model.image_infos[0].uri.as_deref(), Some("data:"));
     let told = warnings(&model);
-    assert!(told.contains("texture data:,///: ") && told.contains("`new` is not read"), "{told}");
+    assert!(told.contains("texture data:,///: ") && told.contains("`new` is ignored"), "{told}");
     let long = "x".repeat(100_000);
     let model =
         super::read(square().replace("a.mtl", &format!("data:,newmtl%20m%0A{long}%0A{long}")))
@@ -327,7 +327,8 @@ fn textures_are_below_the_library_or_beside_it_and_never_outside() {
     std::fs::write(&outside, "newmtl m\nPr 0.5\n").unwrap();
     for name in [absolute.clone(), format!("../{secret}"), format!("..\\{secret}")] {
         folder.write("a.obj", square().replace("a.mtl", &name));
-        assert!(warnings(&folder.load("a.obj")).contains("its materials are plain"), "{name}");
+        let expected = "the default material is used";
+        assert!(warnings(&folder.load("a.obj")).contains(expected), "{name}");
     }
     std::fs::remove_file(outside).unwrap();
 }

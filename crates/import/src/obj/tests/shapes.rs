@@ -48,7 +48,7 @@ fn references_to_nothing_say_where_and_are_left_out_leniently() {
         assert!(diagnostic.message.starts_with(message), "{face}: {}", diagnostic.message);
         let model = read_leniently(&text);
         assert_eq!(triangle_count(&model), 2, "{face}");
-        assert!(warnings(&model).contains("the element is left out"));
+        assert!(warnings(&model).contains("the element is skipped"));
     }
 }
 
@@ -90,11 +90,11 @@ fn attributes_that_corners_lack_are_computed_or_absent() {
         assert!(part.normals.as_ref().unwrap().iter().all(|normal| *normal == [0.0, 0.0, 1.0]));
     }
     assert_eq!(triangle_count(&model), 3);
-    assert!(warnings(&model).contains("a reference to texture coordinates that do not exist"));
-    assert!(warnings(&model).contains("a reference to a normal that does not exist"));
+    assert!(warnings(&model).contains("a reference to missing texture coordinates is ignored"));
+    assert!(warnings(&model).contains("a reference to a missing normal is replaced"));
     let zero = read(format!("{SQUARE}vn 0 0 0\nvn x\nf 1//1 2//1 3//2")).unwrap();
     assert_eq!(primitives(&zero)[0].normals.as_ref().unwrap(), &[[0.0, 0.0, 1.0]; 3]);
-    assert!(warnings(&zero).contains("3 normals have no direction"));
+    assert!(warnings(&zero).contains("replaced 3 normals without a direction"));
 }
 
 #[test]
@@ -137,7 +137,7 @@ fn vertex_colors_are_srgb_and_may_be_of_bytes() {
     assert_eq!(colors[2], [0.0, 0.0, 1.0, 0.25]);
     let bytes = read("v 0 0 0 255 0 0\nv 1 0 0 0 0 255\nv 0 1 0 0 0 0\nf 1 2 3").unwrap();
     assert_eq!(primitives(&bytes)[0].colors.as_ref().unwrap()[0], [1.0, 0.0, 0.0, 1.0]);
-    assert!(warnings(&bytes).contains("numbers up to 255"));
+    assert!(warnings(&bytes).contains("numbers from 0 to 255"));
     // A weight is not a color, and moves nothing.
     let weights = read("v 2 0 0 2\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3").unwrap();
     assert_eq!(primitives(&weights)[0].colors, None);
@@ -260,12 +260,12 @@ fn what_is_not_read_is_named_once() {
     );
     let model = read(text).unwrap();
     let told = warnings(&model);
-    assert!(told.contains("line 5, column 1: 2 statements \"vp\" are not read"), "{told}");
+    assert!(told.contains("line 5, column 1: 2 \"vp\" statements are ignored"), "{told}");
     assert_eq!(told.lines().count(), 6, "{told}");
     assert_eq!(triangle_count(&model), 1);
     let many: String = (0..1000).map(|at| format!("x{at} 1\n")).collect();
     let model = read(format!("{SQUARE}{many}f 1 2 3")).unwrap();
-    assert!(warnings(&model).contains("984 more statements are not read"));
+    assert!(warnings(&model).contains("984 more statements are ignored"));
     assert!(model.warnings.len() < 20);
 }
 
