@@ -166,7 +166,7 @@ fn a_check_of_the_scene_warns_of_what_the_sheet_lacks() {
         (
             "author: \"a\u{202e}\u{5d0}\u{7}\")".to_owned(),
             "missing-glyph",
-            "lack \\u{202e}\u{5d0}\\u{7} of",
+            "the drawing font lacks \\u{202e}\u{5d0}\\u{7} in",
         ),
         (
             format!("paper: A4, scale: (4, 3)), sections: [{}]", many.join(", ")),
