@@ -46,8 +46,8 @@ const MAX_SIDE: f64 = 1000.0;
 ///     <text x="2" y="8">{title}, {scale}</text></svg>"#;
 /// assert_eq!(TitleBlockTemplate::parse(svg)?.size(), [90.0, 20.0]);
 /// let error = TitleBlockTemplate::parse("<svg viewBox='0 0 9 9'><circle r='2'/></svg>");
-/// assert_eq!(error.unwrap_err().to_string(), "line 1, column 24: `circle` is not read: \
-///     a title block has line, rect, polyline, polygon, path, text and g");
+/// assert_eq!(error.unwrap_err().to_string(), "line 1, column 24: `circle` is not supported; \
+///     use line, rect, polyline, polygon, path, text or g");
 /// # Ok::<(), sheet::TemplateError>(())
 /// ```
 #[derive(Clone, PartialEq, Debug)]

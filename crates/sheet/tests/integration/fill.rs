@@ -100,7 +100,7 @@ fn the_fill_is_the_area_of_the_views() {
     // The scale bar takes less than 2 % of the area.
     let fraction = views / room;
     assert!(fill.fraction > fraction && fill.fraction < 1.02 * fraction, "{fill}");
-    assert!(fill.to_string().ends_with("asked for"), "{fill}");
+    assert!(fill.to_string().ends_with("this scale was requested"), "{fill}");
 }
 
 #[test]

@@ -398,7 +398,7 @@ fn requests_that_make_no_sense_are_errors_that_name_them() {
             vec![ViewRequest::Auxiliary { facing: Vector::ZERO, place: ViewPlace::default() }],
             "must not be (0, 0, 0)",
         ),
-        (vec![detail(point(0.0, 0.0, 0.0), 5.0); 40], "more than"),
+        (vec![detail(point(0.0, 0.0, 0.0), 5.0); 40], "at most 24 views"),
     ] {
         let error = a3(views).draw(&model, &[], 1).expect_err(expected);
         assert!(error.to_string().contains(expected), "{error}");

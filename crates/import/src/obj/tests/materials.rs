@@ -340,7 +340,7 @@ fn surfaces_without_texture_coordinates_say_so() {
     folder.write("a.mtl", "newmtl m\nmap_Kd a.png\n");
     folder.write("a.obj", format!("mtllib a.mtl\nusemtl m\n{SQUARE}f 1 2 3 4\nusemtl\nf 1 2 3\n"));
     let model = folder.load("a.obj");
-    assert!(warnings(&model).contains("1 surfaces have textures, but no texture coordinates"));
+    assert!(warnings(&model).contains("1 surface has textures but no texture coordinates"));
     let [textured, plain] = primitives(&model)[..] else { panic!() };
     assert_eq!((textured.material, plain.material), (Some(0), Some(1)));
     assert_eq!(model.materials[1], Material::plain());

@@ -67,7 +67,7 @@ fn what_is_not_read_is_told_with_its_place() {
         ("<rect transform='scale(2)'/>", (2, 18), "`transform` of `rect` is not supported"),
         ("<text style='font-size:3'>a</text>", (2, 14), "as attributes"),
         ("<text>{titel}</text>", (2, 1), "there is no field `titel`"),
-        ("<text>{title</text>", (2, 1), "without its `}`"),
+        ("<text>{title</text>", (2, 1), "`{` without `}`"),
         ("<text>{projection} {title}</text>", (2, 1), "a separate text element"),
         ("<text><tspan>a</tspan></text>", (2, 7), "inside a text element"),
         ("<text text-anchor='left'>a</text>", (2, 1), "not a text-anchor"),
