@@ -161,5 +161,9 @@ fn content_decides_and_a_name_that_lies_is_told() {
     assert!(run.code == 1 && run.stderr.contains("this is a STEP file"), "{}", run.stderr);
     sandbox.write_file("part.stl", "solid part\nfacet normal 0 0 1\nouter loop\nvertex 1 2 x\n");
     let run = sandbox.run(&["render", "part.stl"]);
-    assert!(run.stderr.contains("line 4, column 12: \"x\" is not a number"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("line 4, column 12: expected a number, found \"x\""),
+        "{}",
+        run.stderr
+    );
 }

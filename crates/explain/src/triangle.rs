@@ -39,13 +39,11 @@ pub fn explain_triangle(
         return Err(format!("primitive {primitive} has points or lines, not triangles"));
     }
     let triangles = shown.indices.as_chunks::<3>().0;
-    let (triangle, count) = (triangle_index, triangles.len());
-    let missing = || {
-        format!(
-            "there is no triangle {triangle}: primitive {primitive} has {count}, numbered from 0"
-        )
-    };
-    let indices = *triangles.get(triangle_index).ok_or_else(missing)?;
+    let count = triangles.len();
+    let indices = *triangles.get(triangle_index).ok_or_else(|| {
+        let missing = format!("there is no triangle {triangle_index}");
+        format!("{missing}: primitive {primitive} has {count}, numbered from 0")
+    })?;
     let skinned = model_instance.model.skin_primitive(instance, shown);
     let mesh = indices.map(|at| model_point(skinned.positions[at as usize]));
     let to_world = skinned.to_model.then(model_instance.model_to_world);
