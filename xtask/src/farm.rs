@@ -73,7 +73,7 @@ pub fn run_simulation(arguments: &[String]) -> Outcome {
 fn tables(times: &PictureTimes) -> String {
     let rate = 1000.0 / times.mean();
     format!(
-        "One core draws {rate:.0} pictures a second.\n\n{}\n{}\n{}",
+        "One core renders {rate:.0} pictures per second\n\n{}\n{}\n{}",
         scaling_table(times),
         death_table(times),
         request_table(rate)
@@ -82,7 +82,7 @@ fn tables(times: &PictureTimes) -> String {
 
 /// The time, by node count and shard count.
 fn scaling_table(times: &PictureTimes) -> String {
-    let mut text = "| nodes | cores | shards | time | pictures a second | cores at work |\n\
+    let mut text = "| nodes | cores | shards | time | pictures per second | cores at work |\n\
                     | ---: | ---: | ---: | ---: | ---: | ---: |\n"
         .to_owned();
     for (nodes, shards) in [(1, 1), (4, 16), (16, 64), (64, 64), (64, 256), (64, 1024), (64, 4096)]

@@ -15,6 +15,7 @@ mod scenes;
 mod signatures;
 mod size;
 mod source;
+mod terms;
 mod words;
 
 use crate::Outcome;
@@ -71,6 +72,7 @@ pub fn run_tidy(arguments: &[String]) -> Outcome {
     let files = source::text_files()?;
     violations.extend(words::machine_path_mentions(&files));
     violations.extend(phrases::phrases(&files));
+    violations.extend(terms::chinese_variants(&files));
     violations.extend(boundaries::dependencies()?);
     violations.extend(crate_map::outdated_map()?);
     violations.extend(crate_map::crate_lengths(&sources));

@@ -52,7 +52,7 @@ pub fn rust_files() -> Result<Vec<Source>, String> {
 
 /// Path and text of every text file in the workspace.
 pub fn text_files() -> Result<Vec<(String, String)>, String> {
-    let text = ["rs", "toml", "ron", "md", "lock", "svg", "sh"];
+    let text = ["rs", "toml", "ron", "md", "lock", "svg", "sh", "po", "py", "pyi", "tsv"];
     let mut paths = walk_files(project_root())?;
     paths.retain(|path| {
         path.extension().is_some_and(|found| text.iter().any(|known| found == *known))
