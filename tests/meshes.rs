@@ -55,7 +55,7 @@ fn read_manifest(folder: &Path) -> Result<Vec<Row>, String> {
     let parse = |line: &str| {
         let cells: Vec<&str> = line.split('\t').collect();
         let cell = |at: usize| cells.get(at).copied().unwrap_or("");
-        let wrong = || format!("{}: this is no row: {line}", path.display());
+        let wrong = || format!("{}: this is not a row: {line}", path.display());
         let facts = match cell(2) {
             "-" => None,
             count => Some(MeshFacts {

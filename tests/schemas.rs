@@ -84,7 +84,7 @@ fn check_unknown_name(program: &Path) -> Result<(), String> {
 fn check_embedded() -> Result<(), String> {
     let read = |name: &str| read_json(&schema_folder().join(format!("{name}.schema.json")));
     let mut explain = read("explain")?;
-    explain.as_object_mut().ok_or("it is no object")?.remove("$schema");
+    explain.as_object_mut().ok_or("it is not an object")?.remove("$schema");
     for name in ["explore-state", "explore-pick"] {
         if read(name)?["$defs"]["explanation"] != explain {
             return Err(format!("`explanation` of {name} is not explain.schema.json"));

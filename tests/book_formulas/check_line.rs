@@ -138,7 +138,7 @@ fn parse_number(text: &str) -> Result<f64, String> {
         Some((above, below)) => decimal(above).zip(decimal(below)).map(|(a, b)| a / b),
         None => decimal(text),
     };
-    number.filter(|number| number.is_finite()).ok_or(format!("`{text}` is no number"))
+    number.filter(|number| number.is_finite()).ok_or(format!("`{text}` is not a number"))
 }
 
 #[cfg(test)]

@@ -129,7 +129,7 @@ fn apply(name: &Name, arguments: &[Expression], scope: &dyn Scope) -> Result<Val
         ("S", [x, y]) => return Ok(Value::diagonal(&[*x, *y, 1.0])),
         _ => {
             return Err(format!(
-                "`{name}` has no value, and is no function of {} numbers",
+                "`{name}` has no value, and is not a function of {} numbers",
                 values.len()
             ));
         }

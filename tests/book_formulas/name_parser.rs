@@ -85,7 +85,7 @@ fn parse_base(parser: &mut Parser<'_>) -> Result<Name, String> {
         TokenKind::Command(word) if WORDS.contains(&word.as_str()) => {
             Ok(Name::plain(&read_word(parser)?))
         }
-        _ => Err(format!("{} is no name", describe(&token))),
+        _ => Err(format!("{} is not a name", describe(&token))),
     }
 }
 

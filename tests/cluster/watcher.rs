@@ -91,7 +91,7 @@ impl FolderWatch {
                     content.len(),
                     expected.len()
                 )),
-                None => self.seen.faults.push(format!("{name} is no picture of the list")),
+                None => self.seen.faults.push(format!("{name} is not a picture of the list")),
             }
         }
     }

@@ -223,7 +223,7 @@ def check_outline(name, regions, *flags):
     loops = []
     for entity in document.modelspace():
         if entity.dxftype() != "LWPOLYLINE" or not entity.closed:
-            faults.append(f"a {entity.dxftype()} that is no closed polyline")
+            faults.append(f"a {entity.dxftype()} that is not a closed polyline")
             continue
         loops.append([(x, y) for x, y in entity.get_points("xy")])
     sides = [(points[k - 1], points[k]) for points in loops for k in range(len(points))]

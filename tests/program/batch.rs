@@ -166,7 +166,7 @@ fn a_run_that_is_killed_goes_on_where_it_was() {
     let entries = std::fs::read_dir(sandbox.path_of("out")).expect("the folder");
     for entry in entries {
         let name = entry.expect("an entry").file_name().into_string().expect("a name");
-        assert!(!name.ends_with(".part"), "{name} is no picture");
+        assert!(!name.ends_with(".part"), "{name} is not a picture");
     }
 }
 

@@ -69,7 +69,7 @@ fn answers_are_right_or_wrong_by_exit_code_and_name() {
         assert!(run.stdout.contains(said), "{number}, {answer}: {}", run.stdout);
     }
     for (number, answer, part) in [
-        ("3", "A=q; B=1", "`q` is no letter of this exercise; the letters are n, f"),
+        ("3", "A=q; B=1", "`q` is not a letter of this exercise; the letters are n, f"),
         ("12", "1 2", "2 entries instead of 3"),
         ("16", "", "the answer is empty"),
         ("16", "((((", "not complete"),

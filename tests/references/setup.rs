@@ -25,11 +25,11 @@ impl Setup {
     pub fn scene_source(&self, model: &Path) -> Result<String, String> {
         let json = &self.json;
         let (camera, lights) = (&json["camera"], &json["lights"]);
-        let number = |value: &Value| value.as_f64().ok_or(format!("{value} is no number"));
+        let number = |value: &Value| value.as_f64().ok_or(format!("{value} is not a number"));
         let list = |value: &Value| {
             let all: Result<Vec<String>, String> = value
                 .as_array()
-                .ok_or(format!("{value} is no list"))?
+                .ok_or(format!("{value} is not a list"))?
                 .iter()
                 .map(|entry| Ok(number(entry)?.to_string()))
                 .collect();

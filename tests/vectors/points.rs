@@ -33,7 +33,7 @@ fn check_homogenize(case: &Value, out: &Value) -> Result<(), String> {
         "equivalent" => {
             let ours = parse_hpoint(&case["a"])?
                 .equivalent(parse_hpoint(&case["b"])?, EQUIVALENCE_TOLERANCE);
-            compare_outcome(ours.ok_or("a point is no point"), out, |ours| {
+            compare_outcome(ours.ok_or("a point is not valid"), out, |ours| {
                 compare_kind(&ours.to_string(), &out["equivalent"].to_string())
             })
         }

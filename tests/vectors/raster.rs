@@ -169,5 +169,5 @@ impl TestImage {
 }
 
 fn parse_array(value: &Value) -> Result<&Vec<Value>, String> {
-    value.as_array().ok_or_else(|| format!("{value} is no list"))
+    value.as_array().ok_or_else(|| format!("{value} is not a list"))
 }

@@ -74,7 +74,7 @@ fn missing_items(tests: &[Test]) -> Vec<String> {
 fn unknown_items(tests: &[Test]) -> Vec<String> {
     let lines = tests.iter().flat_map(|test| {
         let strange = test.ids.iter().filter(|id| items::all_items().all(|item| item.id != **id));
-        strange.map(|id| format!("{}: `{}` names {id}, which is no item", test.path, test.name))
+        strange.map(|id| format!("{}: `{}` names {id}, which is not an item", test.path, test.name))
     });
     lines.collect()
 }

@@ -167,7 +167,7 @@ fn parse_order(arguments: &[String]) -> Result<FuzzOrder, String> {
 }
 
 fn parse_number<T: std::str::FromStr>(text: &str) -> Result<T, String> {
-    text.parse().map_err(|_| format!("`{text}` is no number that fits here"))
+    text.parse().map_err(|_| format!("`{text}` is not a number that fits here"))
 }
 
 fn fuzz_help() -> String {

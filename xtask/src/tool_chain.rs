@@ -56,7 +56,7 @@ impl ToolChain {
     /// It does not run.
     pub fn version(&self) -> Result<String, String> {
         let text = capture_output(Command::new(&self.rustc).arg("--version"))?;
-        text.split(' ').nth(1).map(str::to_owned).ok_or(format!("`{text}` is no version"))
+        text.split(' ').nth(1).map(str::to_owned).ok_or(format!("`{text}` is not a version"))
     }
 
     /// A Cargo call in a folder, with this compiler and these compiler flags. Its results go to

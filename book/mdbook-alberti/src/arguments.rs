@@ -18,7 +18,7 @@ pub struct Arguments {
     pub language: Option<String>,
     /// The least coverage in percent.
     pub least: Option<f64>,
-    /// Words that are no flags.
+    /// Words that are not flags.
     pub names: Vec<String>,
 }
 

@@ -121,7 +121,7 @@ impl Renderer<'_> {
         }
     }
 
-    /// A fenced block as a line of HTML, or nothing if it is no mark.
+    /// A fenced block as a line of HTML, or nothing if it is not a mark.
     fn block(&self, fence: &Fence) -> Result<Option<String>, String> {
         match fence.kind() {
             "alberti" => self.figure(fence).map(Some),

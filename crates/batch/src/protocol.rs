@@ -119,14 +119,14 @@ mod any_path {
     }
 
     #[cfg(unix)]
-    #[expect(clippy::unnecessary_wraps, reason = "other systems have names that are no bytes")]
+    #[expect(clippy::unnecessary_wraps, reason = "other systems have names that are not bytes")]
     fn path_bytes(path: &Path) -> Option<Vec<u8>> {
         use std::os::unix::ffi::OsStrExt as _;
         Some(path.as_os_str().as_bytes().to_owned())
     }
 
     #[cfg(unix)]
-    #[expect(clippy::unnecessary_wraps, reason = "other systems have names that are no bytes")]
+    #[expect(clippy::unnecessary_wraps, reason = "other systems have names that are not bytes")]
     fn path_of(bytes: Vec<u8>) -> Option<PathBuf> {
         use std::os::unix::ffi::OsStringExt as _;
         Some(std::ffi::OsString::from_vec(bytes).into())

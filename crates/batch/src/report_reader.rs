@@ -182,7 +182,11 @@ mod tests {
         }
         let torn = format!("{}{whole}\0\0\0\n{{}}\nno JSON\n[1]\n{whole}", &whole[..40]);
         folder.add_text("reports/1-of-1.a.1.1.jsonl", torn.as_bytes());
-        assert_eq!(outputs(&folder), ["first.png"], "bytes that were never written are no record");
+        assert_eq!(
+            outputs(&folder),
+            ["first.png"],
+            "bytes that were never written are not a record"
+        );
     }
 
     #[test]

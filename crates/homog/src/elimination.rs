@@ -135,7 +135,7 @@ mod tests {
         assert_eq!(eliminate_full_pivoting([[0.0; 3]; 3]).rank, 0);
         assert!(
             eliminate_full_pivoting([[1e-320, 0.0], [0.0, 1.0]]).inverse.is_none(),
-            "1e320 is no number"
+            "1e320 is not a number"
         );
     }
 

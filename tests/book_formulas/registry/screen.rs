@@ -73,7 +73,7 @@ pub const ENTRIES: &[Entry] = &[
 /// A whole number of pixels or rows, at least 0.
 pub fn pixels(number: f64) -> Result<u32, String> {
     let whole = (0..=16384).find(|&whole: &u32| f64::from(whole) == number);
-    whole.ok_or_else(|| format!("{number} is no number of pixels"))
+    whole.ok_or_else(|| format!("{number} is not a number of pixels"))
 }
 
 fn image(v: &Inputs<'_>, convention: PixelConvention) -> Result<Viewport, Box<dyn Error>> {

@@ -75,7 +75,7 @@ fn plan(arguments: &[String]) -> Result<Plan, String> {
             part => plan.options.only.push(part.to_owned()),
         }
     }
-    if plan.out.is_dir() { Ok(plan) } else { Err(format!("--out is no folder\n{USAGE}")) }
+    if plan.out.is_dir() { Ok(plan) } else { Err(format!("--out is not a folder\n{USAGE}")) }
 }
 
 fn run(arguments: &[String]) -> Result<(), String> {

@@ -60,7 +60,7 @@ const METHOD: &str = "
 - Files are drawn by the programs as processes of their own, from the file to a PNG; CPU time and peak memory are the system's
   account of the process. f3d has a virtual display, and Mesa's llvmpipe draws for it.
 - Peers on a graphics card, and programs that take minutes a picture, are not compared.
-- `tests/peers/README.md` says what is needed to run it. Nothing is asserted: times are no fact about the code alone. What is
+- `tests/peers/README.md` says what is needed to run it. Nothing is asserted: times depend on the machine, not only on the code. What is
   asserted are the counts of instructions at the end, which another run reproduces to the last one.
 ";
 

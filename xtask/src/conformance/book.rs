@@ -56,7 +56,7 @@ impl BookMarks {
         let strange = self.pages.iter().filter(|(id, _)| !topics.contains(*id));
         let strange = strange.map(|(id, pages)| {
             let pages: Vec<&str> = pages.iter().map(String::as_str).collect();
-            format!("book/src: {id} is no topic, marked in {}", pages.join(", "))
+            format!("book/src: {id} is not a topic, marked in {}", pages.join(", "))
         });
         let misprints = topics.iter().filter(|id| id.starts_with('M'));
         let unlisted = misprints.filter(|id| self.pages_of(id).all(|page| page != MISPRINT_PAGE));
@@ -122,7 +122,7 @@ mod tests {
         let faults = marks.faults(&set(&["C1", "C2", "M1"]));
         assert_eq!(
             faults,
-            ["no page of the book marks C2", "book/src: C9 is no topic, marked in points"]
+            ["no page of the book marks C2", "book/src: C9 is not a topic, marked in points"]
         );
         marks.add_page("camera", "`C2` `M2`");
         let faults = marks.faults(&set(&["C1", "C2", "C9", "M1", "M2"]));

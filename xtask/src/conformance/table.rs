@@ -20,7 +20,7 @@ from the doc comments above them. `cargo xtask test conformance` fails if the fi
 mathematics has no test of a topic that it implements.
 
 “Not yet” marks a crate that implements a topic and has no test that names it. The files of
-[exact vectors](vectors/data/README.md) are a second, independent test. What is no mathematics has a page of the book.
+[exact vectors](vectors/data/README.md) are a second, independent test. A topic outside mathematics has a page of the book.
 ";
 
 /// The whole document.

@@ -75,7 +75,10 @@ fn all_states(site: &Path) -> Result<Vec<String>, String> {
     let mut states: Vec<String> = ids.map(|id| format!("lesson={id}")).collect();
     states.extend(STATES.iter().map(|&state| state.to_owned()));
     if states.len() < MIN_PICTURES {
-        return Err(format!("{} states are no proof: {MIN_PICTURES} must be", states.len()));
+        return Err(format!(
+            "{} states are too few: at least {MIN_PICTURES} are required",
+            states.len()
+        ));
     }
     Ok(states)
 }

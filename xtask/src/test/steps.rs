@@ -164,7 +164,7 @@ fn release_steps() -> Vec<Step> {
         }),
         Step::built_in(
             "web",
-            "the explorer builds for browsers, and its files are no larger than they may be",
+            "the explorer builds for browsers, and its files are within their limits",
             || crate::web::run_web(&["--skip-without-tools".into()]),
         ),
         Step::built_in(

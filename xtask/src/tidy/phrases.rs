@@ -30,7 +30,7 @@ const FAMILIES: &[Family] = &[
     Family {
         phrases: &["is no", "are no"],
         exceptions: &["there is no", "there are no", "is no longer", "are no longer", "is no more"],
-        most: 44,
+        most: 1,
         rule: "write `is not a`, `are not`, or what is wrong",
     },
     Family {
@@ -42,7 +42,7 @@ const FAMILIES: &[Family] = &[
     Family {
         phrases: &["whoever", "whatever", "whichever", "wherever"],
         exceptions: &[],
-        most: 34,
+        most: 35,
         rule: "write you, if, any, every, or the imperative",
     },
     Family {
@@ -75,7 +75,7 @@ const FAMILIES: &[Family] = &[
     Family {
         phrases: &["alone", "nothing but", "but for"],
         exceptions: &[],
-        most: 75,
+        most: 74,
         rule: "put `only` before the word it limits; write `except for`",
     },
     Family {

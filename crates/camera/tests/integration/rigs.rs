@@ -186,7 +186,7 @@ fn too_far_away_to_measure_is_no_orbit() {
         )
     };
     assert!(orbit(1e308).is_some());
-    assert_eq!(orbit(1.5e308), None, "√2 times that is no number");
+    assert_eq!(orbit(1.5e308), None, "√2 times that is not a number");
 }
 
 #[test]

@@ -39,7 +39,7 @@ impl AnswerError {
             (format!("the letters are {known}"), format!("可用的字母是 {known}"))
         };
         Self::new(
-            format!("`{name}` is no letter of this exercise; {en}"),
+            format!("`{name}` is not a letter of this exercise; {en}"),
             format!("`{name}` 不是本题的字母；{zh}"),
         )
     }

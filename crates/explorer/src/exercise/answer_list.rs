@@ -54,7 +54,7 @@ impl<'a> FactoredList<'a> {
         {
             let text = self.text;
             return Err(AnswerError::new(
-                format!("`{text}` is no list: write out each entry"),
+                format!("`{text}` is not a list: write out each entry"),
                 format!("`{text}` 不是列表：请逐个写出每个元素"),
             ));
         }

@@ -99,7 +99,11 @@ mod tests {
         assert_eq!(places([-2.0, 0.0, 8.0], Multiples::All), []);
         assert_eq!(places([2.0, 0.0, -8.0], Multiples::Positive), []);
         assert_eq!(places([-2.0, 0.0, 8.0], Multiples::Positive).len(), 3);
-        assert_eq!(places([0.0, 0.0, 0.0], Multiples::All).len(), 3, "nothing is no point");
+        assert_eq!(
+            places([0.0, 0.0, 0.0], Multiples::All).len(),
+            3,
+            "an empty entry is not a point"
+        );
         assert_eq!(places([3.0, 0.0, -8.0], Multiples::All).len(), 1);
     }
 

@@ -3,7 +3,7 @@
 //! ```text
 //!    ███████ │ ▓▓▓▓▓▓▓      A face on the left and one on the right hide what runs exactly behind
 //!    ███████ │ ▓▓▓▓▓▓▓      the side in which they meet. A crack between two objects, narrower than
-//!    ███████ │ ▓▓▓▓▓▓▓      a pen, hides likewise what runs in it; a mesh is no crack by itself,
+//!    ███████ │ ▓▓▓▓▓▓▓      a pen, hides likewise what runs in it; a mesh is not a crack by itself,
 //!       A   edge   B        for an edge near its outline has faces of one object on both sides.
 //! ```
 

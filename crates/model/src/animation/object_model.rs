@@ -357,7 +357,7 @@ mod tests {
         material.set_property(field("extensions/KHR_materials_ior/ior"), &[0.0]);
         assert_eq!(material.extensions.ior, 0.0);
         material.set_property(field("pbrMetallicRoughness/baseColorFactor"), &[0.5; 3]);
-        assert_eq!(material.base_color, [1.0; 4], "three numbers are no colour with alpha");
+        assert_eq!(material.base_color, [1.0; 4], "three numbers are not a color with alpha");
     }
 
     #[test]

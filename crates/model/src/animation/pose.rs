@@ -203,7 +203,7 @@ mod tests {
         assert_eq!(model.nodes[1].to_model, Affine::IDENTITY, "there is no such animation");
         model.apply_animation(0, 0.25);
         let origin = model.node_instances()[1].node_to_model.transform_point(homog::Point::ORIGIN);
-        assert_eq!(<[f64; 3]>::from(origin), [2.0, 2.0, 0.0], "what is no rotation is not used");
+        assert_eq!(<[f64; 3]>::from(origin), [2.0, 2.0, 0.0], "an invalid rotation is not used");
         assert_eq!(model.nodes[1].to_model, model.node_instances()[1].node_to_model);
         assert_eq!(model.nodes[1].morph_weights, Some(vec![0.25, 0.75]));
     }

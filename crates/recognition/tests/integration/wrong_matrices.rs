@@ -119,7 +119,7 @@ fn negated() -> Vec<Row> {
     all
 }
 
-/// Multiples of a matrix: an equal map, but w is no distance.
+/// Multiples of a matrix: an equal map, but w is not a distance.
 fn multiples() -> Vec<Row> {
     let lens = |c, fovy, aspect, n, f| Expected::Lens(c, fovy, aspect, n, f);
     let chapter = Expected::Frustum(Convention::CHAPTER, WINDOW, 2.0, 6.0);

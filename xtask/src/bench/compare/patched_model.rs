@@ -175,7 +175,7 @@ fn declare_extension(model: &mut Value, extension: &str) -> Result<(), String> {
     if used.is_null() {
         *used = json!([]);
     }
-    let used = used.as_array_mut().ok_or("its extensionsUsed is no list")?;
+    let used = used.as_array_mut().ok_or("its extensionsUsed is not a list")?;
     if !used.iter().any(|name| name == extension) {
         used.push(extension.into());
     }

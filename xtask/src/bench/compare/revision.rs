@@ -23,7 +23,7 @@ impl Commit {
             "--end-of-options",
             &format!("{revision}^{{commit}}"),
         ]))
-        .map_err(|error| format!("`{revision}` is no commit of this repository: {error}"))?;
+        .map_err(|error| format!("`{revision}` is not a commit of this repository: {error}"))?;
         Ok(Self { revision: revision.to_owned(), hash: hash.trim().to_owned() })
     }
 
@@ -90,7 +90,7 @@ mod tests {
     fn unknown_revisions_are_named() {
         for revision in ["no-such-branch", "--version", ""] {
             let error = Commit::resolve(revision).unwrap_err();
-            assert!(error.starts_with(&format!("`{revision}` is no commit")), "{error}");
+            assert!(error.starts_with(&format!("`{revision}` is not a commit")), "{error}");
         }
     }
 }
