@@ -367,8 +367,8 @@ mod tests {
             ("f_n", "write `f*n`"),
             ("n+f_n", "`f_n`"),
             ("n_", "`n_`"),
-            ("1/(n-n)", "no finite number"),
-            ("sqrt(n)", "no finite number"),
+            ("1/(n-n)", "not a finite number"),
+            ("sqrt(n)", "not a finite number"),
             ("1.2.3", "`1.2.3`"),
             ("n$f", "`$`"),
         ] {

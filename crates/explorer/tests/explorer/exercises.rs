@@ -102,7 +102,7 @@ fn rounded_answers_are_told_and_others_are_refused() {
         (7, "n", "1 entry instead of 4"),
         (14, "1+2cos30°, 2", "write `cos(30°)`"),
         (12, "x, y, z", "numbers only"),
-        (16, "1/0", "no finite number"),
+        (16, "1/0", "not a finite number"),
         (16, "", "empty"),
     ] {
         let error = find_exercise(number).expect("an exercise").check(answer);
