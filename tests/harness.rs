@@ -116,7 +116,7 @@ pub fn run_program(name: &str, run: impl FnOnce(&Arguments) -> Result<Tally, Str
 /// a change is found within days. It is printed, so that a failure can be repeated.
 #[must_use]
 pub fn sample_cases<T>(name: &str, cases: Vec<T>) -> Vec<T> {
-    if std::env::var_os("THOROUGH").is_some() {
+    if is_thorough() {
         return cases;
     }
     let given = std::env::var("TEST_SEED").ok().and_then(|seed| seed.parse().ok());
@@ -133,6 +133,11 @@ pub fn sample_cases<T>(name: &str, cases: Vec<T>) -> Vec<T> {
         chosen.len()
     );
     chosen
+}
+
+/// Whether `THOROUGH` asks for every case.
+pub fn is_thorough() -> bool {
+    std::env::var_os("THOROUGH").is_some()
 }
 
 /// A tenth of some items, each equally likely.

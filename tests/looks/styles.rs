@@ -2,6 +2,7 @@
 //! of the paper free.
 
 use super::BareModel;
+use alberti_tests::harness::is_thorough;
 use scene::Style;
 use scene_file::file::StyleFile;
 
@@ -45,7 +46,7 @@ pub fn all_styles() -> Vec<(&'static str, StyleFile)> {
 /// Keeps a few cases, chosen by the model's name, so that each style meets some of the models;
 /// keeps all if the environment variable `THOROUGH` is set.
 pub fn keep_few<T>(cases: &mut Vec<T>, name: &str, count: usize) {
-    if std::env::var_os("THOROUGH").is_none() {
+    if !is_thorough() {
         let turn =
             name.bytes().fold(0, |sum, byte| (31 * sum + usize::from(byte)) % 10_007) % cases.len();
         cases.rotate_left(turn);
