@@ -17,7 +17,7 @@ use batch::{
     BatchOptions, MergeCounts, PictureName, ProgressDisplay, RunCounts, RunEnd, Shard, ShardJobs,
     merge_reports, parse_shard, run_jobs, verify_jobs,
 };
-use files::visible_text;
+use files::{counted, visible_text};
 use render_flags::{GivenFlags, flag_table};
 use std::io::IsTerminal as _;
 use std::path::PathBuf;
@@ -173,8 +173,8 @@ fn merge_to_code(options: &BatchOptions) -> Result<u8, CliError> {
 fn print_statistics(counts: &MergeCounts) -> Result<(), CliError> {
     let MergeCounts { done, failed, bytes, seconds, longest } = counts;
     let megabytes = *bytes as f64 / 1e6;
-    let noun = if *done == 1 { "picture" } else { "pictures" };
-    let mut text = format!("{done} {noun}, {megabytes:.1} MB in total, {failed} failed\n");
+    let pictures = counted(*done, "picture", "pictures");
+    let mut text = format!("{pictures}, {megabytes:.1} MB in total, {failed} failed\n");
     if let Some((longest, input)) = longest {
         let mean = seconds / (done + failed) as f64;
         let input = visible_text(input);

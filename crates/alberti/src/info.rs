@@ -11,7 +11,7 @@ mod scenes;
 use super::args::InfoArgs;
 use super::model_state::ModelStateArgs;
 use super::{CliError, print_json, print_text};
-use files::{visible_path, visible_text};
+use files::{counted, visible_path, visible_text};
 use import::{ExtensionUse, ImageLoading, ImportOptions, extension_use, load};
 use model::{
     AlphaMode, CameraProjection, Diagnostic, LightKind, Model, PunctualLight, SceneRoots, Topology,
@@ -226,9 +226,8 @@ fn cameras_line(model: &Model) -> String {
 fn animations_line(model: &Model) -> String {
     let describe = |animation: &model::Animation| {
         let name = animation.name.as_deref().unwrap_or("unnamed");
-        let (channels, seconds) = (animation.channels.len(), animation.duration_seconds);
-        let noun = if channels == 1 { "channel" } else { "channels" };
-        format!("{name}: {channels} {noun}, {seconds:.3} s")
+        let channels = counted(animation.channels.len(), "channel", "channels");
+        format!("{name}: {channels}, {:.3} s", animation.duration_seconds)
     };
     list_or_none(&model.animations.iter().map(describe).collect::<Vec<_>>())
 }

@@ -13,7 +13,7 @@
 
 use super::CliError;
 use super::color;
-use files::{is_terminal_control, visible_text};
+use files::{counted, is_terminal_control, visible_text};
 use model::Diagnostic;
 use pipeline::Scene;
 use std::borrow::Cow;
@@ -197,8 +197,8 @@ fn print_model_warnings(name: &str, warnings: &[&Diagnostic]) {
     }
     let rest = warnings.len().saturating_sub(MAX_WARNINGS);
     if rest > 0 {
-        let noun = if rest == 1 { "warning" } else { "warnings" };
-        print_message("warning", &format!("{name}: {rest} more {noun}"));
+        let more = counted(rest, "more warning", "more warnings");
+        print_message("warning", &format!("{name}: {more}"));
     }
 }
 

@@ -1,4 +1,4 @@
-//! Writes output files completely or not at all, and makes file and object names safe to print.
+//! Writes output files completely or not at all, and prepares names and counts for messages.
 //!
 //! ```
 //! use files::{visible_text, write_file};
@@ -14,14 +14,17 @@
 //! | module | subject |
 //! | --- | --- |
 //! | `atomic_file` | a temporary file next to its target, which it replaces when it is complete |
+//! | `counted` | a count with the singular or plural of its noun |
 //! | `partial_files` | temporary files: removed on signals, and if their process is dead |
 //! | `visible_text` | characters that a terminal would obey, written as codes |
 
 mod atomic_file;
+mod counted;
 mod partial_files;
 mod visible_text;
 
 pub use atomic_file::{AtomicFile, OutputError, write_file};
+pub use counted::counted;
 pub use partial_files::{
     create_partial_file, forget_partial_file, register_partial_file, remove_partial_files,
 };

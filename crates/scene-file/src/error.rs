@@ -5,7 +5,7 @@ use super::source_text::SourceText;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use core::fmt;
 use core::ops::Range;
-use files::visible_text;
+use files::{counted, visible_text};
 
 /// Lines with more bytes than this are not quoted.
 #[cfg(feature = "terminal")]
@@ -139,10 +139,8 @@ impl SceneErrors {
         let mut text = messages.join(&format!("\n\n{error}"));
         let count = 1 + self.others.len();
         if let Some(more) = count.checked_sub(Self::SHOWN).filter(|more| *more > 0) {
-            let mistakes = if more == 1 { "mistake" } else { "mistakes" };
-            text.push_str(&format!(
-                "\n\n… and {more} more {mistakes}; `alberti scene check` lists them all"
-            ));
+            let more = counted(more, "more mistake", "more mistakes");
+            text.push_str(&format!("\n\n… and {more}; `alberti scene check` lists them all"));
         }
         text
     }

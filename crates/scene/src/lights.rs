@@ -6,6 +6,7 @@ use super::diagnostics::Diagnostics;
 use super::shadows::resolve_shadow;
 use super::surrounding_light::effective_environment;
 use camera::ViewProjection;
+use files::counted;
 use homog::{Point, Vector, World};
 use model::LightKind;
 use model::ModelInstance;
@@ -113,9 +114,9 @@ fn limit_shadow_maps(
     let count = shadows.len();
     let side = libm::sqrt(MAX_SHADOW_TEXELS as f64 / count as f64) as u32;
     if let Some(path) = chosen_size_path(file) {
-        let noun = if count == 1 { "light" } else { "lights" };
+        let lights = counted(count, "light", "lights");
         let message = format!(
-            "the shadow maps of {count} {noun} have {texels} texels in total; at most \
+            "the shadow maps of {lights} have {texels} texels in total; at most \
              {MAX_SHADOW_TEXELS} are allowed"
         );
         let help = format!("use `size: {}` for each", side.max(LEAST_SHADOW_SIDE));

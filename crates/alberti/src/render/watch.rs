@@ -6,6 +6,7 @@
 
 use crate::CliError;
 use crate::messages::{print_message, print_note};
+use files::counted;
 use scene::referenced_files;
 use scene_file::is_scene_file;
 use std::collections::BTreeMap;
@@ -41,8 +42,7 @@ pub(super) fn repeat(
         if let Err(error) = make() {
             print_message("error", &error.to_message());
         }
-        let count = before.len();
-        let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
+        let files = counted(before.len(), "file", "files");
         print_note(&format!("watching {files}; press Ctrl+C to stop"));
         let mut now = stamp_files(inputs);
         while now == before {

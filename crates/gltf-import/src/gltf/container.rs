@@ -14,6 +14,7 @@
 //! after the declared end.
 
 use crate::warnings::ImportWarnings;
+use files::counted;
 use model::{Diagnostic, codes};
 use std::ops::Range;
 
@@ -71,9 +72,8 @@ impl Container {
     fn from_glb(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<Self, Diagnostic> {
         let end = check_glb_header(bytes, warnings)?;
         if end < bytes.len() {
-            let more = bytes.len() - end;
-            let plural = if more == 1 { "" } else { "s" };
-            let message = format!("ignored {more} byte{plural} after the end of the GLB");
+            let more = counted(bytes.len() - end, "byte", "bytes");
+            let message = format!("ignored {more} after the end of the GLB");
             warnings.push_warning("", message);
         }
         let mut chunks = GlbChunks { bytes: &bytes[..end], offset: HEADER };

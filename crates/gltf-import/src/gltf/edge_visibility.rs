@@ -14,6 +14,7 @@
 use super::accessor::AccessorReader;
 use super::attribute::INDICES;
 use crate::warnings::ImportWarnings;
+use files::counted;
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::mesh::Primitive as Json;
 use model::{Diagnostic, EdgeList, EdgeVisibility, PrimitiveEdges, Topology};
@@ -189,8 +190,8 @@ impl EdgeReader<'_, '_> {
         lines.vertex_pairs.retain(|ends| ends.iter().all(|&end| (end as usize) < self.vertices));
         let dropped = before - lines.vertex_pairs.len();
         if dropped > 0 {
-            let plural = if dropped == 1 { "" } else { "s" };
-            let message = format!("skipped {dropped} edge{plural} with missing vertices");
+            let edges = counted(dropped, "edge", "edges");
+            let message = format!("skipped {edges} with missing vertices");
             self.warnings.push_warning(pointer, message);
         }
         lines

@@ -7,6 +7,7 @@
 use super::accessor::AccessorReader;
 use super::attribute::{AllowedFormats, ROTATION, TRANSLATION_OR_SCALE};
 use crate::warnings::ImportWarnings;
+use files::counted;
 use homog::{Affine, Model as ModelSpace, Vector};
 use model::{Diagnostic, Node};
 use serde_json::{Map, Value};
@@ -59,10 +60,8 @@ pub(super) fn import_instances(
         let transforms: Vec<InstanceTransform> =
             all.into_iter().flatten().filter(is_visible).collect();
         if transforms.len() < count {
-            let dropped = count - transforms.len();
-            let plural = if dropped == 1 { "" } else { "s" };
-            let message =
-                format!("skipped {dropped} instance{plural} with a transform that is not finite");
+            let instances = counted(count - transforms.len(), "instance", "instances");
+            let message = format!("skipped {instances} with a transform that is not finite");
             warnings.push_warning(&pointer, message);
         }
         node.instance_transforms = Some(transforms);

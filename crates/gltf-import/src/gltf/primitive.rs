@@ -26,6 +26,7 @@ use super::untyped_members::UntypedMembers;
 use super::{draco, edge_visibility, selection, topology};
 use crate::normals;
 use crate::warnings::ImportWarnings;
+use files::counted;
 use gltf::json;
 use gltf::json::mesh::Semantic;
 use gltf::json::validation::Checked;
@@ -381,9 +382,8 @@ impl<'a> PrimitiveReader<'a, '_> {
         let normals::NormalRepairs { lengths, replaced } = normals::normalize_normals(primitive);
         let pointer = format!("{}/attributes/NORMAL", self.pointer);
         if lengths > 0 {
-            let plural = if lengths == 1 { "" } else { "s" };
-            let message =
-                format!("normalized {lengths} normal{plural} that did not have unit length");
+            let normals = counted(lengths, "normal", "normals");
+            let message = format!("normalized {normals} that did not have unit length");
             self.warnings.push_warning(&pointer, message);
         }
         if replaced > 0 {
@@ -411,13 +411,12 @@ impl<'a> PrimitiveReader<'a, '_> {
 
 /// A number of points, lines or triangles, with the noun.
 fn item_count(primitive: &Primitive, count: usize) -> String {
-    let noun = match primitive.topology {
-        Topology::Points => "point",
-        Topology::Lines => "line",
-        Topology::Triangles => "triangle",
+    let [singular, plural] = match primitive.topology {
+        Topology::Points => ["point", "points"],
+        Topology::Lines => ["line", "lines"],
+        Topology::Triangles => ["triangle", "triangles"],
     };
-    let plural = if count == 1 { "" } else { "s" };
-    format!("{count} {noun}{plural}")
+    counted(count, singular, plural)
 }
 
 /// Reads the sets of joints and weights, up to the first that is missing or invalid.

@@ -7,6 +7,7 @@ use crate::corner_vertices::CornerAttributes;
 use crate::polygons::{PolygonKind, Triangulator};
 use crate::surfaces;
 use crate::surfaces::Surface;
+use files::counted;
 use gltf_import::ImportOptions;
 use gltf_import::ImportWarnings;
 use model::{Model, Primitive, Topology};
@@ -127,13 +128,16 @@ fn triangulate_faces(
         begin += length;
     }
     if left_out > 0 {
-        let plural = if left_out == 1 { "" } else { "s" };
-        let message = format!("skipped {left_out} face{plural} with vertices that are not finite");
+        let faces = counted(left_out, "face", "faces");
+        let message = format!("skipped {faces} with vertices that are not finite");
         warnings.push_warning("element face", message);
     }
     if fans > 0 {
-        let message =
-            format!("{fans} polygons cross themselves; they are triangulated as far as possible");
+        let message = counted(
+            fans,
+            "polygon crosses itself: it is triangulated as a fan",
+            "polygons cross themselves: they are triangulated as fans",
+        );
         warnings.push_warning("element face", message);
     }
     triangles
@@ -194,8 +198,8 @@ fn build_surface(
     let crease_angle = options.crease_degrees();
     let (primitives, replaced) = surfaces::build_primitives(surface, crease_angle, &attributes_at);
     if replaced > 0 && vertices.normals.is_some() {
-        let plural = if replaced == 1 { "" } else { "s" };
-        let message = format!("replaced {replaced} normal{plural} without a direction");
+        let normals = counted(replaced, "normal", "normals");
+        let message = format!("replaced {normals} without a direction");
         warnings.push_warning("element vertex", message);
     }
     primitives

@@ -10,6 +10,7 @@
 use super::facet_color::FacetColors;
 use super::solid::Solid;
 use super::{HEADER_BYTES, TRIANGLE_BYTES, declared_triangles, truncated};
+use files::counted;
 use gltf_import::ImportWarnings;
 use gltf_import::MemoryBudget;
 use model::{Diagnostic, codes};
@@ -105,9 +106,8 @@ fn count_triangles(
     }
     let end = declared * TRIANGLE_BYTES;
     if length > end {
-        let more = length - end;
-        let plural = if more == 1 { "" } else { "s" };
-        let message = format!("ignored {more} byte{plural} after the last triangle");
+        let more = counted(length - end, "byte", "bytes");
+        let message = format!("ignored {more} after the last triangle");
         warnings.push_warning(&format!("byte {}", HEADER_BYTES + end), message);
     }
     Ok(declared)

@@ -2,6 +2,7 @@
 
 use super::facet_color::FacetColors;
 use crate::polygons::{CreaseNormals, Smoothing, VertexWelder};
+use files::counted;
 use gltf_import::ImportWarnings;
 use model::Primitive;
 
@@ -74,11 +75,8 @@ impl Solid {
     /// Warns of skipped triangles.
     pub(super) fn warn_of_omissions(&self, warnings: &mut ImportWarnings) {
         if let Some(location) = &self.first_omitted {
-            let plural = if self.omitted == 1 { "" } else { "s" };
-            let message = format!(
-                "skipped {} triangle{plural} with corners that are not finite",
-                self.omitted
-            );
+            let triangles = counted(self.omitted, "triangle", "triangles");
+            let message = format!("skipped {triangles} with corners that are not finite");
             warnings.push_warning(location, message);
         }
     }

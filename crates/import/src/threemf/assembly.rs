@@ -5,6 +5,7 @@
 
 use super::model_part::ObjectReference;
 use super::package::Package;
+use files::counted;
 use gltf_import::ImportWarnings;
 use gltf_import::Limits;
 use homog::{Affine, Model as ModelSpace};
@@ -163,9 +164,8 @@ impl Assembly {
             return Err(Diagnostic::limit_exceeded("", &what, "node_depth", limit));
         }
         if self.hidden > 0 {
-            let count = self.hidden;
-            let plural = if count == 1 { "" } else { "s" };
-            let message = format!("skipped {count} object{plural} of type support or other");
+            let objects = counted(self.hidden, "object", "objects");
+            let message = format!("skipped {objects} of type support or other");
             warnings.push_warning("", message);
         }
         package.charge_bytes("", nodes * size_of::<Node>() as u64)

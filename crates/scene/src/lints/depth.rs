@@ -2,6 +2,7 @@
 //! resolution.
 
 use super::{Lint, Linter};
+use files::counted;
 use scene_file::PathStep::{Field, Index};
 use scene_file::file::{ProjectionFile, ViewFile};
 
@@ -19,9 +20,9 @@ pub(super) fn lint_depth_clipping(adviser: &Linter<'_>) -> Vec<Lint> {
     for (_, instance, survey) in models.filter(|(_, _, survey)| survey.inside > 0) {
         let sides = [("near", survey.before_near), ("far", survey.behind_far)];
         for (plane, vertices) in sides.into_iter().filter(|(_, vertices)| *vertices > 0) {
-            let noun = if vertices == 1 { "vertex" } else { "vertices" };
+            let vertices = counted(vertices, "vertex", "vertices");
             let message = format!(
-                "the {plane} plane cuts off {vertices} {noun} of {}",
+                "the {plane} plane cuts off {vertices} of {}",
                 adviser.model_name(instance)
             );
             let (near, far) = survey.depth_range().unwrap_or_default();

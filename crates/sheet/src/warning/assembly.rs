@@ -1,7 +1,7 @@
 //! Assembly warnings: missing parts of their pages.
 
 use core::fmt;
-use files::visible_excerpt;
+use files::{counted, visible_excerpt};
 
 /// A part that the pages of an assembly lack, with the reason in its `Display` text.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -62,24 +62,24 @@ impl fmt::Display for AssemblyWarning {
             ),
             Self::NamesUnreadable { name, count } => write!(
                 f,
-                "the drawing font lacks characters in {count} {} in the parts list, such as \
+                "the drawing font lacks characters in {} in the parts list, such as \
                  \"{}\": boxes are drawn instead",
-                if *count == 1 { "name" } else { "names" },
+                counted(*count, "name", "names"),
                 visible_excerpt(name)
             ),
             Self::NotVisible { number, part, count } => write!(
                 f,
-                "{count} {} no balloon, such as item {number}, `{}`: it is not visible in the \
+                "{} no balloon, such as item {number}, `{}`: it is not visible in the \
                  assembly view, because other parts hide it or its size is zero; an exploded view, \
                  or another axonometric view, may show it",
-                if *count == 1 { "item has" } else { "items have" },
+                counted(*count, "item has", "items have"),
                 visible_excerpt(part)
             ),
             Self::BalloonsLeftOut { number, count } => write!(
                 f,
-                "{count} {} no room around the view, starting with number {number}: use larger \
+                "{} no room around the view, starting with number {number}: use larger \
                  paper",
-                if *count == 1 { "balloon has" } else { "balloons have" }
+                counted(*count, "balloon has", "balloons have")
             ),
             Self::TooManyPartsToExplode { most } => write!(
                 f,
@@ -88,8 +88,8 @@ impl fmt::Display for AssemblyWarning {
             ),
             Self::PartSheetsLeftOut { count } => write!(
                 f,
-                "there are too many parts for part sheets: the last {count} {} none",
-                if *count == 1 { "item has" } else { "items have" }
+                "there are too many parts for part sheets: the last {} none",
+                counted(*count, "item has", "items have")
             ),
         }
     }
