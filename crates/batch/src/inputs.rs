@@ -125,16 +125,19 @@ impl<'a> FolderSearch<'a> {
         found: &mut Vec<(PathBuf, PathBuf)>,
     ) -> Result<(), BatchError> {
         let fault = |cause: std::io::Error| read_error(folder, &cause);
+        // Links may form cycles, so each folder is visited once.
         if depth > MAX_DEPTH || !self.visited.insert(folder.canonicalize().map_err(fault)?) {
             return Ok(());
         }
         let entries: Result<Vec<_>, _> = std::fs::read_dir(folder).map_err(fault)?.collect();
         let mut paths: Vec<PathBuf> =
             entries.map_err(fault)?.into_iter().map(|entry| entry.path()).collect();
+        // The order of entries depends on the file system.
         paths.sort();
         for path in paths {
             if path.is_dir() {
                 if path.is_symlink() {
+                    // Links are followed last, so that a model gets the name of its real folder.
                     self.links.push_back((path, depth + 1));
                 } else {
                     self.visit(&path, depth + 1, found)?;

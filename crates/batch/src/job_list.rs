@@ -98,6 +98,7 @@ impl JobList {
             };
             let file = File::open(path).map_err(fault)?;
             let length = file.metadata().map_err(fault)?;
+            // A pipe has no length, so its progress has no percentage.
             (Box::new(BufReader::new(file)), length.is_file().then_some(length.len()))
         };
         let folder = if is_stdin { Path::new("") } else { path.parent().unwrap_or(path) };
@@ -113,6 +114,7 @@ impl JobList {
             position: (0, length),
             outputs: None,
         };
+        // Standard input has no extension, but lines of JSON begin with a brace.
         let has_brace = |list: &mut Self| -> Result<bool, BatchError> {
             let start = list.reader.fill_buf().map_err(|cause| list_error(&list.name, &cause))?;
             Ok(start.trim_ascii_start().first().is_none_or(|byte| *byte == b'{'))
@@ -146,6 +148,7 @@ impl JobList {
         let columns = header.map_err(|what| fault(&what))?;
         let columns: Vec<String> = columns
             .iter()
+            // Spreadsheet programs write a byte order mark.
             .map(|column| column.trim_start_matches('\u{feff}').trim().to_owned())
             .collect();
         if !columns.iter().any(|column| column == "input") {

@@ -87,6 +87,7 @@ fn merge_in_chunks(
     }
     let path = out_dir.join(MERGED_REPORT);
     let fault = |cause: std::io::Error| write_error(&path, &cause);
+    // An external sort, because the records of a large run do not fit in memory.
     let mut chunks = Chunks::new(out_dir, chunk_bytes);
     read_reports(out_dir, |record, line| {
         if current.as_ref().is_none_or(|jobs| jobs.contains(record)) {
@@ -94,6 +95,7 @@ fn merge_in_chunks(
         }
         Ok(())
     })?;
+    // This set may be large and is no longer needed.
     drop(current);
     let mut merged = MergedReport::create(&path)?;
     let mut group = OutputGroup::default();

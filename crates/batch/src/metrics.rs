@@ -67,6 +67,7 @@ impl RunCounts {
             let _ = writeln!(text, "alberti_batch_jobs_total{{status=\"{status}\"}} {count}");
         }
         head(&mut text, "job_seconds", "histogram", "Time per job, including loading and writing.");
+        // Prometheus buckets are cumulative.
         let mut below = 0;
         for (bound, count) in BOUNDS.iter().zip(self.histogram) {
             below += count;

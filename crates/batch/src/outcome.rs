@@ -144,6 +144,7 @@ pub(super) fn worker_end_message(end: &WorkerEnd, text: &str, policy: JobPolicy)
             format!("the worker ended without an answer (exit code {code})")
         }
     };
+    // Rust's allocator prints this before it aborts.
     if text.contains("memory allocation of") {
         return format!("out of memory: {what}: {text}\n  = help: raise --job-memory");
     }

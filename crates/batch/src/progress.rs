@@ -170,6 +170,7 @@ impl DisplayLoop {
             }
             if is_terminal {
                 let line = progress_line(&state, &mut rate, elapsed);
+                // Returns to the start of the line and clears it.
                 let _ = write!(self.shown.stream, "\r\x1b[K{line}");
             } else if logged.elapsed() >= LOG_INTERVAL {
                 let line = progress_line(&state, &mut rate, elapsed);

@@ -103,11 +103,13 @@ pub(super) fn read_report(
     let mut line = Vec::new();
     loop {
         line.clear();
+        // A damaged report may have no line breaks, so the length of a line is limited.
         let read = (&mut reader).take(MAX_LINE_BYTES).read_until(b'\n', &mut line);
         if read.map_err(|cause| read_error(path, &cause))? == 0 {
             return Ok(());
         }
         let line = line.strip_suffix(b"\n").unwrap_or(&line);
+        // A crash may leave an incomplete line; its job is not recorded and runs again.
         if let Some(record) = RecordLine::parse(line) {
             visit(&record, line)?;
         }

@@ -64,6 +64,7 @@ fn append_block(
     content: &[u8],
 ) -> Result<()> {
     let size = format!("{:011o}\0", content.len());
+    // The format has eleven octal digits for a size.
     if size.len() != SIZE.len() {
         return Err(Error::new(
             ErrorKind::FileTooLarge,
@@ -71,12 +72,14 @@ fn append_block(
         ));
     }
     header[SIZE].copy_from_slice(size.as_bytes());
+    // Mode, owner and time are fixed, so that equal pictures give equal archives.
     header[MODE].copy_from_slice(b"0000644\0");
     header[USER].copy_from_slice(b"0000000\0");
     header[GROUP].copy_from_slice(b"0000000\0");
     header[TIME].copy_from_slice(b"00000000000\0");
     header[TYPE] = kind;
     header[MAGIC].copy_from_slice(b"ustar\x0000");
+    // POSIX: six octal digits, a zero byte and a space.
     let sum = format!("{:06o}\0 ", header_sum(&header));
     header[CHECKSUM].copy_from_slice(sum.as_bytes());
     writer.write_all(&header)?;
@@ -129,6 +132,7 @@ pub(super) fn read_archive(
     loop {
         let mut header = [0; BLOCK_BYTES];
         reader.read_exact(&mut header)?;
+        // Two zero blocks end an archive; the first one is enough.
         if header == [0; BLOCK_BYTES] {
             return Ok(());
         }

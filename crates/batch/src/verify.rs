@@ -174,6 +174,7 @@ impl<'a> Verifier<'a> {
             Some(tar) => self.picture_in_tar(output, tar),
             None => match open_file(&self.out_dir.join(output)) {
                 Err(_) => return Verdict::Missing("the picture does not exist"),
+                // The size is compared first, because that reads nothing.
                 Ok(file) if file.metadata().is_ok_and(|data| data.len() != recorded.bytes) => {
                     return Verdict::Wrong(format!(
                         "its size is not the recorded {} bytes",

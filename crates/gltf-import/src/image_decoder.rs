@@ -236,6 +236,7 @@ fn decode_png(bytes: &[u8]) -> Result<Image, String> {
             reader.next_frame(rgba.as_flattened_mut()).map_err(message)?;
             Ok(Image { width, height, rgba })
         }
+        // The transformation adds alpha to every format, so gray has two channels.
         (ColorType::GrayscaleAlpha, BitDepth::Eight) => {
             let mut grey = vec![0; reader.output_buffer_size().ok_or("the PNG is too large")?];
             reader.next_frame(&mut grey).map_err(message)?;

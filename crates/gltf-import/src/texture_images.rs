@@ -46,6 +46,7 @@ pub fn store_images<'a>(
             Ok((bytes, size))
         };
         match bytes.map(|bytes| bytes.and_then(check)) {
+            // Nothing shows this image, so it has not been read.
             None => {}
             Some(Ok((bytes, size))) => {
                 let format = image_decoder::format_name(&bytes);

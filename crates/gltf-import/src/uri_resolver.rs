@@ -192,6 +192,7 @@ impl<'a> UriResolver<'a> {
                 Err(Diagnostic::error(codes::FORBIDDEN_PATH, pointer, message, help))
             }
             AssetSource::Disk(sandbox) => {
+                // Canonical paths have no links, which could lead out of the folder.
                 let Ok(path) = sandbox.path_below_root(path, pointer)?.canonicalize() else {
                     return Ok(None);
                 };

@@ -92,7 +92,9 @@ pub fn load_arrays(
     let (budget, mut images) = (MemoryBudget::new(&options.limits), Vec::new());
     for (index, mut mesh) in meshes.into_iter().enumerate() {
         let location = format!("/meshes/{index}");
+        // Checked before anything is built, so that later code can index without checks.
         mesh.check_arrays(&location)?;
+        // An image without texture coordinates cannot be shown.
         let image = mesh.image.take().filter(|_| mesh.uvs.is_some());
         let texture = image.is_some().then_some(images.len());
         if image.is_some() {
@@ -104,6 +106,7 @@ pub fn load_arrays(
         let (name, contents) = mesh.into_contents();
         let bytes = ply::array_bytes(&contents);
         budget.charge_bytes(&location, bytes, bytes)?;
+        // Only the materials of this model are read.
         let carrier = Model { materials, ..Model::default() };
         let built = ply::build_primitives(contents, &carrier, options, &mut warnings);
         let mut primitives: Vec<_> = built.into_iter().filter(|p| p.item_count() > 0).collect();
@@ -166,6 +169,7 @@ impl MeshArrays {
                 return Err(wrong_arrays(&format!("{location}/{array}"), message));
             }
         }
+        // Indices have 32 bits, and the largest one marks missing values.
         let most = u32::MAX as usize;
         if vertices.max(self.corners.len()).max(self.line_ends.len()) >= most {
             let what = format!("it has {vertices} vertices and {} corners", self.corners.len());
@@ -185,6 +189,7 @@ impl MeshArrays {
                 return Err(Diagnostic::unresolved_index(&location, "vertex", index, vertices));
             }
         }
+        // A sum of u32 lengths may overflow u32.
         let corners: u64 = self.lengths.iter().map(|&length| u64::from(length)).sum();
         let is_polygon = |&length: &u32| length >= 3;
         if corners != self.corners.len() as u64 || !self.lengths.iter().all(is_polygon) {

@@ -114,6 +114,7 @@ fn read_libraries(
         tried += 1;
         let words = token.tokens().map(Token::to_text);
         let is_one = words.clone().nth(1).is_none();
+        // One name with spaces is tried first: exporters do not quote it.
         match read_library(token.to_text(), resolver) {
             Ok(library) => libraries.push(library),
             Err(fault) if is_one => warnings.downgrade(&fault, "the default material is used"),
@@ -180,6 +181,7 @@ fn build_materials(
         model.materials.push(material);
     }
     report_undefined(&undefined, warnings);
+    // Elements without a material share one, which is added only if it is used.
     let mut has_plain = false;
     let plain = names.len();
     for primitive in model.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {

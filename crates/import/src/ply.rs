@@ -91,6 +91,7 @@ pub(super) fn import_ply(
     build_materials(&mut model, textures, &contents, options, &mut warnings);
     let budget = MemoryBudget::new(resolver.limits);
     let charge = |bytes: u64| budget.charge_bytes("", bytes, resolver.total_bytes());
+    // Charged before the primitives multiply the memory of the arrays.
     charge(array_bytes(&contents))?;
     let build = || build_primitives(contents, &model, options, &mut warnings);
     let primitives = options.timings.measure("geometry", build);
@@ -111,6 +112,7 @@ fn read_body(
     scalar: Option<&str>,
     warnings: &mut ImportWarnings,
 ) -> Result<Contents, Diagnostic> {
+    // Counts come from the file, and their sum may overflow.
     let records = header.elements.iter().fold(0, |sum: u64, it| sum.saturating_add(it.count));
     let body = Body::new(bytes, header.body, header.encoding);
     let mut body = body.with_records(records);
@@ -119,6 +121,7 @@ fn read_body(
     let mut contents = Contents::default();
     for element in &header.elements {
         let read = match element.name.as_str() {
+            // A second vertex element would replace the first.
             "vertex" if contents.vertices.positions.is_empty() => {
                 vertices::read_vertices(&mut body, element, scalar, warnings)
                     .map(|vertices| contents.vertices = vertices)

@@ -60,6 +60,7 @@ pub(super) fn import_threemf(
     let mut model =
         Model { length_unit: parts.parts[0].unit, up_axis: UpAxis::Z, ..Model::default() };
     let (mut assembly, items) = assemble(&package, &parts, &mut warnings)?;
+    // Counted before anything is built: a few components can multiply to millions of nodes.
     assembly.count_nodes(&items, &package, resolver.limits, &mut warnings)?;
     timings.measure("geometry", || {
         let crease_angle = options.crease_degrees();
@@ -108,6 +109,7 @@ fn read_parts(
         }
         let content = match package.read_part(&name, &location) {
             Ok(content) => content,
+            // Without the main part there is nothing to show.
             Err(fault) if parts.parts.is_empty() => return Err(fault),
             Err(fault) => {
                 warnings.downgrade_if_lenient(fault, "it is skipped")?;
@@ -145,6 +147,7 @@ fn assemble(
     warnings: &mut ImportWarnings,
 ) -> Result<(Assembly, Vec<Placement>), Diagnostic> {
     let mut assembly = Assembly::default();
+    // All objects are added first, because components may refer to later parts.
     for (at, part) in parts.parts.iter().enumerate() {
         for object in &part.objects {
             assembly.push_object(at, object);

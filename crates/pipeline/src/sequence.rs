@@ -240,6 +240,7 @@ impl Sequence {
             }
             let result = self.deliver_frames(&lock, &progress, &mut sink);
             if result.is_err() {
+                // Workers stop as if all frames had been started.
                 lock().started = self.frame_count;
                 progress.notify_all();
             }

@@ -52,6 +52,7 @@ pub(super) fn resolve_background_color(
 ) -> Result<[f32; 4], SceneError> {
     let opaque = |[r, g, b]: [f32; 3]| [r, g, b, 1.0];
     let Some(background) = &file.image.background else {
+        // Line drawings are on paper by default; other pictures have a transparent background.
         return Ok(default_paper(&file.style).map_or([0.0; 4], |color| opaque(color.to_linear())));
     };
     match background {
@@ -61,6 +62,7 @@ pub(super) fn resolve_background_color(
             let message = "the scene has no environment to show".to_owned();
             Err(background_error(origin, &[], message, help))
         }
+        // The environment covers every sample, so this black only determines automatic line colors.
         BackgroundFile::Environment { .. } => Ok([0.0, 0.0, 0.0, 1.0]),
         BackgroundFile::Color(color) => Ok(opaque(color.to_linear())),
         BackgroundFile::Gradient { colors, angle_degrees } => {

@@ -59,6 +59,8 @@ impl CameraPath {
                 return Err(fault(&[Index(at), Field("time")], message, "sort the keys by time"));
             }
         }
+        // A scene without a projection gets the default perspective, whose angle a path may
+        // animate.
         let usual = match &file.camera.projection {
             None => Some(FieldOfView::DEFAULT),
             Some(projection) => vertical_field_of_view(projection),
@@ -69,6 +71,7 @@ impl CameraPath {
             let help = "remove it, or choose Perspective(), with or without fov_y_degrees";
             return Err(fault(&[Index(at), Field("fov_y_degrees")], message, help));
         }
+        // Without an angle this value is unused: the check above leaves no key that sets one.
         let usual = usual.unwrap_or_default();
         let keys = path.keys.iter().map(|key| (key.time.value(), key_values(key, usual))).collect();
         Ok(Some(Self { keys, curve: path.curve, camera: file.camera.clone() }))

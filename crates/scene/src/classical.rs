@@ -118,6 +118,7 @@ impl CameraResolver<'_> {
         let basis = Basis::from_gaze(-axis(rows.z_axis), axis(rows.y_axis))
             .map_err(|error| self.camera_error(&error))?;
         let window = Window::new(-self.aspect, self.aspect, -1.0, 1.0).map_err(fault)?;
+        // Slopes do not depend on the near and far planes, so 1 and 2 are as good as any.
         let slopes = construction.frustum(window, 1.0, 2.0).map_err(fault)?.slopes();
         let frame = Slopes {
             left: slopes.left(),
@@ -128,6 +129,7 @@ impl CameraResolver<'_> {
         let points = self.points.iter().copied();
         let framed = frame_perspective(points, basis, frame, padding);
         let framed = framed.map_err(|error| self.framing_error(&error))?;
+        // The planes are chosen after framing because they depend on the position of the eye.
         let span = super::depth_span::DepthSpan::from_points(&self.points, framed.camera);
         let (near, far) = span.perspective_planes(None, None);
         let frustum = Frustum::from_slopes(slopes, near, far).map_err(fault)?;

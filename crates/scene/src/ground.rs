@@ -68,6 +68,7 @@ pub(super) fn resolve_ground(
     let bounds = Bounds::from_points(world_points(models))?;
     let (least, greatest) = (bounds.corners()[0].raw(), bounds.corners()[7].raw());
     let height = height.map_or(least.y, scene_file::file::Finite::value);
+    // A light near the horizon casts an endless shadow, so its length is limited.
     let reach = MAX_SHADOW_DIAGONALS * bounds.diagonal();
     let (mut low, mut high) = (least.min(greatest), least.max(greatest));
     for (light, corner) in lights.iter().flat_map(|light| bounds.corners().map(|c| (light, c))) {
@@ -76,11 +77,13 @@ pub(super) fn resolve_ground(
         }
     }
     let occlusion = occlusion_area(file, least.min(greatest), least.max(greatest), height);
+    // Contact shadows darken ambient light; without any, there is nothing to darken.
     let has_ambient = lights.iter().any(|light| matches!(light, Light::Ambient { .. }));
     let occlusion = occlusion.filter(|_| has_ambient || has_environment);
     if let Some(OcclusionArea { low: least, high: greatest, .. }) = occlusion {
         (low, high) = (low.min(least.raw()), high.max(greatest.raw()));
     }
+    // Soft shadows extend beyond the hard shadows of the corners.
     let room = 0.05 * (high - low).max_element();
     let (x0, x1) = ((low.x - room) as f32, (high.x + room) as f32);
     let (z0, z1) = ((low.z - room) as f32, (high.z + room) as f32);

@@ -67,6 +67,8 @@ pub(super) fn resolve_insets(
         faults.report(origin.error_at(&[Field("viewports")], message, None));
         return None;
     }
+    // Rectangles can be checked only against a valid picture size, whose own mistake is reported
+    // with the picture.
     let is_sized = resolve_image_size(origin, file).is_ok();
     let view = |(at, viewport): (usize, &ViewportFile)| {
         let area = || faults.take(resolve_viewport_rect(origin, at, viewport, file.view_size()));
@@ -74,11 +76,14 @@ pub(super) fn resolve_insets(
         let border = faults.take(resolve_border(origin, at, viewport));
         let size = area.map_or(file.image.size, |area| (area.width, area.height));
         let inner = scene_in_viewport(file, viewport, size);
+        // Without a rectangle there is no aspect ratio to frame the models for.
         let models = models.filter(|_| area.is_some());
         let (origin, access) = (origin.for_viewport(at), access.for_inset(at));
         let scene = resolve_without_insets(&origin, &inner, models, access, faults);
         Some(Inset { rect: area?, border: border?, cyan_only: false, scene: scene? })
     };
+    // All viewports are resolved before the first failure ends the function, to report every
+    // mistake.
     let insets: Vec<Option<Inset>> = file.viewports.iter().enumerate().map(view).collect();
     let mut insets = insets.into_iter().collect::<Option<Vec<Inset>>>()?;
     faults.take(share_scale_of_viewports(origin, file, &mut insets))?;
@@ -141,6 +146,7 @@ fn resolve_viewport_rect(
             return Err(origin.error_at(&at, message, Some(help.to_owned())));
         }
     };
+    // The numbers come from the file, so their sum may overflow.
     let fits = |from: u32, length: u32, side: u32| {
         length > 0 && from.checked_add(length).is_some_and(|end| end <= side)
     };
@@ -216,9 +222,11 @@ fn resolve_stereo(
     let areas = [half, PixelRect { x: if beside { width - half.width } else { 0 }, ..half }];
     let inner = scene_in_viewport(file, &ViewportFile::default(), (half.width, height));
     let inner = SceneFile { stereo: None, ..inner };
+    // Both eyes derive from this scene, so its mistakes are reported once.
     let mut faults = Diagnostics::default();
     let middle = resolve_without_insets(origin, &inner, Some(models), access, &mut faults);
     let middle = faults.finish(origin, middle)?;
+    // In a parallel projection the viewer is at infinity: w = 0.
     if middle.view_projection.viewer().raw().w == 0.0 {
         let help = "choose a perspective, such as Perspective(), or remove `stereo`";
         return Err(fault("both eyes see the same in a parallel projection", help).into());

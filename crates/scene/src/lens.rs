@@ -179,6 +179,7 @@ fn check_orthographic_window(origin: &Origin, projection: &ProjectionFile) -> Op
 
 /// The error for a projection with planes or borders in the wrong order.
 fn check_planes(projection: &ProjectionFile) -> Option<ProjectionError> {
+    // Omitted values get defaults that pass, so that only given ones can be at fault.
     let [l, r, b, t] = given_window(projection).unwrap_or([-1.0, 1.0, -1.0, 1.0]);
     let far_of =
         |near: Positive, far: Option<Positive>| far.map_or(2.0 * near.value(), Positive::value);
@@ -202,6 +203,7 @@ fn check_planes(projection: &ProjectionFile) -> Option<ProjectionError> {
         ProjectionFile::Intrinsics { near, far, .. } => {
             let near = near.map_or(far.map_or(1.0, |far| 0.5 * far.value()), Positive::value);
             let far = far.map_or(2.0 * near, Positive::value);
+            // The picture size does not affect the order of the planes.
             let lens = calibrated_lens(projection, [640, 480])?;
             lens.and_then(|lens| lens.view_to_clip([near, far], Convention::CHAPTER)).err()
         }

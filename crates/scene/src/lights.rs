@@ -70,6 +70,7 @@ pub(super) fn resolve_lights(
     view_projection: &ViewProjection,
     shadow: Option<Shadow>,
 ) -> Result<Vec<Light>, SceneError> {
+    // An empty list means no lights, so the default light does not apply.
     if file.lights.is_some() {
         let lights = described.iter().flat_map(|light| match light {
             Some(light) => vec![*light],
@@ -113,6 +114,7 @@ fn limit_shadow_maps(
     }
     let count = shadows.len();
     let side = libm::sqrt(MAX_SHADOW_TEXELS as f64 / count as f64) as u32;
+    // Sizes in the file are refused rather than silently reduced.
     if let Some(path) = chosen_size_path(file) {
         let lights = counted(count, "light", "lights");
         let message = format!(
@@ -222,6 +224,7 @@ fn resolve_light(
     Some(Some(match *light {
         LightFile::FromModels => return Some(None),
         LightFile::Directional { direction, intensity, color, shadows } => {
+            // Both are resolved before either `?`, so that mistakes in both are reported.
             let direction = faults.take(resolve_direction(origin, index, direction));
             let shadow = faults.take(own_shadow(shadows));
             Light::Sun {

@@ -85,6 +85,7 @@ pub fn lint_scene(
     let adviser = Linter { origin, file, scene, surveys: &surveys };
     let mut advice = Vec::new();
     advice.extend(adviser.lint_visibility());
+    // A parallel view has no eye that could be inside a model.
     let viewer = scene.view_projection.viewer().divide();
     advice.extend(viewer.and_then(|eye| adviser.lint_camera_inside(eye)));
     advice.extend(coverage::lint_tiny_picture(&adviser));
@@ -103,6 +104,7 @@ pub fn lint_scene(
     advice.extend(ground::lint_high_ground(&adviser));
     advice.extend(lint_viewports(origin, file, scene));
     advice.extend(lint_description(origin, file));
+    // The sort is stable: lints at one place stay in the order above.
     advice.sort_by_key(|advice| advice.error.span.start);
     advice
 }
@@ -253,6 +255,7 @@ impl Linter<'_> {
             (None, ViewFile::FromModel(choice)) => {
                 let lens = select_lens(self.origin, &self.scene.models, choice)?;
                 let shape = match lens.projection {
+                    // A camera without an aspect ratio takes the picture's.
                     CameraProjection::Perspective { aspect, .. } => aspect?,
                     CameraProjection::Orthographic { half_width, half_height, .. } => {
                         half_width / half_height

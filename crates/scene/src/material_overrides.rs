@@ -58,6 +58,7 @@ fn select_materials(
     let count = model.materials.len();
     let (found, wanted): (Vec<usize>, _) = match of {
         MaterialsFile::All => {
+            // Primitives without a material get one, so that the override reaches them.
             assign_missing_materials(model);
             return Ok((0..model.materials.len()).collect());
         }
@@ -108,6 +109,7 @@ impl MaterialOverride<'_> {
     fn apply_to(&self, material: &mut Material) {
         let Self { file, .. } = self;
         if let Some([r, g, b]) = file.base_color.map(Color::to_linear) {
+            // Colors in scene files have no alpha; the material's remains.
             material.base_color = [r, g, b, material.base_color[3]];
         }
         if let Some(alpha) = file.alpha {

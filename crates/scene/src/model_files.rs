@@ -50,11 +50,13 @@ impl<'a> LoadedModels<'a> {
         entry: &'a ModelFile,
         options: &ResolveOptions,
     ) -> Result<Arc<Model>, ModelError> {
+        // Bit patterns can be map keys; floating-point numbers cannot.
         let numbers = [entry.crease_degrees, entry.time];
         let bits = numbers.map(|number| number.map(|number| number.value().to_bits()));
         let choices = [&entry.scene, &entry.variant, &entry.animation].map(Clone::clone);
         let pose = (origin.folder.join(&entry.path), (entry.up, entry.unit), choices, bits);
         let alike = self.by_pose.entry(pose).or_default();
+        // These cannot be map keys, but few entries share all of the above.
         let (scalars, materials) = (entry.scalars.as_ref(), entry.materials.as_slice());
         let is_same =
             |one: &&ColoredModel<'_>| one.scalars == scalars && one.materials == materials;
@@ -66,9 +68,12 @@ impl<'a> LoadedModels<'a> {
         let left = limits.scene_bytes.saturating_sub(self.bytes);
         let with_scratch = left.saturating_mul(2).saturating_add(SCRATCH_BYTES);
         rest.import.limits.array_bytes = limits.array_bytes.min(with_scratch);
+        // A texel takes four bytes.
         rest.import.limits.image_texels = limits.image_texels.min(left / 4);
         let exceeded = || scene_bytes_error(origin, number, limits.scene_bytes);
         let loaded = load_model(origin, number, entry, &rest);
+        // If only the memory left by earlier models was too small, the error names the scene's
+        // limit.
         let model = Arc::new(loaded.map_err(|error| match error {
             ModelError::File(error)
                 if error.diagnostic.code == LIMIT_EXCEEDED && rest.import.limits != *limits =>
@@ -98,6 +103,7 @@ pub(super) fn load_models(
         faults.report(origin.error_at(&[Field("models")], "a scene needs a model", help));
         return None;
     }
+    // Checked first, because it costs nothing and loading models does.
     faults.take(instances::check_instance_counts(origin, file))?;
     let (mut loaded, mut models) = (LoadedModels::default(), Some(Vec::new()));
     for (number, entry) in file.models.iter().enumerate() {
@@ -109,6 +115,7 @@ pub(super) fn load_models(
             }
         };
         match (&mut models, instances) {
+            // After an error the other models are still loaded, to report every mistake.
             (Some(models), Some(instances)) => models.extend(instances),
             _ => models = None,
         }

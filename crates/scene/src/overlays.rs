@@ -33,6 +33,7 @@ pub(super) fn resolve_overlays(
             OverlayFile::Edges => Overlay::Edges,
             OverlayFile::VanishingPoints => Overlay::VanishingPoints,
             OverlayFile::Volume(camera) => {
+                // The caption is outside the camera's view.
                 let image = image.without_caption();
                 Overlay::Volume(resolve_view_projection(origin, camera, models, image)?.into())
             }

@@ -59,6 +59,7 @@ pub(super) fn share_scale_of_viewports(
     if file.viewports_scale == ViewportsScale::Individual {
         return Ok(());
     }
+    // Only parallel views have a scale.
     let scales: Vec<f64> =
         insets.iter().filter_map(|inset| inset.scene.pixels_per_unit()).collect();
     if scales.len() < 2 {
@@ -79,6 +80,7 @@ pub(super) fn share_scale_of_viewports(
             return Err(origin.error_at(&PROJECTION_PATH, message, Some(help)));
         }
     }
+    // The smallest scale, so that every view still shows everything.
     let shared = scales.into_iter().fold(f64::INFINITY, f64::min);
     insets.iter_mut().for_each(|inset| inset.scene.set_pixels_per_unit(shared));
     Ok(())

@@ -60,10 +60,12 @@ pub(super) fn resolve_without_insets(
     let is_placed = camera_errors.is_empty();
     camera_errors.into_iter().for_each(|error| faults.report(error));
 
+    // Everything above needs no models, and is checked even if they cannot be loaded.
     let models = models?;
     let uncut = faults.take(resolve_uncut(origin, &file.sections, models));
     let points = || {
         let (planes, uncut) = (sections.as_deref(), uncut.as_deref());
+        // With an invalid style the models are framed anyway, to find mistakes in the camera.
         let style = style.unwrap_or(Style::Shaded);
         framed_points(models, style, planes.unwrap_or_default(), uncut.unwrap_or_default())
     };
@@ -81,6 +83,7 @@ pub(super) fn resolve_without_insets(
     let overlays = image
         .and_then(|image| faults.take(resolve_overlays(origin, &file.overlays, models, image)));
     let backdrop = image.and_then(|_| faults.take(access.backdrop(origin, file)));
+    // The parts are required only now, so that a mistake in one does not hide mistakes in others.
     let parts = SceneParts {
         image,
         caption,
@@ -175,6 +178,7 @@ pub(super) fn resolve_image(
     let size = faults.take(resolve_image_size(origin, file));
     let samples = faults.take(resolve_samples(origin, file));
     let max_anisotropy = faults.take(resolve_max_anisotropy(origin, file));
+    // A gradient needs a valid picture size.
     let background = size.and_then(|_| faults.take(resolve_background_color(origin, file)));
     let environment_blur = match &file.image.background {
         Some(BackgroundFile::Environment { blur }) => {

@@ -117,6 +117,7 @@ pub(super) fn resolve_environment(
                 origin.error_at(&at, "the direction to the sun must not be (0, 0, 0)", help)
             })?;
             let strength = strength.value() as f32;
+            // Cache keys are bit patterns, because f32 is neither `Eq` nor `Ord`.
             let bits = sun.map(|c| u64::from(c.to_bits()));
             let key = (1, [bits[0], bits[1], bits[2], u64::from(strength.to_bits())]);
             let sky = PreethamSky::new(sun);

@@ -72,6 +72,7 @@ pub(super) fn resolve_view_of_points(
         CameraPlacement::Framed { from, padding } => resolver.frame_models(from, padding, or_usual),
         CameraPlacement::OfModel(choice) => resolver.project_from_model_camera(choice, projection),
     };
+    // Zoom is applied after framing, which would undo it.
     view.map(|view| image.place_view(zoom_view(view, file.zoom)))
 }
 
@@ -143,6 +144,8 @@ impl<'a> CameraResolver<'a> {
                 let (near, far) =
                     span.parallel_planes(near.map(Finite::value), far.map(Finite::value));
                 let [l, r, b, t] = window.unwrap_or_else(|| {
+                    // The height in the file comes first, then the framing's, then one that fits
+                    // the models.
                     let height = given.map(Positive::value).or(height);
                     let half = 0.5 * height.unwrap_or_else(|| self.fitting_window_height(camera));
                     let right = half * self.aspect;
@@ -152,6 +155,8 @@ impl<'a> CameraResolver<'a> {
                     .map(|p| p.view_to_clip(Convention::CHAPTER))
             }
             ProjectionFile::Frustum { near, far, .. } => {
+                // The near plane is part of this projection, so only the far plane follows the
+                // models.
                 let far = span.perspective_planes(Some(near.value()), far.map(Positive::value)).1;
                 Frustum::new(l, r, b, t, near.value(), far)
                     .map(|p| p.view_to_clip(Convention::CHAPTER))
@@ -197,6 +202,7 @@ impl<'a> CameraResolver<'a> {
         padding: f64,
         projection: &ProjectionFile,
     ) -> Result<ViewProjection, SceneError> {
+        // Classical projections are defined relative to the front view.
         let usual =
             if projection.is_classical() { FromFile::Front } else { FromFile::ThreeQuarter };
         let basis = self.view_basis(from.unwrap_or(&usual))?;
@@ -215,6 +221,7 @@ impl<'a> CameraResolver<'a> {
                 self.window_slopes(projection)?
             }
             ProjectionFile::Intrinsics { .. } => {
+                // Slopes do not depend on the near and far planes, so any two will do.
                 let frustum = self.calibrated_lens(projection)?.to_frustum(1.0, 2.0);
                 let window = frustum.map_err(|error| self.skewed_framing_error(&error))?.slopes();
                 let (left, right) = (window.left(), window.right());
@@ -354,6 +361,7 @@ impl<'a> CameraResolver<'a> {
             CameraChoice::Name(name) => name.clone(),
         };
         let (message, help) = if cameras.is_empty() {
+            // In other programs `--camera` takes coordinates.
             let numbers: Vec<&str> = wanted.split(',').map(str::trim).collect();
             let is_place = numbers.len() > 2 && numbers.iter().all(|it| it.parse::<f64>().is_ok());
             let help = if is_place {

@@ -312,6 +312,7 @@ impl Sheet {
         } else if largest.fold(0.0, f64::max) < LEAST_DRAWING {
             page.warnings.push(SheetWarning::ViewsTiny);
         }
+        // Several views may give the same warning.
         page.warnings.sort_unstable();
         page.warnings.dedup();
         self.draw_annotations(&mut page, &layout, ink);
@@ -407,6 +408,7 @@ impl Sheet {
         let placement: Placement = view.placement(&drawing, placed.scale, placed.center);
         let (prefix, ink) = (format!("{}-", view.name), self.style.ink.unwrap_or(BLACK));
         let inks = [ink, self.style.paper.unwrap_or(WHITE)];
+        // Fills come first, because lines are drawn over them.
         page.images.extend(drawing.face_fill_image(style, placement, &prefix));
         page.layers.extend(drawing.face_fill_layers(style, placement, &prefix, inks));
         page.layers.extend(drawing.to_layers(style, placement, &prefix, ink));

@@ -54,6 +54,7 @@ pub(crate) fn run(args: &WorkerArgs) -> Result<(), CliError> {
             })?;
             bytes.push(b'\n');
             bytes.extend(png);
+            // Flushed for each picture, because the coordinator waits for the answer.
             answers.write_all(&bytes).and_then(|()| answers.flush())?;
         }
     }

@@ -105,6 +105,7 @@ fn open_scene_around(
         )));
     }
     let (origin, mut file) = Origin::read_scene_allowing(scene, &import.allow_outside)?;
+    // Paths in a scene are relative to its folder, the input to the working directory.
     let input = std::path::absolute(input)?;
     let path = input.to_str().ok_or_else(|| {
         CliError::Usage(format!("the name {} is not UTF-8: rename the file", visible_path(&input)))

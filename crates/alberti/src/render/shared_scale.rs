@@ -26,6 +26,7 @@ pub(super) fn share_scale(
         (other.viewports, other.stereo, other.overlays) = (Vec::new(), None, Vec::new());
         other.viewports_scale = ViewportsScale::Individual;
         other.image.background = None;
+        // Reading an environment takes time and does not affect the scale.
         if let Some(EnvironmentFile::File { .. }) = other.environment {
             other.environment = Some(EnvironmentFile::STUDIO);
         }

@@ -38,6 +38,7 @@ pub(super) fn repeat(
         return Err(CliError::Usage(message.to_owned()));
     }
     loop {
+        // Stamped before rendering, so that a change during it causes another run.
         let before = stamp_files(inputs);
         if let Err(error) = make() {
             print_message("error", &error.to_message());
@@ -49,6 +50,7 @@ pub(super) fn repeat(
             sleep(INTERVAL);
             now = stamp_files(inputs);
         }
+        // Editors write in several steps: wait until nothing changes.
         loop {
             sleep(INTERVAL);
             let later = stamp_files(inputs);

@@ -52,6 +52,7 @@ pub(super) fn import_animations(
     for (at, json) in source.root.animations.iter().enumerate() {
         let mut channels = Vec::with_capacity(json.channels.len());
         let reader = AnimationReader { source, samplers: &json.samplers, animation: at };
+        // An error in a channel costs only that channel, but an exceeded limit ends the import.
         let mut keep = |read: Result<AnimationChannel, Diagnostic>| match read {
             Err(diagnostic) if diagnostic.is_downgradable() => {
                 warnings.downgrade(&diagnostic, "the channel is skipped");
@@ -178,6 +179,7 @@ impl AnimationReader<'_> {
         pointer: &str,
     ) -> Result<AnimationCurve, Diagnostic> {
         let interpolation = match json.interpolation {
+            // Linear interpolation of rotations is spherical (glTF 2.0, appendix C.4).
             Checked::Valid(JsonInterpolation::Linear) if kind == ChannelValueKind::Rotation => {
                 Interpolation::Spherical
             }

@@ -79,6 +79,7 @@ pub(super) fn resolve_pointer(
         ("lights", Some(_)) => {
             let field = ObjectProperty::for_light(path)?;
             let ObjectProperty::Light(row) = field else { return None };
+            // Checks that this kind of light has the property.
             (LIGHT_PROPERTIES.get(row)?.numbers_mut)(&mut targets.lights.get(index)?.clone())?;
             Some((
                 AnimationTarget::ObjectProperty { property: field, index },

@@ -147,6 +147,7 @@ impl AttributeReader<'_, '_> {
         read: impl Fn(&AccessorReader<'_>, ResolvedAccessor<'_>) -> Result<Vec<T>, Diagnostic>,
     ) -> Result<Option<Vec<T>>, Diagnostic> {
         let Some(accessor) = accessor else { return Ok(None) };
+        // A file may declare an attribute that is neither in the stream nor in a buffer.
         let is_absent = |decoded: &DracoData| {
             !decoded.has_accessor(accessor) && self.source.has_no_data(accessor)
         };

@@ -100,6 +100,7 @@ pub(super) fn decode_draco(
     let view = usize::try_from(view).unwrap_or(usize::MAX);
     let bytes = source.buffers.buffer_view(view, &format!("{pointer}/bufferView"))?.bytes;
     let attributes = stream_attributes(json, ids, tangents, custom, &pointer)?;
+    // Counts are compared before decoding, because they limit its memory.
     let mut vertices = None;
     for &(accessor, _) in &attributes {
         let count = source.resolve_accessor(accessor, &pointer)?.count;

@@ -97,6 +97,7 @@ fn instance_transforms(
             "the attributes must have the same number of elements",
         ));
     }
+    // Charged before the list is allocated.
     source.buffers.charge_bytes(
         pointer,
         (count as u64).saturating_mul(size_of::<Option<InstanceTransform>>() as u64),

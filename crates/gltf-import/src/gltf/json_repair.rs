@@ -106,6 +106,7 @@ fn end_unless_found(
                 end = end_unless_found(item, end, place, pointer)? + 1;
                 pointer.truncate(parent);
             }
+            // An empty container still has two brackets.
             end = end.max(start + 2);
         }
         Value::Object(members) => {

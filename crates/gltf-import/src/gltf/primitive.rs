@@ -86,6 +86,7 @@ pub(super) fn import_meshes(
                 warnings: &mut *warnings,
             };
             primitives.push(match reader.read_primitive() {
+                // Missing data is a warning in every mode, because the rest of the file is intact.
                 Err(diagnostic) if diagnostic.code == codes::MISSING_DATA => {
                     warnings.downgrade(&diagnostic, "the primitive is skipped");
                     Primitive::default()

@@ -321,6 +321,7 @@ pub fn check_scene_items(model: &Model, limits: &Limits) -> Result<(), Diagnosti
             }
             None => items[mesh],
         };
+        // Sums saturate, because they are products of numbers from the file.
         total = total.saturating_add(shown).saturating_add(bending);
     }
     if total <= limits.scene_items {

@@ -94,6 +94,7 @@ impl<'a> FaultCounts<'a> {
         });
         let mut told = told.to_vec();
         for (name, fault) in &self.statements {
+            // The name of a statement may consist of any bytes.
             let name: String = String::from_utf8_lossy(name).chars().take(32).collect();
             let message = match fault.count {
                 1 => format!("a {name:?} statement is ignored"),

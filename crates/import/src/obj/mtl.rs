@@ -252,6 +252,7 @@ impl<'a> MtlParser<'a> {
             let word = self.reader.next_argument();
             texture.channel = word.and_then(|word| word.bytes.first().copied());
         } else if is("-mm") {
+            // `-mm 0 1` changes nothing.
             if self.read_numbers::<2>() != [0.0, 1.0] {
                 self.count_unread("-mm", option.offset);
             }
@@ -260,6 +261,7 @@ impl<'a> MtlParser<'a> {
             self.count_unread(&option.to_text(), option.offset);
         } else if is("-blendu") || is("-blendv") || is("-cc") || is("-type") || is("-colorspace") {
             let word = self.reader.next_argument();
+            // Blending is on and color correction off by default, so these values change nothing.
             let is_default =
                 option.bytes.starts_with(b"-blend") == word.is_some_and(|w| w.is_keyword("on"));
             if !is_default || is("-type") || is("-colorspace") {

@@ -264,6 +264,8 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         let count = self.file.positions.len();
         let position = match resolve_index(position, count) {
             Some(index) if (index as usize) < count => index,
+            // References to later vertices are valid if those vertices follow; they are checked at
+            // the end.
             Some(index) => {
                 self.forward.push((self.file.elements.ends.len(), token.offset, index));
                 index

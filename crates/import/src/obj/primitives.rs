@@ -33,6 +33,7 @@ pub(super) fn build_primitives(
     let colors = linear_colors(&file, warnings);
     let mut sharing = VertexSharing::new(file.positions.len());
     let (mut primitives, mut replaced) = (Vec::with_capacity(parts.len()), 0);
+    // Computed normals are consumed in the order of the parts.
     let mut computed = computed.as_slice();
     for part in parts {
         let mut normals = [].as_slice();
@@ -139,6 +140,7 @@ fn build_primitive(
     let is_surface = part.topology() == Topology::Triangles;
     let uv_at = |corner: &Corner| {
         let [u, v] = file.uvs[corner.uv as usize];
+        // In OBJ files v = 0 is at the bottom, in glTF at the top.
         [u, 1.0 - v]
     };
     Primitive {

@@ -175,9 +175,11 @@ fn combine_all(
         ImageSource::File { .. } => file(at).cloned(),
         ImageSource::Opacity { color, opacity: other, channel } => {
             let color = color.and_then(file);
+            // If the opacity cannot be read, the color remains.
             let Some(other) = file(*other) else { return color.cloned() };
             let has_alpha = other.rgba.iter().any(|texel| texel[3] < 255);
             let alpha = |texel| opacity(texel, *channel, has_alpha);
+            // Combined images count against the limit too, because a small file can request many.
             limit.allows(color.unwrap_or(other)).then(|| match color {
                 Some(color) => combine_images(color, Some(other), |[r, g, b, _], beside| {
                     [r, g, b, beside.map_or(255, alpha)]
@@ -189,6 +191,7 @@ fn combine_all(
             let (roughness, metallic) = (roughness.and_then(file), metallic.and_then(file));
             let like = roughness.or(metallic)?;
             limit.allows(like).then(|| {
+                // In glTF roughness is green and metalness blue.
                 combine_images(like, metallic, |own, beside| {
                     let green = if roughness.is_some() { own[1] } else { 255 };
                     [255, green, beside.map_or(255, |texel| texel[0]), 255]

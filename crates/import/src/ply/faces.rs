@@ -75,6 +75,7 @@ pub(super) fn read_faces(
         body.skip_element(element)?;
         return Ok(Faces::default());
     }
+    // A declared count may be far larger than the file, so capacity is limited by its bytes.
     let capacity = body.plausible_records(element);
     let mut faces = Faces {
         lengths: Vec::with_capacity(capacity),
@@ -124,6 +125,8 @@ impl FaceRecord {
                     self.corners.clear();
                     for _ in 0..count {
                         let vertex = body.next_number(scalar)?;
+                        // A bad index does not end the loop: the rest of the record must be
+                        // consumed.
                         if !(vertex >= 0.0 && vertex < vertices as f64) {
                             fault.get_or_insert_with(|| no_such_vertex(body, vertex, vertices));
                         }
@@ -227,6 +230,7 @@ pub(super) fn read_strips(
                 in_strip += 1;
             }
         }
+        // Records without properties take no bytes, so only time would limit their count.
         if element.properties.is_empty() {
             break;
         }

@@ -40,6 +40,7 @@ pub(crate) fn build_primitives(
 ) -> Vec<Primitive> {
     let Contents { mut vertices, mut faces, strips, mut edges } = contents;
     faces.append_strips(strips);
+    // Without faces and edges the vertices are a point cloud.
     let is_cloud = faces.corners.is_empty() && edges.is_empty();
     let is_finite: Vec<bool> =
         vertices.positions.iter().map(|p| p.iter().all(|x| x.is_finite())).collect();
@@ -64,6 +65,7 @@ pub(crate) fn build_primitives(
         };
         warnings.push_warning("element vertex", message);
     }
+    // No item uses these positions, but bounds are computed from all of them.
     for (position, _) in vertices.positions.iter_mut().zip(&is_finite).filter(|(_, is)| !**is) {
         *position = [0.0; 3];
     }

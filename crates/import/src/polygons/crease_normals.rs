@@ -88,6 +88,7 @@ impl CreaseNormals {
             let (face, k) = (&faces[corner as usize / 3], corner as usize % 3);
             fans.sums[root as usize].0 += face.weighted_normal(k);
         }
+        // The first group keeps the vertex, so that smooth meshes need no copies.
         let mut is_first = true;
         for (at, &root) in fans.roots.iter().enumerate().filter(|(at, root)| *at == **root as usize)
         {
@@ -144,6 +145,7 @@ impl SmoothVertices {
         let least = libm::cos(within.to_radians()) as f32;
         let mut is_smooth = vec![true; vertices];
         for (corners, face) in triangles.iter().zip(faces) {
+            // Triangles without area have no direction to compare.
             if face.normal == Vec3::ZERO {
                 continue;
             }
@@ -317,6 +319,7 @@ impl VertexFans {
                 && smooth.joins(corners[one as usize] / 3, corners[other as usize] / 3)
             {
                 let (one, other) = (self.find_root(one), self.find_root(other));
+                // The smaller index becomes the root in any order of the edges.
                 self.roots[one.max(other) as usize] = one.min(other);
             }
         }

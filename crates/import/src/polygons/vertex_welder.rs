@@ -94,6 +94,7 @@ impl VertexWelder {
                 return vertex;
             }
         }
+        // A file can be made so that all its hashes collide. An ordered map keeps that case fast.
         if let Some(vertex) = self.crowded.get(&key) {
             return *vertex;
         }

@@ -50,6 +50,7 @@ pub(super) fn read_solid(
     budget.charge_bytes("", ARRAY_BYTES * count as u64, (HEADER_BYTES + body_bytes) as u64)?;
     let mut solid = Solid::with_capacity(count);
     let mut colors = FacetColors::from_header(&header[..80]);
+    // The body may be a stream, so it is read in chunks of limited size.
     let mut chunk = vec![0; CHUNK_BYTES.min(count * TRIANGLE_BYTES)];
     let mut at = 0;
     while at < count {
@@ -58,6 +59,7 @@ pub(super) fn read_solid(
         body.read_exact(chunk).map_err(|error| unreadable_body(at, &error))?;
         for facet in chunk.as_chunks::<TRIANGLE_BYTES>().0 {
             let triangle = solid.triangle_count();
+            // Formatted only if the triangle is skipped.
             let locate = || format!("byte {}", HEADER_BYTES + at * TRIANGLE_BYTES);
             if solid.push_triangle(corners(facet), locate) {
                 colors.record(triangle, u16::from_le_bytes([facet[48], facet[49]]));

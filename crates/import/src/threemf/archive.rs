@@ -103,6 +103,7 @@ impl<'a> Archive<'a> {
         let content = match entry.method {
             0 => Cow::Borrowed(data),
             8 => {
+                // The declared size is charged before memory is allocated.
                 budget.charge_bytes(location, entry.size, self.bytes.len() as u64)?;
                 let size = usize::try_from(entry.size).unwrap_or(usize::MAX);
                 inflate(data, size).map(Cow::Owned).map_err(|message| broken(&message))?
@@ -154,6 +155,7 @@ fn inflate(data: &[u8], size: usize) -> Result<Vec<u8>, String> {
             .read(&framed[read..], &mut content, written, true)
             .map_err(|error| format!("the deflate data of the entry is broken: {error:?}"))?;
         (read, written) = (read + consumed, written + produced);
+        // No progress: the data ends too early.
         if consumed == 0 && produced == 0 {
             break;
         }

@@ -152,6 +152,7 @@ impl Assembly {
             self.count_object(item.object, warnings)?;
             nodes += self.objects[item.object].nodes;
             depth = depth.max(self.objects[item.object].depth);
+            // Checked in the loop, so that the sum cannot overflow.
             if nodes > limits.nodes as u64 {
                 let what = format!("the build has at least {nodes} nodes");
                 let limit = limits.nodes as u64;
@@ -194,6 +195,7 @@ impl Assembly {
                     stack.push((at, next + 1));
                     stack.push((component.object, 0));
                 }
+                // An object whose count has begun but not ended is an ancestor of this one.
                 Progress::Begun => {
                     let location = &self.objects[at].location;
                     let fault = Diagnostic::invalid(location, "the object contains itself");
@@ -235,6 +237,7 @@ impl Assembly {
             model.nodes.push(Node::default());
             0
         });
+        // Reversed, so that nodes are created in the order of the file.
         let mut stack: Vec<_> = items.iter().rev().map(|&item| (item, root)).collect();
         while let Some((placement, parent)) = stack.pop() {
             let object = &self.objects[placement.object];

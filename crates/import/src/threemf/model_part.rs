@@ -197,6 +197,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
         };
         let mut entries = Vec::new();
         while let Some(entry) = self.xml.next_child(depth)? {
+            // Charged one by one: a material takes far more memory than its text.
             if kind == GroupKind::Base {
                 let location = self.xml.location_of(&entry);
                 self.package.charge_bytes(&location, size_of::<Material>() as u64)?;

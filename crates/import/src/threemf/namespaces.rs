@@ -80,6 +80,7 @@ impl<'a> Namespaces<'a> {
         warnings: &mut ImportWarnings,
     ) -> Result<(), Diagnostic> {
         let required = root.text_attribute("requiredextensions").unwrap_or_default();
+        // Each prefix may cause a warning, so their number is limited.
         for prefix in required.split_ascii_whitespace().take(64) {
             let (name, support) = self.support_of(prefix.as_bytes());
             match support {

@@ -125,6 +125,8 @@ impl PartReader<'_, '_> {
             if !corners.iter().filter_map(position).all(is_finite) {
                 continue;
             }
+            // Most meshes have no properties, so the list begins at the first triangle that has
+            // any.
             if properties.group != NONE || properties.indices[0] != NONE {
                 mesh.properties.resize(mesh.triangles.len(), TriangleProperties::NONE);
                 mesh.properties.push(properties);
@@ -186,6 +188,7 @@ impl ObjectMesh {
         warnings: &mut ImportWarnings,
     ) -> Mesh {
         let Self { mut positions, triangles, properties } = self;
+        // No triangle uses these positions, but bounds are computed from all of them.
         for position in positions.iter_mut().filter(|position| !is_finite(position)) {
             *position = [0.0; 3];
         }

@@ -378,6 +378,7 @@ impl OpenGroup {
             Self::Color => Some(colored(parse_color(element.attribute("color")?)?, palette)),
             Self::Texture { material } => {
                 let [u, v] = [parse_number(element, "u")?, parse_number(element, "v")?];
+                // In 3MF files v = 0 is at the bottom, in glTF at the top.
                 Some(Property { material: *material, color: [1.0; 4], uv: [u, 1.0 - v] })
             }
             Self::Composite { bases } => {

@@ -90,6 +90,7 @@ impl<'a> XmlReader<'a> {
                 [b'<', b'!', b'-', b'-', ..] => (b"-->", 4),
                 [b'<', b'?', ..] => (b"?>", 2),
                 [b'<', b'!', b'[', ..] => (b"]]>", 3),
+                // Entities in a document type could expand without limit.
                 [b'<', b'!', ..] => {
                     let message = "document type declarations are not allowed in 3MF";
                     return Err(self.fault(self.at, message));

@@ -42,6 +42,7 @@ pub(super) fn compute_occlusion(
         return Err(RenderError::OcclusionTooLarge);
     }
     let OcclusionBuffers { nearest, last } = buffers;
+    // Cleared first, because `resize` keeps existing depths.
     nearest.clear();
     nearest.resize(width as usize * height as usize, SurfaceDepth::EMPTY);
     frame.surface_depths(&DepthOnly(&memory.draws), context.threads, nearest);

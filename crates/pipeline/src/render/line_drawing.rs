@@ -74,6 +74,7 @@ pub fn draw_lines<'a>(
         page.warnings.push(Warning::PictureEmpty { reason: scene.empty_reason() });
     }
     write_caption(&mut page, scene);
+    // The view and its insets may give the same warning.
     page.warnings.sort_unstable();
     page.warnings.dedup();
     Ok(page)

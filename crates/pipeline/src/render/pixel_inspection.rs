@@ -86,6 +86,8 @@ pub fn inspect_pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelFragme
     let context = RenderContext::new(scene, &textures, 1);
     let memory = RenderBuffers::default().take_frame(&context, pixel_region)?;
     let memory = assemble_scene(&context, memory)?;
+    // Shadows, occlusion and the light behind glass depend on the whole picture, even for one
+    // pixel.
     let mut shadows = ShadowMapRenderer::default();
     shadows.render_maps(&context)?;
     let occlusion = compute_whole_occlusion(&context)?;

@@ -115,6 +115,7 @@ impl<'a> PreparedScene<'a> {
             warnings.extend(text_warnings(scene));
         }
         let Renderer { buffers, insets } = renderer;
+        // The renderers of insets are retained, so that later frames reuse their memory.
         insets.resize_with(scene.insets.len(), Renderer::default);
         let prepare = |(inset, renderer): (&'a Inset, _)| {
             Self::new(renderer, context.with_scene(&inset.scene))
@@ -220,6 +221,7 @@ impl<'a> PreparedScene<'a> {
         }
         picture.resize(region.width, region.height);
         let tiles = tile_regions(image, region);
+        // Almost every picture is a single tile, which needs no copy.
         if let [tile] = tiles[..] {
             self.render_tile(tile, &mut picture.pixels)?;
         } else {
@@ -229,6 +231,7 @@ impl<'a> PreparedScene<'a> {
                 tile.copy_into_region(&pixels, region, &mut picture.pixels);
             }
         }
+        // Canceled tiles return early and incomplete, without an error.
         if self.context.workers().is_canceled() {
             return Err(RenderError::Canceled);
         }
@@ -297,6 +300,7 @@ impl<'a> PreparedScene<'a> {
         let (frame, background) = (&memory.frame, scene.image.background);
         context.measure("pixels", || C::draw_frame(frame, surface, background, threads, pixels));
         buffers.recycle_frame(memory);
+        // The next picture reuses its memory.
         buffers.occlusion.last = own_occlusion;
         Ok(())
     }

@@ -161,6 +161,8 @@ impl<'a> PrimitiveAssembler<'a> {
         if !self.project_primitive(primitive, material, &skinned, model_to_world) {
             return Ok(());
         }
+        // The sign of the determinant shows whether faces are mirrored, its cube root the mean
+        // scale.
         let determinant = model_to_world.determinant();
         let mut draw = Draw {
             first_id,

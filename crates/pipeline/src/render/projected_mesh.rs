@@ -69,6 +69,7 @@ impl ProjectedMesh {
             if viewer.is_some_and(|viewer| cluster.is_back_facing(viewer)) {
                 continue;
             }
+            // If the mesh is inside, so are its clusters.
             let containment = match mesh_containment {
                 Containment::Inside => mesh_containment,
                 _ => transform.classify_bounds(model_to_clip, cluster.bounds()),

@@ -68,6 +68,7 @@ impl Picked {
             (Self::Edge(line), Self::Point(_)) => Some([on_line(line, b, a), b]),
             (Self::Point(_), Self::Face(plane)) => Some([a, on_plane(plane, a, b)]),
             (Self::Face(plane), Self::Point(_)) => Some([on_plane(plane, b, a), b]),
+            // Only parallel edges and faces have the same distance everywhere.
             (Self::Edge(one), Self::Edge(line)) => {
                 is_along(one, line).then(|| [a, on_line(line, a, b)])
             }
@@ -122,6 +123,7 @@ impl<'a> Picking<'a> {
                 let edge = self.picker.nearest_edge(near, objects.as_deref());
                 Picked::Edge(self.found(edge, "edge", path)?)
             }
+            // A length to a circle is measured to its center.
             PickFile::Circle(place) => Picked::Point(self.circle(place, path)?.center.raw()),
             PickFile::Face(place) => {
                 let (near, objects) = self.place(place, path)?;

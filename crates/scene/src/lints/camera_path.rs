@@ -32,6 +32,7 @@ pub(super) fn lint_camera_path(origin: &Origin, file: &SceneFile) -> Option<Lint
             let right = gaze.cross(up);
             let last = before.replace((gaze, right));
             let (last_gaze, last_right) = last.unwrap_or((gaze, right));
+            // The gaze reverses if the eye passes its target between two samples.
             let is_at_target = gaze.length() <= DEGENERATE * last_gaze.length()
                 || gaze.length() == 0.0
                 || gaze.dot(last_gaze) < 0.0;

@@ -18,6 +18,7 @@ pub(super) fn lint_idle_sections(adviser: &Linter<'_>) -> Vec<Lint> {
     }
     let points = adviser.scene.world_points();
     let Some(bounds) = Bounds::from_points(points.iter().copied()) else { return Vec::new() };
+    // A plane flush with a face touches the models without cutting them.
     let tolerance = TOUCHING * bounds.diagonal();
     let mut advice = Vec::new();
     for (number, plane) in adviser.scene.sections.iter().enumerate() {

@@ -13,6 +13,7 @@ pub(super) fn lint_sheet(adviser: &Linter<'_>, allowed_folders: &[PathBuf]) -> V
     let Linter { origin, file, scene, .. } = *adviser;
     let Some(sheet_file) = &file.sheet else { return Vec::new() };
     let content = SheetContent { allowed_folders, ..SheetContent::from_scene(scene) };
+    // Errors are reported by the resolution of the scene, not by lints.
     let sheet = resolve_sheet(origin, sheet_file, content).ok();
     let warnings = sheet.and_then(|sheet| sheet.check_layout(&scene.models, &scene.sections).ok());
     let to_lint = |warning: SheetWarning| {

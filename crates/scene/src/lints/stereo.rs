@@ -22,14 +22,17 @@ pub(super) fn lint_flat_stereo(adviser: &Linter<'_>) -> Option<Lint> {
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
     for point in adviser.scene.world_points() {
         let images = eyes.map(|eye| eye.transform_point(point));
+        // Points behind an eye have no image.
         if images.iter().any(|image| image.w() <= 0.0) {
             continue;
         }
         let [Some(left), Some(right)] = images.map(homog::HPoint::divide) else { continue };
+        // Normalized device coordinates are 2 wide, hence the half.
         let parallax = (right.x() - left.x()) * 0.5 * width;
         (least, most) = (least.min(parallax), most.max(parallax));
     }
     let depth = most - least;
+    // Infinite if no point is in front of both eyes.
     if !depth.is_finite() || depth >= LEAST_PARALLAX {
         return None;
     }

@@ -148,6 +148,7 @@ impl VisibilitySurvey {
                 }
             }
             self.count_primitive(&item, &clip, &codes);
+            // The signed crossings along a ray sum to 0 unless the eye is inside a closed mesh.
             if let (Some(eye), &[a, b, c]) = (eye, item.as_slice()) {
                 let corners = [a, b, c].map(|at| world[at].raw() - eye.raw());
                 for (count, ray) in self.crossings.iter_mut().zip(PROBE_DIRECTIONS) {

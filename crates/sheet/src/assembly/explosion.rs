@@ -91,6 +91,8 @@ fn moves_along(shapes: &PartShapes, base: usize, axis: Option<usize>, gap: f64) 
             (Direction { sign, ..directions[part] }, part)
         })
         .collect();
+    // From the base outward, so that each part clears those already placed. Part numbers break
+    // ties.
     order.sort_by(|(way, i), (other, k)| {
         way.distance(boxes[*i]).total_cmp(&other.distance(boxes[*k])).then(i.cmp(k))
     });

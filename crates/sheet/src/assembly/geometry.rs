@@ -63,9 +63,11 @@ impl<'a> PartClasses<'a> {
     /// The digest of a part's mesh, and its number among the contents with this digest.
     fn content_of(&mut self, part: &Part) -> (u64, usize) {
         let model = &self.models[part.model].model;
+        // Instances of one model share its meshes, and therefore the cache entry of the first.
         let is_same = |other: &ModelInstance| Arc::ptr_eq(&other.model, model);
         let first = self.models.iter().take(part.model).position(is_same).unwrap_or(part.model);
         let node = &model.nodes[part.instance.node];
+        // A skinned or morphed mesh has a different shape at each node.
         let deforms = node.skin.is_some()
             || drawn_primitives(model, part.instance).any(|one| !one.morph_targets.is_empty());
         let key = (first, node.mesh.unwrap_or(usize::MAX));
@@ -74,6 +76,7 @@ impl<'a> PartClasses<'a> {
         }
         let digest = digest_of_mesh(model, part.instance);
         let same_digest = self.contents.entry(digest).or_default();
+        // Digests may collide, so the contents are compared too.
         let is_equal = |(number, instance): &(usize, MeshInstance)| {
             let other = &self.models[*number].model;
             meshes_are_equal(model, part.instance, other, *instance)
@@ -136,6 +139,7 @@ fn meshes_are_equal(
             (Some(a), Some(b)) => (a, b),
             _ => return false,
         };
+        // Bit patterns are compared because NaN must equal itself.
         let positions = |model: &Model, instance, primitive| {
             let skinned = model.skin_primitive(instance, primitive);
             let bits = skinned.positions.as_flattened().iter().map(|c| c.to_bits());

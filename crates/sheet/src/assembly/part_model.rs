@@ -63,12 +63,15 @@ pub(crate) fn exploded_models(
         };
         for (part, by) in of_model {
             let source = &placed.model.nodes[part.instance.node];
+            // A skinned or morphed mesh is stored as drawn, since the new model has no skins or
+            // animations.
             let deforms = source.skin.is_some()
                 || drawn_primitives(&placed.model, part.instance)
                     .any(|primitive| !primitive.morph_targets.is_empty());
             let (mesh, to_model) = if deforms {
                 model.meshes.push(part_mesh(part, models));
                 let node = part.instance.node_to_model;
+                // Skinned positions are relative to the model, not to the node.
                 let to_model = if source.skin.is_some() { Affine::IDENTITY } else { node };
                 (Some(model.meshes.len() - 1), to_model)
             } else {

@@ -256,6 +256,8 @@ impl CellHeights {
         for row in rows {
             for at in columns.clone() {
                 let center = column.cell_center([at, row]);
+                // Dividing by the signed area makes the weights positive inside for both
+                // orientations.
                 let weight =
                     |k: usize| twice_area(flat[(k + 1) % 3], flat[(k + 2) % 3], center) / whole;
                 let weights = [weight(0), weight(1), weight(2)];

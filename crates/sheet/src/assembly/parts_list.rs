@@ -101,6 +101,7 @@ impl PartsList {
         let mut known: BTreeMap<(usize, &str), usize> = BTreeMap::new();
         let mut groups: Vec<Vec<&Part>> = Vec::new();
         for part in parts {
+            // Programs number the copies of a part, as in `bolt.001`; they are still one item.
             let key = (classes.class_of(part), without_number(&part.name));
             let group = *known.entry(key).or_insert(groups.len());
             if group == groups.len() {
@@ -114,6 +115,8 @@ impl PartsList {
         for (group, number) in groups.iter().zip(1..) {
             let (name, materials) = (common_name(group), material_names(group[0], models));
             let density = find_density(densities, &name, &materials);
+            // The volume takes a pass over the mesh, so it is computed only where a density needs
+            // it.
             let volume = density.and_then(|_| part_volume(group[0], models));
             if density.is_some() && volume.is_none() {
                 warnings.push(SheetWarning::Assembly(AssemblyWarning::MassUnknown {

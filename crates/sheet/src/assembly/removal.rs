@@ -44,6 +44,7 @@ pub(super) fn removal_sides(
     preferred: &[AxisSide],
 ) -> Vec<AxisSide> {
     let Some(mut hindrances) = Hindrances::find(shapes, base, axes) else {
+        // There are too many pairs to compare, so every part leaves on its preferred side.
         return preferred.to_vec();
     };
     let mut sides: Vec<Option<AxisSide>> = vec![None; preferred.len()];
@@ -59,8 +60,10 @@ pub(super) fn removal_sides(
     }
     loop {
         let next = queues[0].pop_front().or_else(|| queues[1].pop_front());
+        // If the remaining parts interlock, the one with the least in its way breaks the cycle.
         let next = next.or_else(|| hindrances.least_hindered(&sides, preferred));
         let Some((part, side)) = next else { break };
+        // A part may be queued for both sides.
         if sides[part].is_some() {
             continue;
         }
@@ -85,6 +88,7 @@ impl Hindrances {
             let corners = shapes.boxes[part];
             let column = Column::new(corners, axes[part], 0.0);
             let mut own = shapes.heights(part, &column);
+            // A part whose triangles are all edge-on covers no cell; its box is used instead.
             if own.count() == 0 {
                 own.add_box(corners, &column);
             }
@@ -94,6 +98,7 @@ impl Hindrances {
                 if !column.meets(shapes.boxes[other]) {
                     continue;
                 }
+                // One budget of triangle visits bounds the time of all pairs together.
                 if !shapes.take_visits(PAIR_VISITS + shapes.triangle_count(other)) {
                     return None;
                 }

@@ -23,6 +23,7 @@ pub(super) fn part_volume(part: &Part, models: &[ModelInstance]) -> Option<f64> 
             continue;
         }
         let skinned = model.skin_primitive(part.instance, primitive);
+        // All primitives of a part have the same scale.
         scale = DMat3::from_mat4(part.to_world(models, &skinned).raw()).determinant().abs();
         // Adding 0 turns −0 into 0, so both are the same position.
         let corner = |&index: &u32| skinned.positions[index as usize].map(|c| c + 0.0);
@@ -33,6 +34,8 @@ pub(super) fn part_volume(part: &Part, models: &[ModelInstance]) -> Option<f64> 
         return None;
     }
     let point = |[x, y, z]: [f32; 3]| DVec3::new(x.into(), y.into(), z.into());
+    // The pyramids meet at a corner of the mesh: relative to a distant origin, their sum would lose
+    // digits.
     let tip = point(triangles[0][0]);
     let pyramid = |triangle: &[[f32; 3]; 3]| {
         let [a, b, c] = triangle.map(|corner| point(corner) - tip);

@@ -45,6 +45,7 @@ impl DimensionBoard {
         let ViewMeasure::Angle { vertex, ends } = &dimension.measure else { return None };
         let ratio = self.settings.scale.ratio();
         let (vertex, mut ends) = (*vertex * ratio, ends.map(|end| end * ratio));
+        // Sorted so that the sweep is the angle below 180°.
         if (ends[0] - vertex).perp_dot(ends[1] - vertex) < 0.0 {
             ends.swap(0, 1);
         }
@@ -55,6 +56,7 @@ impl DimensionBoard {
         let text = format!("{}°", numbers.decimal(sweep.to_degrees(), decimals));
         let letters = self.settings.letters;
         let (least, step, count) = RADII;
+        // Small arcs come first, each between the arms and then opposite the vertex.
         for number in 0..count {
             let radius = (least + step * f64::from(number)) * letters;
             for sense in [1.0, -1.0] {
@@ -92,6 +94,7 @@ impl AngleArc<'_> {
             }
         }
         let arrow = ARROW_LENGTH * letters;
+        // Arrows that do not fit between the arms point inward from outside.
         let is_narrow = self.radius * self.sweep <= 3.5 * arrow;
         let beyond = if is_narrow { 2.0 * arrow / self.radius } else { 0.0 };
         let span = self.sweep + 2.0 * beyond;

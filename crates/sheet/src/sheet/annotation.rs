@@ -319,6 +319,7 @@ impl AnnotationLayer {
 
     /// Creates an empty layer, with the pens of a line group and a character height.
     pub(super) fn to_layer(self, group: page::IsoLineGroup, letters: f64, ink: Ink) -> Layer {
+        // Butt caps end exactly at the measured point; round ones would extend beyond it.
         let butt = |width| Pen { cap: page::Cap::Butt, ..Pen::solid(width, ink) };
         let chain = || {
             page::LineType::LongDashedDotted.to_pen(
@@ -328,6 +329,7 @@ impl AnnotationLayer {
                 page::Join::Miter,
             )
         };
+        // ISO 3098, type B: lines are a tenth of the character height wide.
         let lettering = || Pen::solid(letters * 0.1, ink);
         let (id, title, pen) = match self {
             Self::CenterLines => ("center-lines", "center lines", chain()),

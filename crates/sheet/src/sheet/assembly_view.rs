@@ -81,6 +81,7 @@ impl AssemblyLayout {
         let around = if count > 0 { VIEW_GAP + 2.0 * radius + 1.0 } else { 0.0 };
         let fitting = |region: Extent| {
             let room = region[1] - region[0] - DVec2::splat(2.0 * around);
+            // The requested scale comes first, then the standard ones from the largest.
             let own = sheet.scale.into_iter().chain(DrawingScale::STANDARD);
             let fits = |scale: &DrawingScale| (view.size * scale.ratio()).cmple(room).all();
             let scale = own.into_iter().find(fits)?;

@@ -118,6 +118,7 @@ fn least_assignment(costs: &[Vec<f64>]) -> Vec<usize> {
         let mut least = vec![f64::INFINITY; columns + 1];
         let mut previous = vec![0_usize; columns + 1];
         let mut is_done = vec![false; columns + 1];
+        // The search ends at a free column, whose row is 0.
         while row_of_column[column] != 0 {
             is_done[column] = true;
             let at = row_of_column[column];
@@ -132,6 +133,7 @@ fn least_assignment(costs: &[Vec<f64>]) -> Vec<usize> {
                     (delta, next) = (least[other], other);
                 }
             }
+            // Reduced costs stay nonnegative and become 0 along the path.
             for other in 0..=columns {
                 if is_done[other] {
                     row_potential[row_of_column[other]] += delta;
@@ -142,6 +144,7 @@ fn least_assignment(costs: &[Vec<f64>]) -> Vec<usize> {
             }
             column = next;
         }
+        // Augments the assignment: rows move along the path, back to its start.
         while column != 0 {
             row_of_column[column] = row_of_column[previous[column]];
             column = previous[column];

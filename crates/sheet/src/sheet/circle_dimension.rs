@@ -44,6 +44,7 @@ impl DimensionBoard {
             let nearest = self.exit_distance(tip, away) + 2.0 * ARROW_LENGTH * letters;
             for step in 0..LENGTHS {
                 let length = nearest + 0.6 * letters * f64::from(step);
+                // A longer leader cannot be better, so its collisions are not tested.
                 if best.as_ref().is_some_and(|(least, _)| *least <= length) {
                     break;
                 }

@@ -107,6 +107,7 @@ pub(super) fn reach_between(
             add(from);
         }
         for border in [low, high] {
+            // Only sides that cross the border; corners on it have been added above.
             if (s - border) * (t - border) < 0.0 {
                 add(from + (to - from) * ((border - s) / (t - s)));
             }

@@ -192,6 +192,7 @@ impl PartDrawing<'_, '_> {
         let beyond = |point: DVec2| ClipArea::half_plane(point, course.perp());
         let before = |point: DVec2| ClipArea::half_plane(point, -course.perp());
         for (index, plane) in planes.iter().enumerate() {
+            // Visibility depends on the plane, so each strip is drawn whole and clipped afterward.
             let mut part = self.part(&[*plane])?;
             if let Some(border) = index.checked_sub(1).and_then(|previous| at.get(previous)) {
                 part = part.clipped(&beyond(*border), ClipSide::Inside);
@@ -255,6 +256,7 @@ impl PartDrawing<'_, '_> {
             let shift = part.length() * (-outward * 0.5 * pixels);
             let area = end_area(&line, along * outward);
             let end = whole.clone().clipped(&area, ClipSide::Inside).moved_by(shift);
+            // The break line ends at the outline; beyond it there is nothing to break.
             let lines = self.within_outline(&line)?.into_iter();
             break_lines.extend(lines.map(|line| line.iter().map(|p| *p + shift).collect()));
             match &mut composed {
@@ -307,6 +309,7 @@ fn parts_within(line: &[DVec2], edges: &[RegionEdge]) -> Vec<Vec<DVec2>> {
                 (edge.ends[0] - side[0]).perp_dot(along) / across,
                 (edge.ends[0] - side[0]).perp_dot(step) / across,
             );
+            // Parallel sides do not cross, and their parameters are not finite.
             if across != 0.0 && (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t) {
                 cuts.push(t);
             }
@@ -315,6 +318,7 @@ fn parts_within(line: &[DVec2], edges: &[RegionEdge]) -> Vec<Vec<DVec2>> {
         cuts.dedup();
         for pair in cuts.windows(2) {
             let ends = [pair[0], pair[1]].map(|t| point_at(side, t));
+            // No edge crosses the piece, so its middle decides for all of it.
             let is_inside = winding_number((ends[0] + ends[1]) * 0.5, edges) != 0;
             match parts.last_mut() {
                 Some(part) if is_inside && is_open => part.push(ends[1]),

@@ -159,6 +159,7 @@ impl LinearDimension {
         let (along, arrow) = (self.line_direction(), ARROW_LENGTH * height);
         let outwards = if self.fits_arrows(height) { 0.0 } else { 2.0 * arrow };
         let width = Label::new(&text, DVec2::ZERO, height).width();
+        // The text needs a quarter of its height free at each end.
         let is_outside = width > (self.ends[1] - self.ends[0]).length() - 0.5 * height;
         let tail = if is_outside { outwards + width } else { outwards };
         let layer = AnnotationLayer::Dimensions;

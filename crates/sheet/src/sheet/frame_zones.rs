@@ -91,6 +91,7 @@ pub(super) fn zone_layers(paper: Paper, ink: Ink) -> Vec<Layer> {
             let at = |along: f64, across: f64| {
                 if axis == 0 { DVec2::new(along, across) } else { DVec2::new(across, along) }
             };
+            // The first and last borders are corners of the frame.
             for border in &borders[1..borders.len() - 1] {
                 let ends = [at(*border, edge), at(*border, edge + outward)];
                 strokes.extend(Polyline::through_points(&ends, false));

@@ -71,6 +71,7 @@ impl DimensionBoard {
             return vec![self.row_candidate(dimension, &feet, along, &sides)];
         }
         let base = feet.remove(0);
+        // Baseline dimensions are nested, with the shortest nearest the part.
         feet.sort_by(|a, b| {
             let [a, b] = [a, b].map(|foot| (*foot - base).dot(along).abs());
             a.total_cmp(&b)
@@ -79,6 +80,7 @@ impl DimensionBoard {
             let rows = self.baseline_rows(dimension, base, &feet, along, *outward);
             rows.into_iter().collect::<Option<Vec<Candidate>>>()
         };
+        // All lengths share one side; if there is no room for one of them, none is drawn.
         match sides.iter().find_map(on_side) {
             Some(rows) => rows.into_iter().map(Some).collect(),
             None => vec![None],
@@ -160,6 +162,7 @@ impl DimensionBoard {
             .windows(2)
             .map(|pair| scale.to_object_length((pair[1] - pair[0]).dot(along)))
             .collect();
+        // Points at one position have no length between them.
         if lengths.iter().any(|length| *length < 1e-6) {
             return None;
         }
@@ -234,6 +237,7 @@ impl LengthRow<'_> {
                 self.add_text(&mut candidate, text, middle, TextAlign::Middle);
                 continue;
             }
+            // A single length has both ends free; `is_text_first` chooses the first.
             let is_end = at == last && !(last == 0 && self.is_text_first);
             if is_end || at == 0 {
                 // Beyond the extension line, which rises above the dimension line.
@@ -243,6 +247,7 @@ impl LengthRow<'_> {
                 let end = self.line_point(if is_end { at + 1 } else { at });
                 let align = if is_end { TextAlign::Start } else { TextAlign::End };
                 self.add_text(&mut candidate, text, end + self.along * (sense * beyond), align);
+                // The dimension line extends below the text.
                 *tail = beyond + width;
             } else {
                 self.add_raised_text(&mut candidate, at, text)?;
@@ -318,6 +323,7 @@ impl LengthRow<'_> {
                     let other = text_outline(other, 0.1 * self.letters);
                     !convex_overlap(&other, &outline) && !convex_overlap(&other, &leader)
                 }
+                // The leader may cross lines; the text may not.
                 AnnotationShape::Line(ends) => !convex_overlap(ends, &outline),
                 _ => true,
             });

@@ -203,6 +203,7 @@ fn lengths_in(
         return Err(DimensionFault::NoExtent);
     }
     let whole = span.length() * view.millimeters_per_unit;
+    // Compares 1 − cos φ with sin² φ, where φ is the angle between the length and the paper.
     let rank = u8::from(whole - measured > TRUE_SINE * TRUE_SINE * whole);
     Ok((ViewMeasure::Lengths { feet, along, is_baseline, prefix: "" }, rank))
 }
@@ -269,6 +270,7 @@ impl Dimension {
             let shown = images.iter().enumerate();
             let shown =
                 shown.filter_map(|(at, image)| image.as_ref().ok().map(|image| (at, image)));
+            // At equal rank, the earlier view is preferred.
             shown.min_by_key(|(at, (_, rank))| (*rank, *at))
         };
         if let Some(name) = self.view {
@@ -283,6 +285,7 @@ impl Dimension {
                 Err(fault) => Err(*fault),
             };
         }
+        // Views fail for different reasons; the most informative one is reported.
         let fault = || {
             let faults = images.iter().filter_map(|image| image.as_ref().err());
             faults.copied().max_by_key(|fault| match fault {

@@ -89,6 +89,7 @@ impl Sheet {
             page.warnings.push(SheetWarning::Assembly(AssemblyWarning::NoParts));
             return Ok(vec![page]);
         }
+        // Surfaces are welded once and shared by all pages.
         let mut surfaces = SurfaceCache::new(models, &self.uncut);
         let table = PartsTable::new(self, &assembly.list);
         let options = &self.assembly;
@@ -103,6 +104,7 @@ impl Sheet {
         let list_pages = if has_own_pages { table.pages() } else { Vec::new() };
         let part_sheets = if options.part_sheets { assembly.list.items.as_slice() } else { &[] };
         let part_sheets = &part_sheets[..part_sheets.len().min(MAX_PART_SHEETS)];
+        // A view without balloons still needs a page.
         let view_pages = view.as_ref().map_or(0, |view| view.balloons.len().max(1));
         let total = 1 + view_pages + list_pages.len() + part_sheets.len();
         let numbered = |number: usize| self.numbered(number, total);
@@ -110,6 +112,7 @@ impl Sheet {
         pages[0].warnings.extend(assembly.warnings.iter().cloned());
         for index in 0..view_pages {
             let Some(view) = &view else { break };
+            // The list is beside the view on its first page only.
             let list = beside.as_ref().filter(|_| index == 0).map(|column| (&table, column));
             let sheet = numbered(pages.len() + 1);
             pages.push(assembly.view_page(&sheet, view, index, list));
@@ -160,6 +163,7 @@ impl<'a> DrawnAssembly<'a> {
         let mut warnings = list.warnings.clone();
         warnings.extend(unreadable_names(&list));
         let mut explosion = explosion.as_ref();
+        // The time of an explosion grows with the square of the number of parts.
         if explosion.is_some() && parts.len() > MAX_EXPLODED_PARTS {
             warnings.push(SheetWarning::Assembly(AssemblyWarning::TooManyPartsToExplode {
                 most: MAX_EXPLODED_PARTS,
@@ -236,6 +240,7 @@ impl<'a> DrawnAssembly<'a> {
             balloons = self.place_balloons(&layout, &targets, &mut warnings);
         }
         let inks = [self.ink, sheet.style.paper.unwrap_or(WHITE)];
+        // Fills go below the lines, so they are inserted in front.
         layers.splice(0..0, drawing.face_fill_layers(&style, placement, prefix, inks));
         let images = drawing.face_fill_image(&style, placement, prefix).into_iter().collect();
         Ok(DrawnView { images, layers, balloons, scale: layout.scale, warnings })
@@ -263,6 +268,7 @@ impl<'a> DrawnAssembly<'a> {
     ) -> Vec<BalloonTarget<'_>> {
         let (mut targets, mut hidden) = (Vec::new(), Vec::new());
         for item in &self.list.items {
+            // Parts are in the order of their objects.
             let number = |object: &u32| self.parts.binary_search_by_key(object, |p| p.object).ok();
             let of_item = item.objects.iter().filter_map(number).filter_map(|at| spots[at]);
             let of_item: Vec<VisibleSpot> = of_item.collect();
@@ -296,6 +302,7 @@ impl<'a> DrawnAssembly<'a> {
         // Some positions are in the way of leaders to others.
         let capacity = (layout.capacity() * 2 / 3).max(1);
         let page_count = targets.len().div_ceil(capacity).max(1);
+        // Spread evenly, so that the last page is not almost empty.
         let each = targets.len().div_ceil(page_count).max(1);
         let mut pages = Vec::new();
         let mut left_out = Vec::new();

@@ -88,7 +88,9 @@ impl<'a> PartsTable<'a> {
     /// Wide paper has more columns beside the one above the title block.
     pub(super) fn pages(&self) -> Vec<Vec<TableColumn>> {
         let (frame, block) = (self.sheet.drawing_area(), self.sheet.title_block_area());
+        // Rounding must not lose a column that fits exactly.
         let beside = ((block.x() - frame.x()) / block.width() + 1e-9).floor() as usize;
+        // The header takes one row. At least one row remains, or the loop below would not end.
         let rows_in = |height: f64| ((height / self.row_height()).floor() as usize).max(2) - 1;
         let width = (block.width() - 2.0 * GAP).max(0.5 * block.width());
         let inset = 0.5 * (block.width() - width);

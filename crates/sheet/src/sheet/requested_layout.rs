@@ -53,6 +53,7 @@ impl<'a> RequestedGrid<'a> {
     /// Arranges the views around the front view, without empty columns and rows.
     fn new(sheet: &Sheet, views: &'a [PlannedView], scale: DrawingScale) -> Self {
         let placed = || views.iter().filter_map(|one| Some((one, one.grid?)));
+        // Grid places may have gaps, which get no space.
         let [columns, rows] = [0, 1].map(|axis| {
             let mut used: Vec<i32> = placed().map(|(_, place)| place[axis]).collect();
             used.sort_unstable();
@@ -176,6 +177,7 @@ pub(super) fn arrange_requested<'a>(
         let mut layout = ViewLayout { scale, views, left_out, scale_bar, overlaps };
         place_others(&mut layout, sheet, &plan.requested, obstacles);
         let block = extent_of_rectangle(sheet.title_block_area());
+        // Views at given positions may overlap; that is only a warning.
         layout.overlaps =
             find_overlaps(&layout.views, [("title block", block), ("scale bar", bar)]);
         if best.as_ref().is_none_or(|best| layout.is_better_than(best)) {

@@ -71,6 +71,7 @@ impl ViewPlan {
                 _ => None,
             })
             .collect();
+        // If only details and sections are requested, they refer to the default views.
         let views = if names.is_empty() {
             self.principal.iter().chain(&self.free).cloned().collect()
         } else {
@@ -78,6 +79,7 @@ impl ViewPlan {
             self.warnings = warnings;
             views
         };
+        // Letters continue after the letters of the sections.
         let lettered = views.iter().filter_map(|view| view.letter).max();
         let first = lettered.map_or('A', |last| char::from_u32(u32::from(last) + 1).unwrap_or('Z'));
         let mut planner =
@@ -191,6 +193,7 @@ impl RequestPlanner<'_> {
         let Some(at) = shown else {
             return Err(fault("its center is in the omitted part of the view"));
         };
+        // A detail is on one side of a break, so it needs no break itself.
         let composition = match &mother.composition {
             Composition::Broken(_) => Composition::Whole,
             other => other.clone(),
@@ -322,6 +325,7 @@ impl RequestPlanner<'_> {
         let borders: Vec<Point<World>> =
             corners[1..corners.len() - 1].iter().step_by(2).copied().collect();
         let line = SteppedLine { corners, removed, across: removed.cross(along), letter };
+        // Counting runs the iterator to its end, which marks every view.
         let marks = self.views.iter_mut().map(|one| line.mark(one)).filter(|marked| *marked);
         if marks.count() == 0 {
             self.warnings
@@ -334,6 +338,8 @@ impl RequestPlanner<'_> {
                 && one.composition == Composition::Whole
                 && one.view.faces_section(first)
         };
+        // A requested position or caption needs a separate view. Otherwise a view that faces the
+        // planes is cut.
         let has_place = *place != ViewPlace::default();
         if let Some(facing) = self.views.iter_mut().filter(|_| !has_place).find(faces) {
             facing.composition = composition;

@@ -52,6 +52,7 @@ pub(super) fn scale_bar_layers(
 ) -> [Layer; 2] {
     let letters = sheet.lettering_height() * LABEL_HEIGHT_FACTOR;
     let unit = sheet.dimension_unit;
+    // Labels extend beyond both ends of the bar.
     let most = scale.to_object_length(area.width() - 16.0);
     let thing = round_length(most / unit.in_millimeters());
     let length = scale.to_paper_length(thing * unit.in_millimeters());

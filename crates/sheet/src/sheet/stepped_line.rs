@@ -79,6 +79,7 @@ pub(super) fn check_steps(
     }
     let sides: Vec<Vector<World>> = corners.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let along = unit_vector(sides[0]).ok_or_else(|| fault("its first two corners are the same"))?;
+    // The tolerance is relative to the whole line, because single sides may be short.
     let total: f64 = sides.iter().map(|side| side.length()).sum();
     for (index, side) in sides.iter().enumerate() {
         let direction = if index % 2 == 0 { along } else { removed };

@@ -116,6 +116,7 @@ pub(super) fn title_block_fields(
     let unit = sheet.dimension_unit.symbol();
     let number = texts.sheet_number();
     if !is_large {
+        // Without a sheet number, the field before it takes its space.
         let number_end = if number.is_empty() { 1.0 } else { 0.87 };
         let mut fields = vec![
             field(0, [0.0, 0.4], FieldName::Author, &texts.author),

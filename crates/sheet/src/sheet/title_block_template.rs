@@ -164,6 +164,7 @@ impl TitleBlockTemplate {
     /// If the file is not an SVG file, or contains unsupported shapes, transforms, styles or
     /// unknown fields.
     pub fn parse(svg: &str) -> Result<Self, TemplateError> {
+        // A limit in bytes bounds the time and memory of everything below.
         if svg.len() > MAX_LENGTH {
             let message = format!("a title block can have at most {MAX_LENGTH} bytes");
             return Err(TemplateError::at(svg, 0, message));
@@ -195,6 +196,7 @@ impl TitleBlockTemplate {
                 (Event::Start(element), None) => template.add_shape(svg, &element)?,
                 (Event::Text(part), Some((_, so_far))) => so_far.push_str(&part),
                 (Event::Text(_), None) => {}
+                // Only text elements have content, so other ends need no action.
                 (Event::End(name), _) => {
                     if let Some((element, content)) = text.take_if(|_| name == "text") {
                         template.add_text(svg, &element, content.trim())?;
@@ -216,6 +218,7 @@ impl TitleBlockTemplate {
         let number = |name| element.number(svg, name, 0.0);
         let point = |x, y| Ok::<_, TemplateError>(DVec2::new(number(x)?, number(y)?));
         let lines = match element.name {
+            // A group has no effect: `check_attributes` refuses transforms.
             "g" => Vec::new(),
             "line" => vec![(vec![point("x1", "y1")?, point("x2", "y2")?], false)],
             "rect" => {

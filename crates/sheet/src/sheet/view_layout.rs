@@ -299,6 +299,7 @@ fn fit_into<'a>(
         let cell = if scale == sheet_scale {
             ViewCell::new(planned, sheet, scale)
         } else {
+            // A view at another scale must state it.
             let annotations = planned.annotate_with_scale(sheet, scale);
             ViewCell::with_annotations(planned, scale, annotations)
         };

@@ -265,6 +265,7 @@ fn add_direction(
         let area = [tip.min(*tail) - 1.0, tip.max(*tail) + 1.0];
         annotations.is_free(text, object) && annotations.is_empty_area(area, object)
     });
+    // A mark that overlaps something is better than a view without its mark.
     let (tip, tail, text) = free.unwrap_or_else(|| place(STEPS, 0.0));
     annotations.push_line(AnnotationLayer::CutArrows, [tail, tip - gaze]);
     let (back, side) = (tip - gaze * 3.0, gaze.perp() * 0.5);

@@ -64,6 +64,7 @@ impl ViewPlan {
         let points = world_points(models);
         for planned in planned {
             let PlannedView { view, measures, .. } = planned;
+            // The hull takes a pass over all points and only places dimensions.
             if !measures.dimensions.is_empty() {
                 let images = points.iter().map(|&point| view.image_of(point)).collect();
                 measures.hull = convex_hull(images);

@@ -104,6 +104,8 @@ impl ViewPlan {
             [named(NamedView::Front)?, named(NamedView::Top)?, side].map(PlannedView::plain);
         let (mut free, warnings) = subject.assign_sections(&mut principal)?;
         if sheet.dimensions {
+            // In first angle the top view is below the front view, so the width is given above; in
+            // third angle the reverse.
             let first = sheet.projection_angle == SheetAngle::First;
             let across = if first { OverallSide::Above } else { OverallSide::Below };
             principal[0].dimensions = vec![across, OverallSide::Left];
@@ -113,6 +115,7 @@ impl ViewPlan {
             free.push(PlannedView::plain(subject.cut_view(name)?));
         }
         let mut plan = Self { principal, free, requested: Vec::new(), warnings };
+        // Requests may replace all views, so measures and overlays follow.
         plan.add_requests(&subject)?;
         plan.add_measures(sheet, models);
         plan.add_overlays(sheet, models);
@@ -212,6 +215,8 @@ impl<'a> PlanSubject<'a> {
                 let view = SheetView::frame_section(&retained, section, self.unit())?;
                 free.push(PlannedView::plain(view).with_letter(letter));
             } else {
+                // Oblique planes are handled last, so that the letters of their auxiliary views
+                // follow the others.
                 oblique.push((LetteredPlane { plane, letter }, number));
                 continue;
             }
@@ -402,6 +407,7 @@ impl PlannedView {
         };
         self.measures.annotate(&mut annotations, &self.dimensions, half, &settings);
         add_overall_dimensions(&mut annotations, &self.dimensions, half, &settings);
+        // Letters and captions come after everything with a fixed position.
         lines.iter().for_each(|line| line.add_letters(&mut annotations, object, letters));
         self.marks.iter().for_each(|mark| mark.add_letters(&mut annotations, &mark_settings));
         for (layer, caption) in self.captions(scale) {

@@ -137,6 +137,7 @@ impl PartImage {
     fn fill_triangle(&mut self, corners: [DVec3; 3], number: u32) {
         let [a, b, c] = corners;
         let normal = (b - a).cross(c - a);
+        // A triangle seen edge-on covers no pixel.
         if !normal.is_finite() || normal.z == 0.0 {
             return;
         }
@@ -148,6 +149,7 @@ impl PartImage {
             let y = row as f64 + 0.5;
             let mut span = [f64::INFINITY, f64::NEG_INFINITY];
             for [from, to] in [[a, b], [b, c], [c, a]] {
+                // Half-open, so that a row through a vertex meets two sides and not three.
                 if (from.y <= y) != (to.y <= y) {
                     let x = from.x + (to.x - from.x) * ((y - from.y) / (to.y - from.y));
                     span = [span[0].min(x), span[1].max(x)];

@@ -179,6 +179,7 @@ impl<'a> Ktx2File<'a> {
         let mut at = 20 + 20 * u64::from(self.level_count);
         let mut next_part = |field: usize| {
             let length = u64::from(word(data, field)?);
+            // The sum cannot overflow: each length has 32 bits.
             at += length;
             part(data, at - length, length)
         };

@@ -94,6 +94,7 @@ impl PassBuffer {
                 let rows = values.chunks_mut(width * count).zip(hits.chunks(width)).enumerate();
                 raster::for_each_parallel(threads, rows, |(row, (values, hits))| {
                     let pixels = values.chunks_exact_mut(count).zip(hits).enumerate();
+                    // Starts anew in each row, because rows run in parallel.
                     let mut last = None;
                     for (column, (values, hit)) in pixels {
                         geometry.write_value(pass, hit, pixel(row, column), &mut last, values);

@@ -27,12 +27,15 @@ impl PassBuffer {
         self.write_header(&names, &mut bytes);
         let (width, height) = (self.width as usize, self.height as usize);
         let row_bytes = 4 * width * names.len();
+        // Without compression every row is a block, and a table of their offsets follows the
+        // header.
         let first_row = bytes.len() + 8 * height;
         let offsets = (0..height).map(|row| (first_row + row * (8 + row_bytes)) as u64);
         bytes.extend(offsets.flat_map(u64::to_le_bytes));
         for row in 0..height {
             bytes.extend((row as u32).to_le_bytes());
             bytes.extend((row_bytes as u32).to_le_bytes());
+            // OpenEXR stores the channels of a row one after another, not interleaved.
             for channel in 0..names.len() {
                 let places =
                     (0..width).map(|column| (row * width + column) * names.len() + channel);
@@ -70,6 +73,7 @@ impl PassBuffer {
         channels.push(0);
         attribute("channels", "chlist", &channels);
         attribute("compression", "compression", &[0]);
+        // The bounds of a box are inclusive.
         let [right, bottom] = [self.width, self.height].map(|side| side.saturating_sub(1));
         let window: Vec<u8> =
             [0, 0, right, bottom].into_iter().flat_map(u32::to_le_bytes).collect();

@@ -75,6 +75,7 @@ impl<'a> SceneGeometry<'a> {
             for (instance, primitive) in model.scene_primitives() {
                 let skinned = model.skin_primitive(instance, primitive);
                 let model_to_world = skinned.to_model.then(model_instance.model_to_world);
+                // 0 means that there is no such object.
                 let id = |index: Option<usize>| index.map_or(0, |index| index as u32 + 1);
                 let (node, mesh) = (Some(instance.node), model.nodes[instance.node].mesh);
                 let owner_ids = [model_id, id(node), id(mesh), id(primitive.material)];

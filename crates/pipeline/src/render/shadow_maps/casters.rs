@@ -110,6 +110,7 @@ impl<'a> CasterPass<'a, '_> {
         DrawCall { transform, mesh, frame, opacity, cull_mode, point_size: 0.0 }
             .submit(primitive, first_id);
         if opacity == Opacity::Masked {
+            // The alpha test needs no anisotropic filtering.
             let textures = MaterialTextures::new(material, 1, texture);
             let draw = masked_draw(model, instance, primitive, textures, mesh);
             self.draws.draws.push(Draw { first_id, ..draw });

@@ -247,6 +247,7 @@ impl CubeCasters {
         if !is_in_range {
             return;
         }
+        // A bit that all vertices share puts the triangle outside one plane of a face.
         let common = triangle.iter().fold(u32::MAX, |common, (_, bits)| common & bits);
         for (face, slopes) in self.slopes.iter_mut().enumerate() {
             if is_outside_of(face, common) {
@@ -265,6 +266,7 @@ impl CubeCasters {
                     slopes.include(slope.clamp(-limit, limit));
                 }
             } else {
+                // A triangle that reaches behind the light may cover any slope.
                 slopes.include(-limit);
                 slopes.include(limit);
             }

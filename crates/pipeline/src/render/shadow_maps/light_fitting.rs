@@ -141,6 +141,7 @@ fn fit_directional(scene: &Scene, travel: [f64; 3], shadow: Shadow) -> Option<Li
     if scene_bounds.min.x > scene_bounds.max.x {
         return None;
     }
+    // Above 0 even for a flat scene, or the near and far planes would coincide.
     let depth = (scene_bounds.max.z - scene_bounds.min.z)
         .max(1e-9 * scene_bounds.min.abs().max_element())
         .max(1e-30);
@@ -153,6 +154,7 @@ fn fit_directional(scene: &Scene, travel: [f64; 3], shadow: Shadow) -> Option<Li
     }
     let fitted = FittedWindow::around(visible_bounds, 1e-6 * depth, shadow.resolution)?;
     let center = visible_bounds.center();
+    // A margin of 1 % keeps the outermost casters inside despite rounding.
     let (near, far) = (-scene_bounds.max.z - 0.01 * depth, -scene_bounds.min.z + 0.01 * depth);
     let light_volume = Orthographic::from_window(fitted.window, near, far).ok()?;
     let slope = libm::tan(0.5 * f64::from(shadow.softness));
@@ -208,6 +210,7 @@ fn fit_spot(
     let basis = Basis::from_gaze_or_fallback(gaze, Vector::Y).ok()?;
     let camera = Camera::new(position.into(), basis).ok()?;
     let cosine = f64::from(cosine).clamp(0.0, 1.0);
+    // A half angle of 90° has no finite slope.
     let max_slope = ((1.0 - cosine * cosine).sqrt() / cosine.max(1e-9)).clamp(1e-4, MAX_SPOT_SLOPE);
     let (mut slopes, mut nearest, mut farthest) = (ViewBounds::EMPTY, f64::INFINITY, 0.0_f64);
     for_each_vertex(&scene.models, camera, |point| {

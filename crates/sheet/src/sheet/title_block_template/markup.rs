@@ -163,11 +163,13 @@ impl<'a> MarkupReader<'a> {
             } else if let Some(after) = rest.strip_prefix("<!--") {
                 self.skip_past(after, "-->", 4)?;
             } else if rest.starts_with("<!") {
+                // Entities in a document type could expand without limit.
                 return Err(self.fault("document types and CDATA are not supported; remove them"));
             } else if let Some(after) = rest.strip_prefix("</") {
                 return self.end_tag(after).map(Some);
             } else if rest.starts_with('<') {
                 let element = self.start_tag()?;
+                // Metadata of drawing programs, such as `sodipodi:namedview`.
                 if SILENT.contains(&element.name) || element.name.contains(':') {
                     self.skip_element(element.name)?;
                 } else {

@@ -31,6 +31,7 @@ fn words(text: &str, start: usize) -> Vec<(&str, usize)> {
             continue;
         }
         let is_number = |c: u8| c.is_ascii_digit() || matches!(c, b'+' | b'-' | b'.');
+        // A whole character, so that slices end at character boundaries.
         at += text[at..].chars().next().map_or(1, char::len_utf8);
         if is_number(c) {
             let mut has_point = c == b'.';
