@@ -150,7 +150,7 @@ impl ThumbnailService {
 const SESSION: &str = r#"
 name=org.freedesktop.thumbnails.Thumbnailer1
 path=/org/freedesktop/thumbnails/Thumbnailer1
-# The type is said, as a busy service is asked for it in vain.
+# The MIME type is passed, because a busy service does not answer a query for it.
 gdbus call --session --dest $name --object-path $path --method $name.Queue "$1" "$2" normal default 'uint32 0' || exit
 tries=0
 until [ "$(find "$XDG_CACHE_HOME" -name '*.png' | wc -l)" -ge "$3" ]; do

@@ -1,13 +1,13 @@
-// Search in Chinese. The index that mdBook writes takes what stands between blanks for a word, and drops Han letters when it trims
+// Search in Chinese. The index that mdBook writes takes the text between blanks for a word, and drops Han letters when it trims
 // words. Where the page is Chinese its documents are indexed again when the search is first opened: Latin words as they are, and
-// runs of Han letters as their pairs. So 透视除法 finds whatever contains 透视, 视除 and 除法.
+// runs of Han letters as their pairs. So 透视除法 finds every page with 透视, 视除 and 除法.
 'use strict';
 
 (function searchHan() {
   const HAN = /[\u3400-\u9fff\uf900-\ufaff]/;
   const WORDS = /[\u3400-\u9fff\uf900-\ufaff]+|[\p{L}\p{N}_]+/gu;
 
-  /** The terms of a text: Latin words in lower case, Han in pairs; a single letter stands for itself. */
+  /** The terms of a text: Latin words in lower case, Han in pairs; a single letter is a term. */
   function tokenize(text) {
     const terms = [];
     for (const [word] of String(text ?? '').toLowerCase().matchAll(WORDS)) {
@@ -62,7 +62,7 @@
     '.print-button': ['title', '打印'],
   };
 
-  /** Says in Chinese what mdBook says in English alone. */
+  /** Says in Chinese what mdBook says only in English. */
   function translateInterface() {
     for (const [selector, [name, value]] of Object.entries(TEXTS)) {
       document.querySelector(selector)?.closest('a, button, label, input')?.setAttribute(name, value);

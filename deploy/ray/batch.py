@@ -2,7 +2,7 @@
 
     ray job submit -- python deploy/ray/batch.py MODELS OUT --size 256
 
-Each model is a task of one core, which Ray gives to whichever node is free and starts again elsewhere
+Each model is a task of one core, which Ray gives to a free node and restarts elsewhere
 if its worker or its node dies. Pictures appear under their names when they are whole, and a model whose
 picture is there is not drawn again: the same command continues after anything. Broken models are
 listed at the end and do not stop the others.
@@ -25,7 +25,7 @@ FORMATS = {".gltf", ".glb", ".stl", ".obj", ".ply", ".3mf"}
 
 @ray.remote(num_cpus=1, max_retries=3)
 def draw(model: Path, picture: Path, size: int) -> str | None:
-    """Draws one model; returns what is wrong with it."""
+    """Draws one model; returns its errors."""
     try:
         frame = alberti.render(alberti.load(model), size=(size, size), threads=1)
     except alberti.AlbertiError as error:
@@ -56,7 +56,7 @@ def draw_missing(given: argparse.Namespace) -> Iterator[str | None]:
 
 
 def main() -> int:
-    """Draws what is not drawn yet; returns the number of models that failed."""
+    """Draws the missing pictures; returns the number of models that failed."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("models", type=Path)
     parser.add_argument("out", type=Path)

@@ -84,7 +84,7 @@ pub fn parse_check(text: &str) -> Result<Check, String> {
     }
     let target = target.trim();
     if target.is_empty() || target.contains(' ') {
-        return Err("after the colon stands one NAME".to_owned());
+        return Err("expected one NAME after the colon".to_owned());
     }
     Ok(Check { row, givens: all, target: Reference::parse(target)? })
 }

@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_known_or_ambiguous_is_an_error() {
+    fn unknown_or_ambiguous_names_are_errors() {
         for wrong in
             ["\\foo a", "a/b a", "c", "(a, b", "\\frac{a}", "a b)", "|a", "a \\text{ b}", ""]
         {

@@ -18,7 +18,7 @@ pub fn byte_cases() -> Vec<Case> {
             // A file that ends after its first chunk is complete: it only has no data.
             let ends_well = end == 20 + u32::from_le_bytes([whole[12], whole[13], 0, 0]) as usize;
             let expected = if ends_well { Expected::Warned } else { Expected::Refused };
-            cases.push(Case::new(format!("glb cut and mended at {end}"), shorter, expected));
+            cases.push(Case::new(format!("glb cut and repaired at {end}"), shorter, expected));
         }
     }
     for at in 0..whole.len() {

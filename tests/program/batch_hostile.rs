@@ -153,7 +153,7 @@ fn a_link_out_of_the_output_folder_is_not_followed() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_name_that_is_no_text_is_told() {
+fn a_name_that_is_not_utf_8_is_reported() {
     let sandbox = crate_sandbox("batch_no_text");
     std::fs::create_dir(sandbox.path_of("models")).expect("a folder");
     let name = sandbox.path_of("models").join(OsStr::from_bytes(b"a\xff.glb"));

@@ -111,7 +111,7 @@ fn a_worker_that_is_killed_twice_costs_one_job() {
 }
 
 #[test]
-fn a_crash_is_told_with_its_signal() {
+fn a_crash_is_reported_with_its_signal() {
     let sandbox = slow_sandbox("batch_crash");
     let run = sandbox.start(&SLOW);
     let first = slow_worker(&sandbox, &run, None);

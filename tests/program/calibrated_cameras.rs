@@ -62,7 +62,7 @@ fn pixels_are_those_of_the_definition_of_k() {
 }
 
 #[test]
-fn wrong_cameras_are_told() {
+fn invalid_cameras_are_reported() {
     let sandbox = Sandbox::new("uncalibrated");
     GltfBuilder::square().write_file(&sandbox, "square");
     for (flags, code, words) in [

@@ -166,7 +166,7 @@ fn depth_has_the_ends_of_the_colormap_at_the_nearest_and_farthest_vertex() {
 }
 
 #[test]
-fn flags_without_numbers_to_show_are_told() {
+fn colormap_flags_without_scalars_are_reported() {
     let sandbox = Sandbox::new("colormap_unused");
     sandbox.write_file("scan.ply", QUALITIES);
     for (flags, told) in [

@@ -138,7 +138,7 @@ fn sheets_have_the_outlines_that_a_scene_asks_for() {
 }
 
 #[test]
-fn images_and_wrong_tolerances_are_told_of() {
+fn images_and_invalid_tolerances_are_reported() {
     let sandbox = Sandbox::new("dxf_images");
     write_box(&sandbox, "box", [1.0, 1.0, 1.0]);
     sandbox.write_file(

@@ -231,7 +231,7 @@ fn maps_without_a_scene_say_what_they_need() {
         assert!(run.code == code && run.stderr.contains(words), "{flags:?}: {}", run.stderr);
     }
     let run = sandbox.run(&["explain", "--planes", "1,2", "--point", "1,1,0"]);
-    assert!(run.stdout.contains("It goes to infinity: its w is 0."), "{}", run.stdout);
+    assert!(run.stdout.contains("It maps to infinity: its w is 0."), "{}", run.stdout);
 }
 
 /// A point with w = 0 is a direction, and its image is a vanishing point (VN-1); a segment that

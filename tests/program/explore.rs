@@ -335,7 +335,7 @@ pub(crate) fn ignores_signal(number: i32) -> bool {
 }
 
 #[test]
-fn ports_in_use_and_broken_models_are_told() {
+fn ports_in_use_and_broken_models_are_reported() {
     let sandbox = Sandbox::new("explore_refused");
     let taken = TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = taken.local_addr().expect("its number").port().to_string();

@@ -32,7 +32,7 @@ fn materials_and_nodes_are_listed_by_their_names() {
 }
 
 #[test]
-fn a_file_that_is_no_model_is_refused() {
+fn a_file_that_is_not_a_model_is_refused() {
     let sandbox = Sandbox::new("info_refused");
     sandbox.write_file("text.glb", "hello");
     for flags in [&[][..], &["--json"]] {

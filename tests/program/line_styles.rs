@@ -21,7 +21,7 @@ fn pictures_of_lines_have_white_paper_unless_a_background_is_asked_for() {
     assert_eq!(corner(&["--style", "blueprint"]), [29, 66, 121, 255]);
     assert_eq!(corner(&["--style", "lines", "--background", "transparent"]), [0; 4]);
     assert_eq!(corner(&["--style", "blueprint", "--background", "#102030"]), [16, 32, 48, 255]);
-    assert_eq!(corner(&["--style", "shaded"])[3], 0, "surfaces stand on nothing");
+    assert_eq!(corner(&["--style", "shaded"])[3], 0, "surfaces have no background");
 }
 
 #[test]

@@ -44,7 +44,7 @@ fn json_names_steps_and_items() {
 }
 
 #[test]
-fn what_is_no_matrix_is_refused_with_the_reason() {
+fn invalid_matrices_are_refused_with_the_reason() {
     let sandbox = Sandbox::new("matrix_refused");
     for (numbers, reason) in [
         ("1 2 3", "expected 16 numbers, or 9 for a 3 × 3 matrix, found 3"),
@@ -199,7 +199,7 @@ fn refused_parameters_are_named() {
         (["--frustum", "1,2,3"], "--frustum takes 6 numbers, found 3"),
         (
             ["--perspective", "60,1,2,1"],
-            "`far` (1) must lie beyond `near` (2) along the line of sight",
+            "`far` (1) must be beyond `near` (2) along the line of sight",
         ),
         (["--n-point", "0,0,0"], "p, q and r are all 0: this is a parallel projection"),
     ] {

@@ -147,7 +147,7 @@ fn every_command_reads_an_stl_file() {
 }
 
 #[test]
-fn content_decides_and_a_name_that_lies_is_told() {
+fn content_decides_and_a_misleading_name_is_reported() {
     let sandbox = Sandbox::new("stl_names");
     sandbox.write_file("part.glb", stl_box([1.0; 3]));
     let run = sandbox.run(&["render", "part.glb"]);

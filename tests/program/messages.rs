@@ -103,7 +103,7 @@ fn what_makes_no_sense_is_pointed_at_as_well() {
 }
 
 #[test]
-fn a_camera_that_is_not_there_is_answered_with_those_that_are() {
+fn a_missing_camera_is_an_error_that_lists_the_others() {
     let sandbox = Sandbox::new("cameras");
     sandbox.copy_model("room.glb");
     let run = sandbox.run(&["render", "room.glb", "--camera", "nobody", "--size", "16x16"]);

@@ -111,7 +111,7 @@ fn parameters_that_do_not_apply_are_reported() {
             "20",
             "180",
             &[][..],
-            "error: `fov` cannot be 180: it must lie between 0 and 180 degrees",
+            "error: `fov` cannot be 180: it must be between 0 and 180 degrees",
         ),
         ("aspect", "0", "2", &[], "`aspect` cannot be 0: it must be greater than 0"),
         ("distance", "-3", "9", &[], "`distance` cannot be -3: it must be greater than 0"),

@@ -221,6 +221,6 @@ fn the_system_ends_what_takes_more_memory() {
     let flags = ["--size", "4096", "--max-memory-bytes", "64MiB"];
     let child = sandbox.start(&[&["thumbnailer", "crate.glb", "out.png"], &flags[..]].concat());
     let output = child.wait_with_output().expect("the program ends");
-    assert!(!output.status.success(), "the pixels alone are 64 MiB");
+    assert!(!output.status.success(), "the pixels take 64 MiB by themselves");
     assert_eq!(sandbox.file_names(), ["crate.glb"]);
 }

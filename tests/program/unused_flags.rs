@@ -11,7 +11,7 @@ fn messages(sandbox: &Sandbox, flags: &[&str]) -> String {
 }
 
 #[test]
-fn flags_that_do_nothing_are_told() {
+fn flags_without_effect_are_reported() {
     let sandbox = Sandbox::new("unused_flags");
     sandbox.copy_model("crate.glb");
     for (flags, told) in [

@@ -137,8 +137,8 @@ fn check_projected_point(
     assert_close("distance", -view.z(), number_field(out, "distance")?, 1e-11)?;
     let clip = chain.world_to_clip().transform_point(world);
     assert_all_close("clip", &<[f64; 4]>::from(clip), &parse_point4(&out["clip"])?, 1e-11)?;
-    let upright = HPoint::from_raw(clip.raw() * chain.kind.sign);
-    let inside = chain.kind.volume.contains(upright);
+    let signed = HPoint::from_raw(clip.raw() * chain.kind.sign);
+    let inside = chain.kind.volume.contains(signed);
     if Some(inside) != out["inside"].as_bool() {
         return Err(format!("inside is {inside}, not {}", out["inside"]));
     }

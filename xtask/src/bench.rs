@@ -6,7 +6,7 @@
 //! bench maths [NAME…]   bulk operations against plain loops (tests/bench); or `bench NAME…`
 //! bench raster [NAME…]  the rasterizer against other rasterizers (tests/peers)
 //! bench compare REV     the program of another commit beside this one's: stages, features, memory
-//! bench --page          the second as a page, docs/benchmarks.md, with what is lost
+//! bench --page          the second as a page, docs/benchmarks.md, with the losses
 //! bench --instructions  instruction counts of fixed workloads against the recorded ones
 //! ```
 //!

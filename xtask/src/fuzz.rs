@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! fuzz [TARGET…] [--minutes N] [--jobs N] [--corpus DIR]
-//!   TARGET        some of the targets below; all, one after the other, if none is named
+//!   TARGET        some of the targets below; default: all, one after the other
 //!   --minutes N   minutes of processor time for each target, all its jobs together; 20 if not said
 //!   --jobs N      processes that work on a target at a time; 1 if not said
 //!   --corpus DIR  the folder of the corpora, default target/fuzz

@@ -1,7 +1,7 @@
 //! `cargo xtask python`: the wheel of the Python package, and its tests.
 //!
 //! ```text
-//!  maturin ─► wheel ─► new virtual environment: NumPy alone ─► a picture
+//!  maturin ─► wheel ─► new virtual environment: only NumPy ─► a picture
 //!                      and then pytest, mypy, trimesh, OpenCV … ─► the tests
 //! ```
 //! Without Python, its module `venv` or a package registry, the step is reported as skipped, and so

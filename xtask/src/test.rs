@@ -3,7 +3,7 @@
 //! ```text
 //! test                      the first tier: what guards a change
 //! test --all                the second tier as well: what guards a release
-//! test --second             the second tier alone; with --minutes N, steps begin in that time
+//! test --second             only the second tier; with --minutes N, steps begin in that time
 //! test STEP…                some steps of either tier
 //! ```
 //! One Cargo call builds the test programs, which then run directly (`artifacts.rs`). Each step is

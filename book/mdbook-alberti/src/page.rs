@@ -1,4 +1,4 @@
-//! A page: its marks replaced by what they stand for.
+//! A page: replaces its marks by what they represent.
 
 use crate::command::{Job, Kind};
 use crate::figure::{Figure, FigureMark, escape_attribute};

@@ -23,7 +23,7 @@ pub fn message_faults(msgid: &str, msgstr: &str) -> Vec<String> {
     }
     if !source.text.contains(['*', '_']) && translated.text.contains(['*', '_']) {
         faults.push(
-            "emphasis that does not close: a star stands beside a letter, not beside punctuation"
+            "emphasis that does not close: put the star next to a letter, not next to punctuation"
                 .into(),
         );
     }

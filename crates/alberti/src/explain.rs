@@ -53,7 +53,7 @@ pub(crate) struct ExplainArgs {
     load_options: LoadArgs,
 }
 
-/// A single matrix in the place of a scene.
+/// A single matrix instead of a scene.
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Without a scene")]
 struct BareMapArgs {

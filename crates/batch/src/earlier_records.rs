@@ -25,7 +25,7 @@ pub(super) enum EarlierRecord {
 /// The records of earlier runs, by output and key.
 ///
 /// A picture is a separate file or in a tar file. An output file holds the picture of the last
-/// record, whatever its key. An older record with another key, for example from other flags, is
+/// record with any key. An older record with another key, for example from other flags, is
 /// superseded and no longer counts, even if both pictures have the same size. Tar files are never
 /// rewritten, and each picture in them counts.
 ///

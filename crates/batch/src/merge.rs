@@ -215,12 +215,12 @@ mod tests {
         let folder = ReportFolder::new(name);
         let first = [
             done_record("changed.png", "k1"),
-            failed_record("mended.png", "k"),
+            failed_record("repaired.png", "k"),
             done_record("lost.png", "k"),
             done_record("broken.png", "k1"),
         ];
         folder.add_report("reports/1-of-2.b.1.1.jsonl", &first);
-        let second = [done_record("mended.png", "k"), failed_record("lost.png", "k")];
+        let second = [done_record("repaired.png", "k"), failed_record("lost.png", "k")];
         folder.add_report("reports/2-of-2.a.1.2.jsonl", &second);
         let third = [failed_record("broken.png", "k2"), done_record("changed.png", "k2")];
         folder.add_report("reports/1-of-2.a.1.10.jsonl", &third);
@@ -234,7 +234,7 @@ mod tests {
             row("broken.png", "k2", "failed"),
             row("changed.png", "k2", "done"),
             row("lost.png", "k", "done"),
-            row("mended.png", "k", "done"),
+            row("repaired.png", "k", "done"),
         ];
         for _ in 0..2 {
             let counts = merge_reports(folder.path(), None).unwrap();
@@ -248,11 +248,11 @@ mod tests {
     fn records_of_other_jobs_are_left_out() {
         let folder = three_runs("merge-current");
         let mut current = CurrentJobs::default();
-        [("mended.png", "k"), ("changed.png", "k1")]
+        [("repaired.png", "k"), ("changed.png", "k1")]
             .iter()
             .for_each(|(output, key)| current.add_job(output, key));
         merge_reports(folder.path(), Some(current)).unwrap();
-        let expected = [row("changed.png", "k1", "done"), row("mended.png", "k", "done")];
+        let expected = [row("changed.png", "k1", "done"), row("repaired.png", "k", "done")];
         assert_eq!(merged(&folder), expected, "an older picture is current again");
     }
 

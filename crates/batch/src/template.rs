@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn counters_of_other_programs_are_told() {
+    fn counters_of_other_programs_are_rejected() {
         for (name, meant) in [
             ("out.%04d.png", "'out.{frame:04}.png'"),
             ("a_%d.png", "'a_{frame:04}.png'"),

@@ -265,20 +265,20 @@ mod tests {
             record_of("short.png", b"12"),
             record_of("changed.png", b"12"),
             failed_record("failed.png", "k"),
-            failed_record("mended.png", "k"),
-            record_of("mended.png", b"34"),
+            failed_record("repaired.png", "k"),
+            record_of("repaired.png", b"34"),
             failed_record("lost.png", "k"),
             record_of("lost.png", b"5"),
             other_key,
         ];
         folder.add_report("reports/1-of-1.a.1.1.jsonl", &records);
         let pictures =
-            [("whole", "12"), ("short", "1"), ("changed", "13"), ("mended", "34"), ("old", "1")];
+            [("whole", "12"), ("short", "1"), ("changed", "13"), ("repaired", "34"), ("old", "1")];
         for (name, content) in pictures {
             folder.add_text(&format!("{name}.png"), content.as_bytes());
         }
         let of = |name: &str| verdict(&folder, &format!("{name}.png"));
-        assert_eq!([of("whole"), of("mended")], [Verdict::Whole, Verdict::Whole]);
+        assert_eq!([of("whole"), of("repaired")], [Verdict::Whole, Verdict::Whole]);
         for name in ["gone", "old", "lost", "unknown"] {
             assert!(matches!(of(name), Verdict::Missing(_)), "{name}");
         }

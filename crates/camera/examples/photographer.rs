@@ -25,7 +25,9 @@ fn main() -> Result<(), FramingError> {
     let house = HOUSE.map(Point::from);
     let lens = Slopes::vertical_angle(40_f64.to_radians(), 3.0 / 2.0)?;
 
-    println!("Where to stand so that the house fills the picture but for 5 per cent on each side:");
+    println!(
+        "Where to stand so that the house fills the picture except for 5 percent on each side:"
+    );
     for view in NamedView::ALL {
         let view_projection = frame_perspective(house, view.basis(), lens, 0.05)?;
         let (eye, near, far) =

@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn there_and_back_again_is_no_loop() {
+    fn there_and_back_is_not_a_loop() {
         let outline = Outline::from_edges(&edges(&[(0, 1), (1, 0)]));
         assert_eq!(outline, Outline { loops: Vec::new(), open: Vec::new() });
     }

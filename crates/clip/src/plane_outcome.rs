@@ -20,7 +20,7 @@ pub struct PlaneOutcomes {
     /// The planes that removed a part.
     pub clipped: Outcode,
     /// The planes that removed everything that was left. If several did, only those with the whole
-    /// shape outside are named; if none has, the one after which nothing remained.
+    /// shape outside are named; otherwise, the one after which nothing remained.
     pub rejected: Outcode,
 }
 

@@ -65,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_finite_breaks_the_line_and_short_lines_have_no_parts() {
+    fn points_that_are_not_finite_break_the_line_and_short_lines_have_no_parts() {
         let mut line = [(-0.5, 0.0), (0.0, 0.5), (0.5, 0.0), (0.0, 0.0), (0.1, 0.0)]
             .map(|(x, y)| HPoint::new(x, y, 0.0, 1.0));
         line[2] = HPoint::new(f64::NAN, 0.0, 0.0, 1.0);

@@ -45,7 +45,7 @@ impl ClipVertex {
 /// - It has no vertices or at least three.
 /// - Every vertex is finite, inside the volume's box or on its boundary, and has w > 0.
 /// - Vertices of the triangle that are inside keep their exact bits, and an edge shared by two
-///   triangles is cut at the same bits in both, whichever way it runs.
+///   triangles is cut at the same bits in both, in either direction.
 #[derive(Clone, Copy, Debug)]
 pub struct ClippedPolygon {
     ring: PolygonVertices,

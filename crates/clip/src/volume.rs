@@ -76,7 +76,7 @@ impl Volume {
 
     /// The canonical volume of a clip range: a [`ClipRange`] or a `projection::Convention`.
     ///
-    /// y runs from −w to w whichever way is up, so only depths matter here.
+    /// y runs from −w to w for either direction of up, so only depths matter here.
     ///
     /// ```
     /// use clip::Volume;
@@ -303,7 +303,7 @@ mod tests {
     }
 
     #[test]
-    fn borders_are_inside_and_what_is_not_finite_is_not() {
+    fn borders_are_inside_and_infinite_points_are_not() {
         for x in [-1.0, 1.0] {
             assert!(Volume::CHAPTER.contains(HPoint::new(x, x, x, 1.0)));
             assert!(!Volume::CHAPTER.contains(HPoint::new(x * 1.0000000000000002, x, x, 1.0)));

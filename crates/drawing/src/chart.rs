@@ -3,7 +3,7 @@
 //! ```text
 //!   depth    ── normal   - - reversed
 //!   1 ┤        ______─────      ticks are round numbers: 1, 2 and 5 times powers of ten,
-//!     │    _-¯                  or powers of ten alone where the axis spans many
+//!     │    _-¯                  or only powers of ten where the axis spans many
 //!   0 ┼──┬─────┬─────┬──
 //!        1    10    100  distance
 //! ```

@@ -111,7 +111,7 @@ fn describe_segment(start: f64, end: f64) -> &'static str {
     if start * end > 0.0 {
         "Both ends are mapped; f(t) says where the points between them go."
     } else if start == 0.0 || end == 0.0 {
-        "An end with w = 0 goes to infinity, so the image has no end there: clip the segment first."
+        "An end with w = 0 maps to infinity, so the image has no end there: clip the segment first."
     } else {
         "Each end has an image, but w changes its sign between them: the segment passes the plane \
          of the eye, where w is 0, and the line between the two images is not its image. Clip it \
@@ -124,8 +124,8 @@ fn describe_image(image: HPoint<Clip>) -> String {
     match image.divide() {
         Some(divided) => {
             let [x, y, z] = <[f64; 3]>::from(divided).map(format_number);
-            format!("It goes to ({x}, {y}, {z}).")
+            format!("It maps to ({x}, {y}, {z}).")
         }
-        None => "It goes to infinity: its w is 0.".to_owned(),
+        None => "It maps to infinity: its w is 0.".to_owned(),
     }
 }

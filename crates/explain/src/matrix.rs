@@ -40,9 +40,9 @@ pub fn explain_matrix(rows: [[f64; 4]; 4]) -> Result<Explanation, String> {
     let mut steps = vec![kind_step(rows, map), inverse_step(map)];
     steps.extend(affine_step(map, &found.first().meaning));
     steps.push(vanishing_points_step(map));
-    steps.extend(match mended_reading(&found) {
-        Some((mended, title)) => {
-            meaning_steps(&mended).map(|step| Step { title: title.to_owned(), ..step })
+    steps.extend(match corrected_reading(&found) {
+        Some((corrected, title)) => {
+            meaning_steps(&corrected).map(|step| Step { title: title.to_owned(), ..step })
         }
         None => meaning_steps(&found.first()),
     });
@@ -54,7 +54,7 @@ pub fn explain_matrix(rows: [[f64; 4]; 4]) -> Result<Explanation, String> {
 
 /// The reading of the corrected matrix, with its title, if it is clearly more likely and there is
 /// little to say about the matrix as given.
-fn mended_reading(found: &Recognition) -> Option<(MatrixReading, &'static str)> {
+fn corrected_reading(found: &Recognition) -> Option<(MatrixReading, &'static str)> {
     let slip = found.misprint()?;
     let title = match slip.misprint {
         Misprint::Transposed => {
@@ -139,7 +139,7 @@ fn affine_step(map: Projective<View, Clip>, meaning: &MatrixMeaning) -> Option<S
     let rigid = is_rigid(meaning) || matches!(meaning, MatrixMeaning::Rotation { .. });
     let slanted = slant(0, 1) || slant(1, 2) || slant(2, 0);
     let angles = if slanted && rigid {
-        "the axes stay at right angles but for the rounding of the entries: a rotation"
+        "the axes stay at right angles except for rounding: a rotation"
     } else if slanted {
         "the axes do not stay at right angles: there is a shear"
     } else {
@@ -271,9 +271,9 @@ fn misprint_step(at: usize, rows: [[f64; 4]; 4], slip: &Suspicion) -> Step {
         _ => step,
     };
     // The report on a corrected matrix already has its reading.
-    let mended = [Misprint::Transposed, Misprint::LastRowNegated, Misprint::WrongSign];
+    let corrected = [Misprint::Transposed, Misprint::LastRowNegated, Misprint::WrongSign];
     let likely = slip.strength == SuspicionStrength::Likely;
-    let is_read = at == 0 && likely && mended.contains(&slip.misprint);
+    let is_read = at == 0 && likely && corrected.contains(&slip.misprint);
     match slip.remedied {
         Some(remedied) if is_read => step.with_item("remedied", "then", remedied),
         Some(remedied) => step.with_item("remedied", "then", remedied).with_item(
@@ -298,16 +298,18 @@ fn matrix_verdict(map: Projective<View, Clip>, found: &Recognition) -> String {
         let transposed = slip.remedied.map(|matrix| recognize(matrix).first());
         transposed.map_or(String::new(), |reading| describe_meaning(&reading))
     };
-    let mended = mended_reading(found);
-    if let Some((reading, _)) = mended.filter(|_| !matches!(misprint, Some(Misprint::Transposed))) {
-        let mended = describe_meaning(&reading);
+    let corrected = corrected_reading(found);
+    if let Some((reading, _)) =
+        corrected.filter(|_| !matches!(misprint, Some(Misprint::Transposed)))
+    {
+        let corrected = describe_meaning(&reading);
         let slip = match misprint {
             Some(Misprint::LastRowNegated) => "its last row negated".to_owned(),
             _ => format!("the sign of {} turned", entry_words(map.rows(), found)),
         };
-        return format!("It looks like a misprint: with {slip}, it is {mended}.");
+        return format!("It looks like a misprint: with {slip}, it is {corrected}.");
     }
-    if let Some((reading, _)) = mended {
+    if let Some((reading, _)) = corrected {
         let turned = describe_meaning(&reading);
         let stands = what.replacen("It is", "As it stands, for column vectors, it is", 1);
         return format!(

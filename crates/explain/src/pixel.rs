@@ -144,7 +144,7 @@ fn pixel_verdict(makeup: &PixelFragments) -> String {
     let what = match makeup.fragments.len() {
         0 => "nothing is in it but the background".to_owned(),
         1 => "one thing is seen in it".to_owned(),
-        count => format!("{count} things share it, or lie over each other in it"),
+        count => format!("{count} things share it or overlap in it"),
     };
     format!("The pixel is #{r:02x}{g:02x}{b:02x} with alpha {alpha}: {what}.")
 }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  perspective = depth · scale · shear   (frustum centered, sides to 45°, depth to clip space)
-//!  oblique     = fit · shear             (projectors upright, box to the canonical volume)
+//!  oblique     = fit · shear             (shear the projectors, then fit the box to the canonical volume)
 //! ```
 
 use super::Step;
@@ -49,7 +49,11 @@ pub(super) fn add_projection_factors(
         }
         Decomposed::Classical { projection: Classical::Oblique(oblique), volume: prism } => {
             let factors = oblique.factors(prism, volume);
-            step.add_item("shear", "shear, the projectors upright", factors.shear.rows());
+            step.add_item(
+                "shear",
+                "shear: projectors perpendicular to the picture",
+                factors.shear.rows(),
+            );
             step.add_item("fit", "fit, the box to the canonical volume", factors.fit.rows());
         }
         _ => {}

@@ -45,7 +45,7 @@ async function start() {
   addEventListener('hashchange', () => openLink(location.hash.slice(1)));
 }
 
-/** Opens a link; of nonsense, which is told, the lesson with its defaults. */
+/** Opens a link. A malformed one is reported and opens the lesson with its defaults. */
 async function openLink(link) {
   if (lesson && new State(link).query() === state.query()) return;
   hideNotice();

@@ -1,4 +1,4 @@
-// The panes that show pictures: what is asked, in which order, and how it comes onto the canvas.
+// The panes that show pictures: their requests, the order, and how pictures reach the canvas.
 //
 // A change marks every pane as old. One question is asked at a time, about the newest state: the picture first, then one other
 // pane, then the picture again if it has changed. First with one sample a pixel; once nothing has changed for a moment, with
@@ -43,7 +43,7 @@ export class Panes {
       .map((what) => ({ what, work: Work.coarse, row: 0, turn: 0 }));
   }
 
-  /** Shows nothing: what is there belongs to another lesson. */
+  /** Clears the panes, which show another lesson. */
   clear() {
     for (const name of ['picture', 'world', 'volume']) byId(name).getContext('2d').clearRect(0, 0, WIDTH, HEIGHT);
     byId('depth').removeAttribute('src');

@@ -1,4 +1,4 @@
-//! Exercises on viewing: answers are checked, and common mistakes are named.
+//! Exercises on viewing: answers are checked, and common mistakes are recognized.
 //!
 //! ```text
 //! answer ─► answer_text: entries ─► expression: numbers, for several values of the letters

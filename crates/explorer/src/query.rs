@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_query_is_told() {
+    fn invalid_queries_are_reported() {
         for (text, code) in [
             ("near", "malformed_query"),
             ("near=%4", "malformed_query"),

@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn a_misspelt_key_is_told_with_the_right_one() {
+    fn a_misspelled_key_gets_a_suggestion() {
         for (wrong, right) in [("naer", "near"), ("Near", "near"), ("picel", "pixel")] {
             let error = error(&format!("what=picture&lesson=frustum&{wrong}=2"));
             let help = format!("did you mean `{right}`?");
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn nonsense_is_told() {
+    fn malformed_requests_are_reported() {
         for (text, code) in [
             ("", "malformed_query"),
             ("what=soup", "malformed_value"),

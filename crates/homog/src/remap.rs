@@ -164,7 +164,7 @@ mod tests {
         for (p, q) in from.into_iter().zip(to) {
             assert!(
                 (map.transform_point(p) - q).length() < 1e-15,
-                "{p} goes to {}, not {q}",
+                "{p} maps to {}, not {q}",
                 map.transform_point(p)
             );
         }

@@ -91,9 +91,9 @@ impl Classical {
         volume: Orthographic,
         convention: Convention,
     ) -> Result<Projective<View, Clip>, ProjectionError> {
-        let upright = convention.right_handed();
-        let fit = self.picture_box(volume)?.view_to_clip(upright);
-        check_finite_map(upright.convert(convention, self.depth_preserving().then(fit)))
+        let right_handed = convention.right_handed();
+        let fit = self.picture_box(volume)?.view_to_clip(right_handed);
+        check_finite_map(right_handed.convert(convention, self.depth_preserving().then(fit)))
     }
 
     /// The inverse of [`view_to_clip`](Self::view_to_clip), in closed form.
@@ -105,11 +105,11 @@ impl Classical {
         volume: Orthographic,
         convention: Convention,
     ) -> Result<Projective<Clip, View>, ProjectionError> {
-        let upright = convention.right_handed();
-        let unfit = self.picture_box(volume)?.clip_to_view(upright);
+        let right_handed = convention.right_handed();
+        let unfit = self.picture_box(volume)?.clip_to_view(right_handed);
         let inverse =
-            convention.clip_to_clip(upright).then(unfit).then(self.depth_preserving_inverse());
-        let turn = Affine::<View, View>::scale(1.0, 1.0, upright.ahead() * convention.ahead());
+            convention.clip_to_clip(right_handed).then(unfit).then(self.depth_preserving_inverse());
+        let turn = Affine::<View, View>::scale(1.0, 1.0, right_handed.ahead() * convention.ahead());
         check_finite_map(inverse.then(turn))
     }
 

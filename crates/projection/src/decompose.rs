@@ -5,9 +5,9 @@
 //!            ┌────────────────────┴──────────────────────┐
 //!      p = q = r = 0: parallel                      else: central
 //!      rows at right angles?                        eye: where x, y and w vanish
-//!        upright      → orthographic                  at the origin, upright → frustum
-//!        turned       → axonometric, placed           beside it, centered     → apex moved (LW-1)
-//!      z in x and y   → oblique                       anywhere, turned       → placed
+//!        unrotated    → orthographic                  at the origin, unrotated → frustum
+//!        rotated      → axonometric, placed           beside it, centered     → apex moved (LW-1)
+//!      z in x and y   → oblique                       anywhere, rotated      → placed
 //!      no inverse     → classical: the center is what the matrix sends to nothing
 //! ```
 //!

@@ -42,7 +42,7 @@ pub enum ProjectionError {
         value: f64,
     },
     /// The far plane is not beyond the near plane.
-    #[error("`far` ({far}) must lie beyond `near` ({near}) along the line of sight")]
+    #[error("`far` ({far}) must be beyond `near` ({near}) along the line of sight")]
     FarNotBeyondNear {
         /// The near plane as given.
         near: f64,
@@ -59,7 +59,7 @@ pub enum ProjectionError {
     #[error("the projectors are parallel to the projection plane and never meet it")]
     ParallelToPlane,
     /// The center of projection is in the projection plane.
-    #[error("the center of projection lies on the projection plane")]
+    #[error("the center of projection is on the projection plane")]
     CenterOnPlane,
     /// There is no vanishing point (p = q = r = 0), hence no perspective.
     #[error("p, q and r are all 0: this is a parallel projection, without vanishing points")]

@@ -2,8 +2,8 @@
 //! depth.
 //!
 //! ```text
-//!  skewed frustum ──shear──► upright ──scale──► sides x, y = ±D ──depth──► [−1, 1]³, divided
-//!  skewed prism   ──shear──► upright ──fit─────────────────────────────► [−1, 1]³
+//!  skewed frustum ──shear──► centered ──scale──► sides x, y = ±D ──depth──► [−1, 1]³, divided
+//!  skewed prism   ──shear──► centered ──fit──────────────────────────────► [−1, 1]³
 //! ```
 //!
 //! Afterward, one clipper serves all projections (VV-1, VV-2; C86..C89).
@@ -37,10 +37,10 @@ impl Oblique {
     /// `volume` gives the window on the plane, and near and far as distances from z = 0.
     #[must_use]
     pub fn factors(self, volume: Orthographic, convention: Convention) -> ParallelFactors {
-        let upright = convention.right_handed();
-        let fit = volume.view_to_clip(upright);
+        let right_handed = convention.right_handed();
+        let fit = volume.view_to_clip(right_handed);
         let shear = self.depth_preserving();
-        if convention == upright {
+        if convention == right_handed {
             return ParallelFactors { shear, fit };
         }
         let mut turned = shear.raw();

@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_drawn_is_no_vertex() {
+    fn points_that_cannot_be_drawn_give_no_vertex() {
         for x in [f64::NAN, f64::INFINITY, -8192.1, 24576.1] {
             assert_eq!(ScreenVertex::snap(Point::new(x, 0.0, 0.0), 1.0), None, "x = {x}");
             assert_eq!(ScreenVertex::snap(Point::new(0.0, x, 0.0), 1.0), None, "y = {x}");

@@ -1,7 +1,7 @@
 //! Visibility of one tile: hidden-surface removal for its bin of triangles.
 //!
 //! ```text
-//!   bin ─► drop what is hidden ─► setup, eight at a time ─► rasterize ─► planes: depth, triangle
+//!   bin ─► drop hidden blocks ─► setup, eight at a time ─► rasterize ─► planes: depth, triangle
 //!                                                        └► translucent ─► layers, back to front
 //! ```
 //!

@@ -70,10 +70,10 @@ fn read_principal_view(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
 /// x' = x + (z − z_p) slant, y' likewise, and z' = z_p or z (OB-1, OB-2).
 fn read_oblique(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     let [x, y, z, _] = m;
-    let upright = x[0].is(1.0) && x[1].is_zero() && y[0].is_zero() && y[1].is(1.0);
+    let keeps_axes = x[0].is(1.0) && x[1].is_zero() && y[0].is_zero() && y[1].is(1.0);
     let flat = [z[0], z[1], z[2]].into_iter().all(Rounded::is_zero);
     let kept = is_unit_row(z, 2);
-    if !upright || !(flat || kept) {
+    if !keeps_axes || !(flat || kept) {
         return None;
     }
     // With depth kept, the plane is where the shear leaves points unchanged.

@@ -19,7 +19,7 @@ use glam::{DMat3, DMat4, DVec3};
 use homog::Projective;
 use projection::{Convention, Decomposed, Frustum, Orthographic, decompose};
 
-/// The cost of a camera that is upside down in the world, if a rival reading has it upright.
+/// The cost of a camera that is upside down in the world, if a rival reading has it right side up.
 const UPSIDE_DOWN: u32 = 6;
 
 /// Adds the readings as a camera with a perspective, in a right- or left-handed world.
@@ -138,8 +138,8 @@ impl PlacedFrame {
     /// Returns whether the camera is at its default position: such a matrix contains no camera.
     fn is_unplaced(&self) -> bool {
         let turn = 1e-9 + 4.0 * self.scale[0].error / self.scale[0].value.abs();
-        let upright = self.right.distance(DVec3::X) < turn && self.gaze.z.abs() > 1.0 - turn;
-        upright && self.eye.length() <= self.eye_error + 1e-12
+        let is_unrotated = self.right.distance(DVec3::X) < turn && self.gaze.z.abs() > 1.0 - turn;
+        is_unrotated && self.eye.length() <= self.eye_error + 1e-12
     }
 
     fn perspective(&self, convention: Convention) -> Option<(MatrixMeaning, u32)> {
@@ -192,7 +192,7 @@ impl PlacedFrame {
     }
 }
 
-/// The cost of an upside-down camera whose numbers may describe an upright one in another
+/// The cost of an upside-down camera whose numbers may describe one that is right side up in another
 /// convention.
 ///
 /// Up is y, or z for a camera whose right axis is level only then.
@@ -221,8 +221,8 @@ pub(crate) fn read_placed_box(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let lengths = rows.map(length_of);
     let square =
         is_square(rows[0], rows[1]) && is_square(rows[1], rows[2]) && is_square(rows[2], rows[0]);
-    let upright = (0..3).all(|i| (0..3).all(|j| i == j || rows[i][j].is_zero()));
-    if upright || !square || lengths.into_iter().any(Rounded::is_zero) {
+    let is_unrotated = (0..3).all(|i| (0..3).all(|j| i == j || rows[i][j].is_zero()));
+    if is_unrotated || !square || lengths.into_iter().any(Rounded::is_zero) {
         return;
     }
     let axes = [0, 1, 2].map(|i| values(rows[i]) / lengths[i].value);

@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn no_scene_is_no_layout() {
+    fn text_without_a_scene_has_no_layout() {
         for text in ["", "Scene(", "Scene(models: [)]", "Scene(modles: [])"] {
             assert!(format_source("scene.ron", text).is_err(), "{text}");
         }

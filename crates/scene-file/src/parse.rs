@@ -290,7 +290,7 @@ fn offset_of(source: &str, position: Position) -> usize {
     before + column.map_or(line.len(), |(offset, _)| offset)
 }
 
-/// Whether a value is in the brackets of a struct, whatever they contain.
+/// Whether a value is in the brackets of a struct with any content.
 fn is_scene(root: &Node<'_>) -> bool {
     root.group().is_some_and(|group| group.open == '(')
 }

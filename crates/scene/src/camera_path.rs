@@ -318,7 +318,7 @@ mod tests {
     }
 
     #[test]
-    fn ways_that_make_no_sense_are_told() {
+    fn invalid_paths_are_rejected() {
         for (fields, told) in [
             ("keys: []", "camera path keys: 0"),
             (

@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn what_makes_no_sense_is_told_at_its_place() {
+    fn invalid_instances_are_reported_at_their_location() {
         for (model, told, mark) in [
             ("instances: Grid(count: (2, 0, 2), step: (1, 1, 1))", "no copies", "(2, 0, 2)"),
             ("instances: Circle(count: 0, radius: 1)", "no copies", "0"),

@@ -229,11 +229,11 @@ fn resolve_paper(file: &SheetFile, size: PaperSize) -> (Paper, &'static str) {
         PaperSize::Letter => (Paper::LETTER, "Letter"),
         PaperSize::Tabloid => (Paper::TABLOID, "Tabloid"),
     };
-    let upright = match file.orientation {
+    let is_portrait = match file.orientation {
         Some(orientation) => orientation == PageOrientation::Portrait,
         None => matches!(size, PaperSize::A4 | PaperSize::A5 | PaperSize::Letter),
     };
-    (if upright { paper } else { paper.rotated() }, name)
+    (if is_portrait { paper } else { paper.rotated() }, name)
 }
 
 /// The unit of the models: the sheet's, otherwise the one that all of their files share.

@@ -29,9 +29,9 @@ pub enum FitPolicy {
     Contain,
     /// As small as possible without margins; the excess is cropped.
     Cover,
-    /// As wide as the rectangle, whatever the height becomes.
+    /// As wide as the rectangle, with any height.
     FixedWidth,
-    /// As high as the rectangle, whatever the width becomes.
+    /// As high as the rectangle, with any width.
     FixedHeight,
 }
 
@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn spare_room_goes_where_it_is_told() {
+    fn extra_space_goes_to_the_requested_side() {
         let wide = Rectangle::from_size(300.0, 100.0).expect("a place");
         for (align, x) in [(0.0, 0.0), (0.5, 100.0), (1.0, 200.0)] {
             let square =

@@ -46,9 +46,9 @@ pub fn file(bytes: &[u8]) {
     }
     if bytes.starts_with(b"glTF") {
         let (json, binary) = glb::parts(bytes);
-        let mended = glb::glb(json, binary);
-        if mended != bytes {
-            show(load(&mended, ImportOptions::default()));
+        let repaired = glb::glb(json, binary);
+        if repaired != bytes {
+            show(load(&repaired, ImportOptions::default()));
         }
     }
 }

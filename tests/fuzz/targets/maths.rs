@@ -14,7 +14,7 @@ mod finite;
 mod homog;
 #[path = "../../soak/projection.rs"]
 mod projection;
-#[allow(dead_code, reason = "what the soak needs besides: to begin calls and to note arguments")]
+#[allow(dead_code, reason = "used by the soak: to begin calls and to record arguments")]
 #[path = "../../soak/random.rs"]
 mod random;
 #[path = "maths/subject.rs"]
@@ -40,6 +40,6 @@ fuzz_target!(|bytes: &[u8]| {
         let mut random = Random::new(Bits::of(numbers));
         let outcome = call(&mut random);
         let right = outcome != Some(false) || !random.drew_only_finite();
-        assert!(right, "{name} gives what is not finite, or a wrong answer");
+        assert!(right, "{name} gives a number that is not finite, or a wrong answer");
     });
 });

@@ -178,7 +178,7 @@ fn compare(expected: &str, printed: &str) -> Outcome {
         };
         let found = if may_skip { lines.any(matches) } else { lines.next().is_some_and(matches) };
         if !found {
-            return Err(format!("the guide says\n{wanted}\nand what is printed is\n{printed}"));
+            return Err(format!("the guide shows\n{wanted}\nbut the output is\n{printed}"));
         }
         may_skip = false;
     }

@@ -76,7 +76,7 @@ fn foreign_parts(page: &str, text: &str) -> Vec<String> {
 fn repeated_anchors(page: &str, text: &str) -> Vec<String> {
     let mut seen = BTreeSet::new();
     let twice = values(text, " id=\"").filter(|anchor| !seen.insert(*anchor));
-    twice.map(|anchor| format!("{page}: `#{anchor}` stands twice")).collect()
+    twice.map(|anchor| format!("{page}: `#{anchor}` occurs twice")).collect()
 }
 
 fn list_files(root: &Path, below: &str, found: &mut BTreeSet<String>) -> Result<(), String> {

@@ -80,7 +80,7 @@ pub fn compare_topics(name: &str, found: &BTreeSet<String>, known: &BTreeSet<Str
     if missing.is_empty() && strange.is_empty() {
         return Ok(());
     }
-    Err(format!("{name} lacks [{missing}] and has besides [{strange}]"))
+    Err(format!("{name} lacks [{missing}] and also has [{strange}]"))
 }
 
 /// The ids in code spans, outside fenced blocks.
@@ -136,6 +136,6 @@ mod tests {
         assert_eq!(found, set(&["C1", "M11b"]));
         assert_eq!(compare_topics("it", &found, &set(&["C1", "M11b"])), Ok(()));
         let error = compare_topics("it", &found, &set(&["C1", "C2"]));
-        assert_eq!(error, Err("it lacks [C2] and has besides [M11b]".to_owned()));
+        assert_eq!(error, Err("it lacks [C2] and also has [M11b]".to_owned()));
     }
 }

@@ -146,7 +146,7 @@ C78   | projection          | The oblique matrix by length and angle of the slan
 C79   | projection          | The oblique matrix by direction, and that both are the same
 C80   | pipeline            | Foreshortening and vanishing points, drawn in a picture
 C81   | homog projection    | Parallels meet in the image of their point at infinity
-C82   | projection          | One-point perspective from an eye before the plane z = 0
+C82   | projection          | One-point perspective from an eye in front of the plane z = 0
 C83   | homog projection    | p, q, r count the principal vanishing points
 C84   | pipeline            | A computer's projection: view coordinates, a view volume, depth retained
 C85   | projection clip     | View plane, window, space and volume, their corners and planes
@@ -155,7 +155,7 @@ C87   | projection clip     | A slanted frustum is normalised by a shear and a s
 C88   | projection pipeline | The frustum becomes a box and order is kept
 C89   | projection clip     | One clipper serves parallel and perspective projection
 C90   | projection          | Ortho as translation and scale, equal borders refused
-C91   | projection          | glFrustum, upright or slanted, to [−1, 1]³
+C91   | projection          | glFrustum, symmetric or off-axis, to [−1, 1]³
 C92   | projection          | The symmetric perspective matrix
 C93   | projection          | Parity with the builders of a well-known library, in radians
 C94   | pipeline            | Sheets for ortho and perspective
@@ -195,7 +195,7 @@ M16   | projection          | right − left for right + left in glFrustum
 M17   | projection          | Half of the tangent for the tangent of the half
 M18   | viewport            | +y for −y in the window's first translation
 M19   | projection          | 45 degrees given as 45 radians
-M20   | projection          | u ∈ [0, 1] in one-point perspective: it exceeds 1 before the plane
+M20   | projection          | u ∈ [0, 1] in one-point perspective: it exceeds 1 in front of the plane
 M21   | projection viewport | gluOrtho with the six arguments of glOrtho
 M22   | viewport            | (1 − Z)/2 where near is not at +1
 M23   | viewport            | Counts of rows and columns paired crosswise

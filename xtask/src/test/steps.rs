@@ -111,7 +111,7 @@ fn suite_steps() -> Vec<Step> {
             "line drawings against the z-buffer: models, a tenth of the random scenes",
         ),
         suite("corpus", "valid, odd and broken glTF files are rendered, or refused with a reason"),
-        suite("looks", "what is drawn is not black, empty or unlit"),
+        suite("looks", "pictures are not black, empty or unlit"),
         suite("references", "pictures against ray traced ones, by the formulas of glTF"),
         suite("assemblies", "sheets of models with several parts, a tenth of the models"),
         suite("goldens", "every scene against its golden image, pixel by pixel"),

@@ -204,7 +204,7 @@ pub(super) fn build_oblique(list: &NumberList, options: BuildOptions) -> Built {
     let factors = oblique.factors(volume, options.volume());
     let matrix = factors.view_to_clip().raw();
     let factors = vec![
-        ("shear, the projectors upright", factors.shear.raw()),
+        ("shear: projectors perpendicular to the picture", factors.shear.raw()),
         ("fit, the box to the canonical volume", factors.fit.raw()),
     ];
     let subject = format!("{subject}, {}", volume_words(numbers));

@@ -94,7 +94,7 @@ proptest! {
 
 #[test]
 fn a_quarter_turn_has_the_quaternion_of_the_books() {
-    // About +z by 90°: (cos 45°, 0, 0, sin 45°); x goes to y.
+    // About +z by 90°: (cos 45°, 0, 0, sin 45°); x maps to y.
     let half = 0.5_f64.sqrt();
     let made = Extrinsics::from_quaternion([half, 0.0, 0.0, half], [0.0; 3], CameraAxes::OpenCv);
     let seen = apply(made.expect("a camera"), Point::new(1.0, 0.0, 0.0));
@@ -121,7 +121,7 @@ fn half_turns_have_quaternions_too() {
 }
 
 #[test]
-fn what_is_no_rotation_is_told() {
+fn invalid_rotations_are_rejected() {
     let new = |rotation| Extrinsics::new(rotation, [0.0; 3], CameraAxes::OpenCv);
     let scaled = IDENTITY.map(|row| row.map(|entry| entry * 2.0));
     assert_eq!(new(scaled), Err(CameraError::NotRotation { deviation: 3.0 }));

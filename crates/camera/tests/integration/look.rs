@@ -86,7 +86,7 @@ fn misprint_m11_a_translation_without_its_one_is_singular() {
 }
 
 /// Notes have the camera look "from the −z axis": it is at the origin of its own space and looks
-/// along −z, so what it looks at lies there.
+/// along −z, so its target is there.
 #[test]
 fn misprint_m11b_the_camera_looks_along_minus_z_and_does_not_stand_there() {
     let (eye, target) = (Point::new(4.0, -1.0, 2.0), Point::new(1.0, 3.0, 2.0));
@@ -101,7 +101,7 @@ fn a_millionth_of_a_radian_between_up_and_gaze_is_enough_and_costs_no_digits() {
     let t = 1e-6;
     let camera =
         Camera::look_to(Point::ORIGIN, v(1.0, 2.0, 3.0), v(1.0 + t, 2.0, 3.0)).expect("valid");
-    // t × w is along (0, −3, 2) whatever t is.
+    // t × w is along (0, −3, 2) for any t.
     let want = v(0.0, 3.0, -2.0) / libm::sqrt(13.0);
     assert!((camera.u() + want).length() < 1e-15 || (camera.u() - want).length() < 1e-15);
 }

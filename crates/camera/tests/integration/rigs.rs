@@ -177,7 +177,7 @@ fn orbits_pass_through_the_named_views_poles_included() {
 }
 
 #[test]
-fn too_far_away_to_measure_is_no_orbit() {
+fn an_orbit_too_far_to_measure_is_rejected() {
     let orbit = |size: f64| {
         let target = Point::new(-size, 0.0, -size);
         Orbit::from_camera(

@@ -1,7 +1,7 @@
 //! Clipping as the sources have it, with their misprints and traps.
 //!
 //! The projection is the chapter's, in its form with w > 0 (PE-3), for n = −1, f = −9 and the
-//! window [−1, 1]²: w = −z, and near goes to depth 1, far to −1.
+//! window [−1, 1]²: w = −z, and near maps to depth 1, far to −1.
 
 use clip::{PlaneIndex, Volume, clip_point, clip_segment, clip_triangle};
 use glam::{DMat4, DVec4};
@@ -47,7 +47,7 @@ fn a_segment_that_passes_the_eye_ends_at_the_border_of_the_view() {
     assert_eq!((end.y(), visible.exit), (-1.0, Some(PlaneIndex::BOTTOM)));
 }
 
-/// C36: z = ±ε. Just ahead of the eye and just behind it the images lie at opposite ends of the
+/// C36: z = ±ε. Just ahead of the eye and just behind it the images are at opposite ends of the
 /// picture.
 #[test]
 fn points_on_both_sides_of_the_eye_are_far_apart_in_the_picture() {

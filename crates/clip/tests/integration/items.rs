@@ -19,7 +19,7 @@ fn at(p: [f64; 3], w: f64) -> HPoint<Clip> {
 }
 
 /// C4, C7, C85: six planes with names bound the volume, and a point tells by itself which of them
-/// it is beyond, whatever its w.
+/// it is beyond, for any w.
 #[test]
 fn the_canonical_volume_has_six_named_planes() {
     let volume = Volume::CHAPTER;

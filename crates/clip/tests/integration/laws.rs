@@ -162,7 +162,7 @@ proptest! {
         prop_assert!(small <= large + 1e-12);
     }
 
-    /// The guard band changes what is handed on, not what is inside of the view.
+    /// The guard band changes which triangles are passed on, not the visible part.
     #[test]
     fn clipping_to_the_band_first_changes_nothing_inside(corners in [place(), place(), place()], k in 1.0..16.0) {
         let band = Volume::CHAPTER.with_guard_band(k, k).expect("allowed");

@@ -167,9 +167,9 @@ fn a_ring_cut_flat_has_a_hole_and_cut_upright_two_pieces() {
     let (loops, flat) = pieces(Normal::new(0.0, 1.0, 0.0));
     assert_eq!(loops, 2);
     assert!((flat - TAU / 2.0 * (2.73 * 2.73 - 1.27 * 1.27)).abs() < 0.8, "{flat}");
-    let (loops, upright) = pieces(Normal::new(0.0, 0.0, 1.0));
+    let (loops, vertical) = pieces(Normal::new(0.0, 0.0, 1.0));
     assert_eq!(loops, 2);
-    assert!((upright - TAU * 0.75 * 0.75).abs() < 0.4, "{upright}");
+    assert!((vertical - TAU * 0.75 * 0.75).abs() < 0.4, "{vertical}");
 }
 
 #[test]

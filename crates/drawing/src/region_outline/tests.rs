@@ -150,11 +150,11 @@ fn what_crosses_too_often_is_traced_on_the_grid() {
     // A thousand sticks in each direction: a million crossings in a square of 20 mm.
     let stick = |at: i32| [[at, 0], [at + 10, 0], [at + 10, 20_000], [at, 20_000]];
     let sticks = (0..1000).map(|k| stick(20 * k));
-    let sides = sticks.flat_map(|upright| {
-        let lying = upright.map(|[x, y]| [y, x]);
+    let sides = sticks.flat_map(|vertical| {
+        let horizontal = vertical.map(|[x, y]| [y, x]);
         // Reversed: their orientation is negative.
-        let lying = [lying[3], lying[2], lying[1], lying[0]];
-        [polygon(&upright), polygon(&lying)].concat()
+        let horizontal = [horizontal[3], horizontal[2], horizontal[1], horizontal[0]];
+        [polygon(&vertical), polygon(&horizontal)].concat()
     });
     let sides: Vec<_> = sides.collect();
     assert!(is_traced(sides.iter().copied()));

@@ -329,9 +329,9 @@ fn add_parameters(step: Step, meaning: &MatrixMeaning) -> Step {
             .with_item("skew", "skew", k.skew),
         MatrixMeaning::Windowing { scale, offset } => {
             let ends = |end: f64| [0, 1, 2].map(|axis| scale[axis] * end + offset[axis]);
-            step.with_item("low", "(-1, -1, -1) goes to", ends(-1.0))
-                .with_item("origin", "(0, 0, 0) goes to", ends(0.0))
-                .with_item("high", "(1, 1, 1) goes to", ends(1.0))
+            step.with_item("low", "(-1, -1, -1) maps to", ends(-1.0))
+                .with_item("origin", "(0, 0, 0) maps to", ends(0.0))
+                .with_item("high", "(1, 1, 1) maps to", ends(1.0))
         }
         _ => step,
     }

@@ -267,7 +267,7 @@ fn describe_image(map: Projective<World, Clip>, point: Point<World>) -> String {
     let clip = map.transform_point(point);
     let Some(image) = clip.divide() else { return "has no image".to_owned() };
     let [w, x, y] = [clip.w(), image.x(), image.y()].map(|number| format_short(number, 3));
-    format!("has w = {w}, goes to ({x}, {y})")
+    format!("has w = {w}, maps to ({x}, {y})")
 }
 
 /// Text as strokes.
@@ -334,7 +334,7 @@ mod tests {
         for (z, note) in [(3.0, 0), (0.01, 1)] {
             let [ahead, behind] = [z, -z].map(|w: f64| {
                 format!(
-                    "w = {}, goes to ({}, {})",
+                    "w = {}, maps to ({}, {})",
                     format_short(w, 3),
                     format_short(x / w, 3),
                     format_short(y / w, 3)

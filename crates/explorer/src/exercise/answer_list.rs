@@ -187,7 +187,7 @@ fn without_row_names(rows: Vec<&str>) -> Result<Vec<&str>, AnswerError> {
     let beside = rows.iter().find(|row| row.contains('=') && !row.starts_with(char::is_uppercase));
     let beside = beside.or_else(|| rows.iter().find(|row| row.contains('='))).unwrap_or(&rows[0]);
     Err(AnswerError::new(
-        format!("the matrix alone is asked: leave out `{beside}`"),
+        format!("only the matrix is expected: omit `{beside}`"),
         format!("只需给出矩阵本身：请去掉 `{beside}`"),
     ))
 }

@@ -347,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_expression_is_named() {
+    fn invalid_expressions_are_reported() {
         for (text, part) in [
             ("", "not complete"),
             ("n+", "not complete"),

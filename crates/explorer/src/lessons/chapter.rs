@@ -119,7 +119,7 @@ pub(super) static MIDPOINT_DEPTH: Lesson = Lesson {
     items: &["C41", "C48"],
     title: words("Depth of the midpoint", "中点的深度"),
     statement: words(
-        "P keeps the order of depths but not their ratios: the middle z = (n + f)/2 goes to (n² + f²)/(n + f), which is nearer to f. The farther apart n and f are, the more of the range is spent near the eye.",
+        "P keeps the order of depths but not their ratios: the middle z = (n + f)/2 maps to (n² + f²)/(n + f), which is nearer to f. The farther apart n and f are, the more of the range is spent near the eye.",
         "P 保持深度的次序，但不保持比例：中点 z = (n + f)/2 映为 (n² + f²)/(n + f)，更靠近 f。n 与 f 相差越大，深度范围就越多地用在近处。",
     ),
     parameters: &[plane_n(-4.0), plane_f(-40.0)],
@@ -131,7 +131,7 @@ pub(super) static MIDPOINT_DEPTH: Lesson = Lesson {
         let [middle, image] = [middle, image].map(|z| decimals(z, 3));
         vec![sentence(
             format!(
-                "The middle z = {middle} goes to {image}; in the canonical view volume, where near is 1 and far −1, that is {depth} and not 0."
+                "The middle z = {middle} maps to {image}; in the canonical view volume, where near is 1 and far −1, that is {depth} and not 0."
             ),
             format!(
                 "中点 z = {middle} 映为 {image}；在近平面为 1、远平面为 −1 的规范视见体中，深度是 {depth}，而不是 0。"

@@ -139,7 +139,7 @@ fn exercise_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
         }
         _ => vec![sentence(
             format!(
-                "The corner (r, t, n) of the window goes to (1, 1, 1), and to the upper right corner of the picture: ({}, {}).",
+                "The corner (r, t, n) of the window maps to (1, 1, 1), and to the upper right corner of the picture: ({}, {}).",
                 decimals(width - 0.5, 1),
                 decimals(height - 0.5, 1)
             ),

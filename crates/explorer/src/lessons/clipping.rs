@@ -65,7 +65,7 @@ fn tear_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
     )];
     sentences.push(match values.choice("order") {
         "divide" => sentence(
-            "Divided first, they land where nothing is: the view volume pane shows what would be drawn.",
+            "Divided first, they land in empty space: the view volume pane shows what would be drawn.",
             "如果先做透视除法，它们会落到本来没有东西的地方：视见体窗格显示会画出什么。",
         ),
         _ => sentence(

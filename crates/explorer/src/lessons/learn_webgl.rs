@@ -150,7 +150,7 @@ pub(super) static ORTHO: Lesson = Lesson {
     items: &["C90", "C94"],
     title: words("Orthographic projection", "正交投影"),
     statement: words(
-        "A box of the world is shown without foreshortening: what is twice as far is as large. A smaller window enlarges; near and far only clip, and near may even be behind the camera.",
+        "A box of the world is shown without foreshortening: an object twice as far away looks as large. A smaller window enlarges; near and far only clip, and near may even be behind the camera.",
         "长方体视见体中的物体没有近大远小：远一倍的物体同样大。窗口越小，物体越大；近平面和远平面只裁剪，近平面甚至可以在相机后面。",
     ),
     parameters: &[

@@ -20,7 +20,7 @@ pub(super) static STEREO: Lesson = Lesson {
     items: &["C65"],
     title: words("Stereo pair", "立体像对"),
     statement: words(
-        "Two eyes look in one direction through off-axis windows that agree at the convergence distance. What is there has no parallax; what is nearer stands out of the picture. The eyes are not turned towards each other, and the apex is not moved: both would give vertical parallax or another picture.",
+        "Two eyes look in one direction through off-axis windows that agree at the convergence distance. A point there has no parallax; a nearer one appears out of the picture. The eyes are not turned towards each other, and the apex is not moved: both would give vertical parallax or another picture.",
         "两只眼睛朝同一方向，透过在会聚距离上重合的离轴窗口观看。会聚距离处没有视差；更近的物体凸出画面。眼睛不向内转动，也不移动顶点：那样会产生垂直视差或不同的图像。",
     ),
     parameters: &[
@@ -67,14 +67,14 @@ fn stereo_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
         match shift < 0.0 {
             true => sentence(
                 format!(
-                    "{} (distance {text}): crossed parallax {amount}, it stands out of the picture.",
+                    "{} (distance {text}): crossed parallax {amount}, it appears in front of the picture.",
                     what[0]
                 ),
                 format!("{}（距离 {text}）：交叉视差 {amount}，凸出画面。", what[1]),
             ),
             false => sentence(
                 format!(
-                    "{} (distance {text}): parallax {amount}, it lies behind the picture.",
+                    "{} (distance {text}): parallax {amount}, it appears behind the picture.",
                     what[0]
                 ),
                 format!("{}（距离 {text}）：视差 {amount}，位于画面之后。", what[1]),

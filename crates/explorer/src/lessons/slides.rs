@@ -178,7 +178,7 @@ pub(super) static MEXICAN_HAT: Lesson = Lesson {
     items: &["C98"],
     title: words("Mexican hat", "墨西哥帽"),
     statement: words(
-        "The indices of a grid are a window too: i from 0 to n − 1 goes to x = 2 i/(n − 1) − 1 from −1 to 1, and the height over each point makes a mesh.",
+        "The indices of a grid are a window too: i from 0 to n − 1 maps to x = 2 i/(n − 1) − 1 from −1 to 1, and the height over each point makes a mesh.",
         "网格的下标也构成一个窗口：i 从 0 到 n − 1 映为 x = 2 i/(n − 1) − 1，从 −1 到 1；每个点上的高度构成网格曲面。",
     ),
     models: &[HAT, HAT_LINES],

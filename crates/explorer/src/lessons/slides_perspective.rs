@@ -75,7 +75,7 @@ pub(super) static TWO_POINT: Lesson = Lesson {
     items: &["C80", "C83"],
     title: words("Two-point perspective", "两点透视"),
     statement: words(
-        "Uprights are parallel to the picture and stay upright; lines along x and along z meet in two vanishing points on the horizon. Points close together look like a wide-angle lens.",
+        "Vertical lines are parallel to the picture and stay vertical; lines along x and along z meet in two vanishing points on the horizon. Points close together look like a wide-angle lens.",
         "竖直线平行于画面，保持竖直；x 方向和 z 方向的直线分别交于视平线上的两个灭点。两灭点靠得越近，越像广角镜头。",
     ),
     parameters: &[
@@ -122,7 +122,7 @@ pub(super) static THREE_POINT: Lesson = Lesson {
     items: &["C80", "C83"],
     title: words("Three-point perspective", "三点透视"),
     statement: words(
-        "No axis is parallel to the picture: verticals meet too, far below when one looks down. The eye stands over the orthocenter of the triangle of the three vanishing points.",
+        "No axis is parallel to the picture: verticals meet too, far below when one looks down. The eye is above the orthocenter of the triangle of the three vanishing points.",
         "没有坐标轴平行于画面：竖直线也相交，俯视时灭点在下方远处。视点位于三个灭点所成三角形垂心的正前方。",
     ),
     parameters: &[

@@ -24,7 +24,7 @@ fn a_broken_model_is_an_error_and_the_next_request_works() {
 }
 
 #[test]
-fn missing_models_are_told() {
+fn missing_models_are_reported() {
     let mut explorer = explorer_with_models();
     assert_eq!(code(&mut explorer, "what=picture&lesson=model"), "missing_model");
     assert_eq!(code(&mut explorer, "what=picture&lesson=model&model=no.glb"), "missing_model");

@@ -33,7 +33,7 @@ fn exercises_have_right_answers_in_several_notations() {
 }
 
 #[test]
-fn every_mistake_is_named_and_no_two_are_told_alike() {
+fn every_mistake_has_its_own_message() {
     for Case { number, mistaken, .. } in cases() {
         let mut told = BTreeMap::new();
         for (answer, id) in *mistaken {
@@ -45,7 +45,7 @@ fn every_mistake_is_named_and_no_two_are_told_alike() {
             assert_eq!(mistake.id, *id, "{number}, {answer}");
             assert!(said.en.starts_with("not right: ") && said.zh.starts_with("不对："));
             let id = told.entry((said.en, said.zh)).or_insert(*id);
-            assert_eq!(*id, mistake.id, "{number}, {answer}: two mistakes are told alike");
+            assert_eq!(*id, mistake.id, "{number}, {answer}: two mistakes have the same message");
         }
         let all = &find_exercise(*number).expect("an exercise").mistakes;
         assert_eq!(told.len(), all.len(), "{number}: some mistakes are not tried");
@@ -53,7 +53,7 @@ fn every_mistake_is_named_and_no_two_are_told_alike() {
 }
 
 #[test]
-fn wrong_answers_without_a_name_are_told_entry_by_entry() {
+fn unrecognized_wrong_answers_are_compared_entry_by_entry() {
     for Case { number, unknown: (answer, part), .. } in cases() {
         let verdict = check(*number, answer);
         assert!(matches!(verdict, Verdict::Different { .. }), "{number}: {verdict:?}");
@@ -68,7 +68,7 @@ fn wrong_answers_without_a_name_are_told_entry_by_entry() {
 }
 
 #[test]
-fn rounded_answers_are_told_and_others_are_refused() {
+fn rounded_answers_are_flagged_and_others_refused() {
     for (number, answer) in [(16, "3.81"), (14, "2.732, 2"), (23, "2.615"), (24, "0.2001")] {
         let verdict = check(number, answer);
         assert!(matches!(verdict, Verdict::Rounded), "{number}, {answer}: {verdict:?}");
@@ -90,14 +90,14 @@ fn rounded_answers_are_told_and_others_are_refused() {
         (
             6,
             "f 0 0 0; 0 f 0 0; 0 0 0 n*f; 0 0 -1 n+f; c=n*f",
-            "the matrix alone is asked: leave out `c=n*f`",
+            "only the matrix is expected: omit `c=n*f`",
         ),
         (
             10,
             "u=(0,0,1); v=(1,0,0); w=(0,1,0); M=[0 0 1 0; 1 0 0 0; 0 1 0 -1; 0 0 0 1]",
-            "alone is asked: leave out `u=(0,0,1)`",
+            "only the matrix is expected: omit `u=(0,0,1)`",
         ),
-        (6, "Q=[f,0,0,0;0,f,0,0;0,0,0,nf;0,0,-1,n+f], c=nf", "leave out `c=nf`"),
+        (6, "Q=[f,0,0,0;0,f,0,0;0,0,0,nf;0,0,-1,n+f], c=nf", "omit `c=nf`"),
         (6, "1/n [f 0 0 0; 0 f 0 0; 0 0 0 f n; 0 0 -1 n+f]", "write `n*f`, or commas"),
         (7, "n", "1 entry instead of 4"),
         (14, "1+2cos30°, 2", "write `cos(30°)`"),

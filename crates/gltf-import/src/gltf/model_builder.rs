@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  1. scene graph    nodes, scenes, cameras, lights, materials, textures, skins, animations
-//!  2. images         read as far as the JSON announces them, then decoded by other threads
+//!  2. images         read if the JSON announces them, then decoded by other threads
 //!  3. geometry       meshes, variants, instances, while the images are decoded
 //!  4. images         stored; read again if the meshes turned out to need others
 //! ```

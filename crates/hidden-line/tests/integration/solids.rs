@@ -144,13 +144,13 @@ fn a_cylinder_before_a_box() {
         !line.visible && line.object == 0 && line.ends.iter().all(|end| end.y == 550.0)
     });
     assert_segments_cover(&hidden, &[[[-1.5, -1.5], [right, -1.5]]]);
-    let upright = segments_where(&drawing, |line| {
+    let vertical = segments_where(&drawing, |line| {
         line.visible && line.class == Silhouette && line.object == 1
     });
     let left = positions.iter().map(|[x, _, z]| f64::from(*x) - 0.5 * f64::from(*z));
     let left = left.fold(f64::INFINITY, f64::min);
-    assert_eq!(upright.len(), 2, "{upright:?}");
-    for [a, b] in upright {
+    assert_eq!(vertical.len(), 2, "{vertical:?}");
+    for [a, b] in vertical {
         let at = if a[0] > -2.0 { right } else { left };
         assert!((a[0] - at).abs() < 1e-9 && (b[0] - at).abs() < 1e-9, "{a:?} {b:?}");
     }

@@ -158,7 +158,7 @@ fn points_lines_and_strips() {
 }
 
 #[test]
-fn what_is_not_finite_is_left_out() {
+fn items_that_are_not_finite_are_skipped() {
     let file = triangle("", [""; 3], FACE, "3 0 1 2").replace("1 0 0 \n", "nan 1e39 0\n");
     let model = load(file.as_bytes());
     assert!(corners(&model).is_empty());
@@ -262,7 +262,7 @@ fn a_scalar_property_replaces_colors() {
 }
 
 #[test]
-fn a_scalar_property_that_is_not_there_is_an_error_with_those_that_are() {
+fn a_missing_scalar_property_is_an_error_that_lists_the_others() {
     let fault = |name: &str, file: &str, attribute: &str| {
         let scalars = ScalarColors { attribute: attribute.to_owned(), ..ScalarColors::default() };
         let options = ImportOptions { scalars: Some(scalars), ..ImportOptions::default() };

@@ -306,7 +306,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_xml_is_an_error_with_its_place() {
+    fn malformed_xml_is_an_error_with_its_location() {
         let table = [
             ("<a><b>\n</a>", "a.xml: line 2, column 1: this is not the end of the innermost"),
             ("<a><b", "a.xml: line 1, column 4: the tag has no end"),

@@ -1,6 +1,6 @@
 //! Passes, regions, bit depths and styles of pictures.
 
-#![allow(clippy::panic, reason = "what is missing in an answer fails the test")]
+#![allow(clippy::panic, reason = "a missing part of an answer fails the test")]
 
 mod passes;
 mod plane;

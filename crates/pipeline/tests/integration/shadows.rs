@@ -359,7 +359,7 @@ fn occlusion_darkens_corners_and_nothing_that_is_open() {
     let pairs = with.pixels.iter().zip(&without.pixels);
     assert!(
         pairs.map(|(a, b)| a[0].abs_diff(b[0])).max() <= Some(8),
-        "a ball is open but for its facets"
+        "a ball is open except for its facets"
     );
     // A dark wall on a dark floor: at its foot half of the light is missing, and far away nothing.
     let wall_on_floor = |albedo: f32| {

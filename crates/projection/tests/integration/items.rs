@@ -17,7 +17,7 @@ fn close(ours: [f64; 3], due: [f64; 3]) -> bool {
     ours.iter().zip(due).all(|(a, b)| (a - b).abs() < 1e-12 * (1.0 + b.abs()))
 }
 
-/// PE-1: (x, y, z) goes to (nx/z, ny/z, n + f − fn/z). As n and z are both negative nothing is
+/// PE-1: (x, y, z) maps to (nx/z, ny/z, n + f − fn/z). As n and z are both negative nothing is
 /// turned over, and what is nearer stays nearer.
 #[test]
 fn c24_p_neither_turns_over_nor_reorders() {
@@ -44,7 +44,7 @@ fn misprint_m5_the_numerator_is_the_product_of_f_and_n() {
     assert_eq!(divided(p.transform_point(Point::new(0.0, 0.0, -2.0)))[2], image(F * N, -2.0));
 }
 
-/// P gives (nx, ny, (n + f)z − fn, z), which stands for (nx/z, …) and does not equal it.
+/// P gives (nx, ny, (n + f)z − fn, z), which is equivalent to (nx/z, …) but not equal to it.
 #[test]
 fn misprint_m11b_before_the_divide_there_is_equivalence_not_equality() {
     let image = chapter::p(N, F).expect("valid").transform_point(Point::new(0.5, 1.5, -2.0));
@@ -76,7 +76,7 @@ fn c28_the_divide_comes_once_at_the_end_of_the_chain() {
     assert!(close(divided(chain.transform_point(place)), step_by_step), "{step_by_step:?}");
 }
 
-/// Distances in a plane parallel to the picture come out at one scale, whatever the depth.
+/// Distances in a plane parallel to the picture come out at one scale at any depth.
 #[test]
 fn c34_orthographic_pictures_can_be_measured() {
     let map = Orthographic::new(-4.0, 4.0, -3.0, 3.0, 0.0, 20.0)
@@ -142,18 +142,18 @@ fn c86_a_slanted_prism_is_sheared_upright_and_fitted() {
     }
 }
 
-/// Whatever the projection, what is visible fills the same cube: a clipper need not know which.
+/// With every projection the visible part fills the same cube: a clipper need not know which.
 #[test]
 fn c89_parallel_and_perspective_end_in_the_same_volume() {
     let c = Convention::CHAPTER;
     let volume = Orthographic::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0).expect("valid");
     let slant = Oblique::cabinet(0.5).expect("valid");
     let frustum = Frustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0).expect("valid");
-    let upright = (volume.view_to_clip(c), volume.clip_to_view(c));
+    let straight = (volume.view_to_clip(c), volume.clip_to_view(c));
     let slanted = slant.view_to_clip(volume, c);
     let slanted = (slanted, slanted.inverse().expect("regular"));
     let central = (frustum.view_to_clip(c), frustum.clip_to_view(c));
-    for (view_to_clip, clip_to_view) in [upright, slanted, central] {
+    for (view_to_clip, clip_to_view) in [straight, slanted, central] {
         for corner in 0..8_u8 {
             let sign = |bit: u8| if corner & bit == 0 { -1.0 } else { 1.0 };
             let ndc = [sign(1), sign(2), sign(4)];
@@ -182,7 +182,7 @@ fn misprint_m7_a_volume_of_zero_to_one_has_three_sides() {
         to_unit.transform_point(ndc.expect("ahead")).into()
     };
     assert!(close(image(-1.0, -2.0, -2.0), [0.0; 3]) && close(image(9.0, 3.0, -6.0), [1.0; 3]));
-    // Zero to one in depth alone, as the interfaces have it, is another volume.
+    // Zero to one only in depth, as the interfaces have it, is another volume.
     let depth_only =
         frustum.view_to_clip(Convention::WEBGPU).transform_point(Point::new(-1.0, -2.0, -2.0));
     assert!(close(divided(depth_only), [-1.0, -1.0, 0.0]));

@@ -140,7 +140,7 @@ fn the_nearer_wins_and_at_equal_depth_the_first() {
     };
     assert_eq!(seen(&[0.25, 0.75, 0.5]), Some(1));
     assert_eq!(seen(&[0.5, 0.5]), Some(0));
-    assert_eq!(seen(&[0.0]), Some(0), "what lies on the far plane is seen");
+    assert_eq!(seen(&[0.0]), Some(0), "a point on the far plane is visible");
 }
 
 #[test]

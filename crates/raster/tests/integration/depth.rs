@@ -28,7 +28,7 @@ fn frame(samples: Samples) -> Frame {
     Frame::new(SIDE, SIDE, samples).expect("a frame")
 }
 
-/// The ids that a depth function leaves, triangle after triangle, each of them drawn alone.
+/// The ids that a depth function leaves, triangle after triangle, each drawn separately.
 fn expected_ids(triangles: &[Corners], compare: DepthCompare) -> Vec<Option<u32>> {
     let empty = match compare {
         DepthCompare::Less | DepthCompare::LessEqual => f32::INFINITY,
@@ -115,7 +115,7 @@ proptest! {
         }
     }
 
-    /// A pass for depth alone, then one that shades what is at that very depth.
+    /// A depth-only pass, then one that shades what is at that very depth.
     #[test]
     fn a_depth_pre_pass_hides_nothing(triangles in prop::collection::vec(corners(), 1..10)) {
         let surface = surface_fn(|_| [1.0; 4]);
@@ -216,7 +216,7 @@ impl Monitor for Progress {
 }
 
 #[test]
-fn a_monitor_is_told_when_all_is_done() {
+fn a_monitor_is_notified_at_the_end() {
     let progress = Arc::new(Progress::default());
     let monitor: Arc<dyn Monitor> = Arc::clone(&progress) as _;
     let drawn = Frame::new(64, 640, Samples::One).expect("a frame").with_monitor(monitor);

@@ -206,7 +206,7 @@ fn sizes_out_of_range_are_refused() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_no_vertex_and_what_has_none_is_not_drawn() {
+fn points_without_a_screen_vertex_are_not_drawn() {
     let wrong = [
         ScreenVertex::new(i32::MIN, 0, 0.5, 1.0),
         ScreenVertex::new(0, i32::MAX, 0.5, 1.0),

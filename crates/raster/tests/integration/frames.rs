@@ -6,7 +6,7 @@ use raster::{CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, Surface}
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
-/// Counts what is shaded, and asks for the end with the first of it.
+/// Counts shaded pixels, and requests the end at the first one.
 #[derive(Default)]
 struct Impatient {
     shaded: AtomicU32,

@@ -43,7 +43,7 @@ fn cover_of(id: u32) -> Opacity {
     [Opacity::Opaque, Opacity::Masked, Opacity::Translucent][id as usize % 3]
 }
 
-/// For each pixel the primitives that cover its center, with their depths, each drawn alone.
+/// For each pixel the primitives that cover its center, with their depths, each drawn separately.
 fn covering() -> Vec<Vec<(u32, f32)>> {
     let mut all = vec![Vec::new(); (SIZE[0] * SIZE[1]) as usize];
     for (id, corners) in (0..).zip(triangles()) {
@@ -94,6 +94,6 @@ fn layers_are_counted_whatever_hides_them() {
     let mut counts = vec![0; (SIZE[0] * SIZE[1]) as usize];
     frame.count_overdraw(&Kept, 2, &mut counts);
     let due: Vec<u32> = covering().iter().map(|pixel| pixel.len() as u32).collect();
-    assert!(due.iter().any(|count| *count > 8), "they lie over each other");
+    assert!(due.iter().any(|count| *count > 8), "they overlap");
     assert_eq!(counts, due);
 }

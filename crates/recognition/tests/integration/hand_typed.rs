@@ -36,7 +36,7 @@ fn one_entry_with_more_digits_does_not_hide_a_camera() {
 
 /// A matrix stored column by column has a far-fetched reading as it stands.
 #[test]
-fn a_stored_translation_is_no_three_point_perspective() {
+fn a_stored_translation_is_not_a_three_point_perspective() {
     for by in [[3.0, 4.0, 5.0], [10.0, -2.0, 0.5], [0.0, 0.0, -5.0]] {
         let found = recognized(transposed(translation(by)));
         assert_eq!(found.misprint().map(|m| m.misprint), Some(Misprint::Transposed), "{by:?}");
@@ -148,7 +148,7 @@ fn a_perspective_to_pixels_is_read() {
 }
 
 /// M13 (+mid_y), M18 (+yw_min) and M22 ((1 − z)/2) print right matrices of other numbers: nothing
-/// in the sixteen of them is wrong, so they are read as they stand and have no row in the table.
+/// in the sixteen of them is wrong, so they are read as printed and have no row in the table.
 #[test]
 fn slips_that_print_another_right_matrix_are_read_as_that() {
     let m13 = recognized(translation([-1.0, 0.5, 0.0]));

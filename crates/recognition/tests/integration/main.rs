@@ -71,7 +71,7 @@ fn the_perspective_onto_a_plane_may_drop_z() {
 proptest::proptest! {
     #![proptest_config(samples::cases(512))]
 
-    /// Any numbers whatever have a reading, if only as a map without a name, and nothing panics.
+    /// Any numbers have a reading, if only as a map without a name, and nothing panics.
     #[test]
     fn any_matrix_has_a_reading(entries in proptest::array::uniform16(any_entry())) {
         let found = recognize(rows_of(DMat4::from_cols_array(&entries)));

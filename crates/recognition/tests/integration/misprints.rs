@@ -55,7 +55,7 @@ fn printed(misprint: Misprint, wanted: IntendedProjection) -> DMat4 {
     matrix.raw()
 }
 
-/// The doctor finds the slip in the numbers alone, and its remedy is the wanted matrix.
+/// The doctor finds the misprint from the numbers, and its remedy is the wanted matrix.
 fn cured(matrix: DMat4, misprint: Misprint, wanted: DMat4) {
     let told = recognize(rows_of(matrix)).suspicions;
     let found = told.iter().find(|found| found.misprint == misprint).expect("recognized");
@@ -344,7 +344,7 @@ proptest! {
     }
 
     #[test]
-    fn each_slip_is_told_from_the_others(
+    fn each_misprint_is_distinguished_from_the_others(
         f in frustum(),
         p in perspective(),
         o in orthographic(),

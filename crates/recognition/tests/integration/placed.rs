@@ -98,8 +98,8 @@ fn a_camera_of_vulkan_is_upright_in_a_right_handed_world() {
             panic!("{eye:?}: {found:?}")
         };
         assert_eq!(convention, Convention::VULKAN, "{eye:?}, {up:?}");
-        let upright: f64 = (0..3).map(|i| camera.up[i] * up[i]).sum();
-        assert!(upright > 0.0, "{camera:?}");
+        let cosine: f64 = (0..3).map(|i| camera.up[i] * up[i]).sum();
+        assert!(cosine > 0.0, "{camera:?}");
     }
 }
 
@@ -121,7 +121,7 @@ fn a_box_of_pixels_from_the_upper_left_is_opengls() {
     }
 }
 
-/// A box tells less of its camera than a pyramid: up is right side up, whatever the convention.
+/// A box determines less of its camera than a pyramid: up is right side up in every convention.
 #[test]
 fn a_camera_with_a_box_is_upright() {
     let (eye, gaze) = ([4.0, 3.0, 6.0], [-4.0, -3.0, -6.0]);

@@ -81,7 +81,7 @@ fn maps_of_the_plane_have_their_names() {
 
 /// COLMAP's R: a rotation of space has no row (0, 0, 1).
 #[test]
-fn rotations_of_space_are_told_from_maps_of_the_plane() {
+fn rotations_of_space_are_distinguished_from_maps_of_the_plane() {
     let (s, c) = libm::sincos(0.5);
     let rows = [[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]];
     let PlanarMatrix::SpatialRotation { axis, angle_degrees } = first(rows).meaning else {
@@ -92,7 +92,7 @@ fn rotations_of_space_are_told_from_maps_of_the_plane() {
 }
 
 #[test]
-fn a_vanishing_line_is_no_translation_of_row_vectors() {
+fn a_vanishing_line_is_not_a_translation_of_row_vectors() {
     let (readings, transposed) =
         recognize_planar([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.1, 0.2, 1.0]]);
     assert_eq!(readings[0].meaning, PlanarMatrix::Homography);

@@ -196,7 +196,7 @@ fn ten_thousand_random_matrices_are_read_back() {
     }
     println!("{first} first, {equal} among the first six");
     assert_eq!((lost.first(), called.first()), (None, None), "{} and {}", lost.len(), called.len());
-    assert!(first > 9_500, "{first} are the first reading, {equal} are told beside it");
+    assert!(first > 9_500, "{first} are the first reading, {equal} are listed beside it");
 }
 
 #[test]

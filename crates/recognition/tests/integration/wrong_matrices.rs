@@ -1,6 +1,6 @@
 //! Sixty wrong matrices: printed slips, row vectors, wrong signs and common factors.
 //!
-//! Four are argued where they stand: a matrix that is as well the right one of something else must
+//! Four are explained next to their case: a matrix that is as well the right one of something else must
 //! have both told. Slips whose matrix is the right one of other numbers have no row
 //! (`hand_typed.rs`). Two more are the table's exceptions: with four decimals near 0.1, far 100 of
 //! M15 cannot be told from a right box of near 0.1, far 50, and M17 of 45° gives the scale 2, which

@@ -173,9 +173,9 @@ fn a_hint_that_is_followed_makes_a_scene() {
     let mut wrong = Vec::new();
     for &(field, help, followed) in FIELDS {
         let found = mistakes(&scene_with(field));
-        let is_told = matches!(found.as_slice(), [(.., told)] if told.contains(help));
+        let is_known = matches!(found.as_slice(), [(.., told)] if told.contains(help));
         let is_scene = parse_scene("s.ron", &scene_with(followed)).is_ok();
-        if !is_told || !is_scene {
+        if !is_known || !is_scene {
             wrong.push((field, found));
         }
     }
@@ -228,7 +228,7 @@ fn a_misspelt_field_does_not_hide_the_mistakes_in_its_value() {
 fn grids_along_two_axes_are_answered_with_three() {
     let grid = "(models: [(path: \"a.glb\", instances: Grid(count: (20, 10), step: (2, 3)))])";
     let found = mistakes(grid);
-    let is_told = |(told, part): (&(String, (usize, usize), String), &str)| told.2.contains(part);
+    let is_known = |(told, part): (&(String, (usize, usize), String), &str)| told.2.contains(part);
     assert_eq!(found.len(), 2, "{found:?}");
-    assert!(found.iter().zip(["(20, 1, 10)", "(2, 0, 3)"]).all(is_told), "{found:?}");
+    assert!(found.iter().zip(["(20, 1, 10)", "(2, 0, 3)"]).all(is_known), "{found:?}");
 }

@@ -349,11 +349,11 @@ impl<'a> Checker<'a> {
         let message = format!("unexpected field `{}` in `{}`", key.name, owner.shown);
         // `top` and `bottom` of a gradient are two mistakes with one fix.
         let around = self.scopes.iter().rev().nth(1).map_or(0, |outer| outer.start);
-        let is_told = self
+        let is_known = self
             .mistakes
             .last()
             .is_some_and(|last| last.help.as_ref() == Some(&help) && last.span.start >= around);
-        self.report(key.span.clone(), message, Some(help).filter(|_| !is_told));
+        self.report(key.span.clone(), message, Some(help).filter(|_| !is_known));
         sibling
     }
 

@@ -21,7 +21,7 @@ pub(super) fn lint_high_ground(adviser: &Linter<'_>) -> Option<Lint> {
     let message = format!(
         "the ground at height {height} is above the lowest point of the models, at {bottom:.4}"
     );
-    let help = "remove `height`, so that the models stand on the ground".to_owned();
+    let help = "remove `height`, so that the ground touches the models".to_owned();
     let path = [Field("ground"), Field("height")];
     let error = adviser.origin.error_at(&path, message, Some(help));
     Some(Lint { code: "ground-above-models", error })

@@ -53,8 +53,8 @@ fn the_horizontal_and_the_diagonal_field_of_view_are_those_of_fov_1() {
         check_close(libm::hypot(x, y), slope);
         // One field of view can be given in three ways.
         let vertical = 2.0 * libm::atan(slope / 2.0).to_degrees();
-        let upright = matrix(&format!("Perspective(fov_y_degrees: {vertical:?})"));
-        check_close(upright.x_axis.x, across.x_axis.x);
+        let by_height = matrix(&format!("Perspective(fov_y_degrees: {vertical:?})"));
+        check_close(by_height.x_axis.x, across.x_axis.x);
     }
 }
 

@@ -56,7 +56,7 @@ fn image_bounds(scene: &Scene) -> [DVec2; 2] {
 
 fn project(scene: &Scene, point: Point<homog::World>, size: DVec2) -> DVec2 {
     let image = scene.view_projection.world_to_clip().transform_point(point);
-    let image = image.divide().expect("a point before the eye");
+    let image = image.divide().expect("a point in front of the eye");
     (DVec2::new(image.x(), -image.y()) * 0.5 + 0.5) * size
 }
 

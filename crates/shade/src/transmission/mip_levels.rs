@@ -2,7 +2,7 @@
 //! texel.
 //!
 //! ```text
-//!   level 0      one texel per pixel, sampled bilinearly: what is not blurred stays sharp
+//!   level 0      one texel per pixel, sampled bilinearly: sharp where nothing is blurred
 //!   level 1 …    each texel the mean of 2 × 2 of the level before, sampled by a quadratic
 //!                B-spline: bilinear sampling of so few texels would show them as diamonds
 //! ```

@@ -1,7 +1,7 @@
 //! Paper choice: its orientation, and the smallest sufficient size.
 //!
 //! ```text
-//!   scale     A4 upright   A4 on its side
+//!   scale     A4 portrait  A4 landscape
 //!   1:2       no           no
 //!   1:5       no           yes               the larger scale wins, then the more views, then
 //!   1:10      yes          yes               their scales

@@ -39,14 +39,14 @@ pub(super) fn projection_symbol(angle: SheetAngle, middle: DVec2, height: f64) -
     let axis_ends = |center: DVec2| {
         [center - DVec2::new(half * 1.4, 0.0), center + DVec2::new(half * 1.4, 0.0)]
     };
-    let upright = [eye - DVec2::new(0.0, half * 1.2), eye + DVec2::new(0.0, half * 1.2)];
+    let vertical = [eye - DVec2::new(0.0, half * 1.2), eye + DVec2::new(0.0, half * 1.2)];
     let lines = [
         Polyline::through_points(&corners, true),
         circle_polygon(eye, half),
         circle_polygon(eye, half * 0.5),
         Polyline::through_points(&axis_ends(cone), false),
         Polyline::through_points(&axis_ends(eye), false),
-        Polyline::through_points(&upright, false),
+        Polyline::through_points(&vertical, false),
     ];
     lines.into_iter().flatten().collect()
 }

@@ -2,8 +2,8 @@
 //! space.
 //!
 //! ```text
-//!   1. views with a place of their own stand there
-//!   2. views along the axes stand in columns and rows about the front view
+//!   1. views with a given position go there
+//!   2. views along the axes form columns and rows around the front view
 //!   3. all others go to free rectangles, one after the other
 //! ```
 //!

@@ -172,7 +172,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_fill_is_told_in_a_sentence() {
+    fn a_fill_is_described_in_a_sentence() {
         let [scale, next] = [7, 6].map(|at| DrawingScale::STANDARD[at]);
         let fill = |limit, between| SheetFill { scale, fraction: 0.384, limit, between };
         let (need, available) = ([391.2, 262.0], [257.0, 158.4]);

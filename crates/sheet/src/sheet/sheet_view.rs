@@ -97,7 +97,7 @@ impl SheetView {
         Ok(view.cut_by(vec![plane]))
     }
 
-    /// Creates an upright view of these points in any direction.
+    /// Creates a view of these points in any direction, with the top of the models at the top.
     ///
     /// # Errors
     /// See [`frame_points`](Self::frame_points).

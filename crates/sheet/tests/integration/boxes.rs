@@ -173,11 +173,11 @@ fn the_isometric_view_is_as_large_as_its_sheet_allows() {
 fn the_paper_is_turned_to_the_greater_scale() {
     let wide = [box_model(DVec3::new(743.0, 200.0, 300.0))];
     let tall = [box_model(DVec3::new(200.0, 743.0, 200.0))];
-    let upright = sheet((Paper::A4, "A4"), SheetAngle::First);
-    assert!(upright.clone().with_best_orientation(&wide, &[]).paper.width() > 290.0);
-    assert_eq!(upright.clone().with_best_orientation(&tall, &[]).paper, Paper::A4);
+    let portrait = sheet((Paper::A4, "A4"), SheetAngle::First);
+    assert!(portrait.clone().with_best_orientation(&wide, &[]).paper.width() > 290.0);
+    assert_eq!(portrait.clone().with_best_orientation(&tall, &[]).paper, Paper::A4);
     // A given scale is kept: the orientation is one in which it fits.
-    let given = Sheet { scale: DrawingScale::new(1, 5).ok(), ..upright };
+    let given = Sheet { scale: DrawingScale::new(1, 5).ok(), ..portrait };
     let turned = given.with_best_orientation(&wide, &[]);
     assert!(turned.check_layout(&wide, &[]).is_ok());
 }

@@ -80,9 +80,9 @@ fn edges_faces_and_vertices_are_picked_by_their_place() {
     assert!(top.direction.raw().cross(DVec3::Y).length() < 1e-9);
     let vertex = picker.nearest_vertex(near(6.0, 39.0, 0.1), None).unwrap();
     assert_eq!(vertex.raw().y, 40.0);
-    let upright = picker.nearest_edge(Point::from_raw(vertex.raw() * 1.2 - DVec3::Y * 20.0), None);
-    let upright = upright.unwrap();
-    assert!(upright.direction.raw().cross(DVec3::Y).length() < 1e-9, "{upright:?}");
+    let vertical = picker.nearest_edge(Point::from_raw(vertex.raw() * 1.2 - DVec3::Y * 20.0), None);
+    let vertical = vertical.unwrap();
+    assert!(vertical.direction.raw().cross(DVec3::Y).length() < 1e-9, "{vertical:?}");
     assert!(picker.nearest_edge(near(0.0, 0.0, 0.0), Some(&[7])).is_none());
 }
 

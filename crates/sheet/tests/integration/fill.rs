@@ -109,14 +109,14 @@ fn no_orientation_gives_a_larger_scale_than_the_one_that_is_chosen() {
     for number in 0..400 {
         let (size, model) = random_box(&mut random, 0.02);
         let angle = if number % 2 == 0 { SheetAngle::First } else { SheetAngle::Third };
-        let upright = sheet(PAPERS[number % 8], angle);
-        let rotated = Sheet { paper: upright.paper.rotated(), ..upright.clone() };
+        let portrait = sheet(PAPERS[number % 8], angle);
+        let rotated = Sheet { paper: portrait.paper.rotated(), ..portrait.clone() };
         let scale = |sheet: &Sheet| sheet.fill(&model, &[]).unwrap().scale.ratio();
-        let chosen = upright.clone().with_best_orientation(&model, &[]);
-        let best = scale(&upright).max(scale(&rotated));
+        let chosen = portrait.clone().with_best_orientation(&model, &[]);
+        let best = scale(&portrait).max(scale(&rotated));
         let has_all = |sheet: &Sheet| sheet.draw(&model, &[], 1).unwrap().warnings.is_empty();
         // A smaller scale only if the larger one omits a view.
-        let larger = if scale(&upright) == best { &upright } else { &rotated };
+        let larger = if scale(&portrait) == best { &portrait } else { &rotated };
         assert!(scale(&chosen) == best || has_all(&chosen) && !has_all(larger), "{size}");
     }
 }

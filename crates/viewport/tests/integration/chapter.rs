@@ -87,7 +87,7 @@ fn misprint_m21_four_borders_make_a_window_and_six_a_box() {
 }
 
 /// M22, C100, DP-1: (1 − Z)/2 takes the chapter's near plane (+1) to 0; on OpenGL's (−1) it gives
-/// 1, and (1 + Z)/2 is due.
+/// 1, and (1 + Z)/2 is correct.
 #[test]
 fn misprint_m22_which_depth_formula_fits_depends_on_where_near_is() {
     let (chapter_near, opengl_near) = (1.0, -1.0);

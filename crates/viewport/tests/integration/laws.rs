@@ -1,4 +1,4 @@
-//! Laws of viewports: what goes to the screen comes back, conventions convert into each other,
+//! Laws of viewports: points mapped to the screen map back, conventions convert into each other,
 //! parts make the whole.
 
 use glam::{DMat4, DVec4};

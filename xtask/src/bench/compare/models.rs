@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn a_single_folder_is_no_name() {
+    fn a_single_folder_is_not_a_name() {
         let folder = project_root().join("scenes").to_string_lossy().into_owned();
         assert_eq!(
             ModelSelection::parse_words(vec![folder.clone()]),

@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_that_is_no_figure_is_pointed_at() {
+    fn an_invalid_figure_is_reported_with_its_line() {
         let error = CountTable::parse_table("# a\nfloor 12\n").unwrap_err();
         assert!(error.starts_with("instructions.txt:2"), "{error}");
         assert!(CountTable::parse_table("floor many reasons\n").is_err());

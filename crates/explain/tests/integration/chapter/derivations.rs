@@ -51,10 +51,10 @@ fn c57_the_trace_of_a_frustum_has_the_steps_of_its_derivation() {
     let [shear, scale, depth] = ["shear", "scale", "depth"].map(matrix);
     let (x, y, z) = (1.3, 0.4, -3.7);
     // The center line of the window moves to the axis, its sides to 45°.
-    let upright = shear * Point::<View>::new(x, y, z).raw().extend(1.0);
-    assert!(close(&[upright.x], &[x + z * (l + r) / (2.0 * near)]));
-    assert!(close(&[upright.y], &[y + z * (b + t) / (2.0 * near)]));
-    let square = scale * upright;
+    let sheared = shear * Point::<View>::new(x, y, z).raw().extend(1.0);
+    assert!(close(&[sheared.x], &[x + z * (l + r) / (2.0 * near)]));
+    assert!(close(&[sheared.y], &[y + z * (b + t) / (2.0 * near)]));
+    let square = scale * sheared;
     // −N x/z on the near plane, remapped from [l, r] to [−1, 1], times the distance.
     let remapped = |on_near: f64, low: f64, high: f64| -1.0 + 2.0 * (on_near - low) / (high - low);
     let [u, v] = [remapped(-near * x / z, l, r), remapped(-near * y / z, b, t)];

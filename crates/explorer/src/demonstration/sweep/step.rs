@@ -155,7 +155,7 @@ impl SweepBase {
         let is_parallel = matches!(self.projection, BaseProjection::Parallel(_));
         let (is_allowed, allowed) = match vary {
             SweepParameter::Fov => {
-                (value > 0.0 && value < 180.0, "it must lie between 0 and 180 degrees")
+                (value > 0.0 && value < 180.0, "it must be between 0 and 180 degrees")
             }
             SweepParameter::Shift | SweepParameter::Angle => (true, "it must be a number"),
             SweepParameter::Near | SweepParameter::Far if is_parallel => {
@@ -227,7 +227,7 @@ impl SweepBase {
         if near >= far {
             // The matrix would accept it and look backward through an inverted volume.
             let [near, far] = [near, far].map(|number| format_short(number, 6));
-            return Err(format!("`far` ({far}) must lie beyond `near` ({near})"));
+            return Err(format!("`far` ({far}) must be beyond `near` ({near})"));
         }
         let volume = Orthographic::from_window(window, near, far).map_err(to_message)?;
         let view_projection =

@@ -39,7 +39,7 @@ fn point_beside(view_projection: &ViewProjection, middle: Point<World>) -> Point
 }
 
 #[test]
-fn values_are_evenly_spaced_and_end_where_they_are_told() {
+fn values_are_evenly_spaced_and_include_the_end() {
     let sweep = |steps| Sweep {
         parameter: SweepParameter::Fov,
         from: 20.0,
@@ -178,7 +178,7 @@ fn the_camera_is_turned_about_the_middle() {
 }
 
 #[test]
-fn what_makes_no_sense_is_told() {
+fn invalid_sweeps_are_rejected() {
     let (_, _, mut scene) = house_scene();
     let message = |parameter, value: f64, scene: &Scene| {
         let sweep = Sweep { parameter, from: value, to: value, steps: 1, volumes: false };
@@ -186,7 +186,7 @@ fn what_makes_no_sense_is_told() {
     };
     assert!(
         message(SweepParameter::Fov, 180.0, &scene)
-            .contains("`fov` cannot be 180: it must lie between")
+            .contains("`fov` cannot be 180: it must be between")
     );
     assert!(message(SweepParameter::Near, -1.0, &scene).contains("greater than 0"));
     assert!(message(SweepParameter::Near, 1e6, &scene).starts_with("`near` cannot be 1e6: "));

@@ -59,7 +59,7 @@ pub(super) static CAMERA_ABOVE: Exercise = Exercise {
         mistake(
             "eye-forgotten",
             Wrong::Computed(|_| Some(rows_of(camera_above()?.rotation().raw()))),
-            "the eye is forgotten: this is the rotation alone",
+            "the eye is forgotten: this is only the rotation",
             "忘了视点：这只是旋转部分",
         ),
         mistake(
@@ -74,7 +74,7 @@ pub(super) static CAMERA_ABOVE: Exercise = Exercise {
                 let camera = camera_above()?;
                 Some(rows_of(camera.translation().raw() * camera.rotation().raw()))
             }),
-            "translation and rotation are exchanged: the eye is moved to the origin first, so the translation stands on the right",
+            "translation and rotation are exchanged: the eye is moved to the origin first, so the translation is on the right",
             "平移与旋转的次序反了：先把视点移到原点，所以平移写在右边",
         ),
         mistake(
@@ -142,7 +142,7 @@ pub(super) static CAMERA_COORDINATES: Exercise = Exercise {
         mistake(
             "sign-of-z",
             Wrong::Places(&[(0, 2, "3")]),
-            "the sign of z is wrong: the camera looks along −z, so what is ahead has a negative z",
+            "the sign of z is wrong: the camera looks along −z, so points ahead have negative z",
             "z 的符号不对：相机沿 −z 方向看，前方的点 z 为负",
         ),
         mistake(
@@ -160,7 +160,7 @@ pub(super) static CAMERA_COORDINATES: Exercise = Exercise {
         mistake(
             "eye-added",
             Wrong::Places(&[(0, 2, "1")]),
-            "the eye was added in the place of subtracted",
+            "the eye was added instead of subtracted",
             "应减去视点，却加上了它",
         ),
         mistake(

@@ -41,7 +41,7 @@ pub(super) static IMAGE_PARAMETER: Exercise = Exercise {
         mistake(
             "other-weight",
             Wrong::Answer("wr*t/(wr+t*(wR-wr))"),
-            "w_r stands above in the place of w_R: f(1) must be 1",
+            "the numerator has w_r instead of w_R: f(1) must be 1",
             "分子上应为 w_R 而不是 w_r：f(1) 应等于 1",
         ),
         mistake(
@@ -71,7 +71,7 @@ pub(super) static IMAGE_PARAMETER: Exercise = Exercise {
         mistake(
             "difference-of-weights",
             Wrong::Answer("t*(wR-wr)/(wr+t*(wR-wr))"),
-            "w_R − w_r stands above in the place of one w: f(1) must be 1",
+            "the numerator has w_R − w_r instead of one w: f(1) must be 1",
             "分子上写成了 w_R − w_r，应只是一端的 w：f(1) 应等于 1",
         ),
     ],
@@ -112,7 +112,7 @@ pub(super) static ATTRIBUTE: Exercise = Exercise {
         mistake(
             "weights-by-w",
             Wrong::Answer("(3/4*2*1+1/4*10*4)/(3/4*1+1/4*4)"),
-            "weighted by w in the place of 1/w: the far end counts less, not more",
+            "weighted by w instead of 1/w: the far end counts less, not more",
             "权重用了 w 而不是 1/w：远端的权重应更小，而不是更大",
         ),
         mistake(

@@ -80,11 +80,11 @@ pub(super) static PLACE_OF_A_POINT: Exercise = Exercise {
     number: 12,
     title: words("A homogeneous point", "齐次点"),
     question: words(
-        "Which place (x, y, z) does the homogeneous point (−2, 6, 4, −2) stand for?",
+        "Which place (x, y, z) does the homogeneous point (−2, 6, 4, −2) represent?",
         "齐次点 (−2, 6, 4, −2) 表示哪个位置 (x, y, z)？",
     ),
     hints: &[words(
-        "Any multiple stands for the same place: take the one whose w is 1.",
+        "Any multiple represents the same point: take the one whose w is 1.",
         "任意倍数都表示同一位置：取 w 为 1 的那一个。",
     )],
     letters: &[],
@@ -98,7 +98,7 @@ pub(super) static PLACE_OF_A_POINT: Exercise = Exercise {
         mistake(
             "multiplied",
             Wrong::Answer("4, -12, -8"),
-            "multiplied by w in the place of divided",
+            "multiplied by w instead of divided",
             "应除以 w，却乘上了它",
         ),
         mistake(
@@ -160,7 +160,7 @@ pub(super) static VANISHING_POINT: Exercise = Exercise {
         mistake(
             "sign-and-distance",
             Wrong::Answer("-1/4, 1/2"),
-            "x/z and y/z alone: they are multiplied by the plane's z = −2",
+            "only x/z and y/z: they are multiplied by the plane's z = −2",
             "只求了 x/z 和 y/z：还要乘以画面的 z = −2",
         ),
         mistake(
@@ -172,7 +172,7 @@ pub(super) static VANISHING_POINT: Exercise = Exercise {
         mistake(
             "distance-divided",
             Wrong::Answer("1/8, -1/4"),
-            "divided by the distance of the plane in the place of multiplied",
+            "divided by the distance of the plane instead of multiplied",
             "应乘以画面的距离，却除以了它",
         ),
     ],

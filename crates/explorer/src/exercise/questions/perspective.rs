@@ -290,7 +290,7 @@ pub(super) static NEAR_CORNER: Exercise = Exercise {
         mistake(
             "m8-depth-reversed",
             Wrong::Places(&[(0, 2, "-n")]),
-            "near and far are exchanged as in OpenGL (M8): here z = n goes to +1",
+            "near and far are exchanged as in OpenGL (M8): here z = n maps to +1",
             "近平面与远平面按 OpenGL 的方式互换了（M8）：这里 z = n 映为 +1",
         ),
         mistake(
@@ -358,7 +358,7 @@ pub(super) static P_OF_ONE_AND_TWO: Exercise = Exercise {
         mistake(
             "difference-for-sum",
             Wrong::Places(&[(2, 2, "1-2")]),
-            "n − f stands in the place of n + f",
+            "n − f instead of n + f",
             "n + f 处写成了 n − f",
         ),
         mistake(
@@ -382,7 +382,7 @@ pub(super) static P_OF_ONE_AND_TWO: Exercise = Exercise {
         mistake(
             "negated",
             Wrong::Negated,
-            "this is −P: the same map, but w has the other sign, and clipping would keep what is behind the eye",
+            "this is −P: the same map, but w has the other sign, and clipping would keep points behind the eye",
             "这是 −P：变换相同，但 w 的符号相反，裁剪会保留视点背后的部分",
         ),
         mistake(

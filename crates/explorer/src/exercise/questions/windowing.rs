@@ -20,7 +20,7 @@ pub(super) static ROWS_FROM_THE_TOP: Exercise = Exercise {
     number: 1,
     title: words("Rows from the top", "自上而下的像素行"),
     question: words(
-        "An image has nx × ny pixels with their centers at whole numbers, and its rows are counted from the top. Write the viewport matrix: x = −1 goes to −½, x = +1 to nx − ½, y = +1 to −½, y = −1 to ny − ½, and z stays as it is.",
+        "An image has nx × ny pixels with their centers at whole numbers, and its rows are counted from the top. Write the viewport matrix: x = −1 maps to −½, x = +1 to nx − ½, y = +1 to −½, y = −1 to ny − ½, and z stays as it is.",
         "图像有 nx × ny 个像素，像素中心位于整数处，行自上而下计数。写出视口矩阵：x = −1 映为 −½，x = +1 映为 nx − ½，y = +1 映为 −½，y = −1 映为 ny − ½，z 保持不变。",
     ),
     hints: &[
@@ -89,7 +89,7 @@ pub(super) static ONE_WINDOWING: Exercise = Exercise {
     ),
     hints: &[
         words(
-            "The product is one windowing: l goes to −½ and r to nx − ½, b to −½ and t to ny − ½.",
+            "The product is one windowing: l maps to −½ and r to nx − ½, b to −½ and t to ny − ½.",
             "乘积就是一次窗口变换：l 映为 −½，r 映为 nx − ½，b 映为 −½，t 映为 ny − ½。",
         ),
         words(
@@ -117,25 +117,25 @@ pub(super) static ONE_WINDOWING: Exercise = Exercise {
         mistake(
             "viewport-forgotten",
             Wrong::Computed(|letters| Some(rows_of(viewport_and_box(letters)?[1]))),
-            "this is M_orth alone: the pixels are missing",
+            "this is only M_orth: the pixels are missing",
             "这只是 M_orth：还没有变换到像素",
         ),
         mistake(
             "depth-reversed",
             Wrong::Places(&[(2, 2, "2/(f-n)"), (2, 3, "-(n+f)/(f-n)")]),
-            "the third row takes z = n to −1 and z = f to +1, as OpenGL's depth runs: here n goes to +1, f to −1",
+            "the third row takes z = n to −1 and z = f to +1, as OpenGL's depth runs: here n maps to +1, f to −1",
             "第三行把 z = n 映为 −1、z = f 映为 +1，这是 OpenGL 的深度方向：这里 n 映为 +1，f 映为 −1",
         ),
         mistake(
             "opengl-distances",
             Wrong::Places(&[(2, 3, "(n+f)/(n-f)")]),
-            "the third row is OpenGL's, which is made for distances N and F: n and f are z-coordinates here, and z = n goes to +1",
+            "the third row is OpenGL's, which is made for distances N and F: n and f are z-coordinates here, and z = n maps to +1",
             "第三行是 OpenGL 的写法，用的是距离 N 和 F：这里 n 和 f 是 z 坐标，z = n 应映为 +1",
         ),
         mistake(
             "viewport-offset-lost",
             Wrong::Places(&[(0, 3, "-(r+l)*nx/(2*(r-l))"), (1, 3, "-(t+b)*ny/(2*(t-b))")]),
-            "the viewport's own offsets (nx − 1)/2 and (ny − 1)/2 are missing: the middle of the box goes to the middle of the image",
+            "the viewport's own offsets (nx − 1)/2 and (ny − 1)/2 are missing: the middle of the box maps to the middle of the image",
             "缺少视口自身的偏移 (nx − 1)/2 和 (ny − 1)/2：长方体的中央应映为图像的中央",
         ),
         mistake(
@@ -191,7 +191,7 @@ pub(super) static WINDOW_TO_VIEWPORT: Exercise = Exercise {
         mistake(
             "m18-sign",
             Wrong::Places(&[(1, 2, "20+50*1")]),
-            "the window was moved by +1 in y, as the slides print it (M18): its corner goes to the origin by −1",
+            "the window was moved by +1 in y, as the slides print it (M18): its corner maps to the origin by −1",
             "窗口在 y 方向移动了 +1，与课件印错的一样（M18）：要移动 −1 才能把角点移到原点",
         ),
         mistake(

@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_valid_is_refused() {
+    fn invalid_streams_are_refused() {
         assert_eq!(triangles(&[0x00], &[]), Err(StreamError::Unwritten));
         assert_eq!(triangles(&[0xF0, 0x09], &[]), Err(StreamError::Unwritten));
         assert_eq!(triangles(&[0xFF], &[0xFF, 14]), Err(StreamError::Short));

@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn nonsense_is_no_panic() {
+    fn arbitrary_bytes_do_not_panic() {
         let words = [0, 1, 2, 3, -1, -2, i16::MAX, i16::MIN];
         for (filter, stride) in [
             (MeshoptFilter::Octahedral, 4),

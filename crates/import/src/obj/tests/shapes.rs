@@ -254,7 +254,7 @@ fn normals_follow_smoothing_groups_or_else_the_crease_angle() {
 }
 
 #[test]
-fn what_is_not_read_is_named_once() {
+fn ignored_statements_are_reported_once() {
     let text = format!(
         "{SQUARE}vp 0.1\nvp 0.2\ncstype bspline\ndeg 3\ncurv 0 1 1 2\nend\nlod 3\nf 1 2 3\ncall a.obj\n"
     );

@@ -4,7 +4,7 @@
 //! ```text
 //!   sun ─►│ ┌──────────────┐ │     near and far plane enclose the whole scene, since casters
 //!         │ │    ┌───────┐ │ │     between the light and the view count;
-//!   light │ │    │ view  │ │ │     the window encloses only what is in the camera's view.
+//!   light │ │    │ view  │ │ │     the window encloses only the part in the camera's view.
 //!   rays  │ │    └───────┘ │ │
 //!        near     scene     far
 //! ```

@@ -131,7 +131,7 @@ fn panes_are_counted_and_the_nearest_of_them_is_what_is_seen() {
         assert_eq!(count == 0, buffers[2].integer_value(x, y) == Some(0));
         most = most.max(count);
     }
-    assert!(most >= 3, "panes lie over each other: {most}");
+    assert!(most >= 3, "panes overlap: {most}");
 }
 
 #[test]

@@ -19,7 +19,7 @@ fn assert_maps(map: Projective<View, Clip>, from: Point<View>, to: [f64; 3]) {
     assert!(image.w() > 0.0, "{from:?} has w = {}", image.w());
     let ndc = <[f64; 3]>::from(image.divide().expect("w > 0"));
     for (ours, due) in ndc.iter().zip(to) {
-        assert!((ours - due).abs() < 1e-9, "{from:?} goes to {ndc:?}, not {to:?}");
+        assert!((ours - due).abs() < 1e-9, "{from:?} maps to {ndc:?}, not {to:?}");
     }
 }
 
@@ -134,7 +134,7 @@ proptest! {
     }
 }
 
-/// C61, C90: equal borders, bad signs and what is not finite.
+/// C61, C90: equal borders, wrong signs, and numbers that are not finite.
 #[test]
 fn bad_parameters_are_refused_by_name() {
     let nan = f64::NAN;

@@ -76,7 +76,7 @@ proptest! {
         let made = Axonometric::by_normal(Normal::from_raw(normal.raw())).expect("a direction");
         let turned = made.depth_preserving().transform_vector(normal);
         prop_assert!((turned - Vector::Z * normal.length()).length() < 1e-12);
-        prop_assert!(made.depth_preserving().transform_vector(Vector::Y).x().abs() < 1e-12, "y stays upright");
+        prop_assert!(made.depth_preserving().transform_vector(Vector::Y).x().abs() < 1e-12, "y stays vertical");
     }
 
     #[test]
@@ -143,7 +143,7 @@ proptest! {
                     .expect("affine"),
             };
             let turned = Point::new(on_axis.x(), on_axis.y(), -k.ahead() * on_axis.z());
-            let ndc = view_to_clip.transform_point(turned).divide().expect("before the eye");
+            let ndc = view_to_clip.transform_point(turned).divide().expect("in front of the eye");
             prop_assert!((ndc.z() - depth).abs() < 1e-9);
         }
     }

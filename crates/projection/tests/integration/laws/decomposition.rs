@@ -183,7 +183,7 @@ proptest! {
         let Decomposed::ObliqueNear { near_plane, slopes, .. } = kind(cut.raw(), c) else {
             panic!("inclined")
         };
-        // The plane is told in the right-handed camera.
+        // The plane is given in right-handed camera coordinates.
         let turned = mirror.raw() * DVec4::new(1.0, 1.0, -c.ahead(), 1.0) / normal.raw().length();
         prop_assert!((near_plane.raw() - turned).length() < 1e-9 * (1.0 + turned.length()));
         prop_assert!((slopes.right() / p.half_slopes().x - 1.0).abs() < 1e-9);

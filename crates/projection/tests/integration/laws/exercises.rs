@@ -193,8 +193,8 @@ fn c79_length_and_direction_describe_the_same_slant() {
 fn c88_the_frustum_becomes_a_box_and_order_is_kept() {
     let frustum = Frustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0).expect("valid");
     let factors = frustum.factors(Convention::OPENGL);
-    let upright = factors.shear.then(factors.scale);
-    let corner = upright.transform_point(Point::new(9.0, 3.0, -6.0));
+    let sheared = factors.shear.then(factors.scale);
+    let corner = sheared.transform_point(Point::new(9.0, 3.0, -6.0));
     assert!((corner - Point::new(6.0, 6.0, -6.0)).length() < 1e-14, "x = y = D");
     assert!(close(factors.view_to_clip().raw(), frustum.view_to_clip(Convention::OPENGL).raw()));
     let unit = frustum.view_to_canonical_frustum(Convention::OPENGL).expect("a far plane");

@@ -1,4 +1,4 @@
-//! Any numbers whatever: a builder refuses them, or all it makes is finite. Nothing panics.
+//! Any numbers: a builder refuses them, or all it makes is finite. Nothing panics.
 
 use super::samples::{self, convention, conventions};
 use glam::DMat4;

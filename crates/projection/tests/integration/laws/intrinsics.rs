@@ -112,7 +112,7 @@ fn opencv_s_example_of_a_calibrated_camera() {
 }
 
 #[test]
-fn what_is_no_lens_is_told() {
+fn invalid_intrinsics_are_rejected() {
     let size = [640, 480];
     let fault =
         |result: Result<Intrinsics, ProjectionError>| result.expect_err("no lens").to_string();

@@ -55,7 +55,7 @@ fn fields_are_filled_in() {
 }
 
 #[test]
-fn what_is_not_read_is_told_with_its_place() {
+fn unsupported_markup_is_reported_with_its_location() {
     for (content, place, words) in [
         ("<circle r='2'/>", (2, 1), "`circle` is not supported"),
         ("<path d='M0 0 C1 1 2 2 3 3'/>", (2, 15), "the command `C` is not supported"),
