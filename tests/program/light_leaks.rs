@@ -76,7 +76,7 @@ fn scene_with_sun(model: &Arc<Model>, travel: DVec3, shadows: &str) -> Scene {
     let file = parse_scene("made.ron", &text).expect("a scene");
     let placed = ModelInstance { model: Arc::clone(model), model_to_world: Affine::IDENTITY };
     let origin = Origin::from_text("made.ron", text, ".".into());
-    Scene::from_models(&origin, &file, &[placed]).expect("a scene that makes sense")
+    Scene::from_models(&origin, &file, &[placed]).expect("a valid scene")
 }
 
 /// The number of pixels that rays find dark and lit.

@@ -174,7 +174,7 @@ fn given_flags(flags: &[(&'static str, bool)]) -> Vec<&'static str> {
 /// A uniform one looks the same in every direction.
 ///
 /// # Errors
-/// If there is none.
+/// If the scene has no environment.
 fn turn_environment(file: &mut Option<EnvironmentFile>, degrees: f64) -> Result<(), CliError> {
     match file {
         Some(
@@ -191,7 +191,7 @@ fn turn_environment(file: &mut Option<EnvironmentFile>, degrees: f64) -> Result<
         Some(EnvironmentFile::Uniform { .. }) => {}
         None | Some(EnvironmentFile::Dark) => {
             return Err(CliError::Usage(
-                "--environment-rotation has no environment to rotate\n  = help: add --environment studio, sky or a .hdr file"
+                "--environment-rotation has no environment to rotate\n  = help: add --environment studio, --environment sky or --environment FILE.hdr"
                     .to_owned(),
             ));
         }

@@ -18,7 +18,7 @@ pub enum CameraError {
     #[error("the gaze is the zero vector: it must point in the direction the camera looks")]
     ZeroGaze,
     /// Eye and target are the same point, so there is no direction between them.
-    #[error("eye and target are both {eye}: move one of them")]
+    #[error("the eye and the target are both at {eye}: move one of them")]
     TargetIsEye {
         /// Their common position.
         eye: Point<World>,

@@ -11,9 +11,9 @@ use super::transform_chain::{TransformChain, describe_outcode};
 use super::{Explanation, Step};
 use homog::{Clip, HPoint, World};
 
-/// Follows a homogeneous world point through every stage, undivided up to the divide.
+/// Follows a homogeneous world point through every stage up to the divide.
 ///
-/// The four numbers are not divided up to clip space, so a factor h is visible in all of them.
+/// The four numbers are not divided before the divide, so a factor h is visible in all of them.
 /// Outcodes are computed for the multiple with w = 1, since −p and p have different ones. A point
 /// with w = 0 is a direction: it is not clipped, and the divide gives its vanishing point.
 ///
@@ -43,7 +43,7 @@ pub fn explain_homogeneous_point(
         let normalized = HPoint::from_raw(clip.raw() / point.w());
         steps.push(chain.outcode_step(&[("", normalized)]));
         let code = chain.clip_volume().outcode(normalized);
-        format!("Seen from the view volume it is {}.", describe_outcode(code))
+        format!("Relative to the view volume, it is {}.", describe_outcode(code))
     };
     steps.extend(chain.screen_steps(&[("", clip)]));
     Ok(Explanation {

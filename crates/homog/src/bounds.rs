@@ -5,8 +5,8 @@ use crate::{Affine, Point, Space, Vector};
 /// A closed axis-aligned box in space `S`, never empty: `min ≤ max` in every coordinate, and all
 /// coordinates are finite.
 ///
-/// The bounds of one point have size zero. No points have no bounds, so [`Bounds::from_points`]
-/// returns an `Option`.
+/// The bounds of one point have size zero. Without points there are no bounds, so
+/// [`Bounds::from_points`] returns an `Option`.
 ///
 /// ```
 /// use homog::{Bounds, Point, World};
@@ -105,7 +105,7 @@ mod tests {
     use crate::{Model, World};
 
     #[test]
-    fn nothing_and_nan_have_no_bounds() {
+    fn an_empty_set_and_nan_have_no_bounds() {
         assert_eq!(Bounds::<World>::from_points([]), None);
         let nan = Point::new(0.0, f64::NAN, 0.0);
         assert_eq!(Bounds::<World>::from_points([Point::ORIGIN, nan]), None);
@@ -120,13 +120,13 @@ mod tests {
         let corners = bounds.corners();
         for (i, a) in corners.iter().enumerate() {
             assert!(bounds.contains(*a));
-            assert!(corners[..i].iter().all(|b| a != b), "corner {i} is there twice");
+            assert!(corners[..i].iter().all(|b| a != b), "corner {i} occurs twice");
         }
         assert_eq!(Bounds::from_points(corners), Some(bounds));
     }
 
     #[test]
-    fn a_turned_box_is_held_by_its_new_bounds() {
+    fn the_bounds_of_a_rotated_box_contain_it() {
         let bounds =
             Bounds::<Model>::from_points([[-1.0; 3], [1.0; 3]].map(Point::from)).expect("a box");
         let turn = Affine::<Model, World>::rotation_z(core::f64::consts::FRAC_PI_4);

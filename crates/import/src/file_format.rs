@@ -61,7 +61,7 @@ impl FileFormat {
         Self::ALL.into_iter().find(|format| format.extensions().contains(&extension.as_str()))
     }
 
-    /// The format that the content of a file shows; `None` if it does not clearly show one.
+    /// Identifies the format from the content of a file; `None` if the content is ambiguous.
     ///
     /// The time does not depend on the length of the file.
     #[must_use]
@@ -86,8 +86,8 @@ impl FileFormat {
         }
     }
 
-    /// Whether content that looks like this format is certain, even in a file that is as long as a
-    /// binary STL file.
+    /// Whether content that looks like this format identifies it, even if the file has the length of
+    /// a binary STL file.
     pub(super) fn precedes_binary_stl(self) -> bool {
         matches!(self, Self::Gltf | Self::ThreeMf | Self::Ply)
     }
@@ -95,7 +95,7 @@ impl FileFormat {
     /// The format of a file, from its content or else from its name.
     ///
     /// # Errors
-    /// [`UNKNOWN_FORMAT`](codes::UNKNOWN_FORMAT) if neither shows it.
+    /// [`UNKNOWN_FORMAT`](codes::UNKNOWN_FORMAT) if neither identifies it.
     pub fn recognize(path: &Path, bytes: &[u8]) -> Result<Self, Diagnostic> {
         let named = Self::from_extension(path);
         let is_scene = path.extension().is_some_and(|ending| ending == "ron");
@@ -143,7 +143,7 @@ const FOREIGN_FORMATS: [(&[u8], &str, &str); 19] = [
     (b"BLENDER", "a Blender file", "export it as .glb from Blender"),
     (b"\x89PNG", "a PNG image", GIVE_A_MODEL),
     (b"\xff\xd8\xff", "a JPEG image", GIVE_A_MODEL),
-    (b"PK\x03\x04", "a ZIP archive", "extract it and give a model from it"),
+    (b"PK\x03\x04", "a ZIP archive", "extract it and use a model from it"),
     (b"%PDF", "a PDF file", GIVE_A_MODEL),
     (b"# vtk", "a VTK file", "convert it to .ply or .stl, for example with ParaView"),
     (b"OFF", "an OFF file", "convert it to .ply or .obj, for example with MeshLab"),
@@ -157,7 +157,7 @@ fn scene_as_model() -> Diagnostic {
     Diagnostic::error(codes::UNKNOWN_FORMAT, "", "this is a scene, not a model", help)
 }
 
-/// The error for a file whose format neither its content nor its name shows.
+/// The error for a file whose format neither its content nor its name identifies.
 fn unknown_format(bytes: &[u8]) -> Diagnostic {
     let is_text = bytes.len() > 8
         && bytes.iter().take(512).all(|b| b.is_ascii_graphic() || b.is_ascii_whitespace());
@@ -171,12 +171,12 @@ fn unknown_format(bytes: &[u8]) -> Diagnostic {
     Diagnostic::error(codes::UNKNOWN_FORMAT, "", message, help)
 }
 
-/// The remedy for a text that may be meant as a scene.
-const WRITE_A_SCENE: &str = "give a .gltf, .glb, .stl, .obj, .ply or .3mf file; scenes are written in \
+/// The remedy for text that may be meant as a scene.
+const WRITE_A_SCENE: &str = "use a .gltf, .glb, .stl, .obj, .ply or .3mf file; scenes are written in \
                              RON, in a .ron file: `alberti scene init model.glb` writes one";
 
 /// The remedy for a file of an unknown format.
-const GIVE_A_MODEL: &str = "give a .gltf, .glb, .stl, .obj, .ply or .3mf file";
+const GIVE_A_MODEL: &str = "use a .gltf, .glb, .stl, .obj, .ply or .3mf file";
 
 #[cfg(test)]
 mod tests {
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn the_name_decides_where_the_content_does_not_say() {
+    fn the_name_decides_if_the_content_is_ambiguous() {
         let of = |name: &str, bytes: &[u8]| {
             FileFormat::recognize(Path::new(name), bytes).map_err(|error| error.sentence())
         };

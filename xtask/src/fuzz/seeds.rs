@@ -83,7 +83,7 @@ fn asset_paths(endings: &[&str]) -> Vec<PathBuf> {
     paths.extend(files_below(&project_root().join("crates/model/tests"), endings));
     match assets_folder() {
         Some(assets) => paths.extend(files_below(&assets, endings)),
-        None => report_skip("shared assets as seeds", "they are not there"),
+        None => report_skip("shared assets as seeds", "they are missing"),
     }
     paths
 }
@@ -151,7 +151,7 @@ fn draco_seeds(model: &PackedModel) -> Vec<Vec<u8>> {
     primitives.filter_map(stream).collect()
 }
 
-/// Images by themselves and from models, each after the number of its kind.
+/// Image files and images from models, each preceded by the number of its format.
 fn image_seeds() -> Vec<Vec<u8>> {
     let kind = |file: &[u8]| match file {
         [0x89, b'P', ..] => 0,
@@ -174,8 +174,8 @@ fn image_seeds() -> Vec<Vec<u8>> {
     seeds
 }
 
-/// Bytes from a generator (splitmix64), each time after another number: there are fewer than 512
-/// functions.
+/// Bytes from a generator (splitmix64), each sequence preceded by the number of a function, of which
+/// there are fewer than 512.
 fn number_seeds() -> Vec<Vec<u8>> {
     let mut state = 0u64;
     let mut word = || {

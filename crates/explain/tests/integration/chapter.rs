@@ -18,7 +18,7 @@ fn resolve_text(text: &str) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/models");
     let file = parse_scene("test.ron", text).expect("a scene");
     let origin = Origin::from_text("test.ron", text, folder);
-    Scene::resolve(&origin, &file, &Default::default()).expect("a scene that makes sense")
+    Scene::resolve(&origin, &file, &Default::default()).expect("a valid scene")
 }
 
 fn render_scene(scene: &Scene) -> Picture {
@@ -30,7 +30,7 @@ fn pixel_position(scene: &Scene, place: Point<World>) -> [f64; 2] {
     let viewport =
         viewport::Viewport::image_for(scene.image.width, scene.image.height, ClipRange::CHAPTER);
     let clip = scene.view_projection.world_to_clip().transform_point(place);
-    let ndc = clip.divide().expect("a place in front of the eye");
+    let ndc = clip.divide().expect("a point in front of the eye");
     let screen = viewport.expect("a viewport").ndc_to_screen().transform_point(ndc);
     [screen.x(), screen.y()]
 }

@@ -107,7 +107,7 @@ impl<'a> Package<'a> {
         });
         let Some(model) = models.next() else {
             let message = "this zip archive is not 3MF: no relationship leads to a 3D model";
-            let help = "give a .gltf, .glb, .stl, .obj, .ply or .3mf file";
+            let help = "use a .gltf, .glb, .stl, .obj, .ply or .3mf file";
             return Err(Diagnostic::error(codes::UNKNOWN_FORMAT, RELATIONSHIPS, message, help));
         };
         let message = format!("no relationship leads to a 3D model; {model} is used");

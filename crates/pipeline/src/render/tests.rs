@@ -44,8 +44,7 @@ fn load_scene(name: &str) -> Scene {
     let mut file = parse_scene(name, &text).expect("a scene");
     file.image.size = (200, 130);
     let origin = Origin::from_text(name, text, folder);
-    let mut scene =
-        Scene::resolve(&origin, &file, &Default::default()).expect("a scene that makes sense");
+    let mut scene = Scene::resolve(&origin, &file, &Default::default()).expect("a valid scene");
     // The glass ball becomes rough, and shows the transmission framebuffer.
     for material in
         scene.models.iter_mut().flat_map(|of| &mut Arc::make_mut(&mut of.model).materials)

@@ -116,7 +116,7 @@ fn test_scene(parts: &[TestPart], size: f64, rest: &str) -> Scene {
     let model_to_world = homog::Affine::scale(size, size, size);
     let placed = ModelInstance { model: Arc::new(loaded), model_to_world };
     let origin = Origin::from_text("made.ron", text, ".".into());
-    Scene::from_models(&origin, &file, &[placed]).expect("a scene that makes sense")
+    Scene::from_models(&origin, &file, &[placed]).expect("a valid scene")
 }
 
 /// The scene of a bare model: the program's defaults for a file without a scene.
@@ -124,7 +124,7 @@ fn bare_scene(parts: &[TestPart], change: impl FnOnce(&mut SceneFile)) -> Scene 
     let (origin, mut file) = Origin::from_model_bytes("made.gltf", build_glb(parts));
     file.image.size = (120, 120);
     change(&mut file);
-    Scene::resolve(&origin, &file, &ResolveOptions::default()).expect("a scene that makes sense")
+    Scene::resolve(&origin, &file, &ResolveOptions::default()).expect("a valid scene")
 }
 
 /// Everything framed from a direction.

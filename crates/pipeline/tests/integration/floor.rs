@@ -81,7 +81,7 @@ fn floor_scene(anisotropy: u32) -> Scene {
     let file = parse_scene("floor.ron", &text).expect("a scene");
     let placed = ModelInstance { model: Arc::new(floor_model()), model_to_world: Affine::IDENTITY };
     let origin = Origin::from_text("floor.ron", text, ".".into());
-    Scene::from_models(&origin, &file, &[placed]).expect("a scene that makes sense")
+    Scene::from_models(&origin, &file, &[placed]).expect("a valid scene")
 }
 
 fn decode_srgb(code: u8) -> f64 {

@@ -35,8 +35,7 @@ fn load_scene(model: &str, image: &str, occlusion: &str) -> Scene {
     );
     let file = parse_scene("made.ron", &text).expect("a scene");
     let origin = Origin::from_text("made.ron", text, folder);
-    let mut scene =
-        Scene::resolve(&origin, &file, &Default::default()).expect("a scene that makes sense");
+    let mut scene = Scene::resolve(&origin, &file, &Default::default()).expect("a valid scene");
     blacken_materials(&mut scene);
     scene
 }

@@ -19,5 +19,5 @@ fn load_scene(name: &str, change: impl FnOnce(&mut SceneFile)) -> Scene {
         Origin::read_scene(&folder.join(format!("{name}.ron"))).expect("a committed scene");
     change(&mut file);
     let options = ResolveOptions { allow_large_picture: true, ..ResolveOptions::default() };
-    Scene::resolve(&origin, &file, &options).expect("a scene that makes sense")
+    Scene::resolve(&origin, &file, &options).expect("a valid scene")
 }

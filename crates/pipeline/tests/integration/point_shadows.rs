@@ -69,7 +69,7 @@ fn white_scene(primitives: Vec<Primitive>, rest: &str) -> Scene {
     });
     let placed = ModelInstance { model, model_to_world: Affine::IDENTITY };
     let origin = Origin::from_text("made.ron", text, ".".into());
-    Scene::from_models(&origin, &file, &[placed]).expect("a scene that makes sense")
+    Scene::from_models(&origin, &file, &[placed]).expect("a valid scene")
 }
 
 fn code_at(picture: &Picture, x: u32, y: u32) -> u8 {

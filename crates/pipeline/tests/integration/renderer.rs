@@ -12,7 +12,7 @@ fn load_scene(name: &str, size: (u32, u32)) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name);
     let (origin, mut file) = Origin::read_scene(&path).expect("a scene of the project");
     file.image.size = size;
-    Scene::resolve(&origin, &file, &Default::default()).expect("a scene that makes sense")
+    Scene::resolve(&origin, &file, &Default::default()).expect("a valid scene")
 }
 
 fn render_next(

@@ -88,7 +88,7 @@ fn shadow_scene(parts: Vec<(Primitive, Material)>, rest: &str) -> Scene {
     let placed =
         ModelInstance { model: Arc::new(build_model(parts)), model_to_world: Affine::IDENTITY };
     let origin = Origin::from_text("made.ron", text, ".".into());
-    Scene::from_models(&origin, &file, &[placed]).expect("a scene that makes sense")
+    Scene::from_models(&origin, &file, &[placed]).expect("a valid scene")
 }
 
 fn render_parts(parts: Vec<(Primitive, Material)>, rest: &str) -> Picture {
@@ -207,7 +207,7 @@ fn a_floor_and_a_bowl_do_not_shade_themselves() {
 }
 
 #[test]
-fn no_light_comes_through_walls_without_thickness() {
+fn no_light_leaks_through_walls_without_thickness() {
     let wall = Material { double_sided: true, ..matte_material(0.8, 0.8, 0.8) };
     for (light, shadows) in [
         ("Directional(direction: (1, -1, 0.3), intensity: 3)", "On()"),
@@ -241,7 +241,7 @@ fn no_light_comes_through_walls_without_thickness() {
 }
 
 #[test]
-fn masked_parts_cast_what_is_left_of_them_and_blended_ones_nothing() {
+fn masked_parts_cast_shadows_of_their_opaque_texels_and_blended_parts_none() {
     let roof =
         || quad_mesh(&[[[-1.0, 1.0, -1.0], [-1.0, 1.0, 1.0], [1.0, 1.0, 1.0], [1.0, 1.0, -1.0]]]);
     let shade_of = |alpha: f32, alpha_mode: AlphaMode| {
@@ -309,9 +309,9 @@ fn pixel_of_ground_point(x: f64, z: f64) -> (u32, u32) {
 
 #[test]
 fn the_ground_shows_the_share_of_light_that_shadows_take() {
-    // 3 lux from the sun, 1 from all directions: where the sun is hidden, three quarters are
-    // missing, and of the last quarter the part hidden by the ball: its solid angle, weighted by
-    // the cosine.
+    // 3 lux from the sun and 1 lux from all directions. Where the sun is hidden, three quarters of
+    // the light are missing. The ball also hides a part of the last quarter: its solid angle,
+    // weighted by the cosine.
     let lights =
         "lights: [Directional(direction: (0, -1, 0), intensity: 3), Ambient(intensity: 1)]";
     let clear = render_over_ground("Transparent", lights);
@@ -328,7 +328,7 @@ fn the_ground_shows_the_share_of_light_that_shadows_take() {
             "{x} {z} {alpha} {expected}"
         );
     }
-    // Next to the ball almost all light arrives, and far away all.
+    // Almost all light arrives next to the ball, and all of it far away.
     for (x, z, most) in [(0.0, 0.8, 8), (-0.8, 0.0, 8), (-1.3, 1.0, 0)] {
         assert!(at(&clear, x, z)[3] <= most, "{x} {z}");
     }
@@ -341,7 +341,7 @@ fn the_ground_shows_the_share_of_light_that_shadows_take() {
 }
 
 #[test]
-fn occlusion_darkens_corners_and_nothing_that_is_open() {
+fn occlusion_darkens_corners_but_not_open_surfaces() {
     let draw_both = |parts: Vec<(Primitive, Material)>, lights: &str| {
         let rest = format!(
             "camera: (view: LookAt(eye: (0, 3, 3), target: (0, 0, 0))), lights: [{lights}], image: (size: (300, 200), samples: 1)"
@@ -351,7 +351,7 @@ fn occlusion_darkens_corners_and_nothing_that_is_open() {
     };
     let floor = || (floor_quad(6.0), matte_material(0.8, 0.8, 0.8));
     let (without, with) = draw_both(vec![floor()], "Ambient(intensity: 3)");
-    assert!(without == with, "a plane is open");
+    assert!(without == with, "a plane is not occluded");
     let (without, with) = draw_both(
         vec![(ball_mesh([0.0; 3], 1.0, 60), matte_material(0.8, 0.8, 0.8))],
         "Ambient(intensity: 3)",
@@ -359,9 +359,9 @@ fn occlusion_darkens_corners_and_nothing_that_is_open() {
     let pairs = with.pixels.iter().zip(&without.pixels);
     assert!(
         pairs.map(|(a, b)| a[0].abs_diff(b[0])).max() <= Some(8),
-        "a ball is open except for its facets"
+        "a ball is not occluded except along its facets"
     );
-    // A dark wall on a dark floor: at its foot half of the light is missing, and far away nothing.
+    // A dark wall on a dark floor: half of the light is missing at its foot, and none far away.
     let wall_on_floor = |albedo: f32| {
         let material = matte_material(albedo, albedo, albedo);
         let wall = box_sides([-6.0, 0.0, -4.0], [6.0, 4.0, -0.5], false);

@@ -11,7 +11,7 @@
 
 use crate::color::srgb_to_linear;
 
-/// Number of steps in the table: joined by straight lines they are finer than 16 bits can resolve.
+/// Number of steps in the table. Interpolated linearly, they are finer than 16 bits can resolve.
 const TABLE_STEPS: usize = 1024;
 
 /// A linear gradient through equally spaced colors.
@@ -19,15 +19,14 @@ const TABLE_STEPS: usize = 1024;
 pub struct Gradient {
     /// Linear colors at equal distances along the gradient line, from its beginning to its end.
     table: Vec<[f32; 3]>,
-    /// The fractions of the gradient line covered by a step across the whole picture and one down
-    /// it.
+    /// The fractions of the gradient line that the width and the height of the picture cover.
     axis: [f32; 2],
 }
 
 impl Gradient {
-    /// The gradient through at least one color, given in sRGB codes, in a picture of this size.
+    /// Creates a gradient through one or more colors, given as sRGB codes, for a picture of this size.
     ///
-    /// It runs down at an angle of 0 radians, and to the right at a quarter of a turn.
+    /// At an angle of 0 radians it runs down, at π/2 to the right.
     #[must_use]
     pub fn new(colors: &[[u8; 3]], angle: f64, [width, height]: [u32; 2]) -> Self {
         let (sine, cosine) = (libm::sin(angle), libm::cos(angle));

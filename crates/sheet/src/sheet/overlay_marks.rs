@@ -1,10 +1,10 @@
 //! Scene overlays in the views of a sheet: points with labels, and the world axes.
 //!
 //! ```text
-//!        ridge              a label stands beside the object, as near to its point as it finds a
-//!          ╲                place, with a leader line and a dot at the point
+//!        ridge              a label is beside the object, at the free position nearest to its
+//!          ╲                point, with a leader line and a dot at the point
 //!     ┌─────●─────┐
-//!     │     └──►  │  x      axes lie over the object; their names stand beside it
+//!     │     └──►  │  x      axes are drawn over the object, their names beside it
 //!     └───────────┘
 //! ```
 //!
@@ -26,7 +26,7 @@ use glam::DVec2;
 use homog::{Bounds, Point, World};
 use model::{ModelInstance, world_points};
 
-/// The maximum number of labels in a view: more would hide the object and take long to place.
+/// The maximum number of labels in a view: more would hide the object and take a long time to place.
 const MAX_LABELS: usize = 100;
 
 /// The number of rings around the object on which label positions are tried.
@@ -54,7 +54,7 @@ const AXIS_LENGTH: f64 = 0.6;
 /// The overlays of a view, in object millimeters from its center, y down.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ViewOverlays {
-    /// Points and their texts.
+    /// Points with their labels.
     labels: Vec<(DVec2, String)>,
     /// Axes from the origin to their ends, and their names.
     axes: Vec<([DVec2; 2], &'static str)>,
@@ -168,7 +168,7 @@ impl LabelBoard {
     }
 
     /// Adds an axis with its arrowhead and name; it ends where it would get too far from the
-    /// object, or run through a text.
+    /// object, or cross a label.
     fn add_axis(&self, annotations: &mut ViewAnnotations, [from, to]: [DVec2; 2], name: &str) {
         const PARTS: i32 = 40;
         let ends = (1..=PARTS).map(|k| from.lerp(to, f64::from(k) / f64::from(PARTS)));
@@ -192,8 +192,8 @@ impl LabelBoard {
         annotations.push(AnnotationLayer::OverlayLines, head);
     }
 
-    /// Adds the text at the nearest position to a point where it touches nothing, with a leader
-    /// line unless it is at the point; `false` if there is none.
+    /// Adds a label at the position nearest to a point where it touches nothing, with a leader line
+    /// unless it is at the point. Returns `false` if there is no such position.
     fn add_label(
         &self,
         annotations: &mut ViewAnnotations,
@@ -218,8 +218,8 @@ impl LabelBoard {
         false
     }
 
-    /// The positions of a text on rings around the object, nearest to the point first, each with
-    /// its leader line if needed.
+    /// Returns positions for a label on rings around the object, nearest to the point first, each
+    /// with a leader line if needed.
     fn candidates(
         &self,
         point: DVec2,

@@ -47,7 +47,7 @@ struct DrawnAssembly<'a> {
     models: &'a [ModelInstance],
     parts: Vec<Part>,
     list: PartsList,
-    /// One move for each part; `None` if all stay in place.
+    /// The move of each part; `None` if no part moves.
     moves: Option<Vec<DVec3>>,
     warnings: Vec<SheetWarning>,
     ink: Ink,
@@ -66,7 +66,7 @@ struct DrawnView {
 
 impl Sheet {
     /// Draws the sheet with the pages of the [assembly](Self::assembly), with up to `threads`
-    /// threads; their number does not change the pages.
+    /// threads. The number of threads does not change the pages.
     ///
     /// The first page is the one from [`draw`](Self::draw). If there are several, the title block
     /// has the page number and the page count.
@@ -142,7 +142,7 @@ impl Sheet {
         sheet
     }
 
-    /// Adds a frame and a title block; without a scale on a page that has no view.
+    /// Adds a frame and a title block, which has no scale on a page without a view.
     fn add_border(&self, page: &mut SheetPage, scale: Option<DrawingScale>, ink: Ink) {
         let block = self.title_block_area();
         // Tables and views extend to the frame, so the centering marks stop there.
@@ -246,7 +246,7 @@ impl<'a> DrawnAssembly<'a> {
         Ok(DrawnView { images, layers, balloons, scale: layout.scale, warnings })
     }
 
-    /// The layers of the paths of parts: narrow chain lines.
+    /// The layers of part paths: narrow chain lines.
     fn path_layers(&self, paths: &Drawing, style: &LineStyle, placement: Placement) -> Vec<Layer> {
         let mut layers = paths.to_layers(style, placement, "path-", self.ink);
         let width = self.sheet.line_width_group().narrow_width();
@@ -257,7 +257,7 @@ impl<'a> DrawnAssembly<'a> {
         layers
     }
 
-    /// The items with the spots for their leaders, each the best among its parts; warns about items
+    /// The items with a spot for each leader, the best among the item's parts. Warns about items
     /// that are not visible.
     fn balloon_targets(
         &self,
@@ -299,7 +299,7 @@ impl<'a> DrawnAssembly<'a> {
         warnings: &mut Vec<SheetWarning>,
     ) -> Vec<[Layer; 2]> {
         let width = self.sheet.line_width_group().narrow_width();
-        // Some positions are in the way of leaders to others.
+        // Balloons at some positions block the leaders of others.
         let capacity = (layout.capacity() * 2 / 3).max(1);
         let page_count = targets.len().div_ceil(capacity).max(1);
         // Spread evenly, so that the last page is not almost empty.
@@ -362,7 +362,7 @@ impl<'a> DrawnAssembly<'a> {
             number => format!("{number}-{}", item.number),
         };
         sheet.scale = None;
-        // These are views, overlays and dimensions of the whole.
+        // These are views, overlays and dimensions of the whole assembly.
         sheet.views.clear();
         sheet.overlays.clear();
         sheet.measures.clear();
@@ -385,8 +385,8 @@ impl Sheet {
     }
 }
 
-/// The spot of equal parts where the leader ends: of those about as clear as the clearest, the one
-/// nearest to the border of the view.
+/// The spot where the leader of equal parts ends. Among the spots about as clear as the clearest, it
+/// is the one nearest to the border of the view.
 fn outermost_clear_spot(spots: &[VisibleSpot], view: &SheetView) -> Option<VisibleSpot> {
     let clearest = spots.iter().map(|spot| spot.clearance).fold(0.0, f64::max);
     let clear = spots.iter().filter(|spot| spot.clearance >= 0.6 * clearest).copied();

@@ -12,7 +12,8 @@ use scene::Scene;
 use std::time::{Duration, Instant};
 
 fn main() {
-    for (name, is_sheet) in [("A sheet in front of the eye", true), ("Hills to the horizon", false)] {
+    for (name, is_sheet) in [("A sheet in front of the eye", true), ("Hills to the horizon", false)]
+    {
         println!("{name}:");
         compare(&Scene::new(is_sheet));
     }

@@ -54,7 +54,7 @@ fn plane_scene(width: u32, height: u32) -> Scene {
     let loaded = load_bytes("made.gltf", &plane_glb(), &ImportOptions::default()).expect("a model");
     let placed = ModelInstance { model: Arc::new(loaded), model_to_world: homog::Affine::IDENTITY };
     let origin = Origin::from_text("made.ron", text, ".".into());
-    Scene::from_models(&origin, &file, &[placed]).expect("a scene that makes sense")
+    Scene::from_models(&origin, &file, &[placed]).expect("a valid scene")
 }
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
