@@ -266,7 +266,7 @@ fn drawing_errors_are_reported_and_leave_no_file() {
         ("camera: (projection: Axonometric(x: 1, y: 1, z: 9))", "no axonometric projection"),
         (
             "camera: (view: LookAt(eye: (9, 9, 9), target: (0, 0, 0)), projection: OnePoint())",
-            "finds its own eye",
+            "determines its own eye",
         ),
     ] {
         let run = scene("wrong.ron", more);

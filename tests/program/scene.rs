@@ -117,7 +117,7 @@ const SUSPICIOUS: &[(&str, &str, &str, &str)] = &[
         "camera: (view: LookTo(eye: (0, 0.5, 90), gaze: (0, 0, -1)), projection: Perspective(near: 1, far: 9))",
         "nothing-visible",
         "3:11",
-        "all of it is outside the far plane",
+        "everything is outside the far plane",
     ),
     (
         "camera: (view: LookAt(eye: (0.1, 0.3, 0.1), target: (0, 0.2, -5)), projection: Perspective(near: 0.01, far: 9))",
@@ -235,7 +235,7 @@ fn models_that_hide_each_other_or_are_specks_are_named() {
         format!("(path: \"crate.glb\", instances: Grid(count: (2, 1, 2), step: {step}))")
     };
     let output = check(&grid("(3, 0, 0)"));
-    let told = "warning[coincident-instances]: 2 of 4 instances coincide with another one";
+    let told = "warning[coincident-instances]: 2 of 4 instances coincide with another instance";
     assert!(output.contains(told) && output.contains("scene.ron:2:72"), "{output}");
     assert!(!check(&grid("(3, 0, 3)")).contains("warning["));
     let output = check(
@@ -296,7 +296,7 @@ fn a_model_beside_the_picture_is_named() {
         output.contains("warning[model-not-visible]") && output.contains("scene.ron:2:33"),
         "{output}"
     );
-    assert!(output.contains("all of it is outside the right"), "{output}");
+    assert!(output.contains("everything is outside the right"), "{output}");
     let run = sandbox.run(&["scene", "check", "scene.ron", "--json"]);
     let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
     let advice = &report["files"][0]["advice"][0];

@@ -147,8 +147,8 @@ fn numbers_that_make_no_sense_are_mistakes() {
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     for (fields, told) in [
         ("decimals: 7", "too many decimal places: 7; at most 6 are allowed"),
-        ("sheet_number: (3, 2)", "there is no sheet 3 of 2"),
-        ("sheet_number: (0, 2)", "there is no sheet 0 of 2"),
+        ("sheet_number: (3, 2)", "invalid sheet number: 3 of 2"),
+        ("sheet_number: (0, 2)", "invalid sheet number: 0 of 2"),
     ] {
         write_scene(&sandbox, "scene.ron", fields);
         let run = sandbox.run(&["scene", "check", "scene.ron"]);

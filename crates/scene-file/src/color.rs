@@ -33,15 +33,15 @@ impl Color {
         parse_hex_srgb(text).or_else(|| parse_color_name(text)).map(Self)
     }
 
-    /// Red, green and blue as linear light from 0 to 1, converted with the sRGB transfer function
-    /// (IEC 61966-2-1) from a table of 256 entries.
+    /// Returns red, green and blue as linear light from 0 to 1, converted with the sRGB transfer
+    /// function (IEC 61966-2-1) from a table of 256 entries.
     #[must_use]
     pub fn to_linear(self) -> [f32; 3] {
         self.0.map(|code| srgb_to_linear_table()[usize::from(code)])
     }
 }
 
-/// The color of a CSS name (CSS Color 4, § 6.1), by binary search in the sorted table.
+/// Looks up a CSS color name (CSS Color 4, § 6.1) by binary search in the sorted table.
 fn parse_color_name(text: &str) -> Option<[u8; 3]> {
     let name = text.to_ascii_lowercase();
     let index = CSS_COLORS.binary_search_by_key(&name.as_str(), |(name, _)| name).ok()?;
@@ -49,7 +49,7 @@ fn parse_color_name(text: &str) -> Option<[u8; 3]> {
     Some([r, g, b])
 }
 
-/// The CSS color names, in alphabetical order.
+/// Returns the CSS color names in alphabetical order.
 pub fn color_names() -> impl Iterator<Item = &'static str> {
     CSS_COLORS.iter().map(|(name, _)| *name)
 }
@@ -90,7 +90,7 @@ fn check_color(node: &Node<'_>, checker: &mut Checker<'_>) {
             format!("write the color in quotation marks: \"{word}\"")
         }
         NodeKind::Group(_) => color_of_numbers(node).map_or_else(hex_help, |[r, g, b]| {
-            format!("write \"#{r:02x}{g:02x}{b:02x}\", if the numbers are sRGB from 0 to 1")
+            format!("write \"#{r:02x}{g:02x}{b:02x}\" if the numbers are sRGB from 0 to 1")
         }),
         NodeKind::Number(word)
             if word.starts_with("0x") && Color::parse(&word.replacen("0x", "#", 1)).is_some() =>
@@ -128,13 +128,13 @@ fn check_color_string(node: &Node<'_>, checker: &mut Checker<'_>) {
     }
 }
 
-/// The help on color notation.
+/// Returns the help text on color notation.
 fn hex_help() -> String {
     "write \"#rrggbb\", such as \"#1a1f26\", or a CSS color name, such as \"white\"".to_owned()
 }
 
-/// The 8-bit color of a tuple of three or four numbers from 0 to 1, for the hint in a message;
-/// alpha is ignored.
+/// Returns the 8-bit color for a tuple of three or four numbers from 0 to 1, for the hint in a
+/// message. Alpha is ignored.
 fn color_of_numbers(node: &Node<'_>) -> Option<[u8; 3]> {
     let items = &unnamed_group(node)?.items;
     let number = |index: usize| match items.get(index)?.value.kind {
@@ -152,7 +152,7 @@ fn color_of_numbers(node: &Node<'_>) -> Option<[u8; 3]> {
 pub struct LightColor(pub [f64; 3]);
 
 impl LightColor {
-    /// White, (1, 1, 1): leaves the intensity of the light unchanged.
+    /// White, (1, 1, 1), which leaves the intensity of the light unchanged.
     pub const WHITE: Self = Self([1.0; 3]);
 }
 

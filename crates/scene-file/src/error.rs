@@ -37,15 +37,16 @@ pub struct SceneError {
 }
 
 impl SceneError {
-    /// The line and column of the mistake, both from 1; columns count characters.
+    /// Returns the line and column of the mistake, both counted from 1. Columns count characters.
     #[must_use]
     pub fn line_and_column(&self) -> (usize, usize) {
         self.source.line_and_column(self.span.start)
     }
 
-    /// The message with the line and the caret, in terminal colors (ECMA-48) if `colors` is set.
+    /// Formats the message with the line and the caret, in terminal colors (ECMA-48) if `colors` is
+    /// set.
     ///
-    /// Without the feature `terminal` it gives the line and column as numbers, without colors.
+    /// Without the feature `terminal`, the line and column are given as numbers, without colors.
     #[must_use]
     #[cfg_attr(not(feature = "terminal"), expect(unused_variables, reason = "for the snippet"))]
     pub fn to_message(&self, colors: bool) -> String {
@@ -65,8 +66,8 @@ impl SceneError {
         format!("{place}: {}{help}", visible_text(&self.message))
     }
 
-    /// The message with the line and the caret; `None` if there is no text, or if the line is too
-    /// long to show.
+    /// Formats the message with the line and the caret; returns `None` if there is no text or the
+    /// line is too long to show.
     #[cfg(feature = "terminal")]
     fn to_snippet(&self, colors: bool) -> Option<String> {
         let (number, line) = self.source.line_at(self.span.start);
@@ -108,29 +109,29 @@ pub struct SceneErrors {
 }
 
 impl SceneErrors {
-    /// The number of mistakes in a message: more would scroll the first one off the screen.
+    /// The maximum number of mistakes in a message; more would scroll the first one off the screen.
     pub const SHOWN: usize = 5;
 
-    /// Wraps the mistakes in this order; `None` if there are none.
+    /// Wraps the mistakes in this order; returns `None` if the list is empty.
     #[must_use]
     pub fn from_list(errors: Vec<SceneError>) -> Option<Self> {
         let mut errors = errors.into_iter();
         Some(Self { first: Box::new(errors.next()?), others: errors.collect() })
     }
 
-    /// The first mistake.
+    /// Returns the first mistake.
     #[must_use]
     pub fn first(&self) -> &SceneError {
         &self.first
     }
 
-    /// All mistakes.
+    /// Returns all mistakes.
     pub fn iter(&self) -> impl Iterator<Item = &SceneError> {
         std::iter::once(&*self.first).chain(&self.others)
     }
 
-    /// The messages of the first few mistakes, each but the first prefixed with `error: `, and the
-    /// number of the others; in terminal colors if `colors` is set.
+    /// Formats the first few mistakes, all but the first prefixed with `error: `, and adds how many
+    /// more there are. Uses terminal colors if `colors` is set.
     #[must_use]
     pub fn to_message(&self, colors: bool) -> String {
         let error = if colors { "\x1b[1;31merror\x1b[0m: " } else { "error: " };

@@ -1,4 +1,4 @@
-//! A scene as written: RON, with degrees, paths and defaults.
+//! A scene as written in RON, with angles in degrees, paths and defaults.
 //!
 //! These types define what a scene file may contain; resolution gives it meaning. Only the models'
 //! paths are required. Unknown fields are errors, so that misspelled ones are found.
@@ -64,7 +64,7 @@ use super::schema::{scene_enum, scene_struct};
 use model::{Colormap, LengthUnit, UpAxis};
 
 scene_struct! {
-    /// A scene file. It begins with the name and brackets of this struct, around its fields:
+    /// A scene file. It consists of the name of this struct and its fields in parentheses:
     /// `Scene(models: [(path: "model.glb")], style: Shaded)`.
     pub struct SceneFile as "Scene" {
         /// Other scene files to include, in this order. Their models, lights, overlays, sections
@@ -77,8 +77,8 @@ scene_struct! {
         pub models: Vec<ModelFile> = Vec::new(),
         /// The camera and its projection. Default: framed from a named direction, in perspective.
         pub camera: CameraFile = CameraFile::default(),
-        /// The motion of the camera, for `alberti animate`. Pictures ignore it, and so do lights
-        /// that the scene leaves open. Default: the camera does not move.
+        /// The motion of the camera, for `alberti animate`. Still pictures ignore it, and so do
+        /// default lights. Default: the camera does not move.
         pub camera_path: Option<CameraPathFile> = None,
         /// Separate views in parts of the picture, drawn in this order. Default: none.
         pub viewports: Vec<ViewportFile> = Vec::new(),
@@ -86,12 +86,12 @@ scene_struct! {
         pub viewports_scale: ViewportsScale = ViewportsScale::Individual,
         /// A stereo pair. Default: one picture.
         pub stereo: Option<StereoFile> = None,
-        /// The lights. Default: the models' lights. If they have none: without an environment, a
-        /// key light from above the viewer's left shoulder, and ambient light; with one, only the
-        /// key light, if there are shadows.
+        /// The lights. Default: the models' lights. If the models have none, a scene without an
+        /// environment gets ambient light and a key light from above the viewer's left shoulder. A
+        /// scene with an environment gets only the key light, and only if there are shadows.
         pub lights: Option<Vec<LightFile>> = None,
-        /// A factor for the intensity of all lights: from the scene, from the models, and the key
-        /// light. An environment has its own `strength`. Default: 1.
+        /// A factor for the intensity of all lights: the scene's, the models' and the key light. An
+        /// environment has a separate `strength`. Default: 1.
         pub light_intensity: NonNegative = NonNegative::ONE,
         /// The shadows of all directional, point and spot lights that do not set their own,
         /// including the models' lights. Default: `Off`.
@@ -99,30 +99,30 @@ scene_struct! {
         /// The ground below the models. Default: none.
         pub ground: Option<GroundFile> = None,
         /// Light from all directions. Default: none; a model without a scene file and without
-        /// lights is lit by a `Studio(strength: 0.45)` with a key light.
+        /// lights is lit by `Studio(strength: 0.45)` and a key light.
         pub environment: Option<EnvironmentFile> = None,
         /// Screen-space ambient occlusion. Default: none.
         pub ambient_occlusion: Option<AmbientOcclusionFile> = None,
         /// The style, which defines how surfaces are drawn. Default: `Shaded`.
         pub style: StyleFile = StyleFile::Shaded,
-        /// The colors of the style `Depth`: the nearest vertex of the models has the last color of
-        /// the colormap, the farthest the first. Default: grays, brighter toward the viewer.
+        /// The colormap of the style `Depth`. The nearest vertex of the models gets its last color,
+        /// and the farthest vertex its first. Default: grays, brighter toward the viewer.
         pub depth_colormap: Option<Colormap> = None,
         /// The image: its size, background and sampling. Default: 960 × 720 pixels, transparent.
         pub image: ImageFile = ImageFile::default(),
-        /// Explanations drawn over the picture. Default: none.
+        /// Annotations drawn over the picture. Default: none.
         pub overlays: Vec<OverlayFile> = Vec::new(),
-        /// A line of text below the picture, centered in a strip of 28 pixels at its lower border;
-        /// the view fills the rest. The text is drawn with strokes, as on drawings, and smaller if
-        /// it is too long. The strip has the background color, or a gradient's center color.
-        /// Default: none.
+        /// A line of text below the view, centered in a strip of 28 pixels along the bottom of the
+        /// picture; the view fills the rest. The text is drawn with strokes, as on drawings, and
+        /// shrinks if it is too long. The strip has the background color, or a gradient's center
+        /// color. Default: none.
         pub caption: Option<String> = None,
         /// Passes: data for each pixel in addition to its color. Default: none.
         pub passes: PassesFile = PassesFile::default(),
-        /// Section planes that cut the models open, one after the other, in line drawings and on
-        /// sheets; at most 16. Default: none.
+        /// Up to 16 section planes that cut the models open, one after another, in line drawings
+        /// and on sheets. Default: none.
         pub sections: Vec<SectionFile> = Vec::new(),
-        /// The layout of `alberti sheet`. Default: as its flags specify.
+        /// The layout for `alberti sheet`. Default: from its flags.
         pub sheet: Option<SheetFile> = None,
     }
 }
@@ -133,11 +133,11 @@ scene_struct! {
         /// The path of a `.gltf`, `.glb`, `.stl`, `.obj`, `.ply` or `.3mf` file, relative to the
         /// scene file's folder.
         pub path: String,
-        /// The translation, in the unit of the file: meters in glTF. Default: (0, 0, 0).
+        /// The translation, in the file's unit: meters in glTF. Default: (0, 0, 0).
         pub translation: Triple = Triple::ZERO,
         /// Rotations about the x, then the y, then the z axis, in degrees. Default: (0, 0, 0).
         pub rotation_degrees: Triple = Triple::ZERO,
-        /// One factor for all axes, or one for each; none of them 0. Default: 1.
+        /// One scale factor for all axes, or one for each; none may be 0. Default: 1.
         pub scale: Scale = Scale::ONE,
         /// The axis that points up in the file; the model is rotated so that it becomes y. Default:
         /// z for STL and 3MF, y for all others.
@@ -145,8 +145,8 @@ scene_struct! {
         /// The unit of the file, for sheets. Default: the unit the file declares, otherwise
         /// millimeters for STL and 3MF and meters for all others.
         pub unit: Option<LengthUnit>,
-        /// The largest angle between faces that are shaded as one smooth surface, in degrees from 0
-        /// to 180, if the file has no normals. Default: 30.
+        /// The largest angle at which adjacent faces are shaded as one smooth surface, in degrees
+        /// from 0 to 180. It applies only if the file has no normals. Default: 30.
         pub crease_degrees: Option<Finite>,
         /// The scene in the glTF file. Default: its default scene, otherwise its first.
         pub scene: Option<Choice>,
@@ -167,7 +167,7 @@ scene_struct! {
 }
 
 scene_enum! {
-    /// A choice among the scenes, variants or animations of a model.
+    /// One of a model's scenes, variants or animations.
     #[derive(Eq, PartialOrd, Ord)]
     pub enum Choice as "Choice" {
         /// By index in the file, from 0.
@@ -178,7 +178,7 @@ scene_enum! {
 }
 
 impl SceneFile {
-    /// A scene with one model and all defaults.
+    /// Returns a scene with one model and all defaults.
     #[must_use]
     pub fn from_model_path(path: String) -> Self {
         Self::new([ModelFile::new(path)])

@@ -3,10 +3,10 @@
 //! ```text
 //!  text ─► tokens with their line breaks ─► groups of items ─► lines
 //! ```
-//! A group that fits on a line is written on one line; in any other, each part gets a line.
-//! Comments are kept. A bracket followed by a line break stays open: the author decides what
-//! deserves several lines, and formatting again changes nothing. Blank lines between items are kept
-//! too, one at a time.
+//! A group that fits on a line is written on one line; in any other group, each part gets its own
+//! line. Comments are kept. A group whose opening bracket is followed by a line break stays open:
+//! the author decides what deserves several lines, and formatting again changes nothing. Blank
+//! lines between items are kept, but consecutive ones become one.
 
 mod tree;
 
@@ -29,7 +29,8 @@ const INDENT_WIDTH: usize = 4;
 /// ```
 ///
 /// # Errors
-/// The mistakes in the text, if it is not a scene file; or if formatting would change its meaning.
+/// Returns the mistakes in the text if it is not a scene file, or an error if formatting would
+/// change its meaning.
 ///
 /// The result is parsed again and compared with the original scene, so that a bug in the formatter
 /// cannot damage a file. Formatting is idempotent, and comments are never lost.
@@ -41,14 +42,14 @@ pub fn format_source(file: &str, text: &str) -> Result<String, SceneErrors> {
     if parse_scene(file, &page).is_ok_and(|again| again == scene) {
         return Ok(page);
     }
-    // No text is known to get here; a user's file is not the place to find one.
+    // No text is known to get here, but the first one must not cost a user a file.
     let message = "this file cannot be formatted without changing its meaning".to_owned();
     let error =
         SceneError { file: file.into(), source: text.into(), span: 0..0, message, help: None };
     Err(error.into())
 }
 
-/// Writes the items of a group, each on separate lines; `comma` follows each element.
+/// Writes the items of a group, each on its own lines; `comma` follows each element.
 ///
 /// `indent` is in columns. At the top level `comma` is empty, because a file holds one value and
 /// attributes. Consecutive blank lines become one, and blank lines at the start of a group are
@@ -101,8 +102,8 @@ fn write_element(page: &mut String, element: &Element, indent: usize, line: usiz
     }
 }
 
-/// The group on one line; `None` if it is open in the source, or contains a comment or an open
-/// group.
+/// Formats the group on one line; returns `None` if it is open in the source, or contains a comment
+/// or an open group.
 ///
 /// Each level of nesting formats its groups again, so the cost is O(length × depth); the parser
 /// bounds the depth.
@@ -139,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn what_fits_is_one_line_and_what_is_open_stays_open() {
+    fn short_groups_get_one_line_and_open_groups_stay_open() {
         check(
             "Scene(models:[(path:\"a.glb\",scale:2.)],style:Flat)",
             "Scene(models: [(path: \"a.glb\", scale: 2.)], style: Flat)\n",
@@ -151,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_too_long_is_broken_from_outside() {
+    fn long_groups_are_broken_from_the_outside_in() {
         let path = "p".repeat(60);
         check(
             &format!("(models: [(path: \"{path}\"), (path: \"{path}\")])"),
@@ -162,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn comments_and_blank_lines_stay() {
+    fn comments_and_blank_lines_are_kept() {
         check(
             "\u{feff}#![enable(implicit_some)]\r\n// What it is.  \r\n\r\n\r\nScene( // all\r\n models: [(path: \"a//b.glb\")], // one\r\n\r\n\r\n /* a\n block */\n style: /* in */ Flat // the last\n // after\n)\n// end",
             "#![enable(implicit_some)]\n// What it is.\n\nScene(\n    // all\n    models: [(path: \"a//b.glb\")], // one\n\n    /* a\n block */\n    style: /* in */ Flat, // the last\n    // after\n)\n// end\n",
@@ -170,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn a_comment_inside_of_an_element_goes_before_it() {
+    fn comments_inside_an_element_move_before_it() {
         check(
             "(models: [(path: // where\n \"a.glb\")])",
             "(\n    models: [\n        (\n            // where\n            path: \"a.glb\",\n        ),\n    ],\n)\n",
@@ -178,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn strings_are_left_as_they_are() {
+    fn strings_are_unchanged() {
         check(
             "(models: [(path: \"a\\\"(,//.glb\"), (path: r#\"b\"(.glb\"#)])",
             "(models: [(path: \"a\\\"(,//.glb\"), (path: r#\"b\"(.glb\"#)])\n",
@@ -186,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn an_attribute_ends_with_its_bracket() {
+    fn attributes_end_at_their_closing_bracket() {
         check(
             "#![enable(implicit_some)] Scene(models: [])",
             "#![enable(implicit_some)]\nScene(models: [])\n",
@@ -194,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn text_without_a_scene_has_no_layout() {
+    fn invalid_scenes_are_not_formatted() {
         for text in ["", "Scene(", "Scene(models: [)]", "Scene(modles: [])"] {
             assert!(format_source("scene.ron", text).is_err(), "{text}");
         }

@@ -4,7 +4,7 @@
 //! ```text
 //!  studio.ron ─┐
 //!  paper.ron ──┴─► merged includes ─┐
-//!  scene.ron ───────────────────────┴─► one scene; errors point into the file that is wrong
+//!  scene.ron ───────────────────────┴─► one scene; errors point into the file with the mistake
 //! ```
 //! Lists are concatenated, included files first; every other field of the including file replaces
 //! the included value as a whole.
@@ -23,8 +23,8 @@ use std::path::{Path, PathBuf};
 
 /// The maximum number of files that a scene includes, counting each inclusion.
 const MAX_INCLUDED_FILES: usize = 64;
-/// The maximum total size of included files in bytes, counting each inclusion. A few lines could
-/// otherwise ask for a gigabyte of text.
+/// The maximum total size of included files in bytes, counting each inclusion. Otherwise, a few
+/// lines could request a gigabyte of text.
 const MAX_INCLUDED_BYTES: usize = 4 << 20;
 
 /// The fields of a scene that are replaced as a whole.
@@ -57,7 +57,7 @@ pub struct FileMistake {
 
 impl SceneSource {
     /// Parses the text and the files it includes, which must be inside its folder or an `allowed`
-    /// one. Parts with mistakes are left out of the scene.
+    /// folder. Parts with mistakes are left out of the scene.
     pub fn parse_recovering(&mut self, allowed: &[PathBuf]) -> (SceneFile, Vec<FileMistake>) {
         let GatheredScene { file, includes, mistakes } = gather_includes(self, allowed);
         self.includes = includes;
@@ -65,11 +65,11 @@ impl SceneSource {
     }
 
     /// Parses the text and the files it includes, which must be inside its folder or an `allowed`
-    /// one. The returned scene contains everything they include, and includes nothing itself.
+    /// folder. The returned scene contains everything they include, and includes nothing itself.
     ///
     /// # Errors
-    /// Every mistake in their texts. Also if an included file cannot be read, is not UTF-8 or is
-    /// too long, or if files include each other.
+    /// Returns every mistake in their texts, or an error if an included file cannot be read, is not
+    /// UTF-8 or is too long, or if files include each other.
     pub fn parse_with_includes(
         mut self,
         allowed: &[PathBuf],
@@ -124,7 +124,7 @@ struct SourceFile<'a> {
 }
 
 impl SourceFile<'_> {
-    /// A mistake at the path of the include with this index.
+    /// Creates a mistake at the path of the include with this index.
     fn include_mistake(&self, index: usize, message: String, help: Option<&str>) -> FileMistake {
         let span = self.text.span_of(&[Field("include"), Index(index)]);
         let mistake = Mistake::new(span, message, help.map(str::to_owned));
@@ -186,14 +186,14 @@ impl IncludeResolver<'_> {
         merge_scenes(below, MergedScene { file, fields, lists })
     }
 
-    /// Loads an included file, merged over what it includes; `path` is relative to the scene's
-    /// folder.
+    /// Loads an included file and merges it over the files it includes; `path` is relative to the
+    /// scene's folder.
     ///
-    /// A file may be included several times, but not by itself: the message shows the cycle.
+    /// A file may be included several times, but not by itself; the message then shows the cycle.
     ///
     /// # Errors
-    /// The message and the help, if the path leaves the allowed folders, there are too many files,
-    /// the file cannot be read, or it is already being read.
+    /// Returns the message and the help if the path leaves the allowed folders, there are too many
+    /// files, the file cannot be read, or it is already being read.
     fn load_include(
         &mut self,
         path: &Path,
@@ -244,8 +244,8 @@ impl IncludeResolver<'_> {
     }
 }
 
-/// Makes the paths of a file in `folder` relative to the scene's own folder, with slashes on all
-/// systems.
+/// Makes the paths of a file in `folder` relative to the scene's folder, with forward slashes on
+/// all systems.
 ///
 /// When adding a field that holds a path, add it here too.
 fn rebase_paths(file: &mut SceneFile, folder: &Path) {
@@ -269,9 +269,9 @@ fn rebase_paths(file: &mut SceneFile, folder: &Path) {
 /// Merges a scene over another: lists are concatenated, other fields replaced as a whole if `above`
 /// sets them.
 ///
-/// Lights are an optional list: if absent, the other list stays as it is.
+/// Lights are an optional list: if it is absent, the other list is unchanged.
 fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
-    // All fields by name, so that a new scene field has to be concatenated or replaced here.
+    // Lists all fields by name, so that a new scene field must be concatenated or replaced here.
     let SceneFile {
         include,
         models,
@@ -331,7 +331,7 @@ fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
     MergedScene { file, fields, lists: merge_sources(below.lists, above.lists) }
 }
 
-/// The sources of the elements of concatenated lists.
+/// Returns the sources of the elements of concatenated lists.
 fn merge_sources(below: ElementSources, above: ElementSources) -> ElementSources {
     let mut lists = below;
     for (list, elements) in above {

@@ -19,8 +19,8 @@ pub(super) struct IncludeMap {
 }
 
 impl IncludeMap {
-    /// The name and text of the included file in which the value at the end of `path` is written,
-    /// and its path there.
+    /// Returns the name and text of the included file in which the value at the end of `path` is
+    /// written, and the value's path there.
     ///
     /// Resolution works with paths in the merged scene: `models[3]` may be the first model of an
     /// included file. `None` means the scene file itself.
@@ -41,12 +41,12 @@ impl IncludeMap {
         (source.map(|(name, text)| (name.as_str(), text)), path)
     }
 
-    /// The included files' names, in reading order.
+    /// Returns the included files' names, in reading order.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(|(name, _)| name.as_str())
     }
 
-    /// The texts of the included files, in reading order.
+    /// Returns the texts of the included files, in reading order.
     pub(super) fn included_texts(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(|(_, text)| text.as_str())
     }

@@ -4,7 +4,7 @@ use super::SceneError;
 use super::source_text::SourceText;
 use core::ops::Range;
 
-/// The maximum number of mistakes reported for a text: more would help nobody, and each costs a
+/// The maximum number of mistakes reported for a text. More would not help anyone, and each costs a
 /// search for the intended word.
 pub(super) const MAX_MISTAKES: usize = 1000;
 
@@ -29,7 +29,7 @@ impl Mistake {
         Self { scope: span.clone(), span, message: message.into(), help }
     }
 
-    /// The mistake as an error in a file with this name and text.
+    /// Converts the mistake to an error in a file with this name and text.
     pub(super) fn to_error(&self, file: &str, source: &SourceText) -> SceneError {
         SceneError {
             file: file.to_owned(),

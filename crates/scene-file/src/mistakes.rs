@@ -5,7 +5,7 @@ mod vocabulary;
 
 use super::{SceneErrors, parse_scene};
 
-/// The message, line and column, and help of each mistake.
+/// Returns the message, line and column, and help of each mistake.
 fn mistakes(source: &str) -> Vec<(String, (usize, usize), String)> {
     let errors: SceneErrors = parse_scene("scene.ron", source).expect_err(source);
     let mistakes = errors.iter().map(|error| {
@@ -19,20 +19,20 @@ fn mistakes(source: &str) -> Vec<(String, (usize, usize), String)> {
     mistakes.collect()
 }
 
-/// Expects one mistake, and no other.
+/// Expects exactly one mistake.
 #[track_caller]
 fn check(source: &str, message: &str, location: (usize, usize), help: &str) {
     let expected = (message.to_owned(), location, help.to_owned());
     assert_eq!(mistakes(source), [expected], "{source}");
 }
 
-/// A scene with one more field after the models.
+/// Returns a scene with one more field after the models.
 fn scene_with(field: &str) -> String {
     format!("Scene(\n  models: [(path: \"a.glb\")],\n  {field}\n)")
 }
 
 #[test]
-fn near_misses_are_answered_with_the_name_that_was_meant() {
+fn near_misses_get_the_intended_name() {
     check(
         "Scene(models: [Model(path: \"a.glb\", rotate: (0, 30, 0))])",
         "unexpected field `rotate` in `Model`",
@@ -47,20 +47,20 @@ fn near_misses_are_answered_with_the_name_that_was_meant() {
     );
     check(
         &scene_with("camera: (projection: Perspectiv(fov_y_degrees: 18)),"),
-        "unexpected `Perspectiv` for `Projection`",
+        "`Perspectiv` is not a valid `Projection`",
         (3, 24),
         "did you mean `Perspective`?",
     );
     check(
         &scene_with("style: Blueprint"),
-        "unexpected `Blueprint` for `Style`",
+        "`Blueprint` is not a valid `Style`",
         (3, 10),
         "write style: Lines(edges: Tangents, hidden: Dashed, width: Iso(0.5), color: \"#ffffff\", paper: \"#1d4279\")",
     );
 }
 
 #[test]
-fn numbers_out_of_range_are_named_with_their_path() {
+fn numbers_out_of_range_are_reported_with_their_path() {
     let location = |field: &str| (3, field.find('?').expect("a mark") + 3);
     for (field, value, message) in [
         (
@@ -109,11 +109,11 @@ fn numbers_out_of_range_are_named_with_their_path() {
 }
 
 #[test]
-fn errors_of_grammar_are_pointed_at() {
+fn syntax_errors_are_located() {
     let begin = "a scene looks like this: Scene(models: [(path: \"model.glb\")])";
     check("", "the file is empty", (1, 1), begin);
     check("[]", "this is not a scene", (1, 1), begin);
-    check("Scene(", "the file ends too early", (1, 6), "close the `(` on line 1");
+    check("Scene(", "unexpected end of file", (1, 6), "close the `(` on line 1");
     check(
         "Scene(models: [(path: \"a.glb\")]) more",
         "unexpected text after the scene's closing bracket",
@@ -140,23 +140,32 @@ fn errors_of_grammar_are_pointed_at() {
     );
 }
 
-/// After a syntax error the parser goes on, and reports no errors caused by it.
+/// After a syntax error the parser continues and does not report errors caused by it.
 #[test]
-fn errors_of_grammar_do_not_hide_others_nor_cause_them() {
+fn syntax_errors_neither_hide_nor_cause_others() {
     let comma = "expected a comma or a closing bracket here";
     for (source, expected) in [
-        ("(models: [(path: \"a.glb\")] style: Falt)", vec![(1, 28, comma), (1, 35, "unexpected")]),
-        ("(models: [(path: \"a.glb\")), style: Falt)", vec![(1, 26, comma), (1, 36, "unexpected")]),
+        (
+            "(models: [(path: \"a.glb\")] style: Falt)",
+            vec![(1, 28, comma), (1, 35, "`Falt` is not")],
+        ),
+        (
+            "(models: [(path: \"a.glb\")), style: Falt)",
+            vec![(1, 26, comma), (1, 36, "`Falt` is not")],
+        ),
         (
             "(models: [(path: \"a.glb\"), style: Falt, image: ())",
-            vec![(1, 10, "this `[` is not closed"), (1, 35, "unexpected")],
+            vec![(1, 10, "this `[` is not closed"), (1, 35, "`Falt` is not")],
         ),
-        ("(models: [(path: \"a.glb\"], style: Falt)", vec![(1, 25, comma), (1, 35, "unexpected")]),
+        (
+            "(models: [(path: \"a.glb\"], style: Falt)",
+            vec![(1, 25, comma), (1, 35, "`Falt` is not")],
+        ),
         (
             "(style = Falt, models: [(path \"a.glb\")])",
             vec![
                 (1, 8, "expected a colon here"),
-                (1, 10, "unexpected"),
+                (1, 10, "`Falt` is not"),
                 (1, 31, "expected a colon here"),
             ],
         ),
@@ -167,7 +176,7 @@ fn errors_of_grammar_do_not_hide_others_nor_cause_them() {
         ("(models: [(path: \"a.glb)], style: Falt)", vec![(1, 18, "this string is not closed")]),
         (
             "(models: [(path: \"a.glb\"], camera: (view: Frame()",
-            vec![(1, 25, comma), (1, 49, "the file ends too early")],
+            vec![(1, 25, comma), (1, 49, "unexpected end of file")],
         ),
     ] {
         let found = mistakes(source);
@@ -181,7 +190,7 @@ fn errors_of_grammar_do_not_hide_others_nor_cause_them() {
 }
 
 #[test]
-fn deep_nesting_and_binary_garbage_are_errors_like_others() {
+fn deep_nesting_and_binary_garbage_are_ordinary_errors() {
     let _ = mistakes(&"(".repeat(100_000));
     let _ = mistakes(&format!("Scene(models: {}", "[".repeat(100_000)));
     let _ = mistakes("\u{0}\u{1}\u{7f}");
@@ -203,7 +212,7 @@ fn every_prefix_of_a_scene_is_parsed() {
 }
 
 #[test]
-fn numbers_have_the_notations_of_ron() {
+fn numbers_have_ron_notation() {
     let far = |text: &str| {
         let scene = parse_scene(
             "s.ron",
@@ -237,7 +246,7 @@ fn numbers_have_the_notations_of_ron() {
 }
 
 #[test]
-fn what_is_left_out_has_a_default_and_marks_of_other_editors_do_not_hurt() {
+fn omitted_fields_have_defaults_and_byte_order_marks_are_ignored() {
     let short = parse_scene(
         "s.ron",
         "\u{feff}(models: [(path: \"a.glb\", scale: (1, 2, 3), translation: [1, 2, 3])])\r\n",
@@ -249,7 +258,7 @@ fn what_is_left_out_has_a_default_and_marks_of_other_editors_do_not_hurt() {
 
 /// Twelve different mistakes give twelve messages, in text order.
 #[test]
-fn all_mistakes_come_at_once() {
+fn all_mistakes_are_reported_at_once() {
     let source = include_str!("mistakes/twelve.ron");
     let found = mistakes(source);
     let lines: Vec<usize> = found.iter().map(|(_, (line, _), _)| *line).collect();

@@ -1,4 +1,4 @@
-//! Numbers in scene files: each type allows only the values that make sense in its fields.
+//! Numbers in scene files: each type allows only the values that are valid in its fields.
 //!
 //! RON itself accepts `NaN`, `inf` and `1e400`; none of these types does.
 
@@ -33,7 +33,7 @@ checked_number! {
     NonNegative, "0 or a positive number", |x| x >= 0.0
 }
 checked_number! {
-    /// A field of view in degrees, between 0 and 180, both excluded.
+    /// A field of view in degrees, greater than 0 and less than 180.
     FieldOfView, "an angle between 0 and 180 degrees", |x| x > 0.0 && x < 180.0
 }
 checked_number! {
@@ -109,7 +109,7 @@ impl PointSize {
 }
 
 impl CreaseAngle {
-    /// 30 degrees: a twelve-sided cylinder is still round.
+    /// 30 degrees, so that a twelve-sided cylinder is still smooth.
     pub const DEFAULT: Self = Self(30.0);
 }
 
@@ -117,9 +117,9 @@ impl Positive {
     /// 1.
     pub const ONE: Self = Self(1.0);
 
-    /// A constant that is greater than 0.
+    /// Creates a constant greater than 0.
     pub(super) const fn constant(value: f64) -> Self {
-        debug_assert!(value > 0.0, "a positive number is greater than 0");
+        debug_assert!(value > 0.0, "the number must be greater than 0");
         Self(value)
     }
 }
@@ -134,9 +134,9 @@ impl Finite {
     /// 0.
     pub const ZERO: Self = Self(0.0);
 
-    /// A constant that is finite.
+    /// Creates a finite constant.
     pub(super) const fn constant(value: f64) -> Self {
-        debug_assert!(value.is_finite(), "a finite number is finite");
+        debug_assert!(value.is_finite(), "the number must be finite");
         Self(value)
     }
 }
@@ -156,7 +156,7 @@ impl NonNegative {
 }
 
 impl FieldOfView {
-    /// 35 degrees: about the angle of a picture viewed from one and a half times its height.
+    /// 35 degrees, about the angle that a picture subtends at one and a half times its height.
     pub const DEFAULT: Self = Self(35.0);
 }
 
@@ -189,7 +189,7 @@ impl From<[f64; 3]> for Triple {
 impl TryFrom<f64> for Scale {
     type Error = InvalidNumber;
 
-    /// One factor for all axes.
+    /// Creates a scale with one factor for all axes.
     fn try_from(factor: f64) -> Result<Self, InvalidNumber> {
         let is_valid = factor.is_finite() && factor != 0.0;
         let expected = "a finite factor other than 0";
@@ -224,7 +224,7 @@ impl SceneValue for Triple {
     }
 }
 
-/// The direction of an axis given by its name.
+/// Returns the direction of the axis with this name.
 fn axis_vector(node: &Node<'_>) -> Option<&'static str> {
     let name = match node.kind {
         NodeKind::Word(name) => name,
@@ -242,7 +242,7 @@ fn axis_vector(node: &Node<'_>) -> Option<&'static str> {
     }
 }
 
-/// A factor for each axis, none of them 0. Written as one number or as three.
+/// A nonzero factor for each axis, written as one number or as three.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Scale(pub [f64; 3]);
 
@@ -260,7 +260,7 @@ impl Default for Scale {
 impl Declared for Scale {
     const ENTRY: &'static TypeEntry = &TypeEntry {
         name: "Scale",
-        doc: "A nonzero factor for each axis. Written as one number or as three.",
+        doc: "A nonzero factor for each axis, written as one number or as three.",
         shape: Shape::Plain(Notation {
             check: check_scale,
             form: Form::Any(Finite::value_type),
@@ -327,8 +327,8 @@ fn check_scale(node: &Node<'_>, checker: &mut Checker<'_>) {
     }
 }
 
-/// The group of a vector, in either kind of brackets. A struct name before it is skipped, as in
-/// `ron`.
+/// Returns the group of a vector, in either kind of brackets. A struct name before it is skipped,
+/// as `ron` does.
 pub(super) fn unnamed_group<'n, 'a>(node: &'n Node<'a>) -> Option<&'n Group<'a>> {
     let is_struct_name = |key: &Key<'_>| {
         let is_word = key.name.starts_with(|c: char| c.is_alphabetic() || c == '_');

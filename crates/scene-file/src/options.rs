@@ -1,4 +1,4 @@
-//! Options with named values: one declaration, read by scene files, flags, help and reference.
+//! Options with named values: one declaration, used by scene files, flags, help and reference.
 //!
 //! The types are the ones that the renderer and the line drawings use. Scene files use their
 //! variant names (`ThreeQuarter`); flags use them with hyphens (`three-quarter`).
@@ -31,13 +31,13 @@ pub trait NamedOption: Copy + PartialEq + 'static {
     /// All values, in the order in which they are listed.
     const ALL: &'static [Self];
 
-    /// The name in scene files.
+    /// Returns the name in scene files.
     fn name(self) -> &'static str;
 
-    /// A sentence that explains the value.
+    /// Returns a sentence that explains the value.
     fn summary(self) -> &'static str;
 
-    /// The name in flags: lowercase, with hyphens between words.
+    /// Returns the name in flags: lowercase, with hyphens between words.
     fn flag_name(self) -> String {
         let mut text = String::new();
         for c in self.name().chars() {
@@ -49,12 +49,12 @@ pub trait NamedOption: Copy + PartialEq + 'static {
         text
     }
 
-    /// The value with this name in scene files.
+    /// Returns the value with this name in scene files.
     fn from_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|value| value.name() == name)
     }
 
-    /// The value with this name in flags.
+    /// Returns the value with this name in flags.
     fn from_flag_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|value| value.flag_name() == name)
     }
@@ -82,7 +82,7 @@ named_values! {
 }
 
 named_values! {
-    /// A colormap: colors for numbers.
+    /// A colormap, which turns numbers into colors.
     Colormap as "Colormap" {
         Viridis = "From dark violet through green to yellow, perceptually uniform.",
         Turbo = "A rainbow from dark blue through green to dark red.",
@@ -132,7 +132,7 @@ named_values! {
 }
 
 named_values! {
-    /// The method of finding silhouettes of smooth surfaces.
+    /// The method for finding silhouettes of smooth surfaces.
     SilhouetteMethod as "Silhouettes" {
         Facets = "Triangle edges: exact for the mesh, but zigzag where it represents a curved surface.",
         Interpolated = "Across the triangles, where the interpolated normal is perpendicular to the line of sight: smooth but approximate, with possible gaps at cusps.",
@@ -142,8 +142,8 @@ named_values! {
 named_values! {
     /// The fill of the faces under the lines.
     FaceFill as "FaceFill" {
-        None = "Nothing: the paper shows.",
-        Flat = "Each face in one tone of its color, lit from above the viewer's left shoulder: a 300 dpi image under the lines.",
+        None = "No fill: the paper shows through.",
+        Flat = "Each face in one tone of its color, lit from above the viewer's left shoulder, as a 300 dpi image under the lines.",
         Hatching = "Hatch lines, closer together where that light leaves the face darker. They are as exact as the edges.",
         ShadeHatching = "Hatch lines that depend only on the light, not on the colors of the materials.",
         Gray = "Gray areas from the base colors of the materials, regardless of the light. Cuts stay blank.",
@@ -154,11 +154,11 @@ named_values! {
 named_values! {
     /// The direction in which the parts of an exploded view move.
     ExplosionAxis as "ExplosionAxis" {
-        Auto = "Along the axis on which most parts line up with the largest one, or on which they move the least.",
+        Auto = "Along the axis on which the most parts line up with the largest part, or on which they move the least.",
         X = "To the left and to the right.",
         Y = "Up and down.",
         Z = "To the front and to the back.",
-        All = "Each part moves away from the largest one, along the axis on which it is farthest from it.",
+        All = "Each part moves away from the largest part, along the axis on which the two are farthest apart.",
     }
 }
 
@@ -185,13 +185,13 @@ named_values! {
     ToneMapping as "ToneMapping" {
         None = "No curve: light beyond 1 is clipped.",
         Neutral = "Khronos PBR Neutral: colors are unchanged except for highlights.",
-        Aces = "ACES filmic, in the fit by Hill.",
+        Aces = "ACES filmic, in Hill's fit.",
         AgX = "AgX by Sobotka.",
     }
 }
 
 named_values! {
-    /// The fit of a picture to the image.
+    /// The way a picture is scaled to fit the image.
     ImageFit as "Fit" {
         Stretch = "Stretched to the size of the image.",
         Cover = "The smallest size that covers the whole image; the excess is cropped equally on both sides.",
@@ -202,11 +202,11 @@ named_values! {
 named_values! {
     /// A pass: data about the nearest surface at the center of each pixel.
     Pass as "Pass" {
-        Depth = "The distance from the eye along the view axis, in units of the scene.",
-        Distance = "The distance from the eye, in units of the scene.",
+        Depth = "The distance from the eye along the view axis, in scene units.",
+        Distance = "The distance from the eye, in scene units.",
         Normal = "The unit normal in world space, on the visible side, without normal maps.",
         ViewNormal = "The unit normal in view space: x to the right, y up, z toward the viewer.",
-        Position = "The position in world space, in units of the scene.",
+        Position = "The position in world space, in scene units.",
         Uv = "The texture coordinates of `TEXCOORD_0`.",
         Barycentric = "The barycentric coordinates in the triangle, from 0 to 1; they add up to 1.",
         Id = "The index of the point, line or triangle in the scene, from 1; 0 for the background.",

@@ -1,4 +1,4 @@
-//! Parsing: reads a scene file with `ron`, and finds every mistake in its text if `ron` refuses it.
+//! Parsing: reads a scene file with `ron`, and finds every mistake in its text if `ron` rejects it.
 //!
 //! ```text
 //!  text ─► ron ─► SceneFile
@@ -26,8 +26,8 @@ use std::collections::BTreeMap;
 /// ```
 ///
 /// # Errors
-/// Every syntax error, unknown name, wrong type, missing field and out-of-range value, in text
-/// order.
+/// Returns every syntax error, unknown name, wrong type, missing field and out-of-range value, in
+/// text order.
 pub fn parse_scene(file: &str, source: &str) -> Result<SceneFile, SceneErrors> {
     let source = strip_byte_order_mark(source);
     let parsed = read_recovering(source);
@@ -40,7 +40,7 @@ pub fn parse_scene(file: &str, source: &str) -> Result<SceneFile, SceneErrors> {
     }
 }
 
-/// A byte order mark is invisible, so it is accepted and ignored.
+/// Removes a byte order mark; it is invisible, so it is accepted.
 pub(super) fn strip_byte_order_mark(source: &str) -> &str {
     source.strip_prefix('\u{feff}').unwrap_or(source)
 }
@@ -59,7 +59,7 @@ pub(super) struct ParsedScene {
 /// The lists of a scene, by field name.
 const LISTS: [&str; 5] = ["models", "viewports", "lights", "overlays", "sections"];
 
-/// The maximum number of times a text is reread without the parts that `ron` refused.
+/// The maximum number of times a text is reread without the parts that `ron` rejected.
 const MAX_READINGS: usize = 8;
 
 /// Reads a scene with `ron`. If that fails, reports every mistake and reads the parts without one.
@@ -97,7 +97,7 @@ pub(super) fn read_recovering(source: &str) -> ParsedScene {
     parsed
 }
 
-/// The mistake in a line that begins with `#`, as comments do in Python, YAML and shells.
+/// Returns the mistake in a line that begins with `#`, as comments do in Python, YAML and shells.
 fn hash_comment(source: &str) -> Option<Mistake> {
     let mut start = 0;
     for line in source.split_inclusive('\n') {
@@ -114,7 +114,7 @@ fn hash_comment(source: &str) -> Option<Mistake> {
     None
 }
 
-/// The tree of a text, unless it is unreliable, and every mistake in the text, in order.
+/// Returns the tree of a text, unless it is unreliable, and every mistake in the text, in order.
 fn check_text(source: &str) -> (Option<Node<'_>>, Vec<Mistake>) {
     let SyntaxTree { root, errors: mut mistakes, is_unreliable } = parse_tree(source);
     let root = root.filter(|_| !is_unreliable);
@@ -142,8 +142,8 @@ fn check_text(source: &str) -> (Option<Node<'_>>, Vec<Mistake>) {
     (root, mistakes)
 }
 
-/// The help for a text that is not a scene: which language it seems to be written in, and a sample
-/// scene.
+/// Returns the help for a text that is not a scene: the language it seems to be written in, and a
+/// sample scene.
 fn other_text(source: &str) -> String {
     let text = source.trim_start();
     let begins_field = |line: &str| {
@@ -166,7 +166,7 @@ impl ParsedScene {
     /// Reads the scene without the fields and elements that contain mistakes, so that semantic
     /// errors in the others are reported in the same run.
     ///
-    /// If a required field is lost, the value around it is left out too.
+    /// If a required field is lost, the value around it is omitted too.
     fn read_rest(&mut self, root: &Node<'_>) {
         let mut removed: Vec<Range<usize>> =
             self.mistakes.iter().map(|mistake| mistake.scope.clone()).collect();
@@ -233,21 +233,22 @@ impl Rest<'_> {
         self.text.push(',');
     }
 
-    /// The smallest field or element around a position in the text, as bytes of the source.
+    /// Returns the smallest field or element around a position in the text, as bytes of the source.
     fn innermost_item(&self, at: usize) -> Option<Range<usize>> {
         let around = self.items.iter().filter(|(here, _)| here.start <= at && at <= here.end);
         around.min_by_key(|(here, _)| here.len()).map(|(_, source)| source.clone())
     }
 }
 
-/// Ranges of omitted bytes, sorted, because a text may have as many mistakes as fields.
+/// Ranges of omitted bytes, sorted for fast searches because a text may have as many mistakes as
+/// fields.
 struct RemovedSpans(Vec<Range<usize>>);
 
 impl RemovedSpans {
     fn new(removed: &[Range<usize>]) -> Self {
         let mut spans = removed.to_vec();
         spans.sort_by_key(|span| span.start);
-        // Each span ends at the largest end so far.
+        // Extends each span to the largest end so far.
         let mut end = 0;
         for span in &mut spans {
             end = end.max(span.end);
@@ -256,14 +257,14 @@ impl RemovedSpans {
         Self(spans)
     }
 
-    /// Whether a range is within one of these.
+    /// Whether a range is within one of these ranges.
     fn contains(&self, span: &Range<usize>) -> bool {
         let count = self.0.partition_point(|outer| outer.start <= span.start);
         count > 0 && span.end <= self.0[count - 1].end
     }
 }
 
-/// For each list of a scene, the indices of the elements that remain.
+/// Returns, for each list of a scene, the indices of the elements that remain.
 fn retained_elements(
     root: &Node<'_>,
     removed: &RemovedSpans,
@@ -281,7 +282,7 @@ fn retained_elements(
     LISTS.into_iter().filter_map(elements).collect()
 }
 
-/// The byte at a line and column from `ron`, which counts characters from 1.
+/// Returns the byte at a line and column from `ron`, which counts characters from 1.
 fn offset_of(source: &str, position: Position) -> usize {
     let mut lines = source.split_inclusive('\n');
     let before: usize = lines.by_ref().take(position.line.saturating_sub(1)).map(str::len).sum();
@@ -302,7 +303,7 @@ mod tests {
     use std::fs;
     use std::path::Path;
 
-    /// The number of mutants in a run of the second tier; the first tier uses a tenth.
+    /// The number of mutants in a second-tier run; the first tier uses a tenth of it.
     const MUTANTS: usize = 20_000;
 
     /// Replacements for tokens in mutants.
@@ -333,34 +334,34 @@ mod tests {
         "'x'",
     ];
 
-    /// `ron` reads exactly the texts in which the checker finds no mistake.
+    /// Asserts that `ron` reads exactly the texts in which the checker finds no mistakes.
     #[track_caller]
     fn assert_same(text: &str) -> bool {
         let read = scene_ron_options().from_str::<SceneFile>(text);
         let (_, mistakes) = check_text(text);
         let messages: Vec<_> = mistakes.iter().map(|mistake| &mistake.message).collect();
         match &read {
-            Ok(_) => assert!(messages.is_empty(), "`ron` reads it: {messages:?}\n{text}"),
-            Err(error) => assert!(!messages.is_empty(), "nothing is wrong but: {error}\n{text}"),
+            Ok(_) => assert!(messages.is_empty(), "`ron` reads it, but: {messages:?}\n{text}"),
+            Err(error) => assert!(!messages.is_empty(), "no mistake found, but: {error}\n{text}"),
         }
         read.is_ok()
     }
 
-    /// The texts of the files in a folder of the repository whose names have this ending.
+    /// Returns the texts of the files in a folder of the repository whose names have this ending.
     fn texts_in(folder: &str, ending: &str) -> Vec<String> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
         let mut paths: Vec<_> = fs::read_dir(folder)
-            .expect("the folder is there")
-            .map(|entry| entry.expect("the folder can be read").path())
+            .expect("the folder exists")
+            .map(|entry| entry.expect("a readable folder").path())
             .filter(|path| path.to_string_lossy().ends_with(ending))
             .collect();
         paths.sort();
-        paths.iter().map(|path| fs::read_to_string(path).expect("the scene is there")).collect()
+        paths.iter().map(|path| fs::read_to_string(path).expect("a readable scene")).collect()
     }
 
     /// Reading a scene with only serde still reports the field.
     #[test]
-    fn errors_of_other_readers_name_the_field() {
+    fn errors_from_other_readers_name_the_field() {
         let text = "Scene(models: [(path: \"a.glb\"), (path: \"b.glb\", crease_degrees: \"x\")])";
         let error = scene_ron_options().from_str::<SceneFile>(text).expect_err("a string");
         assert!(error.to_string().contains("`models[1].crease_degrees`: "), "{error}");
@@ -371,7 +372,7 @@ mod tests {
     }
 
     #[test]
-    fn the_checker_finds_nothing_wrong_with_what_ron_reads_and_something_with_the_rest() {
+    fn the_checker_finds_mistakes_exactly_where_ron_fails() {
         let scenes = texts_in("scenes", ".ron");
         assert!(scenes.len() > 30);
         for folder in ["book/scenes", "docs/exercises"] {

@@ -16,15 +16,15 @@ pub enum Pass {
     Depth,
     /// Distance from the eye, in scene units; +∞ for background pixels.
     Distance,
-    /// Unit normal in the world, on the visible side: the interpolated vertex normal, without
+    /// Unit normal in world space, on the visible side: the interpolated vertex normal, without
     /// normal maps. 0 for background pixels.
     Normal,
     /// Unit normal in view space: x to the right, y up, z toward the viewer.
     ViewNormal,
-    /// Position in the world; 0 for background pixels.
+    /// Position in world space; 0 for background pixels.
     Position,
-    /// Texture coordinates from the set `TEXCOORD_0`: u to the right, v down in the texture. 0
-    /// where there are none.
+    /// Texture coordinates from the set `TEXCOORD_0`: u to the right, v down in the texture. 0 for
+    /// surfaces without them.
     Uv,
     /// Barycentric weights of the triangle's vertices; their sum is 1, or 0 for background pixels.
     Barycentric,
@@ -58,7 +58,7 @@ pub enum PassEncoding {
 }
 
 impl PassEncoding {
-    /// The file name extension, without a dot.
+    /// Returns the file name extension, without a dot.
     #[must_use]
     pub const fn file_extension(self) -> &'static str {
         match self {
@@ -88,7 +88,7 @@ impl Pass {
         Self::Coverage,
     ];
 
-    /// The name in flags and in file names.
+    /// Returns the name in flags and in file names.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -109,7 +109,7 @@ impl Pass {
         }
     }
 
-    /// The number of values per pixel.
+    /// Returns the number of values per pixel.
     #[must_use]
     pub const fn channels(self) -> usize {
         match self {
@@ -128,7 +128,7 @@ impl Pass {
         )
     }
 
-    /// The value for background pixels.
+    /// Returns the value for background pixels.
     #[must_use]
     pub const fn empty_value(self) -> f32 {
         if matches!(self, Self::Depth | Self::Distance) { f32::INFINITY } else { 0.0 }

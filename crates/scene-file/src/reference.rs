@@ -1,15 +1,15 @@
 //! The reference of scene files: every type, field and variant, with its documentation.
 //!
-//! The entries are the declarations used to read scene files, so the reference has every field that
-//! is read and no other.
+//! The entries are the declarations used to read scene files, so the reference has exactly the
+//! fields that are read.
 
 pub use super::schema::{FieldEntry, Shape, TypeEntry, ValueType, VariantEntry};
 
 use super::SceneFile;
 use super::schema::Declared as _;
 
-/// Every type used in scene files: the whole scene first, each other type after the first one that
-/// needs it.
+/// Returns every type used in scene files: the scene first, each other type after the first type
+/// that needs it.
 #[must_use]
 pub fn all_types() -> Vec<&'static TypeEntry> {
     let mut types = Vec::new();
@@ -17,8 +17,8 @@ pub fn all_types() -> Vec<&'static TypeEntry> {
     types
 }
 
-/// The fields and variants that a word from another program means, as paths such as
-/// `Perspective.near`, likeliest first.
+/// Returns the fields and variants that a word from another program means, as paths such as
+/// `Perspective.near`, most likely first.
 #[must_use]
 pub fn meanings_of(word: &str) -> Vec<String> {
     super::vocabulary::meanings_of(word)
@@ -52,7 +52,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn every_entry_is_documented_and_optional_fields_name_their_default() {
+    fn every_entry_is_documented_and_optional_fields_state_their_default() {
         let mut undocumented = Vec::new();
         let mut inspect = |owner: &str, fields: &[FieldEntry]| {
             for field in fields {
@@ -73,11 +73,11 @@ mod tests {
                 }),
             }
         }
-        assert!(undocumented.is_empty(), "no meaning, or no `Default: …`: {undocumented:?}");
+        assert!(undocumented.is_empty(), "no description or no `Default: …`: {undocumented:?}");
     }
 
     #[test]
-    fn names_are_unique_and_no_link_is_left() {
+    fn names_are_unique_and_links_are_removed() {
         let types = all_types();
         let names: BTreeSet<&str> = types.iter().map(|entry| entry.name).collect();
         assert_eq!((names.len(), types[0].name), (types.len(), "Scene"));

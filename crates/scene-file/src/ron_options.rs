@@ -1,9 +1,9 @@
-//! The options with which `ron` reads and writes scenes.
+//! The `ron` options for scenes.
 
 use ron::Options;
 use ron::extensions::Extensions;
 
-/// The `ron` options for reading and writing scene files: the extensions `implicit_some`,
+/// Returns the `ron` options for reading and writing scene files: the extensions `implicit_some`,
 /// `unwrap_newtypes` and `unwrap_variant_newtypes`, so that no file has to begin with an attribute.
 ///
 /// With these options, any `ron` function reads scenes and their parts:

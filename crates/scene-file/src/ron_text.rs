@@ -7,17 +7,16 @@ use super::parse::parse_scene;
 use super::ron_options::scene_ron_options;
 
 impl SceneFile {
-    /// Reads a scene from the text of a scene file. Nothing else is read: no models, no included
-    /// files.
+    /// Reads a scene from the text of a scene file. It reads neither models nor included files.
     ///
     /// # Errors
-    /// Every mistake in the text, in order.
+    /// Returns every mistake in the text, in order.
     pub fn from_ron(text: &str) -> Result<Self, SceneErrors> {
         parse_scene("scene", text)
     }
 
-    /// The text of a scene file that reads back as this scene, laid out like `alberti scene fmt`
-    /// output. Fields with default values are omitted.
+    /// Returns the text of a scene file that reads back as this scene, formatted like `alberti
+    /// scene fmt` output. Fields with default values are omitted.
     ///
     /// ```
     /// use scene_file::SceneFile;
@@ -29,7 +28,8 @@ impl SceneFile {
     /// ```
     ///
     /// # Errors
-    /// If the scene contains a number that scene files refuse, such as NaN or a scale of 0.
+    /// Returns an error if the scene contains a number that scene files do not allow, such as NaN
+    /// or a scale of 0.
     pub fn to_ron(&self) -> Result<String, ron::Error> {
         let text = format!("Scene{}\n", scene_ron_options().to_string(self)?);
         scene_ron_options().from_str::<Self>(&text).map_err(|error| error.code)?;

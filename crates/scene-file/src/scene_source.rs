@@ -1,5 +1,5 @@
-//! The text of a scene with its name and folder, and the texts of the files it includes: what
-//! errors quote and point into.
+//! The text of a scene with its name and folder, and the texts of the files it includes. Errors
+//! quote these texts and point into them.
 
 use super::SceneError;
 use super::include_map::IncludeMap;
@@ -49,7 +49,8 @@ pub struct UnreadableScene {
     pub cause: std::io::Error,
 }
 
-/// The message for an unreadable scene file; a missing one is reported like a missing model.
+/// Returns the message for an unreadable scene file. A missing scene is reported like a missing
+/// model.
 fn unreadable_message(path: &Path, cause: &std::io::Error) -> String {
     let path = visible_path(path);
     match cause.kind() {
@@ -62,10 +63,11 @@ fn unreadable_message(path: &Path, cause: &std::io::Error) -> String {
 }
 
 impl SceneSource {
-    /// The source of a scene whose text is already in memory and whose files are in the folder.
+    /// Creates the source of a scene whose text is already in memory and whose files are in the
+    /// folder.
     ///
     /// Errors point into the text. For a scene built in Rust, pass the text from
-    /// [`SceneFile::to_ron`](super::SceneFile::to_ron), or an empty one: then errors name a field
+    /// [`SceneFile::to_ron`](super::SceneFile::to_ron), or an empty one; errors then name a field
     /// without its line.
     #[must_use]
     pub fn from_text(file: impl Into<String>, text: impl Into<String>, folder: PathBuf) -> Self {
@@ -82,36 +84,37 @@ impl SceneSource {
     /// Reads the text of a scene file.
     ///
     /// # Errors
-    /// If it cannot be read, is not a regular file, is not UTF-8, or is too long.
+    /// Returns an error if it cannot be read, is not a regular file, is not UTF-8, or is too long.
     pub fn read(path: &Path) -> Result<Self, UnreadableScene> {
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         let text = read_scene_text(path)?;
         Ok(Self::from_text(path.display().to_string(), text, folder))
     }
 
-    /// This source with unrestricted paths, for a folder in memory, which has no outside.
+    /// Returns this source with unrestricted paths, for a folder in memory, which has nothing
+    /// outside it.
     #[must_use]
     pub fn unconfined(self) -> Self {
         Self { is_confined: false, ..self }
     }
 
-    /// The texts of the included files, in reading order.
+    /// Returns the texts of the included files, in reading order.
     pub fn included_texts(&self) -> impl Iterator<Item = &str> {
         self.includes.included_texts()
     }
 
-    /// The names of the scene file and of the files it includes, in reading order.
+    /// Returns the names of the scene file and of the files it includes, in reading order.
     pub fn included_files(&self) -> impl Iterator<Item = &str> {
         std::iter::once(self.file.as_str()).chain(self.includes.names())
     }
 
     /// Whether a model of a scene file may be read. Both its path and the target of any symbolic
-    /// links must be below the file's folder or below an `allowed` one. A path that leads elsewhere
-    /// is refused without checking whether it exists. A bare model may be anywhere, since a person
-    /// has named it.
+    /// links must be below the file's folder or an `allowed` folder. A path that leads elsewhere is
+    /// rejected without checking whether it exists. A bare model may be anywhere, because the user
+    /// named it.
     #[must_use]
     pub fn allows_path(&self, path: &Path, allowed: &[PathBuf]) -> bool {
-        // A folder in memory has no outside; loading reports the files it lacks.
+        // A folder in memory has nothing outside it; loading reports missing files.
         if self.text.is_empty() || !self.is_confined {
             return true;
         }
@@ -121,18 +124,18 @@ impl SceneSource {
         let others = allowed.iter().filter_map(|other| other.canonicalize().ok());
         let roots: Vec<PathBuf> = std::iter::once(folder).chain(others).collect();
         let holds = |path: &Path| roots.iter().any(|root| path.starts_with(root));
-        // A missing file does no harm; loading reports it.
+        // A missing file is harmless; loading reports it.
         holds(&wanted) && wanted.canonicalize().map_or(true, |path| holds(&path))
     }
 
-    /// The source for a viewport: errors point at the viewport's own fields, or at the scene's
-    /// where it has none.
+    /// Returns the source for a viewport. Errors point at the viewport's own fields, or at the
+    /// scene's if the viewport does not set them.
     #[must_use]
     pub fn for_viewport(&self, number: usize) -> Self {
         Self { viewport: Some(number), ..self.clone() }
     }
 
-    /// The path of a scene field within the viewport, if the viewport sets that field.
+    /// Returns the path of a scene field within the viewport, if the viewport sets that field.
     fn viewport_field_path<'a>(
         &self,
         number: usize,
@@ -151,7 +154,7 @@ impl SceneSource {
         text.has_value(&there).then(|| [&own, rest].concat())
     }
 
-    /// An error that points at the value at the end of `path`.
+    /// Creates an error that points at the value at the end of `path`.
     #[must_use]
     pub fn error_at(
         &self,
@@ -174,9 +177,8 @@ impl SceneSource {
 
 /// Whether a file is a scene, judging by its extension.
 ///
-/// The content is not examined: a file named `.ron` that is not a scene gets a scene's error
-/// message, with line and column. The standard input, which has no extension, is recognized by its
-/// content instead.
+/// The content is not examined: a `.ron` file that is not a scene gets a scene error, with line and
+/// column. The standard input, which has no extension, is recognized by its content instead.
 #[must_use]
 pub fn is_scene_file(input: &Path) -> bool {
     input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"))
@@ -187,10 +189,10 @@ fn is_viewport_field(field: &str) -> bool {
     matches!(field, "camera" | "style" | "overlays" | "caption")
 }
 
-/// The text of a scene file, without any byte order mark at its start.
+/// Reads the text of a scene file, without any byte order mark at its start.
 ///
 /// # Errors
-/// If it cannot be read, is not a regular file, is not UTF-8, or is too long.
+/// Returns an error if it cannot be read, is not a regular file, is not UTF-8, or is too long.
 pub(super) fn read_scene_text(path: &Path) -> Result<String, UnreadableScene> {
     let unreadable = |cause| UnreadableScene { path: path.to_owned(), cause };
     let metadata = std::fs::metadata(path).map_err(unreadable)?;
@@ -207,7 +209,7 @@ pub(super) fn read_scene_text(path: &Path) -> Result<String, UnreadableScene> {
     Ok(text.strip_prefix('\u{feff}').map(ToOwned::to_owned).unwrap_or(text))
 }
 
-/// A path relative to a folder, without `.` and `..`.
+/// Joins a path to a folder and resolves `.` and `..`.
 pub(super) fn normalize_path(folder: &Path, path: &Path) -> PathBuf {
     let mut plain = folder.to_owned();
     for part in path.components() {

@@ -38,21 +38,21 @@ pub(super) trait SceneValue: Sized + PartialEq {
     /// Whether a field of this type may be omitted even if its declaration gives no default.
     const IS_OPTIONAL: bool = false;
 
-    /// The type as the reference names it. This is a function rather than a constant, because lists
-    /// and tuples are built from the types of their elements.
+    /// Returns the type as the reference names it. This is a function rather than a constant
+    /// because lists and tuples are built from the types of their elements.
     fn value_type() -> ValueType;
 
     /// Reads a value.
     ///
     /// # Errors
-    /// If it is not a value of this type, in words.
+    /// Returns the reason, in words, if it is not a value of this type.
     fn from_data(data: &Data) -> Result<Self, String>;
 
     /// Writes the value, omitting fields with default values.
     fn to_data(&self) -> Data;
 
-    /// The value of an omitted field. `None`, for types that are not optional, makes the struct
-    /// around it unreadable.
+    /// Returns the value of an omitted field. `None`, for types that are not optional, makes the
+    /// struct around it unreadable.
     fn when_absent() -> Option<Self> {
         None
     }
@@ -78,7 +78,7 @@ pub enum ValueType {
 }
 
 impl ValueType {
-    /// The type in words, with declared types shown by name.
+    /// Returns the type in words, with declared types shown by name.
     ///
     /// For example `list of Model` or `(Finite, Finite)`.
     #[must_use]
@@ -100,7 +100,7 @@ impl ValueType {
             if fields.iter().all(|field| field.is_optional))
     }
 
-    /// The declared types that make up a value of this type.
+    /// Returns the declared types that make up a value of this type.
     ///
     /// Looks through lists and tuples, but not into the fields of the types it finds. The caller
     /// walks the whole language and has to remember the types it has visited.
@@ -181,7 +181,7 @@ pub struct FieldEntry {
 /// The declaration of a variant.
 ///
 /// A variant has no brackets, brackets with fields, or brackets with one value: `fields` and
-/// `value_type` are never both given.
+/// `value_type` are never both set.
 #[derive(Clone, Copy, Debug)]
 pub struct VariantEntry {
     /// The name.
@@ -195,13 +195,13 @@ pub struct VariantEntry {
 }
 
 impl TypeEntry {
-    /// The number of a variant, for formats without names; 0 if there is no such variant.
+    /// Returns the index of a variant, for formats without names, or 0 if there is no such variant.
     pub(super) fn variant_index(&self, name: &str) -> u32 {
         let Shape::Variants(variants) = self.shape else { return 0 };
         variants.iter().position(|variant| variant.name == name).unwrap_or(0) as u32
     }
 
-    /// The documentation of the type.
+    /// Returns the documentation of the type.
     #[must_use]
     pub fn about(&self) -> String {
         join_doc_lines(self.doc)
@@ -209,7 +209,7 @@ impl TypeEntry {
 }
 
 impl FieldEntry {
-    /// The documentation of the field.
+    /// Returns the documentation of the field.
     #[must_use]
     pub fn about(&self) -> String {
         join_doc_lines(self.doc)
@@ -222,7 +222,7 @@ impl VariantEntry {
         self.value_type.is_some() || !self.fields.is_empty()
     }
 
-    /// The documentation of the variant.
+    /// Returns the documentation of the variant.
     #[must_use]
     pub fn about(&self) -> String {
         join_doc_lines(self.doc)

@@ -40,23 +40,24 @@ struct PlaceItem {
 }
 
 impl SourceText {
-    /// The text.
+    /// Returns the text.
     #[must_use]
     pub fn as_str(&self) -> &str {
         &self.0.text
     }
 
-    /// The line and column of a byte, both from 1; columns count characters.
+    /// Returns the line and column of a byte, both counted from 1. Columns count characters.
     ///
     /// # Panics
-    /// If the byte is not at the start of a character, or is beyond the end.
+    /// Panics if the byte is not at the start of a character, or is beyond the end.
     #[must_use]
     pub fn line_and_column(&self, byte: usize) -> (usize, usize) {
         let (number, line) = self.line_at(byte);
         (number, self[line.start..byte].chars().count() + 1)
     }
 
-    /// The line number of a byte, from 1, and the line's bytes without the line break.
+    /// Returns the line number of a byte, counted from 1, and the line's bytes without the line
+    /// break.
     pub(super) fn line_at(&self, byte: usize) -> (usize, Range<usize>) {
         let starts = self
             .0
@@ -68,7 +69,7 @@ impl SourceText {
         (index + 1, start..end)
     }
 
-    /// The bytes of the value at the end of a path, or of the last value on it that exists.
+    /// Returns the bytes of the value at the end of a path, or of the last value on it that exists.
     pub(super) fn span_of(&self, path: &[PathStep<'_>]) -> Range<usize> {
         let Some(mut place) = self.root() else { return 0..0 };
         for step in path {
@@ -87,7 +88,7 @@ impl SourceText {
             .is_some()
     }
 
-    /// The names of the top-level fields that the text sets.
+    /// Returns the names of the top-level fields that the text sets.
     pub(super) fn top_level_fields(&self) -> Vec<&str> {
         let items = self.root().map_or(&[][..], |root| &root.items);
         items.iter().filter_map(|item| item.name(self)).collect()
@@ -110,7 +111,7 @@ impl Place {
         Self { start: node.span.start as u32, end: node.span.end as u32, items }
     }
 
-    /// The child that a step leads to. Brackets around a single value, as in `Lines((width:
+    /// Returns the child that a step leads to. Brackets around a single value, as in `Lines((width:
     /// Px(2)))`, do not count as a level.
     fn child(&self, text: &str, step: PathStep<'_>) -> Option<&Self> {
         let child = match step {

@@ -3,10 +3,10 @@
 /// The similarity above which a name is probably the intended one.
 const SIMILAR: f64 = 0.8;
 
-/// The name most similar to `word`, if any is similar enough. Case is ignored.
+/// Returns the name most similar to `word`, if any is similar enough. Case is ignored.
 ///
-/// The measure is the Jaro–Winkler similarity, which favors a common prefix; below 0.8 a suggestion
-/// would mislead.
+/// The measure is the Jaro–Winkler similarity, which favors a common prefix. Below 0.8, a
+/// suggestion would be misleading.
 #[must_use]
 pub fn closest_name<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
     let similarity = |name: &str| strsim::jaro_winkler(&word.to_lowercase(), &name.to_lowercase());
@@ -14,7 +14,7 @@ pub fn closest_name<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
     (similarity(best) > SIMILAR).then_some(best)
 }
 
-/// `expected one of …` with all names.
+/// Returns `expected one of …` with all names.
 pub(super) fn list_names<S: AsRef<str>>(names: &[S]) -> String {
     let names: Vec<String> = names.iter().map(|name| format!("`{}`", name.as_ref())).collect();
     match names.as_slice() {
@@ -23,7 +23,7 @@ pub(super) fn list_names<S: AsRef<str>>(names: &[S]) -> String {
     }
 }
 
-/// "Did you mean", or the list of allowed names; `None` if there are none.
+/// Returns "did you mean", or the list of allowed names; `None` if there are no names.
 #[must_use]
 pub fn suggest_name<S: AsRef<str>>(word: &str, names: &[S]) -> Option<String> {
     let all: Vec<&str> = names.iter().map(AsRef::as_ref).collect();

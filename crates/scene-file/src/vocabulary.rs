@@ -14,7 +14,7 @@ use super::suggest::{closest_name, list_names};
 use advice::find_advice;
 use foreign::FOREIGN_WORDS;
 
-/// An answer to a name that is not declared.
+/// A suggestion for a name that is not declared.
 pub(super) struct Suggestion {
     /// The help: a name, an example, or the allowed names.
     pub(super) help: String,
@@ -30,12 +30,12 @@ enum SuggestionKind {
     Known,
     /// It resembles one of the allowed names.
     Similar,
-    /// The allowed names.
+    /// It lists the allowed names.
     List,
 }
 
 impl Suggestion {
-    /// Whether the word is one of those in the tables.
+    /// Whether the word is in one of the tables.
     pub(super) fn is_known(&self) -> bool {
         self.kind == SuggestionKind::Known
     }
@@ -59,7 +59,7 @@ pub(super) fn suggest_field(
     let own = targets.iter().find(|(target, _)| *target == owner);
     if let Some(&(_, name)) = own.filter(|(_, name)| siblings.contains(name)) {
         let mut help = format!("did you mean `{name}`?");
-        // The word can mean more than just a field of the scene itself.
+        // The word can also mean something other than a field of the scene itself.
         let declared =
             if owner == SceneFile::ENTRY.name { declared_elsewhere(word) } else { vec![] };
         if let Some(example) = declared.first() {
@@ -146,7 +146,7 @@ pub(super) fn suggest_variant(
     }
 }
 
-/// A whole viewport, if only a named view was given.
+/// Suggests a whole viewport if only a named view was written.
 fn suggest_viewport(entry: &TypeEntry, word: &str) -> Option<String> {
     let Shape::Variants(views) = FromFile::ENTRY.shape else { return None };
     let is_view = views.iter().any(|view| view.name == word && view.value_type.is_none());
@@ -155,14 +155,15 @@ fn suggest_viewport(entry: &TypeEntry, word: &str) -> Option<String> {
     })
 }
 
-/// The fields and variants that a word from another program means, as paths: `Perspective.near`.
+/// Returns the fields and variants that a word from another program means, as paths such as
+/// `Perspective.near`.
 pub(super) fn meanings_of(word: &str) -> Vec<String> {
     let path =
         |(owner, name): Target| format!("{}.{name}", owner.rsplit("::").next().unwrap_or(owner));
     targets_of(word).into_iter().map(path).collect()
 }
 
-/// The meanings of a word in the table, in table order.
+/// Returns the meanings of a word in the table, in table order.
 fn targets_of(word: &str) -> Vec<Target> {
     let word = normalize(word);
     let meanings =
@@ -170,20 +171,20 @@ fn targets_of(word: &str) -> Vec<Target> {
     meanings.map(|&(_, owner, name)| (owner, name)).collect()
 }
 
-/// A word in lowercase, without underscores and hyphens: `DirectionalLight`, `directional_light`
-/// and `directional-light` are equal.
+/// Converts a word to lowercase and removes underscores and hyphens, so that `DirectionalLight`,
+/// `directional_light` and `directional-light` are equal.
 fn normalize(word: &str) -> String {
     word.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
-/// An example of the first target, preferring targets in the same scene field.
+/// Returns an example of the first target, preferring targets in the same scene field.
 fn example_elsewhere(targets: &[Target], top_level: Option<&str>) -> Option<String> {
     let examples =
         targets.iter().filter_map(|(owner, name)| example_of(SceneFile::ENTRY, owner, name));
     nearest_example(&examples.collect::<Vec<_>>(), top_level)
 }
 
-/// Examples of fields with this name in other structs.
+/// Returns examples of fields with this name in other structs.
 fn declared_elsewhere(word: &str) -> Vec<String> {
     let word = normalize(word);
     let fields = fields_where(SceneFile::ENTRY, |field| normalize(field) == word);
@@ -192,15 +193,15 @@ fn declared_elsewhere(word: &str) -> Vec<String> {
     fields.iter().filter_map(example).collect()
 }
 
-/// An example of a variant of this name within an enum, such as `Frame(from: Left)` for a `Left`
-/// given as a whole view.
+/// Returns an example of a variant with this name within an enum, such as `Frame(from: Left)` for a
+/// `Left` written as a whole view.
 fn variant_inside(entry: &'static TypeEntry, word: &str) -> Option<String> {
     let Shape::Variants(_) = entry.shape else { return None };
     let owners = variants_where(entry, word);
     owners.iter().find_map(|owner| example_of(entry, owner, word))
 }
 
-/// Examples of variants with exactly this name.
+/// Returns examples of variants with exactly this name.
 fn variants_elsewhere(word: &str) -> Vec<String> {
     // These names are too generic to be misplaced variants.
     if matches!(word, "None" | "Some" | "All" | "Name" | "Index" | "On" | "Off") {
@@ -210,7 +211,7 @@ fn variants_elsewhere(word: &str) -> Vec<String> {
     owners.iter().filter_map(|owner| example_of(SceneFile::ENTRY, owner, word)).collect()
 }
 
-/// The first example in the same scene field, otherwise the first of all.
+/// Returns the first example in the same scene field, otherwise the first of all.
 fn nearest_example(examples: &[String], top_level: Option<&str>) -> Option<String> {
     let is_near = |example: &&String| is_in_field(example, top_level);
     examples.iter().find(is_near).or(examples.first()).cloned()

@@ -10,7 +10,7 @@ use sheet::{AssemblyPages, ExplosionSettings, PartDensity, PartsList};
 /// Resolves the pages of a sheet that show models as an assembly.
 ///
 /// # Errors
-/// If a density is for a name that no part and no material has.
+/// Returns an error if a density names a part or material that does not exist.
 pub(super) fn resolve_assembly(
     origin: &Origin,
     file: &SheetFile,

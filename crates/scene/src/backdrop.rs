@@ -25,10 +25,10 @@ const MAX_GRADIENT_COLORS: usize = 16;
 /// The maximum number of pixels in a backdrop image, 67 million: it limits the memory that a small
 /// compressed file can demand.
 const MAX_IMAGE_TEXELS: u64 = 1 << 26;
-/// The path of the background in a scene file; viewports have separate ones.
+/// The path of the background in a scene file; viewports have separate backgrounds.
 const BACKGROUND_PATH: [PathStep<'static>; 2] = [Field("image"), Field("background")];
 
-/// An error that points to the value at the end of `rest`, inside the background.
+/// Creates an error that points to the value at the end of `rest`, inside the background.
 fn background_error(
     origin: &Origin,
     rest: &[PathStep<'_>],
@@ -38,14 +38,14 @@ fn background_error(
     origin.error_at(&[&BACKGROUND_PATH, rest].concat(), message, help.map(str::to_owned))
 }
 
-/// The clear color of all samples: linear, premultiplied by alpha.
+/// Returns the clear color of all samples: linear, premultiplied by alpha.
 ///
-/// Behind a gradient it is the gradient's center color, behind an image the color given with it. It
-/// shows where the image does not cover the frame, and automatic line colors are chosen to contrast
-/// with it.
+/// Behind a gradient it is the gradient's center color, behind an image the color specified with
+/// the image. It is visible where the image does not cover the frame, and automatic line colors are
+/// chosen to contrast with it.
 ///
 /// # Errors
-/// If the background is the environment, but the scene has none.
+/// Returns an error if the background is the environment but the scene has none.
 pub(super) fn resolve_background_color(
     origin: &Origin,
     file: &SceneFile,
@@ -75,8 +75,8 @@ pub(super) fn resolve_background_color(
     }
 }
 
-/// The default paper of a style for a scene without a background: white for line drawings, else
-/// none.
+/// Returns the default paper of a style for a scene without a background: white for line drawings,
+/// otherwise none.
 fn default_paper(style: &StyleFile) -> Option<Color> {
     match style {
         StyleFile::Wireframe => Some(Color::WHITE),
@@ -98,7 +98,7 @@ pub(super) fn is_blank_paper(file: &SceneFile) -> bool {
 /// width × height pixels.
 ///
 /// # Errors
-/// If there are fewer than 2 or more than 16 colors.
+/// Returns an error if there are fewer than 2 or more than 16 colors.
 fn resolve_gradient(
     origin: &Origin,
     colors: &[Color],
@@ -115,13 +115,14 @@ fn resolve_gradient(
     Ok(Gradient::new(&codes, angle, [width, height]))
 }
 
-/// The backdrop behind the models, a gradient or an image; `None` for plain backgrounds.
+/// Returns the backdrop behind the models, a gradient or an image, or `None` for plain backgrounds.
 ///
-/// The image is decoded and fitted to the frame once; renderers share it. An image file may also be
-/// in one of the `allowed` folders.
+/// The image is decoded and fitted to the frame once, and renderers share it. The image file may
+/// also be in one of the `allowed` folders.
 ///
 /// # Errors
-/// If the file is outside the allowed folders, cannot be read, is too large or is not an image.
+/// Returns an error if the file is outside the allowed folders, cannot be read, is too large or is
+/// not an image.
 pub(super) fn resolve_backdrop(
     origin: &Origin,
     file: &SceneFile,

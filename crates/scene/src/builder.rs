@@ -9,9 +9,9 @@ use std::sync::Arc;
 
 /// Builds a scene from models, meshes, cameras and lights in memory: [`Scene::builder`].
 ///
-/// Everything else is as `alberti render` does it for a model without a scene file. The camera
-/// shows everything from the front, slightly from the right and above, under a light from the
-/// left in a studio.
+/// Everything else has the defaults of `alberti render` for a model without a scene file. The
+/// camera shows everything from the front, slightly from the right and above, under a light from
+/// the left in a studio.
 #[derive(Clone, Debug, Default)]
 pub struct SceneBuilder {
     models: Vec<ModelInstance>,
@@ -19,7 +19,7 @@ pub struct SceneBuilder {
 }
 
 impl Scene {
-    /// Starts a scene of models in memory.
+    /// Starts a scene with models in memory.
     ///
     /// ```
     /// use scene_file::file::{CameraFile, LightFile};
@@ -59,7 +59,7 @@ impl SceneBuilder {
         self
     }
 
-    /// Adds a mesh of triangles without a material: points in the world, and three indices per
+    /// Adds a mesh of triangles without a material: points in world space, and three indices per
     /// triangle, counterclockwise as seen from the front.
     #[must_use]
     pub fn mesh(
@@ -93,7 +93,7 @@ impl SceneBuilder {
         self
     }
 
-    /// Adds a light. Adding one disables the default lights.
+    /// Adds a light, which disables the default lights.
     #[must_use]
     pub fn light(mut self, light: LightFile) -> Self {
         self.file.lights.get_or_insert_default().push(light);
@@ -137,7 +137,8 @@ impl SceneBuilder {
     /// Builds the scene, ready to be rendered.
     ///
     /// # Errors
-    /// Every invalid setting, such as a camera without a direction, or no model to frame.
+    /// Returns every invalid setting, such as a camera without a direction, or the lack of a model
+    /// to frame.
     pub fn build(self) -> Result<Scene, ResolveError> {
         let origin = Origin::from_text("scene", "", PathBuf::new());
         Scene::from_models(&origin, &self.file, &self.models)

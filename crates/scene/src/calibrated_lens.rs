@@ -7,11 +7,11 @@ use scene_file::PathStep::Field;
 use scene_file::SceneError;
 use scene_file::file::{Finite, Positive, ProjectionFile};
 
-/// The sides of pictures with one aspect ratio differ by at most this many pixels, from rounding.
+/// Picture sizes with the same aspect ratio differ by at most this many pixels due to rounding.
 const SHAPE_TOLERANCE: f64 = 1.0;
 
-/// The lens of a projection given by intrinsic parameters, for a picture of `picture_size`; `None`
-/// for other projections.
+/// Returns the lens of a projection with intrinsic parameters, for a picture of `picture_size`, or
+/// `None` for other projections.
 pub(super) fn calibrated_lens(
     projection: &ProjectionFile,
     picture_size: [u32; 2],
@@ -33,7 +33,7 @@ pub(super) fn calibrated_lens(
     )
 }
 
-/// The error for intrinsic parameters of pictures with a different aspect ratio.
+/// Creates the error for intrinsic parameters of pictures with a different aspect ratio.
 pub(super) fn check_calibrated_shape(
     origin: &Origin,
     projection: &ProjectionFile,

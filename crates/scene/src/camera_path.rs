@@ -3,9 +3,9 @@
 //! ```text
 //!  keys (tᵢ, vᵢ) ─► v(t), ten numbers: eye, target, up, field of view ─► LookAt + projection
 //! ```
-//! Each number is interpolated separately. Eye and target are splines that determine the
+//! Each number is interpolated separately. The eye and the target are splines that determine the
 //! orientation, so the target stays in the center of the picture between keys too. A path whose
-//! last key repeats the values of its first is closed: its spline is periodic, and smooth at that
+//! last key repeats the values of its first is closed: its spline is periodic and is smooth at that
 //! key too.
 
 use super::view_projection::resolve_view_projection;
@@ -39,8 +39,9 @@ impl CameraPath {
     /// Resolves the camera path of a scene file; returns `None` without one.
     ///
     /// # Errors
-    /// If there are fewer than 2 or more than 10,000 keys, or their times do not increase. Also if
-    /// a key has a field of view but the projection has none. The error points at the cause.
+    /// Returns an error if there are fewer than 2 or more than 10,000 keys, if their times do not
+    /// increase, or if a key has a field of view but the projection has none. The error points at
+    /// the cause.
     pub fn from_scene_file(origin: &Origin, file: &SceneFile) -> Result<Option<Self>, SceneError> {
         let Some(path) = &file.camera_path else { return Ok(None) };
         let fault = |rest: &[PathStep<'_>], message: String, help: &str| {
@@ -54,8 +55,7 @@ impl CameraPath {
         for (at, pair) in (1..).zip(path.keys.windows(2)) {
             let [before, after] = [pair[0].time.value(), pair[1].time.value()];
             if before >= after {
-                let message =
-                    format!("the times of keys must increase, but {after} s follows {before} s");
+                let message = format!("key times must increase, but {after} s follows {before} s");
                 return Err(fault(&[Index(at), Field("time")], message, "sort the keys by time"));
             }
         }
@@ -77,14 +77,14 @@ impl CameraPath {
         Ok(Some(Self { keys, curve: path.curve, camera: file.camera.clone() }))
     }
 
-    /// The times of the first and last keys, in seconds.
+    /// Returns the times of the first and last keys, in seconds.
     #[must_use]
     pub fn time_range(&self) -> [f64; 2] {
         let time = |key: Option<&(f64, KeyValues)>| key.map_or(0.0, |key| key.0);
         [time(self.keys.first()), time(self.keys.last())]
     }
 
-    /// The camera at a time in seconds; outside the range, the first or last keyframe.
+    /// Returns the camera at a time in seconds; outside the range, the first or last keyframe.
     ///
     /// A cubic curve can overshoot its keys, so the field of view is clamped to 0.01° … 179°.
     #[must_use]
@@ -104,11 +104,11 @@ impl CameraPath {
         camera
     }
 
-    /// The view-projection at a time in seconds, for models that are loaded and posed.
+    /// Returns the view-projection at a time in seconds, for models that are loaded and posed.
     ///
     /// # Errors
-    /// If the eye and the target coincide, or up is parallel to the gaze, for example between keys;
-    /// the message gives the time.
+    /// Returns an error if the eye and the target coincide, or up is parallel to the gaze, for
+    /// example between keys; the message gives the time.
     pub fn view_projection_at(
         &self,
         origin: &Origin,
@@ -122,10 +122,11 @@ impl CameraPath {
         })
     }
 
-    /// Moves the camera of a scene to its position at a time in seconds. Lights and insets stay.
+    /// Moves the camera of a scene to its position at a time in seconds. Lights and insets do not
+    /// move.
     ///
     /// # Errors
-    /// If the eye and the target coincide there, or up is parallel to the gaze.
+    /// Returns an error if the eye and the target coincide there, or up is parallel to the gaze.
     pub fn place_camera(
         &self,
         origin: &Origin,
@@ -137,9 +138,9 @@ impl CameraPath {
         Ok(())
     }
 
-    /// The values at a time. Outside the keyframes, they are those at the first or last one;
-    /// inside, an interpolation of the neighboring keyframes, linear or by a cubic Hermite curve
-    /// with Catmull–Rom slopes.
+    /// Computes the values at a time. Outside the keyframes, they are the values of the first or
+    /// last keyframe. Between keyframes they are interpolated, linearly or with a cubic Hermite
+    /// curve with Catmull–Rom slopes.
     ///
     /// s = (t − tᵢ)/(tᵢ₊₁ − tᵢ), and slopes per second are scaled by the length of the interval.
     /// Binary search finds the interval, in O(log keys).
@@ -161,7 +162,8 @@ impl CameraPath {
         })
     }
 
-    /// The slope of a value at a key, per second (Catmull and Rom, 1974, at unequal times).
+    /// Computes the slope of a value at a key, per second (Catmull and Rom, 1974, at unequal
+    /// times).
     ///
     /// mᵢ = (vᵢ₊₁ − vᵢ₋₁)/(tᵢ₊₁ − tᵢ₋₁). The first and last keys use the one-sided difference in an
     /// open path, and the difference across the seam in a closed one. Equal slopes on both sides of
@@ -186,7 +188,7 @@ impl CameraPath {
     }
 }
 
-/// The vertical field of view of a perspective; `None` if it is given by another angle.
+/// Returns the vertical field of view of a perspective, or `None` if another angle is set.
 fn vertical_field_of_view(projection: &ProjectionFile) -> Option<FieldOfView> {
     match projection {
         ProjectionFile::Perspective {
@@ -199,13 +201,13 @@ fn vertical_field_of_view(projection: &ProjectionFile) -> Option<FieldOfView> {
     }
 }
 
-/// The values of a keyframe; `usual` is the field of view for keyframes without one.
+/// Returns the values of a keyframe; `usual` is the field of view for keyframes without one.
 fn key_values(key: &CameraKeyFile, usual: FieldOfView) -> KeyValues {
     let [[a, b, c], [d, e, f], [g, h, i]] = [key.eye.0, key.target.0, key.up.0];
     [a, b, c, d, e, f, g, h, i, key.fov_y_degrees.unwrap_or(usual).value()]
 }
 
-/// The cubic Hermite polynomial with given values and slopes at 0 and 1, in Horner form.
+/// Evaluates the cubic Hermite polynomial with these values and slopes at 0 and 1, in Horner form.
 ///
 /// p(t) = p₀ + t (m₀ + t (3Δ − 2m₀ − m₁ + t (m₀ + m₁ − 2Δ))) with Δ = p₁ − p₀.
 fn interpolate_hermite([from, to]: [f64; 2], [out, into]: [f64; 2], t: f64) -> f64 {
@@ -226,7 +228,7 @@ mod tests {
         let origin = Origin::from_text("a.ron", text, std::path::PathBuf::new());
         let path =
             CameraPath::from_scene_file(&origin, &file).map_err(|error| error.to_string())?;
-        path.ok_or_else(|| "no way".to_owned())
+        path.ok_or_else(|| "no path".to_owned())
     }
 
     fn eye(path: &CameraPath, time: f64) -> [f64; 3] {
@@ -243,7 +245,7 @@ mod tests {
     ]";
 
     #[test]
-    fn straight_ways_are_straight_and_end_at_their_ends() {
+    fn linear_paths_are_straight_and_stop_at_their_ends() {
         let path = path(&format!("{KEYS}, curve: Linear")).expect("a path");
         assert_eq!(path.time_range(), [0.0, 3.0]);
         for (time, expected) in [
@@ -263,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn smooth_ways_pass_through_their_keys_at_even_speed_without_jerks() {
+    fn smooth_paths_pass_through_their_keys_without_jumps_in_speed() {
         let path = path(KEYS).expect("a path");
         for (time, expected) in [(0.0, [0.0; 3]), (1.0, [2.0, 0.0, 1.0]), (3.0, [6.0, 0.0, 9.0])] {
             assert_eq!(eye(&path, time), expected, "{time}");
@@ -276,8 +278,8 @@ mod tests {
         assert!((speed(1.0 - step) - 3.0).abs() < 1e-4 && (speed(1.0) - 3.0).abs() < 1e-4);
     }
 
-    /// A path once around the origin in the plane y = 0, with radius 1 and `count` keys at
-    /// intervals of a second, the first one repeated.
+    /// Creates a path once around the origin in the plane y = 0, with radius 1 and `count` keys at
+    /// intervals of one second, plus the first one repeated.
     fn circle(count: u32) -> CameraPath {
         let key = |number: u32| {
             let angle = core::f64::consts::TAU * f64::from(number % count) / f64::from(count);
@@ -309,7 +311,7 @@ mod tests {
             };
             assert!((speed(0.0) - speed(end - step)).length() < 1e-4, "{count}");
         }
-        // The values that the reference gives for circles.
+        // The errors that the reference states for circles.
         for (count, error) in [(8, 0.01), (12, 0.002)] {
             let path = circle(count);
             let radius = |step: u32| glam::DVec3::from(eye(&path, 0.01 * f64::from(step))).length();
@@ -323,7 +325,7 @@ mod tests {
             ("keys: []", "camera path keys: 0"),
             (
                 "keys: [(time: 0, eye: (0, 0, 0), target: (0, 0, 9)), (time: 0, eye: (0, 0, 0), target: (0, 0, 9))]",
-                "times of keys must increase",
+                "key times must increase",
             ),
         ] {
             let error = path(fields).expect_err(fields);

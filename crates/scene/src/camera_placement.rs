@@ -5,21 +5,21 @@ use scene_file::file::{CameraChoice, Finite, FromFile, RotationFile, Triple, Vie
 
 /// The position of the camera.
 pub(super) enum CameraPlacement<'a> {
-    /// As given in the file.
+    /// As specified in the file.
     Placed(Camera),
     /// Framed so that all models just fit in the picture.
     Framed {
-        /// The direction, if one is given.
+        /// The direction, if specified.
         from: Option<&'a FromFile>,
         /// The margin as a fraction of the side of the picture.
         padding: f64,
     },
-    /// As a camera in a model.
+    /// Taken from a camera in a model.
     OfModel(&'a CameraChoice),
 }
 
 impl<'a> CameraPlacement<'a> {
-    /// The placement that a file describes.
+    /// Returns the placement that a file describes.
     pub(super) fn from_file(view: &'a ViewFile) -> Result<Self, CameraError> {
         Ok(match view {
             ViewFile::LookAt { eye, target, up } => {
@@ -44,7 +44,7 @@ impl<'a> CameraPlacement<'a> {
     }
 }
 
-/// The matrix of a rotation, row by row.
+/// Returns the matrix of a rotation, row by row.
 fn rotation_rows(rotation: &RotationFile) -> Result<[[f64; 3]; 3], CameraError> {
     let rows = |(x, y, z): &(Triple, Triple, Triple)| [x.0, y.0, z.0];
     match rotation {

@@ -22,12 +22,12 @@ pub(super) struct CameraResolver<'a> {
 }
 
 impl CameraResolver<'_> {
-    /// An error in the camera frame, such as a view-up vector along the line of sight.
+    /// Creates an error in the camera frame, such as a view-up vector along the line of sight.
     pub(super) fn camera_error(&self, error: &camera::CameraError) -> SceneError {
         self.view_error(error.to_string(), None)
     }
 
-    /// An error that points at the view.
+    /// Creates an error that points at the view.
     pub(super) fn view_error(
         &self,
         message: impl Into<String>,
@@ -36,12 +36,12 @@ impl CameraResolver<'_> {
         self.origin.error_at(&VIEW_PATH, message, help)
     }
 
-    /// An error in the projection, such as a far plane in front of the near plane.
+    /// Creates an error in the projection, such as a far plane in front of the near plane.
     pub(super) fn projection_error(&self, error: &ProjectionError) -> SceneError {
         self.projection_error_with(error.to_string(), None)
     }
 
-    /// An error in the projection as a whole.
+    /// Creates an error in the projection as a whole.
     pub(super) fn projection_error_with(
         &self,
         message: impl Into<String>,
@@ -50,7 +50,7 @@ impl CameraResolver<'_> {
         self.origin.error_at(&PROJECTION_PATH, message, help)
     }
 
-    /// A framing error: nothing to frame, or no room for it.
+    /// Creates a framing error: nothing to frame, or no room for it.
     pub(super) fn framing_error(&self, error: &camera::FramingError) -> SceneError {
         if matches!(error, camera::FramingError::NoPoints) {
             return self.nothing_to_draw_error();
@@ -58,7 +58,7 @@ impl CameraResolver<'_> {
         self.view_error(error.to_string(), None)
     }
 
-    /// The error for models without primitives, which leave nothing to frame.
+    /// Creates the error for models without primitives, which leave nothing to frame.
     pub(super) fn nothing_to_draw_error(&self) -> SceneError {
         // The parts that the importer skipped are the likely reason.
         let warnings = self.models.iter().flat_map(|placed| &placed.model.warnings).next();
@@ -67,12 +67,12 @@ impl CameraResolver<'_> {
         self.view_error(message, help)
     }
 
-    /// The center of the box around everything.
+    /// Returns the center of the box around everything.
     pub(super) fn bounds_center(&self) -> Option<Point<World>> {
         homog::Bounds::from_points(self.points.iter().copied()).map(homog::Bounds::center)
     }
 
-    /// The axes of a camera that looks at the models from a named direction or a vector.
+    /// Returns the axes of a camera that looks at the models from a named direction or a vector.
     pub(super) fn view_basis(&self, from: &FromFile) -> Result<Basis, SceneError> {
         let named = match from {
             FromFile::Front => NamedView::Front,

@@ -1,4 +1,4 @@
-//! Captions: a line of text below a view, in a strip at the lower border of its picture.
+//! Captions: a line of text below a view, in a strip along the bottom of its picture.
 //!
 //! ```text
 //!  ┌──────────────┐
@@ -21,7 +21,7 @@ use scene_file::SceneError;
 /// Resolves the caption of a view.
 ///
 /// # Errors
-/// If its text is empty.
+/// Returns an error if its text is empty.
 pub(super) fn resolve_caption(
     origin: &Origin,
     caption: Option<&String>,
@@ -36,23 +36,23 @@ pub(super) fn resolve_caption(
 }
 
 impl ImageSpec {
-    /// The width and height in pixels of the part above the caption, which shows the view.
+    /// Returns the width and height in pixels of the part above the caption, which shows the view.
     pub(super) fn view_size(self) -> DVec2 {
         DVec2::new(self.width.into(), (self.height - self.caption_height).into())
     }
 
-    /// The center of the view in normalized device coordinates of the whole picture.
+    /// Returns the center of the view in normalized device coordinates of the whole picture.
     pub(super) fn view_center(self) -> DVec2 {
         DVec2::new(0.0, f64::from(self.caption_height) / f64::from(self.height))
     }
 
-    /// The picture of only the view, without its caption.
+    /// Returns the picture of only the view, without its caption.
     pub(super) const fn without_caption(self) -> Self {
         Self { height: self.height - self.caption_height, caption_height: 0, ..self }
     }
 
-    /// Turns a view-projection for the part above the caption into one for the whole picture, where
-    /// it fills that part.
+    /// Converts a view-projection for the part above the caption to one for the whole picture, in
+    /// which it fills that part.
     pub(super) fn place_view(self, view: ViewProjection) -> ViewProjection {
         if self.caption_height == 0 {
             return view;
@@ -62,7 +62,7 @@ impl ImageSpec {
     }
 }
 
-/// A view-projection with its normalized device coordinates scaled, then shifted.
+/// Returns a view-projection with its normalized device coordinates scaled, then shifted.
 pub(super) fn map_window(view: ViewProjection, scale: DVec2, shift: DVec2) -> ViewProjection {
     let map = DMat4::from_translation(shift.extend(0.0)) * DMat4::from_scale(scale.extend(1.0));
     let view_to_clip = view.view_to_clip.then(Projective::<Clip, Clip>::from_raw(map));

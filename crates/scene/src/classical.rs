@@ -33,12 +33,13 @@ impl CameraResolver<'_> {
     /// Frames the models with a classical projection, as seen from `from`, by default from the
     /// front.
     ///
-    /// `padding` is the free margin on each side, as a fraction of the window. The camera of a
+    /// `padding` is the margin on each side, as a fraction of the window. The camera of a
     /// projection onto a picture plane is at the center of the models, since parallel projections
     /// do not depend on its position.
     ///
     /// # Errors
-    /// If the parameters are invalid, there is nothing to draw, or a vertex is behind the eye.
+    /// Returns an error if the parameters are invalid, there is nothing to draw, or a vertex is
+    /// behind the eye.
     pub(super) fn frame_classical(
         &self,
         from: Option<&FromFile>,
@@ -55,11 +56,11 @@ impl CameraResolver<'_> {
         self.frame_on_picture_plane(camera, projection, padding)
     }
 
-    /// A classical projection for a camera with a given position; the window is fitted with a
-    /// margin of 5%.
+    /// Returns a classical projection for a camera with its own position; the window is fitted with
+    /// a margin of 5%.
     ///
     /// # Errors
-    /// For perspectives from vanishing points, which determine the eye themselves.
+    /// Returns an error for perspectives from vanishing points, which determine the eye themselves.
     pub(super) fn project_classical(
         &self,
         camera: Camera,
@@ -71,7 +72,7 @@ impl CameraResolver<'_> {
         self.frame_on_picture_plane(camera, projection, 0.05)
     }
 
-    /// A projection onto a picture plane, with the window fitted to the models.
+    /// Returns a projection onto a picture plane, with the window fitted to the models.
     ///
     /// The depth-preserving form of the projection keeps a third coordinate for the depth test. The
     /// orthographic volume around the projected bounds then maps to clip space: M = V · P.
@@ -100,7 +101,7 @@ impl CameraResolver<'_> {
         Ok(ViewProjection { camera, view_to_clip })
     }
 
-    /// A perspective from vanishing points, with the eye placed so that the models fit.
+    /// Returns a perspective from vanishing points, with the eye placed so that the models fit.
     ///
     /// The points determine the rotation of the eye relative to the axes, and the off-axis window
     /// (slopes per unit of distance); neither depends on scale. [`frame_perspective`] then finds
@@ -140,7 +141,8 @@ impl CameraResolver<'_> {
     }
 }
 
-/// Validates the parameters of a classical projection without models; `None` if they are valid.
+/// Validates the parameters of a classical projection without models; returns `None` if they are
+/// valid.
 ///
 /// Perspectives from vanishing points also need a framed view (`is_framed`), since they determine
 /// the eye themselves.
@@ -161,19 +163,19 @@ pub(super) fn check_classical_projection(
     Some(origin.error_at(&PROJECTION_PATH, error.to_string(), None))
 }
 
-/// The error for a perspective from vanishing points with a camera position.
+/// Creates the error for a perspective from vanishing points with a camera position.
 fn own_eye_error(origin: &Origin) -> SceneError {
     let help = "use Frame(from: …), or remove the view".to_owned();
-    let message = "a perspective from vanishing points finds its own eye position";
+    let message = "a perspective from vanishing points determines its own eye position";
     origin.error_at(&VIEW_PATH, message, Some(help))
 }
 
-/// The construction of a one-, two- or three-point perspective from its vanishing points (VN-1);
+/// Constructs a one-, two- or three-point perspective from its vanishing points (VN-1); returns
 /// `None` for other projections.
 ///
-/// The coordinates of the points are in half heights of the picture from its center, y up. The
-/// inner error reports points that no orthogonal axes can have, such as three in an obtuse
-/// triangle.
+/// The coordinates of the points are relative to the center of the picture, in units of half its
+/// height, with y up. The inner error reports points that no orthogonal axes can have, such as
+/// three in an obtuse triangle.
 fn vanishing_point_construction(
     projection: &ProjectionFile,
 ) -> Option<Result<ConstructedPerspective, ProjectionError>> {
@@ -192,7 +194,7 @@ fn vanishing_point_construction(
     })
 }
 
-/// The projection onto the picture plane.
+/// Returns the projection onto the picture plane.
 ///
 /// `radius` is the largest distance of a vertex from the camera. An n-point perspective divides p,
 /// q and r by it, so that their effect does not depend on the size of the models. Projections
@@ -201,7 +203,8 @@ fn picture_plane_projection(
     projection: &ProjectionFile,
     radius: f64,
 ) -> Result<Classical, ProjectionError> {
-    // Files give the direction in which depth recedes; the builder wants the one it comes from.
+    // Files specify the direction in which depth recedes; the builder expects the opposite
+    // direction.
     let phi = |degrees: Finite| (degrees.value() + 180.0).to_radians();
     Ok(match *projection {
         ProjectionFile::Isometric => Axonometric::isometric().into(),
@@ -227,22 +230,22 @@ fn picture_plane_projection(
     })
 }
 
-/// The default trimetric projection, with view direction (2, 3, 6) as in the camera crate's named
-/// view.
+/// Returns the default trimetric projection, with view direction (2, 3, 6) as in the camera crate's
+/// named view.
 fn default_trimetric() -> Result<Axonometric, ProjectionError> {
     Axonometric::by_normal(homog::Normal::new(2.0, 3.0, 6.0))
 }
 
-/// The largest distance of a point from the origin of view space; 1 if there are no points or all
-/// are at the origin.
+/// Returns the largest distance of a point from the origin of view space, or 1 if there are no
+/// points or all are at the origin.
 fn bounding_radius(points: &[Point<View>]) -> f64 {
     let most = points.iter().map(|point| point.raw().length()).fold(0.0, f64::max);
     if most > 0.0 { most } else { 1.0 }
 }
 
 impl ProjectedBounds {
-    /// The bounding box of the projected points; `None` if one has w ≤ 0, which puts it behind the
-    /// eye, or if there are none.
+    /// Returns the bounding box of the projected points, or `None` if there are no points or if one
+    /// has w ≤ 0, which puts it behind the eye.
     fn from_points(points: &[Point<View>], map: Projective<View, View>) -> Option<Self> {
         let nothing = DVec3::splat(f64::INFINITY);
         let mut image = Self { low: nothing, high: -nothing };
@@ -258,7 +261,7 @@ impl ProjectedBounds {
         (image.low.is_finite() && image.high.is_finite()).then_some(image)
     }
 
-    /// The orthographic volume around the box, with the picture's aspect ratio.
+    /// Returns the orthographic volume around the box, with the picture's aspect ratio.
     ///
     /// The window grows along the shorter direction and by the margin, h / (1 − 2 padding). Near
     /// and far get 1% of the depth, so that no vertex is on a plane. Flat boxes fall back to their

@@ -13,7 +13,7 @@ pub struct DepthSpan {
 }
 
 impl DepthSpan {
-    /// The span of `points` as seen by `camera`; 0 to 1 if there are none.
+    /// Computes the span of `points` as seen by `camera`; 0 to 1 if there are no points.
     #[must_use]
     pub fn from_points(points: &[Point<World>], camera: Camera) -> Self {
         let world_to_view = camera.world_to_view();
@@ -30,11 +30,12 @@ impl DepthSpan {
         }
     }
 
-    /// Near and far planes of a perspective, tight around the vertices with a margin of 1%.
+    /// Returns the near and far planes of a perspective, tight around the vertices with a margin of
+    /// 1%.
     ///
-    /// The near plane is at least 1e-5 of the far distance away from the eye, because depth
-    /// resolution falls with the ratio of the two (ZP-1). Given planes are used unchanged; the
-    /// result always has near < far unless both are given.
+    /// The near distance is at least 1e-5 times the far distance, because depth resolution falls
+    /// with the ratio of the two (ZP-1). Planes that the file sets are used unchanged. The result
+    /// always has near < far, unless both are set.
     #[must_use]
     pub fn perspective_planes(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {
         let farthest =
@@ -44,7 +45,7 @@ impl DepthSpan {
         (near, far)
     }
 
-    /// Near and far planes of a parallel projection; they may be behind the eye.
+    /// Returns the near and far planes of a parallel projection; they may be behind the eye.
     ///
     /// The margin is 1% of the depth range, with a lower bound for flat scenes relative to their
     /// distance, so that the planes stay apart in floating point.

@@ -41,7 +41,7 @@ impl Diagnostics {
         self.errors.retain(is_kept);
     }
 
-    /// The mistakes in order of the files and their texts, each once.
+    /// Returns the mistakes in order of file and position, without duplicates.
     pub(super) fn into_errors(mut self, origin: &Origin) -> Vec<SceneError> {
         let files: Vec<&str> = origin.included_files().collect();
         let file_order = |error: &SceneError| files.iter().position(|file| *file == error.file);
@@ -50,10 +50,10 @@ impl Diagnostics {
         self.errors
     }
 
-    /// Returns the value, if there are no mistakes.
+    /// Returns the value if there are no mistakes.
     ///
     /// # Errors
-    /// Every mistake.
+    /// Returns every mistake.
     pub(super) fn finish<T>(
         mut self,
         origin: &Origin,

@@ -29,10 +29,10 @@ const MAX_DECIMALS: u32 = 6;
 /// The maximum number of dimensions on a sheet: there would never be room for more.
 const MAX_DIMENSIONS: usize = 500;
 
-/// The maximum count of circles dimensioned for being the largest.
+/// The maximum count of largest circles to dimension.
 const MAX_DIAMETERS: u32 = 50;
 
-/// The path of a dimension in the scene file.
+/// Returns the path of a dimension in the scene file.
 fn path_of<'a>(index: usize, steps: &[PathStep<'a>]) -> Vec<PathStep<'a>> {
     let start = [Field("sheet"), Field("dimensions"), Index(index)];
     start.into_iter().chain(steps.iter().copied()).collect()
@@ -43,7 +43,8 @@ fn path_of<'a>(index: usize, steps: &[PathStep<'a>]) -> Vec<PathStep<'a>> {
 /// Without models, only the description itself is checked.
 ///
 /// # Errors
-/// If a name does not exist, nothing can be picked, or the picked parts have no distance or angle.
+/// Returns an error if a name does not exist, nothing can be picked, or the picked parts have no
+/// distance or angle.
 pub(super) fn resolve_dimensions(
     origin: &Origin,
     file: &SheetFile,
@@ -79,7 +80,7 @@ struct DimensionResolver<'a> {
 type PointPath<'a> = (&'a PickFile, Vec<PathStep<'static>>);
 
 impl DimensionResolver<'_> {
-    /// An error in a part of the dimension.
+    /// Creates an error in a part of the dimension.
     fn error(
         &self,
         steps: &[PathStep<'_>],
@@ -149,7 +150,7 @@ impl DimensionResolver<'_> {
         Err(self.error(&[Field("side")], message, Some(help)))
     }
 
-    /// The dimensions of an entry: usually one, none for `Overall`, several for the largest
+    /// Returns the dimensions of an entry: usually one, none for `Overall`, several for the largest
     /// diameters.
     fn resolve(&self, entry: &DimensionFile) -> Result<Vec<Dimension>, SceneError> {
         let one = |kind, measure, view, side, decimals| {
@@ -221,7 +222,7 @@ impl DimensionResolver<'_> {
         self.picking.circle(place, &path_of(self.index, &[Field("circle")]))
     }
 
-    /// The two points between which the distance of two picks is measured.
+    /// Returns the two points between which the distance of two picks is measured.
     fn distance(&self, from: &PickFile, to: &PickFile) -> Result<Vec<Point<World>>, SceneError> {
         let picked = [self.pick(from, &[Field("from")])?, self.pick(to, &[Field("to")])?];
         let feet = picked[0].perpendicular_to(&picked[1]).ok_or_else(|| {
@@ -232,7 +233,7 @@ impl DimensionResolver<'_> {
         Ok(feet.map(Point::from_raw).to_vec())
     }
 
-    /// The vertex of an angle and a point on each of its sides.
+    /// Returns the vertex of an angle and a point on each of its sides.
     fn angle(
         &self,
         from: &PickFile,
@@ -249,7 +250,7 @@ impl DimensionResolver<'_> {
         Ok(points.map(Point::from_raw))
     }
 
-    /// The diameters of the largest full circles.
+    /// Returns the diameters of the largest full circles.
     fn largest_diameters(&self, count: usize, decimals: Option<u32>) -> Vec<Dimension> {
         let mut circles: Vec<WorldCircle> = self.picking.picker.circles(None).collect();
         circles.retain(|circle| TAU - circle.sweep < 1e-6);
@@ -263,7 +264,7 @@ impl DimensionResolver<'_> {
     }
 }
 
-/// The named view of a dimension view.
+/// Returns the named view for a dimension view.
 const fn named_view(view: DimensionView) -> NamedView {
     match view {
         DimensionView::Front => NamedView::Front,

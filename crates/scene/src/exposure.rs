@@ -1,7 +1,7 @@
 //! Automatic exposure for models that come with lights.
 //!
 //! KHR_lights_punctual is photometric: a sun may have 3 lux, as in a viewer, or 100,000, as
-//! outdoors. Without a scene file, nothing says how bright the picture should be.
+//! outdoors. Without a scene file, nothing defines how bright the picture should be.
 
 use super::Origin;
 use super::surrounding_light::{has_default_light, has_lights};
@@ -15,8 +15,8 @@ const MAX_WHITE: f32 = 1.5;
 /// One vertex in this many may be brighter.
 const BRIGHTER_SHARE: usize = 10;
 
-/// The exposure of a scene in stops, as given in the file. Without one it is 0, or less if a bare
-/// model's own lights are too bright.
+/// Returns the exposure of a scene in stops, from the file if it is set there. Otherwise it is 0,
+/// or less if a bare model's own lights are too bright.
 ///
 /// The measure is the illuminance of the vertices from all lights, unshadowed and at normal
 /// incidence, which nine in ten vertices do not exceed.
@@ -44,7 +44,7 @@ pub(super) fn resolve_exposure(
     if is_too_bright { libm::log2(f64::from(MAX_WHITE / white)) } else { 0.0 }
 }
 
-/// The illuminance of a surface that faces a light, in lux: the largest of its channels.
+/// Returns the illuminance of a surface that faces a light, in lux: the largest of its channels.
 fn illuminance(light: &Light, point: [f32; 3]) -> f32 {
     let brightest = |color: [f32; 3]| color.into_iter().fold(0.0, f32::max);
     let (from, candela, range) = match *light {

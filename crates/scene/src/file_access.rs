@@ -20,7 +20,7 @@ pub enum FileAccess<'a> {
 }
 
 impl FileAccess<'_> {
-    /// The access for the inset with this index.
+    /// Returns the access for the inset with this index.
     pub(super) fn for_inset(self, index: usize) -> Self {
         match self {
             Self::Loaded(scene) => {
@@ -30,7 +30,7 @@ impl FileAccess<'_> {
         }
     }
 
-    /// The environment of a scene. Without a file it depends on the models' lights.
+    /// Returns the environment of a scene. Without a file it depends on the models' lights.
     pub(super) fn environment(
         self,
         origin: &Origin,
@@ -49,7 +49,7 @@ impl FileAccess<'_> {
         }
     }
 
-    /// The backdrop behind the models, if it is more than a color.
+    /// Returns the backdrop behind the models, if it is more than a color.
     pub(super) fn backdrop(
         self,
         origin: &Origin,

@@ -10,7 +10,7 @@ use shade::Light;
 /// A horizontal rectangle that shows only shadows (shadow catcher).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Ground {
-    /// The corners in world space, counterclockwise seen from above.
+    /// The corners in world space, counterclockwise as seen from above.
     pub corners: [[f32; 3]; 4],
     /// The area in which models occlude light from all directions; `None` without such light.
     pub occlusion: Option<OcclusionArea>,
@@ -29,8 +29,8 @@ pub struct OcclusionArea {
 }
 
 impl OcclusionArea {
-    /// The border of the part that a framed picture shows. Its corners are beveled, because the
-    /// shadow of a box is rounded there.
+    /// Returns the border of the part that a framed picture shows. Its corners are beveled because
+    /// the shadow of a box is rounded there.
     fn framed_points(&self) -> [Point<World>; 8] {
         let (low, high, height) = (self.low.raw(), self.high.raw(), self.low.y());
         let [shown, hidden] = [self.margin, (1.0 - FRAMED_MARGIN) * self.margin];
@@ -41,18 +41,19 @@ impl OcclusionArea {
     }
 }
 
-/// The width of the margin, in heights of the models or in half diagonals of their outline from
-/// above, whichever is smaller. Objects that are only high or only wide hide little of the sky
-/// beside them.
+/// The width of the margin, as a fraction of the models' height or of half the diagonal of their
+/// outline from above, whichever is smaller. Objects that are only tall or only wide hide little of
+/// the sky.
 const OCCLUSION_MARGIN: f64 = 0.4;
 /// The fraction of the margin that a framed picture shows; beyond it, occlusion is faint.
 const FRAMED_MARGIN: f64 = 0.5;
 
-/// The longest shadow, in diagonals of the models' bounding box. A sun at the horizon casts
-/// infinite shadows; beyond this length they leave any picture that shows the models.
+/// The maximum length of a shadow, as a multiple of the diagonal of the models' bounding box. A sun
+/// at the horizon casts infinite shadows; beyond this length they extend out of any picture that
+/// shows the models.
 const MAX_SHADOW_DIAGONALS: f64 = 20.0;
 
-/// Resolves the ground of a scene; returns `None` if it asks for none or has no models.
+/// Resolves the ground of a scene; returns `None` if it does not request one or has no models.
 ///
 /// The rectangle is the bounding box of the models seen from above, extended by the shadows of its
 /// eight corners under each light, and by 5% on each side. The shadow of a convex box is within the
@@ -92,8 +93,8 @@ pub(super) fn resolve_ground(
     Some(Ground { corners, occlusion })
 }
 
-/// The part of the ground that models within a bounding box occlude; `None` if they are not above
-/// it, or if the scene turns shadows off.
+/// Returns the part of the ground that models within a bounding box occlude, or `None` if they are
+/// not above it or the scene turns shadows off.
 fn occlusion_area(
     file: &SceneFile,
     least: DVec3,
@@ -112,13 +113,13 @@ fn occlusion_area(
     (margin > 0.0).then_some(OcclusionArea { low, high, margin })
 }
 
-/// The shadows of the models' points on the ground, in the world, for a camera that frames them
-/// too.
+/// Returns the shadows of the models' points on the ground, in world space, for a camera that
+/// frames them too.
 ///
 /// These are the shadows of directional light from above, and the darkest part of the occlusion by
-/// the models. A shadow is at most as long as the diagonal of the models' bounding box. Of longer
-/// ones, under a sun below 30° for a cube, the picture shows only the beginning. Lamps near the
-/// models have no such limit and do not count.
+/// the models. A shadow is at most as long as the diagonal of the models' bounding box. The picture
+/// shows only part of longer shadows, such as a cube's under a sun below 30°. Lamps near the models
+/// have no such limit and are ignored.
 pub(super) fn shadow_points(
     ground: Ground,
     models: &[ModelInstance],
@@ -137,11 +138,12 @@ pub(super) fn shadow_points(
     shadows.map(Point::from_raw).chain(occlusion).collect()
 }
 
-/// The shadow of a world point on the plane y = `height`, at most `reach` away horizontally.
+/// Returns the shadow of a world point on the plane y = `height`, at most `reach` away
+/// horizontally.
 ///
-/// p' = p + d_xz (p_y − height) / (−d_y), where d is the direction in which light travels. `None`
-/// for lights without shadows and for ambient lights. Upward or horizontal light has d_y ≥ 0; the
-/// divisor is then bounded, and `reach` limits the length.
+/// p' = p + d_xz (p_y − height) / (−d_y), where d is the direction in which light travels. The
+/// result is `None` for lights without shadows and for ambient lights. Upward or horizontal light
+/// has d_y ≥ 0; the divisor is then bounded, and `reach` limits the length.
 fn project_shadow(light: &Light, place: DVec3, height: f64, reach: f64) -> Option<DVec3> {
     light.shadow()?;
     let travel = match light {

@@ -47,8 +47,8 @@ pub struct Inset {
 /// Resolves the insets of a scene file: its viewports in order, or the two views of a stereo pair.
 ///
 /// Models are shared with the main view, not loaded again. Without models, or if a rectangle is
-/// outside the picture, only viewport mistakes that need no models are reported. `None` if there
-/// are mistakes; the errors point into the viewports.
+/// outside the picture, only viewport mistakes that do not depend on models are reported. Returns
+/// `None` if there are mistakes; the errors point into the viewports.
 pub(super) fn resolve_insets(
     origin: &Origin,
     file: &SceneFile,
@@ -90,15 +90,15 @@ pub(super) fn resolve_insets(
     Some(insets)
 }
 
-/// The scene file as it applies within a viewport of this size: the viewport's fields replace the
-/// scene's.
+/// Returns the scene file as it applies within a viewport of this size: the viewport's fields
+/// replace the scene's.
 fn scene_in_viewport(file: &SceneFile, viewport: &ViewportFile, size: (u32, u32)) -> SceneFile {
     let background = viewport.background.as_ref().or(file.image.background.as_ref()).cloned();
     SceneFile {
         camera: viewport.camera.as_ref().unwrap_or(&file.camera).clone(),
         style: viewport.style.as_ref().unwrap_or(&file.style).clone(),
         overlays: viewport.overlays.as_ref().unwrap_or(&file.overlays).clone(),
-        // The scene's caption belongs to the whole picture.
+        // The scene's caption is for the whole picture.
         caption: viewport.caption.clone(),
         image: ImageFile { size, background, ..file.image.clone() },
         models: Vec::new(),
@@ -108,13 +108,14 @@ fn scene_in_viewport(file: &SceneFile, viewport: &ViewportFile, size: (u32, u32)
     }
 }
 
-/// The pixel rectangle of a viewport, from fractions of the picture or from pixels.
+/// Returns the pixel rectangle of a viewport, from fractions of the picture or from pixels.
 ///
 /// Fractions are rounded edge by edge rather than as a size, so that adjacent viewports neither
 /// overlap nor leave a gap.
 ///
 /// # Errors
-/// If both forms or neither are given, or if the rectangle is empty or extends beyond the picture.
+/// Returns an error if both forms or neither are set, or if the rectangle is empty or extends
+/// beyond the picture.
 fn resolve_viewport_rect(
     origin: &Origin,
     number: usize,
@@ -139,7 +140,7 @@ fn resolve_viewport_rect(
         (at, _) => {
             let message = match at {
                 None => "the viewport has no position",
-                Some(_) => "`at` and `pixels` both give the position of the viewport",
+                Some(_) => "`at` and `pixels` both set the position of the viewport",
             };
             let help = "write at: (0.7, 0, 0.3, 0.3): left, top, width and height";
             let at = [Field("viewports"), Index(number)];
@@ -158,14 +159,14 @@ fn resolve_viewport_rect(
         "the viewport of {across} x {down} pixels at ({x}, {y}) is empty or not inside the picture of {width} x {height}"
     );
     let help = if field == "at" {
-        "give left, top, width and height; left + width and top + height must be at most 1"
+        "specify left, top, width and height; left + width and top + height must be at most 1"
     } else {
-        "pixels suit only one picture size; fractions suit every size, even with --size: at: (0.5, 0, 0.5, 0.5) is the upper right quarter"
+        "pixels fit only one picture size; fractions work for every size, even with --size: at: (0.5, 0, 0.5, 0.5) is the upper right quarter"
     };
     Err(origin.error_at(&place(field), message, Some(help.to_owned())))
 }
 
-/// The color of a viewport's border, and its width of 1 to 1000 pixels.
+/// Returns the color of a viewport's border, and its width of 1 to 1000 pixels.
 fn resolve_border(
     origin: &Origin,
     number: usize,
@@ -181,8 +182,8 @@ fn resolve_border(
     Ok(Some((border.color.0, border.width)))
 }
 
-/// The two insets of a stereo pair, from off-axis projections (no vertical parallax, unlike with
-/// toed-in cameras).
+/// Returns the two insets of a stereo pair, from off-axis projections, which have no vertical
+/// parallax, unlike toed-in cameras.
 ///
 /// ```text
 ///  side by side   left half, right half       the halves of an odd width share a column
@@ -192,8 +193,8 @@ fn resolve_border(
 /// position in both images and appear at the depth of the screen.
 ///
 /// # Errors
-/// If there are viewports, the picture is one pixel wide, the projection is parallel, or the models
-/// are behind the camera.
+/// Returns an error if there are viewports, the picture is one pixel wide, the projection is
+/// parallel, or the models are behind the camera.
 fn resolve_stereo(
     origin: &Origin,
     file: &SceneFile,
@@ -216,7 +217,8 @@ fn resolve_stereo(
     if beside && width < 2 {
         return Err(fault("the picture is too narrow for two views", "make it wider").into());
     }
-    // With an odd number of columns both share the middle one, and the right eye's is visible.
+    // With an odd number of columns, both halves share the middle one, and the right eye's is
+    // visible.
     let half = if beside { width.div_ceil(2) } else { width };
     let half = PixelRect { x: 0, y: 0, width: half, height };
     let areas = [half, PixelRect { x: if beside { width - half.width } else { 0 }, ..half }];
@@ -236,8 +238,8 @@ fn resolve_stereo(
         |all| Some(all.value()),
     );
     let Some(plane) = plane else {
-        let help = "set the distance at which the eyes converge: 2";
-        return Err(fault("the middle of the models is behind the camera", help).into());
+        let help = "set the distance at which the eyes converge, such as convergence: 2";
+        return Err(fault("the center of the models is behind the camera", help).into());
     };
     let apart = apart.map_or(plane / CONVERGENCE_PER_EYE_DISTANCE, Positive::value);
     let view = |(area, side): (PixelRect, f64)| {
@@ -249,7 +251,8 @@ fn resolve_stereo(
     areas.into_iter().zip([-0.5, 0.5]).map(view).collect()
 }
 
-/// The depth of the center of the models along the gaze, in world units; `None` if not ahead.
+/// Returns the depth of the models' center along the gaze, in world units, or `None` if it is not
+/// in front of the camera.
 fn models_center_depth(view_projection: ViewProjection, models: &[ModelInstance]) -> Option<f64> {
     let corners = Bounds::from_points(world_points(models))?.corners();
     let middle = (corners[0].raw() + corners[7].raw()) * 0.5;
@@ -258,7 +261,7 @@ fn models_center_depth(view_projection: ViewProjection, models: &[ModelInstance]
     (depth > 0.0).then_some(depth)
 }
 
-/// The view of an eye moved to the right by `aside`, sheared so that its window matches the
+/// Returns the view of an eye moved to the right by `aside`, sheared so that its window matches the
 /// camera's at the distance `plane`.
 ///
 /// x' = x − aside · z / plane in view space: the shear moves a point at depth D = −z to the right
@@ -280,7 +283,7 @@ mod tests {
     use projection::{Convention, Frustum};
 
     #[test]
-    fn the_eyes_are_those_of_the_rig() {
+    fn stereo_eyes_match_the_rig() {
         let camera =
             Camera::look_at(Point::new(4.0, 3.0, 6.0), Point::new(0.0, 1.0, 0.0), Vector::Y)
                 .expect("a camera");

@@ -26,7 +26,7 @@ type InstanceTransform = Affine<ModelSpace, ModelSpace>;
 /// billion along each axis do not wrap around to a small number.
 ///
 /// # Errors
-/// If a model has no instances, or the scene has more than [`MAX_INSTANCES`].
+/// Returns an error if a model has no instances, or the scene has more than [`MAX_INSTANCES`].
 pub(super) fn check_instance_counts(origin: &Origin, file: &SceneFile) -> Result<(), SceneError> {
     let mut total = 0_usize;
     for (number, entry) in file.models.iter().enumerate() {
@@ -34,15 +34,15 @@ pub(super) fn check_instance_counts(origin: &Origin, file: &SceneFile) -> Result
         total = total.saturating_add(count);
         if total > MAX_INSTANCES {
             let message =
-                format!("the scene has {total} model copies; at most {MAX_INSTANCES} are allowed");
-            let help = Some("use fewer, or combine several in one model".to_owned());
+                format!("too many model instances: {total}; at most {MAX_INSTANCES} are allowed");
+            let help = Some("use fewer instances, or combine several models in one".to_owned());
             return Err(origin.error_at(&instances_path(number, &[]), message, help));
         }
     }
     Ok(())
 }
 
-/// The path of a model's `instances`, and of a value in them.
+/// Returns the path of a model's `instances`, or of a value in them.
 fn instances_path<'a>(number: usize, rest: &[PathStep<'a>]) -> Vec<PathStep<'a>> {
     [&[Field("models"), Index(number), Field("instances")], rest].concat()
 }
@@ -50,7 +50,7 @@ fn instances_path<'a>(number: usize, rest: &[PathStep<'a>]) -> Vec<PathStep<'a>>
 /// Counts a model's instances.
 ///
 /// # Errors
-/// If there are none.
+/// Returns an error if the model has no instances.
 fn checked_instance_count(
     origin: &Origin,
     number: usize,
@@ -65,8 +65,8 @@ fn checked_instance_count(
         Some(InstancesFile::List(_)) | None => instances_path(number, &[]),
         Some(_) => instances_path(number, &[field]),
     };
-    let help = Some("use at least 1; for a single copy, remove `instances`".to_owned());
-    Err(origin.error_at(&at, "the model has no copies", help))
+    let help = Some("use at least 1; for a single instance, remove `instances`".to_owned());
+    Err(origin.error_at(&at, "the model has no instances", help))
 }
 
 /// Places the instances of a model, which all share its data.
@@ -75,7 +75,8 @@ fn checked_instance_count(
 /// the model's translation.
 ///
 /// # Errors
-/// If the instances have too many vertices in total, or the axis of a circle is 0.
+/// Returns an error if the instances have too many vertices in total, or the axis of a circle is
+/// (0, 0, 0).
 pub(super) fn instantiate_model(
     origin: &Origin,
     number: usize,
@@ -90,14 +91,14 @@ pub(super) fn instantiate_model(
             model_to_world: own.then(there),
         }]);
     };
-    // Counted before instances are made: a large count takes few characters in the file.
     let mut vertices = 0_usize;
     model.for_each_scene_point(|_| vertices += 1);
     let all = vertices.saturating_mul(entry.instance_count());
     if all > MAX_INSTANCE_VERTICES {
-        let message =
-            format!("the copies have {all} vertices; at most {MAX_INSTANCE_VERTICES} are allowed");
-        let help = Some("use fewer copies, or a simpler model".to_owned());
+        let message = format!(
+            "too many instance vertices: {all}; at most {MAX_INSTANCE_VERTICES} are allowed"
+        );
+        let help = Some("use fewer instances or a simpler model".to_owned());
         return Err(origin.error_at(&instances_path(number, &[]), message, help));
     }
     let ways = instance_transforms(origin, number, instances)?;
@@ -108,7 +109,8 @@ pub(super) fn instantiate_model(
     Ok(ways.into_iter().map(copy).collect())
 }
 
-/// Scale, then rotation about the fixed axes x, y and z in this order: R_z · R_y · R_x · S.
+/// Returns a scale followed by rotations about the fixed axes x, y and z, in this order: R_z · R_y
+/// · R_x · S.
 fn scale_then_rotate(scale: Scale, rotation_degrees: Triple) -> InstanceTransform {
     let [sx, sy, sz] = scale.0;
     let [rx, ry, rz] = rotation_degrees.0.map(f64::to_radians);
@@ -118,12 +120,12 @@ fn scale_then_rotate(scale: Scale, rotation_degrees: Triple) -> InstanceTransfor
         .then(InstanceTransform::rotation_z(rz))
 }
 
-/// A translation.
+/// Returns a translation.
 fn translate_by(by: [f64; 3]) -> InstanceTransform {
     InstanceTransform::translation(Vector::from(by))
 }
 
-/// The transform of each instance, relative to the model.
+/// Returns the transform of each instance, relative to the model.
 fn instance_transforms(
     origin: &Origin,
     number: usize,
@@ -149,7 +151,8 @@ fn instance_transforms(
             rotate_copies,
         } => {
             let at = || {
-                let help = Some("write one such as (0, 1, 0), for a horizontal circle".to_owned());
+                let help =
+                    Some("use an axis such as (0, 1, 0), for a horizontal circle".to_owned());
                 let message = "the axis of the circle must not be (0, 0, 0)";
                 origin.error_at(&instances_path(number, &[Field("axis")]), message, help)
             };
@@ -161,8 +164,8 @@ fn instance_transforms(
     }
 }
 
-/// The translations of a grid, x fastest, then y, then z. They are multiples of the step rather
-/// than sums, so that errors do not accumulate.
+/// Returns the translations of a grid, x fastest, then y, then z. They are multiples of the step
+/// rather than sums, so that errors do not accumulate.
 fn grid_transforms([across, up, deep]: [u32; 3], step: [f64; 3]) -> Vec<InstanceTransform> {
     let mut ways = Vec::new();
     for z in 0..deep {
@@ -176,7 +179,7 @@ fn grid_transforms([across, up, deep]: [u32; 3], step: [f64; 3]) -> Vec<Instance
     ways
 }
 
-/// The angles of instances on a circle, in radians.
+/// Returns the angles of instances on a circle, in radians.
 ///
 /// A full turn is divided by the count, since its two ends coincide. An arc is divided by the count
 /// minus one, so that both ends have an instance.
@@ -198,8 +201,8 @@ struct CircleLayout {
 }
 
 impl CircleLayout {
-    /// The transform at an angle in radians: translation to the circle, then rotation about the
-    /// axis; or only the translation that both produce.
+    /// Returns the transform at an angle in radians: translation to the circle, then rotation about
+    /// the axis; or, for instances that do not rotate, only the translation that results from both.
     fn transform_at(&self, angle: f64) -> Option<InstanceTransform> {
         let turn = InstanceTransform::rotation(Vector::from(self.axis), angle)?;
         let out = self.zero_degree_direction()?.map(|c| c * self.radius);
@@ -210,10 +213,10 @@ impl CircleLayout {
         Some(translate_by(there.to_array()))
     }
 
-    /// The unit vector toward 0°, perpendicular to the axis.
+    /// Returns the unit vector toward 0°, perpendicular to the axis.
     ///
-    /// The projection of x onto the plane of the circle (Gram–Schmidt), or of y if the axis is
-    /// within 26° of x, where the projection of x would be short.
+    /// It is the projection of x onto the plane of the circle (Gram–Schmidt), or of y if the axis
+    /// is within 26° of x, where the projection of x would be short.
     fn zero_degree_direction(&self) -> Option<[f64; 3]> {
         let [x, y, z] = self.axis;
         let candidates = [([1.0, 0.0, 0.0], x), ([0.0, 1.0, 0.0], y), ([0.0, 0.0, 1.0], z)];
@@ -222,9 +225,9 @@ impl CircleLayout {
     }
 }
 
-/// The vector scaled to length 1; `None` if it is 0.
+/// Returns the vector scaled to length 1, or `None` if it is 0.
 fn normalize_vector(v: [f64; 3]) -> Option<[f64; 3]> {
-    // Scaled first, so that no square overflows or underflows.
+    // Scale first, so that no square overflows or underflows.
     let largest = v.iter().fold(0.0_f64, |most, c| most.max(c.abs()));
     let v = v.map(|c| c / largest);
     let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
@@ -237,7 +240,7 @@ mod tests {
     use homog::Point;
     use scene_file::parse_scene;
 
-    /// The positions of the model's point (0, 0, 1) in the copies.
+    /// Returns the positions of the model's point (0, 0, 1) in the instances.
     fn instance_points(model: &str) -> Result<Vec<[f64; 3]>, String> {
         let text = format!("Scene(models: [(path: \"a.glb\", {model})])");
         let file = parse_scene("a.ron", &text).map_err(|error| error.to_string())?;
@@ -255,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn a_grid_begins_at_the_model_and_runs_along_x_first() {
+    fn grids_start_at_the_model_and_advance_along_x_first() {
         let places = instance_points(
             "translation: (10, 0, 0), scale: 2, instances: Grid(count: (2, 1, 2), step: (3, 0, -5))",
         );
@@ -264,8 +267,8 @@ mod tests {
     }
 
     #[test]
-    fn copies_on_a_circle_turn_with_their_places_unless_they_are_not_to() {
-        // Counterclockwise from above, x maps to -z, and the copy's own front turns with it.
+    fn instances_on_a_circle_rotate_with_their_position_unless_disabled() {
+        // Counterclockwise from above, x maps to -z, and the instance's front rotates with it.
         let turned = instance_points("instances: Circle(count: 4, radius: 2)").expect("places");
         assert_eq!(
             turned,
@@ -281,17 +284,17 @@ mod tests {
     }
 
     #[test]
-    fn a_listed_copy_is_scaled_then_turned_then_moved() {
+    fn listed_instances_are_scaled_then_rotated_then_moved() {
         let list = "instances: List([(scale: 3, rotation_degrees: (0, 90, 0), translation: (0, 0, 1)), ()])";
         assert_eq!(instance_points(list).expect("places"), [[3.0, 0.0, 1.0], [0.0, 0.0, 1.0]]);
     }
 
     #[test]
-    fn invalid_instances_are_reported_at_their_location() {
+    fn mistakes_are_reported_at_their_position() {
         for (model, told, mark) in [
-            ("instances: Grid(count: (2, 0, 2), step: (1, 1, 1))", "no copies", "(2, 0, 2)"),
-            ("instances: Circle(count: 0, radius: 1)", "no copies", "0"),
-            ("instances: List([])", "no copies", "List([])"),
+            ("instances: Grid(count: (2, 0, 2), step: (1, 1, 1))", "no instances", "(2, 0, 2)"),
+            ("instances: Circle(count: 0, radius: 1)", "no instances", "0"),
+            ("instances: List([])", "no instances", "List([])"),
             (
                 "instances: Circle(count: 3, radius: 1, axis: (0, 0, 0))",
                 "must not be (0, 0, 0)",

@@ -28,8 +28,8 @@ pub(super) struct Lens {
 }
 
 impl Lens {
-    /// Creates a lens from the given vertical, horizontal or diagonal field of view. If several are
-    /// given, which is an error, the first counts.
+    /// Creates a lens from a vertical, horizontal or diagonal field of view. If several are set,
+    /// which is an error, the first is used.
     pub(super) fn new(angles: [Option<FieldOfView>; 3], shift: (Finite, Finite)) -> Self {
         let radians = |angle: FieldOfView| angle.value().to_radians();
         let fov = match angles {
@@ -41,7 +41,7 @@ impl Lens {
         Self { fov, shift: [x.value(), y.value()] }
     }
 
-    /// The lens of a perspective; `None` for other projections.
+    /// Returns the lens of a perspective, or `None` for other projections.
     pub(super) fn from_file(projection: &ProjectionFile) -> Option<Self> {
         match *projection {
             ProjectionFile::Perspective {
@@ -60,8 +60,8 @@ impl Lens {
         self.shift == [0.0; 2]
     }
 
-    /// The borders of the window one unit ahead of the eye (FOV-1), for a picture with this aspect
-    /// ratio.
+    /// Returns the borders of the window one unit ahead of the eye (FOV-1), for a picture with this
+    /// aspect ratio.
     pub(super) fn slopes(self, aspect: f64) -> Result<Window, ProjectionError> {
         let half = self.fov.half_slopes(aspect)?;
         let window = Window::centered(2.0 * half.x, 2.0 * half.y)?;
@@ -77,7 +77,7 @@ impl Lens {
         )
     }
 
-    /// View space to clip space.
+    /// Returns the matrix from view space to clip space.
     pub(super) fn view_to_clip(
         self,
         aspect: f64,
@@ -92,7 +92,7 @@ impl Lens {
     }
 }
 
-/// The window of a projection given by four borders; `None` for others.
+/// Returns the window of a projection with four borders, or `None` for other projections.
 pub(super) fn given_window(projection: &ProjectionFile) -> Option<[f64; 4]> {
     let sides = match *projection {
         ProjectionFile::Frustum { left, right, bottom, top, .. }
@@ -107,8 +107,8 @@ pub(super) fn given_window(projection: &ProjectionFile) -> Option<[f64; 4]> {
     Some(sides.map(Finite::value))
 }
 
-/// Lens and window errors that do not depend on models: mutually exclusive fields, planes and
-/// borders in the wrong order.
+/// Returns lens and window errors that do not depend on models: mutually exclusive fields, and
+/// planes or borders in the wrong order.
 pub(super) fn check_lens(origin: &Origin, projection: &ProjectionFile) -> Option<SceneError> {
     check_lens_fields(origin, projection).or_else(|| {
         let error = check_planes(projection)?;
@@ -119,8 +119,8 @@ pub(super) fn check_lens(origin: &Origin, projection: &ProjectionFile) -> Option
     })
 }
 
-/// The error for mutually exclusive fields in a projection, or for fields that are incomplete
-/// without others.
+/// Returns the error for mutually exclusive fields in a projection, or for fields that are
+/// incomplete without others.
 pub(super) fn check_lens_fields(
     origin: &Origin,
     projection: &ProjectionFile,
@@ -145,7 +145,7 @@ fn check_fields_of_view(origin: &Origin, projection: &ProjectionFile) -> Option<
     .filter_map(|(angle, name)| angle.as_ref().map(|_| name))
     .collect();
     let &[first, second, ..] = given.as_slice() else { return None };
-    let message = format!("`{second}` and `{first}` both give the field of view");
+    let message = format!("`{second}` and `{first}` both set the field of view");
     let help = "keep one of them; the other follows from the aspect ratio".to_owned();
     let path = [&PROJECTION_PATH[..], &[Field(second)]].concat();
     Some(origin.error_at(&path, message, Some(help)))
@@ -164,12 +164,12 @@ fn check_orthographic_window(origin: &Origin, projection: &ProjectionFile) -> Op
     let (given, missing) = (names(true), names(false));
     let &first = given.first()?;
     let (at, message, help) = if height.is_some() {
-        let message = format!("`height` and `{first}` both give the window");
-        ("height", message, "keep the height, or the four borders".to_owned())
+        let message = format!("`height` and `{first}` both set the window");
+        ("height", message, "keep either the height or the four borders".to_owned())
     } else if !missing.is_empty() {
         let message = format!("the window has only `{}`", given.join("`, `"));
         let rest: Vec<String> = missing.iter().map(|name| format!("`{name}: …`")).collect();
-        (first, message, format!("add {}, or give the height instead", rest.join(", ")))
+        (first, message, format!("add {}, or set the height instead", rest.join(", ")))
     } else {
         return None;
     };
@@ -177,7 +177,7 @@ fn check_orthographic_window(origin: &Origin, projection: &ProjectionFile) -> Op
     Some(origin.error_at(&path, message, Some(help)))
 }
 
-/// The error for a projection with planes or borders in the wrong order.
+/// Returns the error for a projection with planes or borders in the wrong order.
 fn check_planes(projection: &ProjectionFile) -> Option<ProjectionError> {
     // Omitted values get defaults that pass, so that only given ones can be at fault.
     let [l, r, b, t] = given_window(projection).unwrap_or([-1.0, 1.0, -1.0, 1.0]);

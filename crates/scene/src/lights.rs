@@ -18,12 +18,12 @@ use scene_file::file::{
 };
 use shade::{Light, Shadow};
 
-/// The irradiance of the default key light with only ambient light beside it, in lux.
+/// The irradiance of the default key light, in lux, if the only other light is ambient.
 const KEY_LUX: f32 = 2.5;
-/// The irradiance of the ambient light beside it, in lux.
+/// The irradiance of that ambient light, in lux.
 const AMBIENT_LUX: f32 = 0.7;
-/// The irradiance of the default key light in an environment, in lux. Matte white facing it
-/// reflects 1.45 / π = 0.46 of it, and together with the studio of bare models at most 0.95.
+/// The irradiance of the default key light in an environment, in lux. Matte white that faces it has
+/// the linear value 1.45 / π = 0.46, and at most 0.95 together with the studio of bare models.
 const KEY_LUX_IN_ENVIRONMENT: f32 = 1.45;
 /// The elevation of the default key light above the horizon, in degrees.
 const KEY_ELEVATION: f64 = 50.0;
@@ -44,7 +44,7 @@ pub(super) fn resolve_scene_shadow(
     resolve_shadow(origin, file.shadows.or(of_ground).as_ref(), &[Field("shadows")])
 }
 
-/// The lights described in the file; `None` in place of `FromModels`.
+/// Returns the lights described in the file, with `None` in place of `FromModels`.
 pub(super) fn resolve_described_lights(
     origin: &Origin,
     file: &SceneFile,
@@ -58,8 +58,8 @@ pub(super) fn resolve_described_lights(
     lights.into_iter().collect()
 }
 
-/// The lights of a scene: those described in the file or in the models, or a default key light if
-/// nothing else lights the models or brings out their shape.
+/// Returns the lights of a scene: the lights in the file or in the models, or a default key light
+/// if nothing else lights the models or brings out their shape.
 ///
 /// Only light that the style shows counts: clay receives the environment, but line drawings do not.
 pub(super) fn resolve_lights(
@@ -101,7 +101,7 @@ pub(super) fn resolve_lights(
 /// Maps without an explicit size become smaller.
 ///
 /// # Errors
-/// If the scene sets sizes that need more.
+/// Returns an error if the sizes that the scene sets exceed this limit.
 fn limit_shadow_maps(
     origin: &Origin,
     file: &SceneFile,
@@ -130,7 +130,7 @@ fn limit_shadow_maps(
     Ok(lights)
 }
 
-/// The shadow of a light that uses a single shadow map.
+/// Returns the shadow of a light that uses a single shadow map.
 const fn mapped_shadow(light: &mut Light) -> Option<&mut Shadow> {
     match light {
         Light::Sun { shadow, .. } | Light::Spot { shadow, .. } => shadow.as_mut(),
@@ -138,7 +138,7 @@ const fn mapped_shadow(light: &mut Light) -> Option<&mut Shadow> {
     }
 }
 
-/// The path of the size that a scene sets for a shadow map, of one light or of all.
+/// Returns the path of the size that a scene sets for the shadow map of one light or of all lights.
 fn chosen_size_path(file: &SceneFile) -> Option<Vec<PathStep<'static>>> {
     let is_chosen =
         |shadows: &ShadowsFile| matches!(shadows, ShadowsFile::On { size: Some(_), .. });
@@ -155,7 +155,7 @@ fn chosen_size_path(file: &SceneFile) -> Option<Vec<PathStep<'static>>> {
     file.shadows.as_ref().is_some_and(is_chosen).then(|| vec![Field("shadows")])
 }
 
-/// The lights in the models' files, in world space (KHR_lights_punctual).
+/// Returns the lights in the models' files, in world space (KHR_lights_punctual).
 ///
 /// Lights shine along −z of their node. Scales do not change intensities (lux, candela), as the
 /// extension requires. A node whose transform collapses its z axis has no direction and is skipped.
@@ -185,8 +185,8 @@ fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec
     lights
 }
 
-/// A directional light high above the ground and to the left of the view, so that visible sides
-/// differ in brightness and shadows fall to the right, where they are visible.
+/// Returns a directional light high above the ground and to the left of the view, so that visible
+/// sides differ in brightness and shadows fall to the right, where they are visible.
 ///
 /// It follows the world's up, y, rather than the camera's: a camera that looks down does not take
 /// the light below the horizon with it.
@@ -205,12 +205,12 @@ fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<
     Light::Sun { to_light: to_light.raw().as_vec3().to_array(), lux: [lux; 3], shadow }
 }
 
-/// A light from the file, with the scene's shadows unless it sets its own; `Some(None)` for
-/// `FromModels`.
+/// Resolves a light from the file, with the scene's shadows unless it sets its own; returns
+/// `Some(None)` for `FromModels`.
 ///
 /// Directional and ambient lights are in lux, point and spot lights in candela; the color scales
-/// them. Numbers become f32 here, the precision of shading. It is an error if the direction is 0,
-/// or the cone or the shadow settings are invalid.
+/// them. Numbers are converted to f32, the precision of shading. It is an error if the direction is
+/// 0, or the cone or the shadow settings are invalid.
 fn resolve_light(
     origin: &Origin,
     index: usize,
@@ -258,10 +258,11 @@ fn resolve_light(
     }))
 }
 
-/// The unit vector in world space in which a light travels, from the light to the scene.
+/// Returns the direction in which a light travels, from the light to the scene, as a unit vector in
+/// world space.
 ///
 /// # Errors
-/// If it is (0, 0, 0).
+/// Returns an error if it is (0, 0, 0).
 fn resolve_direction(
     origin: &Origin,
     index: usize,
@@ -269,18 +270,19 @@ fn resolve_direction(
 ) -> Result<Vector<World>, SceneError> {
     Vector::<World>::from(direction.0).normalized().ok_or_else(|| {
         let path = [Field("lights"), Index(index), Field("direction")];
-        let help = "write one such as (-1, -2, -1): from the right, above and the front".to_owned();
+        let help =
+            "use a direction such as (-1, -2, -1): from the right, above and the front".to_owned();
         origin.error_at(&path, "the direction of the light must not be (0, 0, 0)", Some(help))
     })
 }
 
-/// The cosines of a spot light's inner and outer cone angles, by default 0° and 45°.
+/// Returns the cosines of a spot light's inner and outer cone angles, by default 0° and 45°.
 ///
 /// Intensity falls off from the inner to the outer angle. These are half angles, as in
 /// KHR_lights_punctual.
 ///
 /// # Errors
-/// Unless 0° ≤ inner < outer ≤ 90°.
+/// Returns an error unless 0° ≤ inner < outer ≤ 90°.
 fn resolve_cone(origin: &Origin, index: usize, light: &LightFile) -> Result<[f32; 2], SceneError> {
     let (inner, outer) = match *light {
         LightFile::Spot { inner_cone_degrees, outer_cone_degrees, .. } => {
@@ -299,7 +301,7 @@ fn resolve_cone(origin: &Origin, index: usize, light: &LightFile) -> Result<[f32
     Err(origin.error_at(&path, message, Some(help)))
 }
 
-/// The shadows of a light: its own, or the scene's.
+/// Returns the shadows of a light: its own, or the scene's.
 fn resolve_light_shadow(
     origin: &Origin,
     index: usize,
@@ -322,7 +324,7 @@ pub(super) fn scale_lights(lights: &mut [Light], factor: NonNegative) {
     }
 }
 
-/// The light of a color at an intensity, in the unit of the intensity.
+/// Returns the light of a color at an intensity, in the unit of the intensity.
 fn scale_color(color: LightColor, intensity: NonNegative) -> [f32; 3] {
     color.0.map(|channel| (channel * intensity.value()) as f32)
 }

@@ -25,11 +25,11 @@
 //! | `coincident-instances` | instances of a model at the same position |
 //! | `ground-above-models` | a ground above the lowest point of the models |
 //! | `narrow-field-of-view` | a field of view that is probably in radians |
-//! | `color-above-one` | a light color given in bytes |
+//! | `color-above-one` | a light color written in bytes |
 //! | `depth-on-white` | the style `Depth`, white for near surfaces, over a white background |
 //! | `camera-path-turns-over` | a path through its target or parallel to up |
 //!
-//! Viewports with separate cameras are checked as pictures for the first and for `tiny-picture`.
+//! Viewports with separate cameras are also checked for `nothing-visible` and `tiny-picture`.
 
 mod camera_path;
 mod coverage;
@@ -109,13 +109,13 @@ pub fn lint_scene(
     advice
 }
 
-/// The visibility survey of each model in a scene, in scene order.
+/// Returns the visibility survey of each model in a scene, in scene order.
 fn survey_scene(scene: &Scene) -> Vec<VisibilitySurvey> {
     let survey = |placed| VisibilitySurvey::from_model(scene, placed);
     scene.models.iter().map(survey).collect()
 }
 
-/// Viewports whose cameras see nothing, or almost nothing.
+/// Warns about viewports whose cameras see nothing, or almost nothing.
 fn lint_viewports(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint> {
     if file.viewports.len() != scene.insets.len() {
         return Vec::new();
@@ -132,7 +132,7 @@ fn lint_viewports(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint>
     advice
 }
 
-/// The lints of a scene file that do not depend on its models, even if it has mistakes.
+/// Returns the lints of a scene file that do not depend on its models, even if it has mistakes.
 #[must_use]
 pub fn lint_description(origin: &Origin, file: &SceneFile) -> Vec<Lint> {
     let mut advice: Vec<Lint> = camera_path::lint_camera_path(origin, file).into_iter().collect();
@@ -155,7 +155,7 @@ pub fn lint_description(origin: &Origin, file: &SceneFile) -> Vec<Lint> {
 struct Linter<'a> {
     /// The file and its text, for positions in messages.
     origin: &'a Origin,
-    /// The scene as written, which tells chosen values from defaults.
+    /// The scene as written, which distinguishes chosen values from defaults.
     file: &'a SceneFile,
     /// The resolved scene.
     scene: &'a Scene,
@@ -164,12 +164,13 @@ struct Linter<'a> {
 }
 
 impl Linter<'_> {
-    /// The name of a model for messages.
+    /// Returns the name of a model for messages.
     fn model_name(&self, model: usize) -> &str {
         &self.scene.models[model].model.name
     }
 
-    /// The surveys of the scene's models, each with its number and its first instance's number.
+    /// Returns the surveys of the scene's models, each with its number and its first instance's
+    /// number.
     ///
     /// A model counts as a whole: it is not a mistake if some trees of a forest are outside the
     /// picture.
@@ -188,8 +189,8 @@ impl Linter<'_> {
         models.collect()
     }
 
-    /// Models outside the view volume. If all of them are, one warning at the camera replaces one
-    /// per model, since the camera is the likelier cause.
+    /// Warns about models outside the view volume. If all models are outside, one warning at the
+    /// camera replaces the warnings per model, since the camera is the more likely cause.
     fn lint_visibility(&self) -> Vec<Lint> {
         if let Some(lint) = self.lint_nothing_visible() {
             return vec![lint];
@@ -199,7 +200,7 @@ impl Linter<'_> {
         let advice = unseen.map(|(number, instance, survey)| {
             let what = describe_rejection(self.scene, &survey);
             let message = format!("{} is not in the picture: {what}", self.model_name(instance));
-            let help = "place it where the camera looks, or remove it".to_owned();
+            let help = "move it into view, or remove it".to_owned();
             let fault =
                 self.origin.error_at(&[Field("models"), Index(number)], message, Some(help));
             Lint { code: "model-not-visible", error: fault }
@@ -207,7 +208,7 @@ impl Linter<'_> {
         advice.collect()
     }
 
-    /// A camera that sees none of the models.
+    /// Warns about a camera that sees none of the models.
     fn lint_nothing_visible(&self) -> Option<Lint> {
         if self.surveys.is_empty() || !self.surveys.iter().all(VisibilitySurvey::is_unseen) {
             return None;
@@ -220,8 +221,8 @@ impl Linter<'_> {
         Some(Lint { code: "nothing-visible", error })
     }
 
-    /// An eye inside a closed model, of which only back faces would be visible. Names the first
-    /// such model; `eye` is in world space.
+    /// Warns about an eye inside a closed model, of which only back faces would be visible. Names
+    /// the first such model; `eye` is in world space.
     fn lint_camera_inside(&self, eye: Point<homog::World>) -> Option<Lint> {
         let number = self.surveys.iter().position(VisibilitySurvey::encloses_eye)?;
         let [x, y, z] = eye.raw().to_array();
@@ -233,7 +234,8 @@ impl Linter<'_> {
         Some(Lint { code: "camera-inside", error: fault })
     }
 
-    /// An aspect ratio of the window, or of a model's camera, that differs from the picture's.
+    /// Warns about an aspect ratio of the window, or of a model's camera, that differs from the
+    /// picture's.
     ///
     /// A frustum with fixed sides stretches the picture; a model's camera shows more or less at the
     /// sides, since only its vertical angle is used. Ratios within [`ASPECT_TOLERANCE`] pass:
@@ -284,8 +286,9 @@ impl Linter<'_> {
         Some(Lint { code: "aspect-mismatch", error: fault })
     }
 
-    /// A shaded style without any light source: no light, no environment, and no unlit or emissive
-    /// material. Scenes without the field `lights` get a default key light and never trigger this.
+    /// Warns about a shaded style without any light source: no light, no environment, and no unlit
+    /// or emissive material. Scenes without the field `lights` get a default key light and never
+    /// trigger this.
     fn lint_missing_light(&self) -> Option<Lint> {
         let scene = self.scene;
         let lit = matches!(scene.style, Style::Shaded | Style::Flat);
@@ -328,8 +331,8 @@ fn is_behind_eye(scene: &Scene, survey: &VisibilitySurvey) -> bool {
     perspective && survey.depth_range().is_some_and(|(_, far)| far <= 0.0)
 }
 
-/// The planes that everything is outside of, in words. Without a common plane, the primitives are
-/// counted at each of the six; one may be outside several.
+/// Describes the planes that everything is outside of. Without such a plane, counts the primitives
+/// outside each of the six planes; a primitive may be outside several.
 fn describe_rejection(scene: &Scene, survey: &VisibilitySurvey) -> String {
     if is_behind_eye(scene, survey) {
         return "everything is behind the camera".to_owned();
@@ -343,14 +346,14 @@ fn describe_rejection(scene: &Scene, survey: &VisibilitySurvey) -> String {
             let each = each.collect::<Vec<_>>().join(", ");
             format!("of {} points, lines and triangles, {each}", survey.total)
         }
-        [plane] => format!("all of it is outside the {plane} plane"),
+        [plane] => format!("everything is outside the {plane} plane"),
         [planes @ .., last] => {
-            format!("all of it is outside the {} and the {last} plane", planes.join(", the "))
+            format!("everything is outside the {} and {last} planes", planes.join(", "))
         }
     }
 }
 
-/// A suggested fix: turn the camera if the models are behind it, change the depth planes if they
+/// Suggests a fix: turn the camera if the models are behind it, change the depth planes if they
 /// reject the models, otherwise aim at the models. Distances are along the gaze, in world units.
 fn suggest_visibility_fix(scene: &Scene, survey: &VisibilitySurvey) -> String {
     let of = |plane: PlaneIndex| survey.outside[plane.index()] == survey.total;

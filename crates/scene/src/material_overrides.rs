@@ -9,10 +9,10 @@ use scene_file::PathStep::{self, Field, Index};
 use scene_file::file::{AlphaModeFile, Color, MaterialFile, MaterialsFile};
 use scene_file::{SceneError, SceneErrors, suggest_name};
 
-/// Changes the materials of the model with this number in the scene.
+/// Changes the materials of the model with this index in the scene.
 ///
 /// # Errors
-/// Every override for materials that the model does not have.
+/// Returns every override for materials that the model does not have.
 pub(super) fn override_materials(
     origin: &Origin,
     number: usize,
@@ -36,20 +36,20 @@ pub(super) fn override_materials(
     SceneErrors::from_list(errors).map_or(Ok(()), Err)
 }
 
-/// The path of an override in the file.
+/// Returns the path of an override in the file.
 struct OverridePath<'a> {
     origin: &'a Origin,
     path: [PathStep<'a>; 4],
 }
 
 impl OverridePath<'_> {
-    /// An error that points at a field of the override.
+    /// Creates an error that points at a field of the override.
     fn error_at(&self, field: &str, message: String, help: Option<String>) -> SceneError {
         self.origin.error_at(&[&self.path[..], &[Field(field)]].concat(), message, help)
     }
 }
 
-/// The selected materials' indices.
+/// Returns the selected materials' indices.
 fn select_materials(
     place: &OverridePath<'_>,
     of: &MaterialsFile,
@@ -87,7 +87,7 @@ fn select_materials(
     Err(place.error_at("of", message, Some(help)))
 }
 
-/// Gives surfaces without a material one that can be changed.
+/// Gives surfaces without a material a default one that can be changed.
 fn assign_missing_materials(model: &mut Model) {
     let new = model.materials.len();
     let primitives = model.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives);
@@ -104,8 +104,8 @@ struct MaterialOverride<'a> {
 }
 
 impl MaterialOverride<'_> {
-    /// Replaces the given fields of a material. Drops the textures of replaced fields, unless
-    /// `keep_textures` multiplies them by the given values.
+    /// Replaces the fields of a material that the override sets. Drops the textures of replaced
+    /// fields, unless `keep_textures` multiplies them by the new values.
     fn apply_to(&self, material: &mut Material) {
         let Self { file, .. } = self;
         if let Some([r, g, b]) = file.base_color.map(Color::to_linear) {
@@ -150,7 +150,7 @@ impl MaterialOverride<'_> {
         }
     }
 
-    /// Removes the textures of the given fields.
+    /// Removes the textures of the fields that the override sets.
     fn remove_overridden_textures(&self, material: &mut Material) {
         if self.file.base_color.is_some() {
             material.base_color_texture = None;

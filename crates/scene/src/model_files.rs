@@ -29,16 +29,16 @@ struct ColoredModel<'a> {
     model: Arc<Model>,
 }
 
-/// The loaded models. Models in one pose are shared; a model in two poses, or with different
-/// materials, becomes two models.
+/// The loaded models. Entries with the same pose and materials share a model; otherwise each has a
+/// separate model.
 #[derive(Default)]
 struct LoadedModels<'a> {
     by_pose: BTreeMap<Pose, Vec<ColoredModel<'a>>>,
-    /// The bytes in their arrays and images.
+    /// The size of their arrays and images in bytes.
     bytes: u64,
 }
 
-/// Memory for arrays that an importer may create and drop, however little is left.
+/// The memory for arrays that an importer may create and drop, however little is left.
 const SCRATCH_BYTES: u64 = 1 << 20;
 
 impl<'a> LoadedModels<'a> {
@@ -63,7 +63,7 @@ impl<'a> LoadedModels<'a> {
         if let Some(loaded) = alike.iter().find(is_same) {
             return Ok(Arc::clone(&loaded.model));
         }
-        // The limits that earlier models have left; importers count some arrays that they drop.
+        // What earlier models left of the limits; importers also count some arrays that they drop.
         let (mut rest, limits) = (options.clone(), &options.import.limits);
         let left = limits.scene_bytes.saturating_sub(self.bytes);
         let with_scratch = left.saturating_mul(2).saturating_add(SCRATCH_BYTES);
@@ -91,7 +91,7 @@ impl<'a> LoadedModels<'a> {
     }
 }
 
-/// Loads and places the models of a scene, each file once; `None` if not all can be loaded.
+/// Loads and places the models of a scene, each file once; returns `None` if not all can be loaded.
 pub(super) fn load_models(
     origin: &Origin,
     file: &SceneFile,
@@ -144,15 +144,14 @@ pub(super) fn check_model_paths(
     }
 }
 
-/// The error if the models up to this one take more memory than a scene allows.
+/// Returns an error if the models up to this one take more memory than a scene may use.
 fn scene_bytes_error(origin: &Origin, number: usize, most: u64) -> SceneError {
-    let message =
-        format!("with this model, the models of the scene take more than {} MiB", most >> 20);
+    let message = format!("with this model, the scene's models take more than {} MiB", most >> 20);
     let help = "remove models, simplify them or use smaller textures; or raise `--max-scene-bytes`";
     origin.error_at(&[Field("models"), Index(number)], message, Some(help.to_owned()))
 }
 
-/// The error for a model whose path leads outside the scene's folder.
+/// Creates the error for a model whose path leads outside the scene's folder.
 fn outside_folder_error(origin: &Origin, index: usize, entry: &ModelFile) -> SceneError {
     let help = "keep models below the scene's folder, or allow another folder with --allow-outside \
                 DIR";
@@ -161,7 +160,7 @@ fn outside_folder_error(origin: &Origin, index: usize, entry: &ModelFile) -> Sce
     origin.error_at(&path, message, Some(help.to_owned()))
 }
 
-/// The reason why there is no model: an invalid request in the scene, or an error in the model's
+/// The reason why a model is missing: an invalid request in the scene, or an error in the model's
 /// file.
 enum ModelError {
     Scene(SceneErrors),
@@ -181,8 +180,8 @@ impl From<SceneErrors> for ModelError {
 }
 
 impl ModelError {
-    /// Converts the error to one in the scene file, pointing at the path of the model, if there is
-    /// a scene file.
+    /// Converts the error to a scene file error that points at the model's path, if there is a
+    /// scene file.
     fn into_resolve_error(self, origin: &Origin, number: usize, entry: &ModelFile) -> ResolveError {
         match self {
             Self::File(error) if origin.text.is_empty() => error.into(),
@@ -200,8 +199,8 @@ impl ModelError {
     }
 }
 
-/// Suggests a path for a missing model: one with a similar name in the same folder, or one with the
-/// same name in a folder next to the scene.
+/// Suggests a path for a missing model: a file with a similar name in the same folder, or a file
+/// with the same name in a folder next to the scene.
 fn suggest_model_file(folder: &Path, path: &str) -> Option<String> {
     let path = Path::new(path);
     if folder.join(path).exists() {
@@ -269,7 +268,7 @@ fn load_model(
     Ok(model)
 }
 
-/// A choice among the items of a model, in the form that importers take.
+/// Converts a choice among the items of a model to the form that importers accept.
 #[must_use]
 pub fn name_or_index(choice: Choice) -> NameOrIndex {
     match choice {
@@ -278,7 +277,7 @@ pub fn name_or_index(choice: Choice) -> NameOrIndex {
     }
 }
 
-/// Colors from a scalar attribute, in the form that importers take.
+/// Converts colors from a scalar attribute to the form that importers accept.
 fn scalar_colors(file: &ScalarsFile) -> ScalarColors {
     ScalarColors {
         attribute: file.attribute.clone(),
@@ -290,7 +289,7 @@ fn scalar_colors(file: &ScalarsFile) -> ScalarColors {
 /// Resolves the crease angle of a model, in degrees.
 ///
 /// # Errors
-/// If it is not between 0 and 180.
+/// Returns an error if it is not between 0 and 180.
 fn resolve_crease(
     origin: &Origin,
     number: usize,
@@ -328,17 +327,17 @@ fn choice_error(
     origin.error_at(&at, message, error.diagnostic.help).into()
 }
 
-/// The number of the selected animation, or of the first.
+/// Returns the index of the selected animation, or of the first one.
 ///
 /// # Errors
-/// If there is none: a message and a suggested fix.
+/// Returns a message and a suggested fix if there is no such animation.
 pub fn select_animation(
     model: &Model,
     choice: Option<&Choice>,
 ) -> Result<usize, (String, Option<String>)> {
     let count = model.animations.len();
     if count == 0 {
-        let help = "remove the animation and the time; to turn a model without animations, run \
+        let help = "remove the animation and the time; to rotate the model instead, run \
                     `alberti animate model.glb --turntable -o turn.gif`";
         return Err((format!("`{}` has no animations", model.name), Some(help.to_owned())));
     }

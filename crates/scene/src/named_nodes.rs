@@ -2,8 +2,8 @@
 
 use model::{Model, ModelInstance};
 
-/// All objects below the nodes with a matching name: one list per such node, in the order of the
-/// models and their nodes.
+/// Returns all objects below the nodes with a matching name: one list per such node, in the order
+/// of the models and their nodes.
 ///
 /// A node without a name takes its mesh's name. Objects are counted as in line drawings: nodes with
 /// a mesh, one model after another.
@@ -28,7 +28,7 @@ pub(super) fn objects_below(
     found
 }
 
-/// The names of all nodes, each once.
+/// Returns the names of all nodes, without duplicates.
 pub(super) fn node_names(models: &[ModelInstance]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for ModelInstance { model, .. } in models {
@@ -41,14 +41,14 @@ pub(super) fn node_names(models: &[ModelInstance]) -> Vec<String> {
     names
 }
 
-/// The name of a node, or of its mesh if it has none.
+/// Returns the name of a node, or of its mesh if the node has no name.
 fn node_name(model: &Model, node: usize) -> Option<&str> {
     let node = &model.nodes[node];
     let mesh = || node.mesh.and_then(|mesh| model.meshes[mesh].name.as_deref());
     node.name.as_deref().or_else(mesh)
 }
 
-/// For each node of the model, whether it is `node` or a descendant.
+/// Returns, for each node of the model, whether it is `node` or a descendant.
 fn nodes_below(model: &Model, node: usize) -> Vec<bool> {
     let mut is_below = vec![false; model.nodes.len()];
     let mut stack = vec![node];

@@ -1,5 +1,5 @@
-//! The origin of a scene: a file with text and a folder, or a bare model and the program's flags;
-//! also the location of its model files.
+//! The origin of a scene: a file with text and a folder, or a bare model and the program's flags.
+//! It also has the location of its model files.
 
 use import::MemoryFolder;
 use scene_file::{SceneFile, SceneSource};
@@ -28,17 +28,18 @@ pub(super) enum ModelSource {
 }
 
 impl Origin {
-    /// The origin of a scene whose text is already in memory and whose files are in the folder.
+    /// Creates the origin of a scene whose text is already in memory and whose files are in the
+    /// folder.
     ///
     /// Errors point into the text. For a scene built in Rust, pass the text from
-    /// [`SceneFile::to_ron`], or an empty one: then errors name a field without its line.
+    /// [`SceneFile::to_ron`], or an empty one; errors then name a field without its line.
     #[must_use]
     pub fn from_text(file: impl Into<String>, text: impl Into<String>, folder: PathBuf) -> Self {
         SceneSource::from_text(file, text, folder).into()
     }
 
-    /// The origin of a scene whose text and models are in memory; paths refer to files in that
-    /// folder.
+    /// Creates the origin of a scene whose text and models are in memory; paths refer to files in
+    /// that folder.
     ///
     /// ```
     /// use import::MemoryFolder;
@@ -59,12 +60,12 @@ impl Origin {
         text: impl Into<String>,
         models: MemoryFolder,
     ) -> Self {
-        // A folder in memory has no outside; loading reports the files it lacks.
+        // A folder in memory has nothing outside it; loading reports missing files.
         let source = SceneSource::from_text(file, text, PathBuf::new()).unconfined();
         Self { source, models: ModelSource::Memory(models) }
     }
 
-    /// The origin of a scene that is just one model, with all defaults.
+    /// Creates the origin of a scene that is just one model, with all defaults.
     #[must_use]
     pub fn from_model_path(path: &Path) -> (Self, SceneFile) {
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
@@ -73,7 +74,7 @@ impl Origin {
         (Self::from_text(file, "", folder), SceneFile::from_model_path(name))
     }
 
-    /// The origin of a scene that is just one model, in a self-contained file in memory.
+    /// Creates the origin of a scene that is just one model, in a self-contained file in memory.
     #[must_use]
     pub fn from_model_bytes(name: &str, bytes: Vec<u8>) -> (Self, SceneFile) {
         let source = SceneSource::from_text(name, "", PathBuf::new()).unconfined();
@@ -81,13 +82,13 @@ impl Origin {
         (origin, SceneFile::from_model_path(name.to_owned()))
     }
 
-    /// The source, into which its files can be parsed.
+    /// Returns the source, so that its files can be parsed into it.
     pub(super) const fn source_mut(&mut self) -> &mut SceneSource {
         &mut self.source
     }
 
-    /// The origin for a viewport: errors point at the viewport's own fields, or at the scene's
-    /// where it has none.
+    /// Returns the origin for a viewport. Errors point at the viewport's own fields, or at the
+    /// scene's if the viewport does not set them.
     pub(super) fn for_viewport(&self, number: usize) -> Self {
         Self { source: self.source.for_viewport(number), models: self.models.clone() }
     }

@@ -16,10 +16,10 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// The outputs that a scene file requests.
+    /// Returns the outputs that a scene file requests.
     ///
     /// # Errors
-    /// If it requests another number of bits; the error points at it.
+    /// Returns an error if it requests an unsupported number of bits; the error points at it.
     pub fn from_scene_file(origin: &Origin, file: &SceneFile) -> Result<Self, SceneError> {
         let bits = file.image.bits;
         if bits != 8 && bits != 16 {
@@ -47,7 +47,7 @@ mod tests {
     }
 
     #[test]
-    fn passes_and_bits_are_as_the_file_has_them() {
+    fn passes_and_bits_come_from_the_file() {
         assert_eq!(outputs("").expect("defaults"), Outputs::default());
         let found = outputs("image: (bits: 16), passes: (write: [Uv, Depth, Uv], encoding: Npy)");
         let passes = vec![Pass::Depth, Pass::Uv];
@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_are_pointed_at() {
+    fn mistakes_are_located() {
         let error = outputs("image: Image(bits: 10)").expect_err("ten bits");
         assert_eq!(error.first().line_and_column(), (2, 22));
         assert_eq!(error.first().message, "invalid number of bits per channel: 10");

@@ -18,7 +18,7 @@ const LEADER_OFFSET: DVec2 = DVec2::new(24.0, -24.0);
 /// Resolves the overlays, with the view-projection of each camera whose view volume is drawn.
 ///
 /// # Errors
-/// If such a camera is invalid, or a label has no text.
+/// Returns an error if such a camera is invalid, or a label has no text.
 pub(super) fn resolve_overlays(
     origin: &Origin,
     overlays: &[OverlayFile],
@@ -59,7 +59,7 @@ pub(super) fn resolve_overlays(
     overlays.iter().enumerate().map(resolve).collect()
 }
 
-/// Dark or light ink that is readable on the background.
+/// Returns dark or light ink that is readable on the background.
 fn contrasting_ink(background: [f32; 4]) -> page::Ink {
     let [r, g, b, alpha] = SrgbEncoder::shared().encode_pixel(background);
     ink_on_paper((alpha == 255).then_some([r, g, b]))

@@ -14,17 +14,17 @@ impl Origin {
     /// The returned scene contains everything they include, and includes nothing itself.
     ///
     /// # Errors
-    /// If a file cannot be read, is not UTF-8 or is too long, or if files include each other; also
-    /// every mistake in their texts.
+    /// Returns every mistake in their texts, or an error if a file cannot be read, is not UTF-8 or
+    /// is too long, or if files include each other.
     pub fn read_scene(path: &Path) -> Result<(Self, SceneFile), ResolveError> {
         Self::read_scene_allowing(path, &[])
     }
 
     /// Reads and parses a scene file and the files it includes, which must be inside its folder or
-    /// an `allowed` one.
+    /// an `allowed` folder.
     ///
     /// # Errors
-    /// As [`read_scene`](Self::read_scene).
+    /// The same as [`read_scene`](Self::read_scene).
     pub fn read_scene_allowing(
         path: &Path,
         allowed: &[PathBuf],
@@ -33,13 +33,13 @@ impl Origin {
     }
 
     /// Parses a scene's text and the files it includes, which must be inside its folder or an
-    /// `allowed` one.
+    /// `allowed` folder.
     ///
     /// If there are mistakes in the texts, the readable parts are resolved without the models, if
     /// possible, so that all mistakes are reported at once.
     ///
     /// # Errors
-    /// As [`read_scene`](Self::read_scene).
+    /// The same as [`read_scene`](Self::read_scene).
     pub fn parse_with_includes(
         mut self,
         allowed: &[PathBuf],
@@ -56,8 +56,8 @@ impl Origin {
     }
 }
 
-/// The mistakes in the texts of a scene's files, and those in the readable parts that can be found
-/// without loading the models.
+/// Returns the mistakes in the texts of a scene's files, and the mistakes in the readable parts
+/// that can be found without loading the models.
 fn with_errors_of_description(
     origin: &Origin,
     file: &SceneFile,
@@ -76,7 +76,7 @@ fn with_errors_of_description(
             mistake.file != error.file || !(contains || is_part)
         })
     };
-    // A background that shows the environment needs a readable one.
+    // A background that shows the environment needs a readable environment.
     let environment = origin.error_at(&[Field("environment")], "", None);
     let is_lost = |FileMistake { error, .. }: &FileMistake| {
         error.file == environment.file

@@ -1,22 +1,21 @@
 //! The files that a model refers to: glTF buffers and images, OBJ material libraries and their
 //! textures, PLY textures.
 //!
-//! They are found by a quick scan of the text rather than by the importer, so that it only reads
-//! the files and does not parse the meshes. Extra names do no harm: the file does not exist, or a
-//! change in it renders a picture again.
+//! A quick scan of the text finds them without the importer, so meshes are not parsed. Extra names
+//! are harmless: the file does not exist, or a change in it causes a picture to be rendered again.
 
 use import::{FileFormat, percent_decode};
 use serde_json::Value;
 use std::path::Path;
 
-/// The maximum number of names looked up for one file.
+/// The maximum number of names to look up for one file.
 const MAX_NAMES: usize = 1024;
 
 /// The maximum number of words in a statement at which a file name may begin.
 const MAX_WORDS: usize = 16;
 
-/// The names of the files that a model or material library refers to, relative to the model's
-/// folder, in the order in which they appear. `name` is its own.
+/// Returns the names of the files that a model or material library refers to, relative to the
+/// model's folder, in the order in which they appear. `name` is the name of the file itself.
 ///
 /// The textures of a material library are not listed for the model that refers to it.
 #[must_use]
@@ -33,7 +32,7 @@ pub fn referenced_files(name: &str, bytes: &[u8]) -> Vec<String> {
     }
 }
 
-/// The external buffers and images of a glTF file.
+/// Returns the external buffers and images of a glTF file.
 ///
 /// Embedded `data:` URIs are part of the file itself and are omitted, as are buffers without a URI,
 /// the binary chunk of a GLB. Invalid JSON refers to nothing.
@@ -45,7 +44,7 @@ fn gltf_files(bytes: &[u8]) -> Vec<String> {
     names.filter(|uri| !uri.starts_with("data:")).flat_map(paths_of_uri).collect()
 }
 
-/// The paths that the importer tries for a URI: as written, decoded, and with `\` as `/`.
+/// Returns the paths that the importer tries for a URI: as written, decoded, and with `\` as `/`.
 fn paths_of_uri(uri: String) -> Vec<String> {
     let decoded = percent_decode(&uri);
     let with_slashes = decoded.as_ref().map(|path| path.replace('\\', "/"));
@@ -54,8 +53,8 @@ fn paths_of_uri(uri: String) -> Vec<String> {
     paths
 }
 
-/// The material libraries of an OBJ file: `mtllib` takes one name, which may contain spaces, or
-/// several names.
+/// Returns the material libraries of an OBJ file: `mtllib` takes one name, which may contain
+/// spaces, or several names.
 fn obj_files(bytes: &[u8]) -> Vec<String> {
     let mut files = Vec::new();
     for statement in statements(bytes, |keyword| keyword == "mtllib").take(MAX_NAMES) {
@@ -66,8 +65,8 @@ fn obj_files(bytes: &[u8]) -> Vec<String> {
     files
 }
 
-/// The textures of a material library, which are looked up next to it, next to the model, and there
-/// also by only the last part of their name.
+/// Returns the textures of a material library. They are looked up next to the library and next to
+/// the model, where the last part of their name is also enough.
 fn mtl_files(name: &str, bytes: &[u8]) -> Vec<String> {
     let folder = name.rfind('/').map_or("", |slash| &name[..=slash]);
     let is_texture =
@@ -90,7 +89,7 @@ fn mtl_files(name: &str, bytes: &[u8]) -> Vec<String> {
     files
 }
 
-/// The arguments of all statements in a text whose keyword, in lowercase, is accepted.
+/// Returns the arguments of all statements in a text whose keyword, in lowercase, is accepted.
 fn statements(text: &[u8], is_wanted: impl Fn(&str) -> bool) -> impl Iterator<Item = String> {
     let lines = text.split(|byte| matches!(byte, b'\n' | b'\r')).map(<[u8]>::trim_ascii);
     // Most lines are vertices and faces, for which a string would be wasted.
@@ -104,7 +103,7 @@ fn statements(text: &[u8], is_wanted: impl Fn(&str) -> bool) -> impl Iterator<It
     })
 }
 
-/// The textures of a PLY file: `comment TextureFile NAME` in its header.
+/// Returns the textures of a PLY file: `comment TextureFile NAME` in its header.
 fn ply_files(bytes: &[u8]) -> Vec<String> {
     let lines = bytes.split(|byte| matches!(byte, b'\n' | b'\r')).map(String::from_utf8_lossy);
     let header = lines.take_while(|line| line.trim() != "end_header");
@@ -116,7 +115,7 @@ fn ply_files(bytes: &[u8]) -> Vec<String> {
     names.take(MAX_NAMES).collect()
 }
 
-/// The JSON chunk of a GLB file, or the whole of a `.gltf` file.
+/// Returns the JSON chunk of a GLB file, or the whole of a `.gltf` file.
 ///
 /// A GLB begins with a header of 12 bytes (magic, version, length), then the length and the type of
 /// the first chunk, 4 bytes each, then the JSON (glTF 2.0 §4.4). Truncated files give a shorter
@@ -135,7 +134,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_files_of_gltf_are_found_in_both_forms() {
+    fn files_of_both_forms_of_gltf_are_found() {
         let json =
             br#"{"buffers":[{"uri":"a%20b.bin"},{}],"images":[{"uri":"data:x"},{"uri":"c.png"}]}"#;
         assert_eq!(gltf_files(json), ["a%20b.bin", "a b.bin", "c.png"]);
@@ -150,13 +149,13 @@ mod tests {
     }
 
     #[test]
-    fn paths_of_windows_are_found_as_the_importer_finds_them() {
+    fn windows_paths_are_found_as_the_importer_finds_them() {
         let json = br#"{"images":[{"uri":"maps\\wood%20grain.png"}]}"#;
         assert!(gltf_files(json).iter().any(|name| name == "maps/wood grain.png"));
     }
 
     #[test]
-    fn models_name_libraries_and_libraries_textures() {
+    fn models_refer_to_libraries_and_libraries_to_textures() {
         let obj = b"# mtllib no.mtl\nv 0 0 0\nmtllib sub/a b.mtl\nf 1 1 1\n";
         assert_eq!(referenced_files("a.obj", obj), ["sub/a", "b.mtl", "sub/a b.mtl"]);
         let library = b"newmtl a\nKd 1 0 0\n  map_Kd -s 2 2 1 C:\\wood grain.png\r\nNORM n.png\n";
@@ -167,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn textures_of_ply_are_named_in_comments_of_its_header() {
+    fn ply_textures_are_found_in_header_comments() {
         let ply = b"ply\r\nformat ascii 1.0\r\ncomment TextureFile a b.png\r\nend_header\r\n\
             comment TextureFile no.png";
         assert_eq!(referenced_files("a.ply", ply), ["a b.png"]);

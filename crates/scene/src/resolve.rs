@@ -1,8 +1,8 @@
 //! Resolution: from a parsed scene file to a scene that can be rendered, or to errors that point
 //! into the file. Models are loaded, angles become radians, and every default is filled in.
 //!
-//! There is one pass: each part is resolved separately, and its mistakes are kept
-//! ([`Diagnostics`]), so that one in the camera does not hide one in the lights.
+//! There is one pass. Each part is resolved separately and its mistakes are collected
+//! ([`Diagnostics`]), so that a mistake in the camera does not hide one in the lights.
 
 use super::diagnostics::Diagnostics;
 use super::file_access::FileAccess;
@@ -17,8 +17,8 @@ use model::ModelInstance;
 use scene_file::{SceneError, SceneFile};
 use std::path::PathBuf;
 
-/// The scene in a parsed file, unless it cannot be resolved, and every mistake in the file, in
-/// order. This includes sheets, passes and the camera path. Models are loaded once.
+/// Returns the scene in a parsed file, unless it cannot be resolved, and every mistake in the file,
+/// in order. This includes sheets, passes and the camera path. Models are loaded once.
 ///
 /// A model that cannot be loaded is a mistake, and the parts that depend on the models are then not
 /// validated. The crate `gltf-check` reports everything else that is wrong with a model's file.
@@ -88,7 +88,7 @@ fn check_outputs(
     super::sheet_errors::check_sheet(origin, file, models, allowed, faults);
 }
 
-/// The scene with its insets; `None` if it has mistakes, or if there are no models.
+/// Returns the scene with its insets, or `None` if it has mistakes or there are no models.
 fn resolve_parts(
     origin: &Origin,
     file: &SceneFile,
@@ -113,8 +113,8 @@ impl Scene {
     /// Loads the models of a scene and fills in everything that the file leaves open.
     ///
     /// # Errors
-    /// If a model cannot be loaded; also every mistake in the scene that can be found, in file
-    /// order.
+    /// Returns an error if a model cannot be loaded, or every mistake in the scene that can be
+    /// found, in file order.
     pub fn resolve(
         origin: &Origin,
         file: &SceneFile,
@@ -134,7 +134,7 @@ impl Scene {
     /// the file's own models are ignored.
     ///
     /// # Errors
-    /// If a value is invalid; the errors point at its position in the file.
+    /// Returns an error if a value is invalid; the errors point at its position in the file.
     pub fn from_models(
         origin: &Origin,
         file: &SceneFile,
@@ -143,11 +143,11 @@ impl Scene {
         Self::from_models_allowing(origin, file, models, &[])
     }
 
-    /// As [`from_models`](Self::from_models); images and environments may also be in the `allowed`
-    /// folders.
+    /// Like [`from_models`](Self::from_models), but images and environments may also be in the
+    /// `allowed` folders.
     ///
     /// # Errors
-    /// As [`from_models`](Self::from_models).
+    /// The same as [`from_models`](Self::from_models).
     pub fn from_models_allowing(
         origin: &Origin,
         file: &SceneFile,
@@ -161,7 +161,8 @@ impl Scene {
     /// are loaded, posed and placed, or without any models.
     ///
     /// # Errors
-    /// If the size or the camera is invalid; without models, also if the camera should frame them.
+    /// Returns an error if the size or the camera is invalid, or if the camera should frame the
+    /// models but there are none.
     pub fn resolve_camera(
         origin: &Origin,
         file: &SceneFile,
@@ -175,10 +176,10 @@ impl Scene {
         faults.finish(origin, view)
     }
 
-    /// The scene with its models in their pose; `access` provides the files.
+    /// Returns the scene with its models in their pose; `access` provides the files.
     ///
     /// # Errors
-    /// As [`from_models`](Self::from_models).
+    /// The same as [`from_models`](Self::from_models).
     pub fn resolve_posed(
         origin: &Origin,
         file: &SceneFile,

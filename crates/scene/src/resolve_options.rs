@@ -11,11 +11,11 @@ const MAX_PIXELS: u64 = 1 << 28;
 /// Options for resolving a scene.
 #[derive(Clone, Debug, Default)]
 pub struct ResolveOptions {
-    /// Import options for models. The paths in a scene file may lead out of its folder into those
+    /// Import options for models. Paths in a scene file may lead out of its folder into the folders
     /// that `allow_outside` lists.
     pub import: ImportOptions,
-    /// Whether the picture may have more than 2²⁸ pixels. Only for sizes that a person chose: one
-    /// line in a scene file is enough to request hours of work.
+    /// Whether the picture may have more than 2²⁸ pixels. Set this only for sizes that a person
+    /// chose, because one line in a scene file is enough to request hours of work.
     pub allow_large_picture: bool,
     /// Whether lines are drawn without work limits, exactly even where hundreds of surfaces are
     /// behind each other.
@@ -23,13 +23,13 @@ pub struct ResolveOptions {
 }
 
 impl ResolveOptions {
-    /// The default options, with these import options.
+    /// Returns the default options, with these import options.
     #[must_use]
     pub fn with_import(import: ImportOptions) -> Self {
         Self { import, ..Self::default() }
     }
 
-    /// Refuses a picture of more than [`MAX_PIXELS`], unless larger ones are allowed.
+    /// Rejects a picture of more than [`MAX_PIXELS`], unless larger ones are allowed.
     pub(super) fn check_pixels(&self, origin: &Origin, file: &SceneFile) -> Result<(), SceneError> {
         let (width, height) = file.image.size;
         // Longer sides have a separate error.

@@ -29,7 +29,7 @@ pub struct Scene {
     pub tone_mapper: ToneMapper,
     /// The style of surfaces.
     pub style: Style,
-    /// The picture to make.
+    /// The picture to render.
     pub image: ImageSpec,
     /// Separate views in parts of the picture, in the order in which they are drawn over it.
     pub insets: Vec<Inset>,
@@ -37,7 +37,7 @@ pub struct Scene {
     pub backdrop: Option<Arc<Backdrop>>,
     /// The overlays, drawn over the picture.
     pub overlays: Vec<Overlay>,
-    /// The text below the view, in the strip along the lower border of the image.
+    /// The text below the view, in the strip along the bottom of the image.
     pub caption: Option<String>,
     /// Planes that cut the models open in line drawings; their unit normals point to the retained
     /// half.
@@ -50,7 +50,8 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Models seen through a camera, shaded as they are, without lights or surroundings.
+    /// Creates a scene of models seen through a camera, shaded as they are, without lights or
+    /// surroundings.
     ///
     /// Other fields can be set on top, as in `Scene { lights, ..Scene::new(…) }`.
     #[must_use]
@@ -79,7 +80,7 @@ impl Scene {
         }
     }
 
-    /// Every vertex used by some point, line or triangle of the scene, in the world.
+    /// Returns every vertex used by a point, line or triangle of the scene, in world space.
     #[must_use]
     pub fn world_points(&self) -> Vec<Point<World>> {
         model::world_points(&self.models)
@@ -100,13 +101,13 @@ impl Scene {
         has_occlusion || self.lights.iter().any(|light| light.shadow().is_some())
     }
 
-    /// The names of the models, each once.
+    /// Returns the names of the models, without duplicates.
     #[must_use]
     pub fn model_names(&self) -> String {
         model::model_names(&self.models)
     }
 
-    /// The input of a line drawing of the scene.
+    /// Returns the input for a line drawing of the scene.
     #[must_use]
     pub fn drawing_subject(&self) -> hidden_line::Subject<'_> {
         hidden_line::Subject {
@@ -152,7 +153,7 @@ pub enum Style {
 }
 
 impl Style {
-    /// The style's widths, dashes and hidden lines.
+    /// Returns the style's widths, dashes and hidden lines.
     #[must_use]
     pub const fn line_style(self) -> LineStyle {
         match self {
@@ -185,25 +186,25 @@ impl Style {
 /// rendered region by region.
 pub const MAX_IMAGE_SIDE: u32 = 1 << 20;
 
-/// The picture to make.
+/// The picture to render.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ImageSpec {
     /// Width in pixels.
     pub width: u32,
     /// Height in pixels, including the caption.
     pub height: u32,
-    /// The height in pixels of the caption strip along the lower border; 0 without a caption.
+    /// The height in pixels of the caption strip along the bottom; 0 without a caption.
     pub caption_height: u32,
     /// The background color: linear, premultiplied by alpha.
     pub background: [f32; 4],
     /// Whether the background is the white paper that line drawings have by default, which pages in
     /// vector formats omit.
     pub is_blank_paper: bool,
-    /// The blur of the environment as the background, from 0 to 1; `None` if it is not visible.
+    /// The blur of an environment used as the background, from 0 to 1; `None` if it is not visible.
     pub environment_blur: Option<f32>,
     /// Coverage samples per pixel.
     pub samples: Samples,
-    /// The maximum number of samples of anisotropic texture filtering, along the longer axis of a
+    /// The maximum number of samples for anisotropic texture filtering, along the longer axis of a
     /// pixel's footprint, from 1 to 8.
     pub max_anisotropy: u32,
     /// The size of points in pixels, from 1 to 256.
@@ -211,7 +212,8 @@ pub struct ImageSpec {
 }
 
 impl ImageSpec {
-    /// A picture of this size in pixels on a transparent background, with one sample per pixel.
+    /// Creates a picture of this size in pixels on a transparent background, with one sample per
+    /// pixel.
     #[must_use]
     pub const fn new(width: u32, height: u32) -> Self {
         Self {
@@ -227,7 +229,7 @@ impl ImageSpec {
         }
     }
 
-    /// All pixels of the picture.
+    /// Returns all pixels of the picture.
     #[must_use]
     pub const fn pixel_rect(self) -> PixelRect {
         PixelRect::from_size(self.width, self.height)

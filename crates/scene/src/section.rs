@@ -7,10 +7,12 @@ use scene_file::PathStep::{Field, Index};
 use scene_file::SceneError;
 use scene_file::file::SectionFile;
 
-/// More cuts than this are a mistake, and each costs another pass over the models.
+/// The maximum number of sections. More are probably a mistake, and each costs another pass over
+/// the models.
 const MAX_SECTIONS: usize = 16;
 
-/// The planes of the sections. Their normals have length 1 and point to the half that is retained.
+/// Returns the planes of the sections. Their normals have length 1 and point to the half that is
+/// retained.
 pub(super) fn resolve_sections(
     origin: &Origin,
     sections: &[SectionFile],
@@ -27,14 +29,14 @@ pub(super) fn resolve_sections(
     planes.into_iter().collect()
 }
 
-/// The plane of a section. Its normal has length 1 and points to the half that is retained.
+/// Returns the plane of a section. Its normal has length 1 and points to the half that is retained.
 fn resolve_section(
     origin: &Origin,
     at: usize,
     section: &SectionFile,
 ) -> Result<Plane<World>, SceneError> {
     let [x, y, z] = section.normal.0;
-    // Scaled first, so that no square overflows or underflows.
+    // Scale first, so that no square overflows or underflows.
     let largest = x.abs().max(y.abs()).max(z.abs());
     let unit = Normal::<World>::new(-x / largest, -y / largest, -z / largest).normalized();
     let fault = || {

@@ -1,8 +1,8 @@
-//! One scale for several views: a given length is equally long in all of them.
+//! One scale for several views: the same length appears equally long in all of them.
 //!
 //! The scale of a parallel view is the number of pixels per unit of world length parallel to the
-//! picture plane. In an oblique projection this applies to the front; in an isometric one to none
-//! of the axes, which appear √⅔ as long (AX-1). Perspectives have no scale.
+//! picture plane. In an oblique projection this applies to the front; in an isometric projection it
+//! applies to none of the axes, which appear √⅔ as long (AX-1). Perspectives have no scale.
 //!
 //! The shared scale is the smallest of the scales at which each view fits its rectangle.
 
@@ -17,12 +17,12 @@ use scene_file::SceneError;
 use scene_file::file::{CameraFile, ProjectionFile, SceneFile, ViewFile, ViewportsScale};
 
 impl Scene {
-    /// The scale of the view in pixels per world unit; `None` in perspective, where it depends on
-    /// the distance.
+    /// Returns the scale of the view in pixels per world unit, or `None` in perspective, where it
+    /// depends on the distance.
     ///
     /// It is the smaller singular value of the rows x and y of the map from the world to pixels. In
-    /// an orthographic projection both values are the scale; in an oblique one the larger belongs
-    /// to the slanted receding lines.
+    /// an orthographic projection both values are the scale; in an oblique projection the larger
+    /// value applies to the receding lines.
     #[must_use]
     pub fn pixels_per_unit(&self) -> Option<f64> {
         let view = &self.view_projection;
@@ -50,7 +50,7 @@ impl Scene {
 /// Gives the parallel views among the viewports one scale, if the scene requests it.
 ///
 /// # Errors
-/// If fewer than two of them are parallel, or if one sets its own scale.
+/// Returns an error if fewer than two of them are parallel, or if one sets its own scale.
 pub(super) fn share_scale_of_viewports(
     origin: &Origin,
     file: &SceneFile,

@@ -36,7 +36,8 @@ pub struct SheetContent<'a> {
 }
 
 impl<'a> SheetContent<'a> {
-    /// The content of a resolved scene; a title block may only be in the scene's own folder.
+    /// Returns the content of a resolved scene; a title block may only be in the scene's own
+    /// folder.
     #[must_use]
     pub fn from_scene(scene: &'a Scene) -> Self {
         Self {
@@ -53,9 +54,9 @@ impl<'a> SheetContent<'a> {
 /// Resolves the drawing sheet of a scene file for its models.
 ///
 /// Edges, crease angle, hidden lines, fill, color and depth cue come from the scene's line style,
-/// and so does a width in millimeters; the sheet's own settings take precedence. Without an
-/// orientation the paper is turned to give the largest scale. Without a size it is the smallest
-/// that is large enough: [`Sheet::smallest_of`].
+/// and so does a width in millimeters; the sheet's own settings take precedence. If no orientation
+/// is set, the paper is turned to give the largest scale. If no size is set, the paper is the
+/// smallest that is large enough: [`Sheet::smallest_of`].
 ///
 /// ```
 /// use import::MemoryFolder;
@@ -83,8 +84,8 @@ impl<'a> SheetContent<'a> {
 /// ```
 ///
 /// # Errors
-/// If the scale has a 0, ISO 128 has no line group with the width, the models have several units,
-/// or a dimension names or picks a missing part. The error points into the file.
+/// Returns an error if the scale has a 0, ISO 128 has no line group with the width, the models have
+/// several units, or a dimension names or picks a missing part. The error points into the file.
 pub fn resolve_sheet(
     origin: &Origin,
     file: &SheetFile,
@@ -105,11 +106,11 @@ pub fn resolve_sheet(
     chosen.ok_or_else(|| origin.error_at(&[Field("sheet")], "there is no paper size", None))
 }
 
-/// The paper sizes to choose from, smallest first.
+/// Returns the paper sizes to choose from, smallest first.
 const SERIES_A: [PaperSize; 5] =
     [PaperSize::A4, PaperSize::A3, PaperSize::A2, PaperSize::A1, PaperSize::A0];
 
-/// The sheet on paper of this size, in the file's orientation or the usual one.
+/// Returns the sheet on paper of this size, in the file's orientation or the default one.
 fn resolve_sheet_on(
     origin: &Origin,
     file: &SheetFile,
@@ -160,12 +161,12 @@ fn resolve_sheet_on(
     })
 }
 
-/// The title block texts; the sheet number must not exceed the number of sheets.
+/// Resolves the text of the title block; the sheet number must not exceed the number of sheets.
 fn resolve_title_block(origin: &Origin, file: &SheetFile) -> Result<TitleBlockText, SceneError> {
     if let Some((number, count)) =
         file.sheet_number.filter(|(number, count)| !(1..=*count).contains(number))
     {
-        let message = format!("there is no sheet {number} of {count}");
+        let message = format!("invalid sheet number: {number} of {count}");
         let help = "write (2, 5) for the second of five sheets".to_owned();
         return Err(origin.error_at(&[Field("sheet"), Field("sheet_number")], message, Some(help)));
     }
@@ -184,7 +185,7 @@ fn resolve_title_block(origin: &Origin, file: &SheetFile) -> Result<TitleBlockTe
     })
 }
 
-/// The custom title block, which must be inside the scene's folder or an `allowed` one.
+/// Reads the custom title block, which must be inside the scene's folder or an `allowed` folder.
 fn resolve_template(
     origin: &Origin,
     file: &SheetFile,
@@ -200,7 +201,7 @@ fn resolve_template(
     template.map(Some).map_err(|error| origin.error_at(&at, format!("{path}, {error}"), None))
 }
 
-/// The number format.
+/// Resolves the number format.
 fn resolve_numbers(origin: &Origin, file: &SheetFile) -> Result<NumberFormat, SceneError> {
     let most = NumberFormat::MAX_DECIMALS;
     let fault = |decimals: u32| {
@@ -217,7 +218,7 @@ fn resolve_numbers(origin: &Origin, file: &SheetFile) -> Result<NumberFormat, Sc
     Ok(NumberFormat { decimals, decimal_mark: file.decimal_mark })
 }
 
-/// The paper in its orientation, and its name on the sheet.
+/// Returns the paper in its orientation, and its name on the sheet.
 fn resolve_paper(file: &SheetFile, size: PaperSize) -> (Paper, &'static str) {
     let (paper, name) = match size {
         PaperSize::A0 => (Paper::A0, "A0"),
@@ -236,7 +237,7 @@ fn resolve_paper(file: &SheetFile, size: PaperSize) -> (Paper, &'static str) {
     (if is_portrait { paper } else { paper.rotated() }, name)
 }
 
-/// The unit of the models: the sheet's, otherwise the one that all of their files share.
+/// Returns the unit of the models: the sheet's, otherwise the unit that all of their files share.
 fn resolve_unit(
     origin: &Origin,
     file: &SheetFile,
@@ -253,7 +254,7 @@ fn resolve_unit(
     Err(origin.error_at(&[Field("sheet")], message, Some(help)))
 }
 
-/// The direction of the fourth view; `None` if there is none.
+/// Returns the direction of the fourth view, or `None` without a fourth view.
 fn axonometric_view(file: AxonometricView) -> Option<NamedView> {
     match file {
         AxonometricView::None => None,

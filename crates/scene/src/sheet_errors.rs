@@ -51,8 +51,8 @@ pub(super) fn check_sheet(
     }
 }
 
-/// The error for a sheet whose views are larger than its paper, or that names parts missing from
-/// the models; `None` without a sheet, or if it is invalid in itself.
+/// Returns the error for a sheet whose views are larger than its paper, or that names parts missing
+/// from the models. It is `None` if the description of the sheet is itself invalid.
 fn layout_error(
     origin: &Origin,
     file: &SheetFile,

@@ -8,7 +8,7 @@ use viewport::DrawingScale;
 /// The path of the sheet's scale in a scene file.
 pub(super) const SCALE_PATH: [PathStep<'static>; 2] = [Field("sheet"), Field("scale")];
 
-/// The scale as a ratio of lengths on paper to lengths on the object.
+/// Returns the scale as a ratio of lengths on paper to lengths on the object.
 pub(super) fn resolve_scale(
     origin: &Origin,
     scale: (u32, u32),

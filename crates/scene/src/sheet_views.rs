@@ -12,7 +12,7 @@ use sheet::{SheetError, ViewPlace, ViewRequest, ViewSide};
 /// Resolves the views that a sheet requests.
 ///
 /// # Errors
-/// If a scale has a 0; the error points into the file.
+/// Returns an error if a scale has a 0; the error points into the file.
 pub(super) fn resolve_sheet_views(
     origin: &Origin,
     file: &SheetFile,
@@ -79,7 +79,8 @@ fn resolve_view(
     })
 }
 
-/// Converts an error in the views of a sheet to one in the file; `None` for errors elsewhere.
+/// Converts an error in the views of a sheet to one in the file; returns `None` for errors
+/// elsewhere.
 #[must_use]
 pub fn sheet_view_error(origin: &Origin, error: &SheetError) -> Option<SceneError> {
     let (number, path, message) = match error {

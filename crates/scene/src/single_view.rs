@@ -41,8 +41,8 @@ struct SceneParts {
     backdrop: Option<Option<Arc<Backdrop>>>,
 }
 
-/// The scene without its viewports and stereo pair; `None` if it has mistakes, or if there are no
-/// models. Without models, no other files are read.
+/// Returns the scene without its viewports and stereo pair, or `None` if it has mistakes or there
+/// are no models. Without models, no other files are read.
 pub(super) fn resolve_without_insets(
     origin: &Origin,
     file: &SceneFile,
@@ -101,7 +101,7 @@ pub(super) fn resolve_without_insets(
 }
 
 impl SceneParts {
-    /// Assembles the scene, if all parts are present: adds the ground, and resolves the view again
+    /// Assembles the scene if all parts are present: adds the ground, and resolves the view again
     /// if it shows shadows on the ground.
     fn assemble(
         self,
@@ -156,7 +156,8 @@ impl SceneParts {
     }
 }
 
-/// The points that a view frames; in line drawings, those that remain after section cuts.
+/// Returns the points that a view frames; in line drawings, the points that remain after section
+/// cuts.
 fn framed_points(
     models: &[ModelInstance],
     style: Style,
@@ -169,7 +170,7 @@ fn framed_points(
     hidden_line::retained_points(models, sections, uncut)
 }
 
-/// The image that a scene renders.
+/// Returns the image that a scene renders.
 pub(super) fn resolve_image(
     origin: &Origin,
     file: &SceneFile,
@@ -200,7 +201,7 @@ pub(super) fn resolve_image(
     })
 }
 
-/// The width and height of the image.
+/// Returns the width and height of the image.
 pub(super) fn resolve_image_size(
     origin: &Origin,
     file: &SceneFile,
@@ -215,7 +216,7 @@ pub(super) fn resolve_image_size(
     Err(origin.error_at(&[Field("image"), Field("size")], message, Some(help)))
 }
 
-/// The number of coverage samples.
+/// Returns the number of coverage samples.
 fn resolve_samples(origin: &Origin, file: &SceneFile) -> Result<Samples, SceneError> {
     Samples::from_count(file.image.samples).ok_or_else(|| {
         let message = format!("invalid number of samples per pixel: {}", file.image.samples);
@@ -224,7 +225,7 @@ fn resolve_samples(origin: &Origin, file: &SceneFile) -> Result<Samples, SceneEr
     })
 }
 
-/// The maximum number of samples of anisotropic texture filtering.
+/// Returns the maximum number of samples for anisotropic texture filtering.
 fn resolve_max_anisotropy(origin: &Origin, file: &SceneFile) -> Result<u32, SceneError> {
     let max_anisotropy = file.image.max_anisotropy;
     if (1..=8).contains(&max_anisotropy) {

@@ -47,7 +47,7 @@ fn resolve_lines(origin: &Origin, file: &LinesFile) -> Result<LineStyle, SceneEr
     })
 }
 
-/// The widths of wide and narrow lines.
+/// Returns the widths of wide and narrow lines.
 fn resolve_widths(origin: &Origin, file: WidthFile) -> Result<LineWidths, SceneError> {
     match file {
         WidthFile::Px(pixels) => Ok(LineWidths::Pixels(pixels.value())),
@@ -59,7 +59,7 @@ fn resolve_widths(origin: &Origin, file: WidthFile) -> Result<LineWidths, SceneE
     }
 }
 
-/// The ISO 128 line group whose wide lines have this width in millimeters.
+/// Returns the ISO 128 line group whose wide lines have this width in millimeters.
 pub(super) fn resolve_iso_group(
     origin: &Origin,
     wide: Positive,

@@ -15,7 +15,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// The maximum length of an image file in bytes.
 const MAX_FILE_BYTES: u64 = 256 << 20;
-/// The maximum width in texels of an image that lights a scene, and of one that is visible.
+/// The maximum width in texels of an image that lights a scene, and of an image that is also
+/// visible.
 const LIGHT_WIDTH: usize = 1024;
 const SEEN_WIDTH: usize = 4096;
 /// The maximum number of environments in the cache.
@@ -26,7 +27,7 @@ pub(super) fn has_lights(models: &[ModelInstance]) -> bool {
     models.iter().any(|placed| placed.model.scene_lights().next().is_some())
 }
 
-/// Whether no light is specified: a bare model, without a scene file.
+/// Whether no light is specified, as for a bare model without a scene file.
 pub(super) fn has_default_light(origin: &Origin, file: &SceneFile) -> bool {
     origin.text.is_empty() && file.lights.is_none()
 }
@@ -40,7 +41,7 @@ pub(super) fn may_have_environment(origin: &Origin, file: &SceneFile) -> bool {
     }
 }
 
-/// The environment whose light appears in the style; `None` without one.
+/// Returns the environment whose light appears in the style, if any.
 ///
 /// A bare model is placed in the studio, because metals show only their surroundings. If it has its
 /// own lights, the studio is dimmed so that they still matter.
@@ -66,10 +67,11 @@ pub(super) fn effective_environment(
 /// The key of an environment: its kind, all its numbers, and a hash of its file's bytes.
 type EnvironmentKey = (u8, [u64; 4]);
 
-/// The most recently made environments. Prefiltering one takes far longer than finding it here.
+/// The most recently created environments. Prefiltering an environment takes far longer than
+/// finding it here.
 static CACHE: Mutex<Vec<(EnvironmentKey, Arc<Environment>)>> = Mutex::new(Vec::new());
 
-/// Returns the environment with this content, either from the cache or new.
+/// Returns the environment with this content, either from the cache or newly created.
 fn cached_environment(key: EnvironmentKey, make: impl FnOnce() -> Environment) -> Arc<Environment> {
     let mut cache = CACHE.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, known)) = cache.iter().find(|(known, _)| *known == key) {
@@ -84,10 +86,10 @@ fn cached_environment(key: EnvironmentKey, make: impl FnOnce() -> Environment) -
 }
 
 /// Resolves the environment of a scene, if it requests one. Files may be inside the scene's folder
-/// and the allowed ones.
+/// and the allowed folders.
 ///
-/// The default studio is equally bright in the picture at any exposure in stops: automatic exposure
-/// is for other lights.
+/// The default studio is equally bright in the picture at any exposure, because automatic exposure
+/// is meant for other lights.
 pub(super) fn resolve_environment(
     origin: &Origin,
     file: &SceneFile,
@@ -112,7 +114,8 @@ pub(super) fn resolve_environment(
             let sun = normalize_direction(sun.0).ok_or_else(|| {
                 let at = [Field("environment"), Field("sun")];
                 let help = Some(
-                    "write one such as (1, 1, 1): to the right, above and in front".to_owned(),
+                    "use a direction such as (1, 1, 1): to the right, above and in front"
+                        .to_owned(),
                 );
                 origin.error_at(&at, "the direction to the sun must not be (0, 0, 0)", help)
             })?;
@@ -139,7 +142,7 @@ pub(super) fn resolve_environment(
     }))
 }
 
-/// The environment in an image file, at a finer resolution if the picture shows it.
+/// Returns the environment in an image file, at a finer resolution if the picture shows it.
 fn environment_from_file(
     origin: &Origin,
     file: &SceneFile,
@@ -166,13 +169,13 @@ fn environment_from_file(
     }))
 }
 
-/// An error that points at the path of the environment file.
+/// Creates an error that points at the path of the environment file.
 fn environment_error(origin: &Origin, message: String, help: Option<String>) -> SceneError {
     origin.error_at(&[Field("environment"), Field("path")], message, help)
 }
 
 /// Reads a file that the scene names at `at`. It must be inside the scene's folder or an allowed
-/// one, and not too long.
+/// folder, and must not be too long.
 pub(super) fn read_image_bytes(
     origin: &Origin,
     at: &[PathStep<'_>],
@@ -192,7 +195,7 @@ pub(super) fn read_image_bytes(
     };
     let about = std::fs::metadata(&full).map_err(unreadable)?;
     if !about.is_file() || about.len() > MAX_FILE_BYTES {
-        let message = format!("{path} is not a file of at most {MAX_FILE_BYTES} bytes");
+        let message = format!("{path} is not a file, or has more than {MAX_FILE_BYTES} bytes");
         return Err(origin.error_at(at, message, None));
     }
     std::fs::read(&full).map_err(unreadable)
@@ -207,33 +210,33 @@ struct EnvironmentRotation {
 }
 
 impl EnvironmentRotation {
-    /// A rotation about the y axis, in degrees, and a factor for all light.
+    /// Creates a rotation about the y axis, in degrees, with a factor for all light.
     fn new(strength: f64, degrees: f64) -> Self {
         let angle = degrees.to_radians();
         let (sine, cosine) = (libm::sin(angle) as f32, libm::cos(angle) as f32);
         Self { strength: strength as f32, degrees, cosine, sine }
     }
 
-    /// The key of an environment with this rotation; `content` identifies its radiance.
+    /// Returns the key of an environment with this rotation; `content` identifies its radiance.
     fn cache_key(&self, kind: u8, content: u64) -> EnvironmentKey {
         (kind, [content, self.degrees.to_bits(), u64::from(self.strength.to_bits()), 0])
     }
 
-    /// The light from a direction after the surroundings are rotated counterclockwise, seen from
-    /// above.
+    /// Returns the light from a direction after the surroundings are rotated counterclockwise, as
+    /// seen from above.
     fn rotated_radiance(&self, [x, y, z]: [f32; 3], of: impl Fn([f32; 3]) -> [f32; 3]) -> [f32; 3] {
         let before = [x * self.cosine - z * self.sine, y, x * self.sine + z * self.cosine];
         of(before).map(|c| c * self.strength)
     }
 }
 
-/// The direction scaled to length 1; `None` if it is 0 or too long to square.
+/// Returns the direction scaled to length 1, or `None` if it is 0 or too long to square.
 fn normalize_direction(v: [f64; 3]) -> Option<[f32; 3]> {
     let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
     (length > 0.0 && length.is_finite()).then(|| v.map(|c| (c / length) as f32))
 }
 
-/// A hash that depends on every byte (Fowler, Noll and Vo).
+/// Computes a hash that depends on every byte (Fowler, Noll and Vo).
 fn fnv1a_hash(bytes: &[u8]) -> u64 {
     let mix = |sum: u64, byte: &u8| (sum ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
     bytes.iter().fold(0xcbf2_9ce4_8422_2325 ^ bytes.len() as u64, mix)

@@ -7,10 +7,10 @@ use scene_file::PathStep::{Field, Index};
 use scene_file::file::SectionFile;
 use scene_file::{SceneError, suggest_name};
 
-/// The objects that no section cuts, in ascending order.
+/// Returns the objects that no section cuts, in ascending order.
 ///
 /// # Errors
-/// If no node matches a name or pattern.
+/// Returns an error if no node matches a name or pattern.
 pub(super) fn resolve_uncut(
     origin: &Origin,
     sections: &[SectionFile],
@@ -53,7 +53,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn stars_stand_for_any_characters() {
+    fn stars_match_any_characters() {
         for (pattern, name, fits) in [
             ("shaft", "shaft", true),
             ("shaft", "shaft 2", false),

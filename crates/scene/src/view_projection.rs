@@ -43,10 +43,10 @@ pub(super) fn resolve_view_projection(
     resolve_view_of_points(origin, file, models, world_points(models), image, Vec::new())
 }
 
-/// Resolves the camera and projection of a scene. A view that frames its models frames these
-/// `points` of them, and `shadow_points` too.
+/// Resolves the camera and projection of a scene. A framed view frames these `points` of the
+/// models, and `shadow_points` too.
 ///
-/// The view direction does not depend on them, and neither do the near and far planes.
+/// They do not affect the view direction or the near and far planes.
 pub(super) fn resolve_view_of_points(
     origin: &Origin,
     file: &CameraFile,
@@ -76,7 +76,7 @@ pub(super) fn resolve_view_of_points(
     view.map(|view| image.place_view(zoom_view(view, file.zoom)))
 }
 
-/// The view with everything enlarged by a factor, about the center of the picture.
+/// Returns the view with everything enlarged by a factor, about the center of the picture.
 fn zoom_view(view: ViewProjection, zoom: Positive) -> ViewProjection {
     if zoom == Positive::ONE {
         return view;
@@ -84,8 +84,8 @@ fn zoom_view(view: ViewProjection, zoom: Positive) -> ViewProjection {
     map_window(view, DVec2::splat(zoom.value()), DVec2::ZERO)
 }
 
-/// The camera mistakes that can be found without the models, such as a missing direction or planes
-/// in the wrong order.
+/// Returns the camera mistakes that can be found without the models, such as a missing direction or
+/// planes in the wrong order.
 pub(super) fn check_camera(origin: &Origin, file: &CameraFile) -> Vec<SceneError> {
     let view_error = CameraPlacement::from_file(&file.view).err();
     let view_error = view_error.map(|error| origin.error_at(&VIEW_PATH, error.to_string(), None));
@@ -97,7 +97,7 @@ pub(super) fn check_camera(origin: &Origin, file: &CameraFile) -> Vec<SceneError
     view_error.into_iter().chain(projection_error).collect()
 }
 
-/// The lens of the selected camera; `None` if there is no such camera.
+/// Returns the lens of the selected camera, or `None` if there is no such camera.
 pub(super) fn select_lens<'a>(
     origin: &'a Origin,
     models: &'a [ModelInstance],
@@ -110,14 +110,14 @@ pub(super) fn select_lens<'a>(
 }
 
 impl<'a> CameraResolver<'a> {
-    /// The error for a skewed lens, for which no camera position can be found.
+    /// Creates the error for a skewed lens, for which no camera position can be found.
     fn skewed_framing_error(&self, error: &ProjectionError) -> SceneError {
-        let help = "give the position of the camera: view: LookAt(…), Extrinsics(…) or Pose(…)";
+        let help = "set the position of the camera: view: LookAt(…), Extrinsics(…) or Pose(…)";
         self.projection_error_with(error.to_string(), Some(help.to_owned()))
     }
 
-    /// A camera at its position with a projection; `height` is used for a parallel window whose
-    /// file leaves it open.
+    /// Returns a camera at its position with a projection; `height` is used for a parallel window
+    /// if the file does not set one.
     fn project_from_camera(
         &self,
         camera: Camera,
@@ -177,14 +177,15 @@ impl<'a> CameraResolver<'a> {
         Ok(ViewProjection { camera, view_to_clip })
     }
 
-    /// The lens of a projection given by intrinsic parameters.
+    /// Returns the lens of a projection with intrinsic parameters.
     fn calibrated_lens(&self, projection: &ProjectionFile) -> Result<Intrinsics, SceneError> {
         let missing = ProjectionError::Unrepresentable { what: "intrinsics" };
         let lens = calibrated_lens(projection, self.picture_size).unwrap_or(Err(missing));
         lens.map_err(|error| self.projection_error(&error))
     }
 
-    /// The height of the window, centered on the line of sight, in which the whole scene fits.
+    /// Returns the height of the window, centered on the line of sight, in which the whole scene
+    /// fits.
     fn fitting_window_height(&self, camera: Camera) -> f64 {
         let world_to_view = camera.world_to_view();
         let reach = self.points.iter().map(|&point| {
@@ -195,7 +196,7 @@ impl<'a> CameraResolver<'a> {
         if reach > 0.0 { 2.1 * reach } else { 1.0 }
     }
 
-    /// A camera that looks in a given direction, from where everything just fits.
+    /// Returns a camera that looks in a given direction, from where everything just fits.
     fn frame_models(
         &self,
         from: Option<&FromFile>,
@@ -236,7 +237,7 @@ impl<'a> CameraResolver<'a> {
         self.project_from_camera(framed.camera, projection, None)
     }
 
-    /// The borders of a perspective's window one unit ahead of the eye.
+    /// Returns the borders of a perspective's window one unit ahead of the eye.
     fn window_slopes(&self, projection: &ProjectionFile) -> Result<Slopes, SceneError> {
         let lens = Lens::from_file(projection);
         if let Some(Lens { fov: Fov::Vertical(angle), .. }) = lens.filter(|lens| lens.is_centered())
@@ -261,8 +262,8 @@ impl<'a> CameraResolver<'a> {
         Ok(Slopes { left, right, bottom, top })
     }
 
-    /// The moved-apex frustum framed around the models: the apex is placed like the eye of a
-    /// centered window, and the camera goes beside it.
+    /// Returns the moved-apex frustum framed around the models: the apex is placed like the eye of
+    /// a centered window, and the camera is placed beside it.
     fn frame_apex_moved(
         &self,
         basis: Basis,
@@ -281,7 +282,7 @@ impl<'a> CameraResolver<'a> {
         self.project_from_camera(camera, projection, None)
     }
 
-    /// The view and, unless the scene sets one, the projection of a camera in a model.
+    /// Returns the view and, unless the scene sets one, the projection of a camera in a model.
     fn project_from_model_camera(
         &self,
         choice: &CameraChoice,
@@ -300,8 +301,8 @@ impl<'a> CameraResolver<'a> {
         }
     }
 
-    /// The projection of a camera in a model. The aspect ratio is the image's: the vertical field
-    /// of view of a perspective is kept, and the window of an orthographic camera is widened.
+    /// Returns the projection of a camera in a model. The aspect ratio is the image's: the vertical
+    /// field of view of a perspective is kept, and the window of an orthographic camera is widened.
     fn project_through_lens(
         &self,
         camera: Camera,
@@ -323,7 +324,7 @@ impl<'a> CameraResolver<'a> {
         Ok(ViewProjection { camera, view_to_clip })
     }
 
-    /// The first shown node that carries the camera.
+    /// Returns the first visible node that has the camera.
     fn select_model_camera(
         &self,
         choice: &CameraChoice,
@@ -350,7 +351,7 @@ impl<'a> CameraResolver<'a> {
         Err(self.unknown_camera_error(choice, &names))
     }
 
-    /// The error for a camera that no model has, with the existing camera names.
+    /// Creates the error for a camera that no model has, with the existing camera names.
     fn unknown_camera_error(
         &self,
         choice: &CameraChoice,
@@ -369,7 +370,7 @@ impl<'a> CameraResolver<'a> {
                 let target =
                     numbers.get(3..6).map_or_else(|| "0,0,0".to_owned(), |it| it.join(","));
                 format!(
-                    "`--camera` names a camera of the model; to place a camera, use `--eye {eye} --target {target}`"
+                    "`--camera` selects a camera of the model; to place a camera, use `--eye {eye} --target {target}`"
                 )
             } else {
                 "use `--view front` or `--eye 4,3,6 --target 0,0,0` instead, and `--projection` \

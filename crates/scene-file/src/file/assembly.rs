@@ -7,11 +7,11 @@ use sheet::ExplosionAxis;
 scene_struct! {
     /// An exploded view: parts moved apart, with their paths.
     pub struct ExplodedFile as "Exploded" {
-        /// The direction in which parts move. Default: the axis along which most parts line up with
-        /// the largest one, or along which they move least.
+        /// The direction in which parts move. Default: the axis along which the most parts line up
+        /// with the largest part, or along which they move least.
         pub axis: ExplosionAxis = ExplosionAxis::Auto,
-        /// The minimum distance between two parts along it, in scene units. Default: 0.08 times the
-        /// assembly's diagonal.
+        /// The minimum distance between two parts in this direction, in scene units. Default: 0.08
+        /// times the assembly's diagonal.
         pub distance: Option<NonNegative> = None,
     }
 }

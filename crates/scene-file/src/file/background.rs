@@ -10,15 +10,15 @@ scene_enum! {
     pub enum BackgroundFile as "Background" {
         /// No background: alpha is 0.
         Transparent,
-        /// One color.
+        /// A single color.
         Color(Color),
         /// A gradient across the whole image, interpolated in sRGB as web pages do.
         Gradient {
             /// From 2 to 16 evenly spaced colors; the first and the last touch the borders or
             /// corners of the image.
             colors: Vec<Color>,
-            /// The direction in which the colors run, in degrees: 0 is down, 90 to the right, 180
-            /// up. Default: 0.
+            /// The direction in which the colors run, in degrees: 0 is down, 90 is to the right and
+            /// 180 is up. Default: 0.
             angle_degrees: Finite = Finite::ZERO,
         },
         /// A PNG, JPEG or WebP image file with at most 67,108,864 pixels. Exposure does not affect
@@ -26,12 +26,12 @@ scene_enum! {
         Picture {
             /// The path, relative to the scene file's folder.
             path: String,
-            /// The fit to the image. Default: `Cover`.
+            /// The way it is scaled to fit the image. Default: `Cover`.
             fit: ImageFit = ImageFit::Cover,
-            /// The color around it and behind its transparent parts. Default: none, alpha is 0.
+            /// The color around it and behind its transparent parts. Default: none (alpha is 0).
             color: Option<Color>,
         },
-        /// The environment.
+        /// The scene's environment.
         Environment {
             /// The amount of blur, from 0 to 1. Default: 0.
             blur: Option<NonNegative>,

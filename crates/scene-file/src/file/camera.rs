@@ -40,8 +40,8 @@ scene_enum! {
             /// The view-up vector. Default: y.
             up: Triple = Triple::Y_AXIS,
         },
-        /// From the rotation and translation from world to camera, as calibration gives them:
-        /// camera = R · world + t.
+        /// From the rotation and translation from world to camera, as calibration programs report
+        /// them: camera = R · world + t.
         Extrinsics {
             /// The rotation R.
             rotation: RotationFile,
@@ -50,8 +50,7 @@ scene_enum! {
             /// The directions of the camera's axes. Default: `OpenCv`.
             axes: CameraAxes = CameraAxes::OpenCv,
         },
-        /// From the pose of the camera in the world, as in datasets such as NeRF's: world = R ·
-        /// camera + eye.
+        /// From the pose of the camera in the world, as in NeRF datasets: world = R · camera + eye.
         Pose {
             /// The rotation R, whose columns are the camera's axes.
             rotation: RotationFile,
@@ -60,9 +59,9 @@ scene_enum! {
             /// The directions of the camera's axes. Default: `OpenGl`.
             axes: CameraAxes = CameraAxes::OpenGl,
         },
-        /// From a direction, at the distance at which everything just fits in the image. This
-        /// includes the models and, with `ground`, the shadows of directional lights on it, up to
-        /// the length of the models' diagonal.
+        /// From a direction, at the distance where everything just fits in the image. This includes
+        /// the models and, with `ground`, the shadows that directional lights cast on it, up to the
+        /// length of the models' diagonal.
         Frame {
             /// The direction. Default: `ThreeQuarter`, and `Front` for classical projections.
             from: Option<FromFile>,
@@ -141,7 +140,7 @@ impl From<NamedView> for FromFile {
 }
 
 scene_enum! {
-    /// A choice among a model's cameras.
+    /// One of a model's cameras.
     #[derive(Eq)]
     pub enum CameraChoice as "CameraChoice" {
         /// By index in the file, from 0.

@@ -4,10 +4,10 @@ use crate::number::{FieldOfView, Finite, Triple};
 use crate::schema::{named_enum, scene_struct};
 
 scene_struct! {
-    /// The motion of the camera in frame sequences. The scene's `camera` gives the projection.
+    /// The motion of the camera in frame sequences. The projection comes from the scene's `camera`.
     pub struct CameraPathFile as "CameraPath" {
-        /// From 2 to 10,000 keyframes, each later than the one before. If the last repeats the
-        /// first, the path is closed, and smooth there too.
+        /// From 2 to 10,000 keyframes, with increasing times. If the last one repeats the first,
+        /// the path is closed and smooth at that point too.
         pub keys: Vec<CameraKeyFile>,
         /// The interpolation between keyframes. Default: `Smooth`.
         pub curve: CurveFile = CurveFile::Smooth,
@@ -36,6 +36,6 @@ named_enum! {
     /// The interpolation between keyframes.
     pub enum CurveFile as "Curve" {
         Linear = "Straight lines, with an abrupt change at each keyframe.",
-        Smooth = "A smooth Catmull-Rom curve through all keyframes. It approximates a circle to 1% with 8 evenly spaced keyframes and the first repeated, and to 0.2% with 12.",
+        Smooth = "A smooth Catmull-Rom curve through all keyframes. With 8 evenly spaced keyframes and the first one repeated, it approximates a circle to within 1%; with 12, to within 0.2%.",
     }
 }

@@ -6,7 +6,7 @@ use crate::color::LightColor;
 use crate::number::{InvalidNumber, NonNegative, Positive, Scale, Triple};
 
 impl SceneFile {
-    /// A scene of these models, with defaults for everything else.
+    /// Creates a scene from these models, with defaults for everything else.
     ///
     /// ```
     /// use scene_file::SceneFile;
@@ -26,8 +26,8 @@ impl SceneFile {
 }
 
 impl ModelFile {
-    /// The model in a file, with its original position and size. `path` is relative to the scene's
-    /// folder.
+    /// Creates a model from a file, with its original position and size. `path` is relative to the
+    /// scene's folder.
     #[must_use]
     pub fn new(path: impl Into<String>) -> Self {
         Self {
@@ -63,21 +63,21 @@ impl ModelFile {
     /// Scales the model by one factor on all axes.
     ///
     /// # Errors
-    /// If the factor is 0 or not finite.
+    /// Returns an error if the factor is 0 or not finite.
     pub fn scaled(self, factor: f64) -> Result<Self, InvalidNumber> {
         Ok(Self { scale: factor.try_into()?, ..self })
     }
 }
 
 impl CameraFile {
-    /// A perspective camera at `eye` that looks at `target`, with y up.
+    /// Creates a perspective camera at `eye` that looks at `target`, with y up.
     #[must_use]
     pub fn look_at(eye: impl Into<Triple>, target: impl Into<Triple>) -> Self {
         let view = ViewFile::LookAt { eye: eye.into(), target: target.into(), up: Triple::Y_AXIS };
         Self { view, ..Self::default() }
     }
 
-    /// A perspective camera at `eye` that looks in a direction, with y up.
+    /// Creates a perspective camera at `eye` that looks in the given direction, with y up.
     #[must_use]
     pub fn look_to(eye: impl Into<Triple>, gaze: impl Into<Triple>) -> Self {
         let view = ViewFile::LookTo { eye: eye.into(), gaze: gaze.into(), up: Triple::Y_AXIS };
@@ -92,11 +92,12 @@ impl CameraFile {
 }
 
 impl ProjectionFile {
-    /// A perspective with a vertical field of view in degrees, between a near and a far plane;
-    /// `None` fits them to the models.
+    /// Creates a perspective projection with a vertical field of view in degrees, between a near
+    /// and a far plane. A plane that is `None` is fitted to the models.
     ///
     /// # Errors
-    /// If the angle is not between 0 and 180 degrees, or a distance is not greater than 0.
+    /// Returns an error if the angle is not between 0 and 180 degrees, or a distance is not greater
+    /// than 0.
     pub fn perspective(
         fov_y_degrees: f64,
         planes: impl Into<Option<[f64; 2]>>,
@@ -112,11 +113,11 @@ impl ProjectionFile {
         })
     }
 
-    /// An orthographic projection through a window with a left, right, bottom and top border,
-    /// between a near and a far plane.
+    /// Creates an orthographic projection through a window with left, right, bottom and top
+    /// borders, between a near and a far plane.
     ///
     /// # Errors
-    /// If a number is not finite.
+    /// Returns an error if a number is not finite.
     pub fn orthographic(window: [f64; 4], planes: [f64; 2]) -> Result<Self, InvalidNumber> {
         let [left, right, bottom, top] = window;
         let [near, far] = planes;
@@ -131,10 +132,12 @@ impl ProjectionFile {
         })
     }
 
-    /// A perspective through a window on the near plane, with left, right, bottom and top borders.
+    /// Creates a perspective projection through a window on the near plane, with left, right,
+    /// bottom and top borders.
     ///
     /// # Errors
-    /// If a number is not finite, or the distance of a plane is not greater than 0.
+    /// Returns an error if a number is not finite, or the distance of a plane is not greater than
+    /// 0.
     pub fn frustum(window: [f64; 4], planes: [f64; 2]) -> Result<Self, InvalidNumber> {
         let [left, right, bottom, top] = window;
         let [near, far] = planes;
@@ -150,11 +153,11 @@ impl ProjectionFile {
 }
 
 impl ViewportFile {
-    /// A view of the scene in a rectangle, given by left, top, width and height as fractions of the
-    /// picture.
+    /// Creates a view of the scene in a rectangle, specified by left, top, width and height as
+    /// fractions of the picture.
     ///
     /// # Errors
-    /// If one of them is not between 0 and 1.
+    /// Returns an error if one of them is not between 0 and 1.
     pub fn at(rectangle: [f64; 4]) -> Result<Self, InvalidNumber> {
         let [left, top, width, height] = rectangle;
         let at = Some((left.try_into()?, top.try_into()?, width.try_into()?, height.try_into()?));
@@ -163,11 +166,11 @@ impl ViewportFile {
 }
 
 impl LightFile {
-    /// White light from infinity, such as sunlight, that travels in a direction; its illuminance is
-    /// in lux.
+    /// Creates white light from infinity, such as sunlight, that travels in the given direction.
+    /// Its illuminance is in lux.
     ///
     /// # Errors
-    /// If the intensity is negative or not finite.
+    /// Returns an error if the intensity is negative or not finite.
     pub fn directional(
         direction: impl Into<Triple>,
         intensity: f64,
@@ -177,20 +180,21 @@ impl LightFile {
         Ok(Self::Directional { direction, intensity, color, shadows: None })
     }
 
-    /// A white point light; its intensity is in candela.
+    /// Creates a white point light. Its intensity is in candela.
     ///
     /// # Errors
-    /// If the intensity is negative or not finite.
+    /// Returns an error if the intensity is negative or not finite.
     pub fn point(position: impl Into<Triple>, intensity: f64) -> Result<Self, InvalidNumber> {
         let intensity = NonNegative::try_from(intensity)?;
         let (position, color) = (position.into(), LightColor::WHITE);
         Ok(Self::Point { position, intensity, range: None, color, shadows: None })
     }
 
-    /// A white spot light with a cone of 45 degrees around its axis; its intensity is in candela.
+    /// Creates a white spot light with a cone of 45 degrees around its axis. Its intensity is in
+    /// candela.
     ///
     /// # Errors
-    /// If the intensity is negative or not finite.
+    /// Returns an error if the intensity is negative or not finite.
     pub fn spot(
         position: impl Into<Triple>,
         direction: impl Into<Triple>,
@@ -208,10 +212,10 @@ impl LightFile {
         })
     }
 
-    /// White light from all directions; the illuminance of every surface is in lux.
+    /// Creates white light from all directions. The illuminance of every surface is in lux.
     ///
     /// # Errors
-    /// If the intensity is negative or not finite.
+    /// Returns an error if the intensity is negative or not finite.
     pub fn ambient(intensity: f64) -> Result<Self, InvalidNumber> {
         let intensity = NonNegative::try_from(intensity)?;
         Ok(Self::Ambient { intensity, color: LightColor::WHITE })

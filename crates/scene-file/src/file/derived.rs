@@ -2,14 +2,15 @@
 
 use super::{BackgroundFile, EnvironmentFile, SceneFile};
 
-/// The height of the strip in pixels: text 12 pixels high, with room above and below.
+/// The height of the caption strip in pixels: 12 for the text, and the rest for margins above and
+/// below.
 const STRIP_HEIGHT: u32 = 28;
-/// The strip takes at most one in this many pixel rows of the picture.
+/// The strip takes up at most the picture's height divided by this number.
 const LEAST_ROWS_PER_STRIP_ROW: u32 = 4;
 
 impl SceneFile {
-    /// The paths of all environment and backdrop images and of the sheet's title block, relative to
-    /// the scene's folder.
+    /// Returns the paths of all environment and backdrop images and of the sheet's title block,
+    /// relative to the scene's folder.
     ///
     /// Insets may have their own backdrops. The caller uses the list for access checks and to
     /// detect changed files.
@@ -27,14 +28,14 @@ impl SceneFile {
         around.into_iter().chain(behind).chain(title_block)
     }
 
-    /// The height of the caption strip in pixels; 0 without a caption.
+    /// Returns the height of the caption strip in pixels, or 0 without a caption.
     #[must_use]
     pub fn caption_height(&self) -> u32 {
         let most = self.image.size.1 / LEAST_ROWS_PER_STRIP_ROW;
         if self.caption.is_some() { STRIP_HEIGHT.min(most) } else { 0 }
     }
 
-    /// Width and height in pixels of the part of the picture above the caption.
+    /// Returns the width and height in pixels of the part of the picture above the caption.
     #[must_use]
     pub fn view_size(&self) -> (u32, u32) {
         let (width, height) = self.image.size;

@@ -15,13 +15,13 @@ serde_by_scene_value! { DimensionsFile }
 pub struct DimensionsFile(pub Vec<DimensionFile>);
 
 impl DimensionsFile {
-    /// The overall dimensions.
+    /// Returns the overall dimensions.
     #[must_use]
     pub fn overall() -> Self {
         Self(vec![DimensionFile::Overall])
     }
 
-    /// No dimensions.
+    /// Returns no dimensions.
     #[must_use]
     pub const fn none() -> Self {
         Self(Vec::new())
@@ -50,15 +50,15 @@ impl SceneValue for DimensionsFile {
     }
 }
 
-/// Whether this is the element type of the list of a sheet's dimensions.
+/// Whether this is the element type of a sheet's list of dimensions.
 pub(crate) fn is_dimensions_list(element: &ValueType) -> bool {
     matches!(element, ValueType::Declared(entry) if entry.name == DimensionFile::ENTRY.name)
 }
 
 scene_enum! {
-    /// A dimension on a sheet. Lengths are in millimeters or inches of the object, whatever the
-    /// scale. It goes into a view that shows its true size; if there is none, it is omitted with a
-    /// warning.
+    /// A dimension on a sheet. Lengths are measured on the object, in millimeters or inches,
+    /// whatever the scale. A dimension is placed in a view that shows its true size; without such a
+    /// view, it is omitted with a warning.
     pub enum DimensionFile as "Dimension" {
         /// The overall width, height and depth, outside all other dimensions.
         Overall,
@@ -67,14 +67,15 @@ scene_enum! {
         Length {
             /// The first point, edge or face.
             from: PickFile,
-            /// The other end. Two edges, two faces, or an edge and a face must be parallel.
+            /// The second point, edge or face. Two edges, two faces, or an edge and a face must be
+            /// parallel.
             to: PickFile,
             /// The direction of measurement. Default: `Aligned`.
             direction: LengthDirection = LengthDirection::Aligned,
             /// The view. Default: the first that shows the true length.
             view: Option<DimensionView> = None,
             /// The side of the part on which the dimension line is placed. Default: the one with
-            /// shorter extension lines.
+            /// the shorter extension lines.
             side: Option<DimensionSide> = None,
             /// The maximum number of decimal places, up to 6. Default: 2 for millimeters, 3 for
             /// inches.
@@ -83,14 +84,14 @@ scene_enum! {
         /// Lengths between neighboring points, on a single dimension line.
         Chain {
             /// At least two points. Their order matters only for the direction of an aligned chain,
-            /// which is from the first to the last.
+            /// which runs from the first to the last.
             points: Vec<PickFile>,
             /// The direction of measurement. Default: `Aligned`.
             direction: LengthDirection = LengthDirection::Aligned,
             /// The view. Default: the first that shows the true lengths.
             view: Option<DimensionView> = None,
             /// The side of the part on which the dimension line is placed. Default: the one with
-            /// shorter extension lines.
+            /// the shorter extension lines.
             side: Option<DimensionSide> = None,
             /// The maximum number of decimal places, up to 6. Default: 2 for millimeters, 3 for
             /// inches.
@@ -107,24 +108,25 @@ scene_enum! {
             /// The view. Default: the first that shows the true lengths.
             view: Option<DimensionView> = None,
             /// The side of the part on which the dimension lines are placed. Default: the one with
-            /// shorter extension lines.
+            /// the shorter extension lines.
             side: Option<DimensionSide> = None,
             /// The maximum number of decimal places, up to 6. Default: 2 for millimeters, 3 for
             /// inches.
             decimals: Option<u32> = None,
         },
-        /// The diameter of a circle, with Ø: an arrow to the circle if a view shows one, otherwise
-        /// a length across it.
+        /// The diameter of a circle, marked Ø: an arrow to the circle if a view shows it as a
+        /// circle, otherwise a length across it.
         Diameter {
             /// The circle or arc.
             circle: PlaceFile,
-            /// The view. Default: the first that shows it as a circle, otherwise one from its side.
+            /// The view. Default: the first that shows it as a circle, otherwise a view from the
+            /// side.
             view: Option<DimensionView> = None,
             /// The maximum number of decimal places, up to 6. Default: 2 for millimeters, 3 for
             /// inches.
             decimals: Option<u32> = None,
         },
-        /// The radius of a circle or arc, with R, in a view that shows it as a circle.
+        /// The radius of a circle or arc, marked R, in a view that shows it as a circle.
         Radius {
             /// The circle or arc.
             circle: PlaceFile,
@@ -188,7 +190,7 @@ scene_enum! {
     }
 }
 
-/// The center of a box.
+/// Returns the center of a box.
 const HALVES: Triple = Triple([0.5; 3]);
 
 scene_struct! {

@@ -9,8 +9,8 @@ scene_enum! {
     /// is then moved to its position, and finally all are moved together by the model's
     /// `translation`. A scene has at most 100,000 instances.
     pub enum InstancesFile as "Instances" {
-        /// In rows, columns and layers: the first instance is where the model is, the others beside
-        /// it.
+        /// In rows, columns and layers. The first instance is at the model's position, and the
+        /// others are offset from it.
         Grid {
             /// The counts along x, y and z, each at least 1.
             count: (u32, u32, u32),
@@ -29,11 +29,11 @@ scene_enum! {
             /// The position of the first instance in degrees, counterclockwise around the axis: 0
             /// is toward x, or toward y if the axis is x. Default: 0.
             start_degrees: Finite = Finite::ZERO,
-            /// The angle that the instances divide. On a full circle the last is one step before
-            /// the first; otherwise it is at the end. Default: 360.
+            /// The angle over which the instances are spread. On a full circle the last one is one
+            /// step before the first; otherwise it is at the end of the angle. Default: 360.
             sweep_degrees: Finite = FULL_CIRCLE,
-            /// Whether each instance rotates with its position, so that all turn the same side to
-            /// the center. Default: true.
+            /// Whether each instance rotates with its position, so that the same side of every
+            /// instance faces the center. Default: true.
             rotate_copies: bool = true,
         },
         /// Each with a separate transform.
@@ -51,13 +51,13 @@ scene_struct! {
         pub translation: Triple = Triple::ZERO,
         /// Rotations about the x, then the y, then the z axis, in degrees. Default: (0, 0, 0).
         pub rotation_degrees: Triple = Triple::ZERO,
-        /// One factor for all axes, or one for each; none of them 0. Default: 1.
+        /// One scale factor for all axes, or one for each; none may be 0. Default: 1.
         pub scale: Scale = Scale::ONE,
     }
 }
 
 impl ModelFile {
-    /// The number of instances of the model, at most `usize::MAX`.
+    /// Returns the number of instances of the model, at most `usize::MAX`.
     #[must_use]
     pub fn instance_count(&self) -> usize {
         match &self.instances {

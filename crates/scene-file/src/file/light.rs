@@ -12,8 +12,8 @@ scene_enum! {
         Directional {
             /// The direction in which the light travels.
             direction: Triple,
-            /// The illuminance in lux of a surface that faces the light; a white one then shows
-            /// `intensity` / π.
+            /// The illuminance in lux of a surface that faces the light; a white surface then has
+            /// the linear value `intensity` / π.
             intensity: NonNegative,
             /// The color. Default: white.
             color: LightColor = LightColor::WHITE,
@@ -24,7 +24,7 @@ scene_enum! {
         Point {
             /// The position.
             position: Triple,
-            /// The luminous intensity in candela: the illuminance at distance 1.
+            /// The luminous intensity in candela: the illuminance at a distance of 1.
             intensity: NonNegative,
             /// The distance beyond which the light has no effect. Default: infinite.
             range: Option<Positive>,
@@ -54,7 +54,7 @@ scene_enum! {
         },
         /// The lights in the models' files (KHR_lights_punctual).
         FromModels,
-        /// Uniform diffuse light from all directions, without highlights. An environment does have
+        /// Uniform diffuse light from all directions. Unlike an environment, it does not produce
         /// highlights.
         Ambient {
             /// The illuminance in lux of every surface.
@@ -66,7 +66,8 @@ scene_enum! {
 }
 
 impl LightFile {
-    /// The distance beyond which the light has no effect, in world units; `None` if unlimited.
+    /// Returns the distance beyond which the light has no effect, in world units, or `None` if
+    /// unlimited.
     #[must_use]
     pub const fn range(&self) -> Option<Positive> {
         match self {

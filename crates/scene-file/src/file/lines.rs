@@ -21,7 +21,7 @@ scene_struct! {
         /// between them, such as a flat face and its fillet. Default: only where the material
         /// changes.
         pub tangent_degrees: Option<CreaseAngle> = None,
-        /// The method of finding silhouettes of smooth surfaces. Default: `Facets`.
+        /// The method for finding silhouettes of smooth surfaces. Default: `Facets`.
         pub silhouettes: SilhouetteMethod = SilhouetteMethod::Facets,
         /// The contrast that the farthest line loses, in percent. Default: 0.
         pub depth_cue_percent: Percent = Percent::ZERO,

@@ -16,7 +16,7 @@ scene_enum! {
         Shaded,
         /// Physically based shading, with one normal per triangle.
         Flat,
-        /// Gouraud shading: lit at the vertices and interpolated, matte, in the material colors.
+        /// Gouraud shading: matte material colors, lit at the vertices and interpolated.
         Gouraud,
         /// Matte clay in the scene's light.
         Clay,
@@ -25,7 +25,7 @@ scene_enum! {
         Matcap,
         /// World-space normals as colors: red, green and blue are (n + 1) / 2.
         Normals,
-        /// Depth as gray: the nearer, the brighter. A black background suits it.
+        /// Depth as gray: the nearer, the brighter. It looks best on a black background.
         Depth,
         /// A checkerboard from texture coordinates, with 8 squares per unit; red grows with u,
         /// green with v.
@@ -34,7 +34,7 @@ scene_enum! {
         Ids,
         /// Cel shading: the material colors in three steps of light, with outlines.
         Toon,
-        /// X-ray: translucent surfaces, denser the more they are seen edge-on.
+        /// X-ray: translucent surfaces that look denser the more edge-on they are seen.
         XRay,
         /// The edges of all triangles, including hidden ones.
         Wireframe,
@@ -43,11 +43,11 @@ scene_enum! {
     }
 }
 
-/// The name of a style in flags, and the style.
+/// The name of a style in flags, and a function that returns the style.
 type NamedStyle = (&'static str, fn() -> StyleFile);
 
 impl StyleFile {
-    /// The styles by their names in flags, each with the defaults of its fields.
+    /// The styles by their names in flags, with default fields.
     pub const NAMED: [NamedStyle; 21] = [
         ("shaded", || Self::Shaded),
         ("flat", || Self::Flat),
@@ -78,31 +78,31 @@ impl StyleFile {
         matches!(self, Self::Shaded | Self::Flat | Self::Gouraud | Self::Clay | Self::Toon)
     }
 
-    /// A line drawing with hidden lines removed.
+    /// Returns a line drawing with hidden lines removed.
     #[must_use]
     pub fn lines_hidden_removed() -> Self {
         Self::Lines(LinesFile::default())
     }
 
-    /// A line drawing with hidden lines dashed.
+    /// Returns a line drawing with hidden lines dashed.
     #[must_use]
     pub fn lines_hidden_dashed() -> Self {
         Self::Lines(LinesFile { hidden: HiddenLines::Dashed, ..LinesFile::default() })
     }
 
-    /// A line drawing of only the outline.
+    /// Returns a line drawing of only the outline against the background.
     #[must_use]
     pub fn lines_silhouette() -> Self {
         Self::Lines(LinesFile { edges: EdgeSelection::Silhouette, ..LinesFile::default() })
     }
 
-    /// A line drawing of only the outline: closed loops around the whole and its holes.
+    /// Returns a line drawing of only the outline, as closed loops around the whole and its holes.
     #[must_use]
     pub fn lines_outline() -> Self {
         Self::Lines(LinesFile { edges: EdgeSelection::Outline, ..LinesFile::default() })
     }
 
-    /// A wireframe whose lines fade with depth.
+    /// Returns a wireframe whose lines fade with depth.
     #[must_use]
     pub fn lines_depth_cued() -> Self {
         let (edges, hidden) = (EdgeSelection::Facets, HiddenLines::Drawn);
@@ -110,7 +110,8 @@ impl StyleFile {
         Self::Lines(LinesFile { edges, hidden, depth_cue_percent, ..LinesFile::default() })
     }
 
-    /// Visible, hidden and tangent edges with the line types and widths of ISO 128.
+    /// Returns a line drawing of visible, hidden and tangent edges with the line types and widths
+    /// of ISO 128.
     #[must_use]
     pub fn lines_technical() -> Self {
         let (edges, hidden, width) =
@@ -118,7 +119,8 @@ impl StyleFile {
         Self::Lines(LinesFile { edges, hidden, width, ..LinesFile::default() })
     }
 
-    /// Black lines with hidden ones removed, and faces in shade hatched, as in patents.
+    /// Returns a drawing in black lines without hidden lines, with shaded faces hatched, as in
+    /// patents.
     #[must_use]
     pub fn lines_patent() -> Self {
         Self::Lines(LinesFile {
@@ -130,7 +132,7 @@ impl StyleFile {
         })
     }
 
-    /// White lines on blue paper, with the line types and widths of ISO 128.
+    /// Returns a drawing in white lines on blue paper, with the line types and widths of ISO 128.
     #[must_use]
     pub fn lines_blueprint() -> Self {
         Self::Lines(LinesFile {
@@ -143,7 +145,7 @@ impl StyleFile {
         })
     }
 
-    /// Lines as drawn by hand with a pencil, with hidden ones removed.
+    /// Returns a drawing in lines that look hand-drawn in pencil, without hidden lines.
     #[must_use]
     pub fn lines_sketch() -> Self {
         Self::Lines(LinesFile {
@@ -154,8 +156,8 @@ impl StyleFile {
         })
     }
 
-    /// The style with the ISO 128 line group that suits a picture of this size in pixels, if it
-    /// uses a line group: 0.25 mm below 300 pixels, 0.35 mm below 600.
+    /// Returns the style with the ISO 128 line group that suits a picture of this size in pixels,
+    /// if it uses a line group: 0.25 mm below 300 pixels, 0.35 mm below 600.
     #[must_use]
     pub fn with_fitting_lines(self, size: (u32, u32)) -> Self {
         let (width, height) = size;
@@ -177,8 +179,8 @@ impl StyleFile {
         }
     }
 
-    /// The style without hidden lines, if it is a line drawing: a section shows the inside, and
-    /// hidden edges would only confuse (ISO 128-3).
+    /// Returns the style without hidden lines, if it is a line drawing. A section shows the inside,
+    /// where hidden lines would only confuse the reader (ISO 128-3).
     #[must_use]
     pub fn without_hidden_lines(self) -> Self {
         match self {
@@ -200,13 +202,13 @@ scene_struct! {
         pub samples: u32 = 4,
         /// The bits of each channel in a PNG: 8 or 16. Default: 8.
         pub bits: u32 = 8,
-        /// The exposure in stops: each doubles all light. Default: 0; automatic for a model without
-        /// a scene file whose own lights are too bright.
+        /// The exposure in stops: each stop doubles all light. Default: 0; automatic if there is no
+        /// scene file and the model's lights are too bright.
         pub exposure_ev: Option<Finite> = None,
         /// The tone mapping curve, which brings bright light into the range of the picture.
         /// Default: `None`; `Neutral` for a model with lights but without a scene file.
         pub tone_mapping: Option<ToneMapping> = None,
-        /// The maximum number of samples of anisotropic texture filtering, from 1 to 8: with 1,
+        /// The maximum number of samples for anisotropic texture filtering, from 1 to 8. With 1,
         /// surfaces at grazing angles are blurred; with more, they are sharp. Default: 4.
         pub max_anisotropy: u32 = 4,
         /// The size of the models' points in pixels, from 1 to 256; glTF does not define it. Line

@@ -5,7 +5,7 @@ use crate::number::{Fraction, NonNegative};
 use crate::schema::{scene_enum, scene_struct};
 
 scene_struct! {
-    /// A material override. Each given field replaces the field of the model's material, along with
+    /// A material override. Each field that is set replaces the field of the model's material and
     /// its texture; the others are unchanged. If a material has several overrides, later ones win.
     pub struct MaterialFile as "Material" {
         /// The materials to override. Default: `All`.
@@ -15,28 +15,28 @@ scene_struct! {
         /// The base color's alpha, from 0 to 1; it takes effect with `Blend` and `Mask`. Default:
         /// as in the model.
         pub alpha: Option<Fraction> = None,
-        /// 0 for dielectrics, 1 for metals. If it or `roughness` is given, their shared texture is
-        /// dropped. Default: as in the model.
+        /// 0 for dielectrics, 1 for metals. If `metallic` or `roughness` is set, their shared
+        /// texture is dropped. Default: as in the model.
         pub metallic: Option<Fraction> = None,
-        /// 0 for mirrors, 1 for chalk. Default: as in the model.
+        /// The roughness: 0 for mirrors, 1 for chalk. Default: as in the model.
         pub roughness: Option<Fraction> = None,
         /// The color of the emitted light. Default: as in the model.
         pub emissive: Option<Color> = None,
         /// A factor for the emitted light. Default: as in the model; 1 with `emissive`.
         pub emissive_strength: Option<NonNegative> = None,
-        /// The meaning of alpha. Default: as in the model.
+        /// The interpretation of alpha. Default: as in the model.
         pub alpha_mode: Option<AlphaModeFile> = None,
         /// Whether back faces are also shown. Default: as in the model.
         pub double_sided: Option<bool> = None,
         /// Whether the base color is shown without lighting. Default: as in the model.
         pub unlit: Option<bool> = None,
-        /// Whether textures are kept, and multiplied by the given values. Default: false.
+        /// Whether textures are kept and multiplied by the values of this override. Default: false.
         pub keep_textures: bool = false,
     }
 }
 
 scene_enum! {
-    /// A choice of materials of a model.
+    /// A selection of a model's materials.
     #[derive(Eq)]
     pub enum MaterialsFile as "Materials" {
         /// All materials, including the one for surfaces without a material.
@@ -49,7 +49,7 @@ scene_enum! {
 }
 
 scene_enum! {
-    /// The meaning of alpha.
+    /// The interpretation of alpha.
     #[derive(Copy)]
     pub enum AlphaModeFile as "AlphaMode" {
         /// Alpha is ignored.

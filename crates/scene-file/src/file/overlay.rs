@@ -1,4 +1,4 @@
-//! Overlays in a scene file: explanations drawn over the picture.
+//! Overlays in a scene file: annotations drawn over the picture.
 
 use super::camera::CameraFile;
 use crate::color::Color;
@@ -6,9 +6,9 @@ use crate::number::{Finite, LabelSize, Positive, Triple};
 use crate::schema::scene_enum;
 
 scene_enum! {
-    /// An explanation drawn over the picture.
+    /// An annotation drawn over the picture.
     pub enum OverlayFile as "Overlay" {
-        /// The axes of the world.
+        /// The world axes.
         Axes {
             /// Their length. Default: chosen to suit the models.
             length: Option<Positive>,
@@ -33,8 +33,9 @@ scene_enum! {
             /// The text, a single line, drawn with strokes as on drawings.
             text: String,
             /// The offset from the point to the nearest corner of the text, in pixels to the right
-            /// and down; with a 0, to the middle of its nearest side. Text that would leave the
-            /// picture is moved. Default: (5, -5); (24, -24) with a leader line.
+            /// and down; if one of them is 0, to the middle of the nearest side. Text that would
+            /// extend beyond the picture is moved inside. Default: (5, -5); (24, -24) with a leader
+            /// line.
             offset: Option<(Finite, Finite)>,
             /// The color. Default: dark, or light on a dark background.
             color: Option<Color>,

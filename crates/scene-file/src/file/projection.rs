@@ -9,12 +9,13 @@ scene_enum! {
     /// A projection.
     ///
     /// The variants from `Multiview` on are the classical projections. Each fits its window around
-    /// the models and, unless the view says otherwise, shows their front.
+    /// the models and, unless the view specifies a direction, shows their front.
     pub enum ProjectionFile as "Projection" {
-        /// Perspective, with the eye in front of the image's center unless the lens is shifted.
-        /// Give at most one field of view.
+        /// Perspective, with the eye in front of the image's center unless the lens is shifted. Set
+        /// at most one field of view.
         Perspective {
-            /// The vertical field of view in degrees. Default: 35, if no other is given.
+            /// The vertical field of view in degrees. Default: 35, if no other field of view is
+            /// set.
             fov_y_degrees: Option<FieldOfView>,
             /// The horizontal field of view in degrees. Default: from the vertical one and the
             /// aspect ratio of the image.
@@ -31,7 +32,7 @@ scene_enum! {
             /// The distance of the far plane. Default: just behind the models.
             far: Option<Positive>,
         },
-        /// Orthographic: parallel, perpendicular to the image. Give the height of the window, all
+        /// Orthographic: parallel, perpendicular to the image. Set the height of the window, all
         /// four of its borders, or neither.
         Orthographic {
             /// The height of the view volume in scene units. Default: from the framing.
@@ -65,8 +66,8 @@ scene_enum! {
             far: Option<Positive>,
         },
         /// The frustum of the WebGL lesson (createFrustum): its apex is straight behind the
-        /// window's center, in the plane of the eye. Its picture differs from that with `Frustum`,
-        /// unless the window's center is on the line of sight.
+        /// window's center, in the plane of the eye. Its picture differs from the picture of
+        /// `Frustum` unless the window's center is on the line of sight.
         ApexMovedFrustum {
             /// The window's left border.
             left: Finite,
@@ -94,8 +95,9 @@ scene_enum! {
             cy: Option<Finite>,
             /// The skew: the entry of K that makes the column depend on the row. Default: 0.
             skew: Finite = Finite::ZERO,
-            /// Columns and rows of the pictures that the numbers apply to. The image may be larger
-            /// or smaller, but must have the same aspect ratio. Default: the size of the image.
+            /// The width and height in pixels of the pictures that these numbers apply to. The
+            /// image may be larger or smaller but must have the same aspect ratio. Default: the
+            /// size of the image.
             size: Option<(u32, u32)>,
             /// The origin of the pixel coordinates. Default: `Integer`.
             pixel_centers: PixelCenters = PixelCenters::Integer,
@@ -108,8 +110,8 @@ scene_enum! {
         Multiview(PrincipalView),
         /// Isometric: orthographic, all three axes foreshortened equally.
         Isometric,
-        /// Dimetric: orthographic, x and y at full length and z at half, the 42°/7° of engineering
-        /// drawing.
+        /// Dimetric: orthographic, x and y at full length and z at half, the 42°/7° projection of
+        /// engineering drawing.
         Dimetric,
         /// Trimetric: orthographic, each axis foreshortened by a different factor.
         Trimetric,
@@ -152,7 +154,8 @@ scene_enum! {
             /// The vanishing point of lines in depth. Default: slightly to the right of and above
             /// the center.
             at: (Finite, Finite) = point(0.35, 0.45),
-            /// The eye's distance from the picture, in half heights of it. Default: 3.
+            /// The eye's distance from the picture, in units of half the picture's height. Default:
+            /// 3.
             distance: Positive = Positive::constant(3.0),
         },
         /// Two-point perspective, with verticals parallel to the picture plane. Picture coordinates
@@ -191,7 +194,7 @@ scene_enum! {
 }
 
 impl ProjectionFile {
-    /// Perspective with all defaults.
+    /// Returns a perspective with all defaults.
     pub const PERSPECTIVE: Self = Self::Perspective {
         fov_y_degrees: None,
         fov_x_degrees: None,
@@ -200,7 +203,7 @@ impl ProjectionFile {
         near: None,
         far: None,
     };
-    /// Orthographic with all defaults.
+    /// Returns an orthographic projection with all defaults.
     pub const ORTHOGRAPHIC: Self = Self::Orthographic {
         height: None,
         left: None,
@@ -211,37 +214,37 @@ impl ProjectionFile {
         far: None,
     };
 
-    /// Cavalier with all defaults.
+    /// Returns a cavalier projection with all defaults.
     #[must_use]
     pub const fn cavalier() -> Self {
         Self::Cavalier { angle_degrees: HALF_RIGHT_ANGLE }
     }
 
-    /// Cabinet with all defaults.
+    /// Returns a cabinet projection with all defaults.
     #[must_use]
     pub const fn cabinet() -> Self {
         Self::Cabinet { angle_degrees: HALF_RIGHT_ANGLE }
     }
 
-    /// Military with all defaults.
+    /// Returns a military projection with all defaults.
     #[must_use]
     pub const fn military() -> Self {
         Self::Military { rotation_degrees: HALF_RIGHT_ANGLE, height: NonNegative::ONE }
     }
 
-    /// One-point perspective with all defaults.
+    /// Returns a one-point perspective with all defaults.
     #[must_use]
     pub const fn one_point() -> Self {
         Self::OnePoint { at: point(0.35, 0.45), distance: Positive::constant(3.0) }
     }
 
-    /// Two-point perspective with all defaults.
+    /// Returns a two-point perspective with all defaults.
     #[must_use]
     pub const fn two_point() -> Self {
         Self::TwoPoint { x: point(-3.2, 0.4), z: point(2.4, 0.4), fraction: Finite::constant(0.57) }
     }
 
-    /// Three-point perspective with all defaults.
+    /// Returns a three-point perspective with all defaults.
     #[must_use]
     pub const fn three_point() -> Self {
         Self::ThreePoint { x: point(-3.2, 1.2), y: point(0.1, -5.0), z: point(2.4, 1.2) }
@@ -267,7 +270,7 @@ pub(super) const NO_SHIFT: (Finite, Finite) = point(0.0, 0.0);
 /// 45 degrees, the usual direction of depth in oblique drawings.
 const HALF_RIGHT_ANGLE: Finite = Finite::constant(45.0);
 
-/// A point in picture coordinates.
+/// Returns a point in picture coordinates.
 const fn point(x: f64, y: f64) -> (Finite, Finite) {
     (Finite::constant(x), Finite::constant(y))
 }

@@ -7,10 +7,10 @@ scene_struct! {
     /// A section plane that cuts the models open. Line drawings and sheets show the section; other
     /// styles show the models whole.
     pub struct SectionFile as "Section" {
-        /// A point on the plane, in the world. Default: the origin.
+        /// A point on the plane, in world space. Default: the origin.
         pub point: Triple = Triple::ZERO,
-        /// The direction of the half that is removed, perpendicular to the plane; its length does
-        /// not matter, but must not be 0.
+        /// The plane's normal, which points into the half that is removed. Its length does not
+        /// matter but must not be 0.
         pub normal: Triple,
         /// The names of nodes, such as shafts, bolts and ribs, that no section cuts. They and their
         /// descendants are drawn whole, without hatching. `*` matches any characters. The lists of
@@ -20,8 +20,8 @@ scene_struct! {
 }
 
 impl SectionFile {
-    /// The section through a point that removes the half in a direction; `None` if a number is not
-    /// finite or the direction is 0.
+    /// Creates the section through a point that removes the half in a direction; returns `None` if
+    /// a number is not finite or the direction is 0.
     #[must_use]
     pub fn new(point: [f64; 3], normal: [f64; 3]) -> Option<Self> {
         let is_finite = point.iter().chain(&normal).all(|number| number.is_finite());

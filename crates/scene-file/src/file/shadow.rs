@@ -7,18 +7,18 @@ scene_enum! {
     /// Whether a light casts shadows, and how soft they are. Only directional, point and spot
     /// lights can cast them.
     ///
-    /// Masked materials cast the shadow of their opaque parts; blended and transmissive ones cast
-    /// none.
+    /// Masked materials cast the shadow of their opaque parts; blended and transmissive materials
+    /// cast none.
     #[derive(Copy)]
     pub enum ShadowsFile as "Shadows" {
         /// No shadows.
         Off,
         /// From a shadow map: a depth image of the scene as seen from the light.
         On {
-            /// The texels along the map's longer side, from 64 to 8192. Details finer than a texel
-            /// cast no shadow; each texel takes 12 bytes. A point light has six such maps, each
-            /// covering 90°. All point lights together have at most 67 million texels; beyond that,
-            /// their maps shrink. Default: 2048.
+            /// The number of texels along the map's longer side, from 64 to 8192. Details finer
+            /// than a texel cast no shadow; each texel takes 12 bytes. A point light has six such
+            /// maps, each covering 90°. All point lights together have at most 67 million texels;
+            /// beyond that, their maps shrink. Default: 2048.
             size: Option<u32>,
             /// The angle that the light subtends, in degrees from 0 to 30. Shadows get softer with
             /// distance from the object that casts them; 0 makes them all sharp. Default: 0.53,
@@ -29,6 +29,6 @@ scene_enum! {
 }
 
 impl ShadowsFile {
-    /// Shadows with all defaults.
+    /// Returns shadows with all defaults.
     pub const DEFAULT: Self = Self::On { size: None, softness_degrees: None };
 }

@@ -15,8 +15,8 @@ scene_struct! {
     pub struct SheetFile as "Sheet" {
         /// The paper size. Default: A3.
         pub paper: PaperSize = PaperSize::A3,
-        /// The orientation of the paper. Default: the one that makes the views larger; if they are
-        /// equal, portrait for A4, A5 and Letter, landscape for all others.
+        /// The orientation of the paper. Default: the one that makes the views larger. If both make
+        /// them equally large, portrait for A4, A5 and Letter and landscape for all others.
         pub orientation: Option<PageOrientation> = None,
         /// The arrangement of the views. Default: first angle.
         pub projection_angle: SheetAngle = SheetAngle::First,
@@ -27,7 +27,7 @@ scene_struct! {
         /// STL. With inches or feet, dimensions are in inches, otherwise in millimeters.
         pub unit: Option<LengthUnit> = None,
         /// The view beside the front view. Default: from the left in first angle, from the right in
-        /// third angle; the other one if only that faces a section.
+        /// third angle; the opposite one if only that one faces a section.
         pub side_view: Option<SideView> = None,
         /// The fourth view. Default: isometric.
         pub axonometric_view: AxonometricView = AxonometricView::Isometric,
@@ -40,15 +40,15 @@ scene_struct! {
         /// The width of wide lines in millimeters, an ISO 128 line group. Default: from the scene's
         /// line style if that is in millimeters, otherwise chosen to suit the paper.
         pub width: Option<Positive> = None,
-        /// The dimensions: `true` for the overall ones, `false` for none, or a list such as
+        /// The dimensions: `true` for the overall dimensions, `false` for none, or a list such as
         /// `[Overall, Length(from: Node(name: "lid"), to: Point((0, 0, 0)))]`. Default: true.
         pub dimensions: DimensionsFile = DimensionsFile::overall(),
         /// Whether circles and the axes of round parts have center lines: ISO 128 chain lines. A
-        /// circle is an edge of at least eight equal parts, with at least half a turn present.
+        /// circle is an edge of at least eight equal parts that covers at least half a turn.
         /// Default: false.
         pub center_lines: bool = false,
-        /// Whether symmetric models have a line of symmetry in views along the plane of symmetry
-        /// where it is vertical or horizontal: ISO 128 chain lines. Default: false.
+        /// Whether symmetric models have a line of symmetry, an ISO 128 chain line, in views along
+        /// the plane of symmetry that show it vertical or horizontal. Default: false.
         pub symmetry_lines: bool = false,
         /// The title. Default: the models' names.
         pub title: String = String::new(),
@@ -58,26 +58,27 @@ scene_struct! {
         pub date: String = String::new(),
         /// The drawing number. Default: the field is omitted.
         pub number: String = String::new(),
-        /// Whether a list counts identical parts of the models: their nodes with meshes. It goes on
-        /// the page of the assembly, otherwise on separate pages. Default: false.
+        /// Whether the sheet has a parts list, which counts identical parts of the models: their
+        /// nodes with meshes. The list goes on the assembly page if there is one, otherwise on
+        /// separate pages. Default: false.
         pub parts_list: bool = false,
         /// Whether a page shows the assembly in the axonometric view, with each item's list number
         /// in a balloon. Default: false.
         pub balloons: bool = false,
-        /// The exploded view on the page of the assembly, with or without balloons. Default: the
-        /// parts stay in place.
+        /// The exploded view on the assembly page, with or without balloons. Default: the parts
+        /// stay in place.
         pub exploded: Option<ExplodedFile> = None,
         /// Whether each item in the list has a separate page with its principal views. Default:
         /// false.
         pub part_sheets: bool = false,
         /// The densities for computing the masses in the list. Default: none, and no masses.
         pub densities: Vec<DensityFile> = Vec::new(),
-        /// Views in addition to the usual ones or instead of them, and ways to show them. A list
-        /// with a `View` names all views; otherwise the front, top, side and axonometric views are
-        /// included as well. Default: none.
+        /// Views in addition to the standard views or instead of them, and ways to show them. If
+        /// the list contains a `View`, it must name all views; otherwise the sheet also has the
+        /// front, top, side and axonometric views. Default: none.
         pub views: Vec<SheetViewFile> = Vec::new(),
-        /// The second line of the title. With it, an owner, a document type, an approver or a
-        /// revision, the title block has all fields of ISO 7200. Default: none.
+        /// The second line of the title. If it, an owner, a document type, an approver or a
+        /// revision is set, the title block has all fields of ISO 7200. Default: none.
         pub supplementary_title: String = String::new(),
         /// The legal owner, such as a company. Default: none.
         pub owner: String = String::new(),
@@ -91,7 +92,7 @@ scene_struct! {
         pub sheet_number: Option<(u32, u32)> = None,
         /// The language of the title block's field names. Default: English.
         pub language: TitleBlockLanguage = TitleBlockLanguage::English,
-        /// The path of a custom title block, an SVG file with fields such as {title} in its texts,
+        /// The path of a custom title block, an SVG file with fields such as {title} in its text,
         /// in the scene's folder or below it. Default: the built-in title block.
         pub title_block: Option<String> = None,
         /// The border around the drawing area. Default: a plain line.
@@ -100,8 +101,8 @@ scene_struct! {
         /// feet, otherwise millimeters.
         pub dimension_unit: Option<DimensionUnit> = None,
         /// The maximum number of decimals in lengths, from 0 to 6; trailing zeros are omitted.
-        /// Default: 2 in millimeters and none from one meter on, 3 in inches, sixteenths in feet
-        /// and inches.
+        /// Default: 2 in millimeters, but 0 from one meter up; 3 in inches; sixteenths of an inch
+        /// in feet and inches.
         pub decimals: Option<u32> = None,
         /// The decimal separator. Default: a point.
         pub decimal_mark: DecimalMark = DecimalMark::Point,

@@ -7,25 +7,25 @@ use camera::NamedView;
 scene_enum! {
     /// A view of a drawing sheet, or a way to show one.
     ///
-    /// Views along the axes are arranged around the front view, all others where the sheet is free;
-    /// `at` sets a view's position. Points and lengths of the models are in world space, those on
-    /// paper in millimeters.
+    /// Views along the axes are arranged around the front view, all others where there is room;
+    /// `at` sets a view's position. Points and lengths on the models are in world space, positions
+    /// on paper in millimeters.
     pub enum SheetViewFile as "SheetView" {
-        /// The view from a named direction. Views of this kind in a list are all the views of the
-        /// sheet.
+        /// The view from a named direction. If a list contains views of this kind, they replace the
+        /// standard views.
         View {
             /// The direction.
             from: NamedView,
             /// The center of the view on the paper, in millimeters from the left and from the top.
-            /// Default: according to the projection angle, or where the sheet is free.
+            /// Default: according to the projection angle, or where there is room.
             at: Option<(Finite, Finite)>,
-            /// The scale, paper to object; the view then goes where the sheet is free. Default: the
-            /// sheet's scale.
+            /// The scale, paper to object; if it is set, the view is placed where there is room.
+            /// Default: the sheet's scale.
             scale: Option<(u32, u32)>,
             /// The text below the view. Default: none.
             caption: Option<String>,
         },
-        /// An enlarged part of a view, in which a circle with a letter marks it.
+        /// An enlarged part of a view, marked there by a circle with a letter.
         Detail {
             /// The view.
             of: NamedView,
@@ -37,32 +37,33 @@ scene_enum! {
             /// largest that fits.
             scale: Option<(u32, u32)>,
             /// The center of the detail on the paper, in millimeters from the left and from the
-            /// top. Default: where the sheet is free.
+            /// top. Default: where there is room.
             at: Option<(Finite, Finite)>,
             /// The text below the detail. Default: its letter and scale, such as `B (5:1)`.
             caption: Option<String>,
         },
-        /// A section along parallel planes joined by steps. The view facing the planes shows it, or
-        /// a separate view; the view along the steps has its line.
+        /// A section along parallel planes joined by steps. It is shown in the view that faces the
+        /// planes, or in a separate view. The view along the steps has its cutting line.
         Stepped {
             /// The direction of the removed side, perpendicular to the planes.
             normal: Triple,
-            /// The corners of the line: two for each plane, with a step from one plane to the next.
+            /// The corners of the cutting line: two for each plane, with a step from one plane to
+            /// the next.
             corners: Vec<Triple>,
             /// The center of the section on the paper, in millimeters from the left and from the
-            /// top. Default: where the sheet is free, or in the view that faces the planes.
+            /// top. Default: where there is room, or in the view that faces the planes.
             at: Option<(Finite, Finite)>,
             /// The scale, paper to object. Default: the sheet's scale.
             scale: Option<(u32, u32)>,
-            /// A text below the section, in addition to its letters. Default: none.
+            /// The text below the section, in addition to its letters. Default: none.
             caption: Option<String>,
         },
-        /// A view straight onto an oblique face, with an arrow and a letter in another view.
+        /// A view perpendicular to an oblique face, with an arrow and a letter in another view.
         Auxiliary {
-            /// The direction that the face points in.
+            /// The direction in which the face points.
             normal: Triple,
             /// The center of the view on the paper, in millimeters from the left and from the top.
-            /// Default: where the sheet is free.
+            /// Default: where there is room.
             at: Option<(Finite, Finite)>,
             /// The scale, paper to object. Default: the sheet's scale, or smaller.
             scale: Option<(u32, u32)>,
@@ -73,12 +74,13 @@ scene_enum! {
         HalfSection {
             /// The view.
             of: NamedView,
-            /// A point on the center line and the plane. Default: the center of the models.
+            /// A point on both the center line and the cutting plane. Default: the center of the
+            /// models.
             point: Option<Triple>,
             /// The half that is cut, as seen on the paper. Default: `Right`.
             side: ViewSideFile = ViewSideFile::Right,
         },
-        /// Cuts a view around a point, up to a freehand line.
+        /// Cuts a view open around a point, out to a freehand line.
         LocalSection {
             /// The view.
             of: NamedView,

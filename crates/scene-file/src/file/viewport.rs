@@ -9,12 +9,13 @@ use crate::number::{Fraction, Positive};
 use crate::schema::{named_enum, scene_enum, scene_struct};
 
 scene_struct! {
-    /// A rectangle of the picture that shows another view, drawn over the picture. Pictures, frame
-    /// sequences and line drawings have it; passes and `explain` use only the scene's own camera.
-    /// In SVG and PDF all views are line drawings. Either `at` or `pixels` gives its position.
+    /// A rectangle of the picture that shows another view, drawn over the picture. It appears in
+    /// pictures, frame sequences and line drawings; passes and `explain` use only the scene's
+    /// camera. In SVG and PDF all views are line drawings. Set its position with either `at` or
+    /// `pixels`.
     pub struct ViewportFile as "Viewport" {
         /// Left, top, width and height as fractions of the picture without its caption, from 0 to
-        /// 1, from its upper left corner. Default: from `pixels`.
+        /// 1, measured from the upper left corner. Default: from `pixels`.
         pub at: Option<(Fraction, Fraction, Fraction, Fraction)> = None,
         /// Left, top, width and height in pixels, above the caption of the picture. Default: from
         /// `at`.
@@ -36,11 +37,11 @@ scene_struct! {
 }
 
 named_enum! {
-    /// The scale of the parallel views among the viewports: orthographic, axonometric and oblique
-    /// ones. Perspectives have no scale and are not changed.
+    /// The scale of the viewports with parallel projections: orthographic, axonometric and oblique.
+    /// Perspective views have no scale and are unchanged.
     pub enum ViewportsScale as "ViewportsScale" {
         Individual = "Each view fills its rectangle.",
-        Shared = "All parallel views share the largest scale at which every view fits, so that lengths can be compared: of lines parallel to the picture plane, or in an oblique projection to its front. No view may set the size of its window.",
+        Shared = "All parallel views share the largest scale at which every view fits, so that lengths can be compared. This holds for lines parallel to the picture plane or, in an oblique projection, to the front. No view may set the size of its window.",
     }
 }
 

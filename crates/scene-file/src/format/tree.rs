@@ -19,7 +19,8 @@ pub(super) struct FormatItem {
 /// A value, perhaps with the name of its field.
 #[derive(Debug, Default)]
 pub(super) struct Element {
-    /// Text and groups in turn: `path: "a.glb"` is one text, `view: LookAt(…)` a text and a group.
+    /// Alternating text and groups: `path: "a.glb"` is one run of text, `view: LookAt(…)` a run of
+    /// text and a group.
     pub(super) parts: Vec<Part>,
 }
 
@@ -45,7 +46,7 @@ pub(super) struct FormatGroup {
     pub(super) items: Vec<FormatItem>,
 }
 
-/// The items of the whole text.
+/// Groups the tokens of the whole text into items.
 pub(super) fn group_tokens(tokens: &[Token<'_>]) -> Vec<FormatItem> {
     ItemReader { tokens, at: 0 }.read_items()
 }
@@ -66,12 +67,12 @@ impl<'a> ItemReader<'a> {
         Some(token)
     }
 
-    /// The next token.
+    /// Returns the next token.
     fn peek(&self) -> Option<Token<'a>> {
         self.tokens.get(self.at).copied()
     }
 
-    /// The items up to the closing bracket, or to the end.
+    /// Reads the items up to the closing bracket, or to the end.
     ///
     /// Comments inside an element become items before it, and the first of them takes over the
     /// blank line. Commas are dropped; the writer puts one after each element.
@@ -128,7 +129,7 @@ impl<'a> ItemReader<'a> {
         next.is_none_or(|next| next.line_breaks_before > 0 || next.kind == TokenKind::Close)
     }
 
-    /// An element, and the line comments inside it.
+    /// Reads an element and the line comments inside it.
     ///
     /// Line comments cannot stay inside, since the element may end up on one line; they are
     /// returned to be put before it. Block comments stay among the words.
@@ -138,7 +139,7 @@ impl<'a> ItemReader<'a> {
         while let Some(token) = self.peek() {
             match token.kind {
                 TokenKind::Comma | TokenKind::Close => break,
-                // After the element, before its comma or instead of it.
+                // A comment after the element, before its comma or without one.
                 TokenKind::LineComment if self.is_element_end() => break,
                 TokenKind::LineComment => comments.push(token.text),
                 TokenKind::Colon => text.push_str(": "),
@@ -168,7 +169,7 @@ impl<'a> ItemReader<'a> {
         rest.is_none_or(|token| matches!(token.kind, TokenKind::Comma | TokenKind::Close))
     }
 
-    /// The group after an opening bracket.
+    /// Reads the group after an opening bracket.
     ///
     /// The first token after the bracket decides whether the group stays open: if a line break
     /// precedes it, every item gets a line. An empty group is always closed.

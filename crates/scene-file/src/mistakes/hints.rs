@@ -1,5 +1,5 @@
-//! Tests: following the hints. Each row has a field as a newcomer writes it, words from the help,
-//! and the field as the help says to write it; that must be a valid scene.
+//! Tests that follow the hints. Each row has a field as a newcomer writes it, words from the help,
+//! and the field rewritten as the help says, which must give a valid scene.
 
 use super::{mistakes, scene_with};
 use crate::parse_scene;
@@ -142,9 +142,9 @@ const FIELDS: &[(&str, &str, &str)] = &[
     ),
 ];
 
-/// Materials written as colors or as a map are answered with a list of them.
+/// Materials written as colors or as a map get a hint with a list of them.
 #[test]
-fn materials_of_other_forms_are_answered_with_a_list() {
+fn materials_in_other_forms_get_a_hint_with_a_list() {
     for (field, followed) in [
         ("material: \"red\"", "materials: [(base_color: \"red\")]"),
         ("material: Color(\"red\")", "materials: [(base_color: \"red\")]"),
@@ -161,15 +161,15 @@ fn materials_of_other_forms_are_answered_with_a_list() {
     }
 }
 
-/// A field without the brackets of a scene is one mistake.
+/// A field outside the scene's brackets is a single mistake.
 #[test]
-fn fields_without_a_scene_around_them_are_one_mistake() {
+fn fields_outside_a_scene_are_one_mistake() {
     let found = mistakes("models: [\"a.glb\"]");
     assert!(matches!(found.as_slice(), [(told, ..)] if told == "this is not a scene"), "{found:?}");
 }
 
 #[test]
-fn a_hint_that_is_followed_makes_a_scene() {
+fn following_a_hint_gives_a_valid_scene() {
     let mut wrong = Vec::new();
     for &(field, help, followed) in FIELDS {
         let found = mistakes(&scene_with(field));
@@ -182,9 +182,9 @@ fn a_hint_that_is_followed_makes_a_scene() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// A model written without its list and brackets is answered with both at once.
+/// A model written without its list and brackets gets one hint with both.
 #[test]
-fn models_without_lists_are_answered_with_the_whole_field() {
+fn models_without_lists_get_a_hint_with_the_whole_field() {
     for scene in ["(model: \"a.glb\")", "(models: \"a.glb\")", "(model: (path: \"a.glb\"))"] {
         let found = mistakes(scene);
         let full = "models: [(path: \"a.glb\")]";
@@ -211,7 +211,7 @@ fn a_missing_list_does_not_hide_the_mistakes_in_its_element() {
 
 /// The contents of a misspelled field are checked in the same run.
 #[test]
-fn a_misspelt_field_does_not_hide_the_mistakes_in_its_value() {
+fn a_misspelled_field_does_not_hide_the_mistakes_in_its_value() {
     let path = "camera_path: (points: [(t: 0, eye: (0, 2, 5), target: (0, 1, 0)), (time: 4, eye: (5, 2, 0), target: (0, 1, 0))])";
     let helps: Vec<String> = mistakes(&scene_with(path)).into_iter().map(|one| one.2).collect();
     assert_eq!(helps, ["did you mean `keys`?", "did you mean `time`?"]);
@@ -225,7 +225,7 @@ fn a_misspelt_field_does_not_hide_the_mistakes_in_its_value() {
 }
 
 #[test]
-fn grids_along_two_axes_are_answered_with_three() {
+fn grids_along_two_axes_get_a_hint_with_three() {
     let grid = "(models: [(path: \"a.glb\", instances: Grid(count: (20, 10), step: (2, 3)))])";
     let found = mistakes(grid);
     let is_known = |(told, part): (&(String, (usize, usize), String), &str)| told.2.contains(part);

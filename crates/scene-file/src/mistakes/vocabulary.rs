@@ -116,7 +116,7 @@ const MODEL_WORDS: [(&str, &str); 20] = [
 ];
 
 #[test]
-fn words_of_other_programs_are_answered_with_ours() {
+fn words_from_other_programs_get_our_names() {
     let in_scene = WORDS.map(|(field, expected)| (scene_with(field), expected));
     let in_model = MODEL_WORDS
         .map(|(field, expected)| (format!("(models: [(path: \"a.glb\", {field})])"), expected));
@@ -131,9 +131,9 @@ fn words_of_other_programs_are_answered_with_ours() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Any field of the language, put in the scene's own brackets, is answered with its position.
+/// Any field of the language that is written directly in the scene gets a hint with its position.
 #[test]
-fn fields_in_the_wrong_place_are_answered_with_their_place() {
+fn misplaced_fields_get_a_hint_with_their_position() {
     use crate::reference::{FieldEntry, Shape, all_types};
     let types = all_types();
     let fields_of = |shape: Shape| -> Vec<&'static FieldEntry> {
@@ -146,7 +146,7 @@ fn fields_in_the_wrong_place_are_answered_with_their_place() {
     let own: Vec<&str> = fields_of(types[0].shape).iter().map(|field| field.name).collect();
     let mut wrong = Vec::new();
     for field in types.iter().flat_map(|entry| fields_of(entry.shape)) {
-        // A width and a height here are taken for the picture's.
+        // Here, `width` and `height` are taken to mean the picture's.
         if own.contains(&field.name) || ["width", "height"].contains(&field.name) {
             continue;
         }
@@ -161,7 +161,7 @@ fn fields_in_the_wrong_place_are_answered_with_their_place() {
 
 /// Variants need the brackets that `ron` expects; the message shows them.
 #[test]
-fn variants_with_fields_have_brackets_and_others_have_none() {
+fn only_variants_with_fields_have_brackets() {
     for (field, help) in [
         ("style: Lines", "write Lines()"),
         ("style: Shaded()", "write Shaded"),

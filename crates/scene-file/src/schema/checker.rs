@@ -1,6 +1,6 @@
 //! Checks a syntax tree against the declarations, after `ron` failed to read it.
 //!
-//! Every mistake is reported once, where it is. Its consequences are not reported: a value that
+//! Every mistake is reported once, at its position. Its consequences are not reported: a value that
 //! could not be read has no other mistakes, and a field with a misspelled name is not also missing.
 //!
 //! ```text
@@ -59,14 +59,14 @@ impl<'a> Checker<'a> {
     pub(crate) fn new(source: &'a str) -> Self {
         Self { source, ..Self::default() }
     }
-    /// The mistakes, in the order in which they were found.
+    /// Returns the mistakes, in the order in which they were found.
     pub(crate) fn finish(self) -> Vec<Mistake> {
         self.mistakes
     }
 
     /// Reports every mistake in a value of this type.
     ///
-    /// Stops after one mistake more than the maximum that is reported.
+    /// Stops one mistake after the maximum number that is reported.
     pub(crate) fn check(&mut self, node: &Node<'_>, value_type: &ValueType) {
         if self.is_full() {
             return;
@@ -87,7 +87,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether there are more mistakes than the maximum that is reported.
+    /// Whether there are more mistakes than the maximum number that is reported.
     fn is_full(&self) -> bool {
         self.mistakes.len() > MAX_MISTAKES
     }
@@ -123,8 +123,8 @@ impl<'a> Checker<'a> {
         self.report(node.span.clone(), message, help);
     }
 
-    /// The path of the value that is being read, such as `camera.view.LookAt.eye[1]`; empty for the
-    /// whole scene.
+    /// Returns the path of the value that is being read, such as `camera.view.LookAt.eye[1]`; empty
+    /// for the whole scene.
     ///
     /// Indices have no point before them; names have one, except for the first.
     fn path_text(&self) -> String {
@@ -138,13 +138,13 @@ impl<'a> Checker<'a> {
         }
         text
     }
-    /// The path of the value, quoted, as messages begin; empty for the whole scene.
+    /// Returns the quoted path of the value, with which messages begin; empty for the whole scene.
     fn path_prefix(&self) -> String {
         let path = self.path_text();
         if path.is_empty() { path } else { format!("`{path}`: ") }
     }
 
-    /// The name of the scene field that the value belongs to.
+    /// Returns the name of the scene field that the value belongs to.
     pub(crate) fn top_level_field(&self) -> Option<&'static str> {
         match self.path.first() {
             Some(Segment::Field(name)) => Some(name),
@@ -152,7 +152,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The name of the innermost field around the value.
+    /// Returns the name of the innermost field around the value.
     pub(crate) fn innermost_field(&self) -> Option<&'static str> {
         self.path.iter().rev().find_map(|segment| match segment {
             Segment::Field(name) => Some(*name),
@@ -160,7 +160,7 @@ impl<'a> Checker<'a> {
         })
     }
 
-    /// A value as messages name it: quoted up to 40 bytes, beyond that its kind in words.
+    /// Describes a value for messages: quoted if it has at most 40 bytes, otherwise by its kind.
     fn describe(&self, node: &Node<'_>) -> String {
         let text = &self.source[node.span.clone()];
         match &node.kind {
@@ -175,10 +175,10 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The fields in the brackets of a struct; `None` if the node is not a struct.
+    /// Finds the fields in the brackets of a struct; returns `None` if the node is not a struct.
     ///
     /// The type's name before the bracket is optional: `Camera(…)` and `(…)` are equivalent. A word
-    /// that is a variant of another type gets a hint where it belongs.
+    /// that is a variant of another type gets a hint about where it belongs.
     fn find_struct<'n>(
         &mut self,
         node: &'n Node<'n>,
@@ -236,8 +236,8 @@ impl<'a> Checker<'a> {
     ///
     /// A missing field is reported only if every unknown field has another explanation: `modles:
     /// […]` is reported as a misspelling of `models`, and `models` is not reported as missing too.
-    /// If no item has a name, the brackets hold a tuple or a list, and one message says so. Linear
-    /// in items × declared fields, which number at most a few dozen.
+    /// If no item has a name, the brackets hold a tuple or a list, and one message says so. The
+    /// time is linear in items × declared fields, of which there are at most a few dozen.
     fn find_fields<'n>(
         &mut self,
         group: &'n Group<'n>,
@@ -299,7 +299,7 @@ impl<'a> Checker<'a> {
         Some(found)
     }
 
-    /// Reports an unnamed value among fields, such as the 5 of `fov_y_degrees: 3,5`.
+    /// Reports an unnamed value among fields, such as the 5 in `fov_y_degrees: 3,5`.
     fn report_keyless_item(
         &mut self,
         item: &SyntaxItem<'_>,
@@ -357,7 +357,8 @@ impl<'a> Checker<'a> {
         sibling
     }
 
-    /// The variant that a node names, and its brackets; `None` if there is no such variant.
+    /// Finds the variant that a node names, and its brackets; returns `None` if there is no such
+    /// variant.
     fn find_variant<'n>(
         &mut self,
         node: &'n Node<'n>,
@@ -377,7 +378,7 @@ impl<'a> Checker<'a> {
         };
         let variant = variants.iter().find(|variant| variant.name == name);
         if variant.is_none() {
-            let message = format!("unexpected `{name}` for `{}`", entry.name);
+            let message = format!("`{name}` is not a valid `{}`", entry.name);
             let mut help = suggest_variant(entry, name, self.top_level_field()).help;
             let is_meant =
                 |variant: &&VariantEntry| help == format!("did you mean `{}`?", variant.name);
@@ -400,7 +401,7 @@ impl<'a> Checker<'a> {
     /// Reports a value that does not name a variant, with the variant that holds such values, if
     /// any.
     ///
-    /// A string where a color's variant is expected gets the hint `Color("…")`, a number the
+    /// A string where a color's variant is expected gets the hint `Color("…")`; a number gets the
     /// variant that contains a number.
     fn report_no_variant(
         &mut self,
@@ -461,14 +462,14 @@ fn has_named_parts(node: &Node<'_>) -> bool {
         .is_some_and(|group| group.open == '[' || group.items.iter().any(|item| item.key.is_some()))
 }
 
-/// A file name in quotation marks: a string with an extension.
+/// Returns a file name in quotation marks: a string with an extension.
 fn named_file<'n>(node: &'n Node<'_>) -> Option<&'n str> {
     let NodeKind::String(text) = &node.kind else { return None };
     let name: &str = text.trim_matches('"');
     Path::new(name).extension().map(|_| name)
 }
 
-/// A file path in the first variant that has one: `File(path: "studio.hdr")`.
+/// Writes a file path in the first variant that has one: `File(path: "studio.hdr")`.
 fn variant_with_path(name: &str, variants: &[VariantEntry]) -> Option<String> {
     let has_path = |variant: &&VariantEntry| {
         variant.fields.iter().any(|field| field.name == "path" && !field.is_optional)
@@ -477,7 +478,7 @@ fn variant_with_path(name: &str, variants: &[VariantEntry]) -> Option<String> {
     Some(format!("{}(path: \"{name}\")", variant.name))
 }
 
-/// The first variant that has all fields of a group without a variant name.
+/// Returns the first variant that has all fields of a group without a variant name.
 fn variant_with_fields(group: &Group<'_>, variants: &[VariantEntry]) -> Option<&'static str> {
     let has = |variant: &VariantEntry, item: &SyntaxItem<'_>| {
         let is_key =
@@ -491,7 +492,7 @@ fn variant_with_fields(group: &Group<'_>, variants: &[VariantEntry]) -> Option<&
 
 /// The owner of fields: a struct, or a variant of an enum.
 struct Owner {
-    /// The owner in the search: `Model`, or `View::LookAt`.
+    /// The name in searches: `Model`, or `View::LookAt`.
     key: String,
     /// The name in messages: `Model`, or `LookAt`.
     shown: &'static str,

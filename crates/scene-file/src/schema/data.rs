@@ -26,27 +26,27 @@ pub(crate) enum Data {
     List(Vec<Self>),
     /// A fixed number of values. Reading treats it as a list.
     Tuple(Vec<Self>),
-    /// Named fields in declaration order, without those that have default values.
+    /// Named fields in declaration order, except those with default values.
     Fields(Vec<(&'static str, Self)>),
     /// A variant with its fields or its value.
     Variant(&'static str, Box<Self>),
 }
 
 impl Data {
-    /// A variant with the value after its name.
+    /// Creates a variant with the value after its name.
     pub(crate) fn of_variant(name: &'static str, value: Self) -> Self {
         Self::Variant(name, Box::new(value))
     }
 
-    /// Three numbers in round brackets.
+    /// Creates three numbers in round brackets.
     pub(crate) fn of_three_numbers(numbers: [f64; 3]) -> Self {
         Self::Tuple(numbers.map(Self::Number).to_vec())
     }
 
-    /// The value of a field, or its default if it was omitted.
+    /// Returns the value of a field, or its default if it was omitted.
     ///
     /// # Errors
-    /// If there is neither: the field is required.
+    /// Returns an error if there is neither, because the field is required.
     pub(crate) fn field<T: SceneValue>(
         &self,
         name: &str,
@@ -58,13 +58,13 @@ impl Data {
         }
     }
 
-    /// The value that is written in a field.
+    /// Returns the value that is written in a field.
     pub(super) fn field_data(&self, name: &str) -> Option<&Self> {
         let Self::Fields(fields) = self else { return None };
         fields.iter().find(|(field, _)| *field == name).map(|(_, value)| value)
     }
 
-    /// The name of a variant, and the value after it.
+    /// Returns the name of a variant and the value after it.
     pub(crate) fn variant(&self) -> (&str, &Self) {
         match self {
             Self::Variant(name, value) => (name, value),
@@ -72,7 +72,7 @@ impl Data {
         }
     }
 
-    /// The number; `None` for any other value.
+    /// Returns the number, or `None` for any other value.
     pub(crate) fn number(&self) -> Option<f64> {
         match self {
             Self::Number(number) => Some(*number),
@@ -80,7 +80,7 @@ impl Data {
         }
     }
 
-    /// The elements; `None` for any other value.
+    /// Returns the elements, or `None` for any other value.
     pub(super) fn list(&self) -> Option<&[Self]> {
         match self {
             Self::List(elements) | Self::Tuple(elements) => Some(elements),
@@ -97,12 +97,12 @@ impl Data {
     }
 }
 
-/// The message about a missing required field.
+/// Returns the message about a missing required field.
 pub(super) fn missing_field(name: &str) -> String {
     format!("missing field `{name}`")
 }
 
-/// Adds a field to the written ones, unless it has the value that it would have if omitted.
+/// Adds a field to the fields to write, unless it has the value that it would have if omitted.
 pub(crate) fn push_field<T: SceneValue>(
     fields: &mut Vec<(&'static str, Data)>,
     name: &'static str,

@@ -4,8 +4,8 @@
 //!  scene_struct!  struct with fields           scene_enum!   variants with fields or a value
 //!  named_enum!    variants without anything    named_values! names for a foreign enum
 //! ```
-//! Doc comments are matched as `#[doc = "…"]` literals: rustdoc and the printed reference show one
-//! text. The macros expand to absolute `$crate` paths, since they are used in many modules.
+//! Doc comments are matched as `#[doc = "…"]` literals: rustdoc and the printed reference show the
+//! same text. The macros expand to absolute `$crate` paths, since they are used in many modules.
 
 /// Joins the lines of a doc comment into paragraphs, with a blank line between them. Links to Rust
 /// items mean nothing to scene authors: ``[`a`](b)`` and ``[`a`]`` become `` `a` ``.
@@ -19,8 +19,8 @@ pub(super) fn join_doc_lines(doc: &str) -> String {
 
 /// Replaces links to Rust items with the text they show.
 ///
-/// Quadratic time is impossible: every link is passed once. An unclosed bracket ends the search,
-/// and the rest of the text is kept without it.
+/// The time is linear, because every link is visited once. An unclosed bracket is dropped and ends
+/// the search; the rest of the text is kept.
 fn remove_links(text: &str) -> String {
     let mut plain = String::new();
     let mut rest = text;
@@ -234,8 +234,8 @@ macro_rules! field_entry {
     };
 }
 
-/// Builds the function that returns the value of an omitted field: the given default, or the type's
-/// own answer, which is `None` for required fields.
+/// Builds the function that returns the value of an omitted field: the declared default, or else
+/// the type's, which is `None` for required fields.
 macro_rules! default_value {
     ($type:ty = $default:expr) => {
         || -> Option<$type> { Some($default) }

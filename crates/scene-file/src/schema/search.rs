@@ -22,8 +22,8 @@ struct Site {
     variants: Vec<&'static str>,
 }
 
-/// The fields that `is_meant` accepts, each with its owner such as `Model` or `View::LookAt`,
-/// starting with those nearest to the scene's own brackets.
+/// Returns the fields that `is_meant` accepts, each with its owner such as `Model` or
+/// `View::LookAt`, starting with those nearest to the scene's own brackets.
 ///
 /// Each call walks the whole language, a few hundred fields, so it runs only for messages.
 pub(crate) fn fields_where(
@@ -38,16 +38,17 @@ pub(crate) fn fields_where(
     found
 }
 
-/// The enums with a variant of this name, starting with those nearest to the scene's own brackets.
+/// Returns the enums with a variant of this name, starting with those nearest to the scene's own
+/// brackets.
 pub(crate) fn variants_where(root: &'static TypeEntry, name: &str) -> Vec<String> {
     let has_it = sites(root).into_iter().filter(|site| site.variants.contains(&name));
     has_it.map(|site| site.owner).collect()
 }
 
-/// An example of a field or variant in a scene, from the scene's own brackets on: `camera: (view:
-/// LookAt(eye: …))`. `None` if the owner has none with this name.
+/// Returns an example of a field or variant in a scene, starting at the scene's own brackets:
+/// `camera: (view: LookAt(eye: …))`. It is `None` if the owner has nothing with this name.
 ///
-/// A variant with fields or a value is shown with brackets, `Frame(…)`, any other without.
+/// A variant with fields or a value is shown with brackets, `Frame(…)`, any other without them.
 pub(crate) fn example_of(root: &'static TypeEntry, owner: &str, name: &str) -> Option<String> {
     let sites = sites(root);
     let site = sites.iter().find(|site| site.owner == owner)?;
@@ -63,10 +64,10 @@ pub(crate) fn example_of(root: &'static TypeEntry, owner: &str, name: &str) -> O
     Some(format!("{before}{name}{}{after}", if has_brackets { "(…)" } else { "" }))
 }
 
-/// Every struct and variant with brackets, each at its shortest path from the root.
+/// Returns every struct and variant with brackets, each at its shortest path from the root.
 ///
 /// Breadth first, with one queue per depth. A type is entered once, at its first and therefore
-/// shortest path; this also ends cycles, if types should ever refer to each other.
+/// shortest path; this would also stop cycles if types ever referred to each other.
 fn sites(root: &'static TypeEntry) -> Vec<Site> {
     let mut sites: Vec<Site> = Vec::new();
     let mut seen = BTreeSet::new();
@@ -86,8 +87,8 @@ fn sites(root: &'static TypeEntry) -> Vec<Site> {
 
 /// Adds the struct or enum of an entry with its variants, and queues the types of their fields.
 ///
-/// Variants come before their enum in the list. A variant without brackets has no separate site,
-/// and is found as a word of the enum.
+/// Variants come before their enum in the list. A variant without brackets has no separate site; it
+/// is found as a word of the enum.
 fn add_sites(
     entry: &'static TypeEntry,
     before: &str,
@@ -138,7 +139,7 @@ fn add_sites(
     sites.push(own);
 }
 
-/// The declared types of a field's value, each with the text around its brackets.
+/// Returns the declared types of a field's value, each with the text around its brackets.
 ///
 /// A list opens a square bracket, a struct a round one; an enum opens a bracket after the variant's
 /// name. Types in tuples are not followed, because they are numbers.

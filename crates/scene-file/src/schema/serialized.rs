@@ -249,8 +249,8 @@ impl<'de> Visitor<'de> for VariantVisitor {
     }
 }
 
-/// Reads the index of a name that a function lists: from the name, or from the index itself in
-/// formats without names. Unknown ones are refused.
+/// Reads the index of a name in the list that a function returns: from the name, or from the index
+/// itself in formats without names. Unknown names and indices are rejected.
 struct NameOf<'a>(&'static str, &'a dyn Fn(usize) -> Option<&'static str>);
 
 impl<'de> DeserializeSeed<'de> for NameOf<'_> {
@@ -386,7 +386,7 @@ impl Serialize for ListElement<'_> {
 struct WrittenField<'a>(&'a FieldEntry, &'a Data);
 
 impl<'a> WrittenField<'a> {
-    /// The value of each field, if it is written.
+    /// Returns the value of each field, or `None` if it is not written.
     fn all(entries: &'a [FieldEntry], fields: &'a Data) -> Vec<Option<Self>> {
         let field = |entry: &'a FieldEntry| Some(Self(entry, fields.field_data(entry.name)?));
         entries.iter().map(field).collect()
@@ -407,7 +407,7 @@ impl Serialize for WrittenField<'_> {
 
 /// Writes a number, without a decimal point if it is whole, as people write it.
 fn write_number<S: Serializer>(number: f64, serializer: S) -> Result<S::Ok, S::Error> {
-    // Up to 2⁵³ all whole numbers are exact. Negative zero has no integer.
+    // Up to 2⁵³ all whole numbers are exact. Negative zero has no integer form.
     let is_small = number.abs() <= 9_007_199_254_740_992.0;
     let is_whole = is_small && number == libm::trunc(number);
     if serializer.is_human_readable() && is_whole && !(number == 0.0 && number.is_sign_negative()) {

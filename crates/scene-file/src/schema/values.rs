@@ -13,7 +13,7 @@ macro_rules! checked_number {
         pub struct $name(f64);
 
         impl $name {
-            /// The number itself.
+            /// Returns the number itself.
             #[must_use]
             pub const fn value(self) -> f64 {
                 self.0
@@ -74,7 +74,7 @@ macro_rules! checked_number {
 
 pub(crate) use checked_number;
 
-/// Implements [`SceneValue`] for a Rust type: its name in words, its mistakes, its form.
+/// Implements [`SceneValue`] for a Rust type: its name in words, its checks and its form.
 macro_rules! plain_value {
     ($type:ty, $words:literal, $check:ident, $form:ident($value:ident) => $read:expr, $write:expr) => {
         impl SceneValue for $type {

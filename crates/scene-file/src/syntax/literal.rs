@@ -1,9 +1,9 @@
 //! Values of RON literals: string escapes and number notations.
 
-/// The text of a string literal: `"…"` with escapes, or `r"…"` and `r#"…"#` verbatim.
+/// Decodes a string literal: `"…"` with escapes, or `r"…"` and `r#"…"#` verbatim.
 ///
 /// # Errors
-/// The byte offset of the first invalid escape in the literal, and the reason.
+/// Returns the byte offset of the first invalid escape in the literal, and the reason.
 pub(crate) fn unescape_string(literal: &str) -> Result<String, (usize, &'static str)> {
     if let Some(raw) = literal.strip_prefix('r') {
         let hashes = raw.chars().take_while(|c| *c == '#').count();
@@ -24,9 +24,9 @@ pub(crate) fn unescape_string(literal: &str) -> Result<String, (usize, &'static 
     Ok(text)
 }
 
-/// The character of an escape, read after its backslash, and the length of the escape. A backslash
-/// at the end of a line continues the string after the blanks of the next line and gives no
-/// character.
+/// Decodes an escape after its backslash; returns the character and the length of the escape. A
+/// backslash at the end of a line continues the string after the next line's indentation and gives
+/// no character.
 fn unescape_character(rest: &str) -> Result<(Option<char>, usize), &'static str> {
     let single = |character: char| Ok((Some(character), 1));
     match rest.chars().next() {
@@ -68,11 +68,11 @@ pub(crate) fn looks_like_number(word: &str) -> bool {
     digits.starts_with(|c: char| c.is_ascii_digit()) || matches!(unsigned, "inf" | "NaN")
 }
 
-/// The value of a number: decimal with an optional point and exponent, `inf` or `NaN`; digits may
-/// be grouped with underscores. `None` if the word is not a number.
+/// Parses a number: decimal with an optional point and exponent, `inf` or `NaN`. Digits may be
+/// grouped with underscores. Returns `None` if the word is not a number.
 pub(crate) fn parse_number(word: &str) -> Option<f64> {
     let digits = without_underscores(word)?;
-    // `f64::from_str` takes "infinity" and "nan" in any case; RON does not.
+    // `f64::from_str` accepts "infinity" and "nan" in any case; RON does not.
     let is_decimal = digits.starts_with(|c: char| "+-.0123456789".contains(c));
     let is_named = matches!(digits.trim_start_matches(['+', '-']), "inf" | "NaN");
     let has_letters = digits.contains(|c: char| c.is_ascii_alphabetic() && !matches!(c, 'e' | 'E'));
@@ -80,8 +80,8 @@ pub(crate) fn parse_number(word: &str) -> Option<f64> {
     digits.parse().ok().filter(|_| plausible)
 }
 
-/// The value of a whole number without point and exponent; `None` if the word is not one, or is out
-/// of range.
+/// Parses a whole number without a point or an exponent; returns `None` if the word is not one or
+/// is out of range.
 pub(crate) fn parse_integer(word: &str) -> Option<i128> {
     let (negative, unsigned) = match word.strip_prefix('-') {
         Some(rest) => (true, rest),
@@ -97,7 +97,7 @@ pub(crate) fn parse_integer(word: &str) -> Option<i128> {
     Some(if negative { -value } else { value })
 }
 
-/// The digits without the underscores that group them; `None` if an underscore comes first.
+/// Removes the underscores that group digits; returns `None` if an underscore comes first.
 fn without_underscores(digits: &str) -> Option<String> {
     (!digits.starts_with('_')).then(|| digits.replace('_', ""))
 }

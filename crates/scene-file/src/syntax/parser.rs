@@ -7,10 +7,10 @@
 //!        | "[" items "]"                item  = [ word ":" ] value
 //! ```
 //!
-//! Resynchronization: a missing comma or colon is reported and supplied; a token that cannot begin
-//! a value is reported and skipped up to the next comma or bracket; a closing bracket of the wrong
-//! kind closes the innermost group if the brackets that follow are then balanced, and otherwise the
-//! group that it fits.
+//! Resynchronization: a missing comma or colon is reported and supplied. A token that cannot begin
+//! a value is reported, and the text up to the next comma or bracket is skipped. A closing bracket
+//! of the wrong kind closes the innermost group if the brackets that follow are then balanced,
+//! otherwise the group that it matches.
 
 use super::literal::looks_like_number;
 use super::tokens::{Token, TokenKind, tokenize};
@@ -30,7 +30,7 @@ pub(crate) struct SyntaxTree<'a> {
     /// The value of the file; `None` if there is none.
     pub(crate) root: Option<Node<'a>>,
     pub(crate) errors: Vec<Mistake>,
-    /// Whether brackets or strings are so wrong that the tree may have values in the wrong group.
+    /// Whether brackets or strings are so broken that the tree may have values in the wrong group.
     pub(crate) is_unreliable: bool,
 }
 
@@ -65,17 +65,17 @@ struct Parser<'a> {
     open: Vec<Token<'a>>,
     errors: Vec<Mistake>,
     is_unreliable: bool,
-    /// The position where a group ended without its bracket, so that no comma is missing there.
+    /// The position where a group ended without its bracket, and where no comma is expected.
     resumed_at: Option<usize>,
 }
 
 impl<'a> Parser<'a> {
-    /// The next token.
+    /// Returns the next token.
     fn peek(&self) -> Option<Token<'a>> {
         self.tokens.get(self.at).copied()
     }
 
-    /// The kind of the next token.
+    /// Returns the kind of the next token.
     fn peek_kind(&self) -> Option<TokenKind> {
         self.peek().map(|token| token.kind)
     }
@@ -111,8 +111,8 @@ impl<'a> Parser<'a> {
             }
             _ => return,
         };
-        // If a quotation mark is missing, the strings after it are inside out: the first that spans
-        // lines is the likely one.
+        // If a quotation mark is missing, the strings after it are inside out. The first one that
+        // spans lines is the likely culprit.
         let spans_lines =
             |token: &&Token<'_>| token.kind == TokenKind::Word && token.text.contains('\n');
         let first = tokens.iter().find(spans_lines).filter(|_| last.kind == TokenKind::Word);
@@ -123,7 +123,7 @@ impl<'a> Parser<'a> {
         self.tokens.retain(|token| token.start < start);
     }
 
-    /// The value of the whole file.
+    /// Parses the value of the whole file.
     fn parse_file(&mut self) -> Option<Node<'a>> {
         if self.tokens.is_empty() {
             if self.errors.is_empty() {
@@ -143,7 +143,7 @@ impl<'a> Parser<'a> {
         Some(root)
     }
 
-    /// A value; `Invalid`, and an error, if none begins here.
+    /// Parses a value. If none begins here, reports an error and returns `Invalid`.
     fn parse_value(&mut self) -> Node<'a> {
         let Some(token) = self.peek() else {
             let end = self.source.trim_end().len();
@@ -174,7 +174,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// A number; a ratio such as 1:20 is reported, with the form to write instead.
+    /// Parses a number. A ratio such as 1:20 is reported with the form to write instead.
     fn parse_ratio(&mut self, number: Token<'a>) -> Node<'a> {
         let colon = self.peek_kind() == Some(TokenKind::Colon);
         let second = self.tokens.get(self.at + 1).copied();
@@ -199,7 +199,7 @@ impl<'a> Parser<'a> {
         Node { span: token.start..token.start, kind: NodeKind::Invalid }
     }
 
-    /// The items between brackets.
+    /// Parses the items between brackets.
     fn parse_group(&mut self, name: Option<Key<'a>>) -> Node<'a> {
         let Some(open) = self.peek() else { return self.parse_value() };
         let start = name.as_ref().map_or(open.start, |name| name.span.start);
@@ -210,7 +210,7 @@ impl<'a> Parser<'a> {
             self.report(
                 open.span(),
                 "the brackets are nested too deeply",
-                "no scene field needs that many",
+                "no scene field needs that many levels",
             );
             self.is_unreliable = true;
             self.at = self.tokens.len();
@@ -281,7 +281,7 @@ impl<'a> Parser<'a> {
         });
         self.report(
             end - last..end,
-            "the file ends too early",
+            "unexpected end of file",
             help.unwrap_or(SAMPLE_SCENE.to_owned()),
         );
     }
@@ -295,7 +295,7 @@ impl<'a> Parser<'a> {
         in_list && is_identifier(token.text) && next == Some(TokenKind::Colon)
     }
 
-    /// An element, or a field with its key.
+    /// Parses an element, or a field with its key.
     fn parse_item(&mut self) -> SyntaxItem<'a> {
         let (first, second) = (self.peek(), self.tokens.get(self.at + 1).copied());
         let (Some(first), Some(second)) = (first, second) else {
@@ -373,7 +373,7 @@ fn is_terminated_string(word: &str) -> bool {
 }
 
 /// Whether a word can be a name. Hyphens are accepted, so that `camera-position` is an unknown
-/// field and not a syntax error.
+/// field rather than a syntax error.
 fn is_identifier(word: &str) -> bool {
     let word = word.strip_prefix("r#").unwrap_or(word);
     word.starts_with(|c: char| c.is_alphabetic() || c == '_')
@@ -381,7 +381,7 @@ fn is_identifier(word: &str) -> bool {
         && !matches!(word, "inf" | "NaN")
 }
 
-/// The bracket that closes `open`.
+/// Returns the bracket that closes `open`.
 fn closing(open: &str) -> &'static str {
     match open {
         "[" => "]",
@@ -390,7 +390,7 @@ fn closing(open: &str) -> &'static str {
     }
 }
 
-/// The line of a byte of the text, from 1.
+/// Returns the line of a byte in the text, counted from 1.
 fn line_of(source: &str, at: usize) -> usize {
     source[..at].matches('\n').count() + 1
 }

@@ -19,7 +19,7 @@ pub(crate) struct Token<'a> {
 }
 
 impl Token<'_> {
-    /// The bytes of the token in the text.
+    /// Returns the bytes of the token in the text.
     pub(crate) fn span(&self) -> Range<usize> {
         self.start..self.start + self.text.len()
     }
@@ -60,7 +60,7 @@ pub(crate) fn tokenize(text: &str) -> Vec<Token<'_>> {
     }
 }
 
-/// The kind and the length of the token at the beginning of `rest`.
+/// Returns the kind and the length of the token at the beginning of `rest`.
 fn token_kind_and_length(rest: &str, first: char) -> (TokenKind, usize) {
     let line = || rest.find('\n').unwrap_or(rest.len());
     match first {
@@ -83,8 +83,8 @@ fn token_kind_and_length(rest: &str, first: char) -> (TokenKind, usize) {
     }
 }
 
-/// The length of an identifier, a number, or text that is neither. A single slash belongs to the
-/// word, as in an unquoted path.
+/// Returns the length of an identifier, a number, or text that is neither. A single slash is part
+/// of the word, as in an unquoted path.
 fn word_length(rest: &str, first: char) -> usize {
     let ends = |(at, c): (usize, char)| {
         c.is_whitespace()
@@ -95,7 +95,7 @@ fn word_length(rest: &str, first: char) -> usize {
     length.max(first.len_utf8())
 }
 
-/// The length of a string after its first quotation mark.
+/// Returns the length of a string after its first quotation mark.
 fn string_length(rest: &str) -> usize {
     let mut escaped = false;
     let end = rest.find(|c| {
@@ -106,7 +106,8 @@ fn string_length(rest: &str) -> usize {
     end.map_or(rest.len(), |end| end + 1)
 }
 
-/// The length of a raw string, `r"…"` or `r#"…"#`; `None` if `rest` begins with none.
+/// Returns the length of a raw string, `r"…"` or `r#"…"#`, or `None` if `rest` does not begin with
+/// one.
 fn raw_string_length(rest: &str) -> Option<usize> {
     let hashes = rest.strip_prefix('r')?.chars().take_while(|c| *c == '#').count();
     let body = rest[1 + hashes..].strip_prefix('"')?;
@@ -114,7 +115,7 @@ fn raw_string_length(rest: &str) -> Option<usize> {
     Some(body.find(&end).map_or(rest.len(), |at| 2 + hashes + at + end.len()))
 }
 
-/// The length of a block comment, including the comments nested in it.
+/// Returns the length of a block comment, including the comments nested in it.
 fn block_comment_length(rest: &str) -> usize {
     let mut depth = 0_usize;
     let mut at = 0;

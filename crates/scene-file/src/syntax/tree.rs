@@ -43,7 +43,7 @@ pub(crate) struct SyntaxItem<'a> {
 }
 
 impl SyntaxItem<'_> {
-    /// The bytes of the key and the value.
+    /// Returns the bytes of the key and the value.
     pub(crate) fn span(&self) -> Range<usize> {
         self.key.as_ref().map_or(self.value.span.start, |key| key.span.start)..self.value.span.end
     }
@@ -57,7 +57,7 @@ pub(crate) struct Key<'a> {
 }
 
 impl<'a> Node<'a> {
-    /// The items in brackets, if the value has any.
+    /// Returns the items in brackets, if the value has any.
     pub(crate) fn group(&self) -> Option<&Group<'a>> {
         match &self.kind {
             NodeKind::Group(group) => Some(group),

@@ -199,8 +199,8 @@ const ADVICE: &[(&str, &str, &str)] = &[
     ("Style", "hatched hatching hatch engraving", "write style: Lines(face_fill: Hatching)"),
 ];
 
-/// Advice for a word in `owner` that is not one of its fields; `word` is lowercase and without
-/// separators.
+/// Returns advice for a word in `owner` that is not one of its fields; `word` is lowercase and
+/// without separators.
 pub(super) fn find_advice(owner: &str, word: &str) -> Option<&'static str> {
     let is_meant = |(place, words, _): &&(&str, &str, &str)| {
         *place == owner && words.split(' ').any(|known| known == word)
@@ -214,9 +214,9 @@ mod tests {
     use crate::file::StyleFile;
     use crate::parse_scene;
 
-    /// The flag's names for line drawings lead to the same style in a scene.
+    /// The names that `--style` has for line drawings lead to the same style in a scene.
     #[test]
-    fn advice_on_line_styles_is_what_the_flags_stand_for() {
+    fn advice_on_line_styles_matches_the_flags() {
         let mut checked = 0;
         for (name, style) in StyleFile::NAMED {
             let word: String = name.chars().filter(char::is_ascii_alphabetic).collect();

@@ -4,14 +4,15 @@ use super::picking::Picked;
 use glam::DVec3;
 use hidden_line::PickedFeature;
 
-/// Edges are not in one plane if the distance of their nearest points, as a fraction of the
-/// distance of their midpoints, is larger than this.
+/// Edges are not in one plane if the distance between their nearest points is more than this
+/// fraction of the distance between their midpoints.
 const SKEW: f64 = 1e-3;
 
 /// The error for a pair of picks, and a suggested fix.
 type Fault = (&'static str, &'static str);
 
-/// The vertex of the angle between two edges or two faces, and a point on each of its sides.
+/// Returns the vertex of the angle between two edges or two faces, and a point on each of its
+/// sides.
 pub(super) fn angle_points(from: &Picked, to: &Picked) -> Result<[DVec3; 3], Fault> {
     match (from, to) {
         (Picked::Edge(a), Picked::Edge(b)) => between_edges(a, b),
@@ -23,7 +24,7 @@ pub(super) fn angle_points(from: &Picked, to: &Picked) -> Result<[DVec3; 3], Fau
     }
 }
 
-/// The angle between two edges, toward the midpoint of each.
+/// Returns the angle between two edges, toward the midpoint of each.
 fn between_edges(a: &PickedFeature, b: &PickedFeature) -> Result<[DVec3; 3], Fault> {
     let [(p, u), (q, v)] = [a, b].map(|edge| (edge.middle.raw(), edge.direction.raw()));
     let normal = u.cross(v);
@@ -34,7 +35,7 @@ fn between_edges(a: &PickedFeature, b: &PickedFeature) -> Result<[DVec3; 3], Fau
     if apart > SKEW * p.distance(q) {
         return Err((
             "the edges are not in one plane",
-            "pick edges of one face, or give a vertex and two points",
+            "pick edges of one face, or specify a vertex and two points",
         ));
     }
     let vertex = p + u * ((q - p).cross(v).dot(normal) / normal.length_squared());
@@ -44,7 +45,8 @@ fn between_edges(a: &PickedFeature, b: &PickedFeature) -> Result<[DVec3; 3], Fau
     Ok([vertex, side(p, u), side(q, v)])
 }
 
-/// The angle between two faces, in the plane perpendicular to both through the center of the first.
+/// Returns the angle between two faces, in the plane perpendicular to both through the center of
+/// the first.
 fn between_faces(a: &PickedFeature, b: &PickedFeature) -> Result<[DVec3; 3], Fault> {
     let [(p, m), (q, n)] = [a, b].map(|face| (face.middle.raw(), face.direction.raw()));
     let axis = m.cross(n);

@@ -28,7 +28,7 @@ pub(super) enum Picked {
 }
 
 impl Picked {
-    /// The part as a point.
+    /// Returns the part as a point.
     pub(super) fn point(&self) -> DVec3 {
         match self {
             Self::Point(point) => *point,
@@ -36,7 +36,7 @@ impl Picked {
         }
     }
 
-    /// The part as named in messages.
+    /// Returns the name of the part in messages.
     pub(super) const fn noun(&self) -> &'static str {
         match self {
             Self::Point(_) => "the point",
@@ -45,8 +45,8 @@ impl Picked {
         }
     }
 
-    /// The nearest points of this part and another, on the line or plane that each represents;
-    /// `None` if those are not parallel.
+    /// Returns the nearest points of this part and another, on the line or plane that each
+    /// represents, or `None` if these are not parallel.
     pub(super) fn perpendicular_to(&self, other: &Self) -> Option<[DVec3; 2]> {
         let (a, b) = (self.point(), other.point());
         let direction = |feature: &PickedFeature| feature.direction.raw();
@@ -159,7 +159,7 @@ impl<'a> Picking<'a> {
         })
     }
 
-    /// The point of a position, and the objects in which to pick; `None` for all.
+    /// Returns the point of a position, and the objects in which to pick, or `None` for all.
     fn place(
         &self,
         place: &PlaceFile,
@@ -170,8 +170,8 @@ impl<'a> Picking<'a> {
             node.map(|name| self.objects(name, place.number, path, "node")).transpose()?;
         let point = match (place.near, place.fraction) {
             (Some(_), Some(_)) => {
-                let help = "give `near` in world space or `fraction` of a box, not both".to_owned();
-                let message = "`near` and `fraction` both give the point";
+                let help = "set `near` in world space or `fraction` of a box, not both".to_owned();
+                let message = "`near` and `fraction` both set the point";
                 return Err(self.origin.error_at(path, message, Some(help)));
             }
             (Some(near), None) => near.0.into(),
@@ -183,7 +183,7 @@ impl<'a> Picking<'a> {
         Ok((Point::from_raw(point), objects))
     }
 
-    /// The box around objects.
+    /// Returns the box around objects.
     fn bounds(
         &self,
         objects: Option<&[u32]>,
@@ -193,7 +193,7 @@ impl<'a> Picking<'a> {
         self.picker.bounds(objects).ok_or_else(nothing)
     }
 
-    /// The objects below the named node; the name is in the field at the end of a path.
+    /// Returns the objects below the named node; the name is in the field at the end of a path.
     fn objects(
         &self,
         name: &str,
@@ -220,7 +220,7 @@ impl<'a> Picking<'a> {
     }
 }
 
-/// A point in a box: the corner with the smallest coordinates is at 0, the largest at 1.
+/// Returns a point in a box: the corner with the smallest coordinates is at 0, the largest at 1.
 fn point_of_box(bounds: Bounds<World>, fraction: [f64; 3]) -> DVec3 {
     bounds.min().raw() + bounds.size().raw() * DVec3::from(fraction)
 }

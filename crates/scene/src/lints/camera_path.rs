@@ -1,4 +1,4 @@
-//! Lint for camera paths on which the picture turns over between keyframes.
+//! Lint for camera paths on which the picture flips between keyframes.
 
 use super::Lint;
 use crate::{CameraPath, Origin};
@@ -7,17 +7,17 @@ use scene_file::PathStep::{Field, Index};
 use scene_file::SceneFile;
 use scene_file::file::ViewFile;
 
-/// The number of steps in which the path between two keyframes is examined.
+/// The number of steps at which the path between two keyframes is examined.
 const STEPS: u32 = 64;
-/// A gaze this many times shorter than the longest one near it has passed through its target; two
-/// directions with a sine this small are parallel.
+/// A gaze whose length is less than this fraction of the longest one near it has passed through its
+/// target. Two directions are parallel if the sine of their angle is below it.
 const DEGENERATE: f64 = 1e-6;
 
-/// A path whose eye meets its target, or whose gaze becomes parallel to the view-up vector. The
-/// picture does not exist at that time, or it turns over from one frame to the next.
+/// Warns about a path whose eye meets its target, or whose gaze becomes parallel to the view-up
+/// vector. The picture does not exist at that time, or it flips from one frame to the next.
 ///
 /// The right-hand direction gaze × up vanishes at such a time and is reversed after it, so two
-/// samples with opposite right-hand directions enclose one.
+/// samples with opposite right-hand directions enclose such a time.
 pub(super) fn lint_camera_path(origin: &Origin, file: &SceneFile) -> Option<Lint> {
     let path = CameraPath::from_scene_file(origin, file).ok()??;
     let keys = &file.camera_path.as_ref()?.keys;

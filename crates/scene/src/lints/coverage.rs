@@ -1,15 +1,15 @@
-//! Lints for models that are hardly visible: specks in the picture.
+//! Lints for models that are barely visible: specks in the picture.
 
 use super::{Lint, Linter, VisibilitySurvey};
 use scene_file::PathStep::{Field, Index};
 
-/// Models are specks if their rectangle in the picture has both sides below this fraction of the
-/// picture's: less than a thousandth of its area.
+/// Models are specks if both sides of their rectangle in the picture are below this fraction of the
+/// picture's sides: less than a thousandth of its area.
 const LEAST_SIDE: f64 = 0.0316;
 /// One of several models is a speck if it is smaller than this in both directions, in pixels.
 const LEAST_PIXELS: f64 = 2.0;
 
-/// All models together are a speck in the picture; gives one warning at the camera.
+/// Warns, once and at the camera, if all models together are a speck in the picture.
 pub(super) fn lint_tiny_picture(adviser: &Linter<'_>) -> Option<Lint> {
     let whole = adviser.surveys.iter().fold(VisibilitySurvey::default(), VisibilitySurvey::merge);
     let [width, height] = whole.window_part()?;
@@ -25,7 +25,8 @@ pub(super) fn lint_tiny_picture(adviser: &Linter<'_>) -> Option<Lint> {
     Some(Lint { code: "tiny-picture", error })
 }
 
-/// Models of less than two pixels among others, such as one in meters beside one in millimeters.
+/// Warns about models of less than two pixels among others, such as one in meters next to one in
+/// millimeters.
 pub(super) fn lint_tiny_models(adviser: &Linter<'_>) -> Vec<Lint> {
     let models = adviser.survey_models();
     if models.len() < 2 {

@@ -10,7 +10,8 @@ use scene_file::file::{ProjectionFile, ViewFile};
 /// distance is inversely proportional to the near distance, so about two decimal digits are lost.
 const WASTEFUL_DEPTH_RATIO: f64 = 100.0;
 
-/// Models that are partly visible and are cut by the near or far plane within the window.
+/// Warns about models that are partly visible and are cut by the near or far plane within the
+/// window.
 ///
 /// Vertices that other planes also reject are not counted: the sides of the picture may cut off
 /// parts of a model, but depth planes rarely should.
@@ -39,11 +40,11 @@ pub(super) fn lint_depth_clipping(adviser: &Linter<'_>) -> Vec<Lint> {
     advice
 }
 
-/// A near plane of a perspective far in front of everything: it wastes depth on empty space, since
-/// most of its steps are just beyond the near plane (ZP-1).
+/// Warns about a near plane of a perspective far in front of everything. It wastes depth resolution
+/// on empty space, since most depth steps are just beyond the near plane (ZP-1).
 ///
-/// Gives only one warning per scene, with the distance of the nearest vertex. The suggested plane
-/// is 1% in front of that.
+/// There is only one warning per scene, with the distance of the nearest vertex. The suggested
+/// plane is 1% in front of that.
 pub(super) fn lint_depth_range(adviser: &Linter<'_>) -> Option<Lint> {
     let near = near_distance(adviser)?;
     let spans = adviser.surveys.iter().filter_map(super::VisibilitySurvey::depth_range);
@@ -60,7 +61,8 @@ pub(super) fn lint_depth_range(adviser: &Linter<'_>) -> Option<Lint> {
     Some(Lint { code: "wasteful-depth-range", error: fault })
 }
 
-/// The distance of the near plane, if the projection is a perspective that looks straight ahead.
+/// Returns the distance of the near plane, if the projection is a perspective that looks straight
+/// ahead.
 ///
 /// It is read from the matrix: on the near plane of the chapter's volume z_clip = w. With the rows
 /// (…, z, d) and (0, 0, −1, 0) and a point at distance n ahead, −z n + d = n, so n = d / (1 + z).
@@ -71,8 +73,8 @@ fn near_distance(adviser: &Linter<'_>) -> Option<f64> {
     (last == [0.0, 0.0, -1.0, 0.0]).then(|| depth / (1.0 + z))
 }
 
-/// The path of the value to underline: the plane's own field, the model's camera, or the whole
-/// camera if the planes are automatic.
+/// Returns the path of the value to underline: the plane's own field, the model's camera, or the
+/// whole camera if the planes are automatic.
 fn plane_path<'a>(adviser: &Linter<'_>, plane: &'a str) -> Vec<scene_file::PathStep<'a>> {
     let given = matches!(
         adviser.file.camera.projection,

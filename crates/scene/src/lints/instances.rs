@@ -4,9 +4,9 @@ use super::{Lint, Linter};
 use scene_file::PathStep::{Field, Index};
 use scene_file::file::InstancesFile;
 
-/// Instances of a model with the same transform, such as in a grid with a step of 0.
+/// Warns about instances of a model with the same transform, such as in a grid with a step of 0.
 ///
-/// Sorting finds equal neighboring transforms, in O(n log n) for n instances.
+/// Sorting makes equal transforms neighbors, in O(n log n) for n instances.
 pub(super) fn lint_coincident_instances(adviser: &Linter<'_>) -> Vec<Lint> {
     let mut first = 0;
     let mut advice = Vec::new();
@@ -16,7 +16,7 @@ pub(super) fn lint_coincident_instances(adviser: &Linter<'_>) -> Vec<Lint> {
         first = end;
         let mut transforms: Vec<[u64; 16]> = placed
             .iter()
-            // Adding 0 makes both zeros equal.
+            // Adding 0 turns negative zeros into positive ones.
             .map(|one| {
                 one.model_to_world.raw().to_cols_array().map(|entry| (entry + 0.0).to_bits())
             })
@@ -28,17 +28,16 @@ pub(super) fn lint_coincident_instances(adviser: &Linter<'_>) -> Vec<Lint> {
             continue;
         }
         let others = count - transforms.len();
-        let message = format!("{others} of {count} instances coincide with another one");
+        let message = format!("{others} of {count} instances coincide with another instance");
         let path = [Field("models"), Index(number), Field("instances"), Field("step")];
         let (path, help) = match &entry.instances {
             Some(InstancesFile::Grid { .. }) => {
-                (&path[..], "give `step` a distance along each axis whose count is more than 1")
+                (&path[..], "set a nonzero `step` along each axis whose count is more than 1")
             }
-            Some(InstancesFile::Circle { .. }) => (
-                &path[..3],
-                "give the circle a larger `radius`, and `sweep_degrees` of less than a full turn",
-            ),
-            _ => (&path[..3], "give each a different `translation`, or remove the duplicates"),
+            Some(InstancesFile::Circle { .. }) => {
+                (&path[..3], "set a larger `radius`, and `sweep_degrees` to less than a full turn")
+            }
+            _ => (&path[..3], "set a different `translation` for each, or remove the duplicates"),
         };
         let error = adviser.origin.error_at(path, message, Some(help.to_owned()));
         advice.push(Lint { code: "coincident-instances", error });

@@ -1,4 +1,4 @@
-//! Lints for valid numbers that were probably meant in another unit.
+//! Lints for valid numbers that were probably meant in a different unit.
 
 use super::Lint;
 use crate::Origin;
@@ -6,7 +6,7 @@ use scene_file::PathStep::{Field, Index};
 use scene_file::SceneFile;
 use scene_file::file::{LightFile, ProjectionFile};
 
-/// A field of view in degrees that would be ordinary in radians: below π.
+/// Warns about a field of view in degrees that would be ordinary in radians: below π.
 pub(super) fn lint_field_of_view(origin: &Origin, file: &SceneFile) -> Option<Lint> {
     let Some(ProjectionFile::Perspective { fov_y_degrees: Some(angle), .. }) =
         &file.camera.projection
@@ -25,7 +25,7 @@ pub(super) fn lint_field_of_view(origin: &Origin, file: &SceneFile) -> Option<Li
     Some(Lint { code: "narrow-field-of-view", error })
 }
 
-/// Light colors with numbers up to 255: light is linear, and white is (1, 1, 1).
+/// Warns about light colors with numbers up to 255: light is linear, and white is (1, 1, 1).
 pub(super) fn lint_light_colors(origin: &Origin, file: &SceneFile) -> Vec<Lint> {
     let lights = file.lights.iter().flatten().enumerate();
     let lint = |(number, light): (usize, &LightFile)| {

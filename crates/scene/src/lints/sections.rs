@@ -7,7 +7,7 @@ use scene_file::PathStep::{Field, Index};
 /// Distances up to this fraction of the models' diagonal count as touching.
 const TOUCHING: f64 = 1e-9;
 
-/// Sections that remove all models or touch none of them.
+/// Warns about sections that remove all models or touch none of them.
 ///
 /// The planes' normals point to the half that is retained, so negative distances are removed. Each
 /// plane is examined separately: planes that remove everything only in combination are not
@@ -46,7 +46,7 @@ pub(super) fn lint_idle_sections(adviser: &Linter<'_>) -> Vec<Lint> {
     advice
 }
 
-/// The smallest and largest signed distances of the points from a plane.
+/// Returns the smallest and largest signed distances of the points from a plane.
 fn distance_range(plane: &homog::Plane<World>, points: &[Point<World>]) -> (f64, f64) {
     points
         .iter()

@@ -7,8 +7,8 @@ use scene_file::PathStep::Field;
 use sheet::SheetWarning;
 use std::path::PathBuf;
 
-/// The warnings that `alberti sheet` would give about the layout of the scene's sheet, whose title
-/// block is in the scene's folder or an allowed one.
+/// Returns the warnings that `alberti sheet` would print about the layout of the scene's sheet,
+/// whose title block is in the scene's folder or an allowed folder.
 pub(super) fn lint_sheet(adviser: &Linter<'_>, allowed_folders: &[PathBuf]) -> Vec<Lint> {
     let Linter { origin, file, scene, .. } = *adviser;
     let Some(sheet_file) = &file.sheet else { return Vec::new() };

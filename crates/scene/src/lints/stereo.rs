@@ -1,4 +1,5 @@
-//! Lints for stereo pairs: eyes with the same picture, and eyes too far apart to fuse two.
+//! Lints for stereo pairs: eyes with the same picture, and eyes too far apart for their pictures to
+//! be fused.
 
 use super::{Lint, Linter};
 use homog::{Bounds, Point};
@@ -6,11 +7,12 @@ use scene_file::PathStep::Field;
 
 /// Positions in the two pictures are treated as equal if they differ by less than this many pixels.
 const LEAST_PARALLAX: f64 = 1.0;
-/// Eyes farther apart than this fraction of the distance to an object cannot fuse its images: they
-/// would see it from directions 14° apart. The rule of stereography is a thirtieth.
+/// Eyes farther apart than this fraction of the distance to an object cannot fuse its images,
+/// because they would see it from directions 14° apart. The rule in stereography is a thirtieth.
 const WIDEST_BASE: f64 = 0.25;
 
-/// A stereo pair whose parallax varies by less than a pixel over all vertices: a flat picture.
+/// Warns about a stereo pair whose parallax varies by less than a pixel over all vertices: a flat
+/// picture.
 ///
 /// The parallax of a point is the distance between its images in the two eyes' pictures. If it were
 /// the same for all points, the scene would be in front of or behind the screen, as flat as a card.
@@ -44,8 +46,8 @@ pub(super) fn lint_flat_stereo(adviser: &Linter<'_>) -> Option<Lint> {
     Some(Lint { code: "flat-stereo", error })
 }
 
-/// A stereo pair whose eyes are too far apart for the distance of the models, such as 65, meant as
-/// the 65 millimeters between human eyes, in a scene in meters.
+/// Warns about a stereo pair whose eyes are too far apart for the distance of the models, such as
+/// an eye distance of 65, meant as the 65 millimeters between human eyes, in a scene in meters.
 pub(super) fn lint_wide_stereo(adviser: &Linter<'_>) -> Option<Lint> {
     adviser.file.stereo.as_ref()?;
     let [left, right] = adviser.scene.insets.as_slice() else { return None };

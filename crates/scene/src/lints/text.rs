@@ -6,7 +6,7 @@ use crate::origin::Origin;
 use drawing::{LabelFault, Overlay, PointLabel, missing_glyph_warning};
 use scene_file::PathStep::{Field, Index};
 
-/// The lints for the texts in the scene's main view and in its viewports, each once.
+/// Returns the lints for text in the scene's main view and in its viewports, without duplicates.
 pub(super) fn lint_text(adviser: &Linter<'_>) -> Vec<Lint> {
     let Linter { origin, file, scene, .. } = *adviser;
     let mut lints = lint_view(origin, scene);
@@ -25,7 +25,7 @@ pub(super) fn lint_text(adviser: &Linter<'_>) -> Vec<Lint> {
     distinct
 }
 
-/// The lints for the texts in one view.
+/// Returns the lints for text in one view.
 fn lint_view(origin: &Origin, scene: &Scene) -> Vec<Lint> {
     let mut lints = Vec::new();
     for (number, overlay) in scene.overlays.iter().enumerate() {
@@ -37,7 +37,7 @@ fn lint_view(origin: &Origin, scene: &Scene) -> Vec<Lint> {
     lints
 }
 
-/// A label whose point is outside the picture.
+/// Warns about a label whose point is outside the picture.
 fn lint_label(origin: &Origin, scene: &Scene, number: usize, label: &PointLabel) -> Option<Lint> {
     let view_height = scene.image.view_size().y / f64::from(scene.image.height);
     let place = match label.fault(&scene.view_projection, view_height)? {
@@ -50,7 +50,8 @@ fn lint_label(origin: &Origin, scene: &Scene, number: usize, label: &PointLabel)
     Some(Lint { code: "label-not-visible", error: origin.error_at(&at, message, Some(help)) })
 }
 
-/// A text with characters missing from the stroke font: the numbered label, or the caption.
+/// Warns about text with characters missing from the stroke font: the label with this number, or
+/// the caption.
 fn lint_glyphs(origin: &Origin, text: &str, label: Option<usize>) -> Option<Lint> {
     let message = missing_glyph_warning(text)?.to_string();
     let at = match label {

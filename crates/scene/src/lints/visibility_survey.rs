@@ -24,18 +24,18 @@ const PROBE_DIRECTIONS: [DVec3; 3] = [
 pub(super) struct VisibilitySurvey {
     /// The number of points, lines and triangles.
     pub(super) total: usize,
-    /// The number with some part inside the view volume.
+    /// The number of primitives partly or wholly inside the view volume.
     pub(super) inside: usize,
-    /// The number wholly outside a plane, for each of the six.
+    /// The number of primitives wholly outside a plane, for each of the six planes.
     pub(super) outside: [usize; 6],
     /// Vertices that only the near plane keeps out of the picture, although they are in front of
     /// the eye.
     pub(super) before_near: usize,
-    /// Vertices that only the far plane keeps out.
+    /// Vertices that only the far plane keeps out of the picture.
     pub(super) behind_far: usize,
     /// The smallest and largest distance of a vertex along the gaze.
     depth_range: Option<(f64, f64)>,
-    /// The smallest x and y and the largest, in the window from −1 to 1, of the parts inside.
+    /// The smallest and largest x and y of the parts inside, in a window from −1 to 1.
     window: Option<[f64; 4]>,
     /// For each ray from the eye, the number of exits minus the number of entries.
     crossings: [i64; 3],
@@ -72,13 +72,13 @@ impl VisibilitySurvey {
         self
     }
 
-    /// Whether there are primitives, but none of them is in the picture.
+    /// Whether there are primitives but none of them is in the picture.
     pub(super) fn is_unseen(&self) -> bool {
         self.total > 0 && self.inside == 0
     }
 
-    /// The smallest and largest distance of a vertex along the line of sight; `None` without
-    /// vertices.
+    /// Returns the smallest and largest distance of a vertex along the line of sight, or `None`
+    /// without vertices.
     pub(super) fn depth_range(&self) -> Option<(f64, f64)> {
         self.depth_range
     }
@@ -89,8 +89,8 @@ impl VisibilitySurvey {
         self.crossings.iter().all(|count| *count >= 1)
     }
 
-    /// The width and height of the rectangle around the visible parts, as fractions of the
-    /// picture's; `None` if nothing is visible. Parts partly behind the eye count as filling the
+    /// Returns the width and height of the rectangle around the visible parts, as fractions of the
+    /// picture's, or `None` if nothing is visible. Parts partly behind the eye count as filling the
     /// picture.
     pub(super) fn window_part(&self) -> Option<[f64; 2]> {
         self.window.map(|[left, bottom, right, top]| [(right - left) / 2.0, (top - bottom) / 2.0])
@@ -123,7 +123,7 @@ impl VisibilitySurvey {
     ) {
         let view_projection = &scene.view_projection;
         let eye = view_projection.viewer().divide();
-        // The near and far planes enclose the parts that sections leave.
+        // The near and far planes enclose the parts that sections retain.
         let sections = if scene.style.draws_surfaces() { &[][..] } else { &scene.sections };
         let posed = placed.model.skin_primitive(instance, primitive);
         let to_world = posed.to_model.then(placed.model_to_world);
@@ -199,11 +199,12 @@ impl VisibilitySurvey {
     }
 }
 
-/// 1 if a ray from the origin exits through the triangle, -1 if it enters, 0 if it misses (Möller
-/// and Trumbore, 1997, with the triangle seen from the ray's origin).
+/// Returns 1 if a ray from the origin exits through the triangle, -1 if it enters, 0 if it misses
+/// (Möller and Trumbore, 1997, with the triangle seen from the ray's origin).
 ///
 /// Solves t d = (1 − u − v) a + u b + v c by Cramer's rule. The triangle is relative to the eye.
-/// Rays parallel to its plane have the determinant 0 and miss. Borders are inclusive on both sides.
+/// Rays parallel to its plane have a determinant of 0 and miss. Edges count as part of the triangle
+/// on both sides.
 fn ray_crossing(ray: DVec3, [a, b, c]: [DVec3; 3]) -> i64 {
     let (along, across) = (b - a, c - a);
     let normal = ray.cross(across);
@@ -231,7 +232,7 @@ mod tests {
     use model::Topology;
 
     #[test]
-    fn a_ray_leaves_through_faces_that_turn_their_back_to_it() {
+    fn rays_exit_through_back_faces() {
         let corners =
             [DVec3::new(-1.0, -1.0, 2.0), DVec3::new(1.0, -1.0, 2.0), DVec3::new(0.0, 1.0, 2.0)];
         let [a, b, c] = corners;
@@ -243,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn topologies_have_as_many_corners_as_are_counted() {
+    fn topologies_have_the_expected_number_of_vertices() {
         let all = [Topology::Points, Topology::Lines, Topology::Triangles];
         assert_eq!(all.map(Topology::vertices_per_item), [1, 2, 3]);
     }

@@ -1,6 +1,6 @@
 //! Dimensions from the text of a scene: the points they measure, and the positions of mistakes.
 
-#![allow(clippy::panic, clippy::unwrap_used, reason = "a test may fail by a panic")]
+#![allow(clippy::panic, clippy::unwrap_used, reason = "tests may panic")]
 
 use homog::{Point, World};
 use import::MemoryFolder;
@@ -16,7 +16,7 @@ o roof\nv 0 2 0\nv 4 2 0\nv 2 4 0\nv 0 2 1\nv 4 2 1\nv 2 4 1
 f 11 10 9\nf 12 13 14\nf 9 10 13 12\nf 10 11 14 13\nf 11 9 12 14
 ";
 
-/// The sheet of a scene with these dimensions.
+/// Returns the sheet of a scene with these dimensions.
 fn sheet_with(dimensions: &str) -> Result<Sheet, SceneError> {
     let text = format!(
         "Scene(models: [(path: \"house.obj\")], sheet: (unit: Millimeter, dimensions: {dimensions}))"
@@ -30,7 +30,7 @@ fn sheet_with(dimensions: &str) -> Result<Sheet, SceneError> {
     resolve_sheet(&origin, &file.sheet.expect("a sheet"), content)
 }
 
-/// The points that the only dimension measures.
+/// Returns the points that the only dimension measures.
 fn points(dimension: &str) -> Vec<[f64; 3]> {
     let sheet = sheet_with(&format!("[{dimension}]")).unwrap_or_else(|error| panic!("{error}"));
     let [Dimension { measure, .. }] = sheet.measures.as_slice() else { panic!("{dimension}") };
@@ -43,7 +43,7 @@ fn points(dimension: &str) -> Vec<[f64; 3]> {
 }
 
 #[test]
-fn true_and_false_are_the_overall_dimensions_and_none() {
+fn true_gives_the_overall_dimensions_and_false_gives_none() {
     for (text, overall) in [("true", true), ("false", false), ("[Overall]", true), ("[]", false)] {
         let sheet = sheet_with(text).unwrap();
         assert_eq!((sheet.dimensions, sheet.measures.len()), (overall, 0), "{text}");
@@ -51,7 +51,7 @@ fn true_and_false_are_the_overall_dimensions_and_none() {
 }
 
 #[test]
-fn parts_are_picked_by_place_and_by_name() {
+fn parts_are_picked_by_position_and_by_name() {
     for (from, to, expected) in [
         ("Point((1, 2, 3))", "Fraction((1, 0.5, 0))", [[1.0, 2.0, 3.0], [4.0, 2.0, 0.0]]),
         (
@@ -95,7 +95,7 @@ fn angles_are_between_edges_faces_and_points() {
 }
 
 #[test]
-fn mistakes_are_shown_where_they_are() {
+fn mistakes_are_located() {
     for (dimension, at, message, help) in [
         (
             "Length(from: Node(name: \"rof\"), to: Point((0, 0, 0)))",
@@ -126,7 +126,7 @@ fn mistakes_are_shown_where_they_are() {
         (
             "Length(from: Vertex(near: (0, 0, 0), fraction: (0, 0, 0)), to: Point((0, 0, 0)))",
             "Vertex(near: (0, 0, 0), fraction: (0, 0, 0))",
-            "both give the point",
+            "both set the point",
             "near",
         ),
         (

@@ -18,7 +18,7 @@ fn text(camera: &str) -> String {
     format!("Scene(models: [(path: \"crate.glb\")], camera: ({camera}), image: (size: (400, 200)))")
 }
 
-/// The scene of a camera, in a picture twice as wide as it is high.
+/// Returns the scene of a camera, in a picture twice as wide as it is high.
 fn scene(camera: &str) -> Scene {
     let text = text(camera);
     let file = parse_scene("lens.ron", &text).expect("a scene");
@@ -28,7 +28,7 @@ fn scene(camera: &str) -> Scene {
     Scene::from_models(&origin, &file, &[instance]).expect("a scene")
 }
 
-/// The view-to-clip matrix of a projection, seen from (0, 0, 9).
+/// Returns the view-to-clip matrix of a projection, seen from (0, 0, 9).
 fn matrix(projection: &str) -> DMat4 {
     let camera =
         format!("view: LookTo(eye: (0, 0, 9), gaze: (0, 0, -1)), projection: {projection}");
@@ -41,7 +41,7 @@ fn check_close(actual: f64, expected: f64) {
 
 /// FOV-1: the angle is between the midpoints of opposite borders, or between corners.
 #[test]
-fn the_horizontal_and_the_diagonal_field_of_view_are_those_of_fov_1() {
+fn horizontal_and_diagonal_fields_of_view_match_fov_1() {
     for degrees in [20.0_f64, 60.0, 110.0] {
         let slope = libm::tan(0.5 * degrees.to_radians());
         let across = matrix(&format!("Perspective(fov_x_degrees: {degrees})"));
@@ -51,7 +51,7 @@ fn the_horizontal_and_the_diagonal_field_of_view_are_those_of_fov_1() {
         let [x, y] = [1.0 / diagonal.x_axis.x, 1.0 / diagonal.y_axis.y];
         check_close(x, 2.0 * y);
         check_close(libm::hypot(x, y), slope);
-        // One field of view can be given in three ways.
+        // The same field of view can be specified in three ways.
         let vertical = 2.0 * libm::atan(slope / 2.0).to_degrees();
         let by_height = matrix(&format!("Perspective(fov_y_degrees: {vertical:?})"));
         check_close(by_height.x_axis.x, across.x_axis.x);
@@ -80,7 +80,7 @@ fn a_shift_moves_the_window_by_fractions_of_the_longer_side() {
 
 /// A zero shift equals no shift, to the last bit.
 #[test]
-fn a_centered_lens_keeps_its_bits() {
+fn a_zero_shift_changes_no_bits() {
     assert_eq!(matrix("Perspective(fov_y_degrees: 40)"), {
         matrix("Perspective(fov_y_degrees: 40, shift: (0, 0))")
     });
@@ -88,21 +88,21 @@ fn a_centered_lens_keeps_its_bits() {
 
 /// OR-1: the window and the planes become the borders of the canonical volume.
 #[test]
-fn the_window_of_an_orthographic_projection_is_that_of_or_1() {
+fn orthographic_windows_match_or_1() {
     let m = matrix("Orthographic(left: -1, right: 5, bottom: 2, top: 4, near: 3, far: 11)");
     let (l, r, b, t) = (-1.0, 5.0, 2.0, 4.0);
     check_close(m.x_axis.x, 2.0 / (r - l));
     check_close(m.w_axis.x, -(r + l) / (r - l));
     check_close(m.y_axis.y, 2.0 / (t - b));
     check_close(m.w_axis.y, -(t + b) / (t - b));
-    // n = −3, f = −11 of the chapter: near at +1.
+    // The chapter's n = −3 and f = −11, with near at +1.
     check_close(m.z_axis.z, 2.0 / 8.0);
     check_close(m.w_axis.z, 14.0 / 8.0);
 }
 
 /// LW-1: Eq9 of the lesson, with the depth of the chapter's canonical volume.
 #[test]
-fn the_frustum_of_the_lesson_moves_its_apex() {
+fn the_lesson_frustum_moves_its_apex() {
     let m = matrix("ApexMovedFrustum(left: -1, right: 3, bottom: -2, top: 1, near: 2, far: 40)");
     let (l, r, b, t, n, f) = (-1.0, 3.0, -2.0, 1.0, 2.0, 40.0);
     let rows = m.transpose();
@@ -118,7 +118,7 @@ fn the_frustum_of_the_lesson_moves_its_apex() {
 
 /// Framing respects the window: everything is in the picture and touches its margin.
 #[test]
-fn framed_views_fill_the_windows_of_every_lens() {
+fn framed_views_fill_the_window_of_every_lens() {
     for projection in [
         "Perspective(fov_x_degrees: 50)",
         "Perspective(fov_diagonal_degrees: 90, shift: (0.2, -0.1))",
@@ -137,7 +137,7 @@ fn framed_views_fill_the_windows_of_every_lens() {
 }
 
 #[test]
-fn what_the_sources_say_is_read_back_after_formatting() {
+fn values_from_the_sources_survive_formatting() {
     for projection in [
         "Perspective(fov_x_degrees: 50, shift: (0.1, -0.2))",
         "Perspective(fov_diagonal_degrees: 50, near: 1, far: 9)",
@@ -152,9 +152,9 @@ fn what_the_sources_say_is_read_back_after_formatting() {
     }
 }
 
-/// K from calibration: points map to the pixels of its definition, wherever the pixel centers are.
+/// K from calibration: points map to the pixels that K defines, wherever the pixel centers are.
 #[test]
-fn intrinsics_and_extrinsics_are_those_of_calibration() {
+fn intrinsics_and_extrinsics_match_calibration() {
     // OpenCV's axes, looking along −z of the world from z = 9: x right, y down, z ahead.
     let view = "Extrinsics(rotation: Rows(((1, 0, 0), (0, -1, 0), (0, 0, -1))), translation: (0.25, 0, 9))";
     for (numbers, [fx, fy, cx, cy, skew], half) in [
@@ -189,9 +189,9 @@ fn check_near(actual: f64, expected: f64) {
     assert!((actual - expected).abs() < 1e-9, "{actual} is not {expected}");
 }
 
-/// R and t, columns of R, a quaternion and a pose are the same camera.
+/// R and t, columns of R, a quaternion and a pose give the same camera.
 #[test]
-fn a_camera_can_be_placed_in_the_ways_of_data_sets() {
+fn cameras_can_be_placed_as_in_data_sets() {
     let of = |view: &str| scene(&format!("view: {view}, projection: Intrinsics(fx: 300)"));
     let first = of(
         "Extrinsics(rotation: Rows(((1, 0, 0), (0, -1, 0), (0, 0, -1))), translation: (0, 1, 9))",

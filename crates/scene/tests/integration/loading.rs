@@ -1,4 +1,4 @@
-//! The number of times that model files are read.
+//! Tests that count how often model files are read.
 
 use import::MemoryFolder;
 use model::Timings;
@@ -7,7 +7,7 @@ use scene_file::parse_scene;
 
 const TRIANGLE: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-/// The number of mistakes in a scene, and of model files parsed to find them.
+/// Returns the number of mistakes in a scene, and of model files parsed to find them.
 fn mistakes_and_loads(text: &str, is_check: bool) -> (usize, usize) {
     let mut folder = MemoryFolder::default();
     folder.insert("a.obj", TRIANGLE.to_vec());
@@ -30,7 +30,7 @@ fn mistakes_and_loads(text: &str, is_check: bool) -> (usize, usize) {
 }
 
 #[test]
-fn each_model_is_loaded_once_whatever_is_wrong_with_the_scene() {
+fn each_model_is_loaded_once_even_if_the_scene_has_mistakes() {
     let models = "(path: \"a.obj\"), (path: \"missing.obj\"), (path: \"b.obj\"), (path: \"a.obj\")";
     let text = format!("Scene(models: [{models}], image: (samples: 3), caption: \"\")");
     assert_eq!(mistakes_and_loads(&text, true), (3, 2));

@@ -18,7 +18,7 @@ fn crate_model() -> Arc<Model> {
     Arc::new(load(&path, &ImportOptions::default()).expect("a model"))
 }
 
-/// A scene with the box; its model is a cube with side 1.
+/// Returns a scene with the box; its model is a cube with sides of length 1.
 fn resolve(fields: &str) -> Result<Scene, ResolveError> {
     let text =
         format!("Scene(models: [(path: \"crate.glb\")], image: (size: (800, 600)), {fields})");
@@ -37,7 +37,7 @@ fn mistake(fields: &str) -> String {
     resolve(fields).map(drop).expect_err(fields).to_string()
 }
 
-/// Four quarters of the picture with these cameras; the box is in the middle of each.
+/// Returns four quarters of the picture with these cameras; the box is in the middle of each.
 fn quarters(cameras: [&str; 4]) -> String {
     let corners = ["0, 0", "0.5, 0", "0, 0.5", "0.5, 0.5"];
     let views = corners.iter().zip(cameras).map(|(corner, camera)| {
@@ -46,7 +46,7 @@ fn quarters(cameras: [&str; 4]) -> String {
     format!("viewports: [{}]", views.collect::<Vec<_>>().join(", "))
 }
 
-/// The pixels of a view from the smallest to the largest coordinate of the box.
+/// Returns the pixels of a view from the smallest to the largest coordinate of the box.
 fn image_bounds(scene: &Scene) -> [DVec2; 2] {
     let size = DVec2::new(scene.image.width.into(), scene.image.height.into());
     let nothing = DVec2::splat(f64::INFINITY);
@@ -65,7 +65,7 @@ const TOP: &str = "view: Frame(from: Top), projection: Orthographic()";
 const LEFT: &str = "view: Frame(from: Left, padding_percent: 20), projection: Orthographic()";
 
 #[test]
-fn the_same_length_is_equally_long_in_all_parallel_views() {
+fn equal_lengths_are_equal_in_all_parallel_views() {
     let [x, y, z] = BOX;
     let (cos30, r23) = (0.75_f64.sqrt(), (2.0_f64 / 3.0).sqrt());
     let r12 = 0.5_f64.sqrt();
@@ -89,7 +89,7 @@ fn the_same_length_is_equally_long_in_all_parallel_views() {
             let [low, high] = image_bounds(&inset.scene);
             let difference = (high - low) / scale - expected;
             assert!(difference.abs().max_element() < 1e-9, "{fourth}: {low} {high} {expected}");
-            // All of it is in the view, and centered, above the caption of 28 pixels.
+            // The whole box is in the view and centered, above the 28-pixel caption.
             let view = DVec2::new(400.0, 300.0 - 28.0);
             assert!(low.min_element() >= 0.0 && (view - high).min_element() >= 0.0);
             assert!(((low + high) * 0.5 - view * 0.5).abs().max_element() < 1e-6);
@@ -103,7 +103,7 @@ fn the_same_length_is_equally_long_in_all_parallel_views() {
 }
 
 #[test]
-fn a_perspective_among_views_of_one_scale_is_as_it_would_be_alone() {
+fn a_shared_scale_does_not_change_perspectives() {
     let views = quarters([FRONT, TOP, LEFT, "view: Frame(from: ThreeQuarter)"]);
     let shared = scene(&format!("viewports_scale: Shared, {views}"));
     let free = scene(&views);
@@ -112,7 +112,7 @@ fn a_perspective_among_views_of_one_scale_is_as_it_would_be_alone() {
 }
 
 #[test]
-fn a_scale_that_cannot_be_shared_is_a_mistake() {
+fn impossible_shared_scales_are_mistakes() {
     let perspective = "view: Frame(from: Front)";
     let views = quarters([FRONT, perspective, perspective, perspective]);
     let message = mistake(&format!("viewports_scale: Shared, {views}"));
@@ -124,9 +124,9 @@ fn a_scale_that_cannot_be_shared_is_a_mistake() {
     assert!(mistake("viewports_scale: Shared").contains("there are none"));
 }
 
-/// The part above the caption equals the picture of a scene without a caption in that size.
+/// The part above the caption equals the picture of a scene of that size without a caption.
 #[test]
-fn a_view_above_a_caption_is_that_of_a_lower_picture() {
+fn a_view_above_a_caption_matches_a_shorter_picture() {
     for camera in [
         FRONT,
         "view: LookAt(eye: (5, 4, 7), target: (0, 0, 0))",

@@ -5,9 +5,9 @@ use crate::file::MaterialFile;
 use crate::schema::{Declared, FieldEntry, Shape, TypeEntry, ValueType};
 use crate::syntax::{Node, NodeKind, SyntaxItem};
 
-/// Writes a string as a struct: as its only required field, `(path: "a.glb")`, or a color as the
-/// first color of a struct that requires nothing, `(base_color: "red")`; `Color("red")` is treated
-/// as that string.
+/// Rewrites a string as a struct: as its only required field, `(path: "a.glb")`, or, for a color,
+/// as the first color of a struct without required fields, `(base_color: "red")`. `Color("red")` is
+/// treated as the string `"red"`.
 pub(super) fn bracket_string(node: &Node<'_>, entry: &TypeEntry) -> Option<String> {
     let color = node.group().filter(|group| {
         group.name.as_ref().is_some_and(|name| name.name == "Color") && group.items.len() == 1
@@ -30,7 +30,7 @@ pub(super) fn bracket_string(node: &Node<'_>, entry: &TypeEntry) -> Option<Strin
     Some(format!("({}: {text})", field.name))
 }
 
-/// Writes a map from material names to fields or colors as the elements of a list: `(of:
+/// Rewrites a map from material names to fields or colors as the elements of a list: `(of:
 /// Name("wood"), base_color: "red")`. `source` is the text of the file.
 pub(super) fn bracket_map(node: &Node<'_>, entry: &TypeEntry, source: &str) -> Option<String> {
     let group = node.group().filter(|group| group.open == '{' && !group.items.is_empty())?;

@@ -11,8 +11,8 @@ const LONGEST_EXAMPLE: usize = 120;
 impl Checker<'_> {
     /// Reports the mistakes in a list in square brackets.
     ///
-    /// For a single element without the list's brackets its mistakes are reported too, so that they
-    /// all come in one run.
+    /// If a single element lacks the list's brackets, its mistakes are reported too, so that one
+    /// run finds them all.
     pub(super) fn check_list(&mut self, node: &Node<'_>, element: &ValueType) {
         if let Some(group) = node.group().filter(|group| group.open == '[') {
             return self.check_elements(&group.items, element);
@@ -71,7 +71,7 @@ impl Checker<'_> {
         self.path.pop();
     }
 
-    /// Writes a list as a struct with one list field: `(write: [Depth])`.
+    /// Rewrites a list as a struct with one list field: `(write: [Depth])`.
     pub(super) fn bracket_list(&self, node: &Node<'_>, entry: &TypeEntry) -> Option<String> {
         let Shape::Fields(fields) = entry.shape else { return None };
         node.group().filter(|group| group.open == '[')?;
@@ -84,8 +84,8 @@ impl Checker<'_> {
         other.is_none().then(|| format!("({}: {list})", field.name))
     }
 
-    /// The value as written where a list is expected: in square brackets, with strings in the
-    /// brackets of their elements. `None` if it is correct as it is, or too long to show.
+    /// Rewrites a value as a list: in square brackets, with strings in the brackets of their
+    /// elements. Returns `None` if the value is already correct or too long to show.
     pub(super) fn write_as_list(&self, node: &Node<'_>, expected: &ValueType) -> Option<String> {
         let ValueType::List(element) = expected else { return None };
         let written = |node: &Node<'_>| match element.as_ref() {

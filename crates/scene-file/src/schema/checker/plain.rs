@@ -8,10 +8,10 @@ use crate::syntax::{
 };
 
 impl Checker<'_> {
-    /// Reads any number; `expected` describes the allowed ones.
+    /// Reads any number; `expected` describes the allowed numbers.
     ///
     /// A number in quotation marks gets a special hint. Infinities and NaN are parsed here and
-    /// refused by the range check.
+    /// rejected by the range check.
     pub(crate) fn read_number(&mut self, node: &Node<'_>, expected: &str) -> Option<f64> {
         if let NodeKind::Number(word) = node.kind {
             let number = parse_number(word);
@@ -30,7 +30,7 @@ impl Checker<'_> {
         None
     }
 
-    /// The correction for a number with a percent sign: just the number, or a fraction.
+    /// Returns the correction for a number with a percent sign: just the number, or a fraction.
     fn suggest_fraction(&self, word: &str, expected: &str) -> Option<String> {
         let percent = word.strip_suffix('%')?;
         let number = parse_number(percent)?;
@@ -43,8 +43,8 @@ impl Checker<'_> {
 
     /// Checks a whole number from 0 to 2³² − 1.
     ///
-    /// Decimal, hexadecimal, octal and binary, with underscores, as in RON. `4.0` is refused with a
-    /// hint to drop the decimal point.
+    /// Like RON, it accepts decimal, hexadecimal, octal and binary numbers with underscores. `4.0`
+    /// is rejected with a hint to drop the decimal point.
     pub(crate) fn check_whole_number(node: &Node<'_>, checker: &mut Checker<'_>) {
         let help = || Some("write a whole number such as 4".to_owned());
         let NodeKind::Number(word) = node.kind else {
@@ -150,12 +150,12 @@ impl Checker<'_> {
             "step" => "0",
             _ => return None,
         };
-        Some(format!("give x, y and z, where y is up; on the ground write ({x}, {height}, {z})"))
+        Some(format!("set x, y and z, where y is up; on the ground, write ({x}, {height}, {z})"))
     }
 }
 
-/// The elements of a tuple of `count` values, in either kind of brackets: people write vectors both
-/// ways.
+/// Returns the elements of a tuple of `count` values, in either kind of brackets, because people
+/// write vectors both ways.
 fn tuple_items<'n, 'a>(
     node: &'n Node<'a>,
     count: usize,
