@@ -77,8 +77,8 @@ scene_struct! {
         pub models: Vec<ModelFile> = Vec::new(),
         /// The camera and its projection. Default: framed from a named direction, in perspective.
         pub camera: CameraFile = CameraFile::default(),
-        /// The motion of the camera, for `alberti animate`. Still pictures ignore it, and so do
-        /// default lights. Default: the camera does not move.
+        /// The motion of the camera, for `alberti animate`. Pictures without `--time` ignore it,
+        /// and so do default lights. Default: the camera does not move.
         pub camera_path: Option<CameraPathFile> = None,
         /// Separate views in parts of the picture, drawn in this order. Default: none.
         pub viewports: Vec<ViewportFile> = Vec::new(),

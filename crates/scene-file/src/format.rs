@@ -1,4 +1,4 @@
-//! The formatter of scene files: one layout for all.
+//! The scene file formatter: one layout for all files.
 //!
 //! ```text
 //!  text ─► tokens with their line breaks ─► groups of items ─► lines
@@ -42,7 +42,7 @@ pub fn format_source(file: &str, text: &str) -> Result<String, SceneErrors> {
     if parse_scene(file, &page).is_ok_and(|again| again == scene) {
         return Ok(page);
     }
-    // No text is known to get here, but the first one must not cost a user a file.
+    // No text is known to get here, but if one does, the user's file must not be damaged.
     let message = "this file cannot be formatted without changing its meaning".to_owned();
     let error =
         SceneError { file: file.into(), source: text.into(), span: 0..0, message, help: None };

@@ -189,7 +189,8 @@ impl IncludeResolver<'_> {
     /// Loads an included file and merges it over the files it includes; `path` is relative to the
     /// scene's folder.
     ///
-    /// A file may be included several times, but not by itself; the message then shows the cycle.
+    /// A file may be included several times, but must not include itself; the message for that
+    /// shows the cycle.
     ///
     /// # Errors
     /// Returns the message and the help if the path leaves the allowed folders, there are too many

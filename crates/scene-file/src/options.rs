@@ -1,7 +1,7 @@
 //! Options with named values: one declaration, used by scene files, flags, help and reference.
 //!
-//! The types are the ones that the renderer and the line drawings use. Scene files use their
-//! variant names (`ThreeQuarter`); flags use them with hyphens (`three-quarter`).
+//! The renderer and the line drawings use the same types. Scene files use their variant names
+//! (`ThreeQuarter`); flags use them with hyphens (`three-quarter`).
 
 use super::schema::named_values;
 use crate::pass::{Pass, PassEncoding};

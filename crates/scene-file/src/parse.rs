@@ -40,7 +40,7 @@ pub fn parse_scene(file: &str, source: &str) -> Result<SceneFile, SceneErrors> {
     }
 }
 
-/// Removes a byte order mark; it is invisible, so it is accepted.
+/// Removes a byte order mark. It is accepted because authors cannot see it.
 pub(super) fn strip_byte_order_mark(source: &str) -> &str {
     source.strip_prefix('\u{feff}').unwrap_or(source)
 }
@@ -126,7 +126,7 @@ fn check_text(source: &str) -> (Option<Node<'_>>, Vec<Mistake>) {
             let start = root.span.start;
             let length = source[start..].chars().next().map_or(0, char::len_utf8);
             checker.report(start..start + length, "this is not a scene", Some(other_text(source)));
-            // Syntax errors mislead if the text is in another language.
+            // Syntax errors are misleading if the text is in another language.
             mistakes.clear();
         }
         mistakes.extend(checker.finish());
@@ -347,7 +347,7 @@ mod tests {
         read.is_ok()
     }
 
-    /// Returns the texts of the files in a folder of the repository whose names have this ending.
+    /// Returns the texts of the files with this ending in a folder of the repository.
     fn texts_in(folder: &str, ending: &str) -> Vec<String> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
         let mut paths: Vec<_> = fs::read_dir(folder)

@@ -178,7 +178,7 @@ impl SceneSource {
 /// Whether a file is a scene, judging by its extension.
 ///
 /// The content is not examined: a `.ron` file that is not a scene gets a scene error, with line and
-/// column. The standard input, which has no extension, is recognized by its content instead.
+/// column. Standard input, which has no extension, is recognized by its content instead.
 #[must_use]
 pub fn is_scene_file(input: &Path) -> bool {
     input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"))

@@ -272,7 +272,7 @@ mod tests {
         }
         // x grows by 2 per second at all keys, and therefore also between them.
         assert!((eye(&path, 2.3)[0] - 4.6).abs() < 1e-12);
-        // z is as fast just before the second key as just after it: 3 per second.
+        // z has the same speed just before and just after the second key: 3 per second.
         let step = 1e-6;
         let speed = |from: f64| (eye(&path, from + step)[2] - eye(&path, from)[2]) / step;
         assert!((speed(1.0 - step) - 3.0).abs() < 1e-4 && (speed(1.0) - 3.0).abs() < 1e-4);

@@ -263,9 +263,9 @@ impl ProjectedBounds {
 
     /// Returns the orthographic volume around the box, with the picture's aspect ratio.
     ///
-    /// The window grows along the shorter direction and by the margin, h / (1 − 2 padding). Near
-    /// and far get 1% of the depth, so that no vertex is on a plane. Flat boxes fall back to their
-    /// depth or to 1.
+    /// The window grows along the shorter direction and by the margin, h / (1 − 2 padding). The
+    /// near and far planes get a margin of 1% of the depth, so that no vertex is on a plane. Flat
+    /// boxes fall back to their depth or to 1.
     fn view_volume(self, aspect: f64, padding: f64) -> Result<Orthographic, ProjectionError> {
         let (size, middle) = (self.high - self.low, (self.high + self.low) * 0.5);
         let height = size.y.max(size.x / aspect);

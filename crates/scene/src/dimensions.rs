@@ -29,7 +29,7 @@ const MAX_DECIMALS: u32 = 6;
 /// The maximum number of dimensions on a sheet: there would never be room for more.
 const MAX_DIMENSIONS: usize = 500;
 
-/// The maximum count of largest circles to dimension.
+/// The maximum number of largest circles that one entry may dimension.
 const MAX_DIAMETERS: u32 = 50;
 
 /// Returns the path of a dimension in the scene file.
@@ -91,7 +91,7 @@ impl DimensionResolver<'_> {
         self.picking.origin.error_at(&path, message, help.map(ToOwned::to_owned))
     }
 
-    /// Checks that need no models: decimals, counts, sides.
+    /// Performs the checks that do not depend on models: decimals, counts and sides.
     fn check(&self, entry: &DimensionFile) -> Result<(), SceneError> {
         let decimals = match entry {
             DimensionFile::Overall => None,

@@ -127,7 +127,7 @@ fn resolve_viewport_rect(
     let (region, field) = match (viewport.at, viewport.pixels) {
         (Some((x, y, w, h)), None) => {
             let [x, y, w, h] = [x, y, w, h].map(scene_file::file::Fraction::value);
-            // Rounded edge by edge, so that neighbors meet.
+            // Round edge by edge, so that neighbors meet.
             let run = |from: f64, length: f64, side: u32| {
                 let end = libm::round((from + length) * f64::from(side));
                 let start = libm::round(from * f64::from(side));
@@ -182,8 +182,8 @@ fn resolve_border(
     Ok(Some((border.color.0, border.width)))
 }
 
-/// Returns the two insets of a stereo pair, from off-axis projections, which have no vertical
-/// parallax, unlike toed-in cameras.
+/// Returns the two insets of a stereo pair, made with off-axis projections, which, unlike toed-in
+/// cameras, have no vertical parallax.
 ///
 /// ```text
 ///  side by side   left half, right half       the halves of an odd width share a column

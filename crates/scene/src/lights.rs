@@ -196,7 +196,7 @@ fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<
         let level = axis - Vector::Y * axis.dot(Vector::Y);
         (level.length() > 1e-3).then(|| level.normalized()).flatten()
     };
-    // Toward the viewer along the ground; from straight above, toward the picture's lower border.
+    // Toward the viewer along the ground; from straight above, toward the bottom of the picture.
     let front = level(camera.w()).or_else(|| level(-camera.v())).unwrap_or(Vector::Z);
     let left = front.cross(Vector::Y);
     let [azimuth, elevation] = [KEY_AZIMUTH, KEY_ELEVATION].map(f64::to_radians);

@@ -1,5 +1,5 @@
-//! Lints: valid scenes that are probably unintended, such as a camera inside a model or a picture
-//! of nothing.
+//! Lints for valid scenes that are probably unintended, such as a camera inside a model or an empty
+//! picture.
 //!
 //! Every lint examines the result. The points, lines and triangles of the scene pass through its
 //! camera and are clipped against its view volume once (CL-1); the counts are compared with the
@@ -72,7 +72,7 @@ pub struct Lint {
 ///
 /// The cost is one pass over all vertices, O(vertices + primitives), for the scene and for each
 /// viewport with a separate camera, without rendering. Lints never make a scene invalid. `options`
-/// are the ones used for resolution.
+/// are the options used for resolution.
 #[must_use]
 #[cfg_attr(not(feature = "sheets"), expect(unused_variables))]
 pub fn lint_scene(

@@ -1,5 +1,5 @@
 //! The origin of a scene: a file with text and a folder, or a bare model and the program's flags.
-//! It also has the location of its model files.
+//! It also includes the location of its model files.
 
 use import::MemoryFolder;
 use scene_file::{SceneFile, SceneSource};

@@ -1,5 +1,5 @@
-//! Reads scene files and reports all mistakes at once: those in the texts, and those found by
-//! resolving the readable parts.
+//! Reads scene files and reports all mistakes at once: the mistakes in the texts, and the mistakes
+//! found by resolving the readable parts.
 
 use super::diagnostics::Diagnostics;
 use super::model_files::check_model_paths;

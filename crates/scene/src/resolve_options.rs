@@ -17,8 +17,8 @@ pub struct ResolveOptions {
     /// Whether the picture may have more than 2²⁸ pixels. Set this only for sizes that a person
     /// chose, because one line in a scene file is enough to request hours of work.
     pub allow_large_picture: bool,
-    /// Whether lines are drawn without work limits, exactly even where hundreds of surfaces are
-    /// behind each other.
+    /// Whether lines are drawn without work limits, so that they are exact even where hundreds of
+    /// surfaces overlap.
     pub unlimited_lines: bool,
 }
 
@@ -29,7 +29,7 @@ impl ResolveOptions {
         Self { import, ..Self::default() }
     }
 
-    /// Rejects a picture of more than [`MAX_PIXELS`], unless larger ones are allowed.
+    /// Rejects a picture of more than [`MAX_PIXELS`], unless larger pictures are allowed.
     pub(super) fn check_pixels(&self, origin: &Origin, file: &SceneFile) -> Result<(), SceneError> {
         let (width, height) = file.image.size;
         // Longer sides have a separate error.

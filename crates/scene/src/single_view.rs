@@ -41,8 +41,8 @@ struct SceneParts {
     backdrop: Option<Option<Arc<Backdrop>>>,
 }
 
-/// Returns the scene without its viewports and stereo pair, or `None` if it has mistakes or there
-/// are no models. Without models, no other files are read.
+/// Returns the scene without its viewports and stereo pair, or `None` if it has mistakes or no
+/// models. Without models, no other files are read.
 pub(super) fn resolve_without_insets(
     origin: &Origin,
     file: &SceneFile,

@@ -65,7 +65,7 @@ scene_enum! {
         Frame {
             /// The direction. Default: `ThreeQuarter`, and `Front` for classical projections.
             from: Option<FromFile>,
-            /// The margin on each side, in percent of the side of the image. Default: 5.
+            /// The margin on each side, as a percentage of the image's width or height. Default: 5.
             padding_percent: NonNegative = DEFAULT_PADDING,
         },
         /// A camera in the first model that has cameras.

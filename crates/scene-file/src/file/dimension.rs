@@ -21,7 +21,7 @@ impl DimensionsFile {
         Self(vec![DimensionFile::Overall])
     }
 
-    /// Returns no dimensions.
+    /// Returns an empty list of dimensions.
     #[must_use]
     pub const fn none() -> Self {
         Self(Vec::new())
@@ -185,7 +185,8 @@ scene_enum! {
         Edge(PlaceFile),
         /// The center of the nearest circle or arc formed by edges.
         Circle(PlaceFile),
-        /// The plane of the nearest triangle. Used as a point, it is the nearest point on it.
+        /// The plane of the nearest triangle. Used as a point, it is the nearest point on the
+        /// triangle.
         Face(PlaceFile),
     }
 }
@@ -196,7 +197,7 @@ const HALVES: Triple = Triple([0.5; 3]);
 scene_struct! {
     /// A position near which a part is picked: a point, or a point in a box.
     pub struct PlaceFile as "Place" {
-        /// A point in the world. Default: the point that `fraction` gives.
+        /// A point in the world. Default: from `fraction`.
         pub near: Option<Triple> = None,
         /// A point in the box around the node, or around all models without one: (0, 0, 0) is the
         /// corner with the smallest x, y and z, (1, 1, 1) the one with the largest. Default: (0.5,

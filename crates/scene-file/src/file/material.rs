@@ -15,8 +15,8 @@ scene_struct! {
         /// The base color's alpha, from 0 to 1; it takes effect with `Blend` and `Mask`. Default:
         /// as in the model.
         pub alpha: Option<Fraction> = None,
-        /// 0 for dielectrics, 1 for metals. If `metallic` or `roughness` is set, their shared
-        /// texture is dropped. Default: as in the model.
+        /// The metalness: 0 for dielectrics, 1 for metals. If `metallic` or `roughness` is set,
+        /// their shared texture is dropped. Default: as in the model.
         pub metallic: Option<Fraction> = None,
         /// The roughness: 0 for mirrors, 1 for chalk. Default: as in the model.
         pub roughness: Option<Fraction> = None,

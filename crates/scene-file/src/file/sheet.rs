@@ -27,7 +27,7 @@ scene_struct! {
         /// STL. With inches or feet, dimensions are in inches, otherwise in millimeters.
         pub unit: Option<LengthUnit> = None,
         /// The view beside the front view. Default: from the left in first angle, from the right in
-        /// third angle; the opposite one if only that one faces a section.
+        /// third angle; the opposite side if only that view faces a section.
         pub side_view: Option<SideView> = None,
         /// The fourth view. Default: isometric.
         pub axonometric_view: AxonometricView = AxonometricView::Isometric,

@@ -75,7 +75,8 @@ scene_enum! {
         Anaglyph {
             /// The interocular distance, in world units. Default: a thirtieth of the convergence.
             eye_distance: Option<Positive>,
-            /// As for `SideBySide`. Default: the distance to the center of the models.
+            /// The distance of the plane of zero parallax, as for `SideBySide`. Default: the
+            /// distance to the center of the models.
             convergence: Option<Positive>,
         },
     }

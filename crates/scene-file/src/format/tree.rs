@@ -132,7 +132,7 @@ impl<'a> ItemReader<'a> {
     /// Reads an element and the line comments inside it.
     ///
     /// Line comments cannot stay inside, since the element may end up on one line; they are
-    /// returned to be put before it. Block comments stay among the words.
+    /// returned, to be placed before it. Block comments stay among the words.
     fn read_element(&mut self) -> (Element, Vec<&'a str>) {
         let (mut parts, mut comments) = (Vec::new(), Vec::new());
         let mut text = String::new();

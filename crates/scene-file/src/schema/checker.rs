@@ -215,8 +215,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Reports that a struct's name is not its type's. Returns whether it is probably that type
-    /// anyway.
+    /// Reports a struct name that is not the name of its type. Returns whether it is probably that
+    /// type anyway.
     ///
     /// `Some` for an unknown name, such as a misspelling: its fields are then checked too. `None`
     /// for a name that the language uses elsewhere, whose fields would all be wrong.
@@ -232,7 +232,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Finds the declared fields among the items of a group, and reports unknown, duplicate and
-    /// missing ones.
+    /// missing fields.
     ///
     /// A missing field is reported only if every unknown field has another explanation: `modles:
     /// […]` is reported as a misspelling of `models`, and `models` is not reported as missing too.
@@ -284,7 +284,7 @@ impl<'a> Checker<'a> {
             }
             self.scopes.pop();
         }
-        // An unexplained field may be meant as a missing one.
+        // An unexplained field may be intended as a missing one.
         let has_unexplained = unknown > meant.len();
         for field in declared.iter().filter(|_| !has_unexplained) {
             let is_there = field.is_optional || meant.contains(&field.name);

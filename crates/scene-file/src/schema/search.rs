@@ -48,7 +48,7 @@ pub(crate) fn variants_where(root: &'static TypeEntry, name: &str) -> Vec<String
 /// Returns an example of a field or variant in a scene, starting at the scene's own brackets:
 /// `camera: (view: LookAt(eye: …))`. It is `None` if the owner has nothing with this name.
 ///
-/// A variant with fields or a value is shown with brackets, `Frame(…)`, any other without them.
+/// A variant with fields or a value is shown with brackets, `Frame(…)`; any other variant has none.
 pub(crate) fn example_of(root: &'static TypeEntry, owner: &str, name: &str) -> Option<String> {
     let sites = sites(root);
     let site = sites.iter().find(|site| site.owner == owner)?;
@@ -141,8 +141,8 @@ fn add_sites(
 
 /// Returns the declared types of a field's value, each with the text around its brackets.
 ///
-/// A list opens a square bracket, a struct a round one; an enum opens a bracket after the variant's
-/// name. Types in tuples are not followed, because they are numbers.
+/// A list opens a square bracket and a struct a round one; an enum opens a bracket after the
+/// variant's name. Types in tuples are not followed, because they are numbers.
 fn opened(
     value_type: &ValueType,
     before: &str,

@@ -55,7 +55,7 @@ fn unescape_character(rest: &str) -> Result<(Option<char>, usize), &'static str>
     }
 }
 
-/// Whether there are digits, and all of them are hexadecimal.
+/// Whether the text is not empty and consists of hexadecimal digits.
 fn is_hexadecimal(digits: &str) -> bool {
     !digits.is_empty() && digits.chars().all(|digit| digit.is_ascii_hexdigit())
 }

@@ -303,7 +303,7 @@ impl<'a> Parser<'a> {
         };
         let in_list = self.open.last().is_some_and(|open| open.text == "[");
         let may_be_key = first.kind == TokenKind::Word && !in_list;
-        // `name = value` and `name value` lack their colon.
+        // `name = value` and `name value` lack a colon.
         let begins_value = matches!(second.kind, TokenKind::Word)
             || (second.kind == TokenKind::Open && second.text == "[");
         let has_colon = second.kind == TokenKind::Colon && first.kind == TokenKind::Word;

@@ -50,17 +50,17 @@ const ADVICE: &[(&str, &str, &str)] = &[
     (
         "Projection::TwoPoint",
         "fov fovy fovydegrees fieldofview angle focallength distance",
-        "the vanishing points set the field of view: x: (-3.2, 0.4), z: (2.4, 0.4); farther apart, they narrow it; or choose projection: Perspective(fov_y_degrees: 35)",
+        "the vanishing points set the field of view: x: (-3.2, 0.4), z: (2.4, 0.4); move them apart to narrow it, or choose projection: Perspective(fov_y_degrees: 35)",
     ),
     (
         "Projection::TwoPoint",
         "at vanishingpoint vanishingpoints vp left right points horizon",
-        "name both vanishing points: x: (-3.2, 0.4), z: (2.4, 0.4), from −1 at the bottom of the picture to 1 at the top",
+        "set both vanishing points: x: (-3.2, 0.4), z: (2.4, 0.4), from −1 at the bottom of the picture to 1 at the top",
     ),
     (
         "Projection::ThreePoint",
         "fov fovy fovydegrees fieldofview angle focallength distance at vanishingpoint vanishingpoints",
-        "the vanishing points set the field of view: x: (-3.2, 1.2), y: (0.1, -5), z: (2.4, 1.2); farther apart, they narrow it",
+        "the vanishing points set the field of view: x: (-3.2, 1.2), y: (0.1, -5), z: (2.4, 1.2); move them apart to narrow it",
     ),
     (
         "View::Frame",
@@ -85,7 +85,7 @@ const ADVICE: &[(&str, &str, &str)] = &[
     (
         "Ground::Shadow",
         "opacity alpha strength intensity darkness softness blur",
-        "the lights set this: Ambient(intensity: 1) or an environment makes shadows paler, and shadows: On(softness_degrees: 4) makes them softer",
+        "the lights determine this: Ambient(intensity: 1) or an environment makes shadows paler, and shadows: On(softness_degrees: 4) makes them softer",
     ),
     (
         "Background::Gradient",

@@ -1,4 +1,4 @@
-//! Values of another form, rewritten as the structs they represent.
+//! Values in other forms, rewritten as the structs they represent.
 
 use crate::color::Color;
 use crate::file::MaterialFile;
