@@ -1,4 +1,4 @@
-//! Accessors: their layout must fit their buffer views (glTF 2.0 §3.6.2).
+//! Validation of accessors, whose layout must fit their buffer views (glTF 2.0 §3.6.2).
 
 use super::codes;
 use super::document::{CheckedDocument, array_items, index_member, integer_member};
@@ -9,7 +9,7 @@ use serde_json::Value;
 
 /// Validates the layout of all accessors.
 ///
-/// Only the declarations are compared here; the elements are read by [`data`](super::data).
+/// Only the declarations are compared here; [`data`](super::data) reads the elements.
 ///
 /// `min` and `max` are checked even if the layout is incomplete, because they depend only on the
 /// element type.
@@ -30,7 +30,7 @@ pub(super) fn check_accessors(
 
 /// The validation of one accessor.
 ///
-/// It borrows the whole context of the validation, and lives as long as one iteration of the loop.
+/// It borrows the whole validation context for one iteration of the loop.
 struct AccessorChecker<'a> {
     document: &'a CheckedDocument<'a>,
     store: &'a BufferStore<'a>,
@@ -42,21 +42,22 @@ struct AccessorChecker<'a> {
 /// A range of bytes in a buffer view, containing components of `size` bytes.
 ///
 /// For an accessor it extends from the first byte of the first element to the last byte of the last
-/// one; the padding after the last element is excluded.
+/// element, without the padding after it.
 struct ByteRange {
     /// The start of the range, in bytes from the start of the buffer view.
     offset: u64,
     /// The length of the range in bytes.
     length: u64,
-    /// The size of a component in bytes, to which the range is aligned.
+    /// The component size in bytes; the range must be aligned to it.
     size: usize,
 }
 
 impl AccessorChecker<'_> {
-    /// Validates normalization, alignment, stride and extent of the accessor, and its sparse part.
+    /// Validates the normalization, alignment, stride and extent of the accessor, and its sparse
+    /// part.
     ///
     /// Only 8-bit and 16-bit integers can be normalized; matrices are aligned to four bytes; a
-    /// stride is at least the size of an element (glTF 2.0 §3.6.2.4). Graphics APIs require the
+    /// stride is at least the size of an element (glTF 2.0 §3.6.2.4). Graphics APIs need the
     /// alignment to read a component in one access.
     fn check_layout(&self, accessor: &Value, layout: AccessorLayout) {
         let diagnostics = self.document.diagnostics;
@@ -101,7 +102,7 @@ impl AccessorChecker<'_> {
         }
     }
 
-    /// Validates that `min` and `max` have one number for each component.
+    /// Validates that `min` and `max` have one number per component.
     fn check_bounds(&self, accessor: &Value) {
         let shape = AccessorLayout::from_accessor(accessor)
             .map(|layout| layout.element_type.component_count());
@@ -119,8 +120,8 @@ impl AccessorChecker<'_> {
 
     /// Validates a sparse accessor: its count, and the layout of its indices and values.
     ///
-    /// The values have the component type of the accessor and are tightly packed; so are the
-    /// indices, which have a separate component type (glTF 2.0 §3.6.2.3).
+    /// Values and indices are tightly packed. The values have the accessor's component type; the
+    /// indices have a separate one (glTF 2.0 §3.6.2.3).
     fn check_sparse(&self, sparse: &Value, layout: AccessorLayout) {
         let Some(count) = integer_member(sparse, "count") else { return };
         let diagnostics = self.document.diagnostics;
@@ -153,7 +154,7 @@ impl AccessorChecker<'_> {
         self.check_sparse_indices(sparse, layout, &pointer);
     }
 
-    /// Validates the indices or values of a sparse accessor: `count` elements of `length` bytes
+    /// Validates the indices or values of a sparse accessor: `count` elements of `length` bytes,
     /// with components of `size` bytes.
     ///
     /// Both are tightly packed: their buffer view must not have a `byteStride`.
@@ -179,9 +180,9 @@ impl AccessorChecker<'_> {
 
     /// Validates that a range of bytes is aligned to its component size and inside its buffer view.
     ///
-    /// Both the offset in the view and the offset in the buffer must be aligned; they are reported
-    /// by different codes (glTF 2.0 §3.6.2.4). The sums saturate: offsets near the largest integer
-    /// must not wrap around to a small one that looks valid.
+    /// Both the offset in the view and the offset in the buffer must be aligned; each has a
+    /// separate code (glTF 2.0 §3.6.2.4). The sums saturate, so that offsets near the largest
+    /// integer cannot wrap around to a small, valid-looking value.
     fn check_byte_range(&self, view: usize, stretch: &ByteRange, pointer: &str) {
         let diagnostics = self.document.diagnostics;
         let Some(json) = self.document.root_array("bufferViews").get(view) else { return };
@@ -209,7 +210,7 @@ impl AccessorChecker<'_> {
     /// Validates that the sparse indices are strictly increasing and less than the accessor's
     /// count.
     ///
-    /// They are the only data read here, because the elements cannot be read without them.
+    /// No other data is read here: without the indices the elements cannot be read.
     fn check_sparse_indices(&self, sparse: &Value, layout: AccessorLayout, pointer: &str) {
         let Some(indices) = self.store.sparse_indices(sparse) else { return };
         let diagnostics = self.document.diagnostics;

@@ -1,4 +1,4 @@
-//! Checks of whole files: the rules of glTF, then the loader's diagnostics.
+//! Validation of whole files: the glTF rules, then the loader's diagnostics.
 
 use crate::CheckReport;
 use crate::data::ElementRules;
@@ -14,7 +14,7 @@ use std::path::Path;
 
 /// Validates a file and the files it refers to.
 ///
-/// There is always a report: a file that cannot be read appears in it as an error.
+/// Always returns a report: an unreadable file is an error in the report.
 ///
 /// ```no_run
 /// use import::ImportOptions;
@@ -42,7 +42,7 @@ pub fn check_file(path: &Path, options: &ImportOptions) -> CheckReport {
 
 /// Validates a file in memory; `name` replaces its path in the report.
 ///
-/// As for [`load_bytes`](import::load_bytes), other files are read only with a
+/// As with [`load_bytes`](import::load_bytes), other files are read only if there is a
 /// [root](ImportOptions::root).
 #[must_use]
 pub fn check_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> CheckReport {
@@ -58,7 +58,7 @@ pub fn check_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> CheckRe
     build_report(path, result, findings)
 }
 
-/// Whether the file is validated against the glTF specification. For other formats only the
+/// Returns whether to validate the file against the glTF specification. For other formats only the
 /// loader's diagnostics are reported.
 fn has_gltf_rules(path: &Path, bytes: &[u8]) -> bool {
     FileFormat::recognize(path, bytes) == Ok(FileFormat::Gltf)
@@ -86,7 +86,7 @@ fn build_report(
 fn check_content(bytes: &[u8], resolver: &UriResolver<'_>, findings: &Diagnostics) {
     let parts = crate::glb::check_container(bytes, findings);
     let Some(text) = parts.json.map(|range| &bytes[range]) else { return };
-    // JSON that is too deep or too large is rejected and reported by the loader.
+    // The loader rejects and reports JSON that is too deep or too large.
     if check_json_limits(text, resolver.limits).is_err() {
         return;
     }
@@ -106,9 +106,9 @@ fn check_content(bytes: &[u8], resolver: &UriResolver<'_>, findings: &Diagnostic
 
 /// Runs all checks on a parsed document.
 ///
-/// The order matters. The schema walk comes first, because it reports missing and mistyped members
-/// that later checks skip; the element data comes after all rules for it are known; unused objects
-/// come last.
+/// The order matters. The schema walk runs first, because it reports missing and mistyped members,
+/// which later checks skip. Element data is read once all of its rules are known. Unused objects
+/// are found last.
 fn check_document(
     document: &CheckedDocument<'_>,
     resolver: &UriResolver<'_>,

@@ -1,18 +1,18 @@
-//! Accessor data: every element is compared with the declared bounds and the rules of its users.
+//! Validation of accessor data against the declared bounds and the rules of the accessor's users.
 //!
-//! Each accessor is read once, however many users it has. One diagnostic covers all elements that
-//! violate one rule: their number, and the first of them.
+//! Each accessor is read once, however many users it has. All elements that violate a rule share
+//! one diagnostic, which reports their number and the first of them.
 //!
-//! Rules are collected first and tested last: the checks of meshes, skins and animations know which
-//! rules apply to an accessor, and this pass knows its elements.
+//! Rules are collected first and tested last: the checks of meshes, skins and animations determine
+//! which rules apply to an accessor, and this pass reads its elements.
 //!
 //! ```text
-//!  meshes, skins, animations ──add──► ElementRules ──► AccessorScan ──► one diagnostic a rule
+//!  meshes, skins, animations ──add──► ElementRules ──► AccessorScan ──► one diagnostic per rule
 //!                                    by accessor      one pass over the elements
 //! ```
 //!
-//! The time is the number of components times the number of rules, of which there are at most
-//! [`MAX_RULES`] for an accessor.
+//! The time is proportional to the number of components times the number of rules, at most
+//! [`MAX_RULES`] per accessor.
 
 use super::codes::{self, DiagnosticCode};
 use super::document::{CheckedDocument, array_items};
@@ -23,19 +23,18 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
-/// A rule for the elements of an accessor, from the member that uses it.
+/// A rule for the elements of an accessor, set by a member that uses it.
 ///
 /// Rules are compared for equality so that each is tested once, however many primitives share an
-/// accessor. Values that are not finite are left to the bounds check, which reports them.
+/// accessor. Non-finite values are left to the bounds check, which reports them.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum ElementRule {
-    /// Unit vectors, tested after dequantization; a fourth component, the handedness of a tangent,
-    /// is −1 or 1.
+    /// Unit vectors, tested after dequantization. A fourth component is the handedness of a
+    /// tangent, −1 or 1.
     Unit,
     /// Values in [0, 1], such as vertex colors.
     Clamped,
-    /// Indices less than the number of vertices; with `triangles`, every three of them are a
-    /// triangle.
+    /// Indices less than the number of vertices; with `triangles`, every three form a triangle.
     ///
     /// The largest value of the component type is the primitive restart value of graphics APIs,
     /// which glTF forbids (§3.7.2.1).
@@ -44,38 +43,38 @@ pub(super) enum ElementRule {
     Times,
     /// Unit quaternions; for cubic splines only the value between the two tangents.
     Quaternions { spline: bool },
-    /// Affine matrices, stored column by column: components 3, 7, 11 and 15, the last row, are 0,
-    /// 0, 0, 1.
+    /// Affine matrices in column-major order: the last row, components 3, 7, 11 and 15, is 0, 0, 0,
+    /// 1.
     Matrices,
 }
 
-/// The rules for the elements of all accessors, each with the pointer of the member it comes from.
+/// The rules for the elements of all accessors, each with a pointer to the member that sets it.
 #[derive(Default, Debug)]
 pub(super) struct ElementRules {
-    /// The rules of each accessor; a rule from several members is stored once, with the first
+    /// The rules of each accessor; a rule set by several members is stored once, with the first
     /// pointer.
     by_accessor: BTreeMap<usize, Vec<(ElementRule, String)>>,
 }
 
-/// The maximum number of rules for one accessor: each costs a comparison per element.
+/// The maximum number of rules for one accessor; each costs a comparison per element.
 ///
-/// In sensible files an accessor has one or two rules. Without a maximum, a small file in which
+/// In ordinary files an accessor has one or two rules. Without a maximum, a small file in which
 /// thousands of primitives index one accessor, each with a different number of vertices, would take
 /// quadratic time.
 const MAX_RULES: usize = 16;
 
-/// The tolerance for the length of unit vectors, slightly more than the rounding of signed bytes.
-/// This and the next constant are the Khronos validator's values.
+/// The tolerance for the length of unit vectors, slightly more than the rounding error of signed
+/// bytes. This constant and the next have the values of the Khronos validator.
 const UNIT_VECTOR_TOLERANCE: f64 = 0.00674;
 /// The tolerance for the length of unit quaternions.
 ///
-/// It is larger than for vectors, because a fourth quantized component adds to the error.
+/// It is larger than for vectors, because the fourth quantized component adds to the error.
 const UNIT_QUATERNION_TOLERANCE: f64 = 0.00769;
 
 impl ElementRules {
     /// Adds a rule for the elements of an accessor, unless it already exists or there are too many.
     ///
-    /// `pointer` is the member that the rule comes from, where its violations will be reported.
+    /// `pointer` is the member that sets the rule; violations are reported there.
     pub(super) fn add(&mut self, accessor: usize, demand: ElementRule, pointer: &str) {
         let list = self.by_accessor.entry(accessor).or_default();
         if list.len() < MAX_RULES && list.iter().all(|(known, _)| *known != demand) {
@@ -84,10 +83,11 @@ impl ElementRules {
     }
 }
 
-/// Reads the elements of all accessors that have data, and reports their violations.
+/// Reads the elements of all accessors that have data, and reports rule violations.
 ///
 /// The work is charged to the memory budget, so that a small file that declares many elements
-/// cannot take long: an accessor without data takes no bytes, and overlapping accessors reuse them.
+/// cannot take long: accessors without data take no space in the file, and overlapping accessors
+/// share the same bytes.
 pub(super) fn check_data(
     document: &CheckedDocument<'_>,
     store: &BufferStore<'_>,
@@ -98,9 +98,9 @@ pub(super) fn check_data(
         let Some(elements) = store.accessor_elements(accessor, layout) else { continue };
         let own = demands.by_accessor.get(&at).map_or(&[][..], Vec::as_slice);
         let pointer = format!("/accessors/{at}");
-        // The time depends on the number of components, not on their size: charge 4 bytes each.
+        // The time depends on the number of components, not on their size, so charge 4 bytes each.
         let cost = layout.count.saturating_mul(4 * layout.element_type.component_count() as u64);
-        // An accessor without data is all zeros, or its data is in the stream of an extension.
+        // An accessor without data is all zeros, or its data is in an extension's stream.
         if !elements.has_no_data() && store.charge_budget(&format!("{pointer}/count"), cost) {
             AccessorScan::new(document, &elements, pointer, own).scan_elements(accessor);
         }
@@ -109,19 +109,19 @@ pub(super) fn check_data(
 
 /// The number of violations of one rule, and the element and value of the first.
 ///
-/// One diagnostic with a count replaces possibly millions of diagnostics.
+/// One diagnostic with a count replaces what could be millions.
 #[derive(Clone, Default, Debug)]
 struct Tally {
     /// The number of violations.
     count: u64,
     /// The index of the first element that violates the rule.
     first: u64,
-    /// The offending value of that element.
+    /// The offending value in that element.
     value: f64,
 }
 
 impl Tally {
-    /// Counts a violation if `wrong`, and remembers the first.
+    /// Counts a violation if `wrong`, and stores the first.
     fn record_if(&mut self, wrong: bool, at: u64, value: f64) {
         if wrong {
             if self.count == 0 {
@@ -138,19 +138,19 @@ struct AccessorScan<'a> {
     elements: &'a AccessorElements<'a>,
     /// The JSON pointer of the accessor.
     pointer: String,
-    /// The rules of its users, with their violations so far.
+    /// The rules of the accessor's users, with their violations so far.
     scans: Vec<RuleScan<'a>>,
 }
 
-/// A rule with its violations, and the state it carries from one element to the next.
+/// A rule with its violations and the state carried from one element to the next.
 ///
-/// `last` and `triangle` are used only by some rules; a separate state for each rule would be a
-/// second enum with the same variants.
+/// Only some rules use `last` and `triangle`; a separate state for each rule would require a second
+/// enum with the same variants.
 struct RuleScan<'a> {
     rule: ElementRule,
-    /// The pointer of the member that the rule comes from, where violations are reported.
+    /// The pointer to the member that sets the rule, where violations are reported.
     pointer: &'a str,
-    /// The violations; some rules have two parts, each with its own code.
+    /// The violations; some rules have two parts with separate codes.
     tallies: [Tally; 2],
     /// The previous keyframe time, or the number of degenerate triangles.
     last: f64,
@@ -158,23 +158,23 @@ struct RuleScan<'a> {
     triangle: [f64; 3],
 }
 
-/// The actual minimum and maximum of each component, and how often the declared ones are exceeded.
+/// The actual bounds of each component, and how often the declared bounds are exceeded.
 ///
 /// Bounds are compared before dequantization: `min` and `max` of normalized integers are the stored
 /// integers (glTF 2.0 §3.6.2.5).
 struct BoundsScan {
-    /// `min` and `max` as declared, `None` for values other than numbers.
+    /// `min` and `max` as declared; `None` for values other than numbers.
     declared: [Vec<Option<f64>>; 2],
     /// The minimum and maximum of each component; an element has at most 16.
     actual: [[f64; 16]; 2],
     /// The number of elements of each component below `min` and above `max`.
     outside: [[u64; 16]; 2],
-    /// Infinities and NaN, which glTF forbids.
+    /// Infinities and NaNs, which glTF forbids.
     non_finite: Tally,
 }
 
 impl<'a> AccessorScan<'a> {
-    /// A pass over some elements with the rules of all users of the accessor.
+    /// Prepares a pass over some elements with the rules of all users of the accessor.
     fn new(
         document: &'a CheckedDocument<'a>,
         elements: &'a AccessorElements<'a>,
@@ -193,7 +193,7 @@ impl<'a> AccessorScan<'a> {
 
     /// Visits every element once, then reports the violations.
     ///
-    /// The bounds and all rules are tested in one traversal, because decoding an element costs more
+    /// Bounds and rules are tested in a single traversal, because decoding an element costs more
     /// than testing it.
     fn scan_elements(mut self, accessor: &Value) {
         let mut extremes = BoundsScan::new(accessor, self.elements.layout);
@@ -214,10 +214,10 @@ impl<'a> AccessorScan<'a> {
 impl BoundsScan {
     /// Reads the declared bounds of an accessor.
     ///
-    /// A bound that is not a number has been reported by the schema walk; its component is not
+    /// The schema walk has already reported bounds that are not numbers; their components are not
     /// compared.
     fn new(accessor: &Value, layout: AccessorLayout) -> Self {
-        // A JSON number may have more digits than a float: the nearest float is compared.
+        // A JSON number may have more digits than a float, so compare the nearest float.
         let bound = |value: &Value| {
             let number = value.as_f64()?;
             Some(if layout.component_type == ComponentType::F32 {
@@ -234,7 +234,7 @@ impl BoundsScan {
 
     /// Updates the actual bounds with the components of one element, and counts those outside.
     ///
-    /// NaN and infinities are tallied and skipped: they would make every later comparison
+    /// NaNs and infinities are counted and skipped, because they would make every later comparison
     /// meaningless.
     fn visit_element(&mut self, at: u64, numbers: &[f64]) {
         for (component, &number) in numbers.iter().enumerate() {
@@ -254,8 +254,8 @@ impl BoundsScan {
 
     /// Reports non-finite values, and declared bounds that differ from the actual ones.
     ///
-    /// Bounds must be exact (glTF 2.0 §3.6.2.5). Bounds that are too wide are a mismatch; if they
-    /// are too narrow, the number of elements outside is also reported.
+    /// Bounds must be exact (glTF 2.0 §3.6.2.5). If they are too narrow, the number of elements
+    /// outside is also reported.
     fn report_bounds(&self, document: &CheckedDocument<'_>, pointer: &str) {
         let Tally { count, first, value } = self.non_finite;
         if count > 0 {
@@ -295,7 +295,7 @@ impl RuleScan<'_> {
     /// Tests one element against the rule.
     ///
     /// `numbers` are the stored components; `elements` dequantizes them if the rule concerns the
-    /// value that a renderer sees. Each violation is added to the tally for its code.
+    /// dequantized value. Each violation is counted under its code.
     fn visit_element(&mut self, elements: &AccessorElements<'_>, at: u64, numbers: &[f64]) {
         let length = |numbers: &[f64]| {
             let squares = numbers.iter().map(|&x| elements.dequantize(x)).map(|x| x * x);
@@ -355,10 +355,10 @@ impl RuleScan<'_> {
         }
     }
 
-    /// Reports the violations of the rule in an accessor of `total` elements.
+    /// Reports violations of the rule in an accessor of `total` elements.
     ///
-    /// Messages have the form "… (3 of 24; the first is 1.5 in element 7)", which points to the
-    /// defect without listing all of them.
+    /// Messages have the form "… (3 of 24; the first is 1.5 in element 7)", which locates the
+    /// defect without listing every element.
     fn report_violations(&self, document: &CheckedDocument<'_>, total: u64) {
         let say = |code: &DiagnosticCode, tally: &Tally, what: &dyn Display| {
             let Tally { count, first, value } = tally;

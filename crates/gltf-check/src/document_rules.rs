@@ -1,8 +1,8 @@
 //! Rules about the document as a whole: version, extension lists, variants, cameras, unused
 //! objects.
 //!
-//! These rules relate several objects, or several members of one object, which the tables of the
-//! schema cannot express.
+//! These rules relate several objects, or several members of one object, so the schema tables
+//! cannot express them.
 
 use super::codes;
 use super::document::{
@@ -13,10 +13,10 @@ use super::schema::extensions::EXTENSION_OBJECTS;
 use serde_json::Value;
 use std::collections::BTreeSet;
 
-/// Validates the declared version of glTF and the minimum version.
+/// Validates the declared glTF version and the minimum version.
 ///
-/// Another major version stops the validation, because its schema is unknown; a later minor version
-/// is only a warning, because minor versions are compatible (glTF 2.0 §3.2).
+/// An unsupported major version stops the validation, because its schema is unknown; a later minor
+/// version is only a warning, because minor versions are compatible (glTF 2.0 §3.2).
 ///
 /// Versions are compared as pairs of integers, because 2.10 is later than 2.9.
 pub(super) fn check_asset(document: &CheckedDocument<'_>) {
@@ -69,17 +69,18 @@ pub(super) fn check_extensions(document: &CheckedDocument<'_>) {
     }
 }
 
-/// Whether the schema has tables for an extension.
+/// Returns whether the schema has tables for an extension.
 fn is_known(extension: &str) -> bool {
     EXTENSION_OBJECTS.iter().any(|place| place.name == extension)
 }
 
 /// Validates KHR_materials_variants.
 ///
-/// The root must declare the variants, and each of them maps a primitive to at most one material.
+/// The root must declare the variants, and each variant may map a primitive to at most one
+/// material.
 ///
-/// A variant listed by two mappings of one primitive would have two materials, and viewers would
-/// differ in their choice.
+/// If two mappings of a primitive listed the same variant, viewers would differ in their choice of
+/// material.
 pub(super) fn check_variants(document: &CheckedDocument<'_>) {
     const NAME: &str = "KHR_materials_variants";
     let diagnostics = document.diagnostics;
@@ -115,8 +116,8 @@ pub(super) fn check_variants(document: &CheckedDocument<'_>) {
 
 /// Validates the parameters of cameras.
 ///
-/// `zfar` is greater than `znear`, magnifications are not zero, and the field of view is less than
-/// a half turn: other values do not define a projection.
+/// To define a projection, `zfar` must be greater than `znear`, magnifications must not be zero,
+/// and the field of view must be less than a half turn.
 ///
 /// The object named by `type` must be present. Angles are in radians.
 pub(super) fn check_cameras(document: &CheckedDocument<'_>) {
@@ -167,10 +168,10 @@ pub(super) fn check_cameras(document: &CheckedDocument<'_>) {
 
 /// Reports objects that nothing refers to.
 ///
-/// This is skipped for files with unsupported extensions, which may refer to anything. Nodes and
-/// scenes are never reported: a viewer may select them.
+/// Files with unsupported extensions are skipped, because these may refer to anything. Nodes and
+/// scenes are never reported, because a viewer may select them.
 ///
-/// Unused objects are valid, but increase the download time; they get notes.
+/// Unused objects are valid but increase the download time, so they get notes.
 pub(super) fn check_unused(document: &CheckedDocument<'_>) {
     let names = array_items(document.root, "extensionsUsed").iter().filter_map(Value::as_str);
     if names.into_iter().any(|name| !is_known(name)) {

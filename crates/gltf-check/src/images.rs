@@ -1,4 +1,4 @@
-//! Images: their source, their actual and declared formats, and their use in textures.
+//! Validation of images: their source, actual and declared format, and use in textures.
 //!
 //! ```text
 //!  uri ──────────┐             ┌─► mimeType, data URI: must agree with the bytes
@@ -6,7 +6,7 @@
 //!  bufferView ───┘             └─► textures: PNG and JPEG, others with an extension
 //! ```
 //!
-//! No pixel is decoded: a header contains the format and the size, and a full decode would take
+//! No pixels are decoded: the header contains the format and the size, and a full decode would take
 //! most of the validation time.
 
 use super::codes;
@@ -20,8 +20,8 @@ use std::borrow::Cow;
 
 /// Validates all images, then the textures that use them.
 ///
-/// The media types of the images, detected from their bytes or declared, determine which textures
-/// may refer to them.
+/// The media type of an image, detected from its bytes or declared, determines which textures may
+/// refer to it.
 ///
 /// `is_binary` is set for a GLB, in which data URIs are discouraged.
 pub(super) fn check_images(
@@ -48,10 +48,10 @@ pub(super) fn check_images(
     }
 }
 
-/// The image formats by media type, with the extension that allows each.
+/// The image formats by media type, each with the extension that allows it.
 ///
-/// Core glTF has only PNG and JPEG (§3.8.3). An extension allows its format in its own `source`
-/// member, so that a texture can also have a fallback image.
+/// Core glTF supports only PNG and JPEG (§3.8.3). An extension allows its format in its own
+/// `source` member, so a texture can also have a fallback image.
 const IMAGE_FORMATS: [(&str, Option<&str>); 4] = [
     ("image/png", None),
     ("image/jpeg", None),
@@ -59,11 +59,11 @@ const IMAGE_FORMATS: [(&str, Option<&str>); 4] = [
     ("image/ktx2", Some("KHR_texture_basisu")),
 ];
 
-/// The media type of an image, from its first bytes (glTF 2.0 §3.8.3).
+/// Detects the media type of an image from its first bytes (glTF 2.0 §3.8.3).
 ///
-/// The bytes decide, not the declared type, as in all viewers.
+/// As in all viewers, the bytes take precedence over the declared type.
 ///
-/// WebP is a RIFF container: bytes 4 to 7 are the length of the file, and are skipped.
+/// WebP is a RIFF container; bytes 4 to 7 are the file length and are skipped.
 fn sniff_media_type(bytes: &[u8]) -> Option<&'static str> {
     match bytes {
         [0x89, b'P', b'N', b'G', ..] => Some("image/png"),
@@ -80,20 +80,20 @@ struct ImageChecker<'a> {
     store: &'a BufferStore<'a>,
     usage: &'a UsageMap<'a>,
     resolver: &'a UriResolver<'a>,
-    /// Whether the file is a GLB, in which data URIs are a waste.
+    /// Whether the file is a GLB, in which data URIs are discouraged.
     is_binary: bool,
     /// The JSON pointer of the image.
     pointer: String,
 }
 
 impl ImageChecker<'_> {
-    /// Validates an image; returns its media type, detected from its bytes or declared.
+    /// Validates an image, and returns its media type, detected from its bytes or declared.
     ///
-    /// The declared `mimeType` and the type of a data URI must match the bytes, and formats other
-    /// than PNG and JPEG need their extension.
+    /// The declared `mimeType` and the type of a data URI must match the bytes. Formats other than
+    /// PNG and JPEG require their extension.
     ///
-    /// An image in a buffer view needs a `mimeType` (glTF 2.0 §3.8.3); for a URI it is optional.
-    /// Without readable bytes the declared type is returned, so that the textures are still
+    /// An image in a buffer view needs a `mimeType` (glTF 2.0 §3.8.3); for a URI it is optional. If
+    /// the bytes cannot be read, the declared type is returned, so that textures are still
     /// validated.
     fn check_image(&self, image: &Value) -> Option<String> {
         let diagnostics = self.document.diagnostics;
@@ -134,7 +134,7 @@ impl ImageChecker<'_> {
         Some(kind.to_owned())
     }
 
-    /// The bytes of an image, from its buffer view or its URI; `None` if they cannot be read.
+    /// Returns the bytes of an image from its buffer view or URI, or `None` if they cannot be read.
     ///
     /// A `byteStride` on the buffer view of an image is reported: images are read contiguously.
     fn image_bytes(&self, image: &Value) -> Option<Cow<'_, [u8]>> {
@@ -154,11 +154,11 @@ impl ImageChecker<'_> {
         uris::read_uri(self.resolver, uri, &pointer, diagnostics).map(Cow::Owned)
     }
 
-    /// Validates the header of an image; returns its media type, detected from its first bytes.
+    /// Validates the header of an image, and returns the media type detected from its first bytes.
     ///
     /// Only the header is decoded. Decoders distinguish a truncated file from a corrupt one only in
-    /// their error text, which selects the code here. Without the feature `basisu`, KTX2 is
-    /// recognized but not checked. `None` means an unknown format, which has been reported.
+    /// the error text, which selects the code here. Without the `basisu` feature, KTX2 is
+    /// recognized but not checked. Returns `None` for an unknown format, after reporting it.
     fn check_image_header(&self, bytes: &[u8]) -> Option<&'static str> {
         let diagnostics = self.document.diagnostics;
         let Some(kind) = sniff_media_type(bytes) else {
@@ -186,7 +186,7 @@ impl ImageChecker<'_> {
     }
 }
 
-/// Validates the images of a texture: PNG or JPEG directly, other formats through their extensions.
+/// Validates the images of a texture: PNG or JPEG in core glTF, other formats through extensions.
 ///
 /// An extension such as EXT_texture_webp has its own `source`, which must be in its format. Images
 /// of unknown type are skipped, because they already have a diagnostic.

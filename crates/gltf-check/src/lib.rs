@@ -1,9 +1,9 @@
-//! Validation: every violation of the glTF specification in a file, not only the first fatal one.
-//! For other formats, the loader's diagnostics.
+//! Validates glTF files and reports every violation of the specification, not only the first fatal
+//! error. For other formats it reports the loader's diagnostics.
 //!
 //! Loading stops at the first error that prevents drawing. Validation continues: it compares the
-//! JSON with the schema, resolves every reference, reads every accessor element, and finally loads
-//! the file, so that its report includes the loader's diagnostics.
+//! JSON with the schema, resolves every reference and reads every accessor element. Finally it
+//! loads the file, so that the report includes the loader's diagnostics.
 //!
 //! ```text
 //!  bytes ─glb─► JSON ─schema_walk, by the tables of schema─► references

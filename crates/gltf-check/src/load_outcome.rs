@@ -1,10 +1,10 @@
-//! Diagnostics of the loader, except those that the validation has already reported.
+//! The loader's diagnostics, except those that the validation has already reported.
 
 use super::codes;
 use super::diagnostics::Diagnostics;
 use model::{Diagnostic, Model, Severity, codes as load};
 
-/// Adds the loader's warnings or error; returns the error.
+/// Adds the loader's warnings or error to the diagnostics, and returns the error.
 ///
 /// A warning is dropped if the validation already has a diagnostic at its location: both describe
 /// the same defect, and the validation's code is more specific.

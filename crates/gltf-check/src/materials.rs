@@ -1,4 +1,4 @@
-//! Materials, their requirements on the meshes that use them, and punctual lights.
+//! Validation of materials, their requirements on meshes that use them, and punctual lights.
 
 use super::codes;
 use super::diagnostics::Diagnostics;
@@ -9,10 +9,10 @@ use serde_json::Value;
 
 /// Validates all materials, and the lights of KHR_lights_punctual.
 ///
-/// The schema covers single values; this covers rules about two members, and the gap in the range
-/// of `ior`.
+/// The schema covers single values; this function covers rules about two members, and the gap in
+/// the range of `ior`.
 ///
-/// Textures are validated by the schema walk; neither textures nor images are accessed here.
+/// The schema walk validates texture references; neither textures nor images are accessed here.
 pub(super) fn check_materials(document: &CheckedDocument<'_>) {
     for (at, material) in document.root_array("materials").iter().enumerate() {
         let mode = material.get("alphaMode").and_then(Value::as_str).unwrap_or("OPAQUE");
@@ -37,10 +37,10 @@ pub(super) fn check_materials(document: &CheckedDocument<'_>) {
     }
 }
 
-/// Validates a punctual light: a spot light has a `spot` with ordered cone angles.
+/// Validates a punctual light: a spot light needs a `spot` with ordered cone angles.
 ///
-/// Missing angles have their defaults: 0 and π/4. With equal angles the falloff between them, a
-/// division by their difference, is undefined.
+/// Missing angles default to 0 and π/4. With equal angles the falloff between them, which divides
+/// by their difference, is undefined.
 fn check_light(document: &CheckedDocument<'_>, at: usize, light: &Value) {
     let pointer = format!("/extensions/KHR_lights_punctual/lights/{at}");
     let is_spot = light.get("type").and_then(Value::as_str) == Some("spot");
@@ -73,20 +73,20 @@ fn check_light(document: &CheckedDocument<'_>, at: usize, light: &Value) {
 
 /// The vertex attributes that a material requires.
 ///
-/// A primitive without them is drawn without the texture, or with generated tangents.
+/// A primitive without these attributes is drawn without the texture, or with generated tangents.
 #[derive(Clone, Copy, Default, Debug)]
 pub(super) struct MaterialRequirements {
-    /// The largest index of texture coordinates that its textures use.
+    /// The largest texture coordinate set that the textures use.
     max_uv_set: Option<u64>,
-    /// Whether the material has a normal map; if a mesh has no tangents, they are generated from
-    /// its texture coordinates.
+    /// Whether the material has a normal map. If a mesh has no tangents, they are generated from
+    /// the map's texture coordinates.
     has_normal_map: bool,
-    /// Whether it needs tangents independent of a normal map: for anisotropy, or for a clearcoat's
+    /// Whether the material needs tangents even without a normal map, for anisotropy or a clearcoat
     /// normal map.
     needs_tangents: bool,
 }
 
-/// The requirements of all materials.
+/// Collects the requirements of all materials.
 pub(super) fn material_requirements(document: &CheckedDocument<'_>) -> Vec<MaterialRequirements> {
     let of = |material: &Value| {
         let mut needs = MaterialRequirements::default();
@@ -104,7 +104,7 @@ pub(super) fn material_requirements(document: &CheckedDocument<'_>) -> Vec<Mater
 impl MaterialRequirements {
     /// Validates the attributes of a primitive against the material.
     ///
-    /// `sets` is the number of its sets of texture coordinates, and `pointer` its `material`
+    /// `sets` is the primitive's number of texture coordinate sets, and `pointer` its `material`
     /// member.
     pub(super) fn check_primitive(
         self,
@@ -134,10 +134,10 @@ impl MaterialRequirements {
 
 /// Finds the largest `texCoord` in all texture infos below a JSON value.
 ///
-/// A texture info is any object with an `index`, so that texture infos of extensions are found
-/// without a list; KHR_texture_transform may override its `texCoord`.
+/// A texture info is any object with an `index`, so the texture infos of extensions are found
+/// without a list. KHR_texture_transform may override its `texCoord`.
 ///
-/// The recursion is as deep as the JSON, whose nesting is limited.
+/// The recursion is as deep as the JSON, whose depth is limited.
 fn find_max_uv_set(value: &Value, most: &mut Option<u64>) {
     let Some(members) = value.as_object() else { return };
     if index_member(value, "index").is_some() {

@@ -1,8 +1,8 @@
-//! Nodes and scenes: transforms, the node hierarchy, and node meshes (glTF 2.0 §3.5).
+//! Validation of nodes and scenes: transforms, the hierarchy, and node meshes (glTF 2.0 §3.5).
 //!
 //! The hierarchy must be a set of disjoint strict trees (glTF 2.0 §3.5.2): a node has at most one
-//! parent, and no node is its own ancestor. Files may violate both, so no traversal here recurses
-//! or follows a link twice.
+//! parent, and no node is its own ancestor. Files may violate both rules, so traversals in this
+//! module never recurse or follow a link twice.
 
 use super::codes;
 use super::document::{
@@ -11,7 +11,7 @@ use super::document::{
 use glam::DMat4;
 use serde_json::Value;
 
-/// The node hierarchy, without the links that would prevent it from being a forest.
+/// The node hierarchy as a forest, without the links that violate this.
 ///
 /// ```text
 ///        A [0, 4)            B is below A: [1, 3) is inside [0, 4)
@@ -22,19 +22,19 @@ use serde_json::Value;
 /// ```
 #[derive(Debug)]
 pub(super) struct NodeTree {
-    /// The parent of each node; the first if there are several.
+    /// The parent of each node, or the first if there are several.
     pub(super) parents: Vec<Option<usize>>,
-    /// The root above each node; `None` for nodes in a cycle.
+    /// The root of the tree that contains each node; `None` for nodes in a cycle.
     pub(super) roots: Vec<Option<usize>>,
-    /// The entry and exit time of each node in a depth-first traversal: the interval of a
-    /// descendant is inside its ancestor's.
+    /// The entry and exit times of each node in a depth-first traversal. The interval of a
+    /// descendant is inside its ancestor's interval.
     visit_intervals: Vec<(usize, usize)>,
 }
 
 impl NodeTree {
-    /// Whether a node is the other node or a descendant of it, in constant time.
+    /// Returns in constant time whether a node is the other node or one of its descendants.
     ///
-    /// A node in a cycle counts as below every node: the cycle itself has been reported.
+    /// A node in a cycle counts as below every node, because the cycle itself has been reported.
     pub(super) fn is_at_or_below(&self, node: usize, other: usize) -> bool {
         let (Some(inner), Some(outer)) =
             (self.visit_intervals.get(node), self.visit_intervals.get(other))
@@ -45,10 +45,10 @@ impl NodeTree {
     }
 }
 
-/// Validates all nodes and scenes; returns the hierarchy for the checks of skins.
+/// Validates all nodes and scenes, and returns the hierarchy for the skin checks.
 ///
-/// The root nodes of a scene must not have a parent (glTF 2.0 §3.5.1): if drawn from there, a node
-/// would lose the transforms of its ancestors.
+/// The root nodes of a scene must not have a parent (glTF 2.0 §3.5.1): a node drawn as a root would
+/// lose its ancestors' transforms.
 pub(super) fn check_nodes(document: &CheckedDocument<'_>) -> NodeTree {
     let meshes = document.root_array("meshes");
     let shapes: Vec<MeshSummary> = meshes.iter().map(MeshSummary::from_mesh).collect();
@@ -75,9 +75,9 @@ pub(super) fn check_nodes(document: &CheckedDocument<'_>) -> NodeTree {
 
 /// Validates the transform of a node (glTF 2.0 §3.5.3).
 ///
-/// A node has a matrix or its decomposition, not both; the matrix can be decomposed into
-/// translation, rotation and scale, without shear or projection; the rotation is a unit quaternion.
-/// A matrix equal to the identity gets a note, because it is the default and can be omitted.
+/// A node may have a matrix or translation, rotation and scale, but not both. The matrix must be
+/// decomposable into these three, without shear or projection, and the rotation must be a unit
+/// quaternion. An identity matrix gets a note, because it is the default and can be omitted.
 fn check_transform(document: &CheckedDocument<'_>, at: usize, node: &Value) {
     let diagnostics = document.diagnostics;
     let has_parts = ["translation", "rotation", "scale"].iter().any(|key| node.get(key).is_some());
@@ -115,14 +115,14 @@ fn check_transform(document: &CheckedDocument<'_>, at: usize, node: &Value) {
     }
 }
 
-/// The tolerance for the length of rotations in JSON, which exporters round to four digits.
+/// The tolerance for the length of rotations in JSON, which exporters may round to four digits.
 const ROTATION_ROUNDING: f64 = 5e-4;
 
-/// Whether a matrix is a product of translation, rotation and scale.
+/// Returns whether a matrix is a product of translation, rotation and scale.
 ///
 /// Its columns are then perpendicular, and its last row is 0, 0, 0, 1. The tolerance is relative to
-/// the lengths of the columns (0.005 is an angle of about 0.3°), so that it does not depend on the
-/// scale. A column of length 0 has no direction, and is rejected.
+/// the column lengths, so it does not depend on the scale; 0.005 is an angle of about 0.3°. A
+/// column of length 0 has no direction and is rejected.
 fn is_decomposable(matrix: &DMat4) -> bool {
     let columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(glam::DVec4::truncate);
     let [x, y, z] = columns;
@@ -138,21 +138,22 @@ fn is_decomposable(matrix: &DMat4) -> bool {
         && are_perpendicular(z, x)
 }
 
-/// The properties of a mesh that matter to its nodes.
+/// The mesh properties that its nodes depend on.
 #[derive(Clone, Copy, Debug)]
 struct MeshSummary {
-    /// The number of morph targets of its first primitive.
+    /// The number of morph targets of the first primitive.
     targets: usize,
     /// Whether a primitive has `JOINTS_0`.
     has_joints: bool,
-    /// Whether there are any primitives; a mesh without them has already been reported.
+    /// Whether there are any primitives; a mesh without primitives has already been reported.
     has_primitives: bool,
 }
 
 impl MeshSummary {
     /// Summarizes the JSON of a mesh.
     ///
-    /// Many nodes may use one mesh, so the summary is computed once instead of for each node.
+    /// Many nodes may share a mesh, so the summary is computed once per mesh instead of once per
+    /// node.
     fn from_mesh(mesh: &Value) -> Self {
         let primitives = array_items(mesh, "primitives");
         let has_joints = |primitive: &Value| {
@@ -167,9 +168,10 @@ impl MeshSummary {
     }
 }
 
-/// Validates morph weights and skin of a node against its mesh.
+/// Validates the morph weights and skin of a node against its mesh.
 ///
-/// A mesh with joints on a node without a skin is only a warning: it can be drawn undeformed.
+/// A mesh with joints on a node without a skin gets only a warning, because it can be drawn
+/// undeformed.
 fn check_mesh_use(document: &CheckedDocument<'_>, at: usize, node: &Value, shapes: &[MeshSummary]) {
     let diagnostics = document.diagnostics;
     let Some(&shape) = index_member(node, "mesh").and_then(|mesh| shapes.get(mesh)) else { return };
@@ -195,13 +197,13 @@ fn check_mesh_use(document: &CheckedDocument<'_>, at: usize, node: &Value, shape
     }
 }
 
-/// Builds the hierarchy, and reports nodes with several parents or in a cycle.
+/// Builds the hierarchy, and reports nodes that have several parents or are in a cycle.
 ///
-/// If there are several parents, the first is used, so that the rest of the validation has a
-/// forest.
+/// If a node has several parents, the first is used, so that the rest of the validation can rely on
+/// a forest.
 ///
-/// A child that is listed by several parents is reported at each of the later ones. Indices out of
-/// range have been reported by the schema walk, and are skipped.
+/// Such a child is reported at every later parent. The schema walk has reported indices that are
+/// out of range; they are skipped.
 fn build_tree(document: &CheckedDocument<'_>) -> NodeTree {
     let nodes = document.root_array("nodes");
     let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];
@@ -225,13 +227,14 @@ fn build_tree(document: &CheckedDocument<'_>) -> NodeTree {
     traverse_tree(document, parents, &children)
 }
 
-/// Traverses the hierarchy depth first, without recursion, from every root.
+/// Traverses the hierarchy depth first from every root, without recursion.
 ///
-/// It numbers the nodes for [`NodeTree::is_at_or_below`], and finds cycles, whose nodes are not
+/// This numbers the nodes for [`NodeTree::is_at_or_below`], and finds cycles, whose nodes are not
 /// reached.
 ///
-/// Hostile files may nest nodes a million deep, so the stack of open nodes is on the heap. A cycle
-/// has no root, and its nodes keep the empty interval. The time is linear in the number of nodes.
+/// Hostile files may nest nodes a million levels deep, so the stack of open nodes is on the heap. A
+/// cycle has no root, and its nodes retain the empty interval. The time is linear in the number of
+/// nodes.
 fn traverse_tree(
     document: &CheckedDocument<'_>,
     parents: Vec<Option<usize>>,
@@ -245,7 +248,7 @@ fn traverse_tree(
     };
     let mut time = 0;
     for root in (0..count).filter(|&at| tree.parents[at].is_none()).collect::<Vec<_>>() {
-        // Stack of open nodes, each with the position of its next child.
+        // A stack of open nodes, each with the position of its next child.
         let mut open = vec![(root, 0)];
         while let Some((at, next)) = open.pop() {
             if next == 0 {
@@ -266,7 +269,8 @@ fn traverse_tree(
     tree
 }
 
-/// Whether a node is in a cycle or below one: the traversal from the roots has not reached it.
+/// Returns whether a node is in or below a cycle, that is, not reached by the traversal from the
+/// roots.
 fn is_in_loop(tree: &NodeTree, at: usize) -> bool {
     tree.roots[at].is_none()
 }

@@ -1,4 +1,4 @@
-//! The report of a validation.
+//! The validation report.
 
 use model::{Diagnostic, Severity};
 use std::path::PathBuf;
@@ -10,26 +10,28 @@ pub struct CheckReport {
     /// The file that was checked.
     pub file: PathBuf,
     /// The diagnostics, worst severity first and otherwise in the order of the checks. Only the
-    /// first few hundred of each severity are listed; the counts below include all.
+    /// first few hundred of each severity are listed; the counts below include all of them.
     pub diagnostics: Vec<Diagnostic>,
-    /// The number of errors: broken rules of the specification, or missing data.
+    /// The number of errors: violations of the specification, or missing data.
     pub errors: usize,
-    /// The number of warnings: other viewers may show it differently, or something is omitted here.
+    /// The number of warnings: other viewers may show the file differently, or something is omitted
+    /// here.
     pub warnings: usize,
-    /// The number of notes: nothing is wrong, but something could be improved.
+    /// The number of notes: possible improvements to valid content.
     pub notes: usize,
-    /// The reason why the file cannot be loaded; `None` if it can, like many files with errors.
+    /// The reason why the file cannot be loaded, or `None` if it can. Many files with errors can be
+    /// loaded.
     pub load_error: Option<Diagnostic>,
 }
 
 impl CheckReport {
-    /// The number of diagnostics that are counted but not listed.
+    /// Returns the number of diagnostics that are counted but not listed.
     #[must_use]
     pub fn omitted_count(&self) -> usize {
         (self.errors + self.warnings + self.notes).saturating_sub(self.diagnostics.len())
     }
 
-    /// The counts as a phrase: `2 errors, 1 warning, no notes; it can be drawn`.
+    /// Formats the counts as a phrase: `2 errors, 1 warning, no notes; it can be drawn`.
     #[must_use]
     pub fn summary(&self) -> String {
         let count = |number: usize, severity: Severity| match number {

@@ -1,11 +1,11 @@
-//! The JSON schema of glTF as constant tables: the members of every object, and their values.
+//! The glTF JSON schema as constant tables: the members of every object, and their values.
 //!
-//! The tables are the property tables of the specification (glTF 2.0 §5) and of the extensions, row
-//! by row. The schema walk ([`super::schema_walk`]) interprets them: it finds values of the wrong
-//! type or out of range, missing members and unresolved references without code for any individual
-//! member.
+//! The tables follow the property tables of the specification (glTF 2.0 §5) and the extensions, row
+//! by row. The schema walk ([`super::schema_walk`]) interprets them: it finds missing members,
+//! unresolved references, and values of the wrong type or out of range, without code for individual
+//! members.
 //!
-//! A member is a row of its object's table:
+//! Each member is a row of its object's table:
 //!
 //! ```text
 //!  requires("byteOffset", "bufferView", Integer(0, MAX_INTEGER))
@@ -35,20 +35,20 @@ pub(super) struct MemberSchema {
     pub(super) name: &'static str,
     /// The type and range of its value.
     pub(super) kind: ValueKind,
-    /// The rule for its presence.
+    /// The rule about its presence.
     pub(super) rule: PresenceRule,
 }
 
-/// The conditions under which a member may or must be present.
+/// A condition under which a member may or must be present.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum PresenceRule {
     /// It may be present or absent.
     Optional,
-    /// It must be present; the validator reports `UNDEFINED_PROPERTY` otherwise.
+    /// It must be present; otherwise `UNDEFINED_PROPERTY` is reported.
     Required,
     /// It may be present only together with another member (`dependencies` in the JSON schema).
     Requires(&'static str),
-    /// Exactly one of this member and another one is present (`oneOf` in the JSON schema).
+    /// Exactly one of this member and another must be present (`oneOf` in the JSON schema).
     ExactlyOne(&'static str),
     /// It may be present only without another member (`not` in the JSON schema).
     Excludes(&'static str),
@@ -56,7 +56,7 @@ pub(super) enum PresenceRule {
 
 /// The type and range of a value.
 ///
-/// Composite kinds refer to the schema of their objects; all others are leaves of the walk.
+/// Composite kinds refer to the schemas of their objects; all other kinds are leaves of the walk.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum ValueKind {
     /// Any value.
@@ -67,15 +67,15 @@ pub(super) enum ValueKind {
     Text,
     /// A string of the form `2.0`.
     Version,
-    /// One of these strings; another one is only a warning.
+    /// One of these strings; any other string is only a warning.
     EnumString(&'static [&'static str]),
     /// An integer in an inclusive range.
     Integer(u64, u64),
-    /// One of these integers; another one is only a warning.
+    /// One of these integers; any other integer is only a warning.
     EnumInteger(&'static [u64]),
     /// A number in a range.
     Number(NumberRange),
-    /// An array of this many numbers in a range; 0 for any length above 0.
+    /// An array of this many numbers in a range; 0 means any length above 0.
     Numbers(usize, NumberRange),
     /// An index into a collection.
     Index(Collection),
@@ -93,21 +93,21 @@ pub(super) enum ValueKind {
     Targets,
 }
 
-/// A range of numbers, with or without its minimum.
+/// A range of numbers, which may exclude its minimum.
 ///
-/// Only the minimum can be exclusive: `yfov > 0` exists in the specification, an open maximum does
-/// not.
+/// Only the minimum can be exclusive: the specification has ranges such as `yfov > 0`, but no
+/// exclusive maximum.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NumberRange {
     /// The minimum.
     pub(super) min: f64,
-    /// The maximum, which is part of the range.
+    /// The maximum, which is always included.
     pub(super) max: f64,
-    /// Whether the minimum itself is excluded.
+    /// Whether the minimum is excluded.
     pub(super) exclusive_min: bool,
 }
 
-/// A member that excludes another one.
+/// Declares a member that excludes another.
 const fn excludes(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
     MemberSchema { name, kind, rule: PresenceRule::Excludes(other) }
 }
@@ -119,14 +119,14 @@ const ANY: NumberRange =
 const UNIT: NumberRange = NumberRange { min: 0.0, max: 1.0, exclusive_min: false };
 /// Components of unit vectors and quaternions: [−1, 1].
 const SIGNED_UNIT: NumberRange = NumberRange { min: -1.0, max: 1.0, exclusive_min: false };
-/// Numbers from 0.
+/// Numbers of at least 0.
 const NOT_NEGATIVE: NumberRange = NumberRange { min: 0.0, ..ANY };
 /// Numbers greater than 0.
 const POSITIVE: NumberRange = NumberRange { min: 0.0, exclusive_min: true, ..ANY };
 
 /// A collection of objects that indices refer to.
 ///
-/// The discriminants index [`Collection::ALL`] and the flags of used objects.
+/// The discriminants are indices into [`Collection::ALL`] and the flags of used objects.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Collection {
     Accessors,
@@ -143,15 +143,15 @@ pub(super) enum Collection {
     Textures,
     Lights,
     Variants,
-    /// The samplers of the same animation, which are validated with it.
+    /// The samplers of the same animation, which are validated with the animation.
     AnimationSamplers,
 }
 
 impl Collection {
     /// The collections of a document with their pointers, and whether unused objects get a note.
     ///
-    /// Nodes and scenes do not get a note about being unused: nodes are reached through scenes, and
-    /// all scenes except one are unused by design.
+    /// Unused nodes and scenes do not get a note: nodes are reached through scenes, and all scenes
+    /// except one are unused by design.
     pub(super) const ALL: [(Self, &'static str, bool); 14] = [
         (Self::Accessors, "/accessors", true),
         (Self::Buffers, "/buffers", true),
@@ -170,22 +170,22 @@ impl Collection {
     ];
 }
 
-/// A member that may be absent.
+/// Declares a member that may be absent.
 const fn optional(name: &'static str, kind: ValueKind) -> MemberSchema {
     MemberSchema { name, kind, rule: PresenceRule::Optional }
 }
 
-/// A member that must be present.
+/// Declares a member that must be present.
 const fn required(name: &'static str, kind: ValueKind) -> MemberSchema {
     MemberSchema { name, kind, rule: PresenceRule::Required }
 }
 
-/// A member that is valid only together with another one.
+/// Declares a member that is valid only together with another.
 const fn requires(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
     MemberSchema { name, kind, rule: PresenceRule::Requires(other) }
 }
 
-/// A member for which exactly one of it and another one must be present.
+/// Declares a member such that exactly one of it and another must be present.
 const fn one_of(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
     MemberSchema { name, kind, rule: PresenceRule::ExactlyOne(other) }
 }

@@ -1,8 +1,7 @@
-//! Buffer data: buffers are read once, and buffer views are resolved within them.
+//! Buffer data: reads each buffer once, and resolves buffer views within it.
 //!
-//! A [`BufferStore`] lends slices and never copies a buffer. Every request returns `None` if any
-//! byte of it is missing, and the checks skip such data: the missing bytes already have a
-//! diagnostic.
+//! A [`BufferStore`] lends slices and never copies a buffer. A request returns `None` if any of its
+//! bytes are missing. Checks skip such data, because the missing bytes already have a diagnostic.
 
 use super::codes;
 use super::document::{
@@ -17,21 +16,20 @@ use gltf_import::UriResolver;
 use serde_json::Value;
 use std::cell::{Cell, OnceCell};
 
-/// The buffers of a document, its decompressed buffer views, and the budget for reading them.
+/// The buffers and decompressed buffer views of a document, and the budget for reading them.
 ///
-/// Time and memory are limited in two ways. Reading a URI is limited by the resolver; decoding and
-/// visiting elements is charged to `budget`, which is proportional to the actual bytes of the
-/// files.
+/// Time and memory are limited in two ways. The resolver limits reading URIs; decoding and visiting
+/// elements is charged to `budget`, which is proportional to the actual size of the files.
 pub(super) struct BufferStore<'a> {
     document: &'a CheckedDocument<'a>,
     resolver: &'a UriResolver<'a>,
-    /// The bytes of each buffer; `None` if they cannot be read.
+    /// The bytes of each buffer, or `None` if they cannot be read.
     buffers: Vec<Option<BufferBytes<'a>>>,
-    /// The buffer views decompressed by meshopt, each on first use.
+    /// The buffer views compressed with meshopt, decompressed on first use.
     decompressed: Vec<OnceCell<Option<Vec<u8>>>>,
-    /// The budget of bytes that may be read or decoded, proportional to the size of the files.
+    /// The number of bytes that may be read or decoded, proportional to the size of the files.
     budget: MemoryBudget<'a>,
-    /// Whether the budget has been exceeded, so that nothing more is read.
+    /// Whether the budget has been exceeded; nothing more is read then.
     exhausted: Cell<bool>,
 }
 
@@ -41,14 +39,14 @@ pub(super) struct BufferStore<'a> {
 enum BufferBytes<'a> {
     /// The binary chunk of a GLB.
     Chunk(&'a [u8]),
-    /// The content of a file, or of a decoded data URI.
+    /// The content of a file or a decoded data URI.
     Read(Vec<u8>),
 }
 
 impl<'a> BufferStore<'a> {
     /// Reads all buffers; `chunk` is the binary chunk of a GLB.
     ///
-    /// Errors are reported, and leave a buffer without bytes. Buffer views are decompressed later,
+    /// Errors are reported and leave the buffer without bytes. Buffer views are decompressed later,
     /// on first use, because an unused view need not be valid.
     pub(super) fn load_buffers(
         document: &'a CheckedDocument<'a>,
@@ -74,11 +72,11 @@ impl<'a> BufferStore<'a> {
 
     /// Reads one buffer from its URI or the binary chunk.
     ///
-    /// The binary chunk is the first buffer without a URI; it may be up to three bytes longer than
-    /// the buffer, for padding.
+    /// The first buffer, if it has no URI, is the binary chunk, which may be up to three bytes
+    /// longer for padding.
     ///
-    /// The declared `byteLength` may be less than the length of the data, but not greater: a short
-    /// buffer gives `BUFFER_BYTE_LENGTH_MISMATCH`, and its bytes remain in use.
+    /// The declared `byteLength` must not be greater than the length of the data. If it is,
+    /// `BUFFER_BYTE_LENGTH_MISMATCH` is reported, and the existing bytes are still used.
     fn load_buffer(
         &self,
         at: usize,
@@ -123,7 +121,7 @@ impl<'a> BufferStore<'a> {
         Some(BufferBytes::Read(bytes))
     }
 
-    /// Reports data that is shorter than the declared `byteLength`, both in bytes.
+    /// Reports data that is shorter than the declared `byteLength`; both lengths are in bytes.
     fn check_length(&self, at: usize, available: usize, length: u64) {
         if (available as u64) < length {
             let message =
@@ -133,13 +131,13 @@ impl<'a> BufferStore<'a> {
         }
     }
 
-    /// Charges bytes to the budget; returns whether they may be read.
+    /// Charges bytes to the budget, and returns whether they may be read.
     ///
-    /// The first excess is reported; after that nothing is read, so that a hostile file cannot
-    /// prolong the validation.
+    /// Once the budget is exceeded, this is reported and nothing more is read, so that a hostile
+    /// file cannot prolong the validation.
     ///
-    /// The first refusal is final even if a smaller request would still fit; otherwise the report
-    /// would depend on the order of the accessors.
+    /// The first refusal is final even if a smaller request would still fit, so that the report
+    /// does not depend on the order of the accessors.
     pub(super) fn charge_budget(&self, pointer: &str, bytes: u64) -> bool {
         if self.exhausted.get() {
             return false;
@@ -159,7 +157,7 @@ impl<'a> BufferStore<'a> {
         charged.is_ok()
     }
 
-    /// All bytes of a buffer; `None` if it does not exist or could not be read.
+    /// Returns all bytes of a buffer, or `None` if it does not exist or could not be read.
     fn buffer_bytes(&self, buffer: usize) -> Option<&[u8]> {
         match self.buffers.get(buffer)?.as_ref()? {
             BufferBytes::Chunk(bytes) => Some(bytes),
@@ -167,11 +165,11 @@ impl<'a> BufferStore<'a> {
         }
     }
 
-    /// The bytes of a buffer view, if all of them are present.
+    /// Returns the bytes of a buffer view, if all of them are present.
     ///
-    /// A view compressed by EXT_meshopt_compression or KHR_meshopt_compression is decompressed on
-    /// first use, and stored. Its own `buffer` is then only a fallback for readers without the
-    /// extension, which may have no data at all.
+    /// A view compressed with EXT_meshopt_compression or KHR_meshopt_compression is decompressed on
+    /// first use and stored. Its own `buffer`, a fallback for readers without the extension, may
+    /// have no data.
     pub(super) fn view_bytes(&self, view: usize) -> Option<&[u8]> {
         let json = self.document.root_array("bufferViews").get(view)?;
         let packed = ["KHR_meshopt_compression", "EXT_meshopt_compression"];
@@ -191,20 +189,20 @@ impl<'a> BufferStore<'a> {
         )
     }
 
-    /// A range of a buffer that starts at `offset`; `None` if it is not completely inside.
+    /// Returns a range of a buffer that starts at `offset`, or `None` if it is not entirely inside
+    /// the buffer.
     ///
-    /// Both values come from the file, and may be larger than the address space of a 32-bit
-    /// machine.
+    /// Offset and length come from the file and may exceed the address space of a 32-bit machine.
     fn buffer_range(&self, buffer: usize, offset: u64, length: u64) -> Option<&[u8]> {
         let start = usize::try_from(offset).ok()?;
         self.buffer_bytes(buffer)?.get(start..)?.get(..usize::try_from(length).ok()?)
     }
 
-    /// Decompresses a meshopt buffer view; `None` if the stream is invalid or the budget is
+    /// Decompresses a meshopt buffer view. Returns `None` if the stream is invalid or the budget is
     /// exceeded.
     ///
-    /// The loader, which uses the same decoder, reports errors in the stream. The decompressed
-    /// length is declared in the file, and is therefore charged before anything is allocated.
+    /// The loader uses the same decoder and reports errors in the stream. The file declares the
+    /// decompressed length, so it is charged before anything is allocated.
     fn decompress_view(&self, view: usize, json: &Value) -> Option<Vec<u8>> {
         let pointer = format!("/bufferViews/{view}");
         let packed = CompressedView::from_json(json, &pointer).ok()??;
@@ -213,18 +211,18 @@ impl<'a> BufferStore<'a> {
             .then(|| packed.decompress(stream).ok())?
     }
 
-    /// The elements of an accessor, if all their bytes are present.
+    /// Returns the elements of an accessor, if all their bytes are present.
     ///
-    /// A missing part has been reported elsewhere. The data is then skipped, so that no diagnostic
-    /// is a consequence of another. The layers of an accessor are resolved in this order:
+    /// If a part is missing, this has been reported elsewhere, and the data is skipped to avoid
+    /// follow-up diagnostics. The layers of an accessor are resolved in this order:
     ///
     /// ```text
     ///  buffer view   count elements at its stride, or zeros without a view
     ///  sparse        some of them replaced: indices and values, tightly packed
     /// ```
     ///
-    /// The last packed element needs no padding after it, which matters for matrices with small
-    /// components.
+    /// The last packed element does not need padding after it, which matters for matrices with
+    /// small components.
     pub(super) fn accessor_elements(
         &self,
         accessor: &Value,
@@ -254,10 +252,11 @@ impl<'a> BufferStore<'a> {
         Some(AccessorElements::new(layout, base, indices, values))
     }
 
-    /// The indices of a sparse accessor, if all their bytes are present (glTF 2.0 §3.6.2.3).
+    /// Returns the indices of a sparse accessor, if all their bytes are present (glTF 2.0
+    /// §3.6.2.3).
     ///
-    /// They are always converted to 32 bits; the conversion is charged to the budget, because the
-    /// count is only a declaration.
+    /// They are always converted to 32 bits. The conversion is charged to the budget, because the
+    /// count is only declared.
     pub(super) fn sparse_indices(&self, sparse: &Value) -> Option<Vec<u32>> {
         let json = sparse.get("indices")?;
         let component = ComponentType::from_gl_constant(integer_member(json, "componentType")?)?;
@@ -276,7 +275,7 @@ impl<'a> BufferStore<'a> {
         )
     }
 
-    /// The `byteStride` that a buffer view declares, in bytes; `None` for tightly packed elements.
+    /// Returns the `byteStride` of a buffer view in bytes, or `None` for tightly packed elements.
     pub(super) fn view_stride(&self, view: usize) -> Option<usize> {
         index_member(self.document.root_array("bufferViews").get(view)?, "byteStride")
     }
@@ -289,11 +288,11 @@ pub(super) fn check_buffer_views(document: &CheckedDocument<'_>) {
     }
 }
 
-/// Validates one buffer view: its range, and its stride.
+/// Validates the range and stride of one buffer view.
 ///
-/// The stride is a multiple of four, not set for indices, and not greater than the view. The range
-/// is compared with the declared length of the buffer, not with its data, so that a truncated file
-/// gives one diagnostic at the buffer and none at its views.
+/// The stride must be a multiple of four, absent for indices, and not greater than the view. The
+/// range is compared with the declared length of the buffer, not with its data, so that a truncated
+/// file gives one diagnostic at the buffer and none at its views.
 fn check_buffer_view(document: &CheckedDocument<'_>, at: usize, view: &Value) {
     let diagnostics = document.diagnostics;
     let offset = integer_member(view, "byteOffset").unwrap_or(0);

@@ -1,4 +1,4 @@
-//! Uses of accessors and buffer views: each may have only one purpose (glTF 2.0 §3.6.2.1, §5.11.5).
+//! Uses of accessors and buffer views, each with only one purpose (glTF 2.0 §3.6.2.1, §5.11.5).
 //!
 //! Graphics APIs upload a buffer view as a whole, for one purpose: in WebGL a vertex buffer cannot
 //! also be an index buffer. Only the first conflicting use of each is reported.
@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Accessors for different purposes have different rules for bounds, strides and formats.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum AccessorUse {
-    /// A vertex attribute, or the displacement of one in a morph target.
+    /// A vertex attribute, or its displacement in a morph target.
     Attribute,
     Indices,
     InverseBind,
@@ -25,7 +25,7 @@ pub(super) enum AccessorUse {
 
 /// The purpose of a buffer view.
 ///
-/// It is determined by the accessors in the view, or by its declared `target`.
+/// It is determined by the accessors in the view or by the declared `target`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum ViewUse {
     Vertices,
@@ -37,7 +37,7 @@ pub(super) enum ViewUse {
 }
 
 impl AccessorUse {
-    /// The purpose as written in messages.
+    /// Returns the purpose as written in messages.
     const fn name(self) -> &'static str {
         match self {
             Self::Attribute => "a vertex attribute",
@@ -50,7 +50,7 @@ impl AccessorUse {
 }
 
 impl ViewUse {
-    /// The purpose as written in messages.
+    /// Returns the purpose as written in messages.
     const fn name(self) -> &'static str {
         match self {
             Self::Vertices => "vertex attributes",
@@ -64,20 +64,20 @@ impl ViewUse {
 
 /// The uses of all accessors and buffer views found so far.
 ///
-/// Interior mutability lets all checks hold a reference to it. The maps are ordered, so that
-/// nothing depends on a hash seed.
+/// Interior mutability lets all checks share a reference. The maps are ordered, so that nothing
+/// depends on a hash seed.
 pub(super) struct UsageMap<'a> {
     document: &'a CheckedDocument<'a>,
     /// The first use of each accessor.
     accessors: RefCell<BTreeMap<usize, AccessorUse>>,
-    /// The first use of each buffer view, or the one its `target` declares.
+    /// The first use of each buffer view, or the use that its `target` declares.
     views: RefCell<BTreeMap<usize, ViewUse>>,
     /// The accessors of vertex attributes in each buffer view that has no `byteStride`.
     unstrided: RefCell<BTreeMap<usize, BTreeSet<usize>>>,
 }
 
 impl<'a> UsageMap<'a> {
-    /// The uses that the `target` members of buffer views declare.
+    /// Records the uses that the `target` members of buffer views declare.
     pub(super) fn new(document: &'a CheckedDocument<'a>) -> Self {
         let target = |(at, view): (usize, &serde_json::Value)| match integer_member(view, "target")
         {
@@ -95,11 +95,11 @@ impl<'a> UsageMap<'a> {
         }
     }
 
-    /// Records the use of an accessor and of its buffer view; `pointer` is the member that refers
-    /// to it.
+    /// Records the use of an accessor and its buffer view; `pointer` is the member that refers to
+    /// the accessor.
     ///
-    /// The first use wins; a different later one is an `ACCESSOR_USAGE_OVERRIDE` at its own
-    /// pointer, which names both purposes.
+    /// The first use wins. A later use for another purpose is an `ACCESSOR_USAGE_OVERRIDE` at its
+    /// own pointer, which names both purposes.
     pub(super) fn note_accessor(&self, accessor: usize, new: AccessorUse, pointer: &str) {
         let old = *self.accessors.borrow_mut().entry(accessor).or_insert(new);
         if old != new {
@@ -121,7 +121,7 @@ impl<'a> UsageMap<'a> {
 
     /// Records the use of a buffer view.
     ///
-    /// An index out of range is ignored: the schema walk has reported it.
+    /// An out-of-range index is ignored, because the schema walk has reported it.
     pub(super) fn note_view(&self, view: usize, new: ViewUse, pointer: &str) {
         if view >= self.document.root_array("bufferViews").len() {
             return;
@@ -135,11 +135,12 @@ impl<'a> UsageMap<'a> {
         }
     }
 
-    /// Records an accessor for vertex attributes: several in one buffer view need a `byteStride`.
+    /// Records an accessor for vertex attributes. If a buffer view has several, it needs a
+    /// `byteStride`.
     ///
-    /// Without it, interleaved attributes cannot be distinguished from consecutive ones, so the
-    /// specification requires it for two or more accessors (glTF 2.0 §5.11.4). One accessor may be
-    /// used any number of times.
+    /// Without a stride, interleaved attributes cannot be distinguished from consecutive
+    /// attributes, so the specification requires it for two or more accessors (glTF 2.0 §5.11.4).
+    /// One accessor may be used any number of times.
     pub(super) fn note_vertex_accessor(&self, accessor: usize, pointer: &str) {
         let Some(view) = self.accessor_view(accessor) else { return };
         let json = self.document.root_array("bufferViews").get(view);
@@ -156,13 +157,13 @@ impl<'a> UsageMap<'a> {
         }
     }
 
-    /// The buffer view of an accessor.
+    /// Returns the buffer view of an accessor.
     fn accessor_view(&self, accessor: usize) -> Option<usize> {
         index_member(self.document.root_array("accessors").get(accessor)?, "bufferView")
     }
 
-    /// Whether the buffer view of an accessor has a `byteStride`, which only vertex attributes may
-    /// have.
+    /// Returns whether the buffer view of an accessor has a `byteStride`, which only vertex
+    /// attributes may have.
     pub(super) fn has_stride(&self, accessor: usize) -> bool {
         let view = self.accessor_view(accessor);
         let json = view.and_then(|view| self.document.root_array("bufferViews").get(view));

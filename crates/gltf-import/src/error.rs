@@ -4,15 +4,15 @@ use files::visible_path;
 use model::Diagnostic;
 use std::path::PathBuf;
 
-/// A file could not be loaded.
+/// The error for a file that could not be loaded.
 ///
-/// Displayed as `cube.gltf: /buffers/0/uri: the file "cube0.bin" does not exist; put it beside the
+/// Displayed as `cube.gltf: /buffers/0/uri: the file "cube0.bin" does not exist; put it next to the
 /// glTF file`.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("{}: {}", visible_path(file), diagnostic.sentence())]
 #[non_exhaustive]
 pub struct ImportError {
-    /// The file that was to be loaded.
+    /// The path of the file.
     pub file: PathBuf,
     /// The error that stopped loading; its [`code`](Diagnostic::code) is one of
     /// [`codes`](model::codes).
@@ -22,7 +22,7 @@ pub struct ImportError {
 }
 
 impl ImportError {
-    /// The error for a file that a diagnostic stopped.
+    /// Creates the error for a file whose loading was stopped by a diagnostic.
     #[must_use]
     pub fn new(file: impl Into<PathBuf>, diagnostic: Diagnostic) -> Self {
         Self { file: file.into(), diagnostic: Box::new(diagnostic) }

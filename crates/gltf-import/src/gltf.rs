@@ -6,8 +6,8 @@
 //!  other files ──uri_resolver──► buffers ─┴─► accessor, elements, images
 //! ```
 //!
-//! Only the JSON types of the `gltf` crate are used: its own importer panics on malformed files and
-//! reads any file that a URI names.
+//! Only the JSON types of the `gltf` crate are used, because its importer panics on malformed files
+//! and reads any file that a URI names.
 
 mod accessor;
 mod animation;
@@ -55,10 +55,11 @@ use document::GltfDocument;
 use model::{Diagnostic, Model};
 use std::path::Path;
 
-/// Imports a glTF file whose bytes have been read.
+/// Imports a glTF file from its bytes.
 ///
 /// # Errors
-/// The file breaks a rule, requires an extension that is not supported, or exceeds a limit.
+/// Fails if the file breaks a rule, requires an extension that is not supported, or exceeds a
+/// limit.
 pub fn import_gltf(
     _path: &Path,
     bytes: &[u8],

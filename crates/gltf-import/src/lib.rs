@@ -1,5 +1,5 @@
-//! The glTF 2.0 reader, and the guards of all file readers: limits, a memory budget, a sandbox for
-//! referenced files, and image decoders that cannot crash the program.
+//! The glTF 2.0 reader, and the safeguards shared by all file readers: limits, a memory budget, a
+//! sandbox for referenced files, and image decoders that cannot crash the program.
 //!
 //! ```text
 //!  bytes ──container──► JSON ──document──► Root ──model_builder──► Model
@@ -7,13 +7,13 @@
 //!  other files ──uri_resolver──► buffers ─┴─► accessor, elements, images
 //! ```
 //!
-//! Files are untrusted input: every index, length and size is checked before it is used. The crate
-//! `import` reads the other formats with the same guards, and loads files in any format.
+//! Files are untrusted input: every index, length and size is checked before it is used. The
+//! `import` crate reads the other formats with the same safeguards, and loads files in any format.
 //!
-//! | module | subject |
+//! | module | contents |
 //! | --- | --- |
 //! | `gltf` | containers, accessors, compressed meshes, materials, animations, extensions |
-//! | `options`, `limits`, `memory_budget` | requests to the loader, and limits on a file |
+//! | `options`, `limits`, `memory_budget` | loading options, and limits on a file |
 //! | `uri_resolver`, `memory_folder` | files that a URI may open |
 //! | `image_decoder`, `parallel_decoding` | PNG, JPEG, WebP, KTX2 |
 //! | `warnings`, `error` | skipped data, and the error that stops loading |

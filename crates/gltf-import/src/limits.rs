@@ -1,12 +1,12 @@
-//! Limits on everything a file can declare, so that a small file cannot demand a large amount of
+//! Limits on everything a file can declare, so that a small file cannot cause a large amount of
 //! work.
 //!
-//! A glTF file of a few hundred bytes can declare an accessor of 2³² zeros, a chain of a million
-//! nodes, or a mesh that a million nodes draw; a PNG of a few kilobytes can hold a billion black
+//! A glTF file of a few hundred bytes can declare an accessor with 2³² zeros, a chain of a million
+//! nodes, or a mesh that a million nodes draw. A PNG of a few kilobytes can contain a billion black
 //! texels. Each of these is cheap to write and expensive to read. The defaults are far above what
 //! real models need; the program has a `--max-…` flag for each.
 
-/// The maximum accepted sizes. Exceeding one is an error that names the field.
+/// The maximum sizes that are accepted. Exceeding one is an error that names the field.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Limits {
     /// Bytes of any one file. Default: 512 MiB.
@@ -18,11 +18,11 @@ pub struct Limits {
     /// Values in the JSON; an object counts as ten because of the memory it takes. Default: 16
     /// million.
     pub json_values: usize,
-    /// Bytes of all arrays made from accessors. Default: 4 GiB.
+    /// Bytes of all arrays that accessors are converted to. Default: 4 GiB.
     pub array_bytes: u64,
-    /// Maximum ratio of those arrays to all files together, beyond the first 16 MiB.
+    /// Maximum size of these arrays relative to all files together, beyond the first 16 MiB.
     ///
-    /// An accessor without data, or the same data used over and over, takes memory without matching
+    /// An accessor without data, or one that reuses the same data, takes memory without matching
     /// bytes in a file: a decompression bomb. Default: 64.
     pub array_growth: u64,
     /// Width and height of an image. Default: 16,384.
@@ -33,16 +33,15 @@ pub struct Limits {
     pub nodes: usize,
     /// Depth of the scene graph. Default: 1,024.
     pub node_depth: usize,
-    /// Points, lines and triangles of the active scene, counted for every instance; vertices and
+    /// Points, lines and triangles in the active scene, counted for every instance. Vertices and
     /// joints of skinned meshes also count. Default: 200 million.
     pub scene_items: u64,
-    /// Bytes of the arrays and images of all loaded models in a scene, counted once each. Default:
-    /// 4 GiB.
+    /// Bytes of the arrays and images of all models in a scene, each counted once. Default: 4 GiB.
     pub scene_bytes: u64,
 }
 
 impl Default for Limits {
-    /// The defaults documented at the fields.
+    /// Returns the defaults documented for each field.
     fn default() -> Self {
         Self {
             file_bytes: 512 << 20,

@@ -1,12 +1,13 @@
-//! A folder of files in memory: models with their buffers and images if there is no file system,
-//! such as in a browser.
+//! A folder of files in memory, for models with buffers and images where there is no file system,
+//! as in a browser.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Files in memory, by their paths in a common folder.
+/// Files in memory, identified by their paths in a common folder.
 ///
-/// A path has `/` between its parts; `.` and `..` are resolved, and none leads out of the folder.
+/// Path components are separated by `/`. `.` and `..` are resolved, and no path leads out of the
+/// folder.
 ///
 /// ```
 /// use import::MemoryFolder;
@@ -17,13 +18,13 @@ use std::sync::Arc;
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct MemoryFolder {
-    /// The contents by normalized path, shared by clones of the folder.
+    /// The file contents by normalized path, shared by clones of the folder.
     files: BTreeMap<String, Arc<[u8]>>,
 }
 
 impl MemoryFolder {
-    /// Adds a file, or replaces the one at this path; false, without adding it, if the path is
-    /// empty or leads out of the folder.
+    /// Adds a file, or replaces the file at this path. Returns false and does not add the file if
+    /// the path is empty or leads out of the folder.
     pub fn insert(&mut self, path: &str, bytes: Vec<u8>) -> bool {
         let Some(path) = normalize_path("", path).filter(|path| !path.is_empty()) else {
             return false;
@@ -32,25 +33,25 @@ impl MemoryFolder {
         true
     }
 
-    /// Removes a file; false if there is none at this path.
+    /// Removes a file. Returns false if there is no file at this path.
     pub fn remove(&mut self, path: &str) -> bool {
         normalize_path("", path).is_some_and(|path| self.files.remove(&path).is_some())
     }
 
-    /// The content of a file; `None` if there is none at this path.
+    /// Returns the content of the file at this path, if it exists.
     #[must_use]
     pub fn file(&self, path: &str) -> Option<&[u8]> {
         self.files.get(&normalize_path("", path)?).map(|bytes| &**bytes)
     }
 
-    /// The paths of all files, in alphabetical order.
+    /// Returns the paths of all files, in alphabetical order.
     pub fn paths(&self) -> impl Iterator<Item = &str> {
         self.files.keys().map(String::as_str)
     }
 }
 
-/// Resolves a path relative to `folder` to one without `.` and `..`; `None` if it leads out of all
-/// folders.
+/// Resolves a path relative to `folder` to a path without `.` and `..`. Returns `None` if it leads
+/// out of all folders.
 pub(super) fn normalize_path(folder: &str, path: &str) -> Option<String> {
     if path.starts_with(['/', '\\']) || path.contains('\0') {
         return None;

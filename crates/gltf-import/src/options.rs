@@ -7,44 +7,43 @@ use std::path::PathBuf;
 /// Options for loading a file.
 #[derive(Clone, Debug, Default)]
 pub struct ImportOptions {
-    /// The maximum accepted sizes.
+    /// The maximum sizes that are accepted.
     pub limits: Limits,
-    /// The folder below which all referenced files must be. Default: the folder of the file itself.
+    /// The folder that must contain all referenced files. Default: the folder of the file itself.
     pub root: Option<PathBuf>,
-    /// Additional folders that may contain referenced files: `..` and symbolic links may lead
+    /// Additional folders that may contain referenced files; `..` and symbolic links may lead
     /// there. Default: none.
     pub allow_outside: Vec<PathBuf>,
-    /// Whether broken, missing or unknown data is skipped with a warning instead of causing an
-    /// error, as long as something is left to load. Limits still apply. Default: no.
+    /// Whether to skip broken, missing or unknown data with a warning instead of failing, as long
+    /// as something remains to load. Limits still apply. Default: no.
     pub lenient: bool,
-    /// The active scene. Default: the file's default scene, else its first.
+    /// The active scene. Default: the file's default scene, or else its first.
     pub scene: Option<NameOrIndex>,
     /// The active material variant (KHR_materials_variants). Default: none.
     pub variant: Option<NameOrIndex>,
-    /// Vertex colors from a scalar attribute. Default: the colors and materials of the file.
+    /// Vertex colors from a scalar attribute. Default: the colors and materials in the file.
     pub scalars: Option<ScalarColors>,
-    /// Whether images are decoded. Default: visible ones are.
+    /// Which images to read and decode. Default: visible images.
     pub images: ImageLoading,
-    /// The axis that points up in the file. Default: given by the format: z for STL and 3MF, y for
-    /// the others.
+    /// The axis that points up in the file. Default: z for STL and 3MF, y for other formats.
     pub up: Option<UpAxis>,
-    /// The unit of the file's coordinates. Default: the unit declared in the file, else the
+    /// The unit of the file's coordinates. Default: the unit declared in the file, or else the
     /// convention of its format; see [`LengthUnit`].
     pub length_unit: Option<LengthUnit>,
     /// The largest angle between the normals of two faces that are shaded as one smooth surface, in
     /// degrees, for files without normals. Default: 30.
     pub crease_angle: Option<f64>,
-    /// Stopwatch for the stages of loading. Default: none.
+    /// Timings for the loading stages. Default: none.
     pub timings: Timings,
 }
 
-/// Treatment of a file's images.
+/// Which images of a file are read and decoded.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum ImageLoading {
-    /// Images that visible surfaces use are decoded; no others are read.
+    /// Images that visible surfaces use are decoded; no other images are read.
     #[default]
     Decode,
-    /// No image is decoded, but the headers of all are read.
+    /// No image is decoded, but all image headers are read.
     Headers,
 }
 
@@ -52,7 +51,7 @@ pub enum ImageLoading {
 const DEFAULT_CREASE_ANGLE: f64 = 30.0;
 
 impl ImportOptions {
-    /// The crease angle in degrees, in [0, 180].
+    /// Returns the crease angle in degrees, in [0, 180].
     #[must_use]
     pub fn crease_degrees(&self) -> f64 {
         let angle = self.crease_angle.filter(|angle| angle.is_finite());

@@ -1,10 +1,10 @@
-//! Parallel image decoding, on all processors while the geometry is read.
+//! Parallel image decoding on all processors, while the geometry is read.
 //!
-//! Threads take images from a common queue and store results by index, so it makes no difference
-//! which thread decodes which image. The thread that reads the geometry joins in when it is done.
+//! Threads take images from a shared queue and store results by index, so it makes no difference
+//! which thread decodes which image. The thread that reads the geometry helps once it is done.
 //!
-//! Scoped threads borrow the encoded bytes, and end with the call. An image is the unit of work:
-//! one large image occupies one thread.
+//! Scoped threads borrow the encoded bytes and end with the call. Each thread decodes whole images,
+//! so one large image occupies a single thread.
 
 use super::image_decoder;
 use super::image_decoder::EncodedImage;
@@ -14,7 +14,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// A decoded image, or a message that explains why there is none.
+/// A decoded image, or a message that explains why decoding failed.
 pub(super) type DecodeResult = Result<Image, String>;
 
 /// Decodes images on all processors.
@@ -26,13 +26,13 @@ pub(crate) fn decode_images(encoded: &[EncodedImage<'_>]) -> Vec<DecodeResult> {
     decoded
 }
 
-/// Runs `work` while other threads decode images, then helps with the rest, which is measured as
+/// Runs `work` while other threads decode images, then helps with the rest, which is timed as
 /// `images`. If the work fails, no more images are started.
 ///
-/// With a single processor no thread is started, and the images are decoded after the work.
+/// With a single processor no threads are started, and the images are decoded after the work.
 ///
 /// # Errors
-/// The error from `work`. Failed images become messages in the result.
+/// Returns the error from `work`. Failed images become messages in the result.
 pub(super) fn decode_images_alongside<T, E>(
     encoded: &[EncodedImage<'_>],
     timings: &Timings,
@@ -59,25 +59,25 @@ pub(super) fn decode_images_alongside<T, E>(
 
 /// A queue from which each thread takes the next image.
 ///
-/// The counter hands out each index once; each result has a separate lock, which is never
+/// The counter hands out each index once, and each result has a separate lock, which is never
 /// contended.
 struct DecodeQueue<'a> {
     /// The images to decode.
     encoded: &'a [EncodedImage<'a>],
     /// Index of the next image that no thread has taken.
     next: AtomicUsize,
-    /// Results by index; `None` if a thread panicked.
+    /// Results by index, or `None` if a thread panicked.
     results: Vec<Mutex<Option<DecodeResult>>>,
 }
 
 impl<'a> DecodeQueue<'a> {
-    /// A queue of all images, none of them taken yet.
+    /// Creates a queue of all images.
     fn new(encoded: &'a [EncodedImage<'a>]) -> Self {
         let results = encoded.iter().map(|_| Mutex::new(None)).collect();
         Self { encoded, next: AtomicUsize::new(0), results }
     }
 
-    /// Decodes images until none is left.
+    /// Decodes images until the queue is empty.
     fn decode_until_empty(&self) {
         loop {
             let at = self.next.fetch_add(1, Ordering::Relaxed);
@@ -94,7 +94,7 @@ impl<'a> DecodeQueue<'a> {
         self.next.store(self.encoded.len(), Ordering::Relaxed);
     }
 
-    /// The results in the order of the images.
+    /// Returns the results in the order of the images.
     ///
     /// A thread that panics leaves its image without a result, which becomes a message.
     fn into_results(self) -> Vec<DecodeResult> {

@@ -1,5 +1,5 @@
-//! Images of mesh formats: files next to the mesh, or entries of its archive, decoded like glTF
-//! images.
+//! Texture images for mesh formats, stored next to the mesh or in its archive, and decoded like
+//! glTF images.
 //!
 //! A broken image causes a warning and never discards the model.
 
@@ -10,22 +10,22 @@ use crate::{ImageLoading, ImportOptions, ImportWarnings};
 use model::{Diagnostic, Image, ImageHeader, ImageInfo, Model};
 use std::borrow::Cow;
 
-/// The consequence stated in all warnings about images.
+/// The consequence that all image warnings state.
 const SHOWN_WITHOUT_IMAGE: &str = "the surface is shown without it";
 
-/// An image that a material names.
+/// An image that a material refers to.
 #[derive(Debug)]
 pub struct TextureImage<'a> {
-    /// Its name in the file that refers to it.
+    /// The name in the file that refers to it.
     pub name: String,
-    /// Location of the reference in that file, for messages.
+    /// The location of the reference in that file, for messages.
     pub location: String,
-    /// The encoded bytes, or the reason why there are none; `None` if nothing visible uses the
+    /// The encoded bytes, or the reason why they are missing. `None` if nothing visible uses the
     /// image.
     pub bytes: Option<Result<Cow<'a, [u8]>, Diagnostic>>,
 }
 
-/// Decodes images and stores them in the model, each at its index.
+/// Decodes images and stores each in the model at its index.
 pub fn store_images<'a>(
     model: &mut Model,
     files: Vec<TextureImage<'a>>,

@@ -1,28 +1,28 @@
 //! The importer's list of warnings, bounded even if a file has millions of errors.
 //!
-//! Errors become warnings in two ways: some always do, because they affect only the appearance
-//! ([`ImportWarnings::downgrade`]); others only in lenient mode
+//! Some errors always become warnings, because they affect only the appearance
+//! ([`ImportWarnings::downgrade`]); others do so only in lenient mode
 //! ([`ImportWarnings::downgrade_if_lenient`]). The message then ends with the consequence: the part
-//! that is skipped or its replacement.
+//! that is skipped, or its replacement.
 
 use model::{Diagnostic, Severity, codes};
 
 /// Warnings beyond this number are counted but not stored.
 const MAX_WARNINGS: usize = 500;
 
-/// Collector of warnings while a file is read.
+/// Collects warnings while a file is read.
 #[derive(Debug, Default)]
 pub struct ImportWarnings {
-    /// Whether errors become warnings if something is left to load.
+    /// Whether errors become warnings as long as something remains to load.
     lenient: bool,
-    /// Stored warnings, in the order in which they were found.
+    /// The stored warnings, in the order in which they were found.
     list: Vec<Diagnostic>,
-    /// Number of warnings that were not stored.
+    /// The number of warnings that were not stored.
     omitted: usize,
 }
 
 impl ImportWarnings {
-    /// An empty list; `lenient` controls [`Self::downgrade_if_lenient`].
+    /// Creates an empty list; `lenient` controls [`Self::downgrade_if_lenient`].
     pub fn new(lenient: bool) -> Self {
         Self { lenient, ..Self::default() }
     }
@@ -41,8 +41,8 @@ impl ImportWarnings {
         }
     }
 
-    /// Adds an error as a warning; `consequence` describes the part that is skipped or replaced
-    /// because of it.
+    /// Adds an error as a warning. `consequence` describes what is skipped or replaced because of
+    /// it.
     pub fn downgrade(&mut self, diagnostic: &Diagnostic, consequence: &str) {
         self.push(warning(
             diagnostic.code,
@@ -54,7 +54,8 @@ impl ImportWarnings {
     /// Adds an error as a warning in lenient mode, and returns it otherwise.
     ///
     /// # Errors
-    /// The error itself in strict mode. Limits and the requested scene or variant are never waived.
+    /// Returns the error in strict mode. Limits and the requested scene or variant are never
+    /// waived.
     pub fn downgrade_if_lenient(
         &mut self,
         diagnostic: Diagnostic,
@@ -67,14 +68,14 @@ impl ImportWarnings {
         Ok(())
     }
 
-    /// Moves the warnings of another list to the end of this one.
+    /// Moves the warnings of another list to the end of this list.
     pub fn append_warnings(&mut self, other: Self) {
         let Self { list, omitted: left_out, .. } = other;
         list.into_iter().for_each(|warning| self.push(warning));
         self.omitted += left_out;
     }
 
-    /// The stored warnings, and one with the number of the others.
+    /// Returns the stored warnings, plus a warning with the number of those omitted.
     pub fn into_list(mut self) -> Vec<Diagnostic> {
         if self.omitted > 0 {
             let message = format!("{} more warnings are not listed", self.omitted);

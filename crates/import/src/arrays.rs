@@ -68,7 +68,7 @@ pub struct MeshNode {
 }
 
 impl Default for MeshNode {
-    /// The first mesh, placed by its own coordinates.
+    /// Returns the first mesh, placed by its own coordinates.
     fn default() -> Self {
         Self { name: None, mesh: 0, to_model: Affine::IDENTITY }
     }
@@ -79,8 +79,9 @@ impl Default for MeshNode {
 /// Of the options, only the limits, up axis, unit and crease angle are used.
 ///
 /// # Errors
-/// A limit is exceeded, arrays have different lengths, an index is out of range, or a position is
-/// not finite. Locations begin with the index of the mesh or node: `/meshes/0/corners/7`.
+/// Fails if a limit is exceeded, arrays have different lengths, an index is out of range, or a
+/// position is not finite. Locations begin with the index of the mesh or node:
+/// `/meshes/0/corners/7`.
 pub fn load_arrays(
     name: &str,
     meshes: Vec<MeshArrays>,
@@ -148,7 +149,7 @@ fn add_nodes(model: &mut Model, nodes: &[MeshNode]) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-/// The error for arrays that do not fit together.
+/// Returns the error for arrays that do not fit together.
 fn wrong_arrays(location: &str, message: String) -> Diagnostic {
     Diagnostic::error(codes::INVALID_DATA, location, message, "correct the arrays")
 }
@@ -204,7 +205,7 @@ impl MeshArrays {
         Ok(())
     }
 
-    /// The material, with the texture at this index.
+    /// Returns the material, with the texture at this index.
     fn to_material(&self, texture: Option<usize>) -> Material {
         let colors = self.vertex_colors.as_ref().or(self.face_colors.as_ref());
         let colors = colors.filter(|_| texture.is_none());
@@ -224,7 +225,7 @@ impl MeshArrays {
         material
     }
 
-    /// The name, and the arrays in the form of a PLY file's.
+    /// Returns the name, and the arrays in the form of a PLY file's.
     fn into_contents(self) -> (Option<String>, Contents) {
         let vertices = ply::Vertices {
             positions: self.positions,

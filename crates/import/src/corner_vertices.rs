@@ -19,7 +19,7 @@ pub(super) struct CornerAttributes {
 }
 
 impl Default for CornerAttributes {
-    /// The origin of the texture, and white.
+    /// Returns the origin of the texture, and white.
     fn default() -> Self {
         Self { uv: [0.0; 2], color: [1.0; 4] }
     }
@@ -39,7 +39,7 @@ pub(super) struct CornerVertices {
 }
 
 impl CornerVertices {
-    /// An empty list for each of the old vertices.
+    /// Creates an empty list for each of the old vertices.
     pub(super) fn new(vertices: usize) -> Self {
         Self {
             latest: vec![NONE; vertices],
@@ -49,7 +49,7 @@ impl CornerVertices {
         }
     }
 
-    /// The new vertex of a corner; `vertex` is less than the number of old ones.
+    /// Returns the new vertex of a corner; `vertex` is less than the number of old ones.
     pub(super) fn vertex_at(&mut self, vertex: u32, attributes: CornerAttributes) -> u32 {
         let latest = self.latest[vertex as usize];
         let mut candidate = latest;
@@ -80,7 +80,7 @@ impl CornerVertices {
         self.attributes.clear();
     }
 
-    /// The values of old vertices at the new ones.
+    /// Returns the values of old vertices at the new ones.
     pub(super) fn gather<T: Copy>(&self, values: &[T]) -> Vec<T> {
         self.sources.iter().map(|&source| values[source as usize]).collect()
     }

@@ -30,7 +30,7 @@ impl FileFormat {
     /// All formats.
     pub const ALL: [Self; 5] = [Self::Gltf, Self::Stl, Self::Obj, Self::Ply, Self::ThreeMf];
 
-    /// The name of the format: `glTF`, `STL`, `OBJ`, `PLY` or `3MF`.
+    /// Returns the name of the format: `glTF`, `STL`, `OBJ`, `PLY` or `3MF`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -54,14 +54,15 @@ impl FileFormat {
         }
     }
 
-    /// The format for a file's extension, regardless of case.
+    /// Returns the format for a file's extension, regardless of case.
     #[must_use]
     pub fn from_extension(path: &Path) -> Option<Self> {
         let extension = path.extension()?.to_str()?.to_ascii_lowercase();
         Self::ALL.into_iter().find(|format| format.extensions().contains(&extension.as_str()))
     }
 
-    /// Identifies the format from the content of a file; `None` if the content is ambiguous.
+    /// Returns the format that the content of a file shows, or `None` if it does not clearly show
+    /// one.
     ///
     /// The time does not depend on the length of the file.
     #[must_use]
@@ -86,16 +87,16 @@ impl FileFormat {
         }
     }
 
-    /// Whether content that looks like this format identifies it, even if the file has the length of
-    /// a binary STL file.
+    /// Returns whether content that looks like this format is certain, even in a file that is as
+    /// long as a binary STL file.
     pub(super) fn precedes_binary_stl(self) -> bool {
         matches!(self, Self::Gltf | Self::ThreeMf | Self::Ply)
     }
 
-    /// The format of a file, from its content or else from its name.
+    /// Returns the format of a file, from its content or else from its name.
     ///
     /// # Errors
-    /// [`UNKNOWN_FORMAT`](codes::UNKNOWN_FORMAT) if neither identifies it.
+    /// Returns [`UNKNOWN_FORMAT`](codes::UNKNOWN_FORMAT) if neither identifies the format.
     pub fn recognize(path: &Path, bytes: &[u8]) -> Result<Self, Diagnostic> {
         let named = Self::from_extension(path);
         let is_scene = path.extension().is_some_and(|ending| ending == "ron");
@@ -107,7 +108,8 @@ impl FileFormat {
     }
 }
 
-/// Whether the first line that is neither blank nor a comment is an OBJ statement with arguments.
+/// Returns whether the first line that is neither blank nor a comment is an OBJ statement with
+/// arguments.
 fn begins_with_obj_statement(text: &[u8]) -> bool {
     const STATEMENTS: [&[u8]; 16] = [
         b"v", b"vn", b"vt", b"vp", b"f", b"l", b"p", b"o", b"g", b"s", b"mg", b"mtllib", b"usemtl",
@@ -151,13 +153,13 @@ const FOREIGN_FORMATS: [(&[u8], &str, &str); 19] = [
     (b"<?xml", "an XML file (COLLADA, AMF, X3D …)", "export it as .glb or .3mf"),
 ];
 
-/// The error for a scene file where a model is expected.
+/// Returns the error for a scene file where a model is expected.
 fn scene_as_model() -> Diagnostic {
     let help = "`alberti scene check` checks it, and `alberti render` draws it";
     Diagnostic::error(codes::UNKNOWN_FORMAT, "", "this is a scene, not a model", help)
 }
 
-/// The error for a file whose format neither its content nor its name identifies.
+/// Returns the error for a file whose format neither its content nor its name shows.
 fn unknown_format(bytes: &[u8]) -> Diagnostic {
     let is_text = bytes.len() > 8
         && bytes.iter().take(512).all(|b| b.is_ascii_graphic() || b.is_ascii_whitespace());

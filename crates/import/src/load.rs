@@ -27,9 +27,9 @@ use std::path::Path;
 /// ```
 ///
 /// # Errors
-/// The file, or one it refers to, cannot be read or is forbidden; has an unknown format or breaks
-/// its rules; requires an unsupported extension; exceeds a limit; or lacks the scene, variant or
-/// scalar attribute that the options ask for.
+/// Fails if the file, or one it refers to, cannot be read or is forbidden; has an unknown format or
+/// breaks its rules; requires an unsupported extension; exceeds a limit; or lacks the scene,
+/// variant or scalar attribute that the options ask for.
 pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
     let read = || read_file(path, &options.limits, "");
     let load_bytes = || {
@@ -52,7 +52,7 @@ pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> 
 /// With a root, relative URIs are resolved against that folder.
 ///
 /// # Errors
-/// As for [`load`].
+/// Fails in the same cases as [`load`].
 pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Model, ImportError> {
     let path = Path::new(name);
     let loaded = UriResolver::in_memory(bytes.len(), options)
@@ -75,7 +75,7 @@ pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<M
 /// ```
 ///
 /// # Errors
-/// There is no such file in the folder; otherwise as for [`load`].
+/// Fails if there is no such file in the folder, and in the same cases as [`load`].
 pub fn load_from_memory(
     folder: &MemoryFolder,
     path: &str,
@@ -94,7 +94,7 @@ pub fn load_from_memory(
 /// Imports a file whose bytes have been read; the file name in `path` becomes the model's name.
 ///
 /// # Errors
-/// As for [`load`].
+/// Fails in the same cases as [`load`].
 pub fn import_model(
     path: &Path,
     bytes: &[u8],
@@ -138,7 +138,7 @@ fn complete_model(
     Ok(model)
 }
 
-/// The note about a file whose name suggests another format than its content.
+/// Returns the note about a file whose name suggests another format than its content.
 fn misleading_name(path: &Path, format: FileFormat) -> Option<Diagnostic> {
     let named = FileFormat::from_extension(path).filter(|named| *named != format)?;
     let message =
@@ -148,7 +148,8 @@ fn misleading_name(path: &Path, format: FileFormat) -> Option<Diagnostic> {
     Some(fault.with_severity(Severity::Info))
 }
 
-/// The warning about a model in which no triangle has an area, so that there is nothing to see.
+/// Returns the warning about a model in which no triangle has an area, so that there is nothing to
+/// see.
 pub(crate) fn surface_without_area(model: &Model) -> Option<Diagnostic> {
     let primitives = model.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let mut triangles = primitives

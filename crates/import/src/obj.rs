@@ -193,7 +193,7 @@ fn build_materials(
     textures.load_images(model, resolver, options, warnings);
 }
 
-/// A name from a file as quoted in messages: only its beginning, if it is very long.
+/// Returns a name from a file as quoted in messages: only its beginning, if it is very long.
 fn shorten(name: &str) -> String {
     const LENGTH: usize = 80;
     let mut short: String = name.chars().take(LENGTH).collect();
@@ -203,7 +203,7 @@ fn shorten(name: &str) -> String {
     short
 }
 
-/// The folder of a path, with a slash at its end; empty if it has none, and for data URIs.
+/// Returns the folder of a path, with a slash at its end; empty if it has none, and for data URIs.
 fn folder_of(path: &str) -> String {
     let path = if path.starts_with("data:") { "" } else { path };
     path.rfind(['/', '\\']).map_or_else(String::new, |slash| path[..=slash].to_owned())

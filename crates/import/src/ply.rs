@@ -44,7 +44,8 @@ pub(super) struct Contents {
 }
 
 impl Contents {
-    /// The material for untextured parts: it leaves the colors of vertices and faces unchanged.
+    /// Returns the material for untextured parts: it leaves the colors of vertices and faces
+    /// unchanged.
     fn untextured_material(&self) -> Material {
         let plain = Material::plain();
         let Some(colors) = self.vertices.colors.as_ref().or(self.faces.colors.as_ref()) else {

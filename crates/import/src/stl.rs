@@ -36,7 +36,7 @@ use std::path::Path;
 /// become vertex colors.
 ///
 /// # Errors
-/// The file is truncated or breaks the rules of its form, or a limit is exceeded.
+/// Fails if the file is truncated or breaks the rules of its form, or a limit is exceeded.
 pub(super) fn import_stl(
     _path: &Path,
     bytes: &[u8],
@@ -73,7 +73,7 @@ pub(super) fn import_stl(
 /// `None` for any other file, or one that cannot be opened.
 ///
 /// # Errors
-/// A limit is exceeded, or the file cannot be read to its end.
+/// Fails if a limit is exceeded, or the file cannot be read to its end.
 pub(super) fn import_binary_file(
     path: &Path,
     options: &ImportOptions,
@@ -100,7 +100,7 @@ pub(super) fn import_binary_file(
     }))
 }
 
-/// The model of some solids; those without triangles are skipped.
+/// Returns the model of some solids; those without triangles are skipped.
 fn build_model(solids: Vec<Solid>, crease_degrees: f64) -> Model {
     let mut model = Model {
         materials: vec![Material::plain()],
@@ -131,30 +131,30 @@ const TRIANGLE_BYTES: usize = 50;
 /// Number of bytes that are searched for features that only one of the two forms has.
 const PREFIX_BYTES: usize = 4 << 10;
 
-/// Whether the content of a file is certainly STL; `text` is its beginning as UTF-8.
+/// Returns whether the content of a file is certainly STL; `text` is its beginning as UTF-8.
 pub(super) fn is_stl(bytes: &[u8], text: &[u8]) -> bool {
     has_binary_length(bytes) || starts_with(text.trim_ascii_start(), b"solid") && has_facets(text)
 }
 
-/// The number of triangles that a binary file declares; `None` if the file is too short.
+/// Returns the number of triangles that a binary file declares, or `None` if the file is too short.
 fn declared_triangles(bytes: &[u8]) -> Option<usize> {
     let count = bytes.get(80..HEADER_BYTES)?.first_chunk()?;
     usize::try_from(u32::from_le_bytes(*count)).ok()
 }
 
-/// Whether the length of a file matches its declared number of triangles exactly.
+/// Returns whether the length of a file matches its declared number of triangles exactly.
 ///
 /// No text has such a length: four characters encode more than 500 million triangles.
 fn has_binary_length(bytes: &[u8]) -> bool {
     binary_length(bytes) == Some(bytes.len())
 }
 
-/// The length of a binary file with this beginning; `None` if it is too short to tell.
+/// Returns the length of a binary file with this beginning, or `None` if it is too short to tell.
 fn binary_length(bytes: &[u8]) -> Option<usize> {
     declared_triangles(bytes)?.checked_mul(TRIANGLE_BYTES)?.checked_add(HEADER_BYTES)
 }
 
-/// Whether a file whose length does not fit a binary file is text.
+/// Returns whether a file whose length does not fit a binary file is text.
 fn is_text(bytes: &[u8]) -> bool {
     let text = decode_text(bytes.get(..PREFIX_BYTES).unwrap_or(bytes));
     let start = text.trim_ascii_start();
@@ -162,18 +162,18 @@ fn is_text(bytes: &[u8]) -> bool {
     begins && (has_facets(&text) || !text.contains(&0))
 }
 
-/// Whether a text has a facet or the end of a solid.
+/// Returns whether a text has a facet or the end of a solid.
 fn has_facets(text: &[u8]) -> bool {
     let mut rests = (0..text.len()).map(|at| &text[at..]);
     rests.any(|rest| starts_with(rest, b"facet") || starts_with(rest, b"endsolid"))
 }
 
-/// Whether a text starts with a word, in upper or lower case.
+/// Returns whether a text starts with a word, in upper or lower case.
 fn starts_with(text: &[u8], word: &[u8]) -> bool {
     text.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
 }
 
-/// The error for a file that ends too early; in lenient mode, the existing part is read.
+/// Returns the error for a file that ends too early; in lenient mode, the existing part is read.
 fn truncated(location: &str, message: String) -> Diagnostic {
     let help = "the file is truncated: copy or export it again";
     Diagnostic::error(codes::INVALID_DATA, location, message, help)

@@ -82,7 +82,7 @@ pub(super) fn build_primitives(
     (primitives, replaced)
 }
 
-/// A primitive with the first material.
+/// Returns a primitive with the first material.
 fn surface_primitive(
     indices: Vec<u32>,
     positions: Vec<[f32; 3]>,
@@ -118,7 +118,7 @@ fn compute_normals(
     (welded, computed.normals)
 }
 
-/// The triangles of each material that has any, both in order.
+/// Returns the triangles of each material that has any, both in order.
 fn triangles_by_material(surface: &Surface<'_>) -> Vec<(usize, Vec<u32>)> {
     let count = surface.triangles.len() as u32;
     if surface.materials.is_empty() {

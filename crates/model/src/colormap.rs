@@ -39,8 +39,8 @@ struct ControlPoint {
 }
 
 impl Colormap {
-    /// The color of a number as fractions of the largest sRGB code, red, green and blue: encoded,
-    /// not linear.
+    /// Returns the color of a number as fractions of the largest sRGB code, red, green and blue:
+    /// encoded, not linear.
     ///
     /// `t` is clamped to [0, 1]; NaN becomes 0.
     #[must_use]
@@ -59,7 +59,7 @@ impl Colormap {
         })
     }
 
-    /// The control points, at least two, from index 0 to 255.
+    /// Returns the control points, at least two, from index 0 to 255.
     const fn control_points(self) -> &'static [ControlPoint] {
         match self {
             Self::Viridis => &VIRIDIS,
@@ -71,7 +71,7 @@ impl Colormap {
     }
 }
 
-/// A control point from its index and codes.
+/// Returns a control point from its index and codes.
 const fn point(index: u8, codes: [u8; 3]) -> ControlPoint {
     ControlPoint { index, codes }
 }

@@ -85,7 +85,8 @@ impl Severity {
     /// All severities, the worst first.
     pub const ALL: [Self; 4] = [Self::Error, Self::Warning, Self::Info, Self::Hint];
 
-    /// The printed word: `error`, `warning`, `note` (rustc's word for information) or `hint`.
+    /// Returns the printed word: `error`, `warning`, `note` (rustc's word for information) or
+    /// `hint`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -98,7 +99,7 @@ impl Severity {
 }
 
 impl Diagnostic {
-    /// A diagnostic without a remedy.
+    /// Creates a diagnostic without a remedy.
     #[must_use]
     pub fn new(
         severity: Severity,
@@ -109,19 +110,19 @@ impl Diagnostic {
         Self { severity, code, location: location.into(), message: message.into(), help: None }
     }
 
-    /// The diagnostic with another severity.
+    /// Returns the diagnostic with another severity.
     #[must_use]
     pub fn with_severity(self, severity: Severity) -> Self {
         Self { severity, ..self }
     }
 
-    /// The diagnostic with another code.
+    /// Returns the diagnostic with another code.
     #[must_use]
     pub fn with_code(self, code: &'static str) -> Self {
         Self { code, ..self }
     }
 
-    /// An error at a location, with `help` as the remedy.
+    /// Returns an error at a location, with `help` as the remedy.
     #[must_use]
     pub fn error(
         code: &'static str,
@@ -138,13 +139,13 @@ impl Diagnostic {
         }
     }
 
-    /// An error: the file breaks a rule of the specification.
+    /// Returns an error: the file breaks a rule of the specification.
     #[must_use]
     pub fn invalid(pointer: &str, message: impl Into<String>) -> Self {
         Self::error(codes::INVALID_DATA, pointer, message.into(), "export the file again")
     }
 
-    /// An error: an index is out of range; `what` names the collection in the singular.
+    /// Returns an error: an index is out of range; `what` names the collection in the singular.
     #[must_use]
     pub fn unresolved_index(pointer: &str, what: &str, index: usize, count: usize) -> Self {
         let message = match count {
@@ -155,7 +156,8 @@ impl Diagnostic {
         Self::invalid(pointer, message)
     }
 
-    /// An error: the file declares too much; `limit` is a field name of the importer's `Limits`.
+    /// Returns an error: the file declares too much; `limit` is a field name of the importer's
+    /// `Limits`.
     #[must_use]
     pub fn limit_exceeded(pointer: &str, what: &str, limit: &str, allowed: u64) -> Self {
         let message = format!("{what}, more than the limit of {allowed}");
@@ -163,14 +165,14 @@ impl Diagnostic {
         Self::error(codes::LIMIT_EXCEEDED, pointer, message, &help)
     }
 
-    /// The remedy for an exceeded limit: its name and its command-line flag.
+    /// Returns the remedy for an exceeded limit: its name and its command-line flag.
     #[must_use]
     pub fn raise_limit_help(limit: &str) -> String {
         let flag = limit.replace('_', "-");
         format!("raise the limit `{limit}` (--max-{flag}) if you trust the file")
     }
 
-    /// An error: data is missing, or in an encoding that is not supported.
+    /// Returns an error: data is missing, or in an encoding that is not supported.
     #[must_use]
     pub fn missing_data(pointer: &str, message: &str) -> Self {
         Self::error(
@@ -181,8 +183,8 @@ impl Diagnostic {
         )
     }
 
-    /// Whether the problem is in the content of the file and not around it (a missing file, a
-    /// limit). Only then may part of the picture be skipped with a warning.
+    /// Returns whether the problem is in the content of the file and not around it (a missing file,
+    /// a limit). Only then may part of the picture be skipped with a warning.
     #[must_use]
     pub fn is_downgradable(&self) -> bool {
         matches!(self.code, codes::INVALID_DATA | codes::MISSING_DATA)

@@ -23,7 +23,7 @@ impl LengthUnit {
     pub const ALL: [Self; 6] =
         [Self::Micrometer, Self::Millimeter, Self::Centimeter, Self::Meter, Self::Inch, Self::Foot];
 
-    /// The length of the unit in millimeters.
+    /// Returns the length of the unit in millimeters.
     #[must_use]
     pub const fn in_millimeters(self) -> f64 {
         match self {
@@ -36,7 +36,7 @@ impl LengthUnit {
         }
     }
 
-    /// The symbol: `µm`, `mm`, `cm`, `m`, `in` or `ft`.
+    /// Returns the symbol: `µm`, `mm`, `cm`, `m`, `in` or `ft`.
     #[must_use]
     pub const fn symbol(self) -> &'static str {
         match self {

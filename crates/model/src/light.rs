@@ -46,7 +46,7 @@ pub enum LightKind {
 }
 
 impl LightKind {
-    /// The value of `type` in glTF: `directional`, `point` or `spot`.
+    /// Returns the value of `type` in glTF: `directional`, `point` or `spot`.
     #[must_use]
     pub const fn gltf_name(self) -> &'static str {
         match self {

@@ -53,7 +53,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// Whether light passes through the surface (KHR_materials_transmission).
+    /// Returns whether light passes through the surface (KHR_materials_transmission).
     ///
     /// Masked and unlit materials are always drawn opaque.
     #[must_use]
@@ -63,8 +63,8 @@ impl Material {
         transmission.is_some_and(|layer| layer.factor > 0.0) && !masked && !self.unlit
     }
 
-    /// Whether transmitted light changes direction: refracted by the thickness of the surface
-    /// (KHR_materials_volume, KHR_materials_dispersion) or scattered by its roughness.
+    /// Returns whether transmitted light changes direction: refracted by the thickness of the
+    /// surface (KHR_materials_volume, KHR_materials_dispersion) or scattered by its roughness.
     ///
     /// Smooth thin sheets, and media with the index of refraction of air, do not deflect light.
     #[must_use]
@@ -76,7 +76,8 @@ impl Material {
         self.is_transmissive() && *ior > 1.0 && (is_rough || is_thick)
     }
 
-    /// Whether shading needs a tangent frame: for a normal map or for anisotropic highlights.
+    /// Returns whether shading needs a tangent frame: for a normal map or for anisotropic
+    /// highlights.
     #[must_use]
     pub fn needs_tangents(&self) -> bool {
         let clearcoat = self.extensions.clearcoat.as_ref();
@@ -87,7 +88,7 @@ impl Material {
 }
 
 impl Default for Material {
-    /// The default material (glTF 2.0 §3.9): white, opaque, metallic, rough, single-sided.
+    /// Returns the default material (glTF 2.0 §3.9): white, opaque, metallic, rough, single-sided.
     fn default() -> Self {
         Self {
             name: None,
@@ -186,7 +187,8 @@ pub enum AlphaMode {
 }
 
 impl Material {
-    /// The material of models in formats without materials: light gray, matte and double-sided.
+    /// Returns the material of models in formats without materials: light gray, matte and
+    /// double-sided.
     ///
     /// The default of glTF is a metal, which mirrors its surroundings. Both sides are drawn because
     /// many files in these formats have triangles of either winding.
@@ -201,7 +203,7 @@ impl Material {
         }
     }
 
-    /// The material for surfaces colored by scalars: white, matte, shown from both sides.
+    /// Returns the material for surfaces colored by scalars: white, matte, shown from both sides.
     #[must_use]
     pub fn white() -> Self {
         Self { base_color: [1.0; 4], ..Self::plain() }

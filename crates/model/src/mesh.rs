@@ -104,7 +104,7 @@ pub struct MorphTarget {
 }
 
 impl Primitive {
-    /// The bytes of all arrays.
+    /// Returns the bytes of all arrays.
     pub fn array_bytes(&self) -> usize {
         fn bytes<T>(array: &Option<Vec<T>>) -> usize {
             array.as_deref().map_or(0, size_of_val)

@@ -77,7 +77,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// The bytes of the arrays of all meshes and of the decoded images.
+    /// Returns the bytes of the arrays of all meshes and of the decoded images.
     #[must_use]
     pub fn array_bytes(&self) -> u64 {
         let meshes =

@@ -46,7 +46,7 @@ pub struct Node {
 }
 
 impl Default for Node {
-    /// A root node without content, whose local transform is the identity.
+    /// Returns a root node without content, whose local transform is the identity.
     fn default() -> Self {
         Self {
             name: None,

@@ -156,7 +156,7 @@ impl Model {
         Some(uvs)
     }
 
-    /// The morph weights in effect at a node: its own, otherwise the mesh's.
+    /// Returns the morph weights in effect at a node: its own, otherwise the mesh's.
     pub(super) fn morph_weights(&self, node: usize) -> &[f32] {
         let Some(node) = self.nodes.get(node) else { return &[] };
         let mesh = node.mesh.and_then(|mesh| self.meshes.get(mesh));
@@ -175,7 +175,7 @@ impl Model {
     }
 }
 
-/// The morph targets whose weight is finite and not zero, each with its weight.
+/// Returns the morph targets whose weight is finite and not zero, each with its weight.
 ///
 /// Targets beyond the list of weights have weight 0. Most targets of a face rig are inactive, so
 /// skipping them accounts for most of the speed.
@@ -285,7 +285,7 @@ fn saturate_f32(x: f64) -> f32 {
     if x.is_nan() { 0.0 } else { x.clamp(-LARGEST, LARGEST) as f32 }
 }
 
-/// The vector scaled to length 1; +z if it has no direction.
+/// Returns the vector scaled to length 1; +z if it has no direction.
 fn unit_or_z(v: DVec3) -> [f32; 3] {
     to_f32_saturating(v.normalize_or(DVec3::Z))
 }
@@ -314,7 +314,7 @@ mod tests {
         Affine::translation(Vector::new(x, y, z))
     }
 
-    /// A mesh of three vertices on node 0, which is at x = 100; node 1 is its joint.
+    /// Returns a mesh of three vertices on node 0, which is at x = 100; node 1 is its joint.
     fn model_with_joint(
         primitive: Primitive,
         joint: Affine<ModelSpace, ModelSpace>,

@@ -22,7 +22,7 @@ pub struct Timings {
 }
 
 impl Timings {
-    /// A stopwatch that measures time.
+    /// Creates a stopwatch that measures time.
     #[must_use]
     pub fn enabled() -> Self {
         Self { stage_times: Some(Arc::default()) }

@@ -16,7 +16,7 @@ pub enum UpAxis {
 }
 
 impl UpAxis {
-    /// The letter of the axis: `x`, `y` or `z`.
+    /// Returns the letter of the axis: `x`, `y` or `z`.
     #[must_use]
     pub const fn letter(self) -> char {
         match self {
@@ -26,7 +26,7 @@ impl UpAxis {
         }
     }
 
-    /// The rotation to a system with y up: exact, because it only permutes coordinates.
+    /// Returns the rotation to a system with y up: exact, because it only permutes coordinates.
     fn to_y_up(self) -> Affine<ModelSpace, ModelSpace> {
         let [x, y, z] = match self {
             Self::X => [Vector::new(0.0, 1.0, 0.0), Vector::new(-1.0, 0.0, 0.0), Vector::Z],

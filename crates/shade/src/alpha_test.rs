@@ -33,7 +33,8 @@ impl Kernel for AlphaTestEight<'_> {
 }
 
 impl DrawList<'_> {
-    /// The alpha test: whether a fragment of a masked primitive is opaque (glTF 2.0 §3.9.4).
+    /// Computes the alpha test: whether a fragment of a masked primitive is opaque (glTF 2.0
+    /// §3.9.4).
     pub fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
         let (draw, _) = self.find_draw(fragment.id);
         let primitive = draw.primitive_indices(&[fragment.id], true);
@@ -41,7 +42,8 @@ impl DrawList<'_> {
         passes
     }
 
-    /// The alpha test of eight fragments of one primitive, with vector instructions of this level.
+    /// Computes the alpha test of eight fragments of one primitive, with vector instructions of
+    /// this level.
     ///
     /// The rasterizer runs it before depth is written: fragments that fail the test hide nothing.
     pub fn passes_alpha_test_eight(
@@ -62,7 +64,7 @@ impl DrawList<'_> {
 }
 
 impl Draw<'_> {
-    /// The alpha test at fragments; fragments of opaque materials all pass.
+    /// Computes the alpha test at fragments; fragments of opaque materials all pass.
     #[inline(always)]
     fn passes_alpha_test<const N: usize>(
         &self,
@@ -83,7 +85,7 @@ impl Draw<'_> {
         passes
     }
 
-    /// The alpha of fragments: factor × vertex color × texture (glTF 2.0 §3.9.4).
+    /// Computes the alpha of fragments: factor × vertex color × texture (glTF 2.0 §3.9.4).
     #[inline(always)]
     fn sample_alpha<const N: usize>(
         &self,

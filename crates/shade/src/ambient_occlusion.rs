@@ -93,7 +93,7 @@ impl AmbientOcclusion {
         Self { space, depths, visibilities, noisy }
     }
 
-    /// The ambient visibility of positions in the world with these unit normals, 0 to 1.
+    /// Computes the ambient visibility of positions in the world with these unit normals, 0 to 1.
     ///
     /// A mean over the nine pixels around each position, weighted by how close their surfaces are
     /// to the plane of the fragment (a joint bilateral lookup).
@@ -126,7 +126,7 @@ impl AmbientOcclusion {
     }
 }
 
-/// The visibilities of eight pixels, for processors without wide kernels.
+/// Computes the visibilities of eight pixels, for processors without wide kernels.
 #[inline(never)]
 fn search_one_by_one(
     space: &ScreenSpace,
@@ -142,8 +142,8 @@ fn search_one_by_one(
     visibilities
 }
 
-/// The ambient visibility of a surface with this albedo, including the light that its surroundings
-/// reflect to it: a fit to multiple bounces (Jimenez et al. 2016, eq. 10).
+/// Computes the ambient visibility of a surface with this albedo, including the light that its
+/// surroundings reflect to it: a fit to multiple bounces (Jimenez et al. 2016, eq. 10).
 ///
 /// Surroundings are assumed to have the same albedo: white corners are brighter than black ones.
 #[inline(always)]
@@ -161,7 +161,7 @@ mod tests {
     use super::*;
     use glam::{DMat4, DVec3, DVec4};
 
-    /// A camera that looks down at the ground, from far away.
+    /// Returns a camera that looks down at the ground, from far away.
     fn distant_view() -> DMat4 {
         let world_to_clip = DMat4::from_cols_array_2d(&[
             [1.681_992, -0.747_552, 1.824_367, -2.0 / 3.0],

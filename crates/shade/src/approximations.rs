@@ -6,7 +6,7 @@
 
 use std::f32::consts::LN_2;
 
-/// The largest integer not above a number, which is clamped to ±4,194,303.
+/// Computes the largest integer not above a number, which is clamped to ±4,194,303.
 ///
 /// Adding 3 · 2²² leaves the nearest integer in the low bits of the sum. All of it becomes vector
 /// instructions; `as i32` would be converted lane by lane, with a test for NaN.
@@ -19,7 +19,7 @@ pub(crate) fn floor_to_int(x: f32) -> i32 {
     nearest - i32::from(shifted - SHIFT > x)
 }
 
-/// The base-2 logarithm of a normal positive number, to about six digits.
+/// Computes the base-2 logarithm of a normal positive number, to about six digits.
 #[inline(always)]
 pub(crate) fn log2_approx(x: f32) -> f32 {
     // log2(1 + t) / t between 0 and 1, fitted at the zeros of a Chebyshev polynomial.
@@ -44,7 +44,8 @@ pub(crate) fn log2_approx(x: f32) -> f32 {
     exponent as f32 + sum * t
 }
 
-/// Two to the power of a number from −126 to 127, to about six digits; numbers outside are clamped.
+/// Computes two to the power of a number from −126 to 127, to about six digits; numbers outside are
+/// clamped.
 #[inline(always)]
 #[expect(clippy::manual_clamp, reason = "a bound in place of NaN, which `clamp` keeps")]
 pub(crate) fn exp2_approx(power: f32) -> f32 {
@@ -63,8 +64,8 @@ pub(crate) fn exp2_approx(power: f32) -> f32 {
     sum * f32::from_bits((exponent as u32) << 23)
 }
 
-/// The cosine of an angle in turns, up to a million of them; the error is at most 10⁻⁶ plus the
-/// rounding of the angle.
+/// Computes the cosine of an angle in turns, up to a million of them; the error is at most 10⁻⁶
+/// plus the rounding of the angle.
 #[inline(always)]
 #[expect(clippy::manual_clamp, reason = "a bound in place of NaN, which `clamp` keeps")]
 pub(crate) fn cosine_of_turns(turns: f32) -> f32 {

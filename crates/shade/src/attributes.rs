@@ -41,7 +41,7 @@ pub(super) enum PrimitiveIndices<const N: usize> {
 }
 
 impl<const N: usize> PrimitiveIndices<N> {
-    /// The vertices of each primitive, from a function of its index.
+    /// Returns the vertices of each primitive, from a function of its index.
     #[inline(always)]
     pub(super) fn vertex_indices(
         &self,

@@ -26,7 +26,7 @@ pub enum Backdrop {
 }
 
 impl Backdrop {
-    /// The color at a position in fractions of the picture: linear, multiplied by alpha.
+    /// Returns the color at a position in fractions of the picture: linear, multiplied by alpha.
     #[must_use]
     pub fn color_at(&self, position: [f32; 2]) -> [f32; 4] {
         match self {
@@ -35,7 +35,7 @@ impl Backdrop {
         }
     }
 
-    /// Whether it is opaque everywhere.
+    /// Returns whether it is opaque everywhere.
     #[must_use]
     pub fn is_opaque(&self) -> bool {
         match self {

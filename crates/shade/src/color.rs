@@ -18,12 +18,13 @@ use crate::lanes::{Lanes, map_to_lanes};
 use raster::{Encode, F32x8, LANES};
 use std::sync::OnceLock;
 
-/// The linear light of an sRGB value, both from 0 to 1: the electro-optical transfer function.
+/// Computes the linear light of an sRGB value, both from 0 to 1: the electro-optical transfer
+/// function.
 pub fn srgb_to_linear(srgb: f64) -> f64 {
     if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
 }
 
-/// The linear light, 0 to 1, of each 8-bit sRGB value.
+/// Computes the linear light, 0 to 1, of each 8-bit sRGB value.
 #[must_use]
 pub fn srgb_to_linear_table() -> &'static [f32; 256] {
     static TABLE: OnceLock<[f32; 256]> = OnceLock::new();
@@ -52,7 +53,7 @@ pub struct SrgbEncoder {
 }
 
 impl SrgbEncoder {
-    /// The encoder, shared by the whole program; its table is computed once.
+    /// Returns the encoder, shared by the whole program; its table is computed once.
     #[must_use]
     pub fn shared() -> &'static Self {
         static ENCODER: OnceLock<SrgbEncoder> = OnceLock::new();
@@ -72,13 +73,14 @@ impl SrgbEncoder {
         Self { step_table: Box::new(std::array::from_fn(entry)) }
     }
 
-    /// The nearest 8-bit sRGB code; light beyond \[0, 1\] is clamped, NaN to 0.
+    /// Computes the nearest 8-bit sRGB code; light beyond \[0, 1\] is clamped, NaN to 0.
     #[must_use]
     pub fn encode(&self, light: f32) -> u8 {
         self.encode_to_code(light) as u8
     }
 
-    /// The code as a number; without branches, so that loops over it become vector instructions.
+    /// Computes the code as a number; without branches, so that loops over it become vector
+    /// instructions.
     #[inline(always)]
     fn encode_to_code(&self, light: f32) -> u32 {
         let least = f32::from_bits(MIN_LIGHT_BITS);
@@ -137,19 +139,20 @@ impl Encode<[u8; 4]> for &SrgbEncoder {
     }
 }
 
-/// The smallest linear light whose nearest code is the index; the first entry is below all light.
+/// Returns the smallest linear light whose nearest code is the index; the first entry is below all
+/// light.
 fn code_thresholds() -> [f32; 256] {
     let threshold = |code: usize| srgb_to_linear((code as f64 - 0.5) / 255.0) as f32;
     std::array::from_fn(|code| if code == 0 { f32::MIN } else { threshold(code) })
 }
 
-/// The linear color of `#rgb` or `#rrggbb`; `None` for any other text.
+/// Parses the linear color of `#rgb` or `#rrggbb`. Returns `None` for any other text.
 #[must_use]
 pub fn parse_hex_color(text: &str) -> Option<[f32; 3]> {
     Some(parse_hex_srgb(text)?.map(|code| srgb_to_linear_table()[usize::from(code)]))
 }
 
-/// The 8-bit sRGB codes of `#rgb` or `#rrggbb`; `None` for any other text.
+/// Parses the 8-bit sRGB codes of `#rgb` or `#rrggbb`. Returns `None` for any other text.
 #[must_use]
 pub fn parse_hex_srgb(text: &str) -> Option<[u8; 3]> {
     let digits = text.strip_prefix('#').filter(|d| d.bytes().all(|b| b.is_ascii_hexdigit()))?;

@@ -92,7 +92,7 @@ pub struct DrawList<'a> {
 }
 
 impl<'a> DrawList<'a> {
-    /// The draw that an id belongs to, and the first id of the next draw. A binary search.
+    /// Finds the draw that an id belongs to, and the first id of the next draw. A binary search.
     #[inline(always)]
     pub(crate) fn find_draw(&self, id: u32) -> (&Draw<'a>, u32) {
         // The last draw that begins at or before the id.
@@ -101,8 +101,8 @@ impl<'a> DrawList<'a> {
         (&self.draws[after - 1], end)
     }
 
-    /// Whether two triangles of a smooth draw share an edge, with the same vertices: normals,
-    /// colors and texture coordinates are then continuous across it.
+    /// Returns whether two triangles of a smooth draw share an edge, with the same vertices:
+    /// normals, colors and texture coordinates are then continuous across it.
     ///
     /// Vertices that merely have equal positions, as at creases and at texture seams, are not the
     /// same.
@@ -125,8 +125,8 @@ impl<'a> DrawList<'a> {
 }
 
 impl Draw<'_> {
-    /// The vertices of a point, line or triangle. A point or a line repeats its last vertex, whose
-    /// weight is then 0.
+    /// Returns the vertices of a point, line or triangle. A point or a line repeats its last
+    /// vertex, whose weight is then 0.
     #[inline(always)]
     fn primitive_vertices(&self, primitive: usize) -> [usize; 3] {
         let indices = &self.primitive.indices;
@@ -138,7 +138,7 @@ impl Draw<'_> {
         [0, 1, 2].map(|k: usize| indices[primitive * count + k.min(count - 1)] as usize)
     }
 
-    /// The indices of the primitives with these ids, all from this draw.
+    /// Returns the indices of the primitives with these ids, all from this draw.
     #[inline(always)]
     pub(super) fn primitive_indices<const N: usize>(
         &self,
@@ -156,7 +156,7 @@ impl Draw<'_> {
         }
     }
 
-    /// The indices of the vertices of these primitives.
+    /// Returns the indices of the vertices of these primitives.
     #[inline(always)]
     pub(super) fn vertex_indices<const N: usize>(
         &self,
@@ -168,7 +168,7 @@ impl Draw<'_> {
         )
     }
 
-    /// The interpolated tangents, of any length; zero if the draw has none.
+    /// Interpolates the interpolated tangents, of any length; zero if the draw has none.
     #[inline(always)]
     pub(super) fn interpolate_tangents<const N: usize>(
         &self,
@@ -188,7 +188,7 @@ impl Draw<'_> {
         TangentLanes { vectors: Vec3Lanes { x, y, z }, w }
     }
 
-    /// The coordinates at which a texture is sampled, with their screen-space derivatives.
+    /// Returns the coordinates at which a texture is sampled, with their screen-space derivatives.
     #[inline(always)]
     pub(super) fn texture_coordinates<const N: usize>(
         &self,

@@ -63,7 +63,7 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// The environment with this radiance in each direction, a unit vector of the world.
+    /// Computes the environment with this radiance in each direction, a unit vector of the world.
     ///
     /// The function is called once for each of about 66,000 directions. Prefiltered levels are
     /// computed when a surface first needs them.
@@ -85,19 +85,19 @@ impl Environment {
         Self { source: Some(Source(Arc::new(radiance))), ..made }
     }
 
-    /// The function it was made from, if it was kept.
+    /// Returns the function it was made from, if it was kept.
     pub(super) fn source(&self) -> Option<&Radiance> {
         self.source.as_ref().map(|source| &*source.0)
     }
 
-    /// The radiance of white Lambert surfaces with these unit normals: irradiance over π.
+    /// Computes the radiance of white Lambert surfaces with these unit normals: irradiance over π.
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
     #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn irradiance_over_pi<const N: usize>(&self, normals: Vec3Lanes<N>) -> Rgb<N> {
         self.irradiance.irradiance_over_pi(normals)
     }
 
-    /// The prefiltered radiance in the mirror direction of the view.
+    /// Computes the prefiltered radiance in the mirror direction of the view.
     #[inline(always)]
     pub(super) fn specular_radiance<const N: usize>(
         &self,
@@ -110,7 +110,7 @@ impl Environment {
         self.prefiltered_radiance(mirrored, roughness)
     }
 
-    /// The radiance around directions of any nonzero length, prefiltered for a perceptual
+    /// Computes the radiance around directions of any nonzero length, prefiltered for a perceptual
     /// roughness: trilinear between the two nearest levels.
     ///
     /// Level 0 is for mirrors, level 5 for roughness 1; the lookup is linear between levels.

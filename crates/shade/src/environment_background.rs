@@ -17,7 +17,7 @@ use super::{Draw, Shading};
 const SAMPLES: [[f32; 2]; 4] = [[-0.125, -0.375], [0.375, -0.125], [0.125, 0.375], [-0.375, 0.125]];
 
 impl Shading<'_> {
-    /// The environment behind everything, blurred as by a mirror of the given roughness.
+    /// Computes the environment behind everything, blurred as by a mirror of the given roughness.
     ///
     /// The draw is a quad at the far plane: its positions are used only for the view direction, and
     /// its texture coordinates are pixel coordinates of the picture.
@@ -59,8 +59,8 @@ impl Shading<'_> {
         [r, g, b, Lanes::ONE]
     }
 
-    /// The mean color of a pixel of the background, from a position in it and the steps to the next
-    /// pixels.
+    /// Computes the mean color of a pixel of the background, from a position in it and the steps to
+    /// the next pixels.
     #[inline(never)]
     fn sharp_environment(&self, [position, right, down]: [[f32; 3]; 3]) -> [f32; 3] {
         let mut sum = [0.0; 3];
@@ -81,8 +81,8 @@ impl Shading<'_> {
     }
 }
 
-/// A linear color, shifted by up to half a step of an 8-bit sRGB code depending on the pixel's
-/// position.
+/// Computes a linear color, shifted by up to half a step of an 8-bit sRGB code depending on the
+/// pixel's position.
 #[inline(never)]
 fn dither(color: [f32; 3], pixel: [f32; 2]) -> [f32; 3] {
     let [x, y] = pixel.map(|coordinate| floor_to_int(coordinate) as u32);
@@ -98,7 +98,7 @@ fn dither(color: [f32; 3], pixel: [f32; 2]) -> [f32; 3] {
     })
 }
 
-/// The threshold at a position in Bayer's 8 × 8 matrix, from 0 to 63.
+/// Returns the threshold at a position in Bayer's 8 × 8 matrix, from 0 to 63.
 const fn bayer(x: u32, y: u32) -> u32 {
     let (a, b) = (x ^ y, y);
     let mut threshold = 0;

@@ -12,7 +12,7 @@ use raster::{Fragment, Fragments, LANES};
 /// Implemented for a single fragment, for packets of eight, and by shading styles for a fragment at
 /// a vertex. Weights and derivatives always refer to the whole triangle, even if it was clipped.
 pub(super) trait FragmentLanes<const N: usize> {
-    /// The perspective-correct barycentric weights of the three vertices.
+    /// Computes the perspective-correct barycentric weights of the three vertices.
     fn weights(&self) -> [Lanes<N>; 3];
     /// Their derivatives with respect to the pixel's column.
     fn weights_dx(&self) -> [Lanes<N>; 3];
@@ -47,7 +47,7 @@ pub(super) struct FragmentPacket {
 }
 
 impl FragmentPacket {
-    /// The weights of eight fragments from the rasterizer.
+    /// Creates the weights of eight fragments from the rasterizer.
     #[inline(always)]
     pub(super) fn new(fragments: &Fragments<'_>) -> Self {
         // One set of barycentrics, clipped triangles included; derivatives by the quotient rule.

@@ -90,7 +90,8 @@ impl GroundOcclusion {
         Self { grid, visibility }
     }
 
-    /// The visibility at a position in the world, bilinear between the cells; 1 outside the grid.
+    /// Computes the visibility at a position in the world, bilinear between the cells; 1 outside
+    /// the grid.
     #[inline(always)]
     pub(super) fn visibility_at(&self, [x, _, z]: [f32; 3]) -> f32 {
         let GroundGrid { corner, cell, .. } = self.grid;
@@ -106,7 +107,7 @@ impl GroundOcclusion {
         sum
     }
 
-    /// The visibility of a cell; 1 outside the grid.
+    /// Returns the visibility of a cell; 1 outside the grid.
     #[inline(always)]
     fn cell_at(&self, column: i32, row: i32) -> f32 {
         let [columns, rows] = self.grid.size;
@@ -118,7 +119,7 @@ impl GroundOcclusion {
 }
 
 impl GroundGrid {
-    /// The grid of the visibility.
+    /// Computes the grid of the visibility.
     fn coarsen(self) -> Self {
         let size = self.size.map(|count| count.div_ceil(COARSENESS));
         Self { cell: self.cell * COARSENESS as f32, size, ..self }
@@ -165,8 +166,8 @@ impl<'a> RayCaster<'a> {
         Self { grid, slabs, occupied: [least, most], azimuths: azimuths.collect() }
     }
 
-    /// The visibility from the center of a visibility cell, along the azimuths for its position in
-    /// the block.
+    /// Computes the visibility from the center of a visibility cell, along the azimuths for its
+    /// position in the block.
     fn visibility_at(&self, column: usize, row: usize) -> f32 {
         // An order in which neighbors are far apart, as in ordered dithering.
         const ORDER: [usize; BLOCK * BLOCK] = [0, 2, 3, 1];
@@ -182,7 +183,7 @@ impl<'a> RayCaster<'a> {
         1.0 - hidden as f32 / (AZIMUTHS as f32 * SECTORS)
     }
 
-    /// The sectors that slabs hide along an azimuth, the lowest in the lowest bit.
+    /// Computes the sectors that slabs hide along an azimuth, the lowest in the lowest bit.
     fn hidden_sectors(&self, from: [f32; 2], along: [f32; 2]) -> u64 {
         let Some([start, end]) = self.clip_ray(from, along) else { return 0 };
         let (mut hidden, mut near) = (0, start);
@@ -199,7 +200,7 @@ impl<'a> RayCaster<'a> {
         hidden
     }
 
-    /// The distances in cells between which a ray passes over occupied cells.
+    /// Computes the distances in cells between which a ray passes over occupied cells.
     fn clip_ray(&self, from: [f32; 2], along: [f32; 2]) -> Option<[f32; 2]> {
         let [least, most] = self.occupied;
         let (mut start, mut end) = (0.0_f32, f32::INFINITY);
@@ -211,7 +212,7 @@ impl<'a> RayCaster<'a> {
         (start < end).then_some([start, end])
     }
 
-    /// The sectors hidden by the slab of a cell between two distances.
+    /// Computes the sectors hidden by the slab of a cell between two distances.
     fn slab_sectors(&self, column: i32, row: i32, [near, far]: [f32; 2]) -> u64 {
         let [columns, rows] = self.grid.size;
         let (column, row) = (column as usize, row as usize);
@@ -233,12 +234,12 @@ impl<'a> RayCaster<'a> {
     }
 }
 
-/// The lowest sectors, up to 64 of them.
+/// Computes the lowest sectors, up to 64 of them.
 const fn sectors_below(count: u32) -> u64 {
     if count >= 64 { u64::MAX } else { (1 << count) - 1 }
 }
 
-/// The mean over a block along one axis: of three cells, the outer ones with half weight.
+/// Computes the mean over a block along one axis: of three cells, the outer ones with half weight.
 fn average_blocks(values: &[f32], [columns, rows]: [usize; 2], step: [usize; 2]) -> Vec<f32> {
     let at = |column: usize, row: usize| values[row * columns + column];
     let mean = |index: usize| {
@@ -254,7 +255,7 @@ fn average_blocks(values: &[f32], [columns, rows]: [usize; 2], step: [usize; 2])
 mod tests {
     use super::*;
 
-    /// A grid of 192 × 192 cells around the origin, with slabs given by `slab`.
+    /// Returns a grid of 192 × 192 cells around the origin, with slabs given by `slab`.
     fn grid_of(half: f32, slab: impl Fn(f32, f32) -> HeightSlab) -> GroundOcclusion {
         let cell = half / 96.0;
         let grid = GroundGrid { corner: [-half; 2], cell, size: [192; 2], fade: 0.2 * half };

@@ -42,14 +42,14 @@ impl<const N: usize> Lanes<N> {
     pub(crate) const ZERO: Self = Self([0.0; N]);
     pub(crate) const ONE: Self = Self([1.0; N]);
 
-    /// One number in all lanes.
+    /// Returns one number in all lanes.
     #[inline(always)]
     pub(crate) const fn splat(value: f32) -> Self {
         Self([value; N])
     }
 
-    /// The lanes from a function of their index: for table lookups and `libm` functions, which have
-    /// no vector counterpart.
+    /// Computes the lanes from a function of their index: for table lookups and `libm` functions,
+    /// which have no vector counterpart.
     #[inline(always)]
     pub(crate) fn from_fn(mut lane: impl FnMut(usize) -> f32) -> Self {
         let mut lanes = [0.0; N];
@@ -78,31 +78,31 @@ impl<const N: usize> Lanes<N> {
         self.map(function)
     }
 
-    /// The square roots; NaN for numbers below 0.
+    /// Computes the square roots; NaN for numbers below 0.
     #[inline(always)]
     pub(crate) fn sqrt(self) -> Self {
         self.map(f32::sqrt)
     }
 
-    /// The magnitudes.
+    /// Returns the magnitudes.
     #[inline(always)]
     pub(crate) fn abs(self) -> Self {
         self.map(f32::abs)
     }
 
-    /// The smaller of each lane and a bound; the bound for NaN.
+    /// Returns the smaller of each lane and a bound; the bound for NaN.
     #[inline(always)]
     pub(crate) fn min(self, bound: f32) -> Self {
         self.map(|value| value.min(bound))
     }
 
-    /// The larger of each lane and a bound; the bound for NaN.
+    /// Returns the larger of each lane and a bound; the bound for NaN.
     #[inline(always)]
     pub(crate) fn max(self, bound: f32) -> Self {
         self.map(|value| value.max(bound))
     }
 
-    /// The smaller of two values, lane by lane.
+    /// Returns the smaller of two values, lane by lane.
     #[inline(always)]
     pub(crate) fn min_lanes(mut self, other: Self) -> Self {
         for (value, other) in self.0.iter_mut().zip(&other.0) {
@@ -111,7 +111,7 @@ impl<const N: usize> Lanes<N> {
         self
     }
 
-    /// The larger of two values, lane by lane.
+    /// Returns the larger of two values, lane by lane.
     #[inline(always)]
     pub(crate) fn max_lanes(mut self, other: Self) -> Self {
         for (value, other) in self.0.iter_mut().zip(&other.0) {
@@ -120,7 +120,7 @@ impl<const N: usize> Lanes<N> {
         self
     }
 
-    /// Each lane clamped to two bounds; NaN stays NaN.
+    /// Computes each lane clamped to two bounds; NaN stays NaN.
     #[inline(always)]
     pub(crate) fn clamp(self, least: f32, most: f32) -> Self {
         self.map(|value| value.clamp(least, most))
@@ -134,7 +134,7 @@ impl<const N: usize> Lanes<N> {
         self + (to - self) * t
     }
 
-    /// The lanes that are below a bound.
+    /// Returns the lanes that are below a bound.
     #[inline(always)]
     pub(crate) fn is_below(&self, bound: f32) -> Mask<N> {
         let mut mask = [false; N];
@@ -144,7 +144,7 @@ impl<const N: usize> Lanes<N> {
         mask
     }
 
-    /// The lanes that are above a bound.
+    /// Returns the lanes that are above a bound.
     #[inline(always)]
     pub(crate) fn is_above(&self, bound: f32) -> Mask<N> {
         let mut mask = [false; N];
@@ -289,13 +289,13 @@ macro_rules! three_components {
             pub(crate) const ZERO: Self =
                 Self { $a: Lanes::ZERO, $b: Lanes::ZERO, $c: Lanes::ZERO };
 
-            /// Three numbers, the same in all lanes.
+            /// Returns three numbers, the same in all lanes.
             #[inline(always)]
             pub(crate) const fn splat([$a, $b, $c]: [f32; 3]) -> Self {
                 Self { $a: Lanes::splat($a), $b: Lanes::splat($b), $c: Lanes::splat($c) }
             }
 
-            /// The components from a function that is called once for each lane.
+            /// Computes the components from a function that is called once for each lane.
             #[inline(always)]
             pub(crate) fn from_fn(mut lane: impl FnMut(usize) -> [f32; 3]) -> Self {
                 let mut lanes = Self::ZERO;
@@ -305,7 +305,7 @@ macro_rules! three_components {
                 lanes
             }
 
-            /// The three components of one lane.
+            /// Returns the three components of one lane.
             #[inline(always)]
             pub(crate) fn lane(&self, lane: usize) -> [f32; 3] {
                 [self.$a[lane], self.$b[lane], self.$c[lane]]
@@ -411,13 +411,13 @@ three_components! {
 }
 
 impl<const N: usize> Vec3Lanes<N> {
-    /// The dot products, lane by lane.
+    /// Computes the dot products, lane by lane.
     #[inline(always)]
     pub(crate) fn dot(self, other: Self) -> Lanes<N> {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
-    /// The cross products, lane by lane.
+    /// Computes the cross products, lane by lane.
     #[inline(always)]
     pub(crate) fn cross(self, other: Self) -> Self {
         Self {
@@ -438,7 +438,7 @@ impl<const N: usize> Rgb<N> {
     /// 1 in all channels and lanes.
     pub(crate) const WHITE: Self = Self { r: Lanes::ONE, g: Lanes::ONE, b: Lanes::ONE };
 
-    /// The largest channel of each lane.
+    /// Returns the largest channel of each lane.
     #[inline(always)]
     pub(crate) fn max_channel(self) -> Lanes<N> {
         self.r.max_lanes(self.g).max_lanes(self.b)
@@ -462,7 +462,7 @@ mod tests {
     const A: [f32; 4] = [0.1, -3.0, 7.7, f32::NAN];
     const B: [f32; 4] = [0.7, 0.3, -1e-3, 2.0];
 
-    /// The bits of lanes, because NaN is not equal to itself.
+    /// Returns the bits of lanes, because NaN is not equal to itself.
     fn bits(lanes: Lanes<4>) -> [u32; 4] {
         lanes.0.map(f32::to_bits)
     }

@@ -72,7 +72,7 @@ pub(super) struct IncidentLight<const N: usize> {
 }
 
 impl Light {
-    /// The illuminance of every surface, for an ambient light.
+    /// Returns the illuminance of every surface, for an ambient light.
     pub(crate) const fn ambient_lux(&self) -> Option<[f32; 3]> {
         match self {
             Self::Ambient { lux } => Some(*lux),
@@ -80,7 +80,7 @@ impl Light {
         }
     }
 
-    /// The shadows that the light casts, if it casts any.
+    /// Returns the shadows that the light casts, if it casts any.
     #[must_use]
     pub const fn shadow(&self) -> Option<Shadow> {
         match self {
@@ -91,8 +91,8 @@ impl Light {
         }
     }
 
-    /// The light that arrives at positions in the world, ignoring shadows; none for ambient light,
-    /// which has no direction.
+    /// Computes the light that arrives at positions in the world, ignoring shadows; none for
+    /// ambient light, which has no direction.
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
     #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn incident_at<const N: usize>(&self, positions: Vec3Lanes<N>) -> IncidentLight<N> {
@@ -128,8 +128,8 @@ impl<const N: usize> IncidentLight<N> {
     }
 }
 
-/// The light from a point: inverse-square falloff with a smooth window to its range, 1 − (d /
-/// range)⁴ (KHR_lights_punctual). `attenuation` is the part that goes in a direction.
+/// Computes the light from a point: inverse-square falloff with a smooth window to its range, 1 −
+/// (d / range)⁴ (KHR_lights_punctual). `attenuation` is the part that goes in a direction.
 #[inline(always)]
 fn light_from_point<const N: usize>(
     position: [f32; 3],

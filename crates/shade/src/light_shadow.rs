@@ -15,8 +15,8 @@ pub enum LightShadow {
 }
 
 impl LightShadow {
-    /// The visibility of the light, 0 to 1, from the receivers in the `wanted` lanes; 0 in the
-    /// others.
+    /// Computes the visibility of the light, 0 to 1, from the receivers in the `wanted` lanes; 0 in
+    /// the others.
     ///
     /// Outside the map, for instance outside the light's cone, nothing is in shadow.
     #[inline(always)]

@@ -112,7 +112,7 @@ impl<const N: usize> MaterialInputs<N> {
         inputs
     }
 
-    /// The factors of the material, without textures.
+    /// Computes the factors of the material, without textures.
     #[inline(always)]
     fn from_factors(draw: &Draw<'_>) -> Self {
         let material = draw.material;
@@ -168,7 +168,8 @@ impl<const N: usize> MaterialInputs<N> {
 }
 
 impl<const N: usize> LayerInputs<N> {
-    /// The factors of the extensions, without textures; they are arbitrary for absent extensions.
+    /// Computes the factors of the extensions, without textures; they are arbitrary for absent
+    /// extensions.
     #[inline(always)]
     fn from_factors(extensions: &MaterialExtensions) -> Self {
         let clearcoat = extensions.clearcoat.as_deref().copied().unwrap_or_default();
@@ -237,7 +238,8 @@ impl<const N: usize> LayerInputs<N> {
     }
 }
 
-/// The tangent-space normal that a normal map stores, with x and y scaled (glTF 2.0 §3.9.3).
+/// Decodes the tangent-space normal that a normal map stores, with x and y scaled (glTF 2.0
+/// §3.9.3).
 #[inline(always)]
 fn decode_tangent_normal<const N: usize>(texel: Rgb<N>, scale: f32) -> Vec3Lanes<N> {
     Vec3Lanes {

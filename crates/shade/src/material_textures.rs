@@ -39,8 +39,8 @@ pub struct MaterialTextures<'a> {
 }
 
 impl<'a> MaterialTextures<'a> {
-    /// The textures of a material for which `mip_chain` returns texels. For an unlit material only
-    /// the base color is used.
+    /// Creates the textures of a material for which `mip_chain` returns texels. For an unlit
+    /// material only the base color is used.
     ///
     /// `anisotropy` is the maximum number of texels read along the longer axis of a pixel's
     /// footprint.
@@ -83,7 +83,7 @@ impl<'a> MaterialTextures<'a> {
         Self { textures, anisotropy }
     }
 
-    /// The groups of textures that are read at the same texels, none of them empty.
+    /// Returns the groups of textures that are read at the same texels, none of them empty.
     #[inline(always)]
     pub(super) fn groups(&self) -> impl Iterator<Item = &[MaterialTexture<'a>]> {
         self.textures.chunk_by(|_, next| next.joins_previous)
@@ -118,20 +118,20 @@ impl<'a> MaterialTextures<'a> {
         texels
     }
 
-    /// The texture that provides the alpha of the surface.
+    /// Returns the texture that provides the alpha of the surface.
     pub(super) fn base_color(&self) -> Option<&MaterialTexture<'a>> {
         self.textures.iter().find(|texture| is_base_color_slot(texture.slot))
     }
 }
 
 impl MaterialTexture<'_> {
-    /// Whether the sampled texels of this texture include everything that another one in the group
-    /// needs.
+    /// Returns whether the sampled texels of this texture include everything that another one in
+    /// the group needs.
     fn covers_texels_of(&self, other: &Self) -> bool {
         std::ptr::eq(self.mip_chain, other.mip_chain) && (self.needs_alpha || !other.needs_alpha)
     }
 
-    /// Whether two textures are read at the same texels by every fragment.
+    /// Returns whether two textures are read at the same texels by every fragment.
     fn has_same_footprint(&self, other: &Self) -> bool {
         let (info, others) = (&self.info, &other.info);
         let is_same_addressing = self.mip_chain.addressing() == other.mip_chain.addressing();
@@ -139,12 +139,13 @@ impl MaterialTexture<'_> {
     }
 }
 
-/// Whether a slot holds the base color, in either workflow.
+/// Returns whether a slot holds the base color, in either workflow.
 const fn is_base_color_slot(slot: TextureSlot) -> bool {
     matches!(slot, TextureSlot::BaseColor | TextureSlot::Diffuse)
 }
 
-/// Whether the alpha of a texture is a separate parameter, apart from the base color's alpha.
+/// Returns whether the alpha of a texture is a separate parameter, apart from the base color's
+/// alpha.
 const fn slot_reads_alpha(slot: TextureSlot) -> bool {
     matches!(
         slot,

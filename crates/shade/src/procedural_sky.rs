@@ -64,8 +64,8 @@ const ZENITH: [[[f32; 4]; 3]; 2] = [
 ];
 
 impl PreethamSky {
-    /// The sky with the sun in a direction, a unit vector in the world with y up; a sun below the
-    /// horizon is raised to it.
+    /// Creates the sky with the sun in a direction, a unit vector in the world with y up; a sun
+    /// below the horizon is raised to it.
     #[must_use]
     pub fn new([x, y, z]: [f32; 3]) -> Self {
         let to_sun = normalize([x, y.max(0.02), z]);
@@ -93,7 +93,7 @@ impl PreethamSky {
         sky
     }
 
-    /// The radiance from a direction, a unit vector, in linear sRGB.
+    /// Computes the radiance from a direction, a unit vector, in linear sRGB.
     #[must_use]
     pub fn radiance(&self, direction: [f32; 3]) -> [f32; 3] {
         // Clamped, because the distribution diverges at the horizon.

@@ -205,7 +205,7 @@ struct ShadedLanes<const N: usize> {
 }
 
 impl<const N: usize> ShadedLanes<N> {
-    /// A color that lets through 1 − alpha in each channel: the "over" operator.
+    /// Computes a color that lets through 1 − alpha in each channel: the "over" operator.
     #[inline(always)]
     fn over(color: [Lanes<N>; 4]) -> Self {
         Self { color, transmittance: [1.0 - color[3]; 3] }
@@ -255,7 +255,7 @@ impl Shading<'_> {
         })
     }
 
-    /// The colors of a model's surfaces: emitted and reflected light, tone mapped.
+    /// Computes the colors of a model's surfaces: emitted and reflected light, tone mapped.
     ///
     /// Unlit materials, lines and points show only emission and base color. Alpha is coverage if
     /// the material blends, and 1 otherwise; the transmitted part is subtracted from it, so that
@@ -307,13 +307,14 @@ impl Shading<'_> {
         ShadedLanes { color: [r, g, b, alpha], transmittance }
     }
 
-    /// The framebuffer that shows the objects behind a draw, if it is needed.
+    /// Returns the framebuffer that shows the objects behind a draw, if it is needed.
     #[inline(always)]
     fn framebuffer_behind(&self, draw: &Draw<'_>) -> Option<&TransmissionFramebuffer> {
         self.transmission_framebuffer.filter(|_| draw.material.bends_transmitted_light())
     }
 
-    /// The backdrop at fragments whose positions are fractions of the picture; not tone mapped.
+    /// Computes the backdrop at fragments whose positions are fractions of the picture; not tone
+    /// mapped.
     #[inline(always)]
     fn shade_backdrop<const N: usize>(
         &self,
@@ -415,7 +416,7 @@ impl Shading<'_> {
         SurfaceGeometry::new(positions, views, normals, is_back_facing, normal_variation)
     }
 
-    /// The viewer as a homogeneous `f32` point.
+    /// Returns the viewer as a homogeneous `f32` point.
     #[inline(always)]
     pub(super) fn viewer_position(&self) -> [f32; 4] {
         <[f64; 4]>::from(self.viewer).map(|c| c as f32)
@@ -423,8 +424,8 @@ impl Shading<'_> {
 }
 
 impl Draw<'_> {
-    /// Whether lights illuminate the draw: unlit materials, lines and points show their color
-    /// unchanged.
+    /// Returns whether lights illuminate the draw: unlit materials, lines and points show their
+    /// color unchanged.
     pub fn is_lit(&self) -> bool {
         !self.material.unlit && self.primitive.topology == Topology::Triangles
     }

@@ -34,8 +34,8 @@ pub enum ShadingStyle {
     Matcap,
     /// The normal in the world: red, green and blue are (n + 1) / 2.
     Normals,
-    /// Depth along the view axis: 1 at `near`, falling linearly to 0.1 at `far`; or colors, from the
-    /// last of a colormap at `near` to its first at `far`.
+    /// Depth along the view axis: 1 at `near`, falling linearly to 0.1 at `far`; or colors, from
+    /// the last of a colormap at `near` to its first at `far`.
     Depth {
         /// The depth shown as white, or as the last color.
         near: f32,
@@ -79,7 +79,7 @@ const XRAY_COLOR: [f32; 3] = [0.03, 0.22, 0.5];
 struct VertexFragment([Lanes<1>; 3]);
 
 impl VertexFragment {
-    /// The fragment at one of the three vertices.
+    /// Returns the fragment at one of the three vertices.
     fn at_vertex(vertex: usize) -> Self {
         let mut weights = [Lanes::ZERO; 3];
         weights[vertex] = Lanes::ONE;
@@ -149,8 +149,8 @@ impl Surface for StyledShading<'_> {
 }
 
 impl ShadingStyle {
-    /// Whether the style uses textures of the material, or its alpha. These styles are shaded
-    /// fragment by fragment.
+    /// Returns whether the style uses textures of the material, or its alpha. These styles are
+    /// shaded fragment by fragment.
     const fn needs_material(self) -> bool {
         matches!(self, Self::Gouraud | Self::Toon | Self::XRay)
     }
@@ -185,15 +185,15 @@ impl Kernel for StyleEight<'_> {
 }
 
 impl StyledShading<'_> {
-    /// Whether a draw has the style; the background does not, nor, except in false colors, do lines
-    /// and points.
+    /// Returns whether a draw has the style; the background does not, nor, except in false colors,
+    /// do lines and points.
     fn is_styled(&self, draw: &Draw<'_>) -> bool {
         let is_surface = draw.primitive.topology == model::Topology::Triangles;
         let is_false_color = matches!(self.style, ShadingStyle::Depth { .. } | ShadingStyle::Ids);
         draw.kind == DrawKind::Surface && (is_surface || is_false_color)
     }
 
-    /// The colors of the parts that eight fragments belong to: nothing is interpolated.
+    /// Returns the colors of the parts that eight fragments belong to: nothing is interpolated.
     fn part_colors(&self, fragments: &Fragments<'_>) -> [F32x8; 4] {
         let mut colors = [[1.0; LANES]; 4];
         let (mut last, mut color) = (None, [0.0; 3]);
@@ -210,7 +210,7 @@ impl StyledShading<'_> {
         colors
     }
 
-    /// The colors of fragments of one draw, in a style without materials.
+    /// Computes the colors of fragments of one draw, in a style without materials.
     #[inline(always)]
     fn shade_lanes<const N: usize>(
         &self,
@@ -247,7 +247,7 @@ impl StyledShading<'_> {
         })
     }
 
-    /// The radiance of white Lambert surfaces under the lights, without shadows, and the
+    /// Computes the radiance of white Lambert surfaces under the lights, without shadows, and the
     /// environment.
     ///
     /// Σ E n·l / π over the lights, plus irradiance over π of the environment.
@@ -266,9 +266,9 @@ impl StyledShading<'_> {
         sum
     }
 
-    /// The color of a material in some diffuse light, exposed and tone mapped, premultiplied by the
-    /// alpha of materials that blend. Unlit colors already are display colors: they are only
-    /// exposed, and the light is ignored.
+    /// Computes the color of a material in some diffuse light, exposed and tone mapped,
+    /// premultiplied by the alpha of materials that blend. Unlit colors already are display colors:
+    /// they are only exposed, and the light is ignored.
     fn material_color(
         &self,
         draw: &Draw<'_>,
@@ -306,7 +306,7 @@ impl StyledShading<'_> {
         self.material_color(draw, fragment, light)
     }
 
-    /// The base color in steps of light according to its luminance.
+    /// Computes the base color in steps of light according to its luminance.
     ///
     /// The luminance of the diffuse light is quantized to three tones; the base color keeps its
     /// hue.
@@ -323,7 +323,7 @@ impl StyledShading<'_> {
         self.material_color(draw, fragment, [brightness; 3])
     }
 
-    /// The matcap at the normal in a frame whose z points to the viewer of this pixel: in
+    /// Returns the matcap at the normal in a frame whose z points to the viewer of this pixel: in
     /// perspective a sphere looks the same everywhere in the picture.
     #[inline(always)]
     fn matcap_color<const N: usize>(&self, geometry: &SurfaceGeometry<N>) -> Rgb<N> {
@@ -341,14 +341,14 @@ impl StyledShading<'_> {
         })
     }
 
-    /// The distances from the eye along the view axis.
+    /// Computes the distances from the eye along the view axis.
     #[inline(always)]
     fn view_depth<const N: usize>(&self, geometry: &SurfaceGeometry<N>) -> Lanes<N> {
         let backwards = Vec3Lanes::splat(self.world_to_view[2]);
         -backwards.dot(geometry.positions - Vec3Lanes::splat(self.eye_position))
     }
 
-    /// A translucent surface, whose alpha grows with the cube of 1 − |n·v|.
+    /// Computes a translucent surface, whose alpha grows with the cube of 1 − |n·v|.
     fn shade_xray(&self, fragment: &Fragment<'_>, geometry: &SurfaceGeometry<1>) -> [f32; 4] {
         if !self.passes_alpha_test(fragment) {
             return [0.0; 4];

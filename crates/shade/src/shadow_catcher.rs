@@ -61,7 +61,8 @@ impl Shading<'_> {
         [Lanes::ZERO, Lanes::ZERO, Lanes::ZERO, alpha]
     }
 
-    /// The illuminance of the ground from ambient lights and environment, summed over the channels.
+    /// Computes the illuminance of the ground from ambient lights and environment, summed over the
+    /// channels.
     fn total_ambient_lux(&self) -> f32 {
         let mut lux = 0.0;
         for [r, g, b] in self.lights.iter().filter_map(Light::ambient_lux) {

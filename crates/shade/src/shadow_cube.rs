@@ -47,7 +47,7 @@ struct ProjectedDisc {
 }
 
 impl ProjectedDisc {
-    /// The disc of radius 1 at distance 1, perpendicular to the unit vector `direction`.
+    /// Creates the disc of radius 1 at distance 1, perpendicular to the unit vector `direction`.
     #[inline(always)]
     fn new(map: &ShadowMap, direction: [f32; 3]) -> Self {
         let [along, across] = perpendicular_frame(direction);
@@ -58,7 +58,7 @@ impl ProjectedDisc {
         }
     }
 
-    /// The texel coordinates x and y, and w, of a position on the disc.
+    /// Computes the texel coordinates x and y, and w, of a position on the disc.
     #[inline(always)]
     fn texel_at(&self, [dx, dy]: [f32; 2]) -> ([f32; 2], f32) {
         let [x, y, w] =
@@ -74,7 +74,8 @@ impl ShadowCube {
     /// faces would have to overlap by more.
     pub const MAX_PENUMBRA: f32 = 1.0 / 16.0;
 
-    /// The visibility of the light, 0 to 1, from a position in the world with this unit normal.
+    /// Computes the visibility of the light, 0 to 1, from a position in the world with this unit
+    /// normal.
     #[inline(never)]
     pub(super) fn visibility(&self, position: [f32; 3], normal: [f32; 3]) -> f32 {
         let from_light = subtract(position, self.position);
@@ -122,7 +123,7 @@ impl ShadowCube {
     }
 }
 
-/// The face that a direction from the light meets, given by its longest coordinate.
+/// Returns the face that a direction from the light meets, given by its longest coordinate.
 #[inline(always)]
 fn face_index([x, y, z]: [f32; 3]) -> usize {
     let (axis, along) = match [x.abs(), y.abs(), z.abs()] {
@@ -133,7 +134,7 @@ fn face_index([x, y, z]: [f32; 3]) -> usize {
     2 * axis + usize::from(along < 0.0)
 }
 
-/// Two unit vectors perpendicular to a unit vector and to each other (Frisvad, *Building an
+/// Returns two unit vectors perpendicular to a unit vector and to each other (Frisvad, *Building an
 /// orthonormal basis from a 3D unit vector without normalization*, 2012).
 ///
 /// They vary continuously except at +y, straight above the light, where shadows are least visible.

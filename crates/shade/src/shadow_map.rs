@@ -126,15 +126,15 @@ impl ShadowMap {
         [0, 1, 3].map(|k: usize| dot([rows[k][0], rows[k][1], rows[k][2]], direction))
     }
 
-    /// A number proportional to 1 / distance along the axis of a perspective map, from a depth; 1
-    /// in parallel light.
+    /// Computes a number proportional to 1 / distance along the axis of a perspective map, from a
+    /// depth; 1 in parallel light.
     #[inline(always)]
     pub(super) fn nearness(&self, depth: f32) -> f32 {
         self.depth_at_infinity.map_or(1.0, |infinity| (depth - infinity).max(0.0))
     }
 
-    /// The depth of the surface that blocks light from the receiver's plane at a position of the
-    /// map.
+    /// Finds the depth of the surface that blocks light from the receiver's plane at a position of
+    /// the map.
     ///
     /// The planes of texel and receiver are compared twice: at the center of the texel, where the
     /// depth was sampled, and at the position itself. The caster must be above the receiver at
@@ -152,7 +152,8 @@ impl ShadowMap {
         (at_center > bias && here > bias).then_some(texel.depth)
     }
 
-    /// The index of the texel in a column and row; beyond the last texel if outside the map.
+    /// Returns the index of the texel in a column and row; beyond the last texel if outside the
+    /// map.
     #[inline(always)]
     fn texel_index(&self, column: i32, row: i32) -> usize {
         let [width, height] = self.size;
@@ -170,8 +171,8 @@ mod tests {
     use crate::lanes::Vec3Lanes;
     use crate::shadow_receiver::ShadowReceiver;
 
-    /// A map of 100 × 100 texels of side 0.01 seen from above: x points right, y is depth, z points
-    /// down. To the left of x = 0.6 there is a caster at a height.
+    /// Returns a map of 100 × 100 texels of side 0.01 seen from above: x points right, y is depth,
+    /// z points down. To the left of x = 0.6 there is a caster at a height.
     pub(super) fn map(height: f32, spread: f64) -> ShadowMap {
         let mut map = ShadowMap::default();
         let world_to_map = DMat4::from_cols(
@@ -192,7 +193,7 @@ mod tests {
 
     const UP: [f32; 3] = [0.0, 1.0, 0.0];
 
-    /// The visibility from one position.
+    /// Computes the visibility from one position.
     fn visibility(map: &ShadowMap, position: [f32; 3], normal: [f32; 3]) -> f32 {
         let (positions, normals) = (Vec3Lanes::splat(position), Vec3Lanes::splat(normal));
         map.visibility::<1>(&ShadowReceiver { positions, normals }, [true])[0]

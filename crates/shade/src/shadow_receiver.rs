@@ -27,7 +27,8 @@ pub(super) struct ShadowReceiver<const N: usize> {
 }
 
 impl<const N: usize> ShadowReceiver<N> {
-    /// The receiver of fragments of a draw, with positions on the smooth surface if it has one.
+    /// Computes the receiver of fragments of a draw, with positions on the smooth surface if it has
+    /// one.
     ///
     /// The offset is 0 at the vertices, whose tangent planes pass through them.
     #[inline(always)]

@@ -35,7 +35,7 @@ const SOFTBOXES: [Softbox; 5] = [
 /// The fractions of a softbox's half width and half height over which its border fades.
 const SOFTBOX_FADE: [f32; 2] = [0.25, 0.15];
 
-/// The radiance of a photographer's studio from a direction, a unit vector with y up.
+/// Computes the radiance of a photographer's studio from a direction, a unit vector with y up.
 ///
 /// A matte white surface, whose radiance is the irradiance over π, reaches at most 1.04, and 0.21
 /// facing the floor. No direction is brighter than 2.17, so that a mirror at the strength of bare
@@ -54,7 +54,7 @@ pub fn studio_radiance(direction: [f32; 3]) -> [f32; 3] {
 }
 
 impl Softbox {
-    /// The fraction of a direction that the rectangle fills, from 0 to 1.
+    /// Computes the fraction of a direction that the rectangle fills, from 0 to 1.
     fn coverage(&self, direction: [f32; 3]) -> f32 {
         let center = normalize(self.direction);
         let across = normalize(cross([0.0, 1.0, 0.0], center));
@@ -77,7 +77,7 @@ impl Softbox {
 mod tests {
     use super::*;
 
-    /// Unit vectors evenly distributed over the sphere (the Fibonacci spiral).
+    /// Returns unit vectors evenly distributed over the sphere (the Fibonacci spiral).
     fn sphere(count: usize) -> impl Iterator<Item = [f32; 3]> {
         (0..count).map(move |index| {
             let y = 1.0 - (2.0 * index as f32 + 1.0) / count as f32;
@@ -87,7 +87,8 @@ mod tests {
         })
     }
 
-    /// The radiance of matte white with this normal: the integral over its hemisphere, over π.
+    /// Computes the radiance of matte white with this normal: the integral over its hemisphere,
+    /// over π.
     fn matte_white(normal: [f32; 3]) -> f32 {
         let count = 40_000;
         let light = |d: [f32; 3]| studio_radiance(d)[1] * dot(d, normal).max(0.0);

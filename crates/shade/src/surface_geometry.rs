@@ -59,8 +59,8 @@ impl<const N: usize> SurfaceGeometry<N> {
         Self { positions, views, normals, is_back_facing, n_dot_v, normal_variation }
     }
 
-    /// The surfaces with the normals of a normal map. On a back face the whole frame of tangent,
-    /// bitangent and normal is flipped.
+    /// Computes the surfaces with the normals of a normal map. On a back face the whole frame of
+    /// tangent, bitangent and normal is flipped.
     #[inline(always)]
     pub(super) fn with_tangent_normal(
         &self,
@@ -76,7 +76,7 @@ impl<const N: usize> SurfaceGeometry<N> {
 }
 
 impl Draw<'_> {
-    /// The positions of each fragment's vertices in the world.
+    /// Returns the positions of each fragment's vertices in the world.
     #[inline(always)]
     pub(super) fn vertex_positions<const N: usize>(
         &self,
@@ -85,7 +85,7 @@ impl Draw<'_> {
         vertices.fetch_attributes(&self.vertices, POSITION)
     }
 
-    /// The positions of fragments in the world.
+    /// Interpolates the positions of fragments in the world.
     #[inline(always)]
     pub(super) fn interpolate_positions<const N: usize>(
         &self,
@@ -95,8 +95,8 @@ impl Draw<'_> {
         interpolate(&self.vertex_positions(vertices), &fragments.weights()).into()
     }
 
-    /// The unit normals on the front side, and how much they vary from pixel to pixel; for a flat
-    /// draw, the constant normals of the triangles.
+    /// Interpolates the unit normals on the front side, and how much they vary from pixel to pixel;
+    /// for a flat draw, the constant normals of the triangles.
     #[inline(always)]
     pub(super) fn interpolate_normals<const N: usize>(
         &self,
@@ -147,8 +147,8 @@ impl Draw<'_> {
         }
     }
 
-    /// The normals of triangles with these vertices, on their front side; their length is twice the
-    /// area.
+    /// Computes the normals of triangles with these vertices, on their front side; their length is
+    /// twice the area.
     #[inline(always)]
     pub(super) fn face_normals<const N: usize>(
         &self,
@@ -176,7 +176,8 @@ fn normalize_vectors<const N: usize>(vectors: &mut Vec3Lanes<N>, squares: Lanes<
     have_directions
 }
 
-/// The angle in radians between unit normals and the normals at the next pixels, at most 1.
+/// Computes the angle in radians between unit normals and the normals at the next pixels, at most
+/// 1.
 ///
 /// `squares` are the squared lengths of the interpolated normals, `steps` their derivatives by
 /// column and row: a unit vector turns by the component of a step that is perpendicular to it.
@@ -200,8 +201,8 @@ fn normal_variation<const N: usize>(
     angles.map(|angle| if angle < 1.0 { angle } else { 1.0 })
 }
 
-/// The unit vectors from positions to the viewer, a homogeneous point: an eye, or at infinity the
-/// direction of a parallel projection. Zero at the eye itself.
+/// Computes the unit vectors from positions to the viewer, a homogeneous point: an eye, or at
+/// infinity the direction of a parallel projection. Zero at the eye itself.
 #[inline(always)]
 pub(super) fn view_directions<const N: usize>(
     positions: Vec3Lanes<N>,

@@ -69,7 +69,7 @@ mod tests {
         Image { width: size, height: size, rgba: (0..size * size).map(texel).collect() }
     }
 
-    /// One fragment, with alpha.
+    /// Computes one fragment, with alpha.
     fn sample(chain: &MipChain<'_>, uvs: [[f32; 2]; 3]) -> [f32; 4] {
         lane(&chain.sample(&uv_lanes(uvs), true, 1), 0)
     }

@@ -55,7 +55,7 @@ impl Default for ToneMapper {
 }
 
 impl ToneMapper {
-    /// The tone mapper with an exposure correction in stops (EV).
+    /// Creates the tone mapper with an exposure correction in stops (EV).
     #[must_use]
     pub fn new(exposure_ev: f64, curve: ToneMapping) -> Self {
         Self { exposure: libm::exp2(exposure_ev) as f32, curve }
@@ -177,7 +177,7 @@ fn agx_tone_map<const N: usize>(Rgb { r, g, b }: Rgb<N>) -> Rgb<N> {
     })
 }
 
-/// The AgX curve from light to codes: a polynomial of the logarithm.
+/// Computes the AgX curve from light to codes: a polynomial of the logarithm.
 #[inline(always)]
 fn agx_sigmoid<const N: usize>(light: Lanes<N>) -> Lanes<N> {
     /// The range of light in stops.

@@ -37,26 +37,28 @@ pub(super) struct TransmittedShare<const N: usize> {
 }
 
 impl<const N: usize> TransmittedShare<N> {
-    /// The share of a surface that lets through this fraction of the light, tinted by the material.
+    /// Creates the share of a surface that lets through this fraction of the light, tinted by the
+    /// material.
     #[inline(always)]
     pub(super) fn new(draw: &Draw<'_>, inputs: &MaterialInputs<N>, fraction: Lanes<N>) -> Self {
         let tint = transmission_tint(&draw.material.extensions, inputs, draw.world_scale);
         Self { fraction, tint }
     }
 
-    /// The factors of light from behind, by channel.
+    /// Computes the factors of light from behind, by channel.
     #[inline(always)]
     pub(super) fn color(&self) -> Rgb<N> {
         self.tint * self.fraction
     }
 
-    /// The factor of white light from behind: the luminance of the tint.
+    /// Computes the factor of white light from behind: the luminance of the tint.
     #[inline(always)]
     pub(super) fn gray(&self) -> Lanes<N> {
         (self.fraction * luminance(self.tint)).clamp(0.0, 1.0)
     }
 
-    /// The transmittances for red, green and blue, given the alpha of a gray as bright as the tint.
+    /// Computes the transmittances for red, green and blue, given the alpha of a gray as bright as
+    /// the tint.
     #[inline(always)]
     pub(super) fn channel_transmittances(
         &self,
@@ -79,7 +81,7 @@ impl<const N: usize> TransmittedShare<N> {
     }
 }
 
-/// The color of white light behind the surface: base color and absorption in the volume.
+/// Computes the color of white light behind the surface: base color and absorption in the volume.
 ///
 /// `world_scale` is the scale from the mesh, whose units the thickness uses, to the world.
 ///
@@ -100,7 +102,7 @@ fn transmission_tint<const N: usize>(
     inputs.base_color * Rgb { r, g, b }
 }
 
-/// The relative luminance of linear sRGB (Rec. 709).
+/// Computes the relative luminance of linear sRGB (Rec. 709).
 #[inline(always)]
 pub(super) fn luminance<const N: usize>(color: Rgb<N>) -> Lanes<N> {
     0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b

@@ -4,13 +4,13 @@
 //! [`normalize`] expects none, [`normalize_or_zero`] returns zero, [`try_normalize`] returns
 //! `None`. All three divide by the length; multiplying by its inverse would give other bits.
 
-/// The dot product.
+/// Computes the dot product.
 #[inline(always)]
 pub(crate) fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// The cross product.
+/// Computes the cross product.
 #[inline(always)]
 pub(crate) fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
@@ -22,19 +22,19 @@ pub(crate) fn subtract(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-/// The unit vector of a vector with nonzero length; NaN for zero length.
+/// Computes the unit vector of a vector with nonzero length; NaN for zero length.
 pub(crate) fn normalize(vector: [f32; 3]) -> [f32; 3] {
     let length = dot(vector, vector).sqrt();
     vector.map(|c| c / length)
 }
 
-/// The unit vector, or zero for a vector of length 0.
+/// Computes the unit vector, or zero for a vector of length 0.
 pub(crate) fn normalize_or_zero(vector: [f32; 3]) -> [f32; 3] {
     let length = dot(vector, vector).sqrt();
     if length > 0.0 { vector.map(|c| c / length) } else { [0.0; 3] }
 }
 
-/// The unit vector; `None` for a vector too short or too long to have a direction.
+/// Computes the unit vector. Returns `None` for a vector too short or too long to have a direction.
 pub(crate) fn try_normalize(vector: [f32; 3]) -> Option<[f32; 3]> {
     let length = dot(vector, vector).sqrt();
     (length > 0.0 && length.is_finite()).then(|| vector.map(|c| c / length))

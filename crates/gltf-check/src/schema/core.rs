@@ -1,7 +1,7 @@
-//! The objects of core glTF 2.0 (§5, in the order of the specification).
+//! Schema tables for the objects of core glTF 2.0 (§5, in the order of the specification).
 //!
-//! Each table is a static, so that tables may refer to each other in any order without start-up
-//! cost. `extensions` and `extras` are not listed: every object may have them.
+//! Each table is a static, so that tables can refer to each other in any order at no startup cost.
+//! `extensions` and `extras` are not listed, because every object may have them.
 
 use super::Collection::{
     Accessors, AnimationSamplers, BufferViews, Buffers, Cameras, Images, Materials, Meshes, Nodes,
@@ -16,14 +16,14 @@ use super::{
     required, requires,
 };
 
-/// An integer without maximum.
+/// An integer without a maximum.
 ///
-/// JSON itself sets no limit on integers; the range checks and the loader's limits do.
+/// JSON does not limit integers; range checks and the loader's limits do.
 const MAX_INTEGER: u64 = u64::MAX;
 /// Names are optional, need not be unique, and identify nothing: references are indices.
 const NAME: super::MemberSchema = optional("name", Text);
 
-/// The schema of an object.
+/// Declares the schema of an object.
 const fn object_schema(
     name: &'static str,
     members: &'static [super::MemberSchema],
@@ -31,7 +31,7 @@ const fn object_schema(
     ObjectSchema { name, members }
 }
 
-/// The kind of a member that is an object.
+/// Returns the value kind of a member that is an object.
 const fn object_kind(object: &'static ObjectSchema) -> super::ValueKind {
     super::ValueKind::Object(object)
 }
@@ -62,10 +62,11 @@ pub(in super::super) static ROOT: ObjectSchema = object_schema(
     ],
 );
 
-/// `accessor` (§5.1): a typed view into a buffer view, which `byteOffset` requires.
+/// `accessor` (§5.1): a typed view into a buffer view; `byteOffset` requires `bufferView`.
 ///
 /// `componentType` is an OpenGL constant: 5120 and 5121 are signed and unsigned bytes, 5122 and
-/// 5123 shorts, 5125 is an unsigned int, 5126 a float. There is no signed 32-bit integer.
+/// 5123 are shorts, 5125 is an unsigned int, and 5126 is a float. There is no signed 32-bit
+/// integer.
 static ACCESSOR: ObjectSchema = object_schema(
     "accessor",
     &[
@@ -75,7 +76,7 @@ static ACCESSOR: ObjectSchema = object_schema(
         optional("normalized", Boolean),
         required("count", Integer(1, MAX_INTEGER)),
         required("type", EnumString(&["SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"])),
-        // Their number depends on the type, which is validated with the accessors.
+        // Their number depends on the type; accessor validation checks it.
         optional("max", Numbers(0, ANY)),
         optional("min", Numbers(0, ANY)),
         optional("sparse", object_kind(&SPARSE)),
@@ -95,7 +96,7 @@ static SPARSE: ObjectSchema = object_schema(
 
 /// `accessor.sparse.indices` (§5.3): the indices of the replaced elements.
 ///
-/// The component types are the unsigned ones: byte, short and int.
+/// The component type must be unsigned: byte, short or int.
 static SPARSE_INDICES: ObjectSchema = object_schema(
     "sparseIndices",
     &[
@@ -127,8 +128,7 @@ static CHANNEL: ObjectSchema = object_schema(
     &[required("sampler", Index(AnimationSamplers)), required("target", object_kind(&TARGET))],
 );
 
-/// `animation.channel.target` (§5.7): a node and a path; the node is absent with
-/// KHR_animation_pointer.
+/// `animation.channel.target` (§5.7): a node and a path; KHR_animation_pointer omits the node.
 static TARGET: ObjectSchema = object_schema(
     "target",
     &[
@@ -147,7 +147,7 @@ static ANIMATION_SAMPLER: ObjectSchema = object_schema(
     ],
 );
 
-/// `asset` (§5.9): the version of glTF, and the generator of the file.
+/// `asset` (§5.9): the glTF version, and the generator of the file.
 static ASSET: ObjectSchema = object_schema(
     "asset",
     &[
@@ -184,7 +184,7 @@ static BUFFER_VIEW: ObjectSchema = object_schema(
 static CAMERA: ObjectSchema = object_schema(
     "camera",
     &[
-        // The object named by `type` is required; that is validated with the cameras.
+        // The object named by `type` is required; camera validation checks this.
         excludes("orthographic", "perspective", object_kind(&ORTHOGRAPHIC)),
         optional("perspective", object_kind(&PERSPECTIVE)),
         required("type", EnumString(&["perspective", "orthographic"])),
@@ -192,7 +192,8 @@ static CAMERA: ObjectSchema = object_schema(
     ],
 );
 
-/// `camera.orthographic` (§5.13): half width and height of the view, near and far plane.
+/// `camera.orthographic` (§5.13): half the width and height of the view, and the near and far
+/// planes.
 ///
 /// `xmag` and `ymag` must not be 0, and should not be negative.
 static ORTHOGRAPHIC: ObjectSchema = object_schema(
@@ -205,7 +206,7 @@ static ORTHOGRAPHIC: ObjectSchema = object_schema(
     ],
 );
 
-/// `camera.perspective` (§5.14): vertical field of view, aspect ratio, near and far plane.
+/// `camera.perspective` (§5.14): vertical field of view, aspect ratio, and near and far planes.
 ///
 /// Without `zfar` the projection is infinite; `yfov` is in radians and less than π.
 static PERSPECTIVE: ObjectSchema = object_schema(
@@ -218,7 +219,7 @@ static PERSPECTIVE: ObjectSchema = object_schema(
     ],
 );
 
-/// `image` (§5.18): exactly one of a URI and a buffer view.
+/// `image` (§5.18): either a URI or a buffer view.
 static IMAGE: ObjectSchema = object_schema(
     "image",
     &[
@@ -229,7 +230,7 @@ static IMAGE: ObjectSchema = object_schema(
     ],
 );
 
-/// `material` (§5.19): textures and factors of the metallic-roughness model, alpha and sides.
+/// `material` (§5.19): textures and factors of the metallic-roughness model, alpha, and sidedness.
 static MATERIAL: ObjectSchema = object_schema(
     "material",
     &[
@@ -263,7 +264,7 @@ pub(super) static TEXTURE_INFO: ObjectSchema = object_schema(
     &[required("index", Index(Textures)), optional("texCoord", Integer(0, MAX_INTEGER))],
 );
 
-/// `material.normalTextureInfo` (§5.20): a normal map with the scale of its x and y.
+/// `material.normalTextureInfo` (§5.20): a normal map with a scale for x and y.
 pub(super) static NORMAL_TEXTURE: ObjectSchema = object_schema(
     "textureInfo",
     &[
@@ -285,7 +286,7 @@ static OCCLUSION_TEXTURE: ObjectSchema = object_schema(
     ],
 );
 
-/// `mesh` (§5.23): primitives, and default weights of their morph targets.
+/// `mesh` (§5.23): primitives, and default weights for their morph targets.
 static MESH: ObjectSchema = object_schema(
     "mesh",
     &[required("primitives", Objects(&PRIMITIVE)), optional("weights", Numbers(0, ANY)), NAME],
@@ -293,8 +294,8 @@ static MESH: ObjectSchema = object_schema(
 
 /// `mesh.primitive` (§5.24): attributes, indices, material, mode and morph targets.
 ///
-/// `mode` is the topology: 0 points, 1 lines, 2 line loop, 3 line strip, 4 triangles, 5 triangle
-/// strip, 6 triangle fan.
+/// `mode` is the topology: points (0), lines (1), line loop (2), line strip (3), triangles (4),
+/// triangle strip (5) or triangle fan (6).
 static PRIMITIVE: ObjectSchema = object_schema(
     "primitive",
     &[
@@ -325,10 +326,10 @@ static NODE: ObjectSchema = object_schema(
     ],
 );
 
-/// `sampler` (§5.26): filters and wrap modes, by their OpenGL constants.
+/// `sampler` (§5.26): filters and wrap modes, as OpenGL constants.
 ///
-/// 9728 and 9729 are `NEAREST` and `LINEAR`; 9984 to 9987 combine both with mipmaps. 33071 is
-/// `CLAMP_TO_EDGE`, 33648 `MIRRORED_REPEAT`, 10497 `REPEAT`.
+/// 9728 and 9729 are `NEAREST` and `LINEAR`; 9984 to 9987 combine them with mipmaps. 33071 is
+/// `CLAMP_TO_EDGE`, 33648 is `MIRRORED_REPEAT`, and 10497 is `REPEAT`.
 static SAMPLER: ObjectSchema = object_schema(
     "sampler",
     &[
@@ -345,7 +346,7 @@ static SCENE: ObjectSchema = object_schema("scene", &[optional("nodes", Indices(
 
 /// `skin` (§5.28): joints, inverse bind matrices, and a common root.
 ///
-/// `inverseBindMatrices` has one matrix for each joint, in the order of `joints`; without it all
+/// `inverseBindMatrices` has one matrix per joint, in the order of `joints`; if it is absent, all
 /// are the identity.
 static SKIN: ObjectSchema = object_schema(
     "skin",

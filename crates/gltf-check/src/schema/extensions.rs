@@ -1,11 +1,11 @@
-//! The objects of extensions, each with the core object that may contain it.
+//! Schema tables for extension objects, each with the object that may contain it.
 //!
-//! Other extensions are not validated. An extension without any object, such as
-//! KHR_mesh_quantization, has the parent "nothing": it is known, but may not appear anywhere.
+//! Other extensions are not validated. An extension without objects, such as KHR_mesh_quantization,
+//! has the parent "nothing": the extension is known, but its object must not appear anywhere.
 //!
 //! To support an extension, add a row for each object that may contain its object, and a static for
-//! each nested object. The walk finds unknown members, missing members and values out of range
-//! without additional code; rules about two members belong in the check of the parent object.
+//! each nested object. The walk finds unknown members, missing members and out-of-range values
+//! without additional code. Rules about two members belong in the check of the parent object.
 
 use super::Collection::{Accessors, BufferViews, Buffers, Images, Lights, Materials, Variants};
 use super::ValueKind::{
@@ -15,11 +15,11 @@ use super::ValueKind::{
 use super::core::{NORMAL_TEXTURE, TEXTURE_INFO, UNKNOWN};
 use super::{ANY, NOT_NEGATIVE, NumberRange, ObjectSchema, POSITIVE, UNIT, optional, required};
 
-/// An integer without maximum.
+/// An integer without a maximum.
 const MAX_INTEGER: u64 = u64::MAX;
 /// Indices of refraction: at least 1.
 ///
-/// The index of refraction of vacuum is 1, and no film or coating has a lower one.
+/// A vacuum has an index of refraction of 1, and no film or coating is below that.
 const ABOVE_ONE: NumberRange = NumberRange { min: 1.0, ..ANY };
 /// Cone angles of spot lights, in radians.
 ///
@@ -27,10 +27,10 @@ const ABOVE_ONE: NumberRange = NumberRange { min: 1.0, ..ANY };
 const QUARTER_TURN: NumberRange =
     NumberRange { min: 0.0, max: std::f64::consts::FRAC_PI_2, exclusive_min: false };
 
-/// The object of an extension: the extension's name, its parent object, and its members.
+/// An extension object: the extension's name, the parent object, and the members.
 ///
-/// An extension may have several: KHR_lights_punctual has a list of lights in the root, and an
-/// index into it in nodes.
+/// An extension may have several objects: KHR_lights_punctual has a list of lights in the root, and
+/// indices into it in nodes.
 pub(in super::super) struct ExtensionObject {
     /// The name of the extension.
     pub(in super::super) name: &'static str,
@@ -40,8 +40,7 @@ pub(in super::super) struct ExtensionObject {
     pub(in super::super) object: ObjectSchema,
 }
 
-/// Declares the table: extension, parent object, members. An extension with objects in several
-/// parents has a row for each.
+/// Declares the table, with one row per extension and parent object.
 macro_rules! extension_objects {
     ($($name:ident in $parent:literal: [$($member:expr),* $(,)?];)*) => {
         pub(in super::super) static EXTENSION_OBJECTS: &[ExtensionObject] = &[$(ExtensionObject {
@@ -162,10 +161,10 @@ extension_objects! {
     MSFT_texture_dds in "texture": [required("source", Index(Images))];
 }
 
-/// The index of refraction is 0, for metals, or at least 1; values in between are rejected with the
-/// materials.
+/// The index of refraction is 0 (for metals) or at least 1; material validation rejects values in
+/// between.
 ///
-/// An interval with a gap cannot be expressed as a [`NumberRange`].
+/// A [`NumberRange`] cannot express an interval with a gap.
 const IOR: NumberRange = NOT_NEGATIVE;
 
 /// A light of KHR_lights_punctual.
@@ -186,8 +185,8 @@ static LIGHT: ObjectSchema = ObjectSchema {
 
 /// The cone of a spot light of KHR_lights_punctual.
 ///
-/// Both angles are measured from the axis of the cone, in radians; the inner one is less than the
-/// outer one, which is validated with the materials.
+/// Both angles are in radians from the axis of the cone. The inner angle must be less than the
+/// outer angle; material validation checks this.
 static SPOT: ObjectSchema = ObjectSchema {
     name: "spot",
     members: &[
@@ -199,9 +198,9 @@ static SPOT: ObjectSchema = ObjectSchema {
 /// A variant of KHR_materials_variants.
 static VARIANT: ObjectSchema = ObjectSchema { name: "variant", members: &[required("name", Text)] };
 
-/// The material of a primitive in some variants (KHR_materials_variants).
+/// A primitive's material in some variants (KHR_materials_variants).
 ///
-/// A primitive without a mapping for the active variant has its default material.
+/// A primitive without a mapping for the active variant uses its default material.
 static MAPPING: ObjectSchema = ObjectSchema {
     name: "mapping",
     members: &[

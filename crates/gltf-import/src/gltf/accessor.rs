@@ -36,7 +36,8 @@ impl<'a> AccessorReader<'a> {
     /// Resolves an accessor to its bytes. `user` is the pointer to the member that refers to it.
     ///
     /// # Errors
-    /// The accessor does not exist, has an invalid type, or its elements are not all in the buffer.
+    /// Fails if the accessor does not exist, has an invalid type, or its elements are not all in
+    /// the buffer.
     ///
     /// Nothing is converted or allocated here, apart from sparse indices. A view is resolved again
     /// for each of its users, which costs little: the bytes are borrowed.
@@ -77,7 +78,8 @@ impl<'a> AccessorReader<'a> {
         })
     }
 
-    /// Whether an accessor exists and has no bytes: neither a buffer view nor sparse values.
+    /// Returns whether an accessor exists and has no bytes: neither a buffer view nor sparse
+    /// values.
     ///
     /// Such an accessor means zeros (glTF 2.0 §3.6.2.3), or data that an extension such as Draco
     /// supplies.
@@ -86,10 +88,11 @@ impl<'a> AccessorReader<'a> {
         json.is_some_and(|json| json.buffer_view.is_none() && json.sparse.is_none())
     }
 
-    /// The first `N` components of every element as floats; normalized integers are converted.
+    /// Reads the first `N` components of every element as floats; normalized integers are
+    /// converted.
     ///
     /// # Errors
-    /// The array exceeds the memory budget.
+    /// Fails if the array exceeds the memory budget.
     pub(super) fn read_floats<const N: usize>(
         &self,
         elements: &ResolvedAccessor<'_>,
@@ -98,10 +101,10 @@ impl<'a> AccessorReader<'a> {
         Ok(elements.to_floats())
     }
 
-    /// The first `N` components of every element as unsigned shorts, for joint indices.
+    /// Reads the first `N` components of every element as unsigned shorts, for joint indices.
     ///
     /// # Errors
-    /// The array exceeds the memory budget.
+    /// Fails if the array exceeds the memory budget.
     pub(super) fn read_u16s<const N: usize>(
         &self,
         elements: &ResolvedAccessor<'_>,
@@ -110,10 +113,10 @@ impl<'a> AccessorReader<'a> {
         Ok(elements.to_u16s())
     }
 
-    /// The elements as vertex indices.
+    /// Reads the elements as vertex indices.
     ///
     /// # Errors
-    /// The array exceeds the memory budget.
+    /// Fails if the array exceeds the memory budget.
     pub(super) fn read_indices(
         &self,
         elements: &ResolvedAccessor<'_>,
@@ -127,7 +130,7 @@ impl<'a> AccessorReader<'a> {
     /// `bytes` is the size of an element in the new array, not in the file.
     ///
     /// # Errors
-    /// [`LIMIT_EXCEEDED`](model::codes::LIMIT_EXCEEDED) if the budget is spent.
+    /// Returns [`LIMIT_EXCEEDED`](model::codes::LIMIT_EXCEEDED) if the budget is spent.
     pub(super) fn charge_array(
         &self,
         accessor: usize,
@@ -138,7 +141,7 @@ impl<'a> AccessorReader<'a> {
         self.buffers.charge_bytes(&format!("/accessors/{accessor}/count"), bytes)
     }
 
-    /// The bytes of elements that begin at an offset in a buffer view.
+    /// Returns the bytes of elements that begin at an offset in a buffer view.
     ///
     /// The last element needs only its own size, not a whole stride (glTF 2.0 §3.6.2.4):
     /// interleaved attributes end before the stride of the last vertex is full. Overflow saturates
@@ -186,8 +189,8 @@ impl<'a> AccessorReader<'a> {
     /// The values have the format of the accessor; both arrays are tightly packed.
     ///
     /// # Errors
-    /// The component type of the indices is invalid, an index is out of range, or bytes are
-    /// missing.
+    /// Fails if the component type of the indices is invalid, an index is out of range, or bytes
+    /// are missing.
     fn resolve_sparse(
         &self,
         json: &sparse::Sparse,
@@ -241,7 +244,7 @@ struct ElementLayout<'a> {
 /// Component type and element type of an accessor.
 ///
 /// # Errors
-/// One of them is not a value that the specification allows (glTF 2.0 §3.6.2.2).
+/// Fails if the specification does not allow one of them (glTF 2.0 §3.6.2.2).
 fn accessor_format(json: &Accessor, pointer: &str) -> Result<(ComponentType, Type), Diagnostic> {
     let Checked::Valid(component) = json.component_type else {
         let message = "the component type must be 5120, 5121, 5122, 5123, 5125 or 5126";

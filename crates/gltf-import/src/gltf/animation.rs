@@ -89,8 +89,8 @@ impl AnimationReader<'_> {
     /// Reads a channel that targets a node.
     ///
     /// # Errors
-    /// The node or sampler does not exist, the path is unknown, the node has a matrix, or the curve
-    /// is invalid.
+    /// Fails if the node or sampler does not exist, the path is unknown, the node has a matrix, or
+    /// the curve is invalid.
     fn read_channel(
         &self,
         nodes: &[Node],
@@ -124,7 +124,7 @@ impl AnimationReader<'_> {
     /// Reads a channel that gives its target as a JSON pointer (KHR_animation_pointer).
     ///
     /// # Errors
-    /// The pointer does not identify a supported property, or the curve is invalid.
+    /// Fails if the pointer does not identify a supported property, or the curve is invalid.
     fn read_pointer_channel(
         &self,
         targets: &mut AnimatedObjects<'_>,
@@ -142,10 +142,10 @@ impl AnimationReader<'_> {
         Ok(AnimationChannel { target, curve })
     }
 
-    /// The curve of a sampler; `pointer` is the member that refers to it.
+    /// Reads the curve of a sampler; `pointer` is the member that refers to it.
     ///
     /// # Errors
-    /// The sampler does not exist or its curve is invalid.
+    /// Fails if the sampler does not exist or its curve is invalid.
     fn read_sampler(
         &self,
         sampler: usize,
@@ -170,8 +170,8 @@ impl AnimationReader<'_> {
     /// in-tangent, value, out-tangent.
     ///
     /// # Errors
-    /// The interpolation is unknown, times do not increase, or there are too few or too many
-    /// values.
+    /// Fails if the interpolation is unknown, times do not increase, or there are too few or too
+    /// many values.
     fn read_curve(
         &self,
         json: &json::animation::Sampler,
@@ -231,7 +231,7 @@ impl AnimationReader<'_> {
     /// safe.
     ///
     /// # Errors
-    /// The accessor is not a SCALAR of floats, or the times violate the rules.
+    /// Fails if the accessor is not a SCALAR of floats, or the times violate the rules.
     fn read_key_times(&self, accessor: usize, pointer: &str) -> Result<Vec<f32>, Diagnostic> {
         let elements = self.source.resolve_accessor(accessor, pointer)?;
         if (elements.element_type, elements.component_type) != (Type::Scalar, ComponentType::F32) {
@@ -251,7 +251,7 @@ impl AnimationReader<'_> {
     /// Values as one flat array of finite numbers.
     ///
     /// # Errors
-    /// The format is not allowed, or a value is not finite.
+    /// Fails if the format is not allowed, or a value is not finite.
     fn read_values<const N: usize>(
         &self,
         accessor: usize,

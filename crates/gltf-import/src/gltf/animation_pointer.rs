@@ -32,7 +32,7 @@ pub(super) enum ChannelValueKind {
 }
 
 impl ChannelValueKind {
-    /// The type of the values of a node's property.
+    /// Returns the type of the values of a node's property.
     pub(super) fn for_property(property: NodeProperty) -> Self {
         match property {
             NodeProperty::Translation | NodeProperty::Scale => Self::TranslationOrScale,
@@ -42,8 +42,8 @@ impl ChannelValueKind {
     }
 }
 
-/// The target of a pointer and the type of its values; `None` if it does not identify an animatable
-/// property.
+/// Resolves the target of a pointer and the type of its values. Returns `None` if it does not
+/// identify an animatable property.
 ///
 /// The object must exist and must have the property: a pointer into an absent extension or texture
 /// is not a target. Escapes of JSON pointers do not occur in the supported paths.
@@ -90,14 +90,14 @@ pub(super) fn resolve_pointer(
     }
 }
 
-/// An index in a JSON pointer: digits only.
+/// Parses an index in a JSON pointer: digits only.
 ///
 /// `+1` and an empty token are rejected; [`str::parse`] would accept the former.
 fn parse_index(step: &str) -> Option<usize> {
     step.bytes().all(|byte| byte.is_ascii_digit()).then(|| step.parse().ok())?
 }
 
-/// A property or a single morph weight of a node.
+/// Returns a property or a single morph weight of a node.
 ///
 /// A node with a matrix has no translation, rotation and scale to animate.
 fn node_target(
@@ -142,7 +142,7 @@ fn morph_target_index(root: &Root, mesh: usize, path: &str) -> Option<Option<usi
     (target < count).then_some(Some(target))
 }
 
-/// A numeric property of a material.
+/// Returns a numeric property of a material.
 ///
 /// Access through the table shows whether the material has the extension that the number belongs
 /// to.
@@ -160,7 +160,7 @@ fn material_target(
     ))
 }
 
-/// A property of a texture transform. The transform is added to the list, once for all its
+/// Returns a property of a texture transform. The transform is added to the list, once for all its
 /// properties.
 ///
 /// The texture must exist in the material. A transform in the file is the initial value of the

@@ -73,8 +73,8 @@ impl AllowedFormats {
     /// Checks that an accessor has one of the formats.
     ///
     /// # Errors
-    /// The message lists the allowed types by their JSON names and numbers, as they appear in the
-    /// file.
+    /// The message lists the allowed types by their JSON names and numbers, as they appear in
+    /// files.
     pub(super) fn check_elements(
         &self,
         elements: &ResolvedAccessor<'_>,
@@ -99,7 +99,7 @@ impl AllowedFormats {
     }
 }
 
-/// The name of an element type in JSON.
+/// Returns the name of an element type in JSON.
 fn type_name(shape: Type) -> &'static str {
     match shape {
         Type::Scalar => "SCALAR",
@@ -138,7 +138,7 @@ impl AttributeReader<'_, '_> {
     /// Only the range of vertices that the indices use is converted.
     ///
     /// # Errors
-    /// Exceeded limits and unreadable files; errors in the content are warnings.
+    /// Fails if a limit is exceeded or a file cannot be read; errors in the content are warnings.
     pub(super) fn read_attribute<T>(
         &mut self,
         accessor: Option<usize>,
@@ -183,7 +183,7 @@ impl AttributeReader<'_, '_> {
     /// Coordinates outside [0, 1] are valid: the sampler wraps them.
     ///
     /// # Errors
-    /// Exceeded limits and unreadable files.
+    /// Fails if a limit is exceeded or a file cannot be read.
     pub(super) fn read_texcoords(
         &mut self,
         accessor: Option<usize>,
@@ -216,7 +216,7 @@ impl AttributeReader<'_, '_> {
     /// here loses nothing.
     ///
     /// # Errors
-    /// Exceeded limits and unreadable files.
+    /// Fails if a limit is exceeded or a file cannot be read.
     pub(super) fn read_colors(
         &mut self,
         accessor: Option<usize>,

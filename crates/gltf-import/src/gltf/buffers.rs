@@ -59,17 +59,17 @@ impl<'a> Buffers<'a> {
     /// Charges the memory budget for an array; `pointer` is the location that declares its length.
     ///
     /// # Errors
-    /// The budget, which is proportional to the bytes of all files, is spent.
+    /// Fails if the budget, which is proportional to the bytes of all files, is spent.
     pub(super) fn charge_bytes(&self, pointer: &str, bytes: u64) -> Result<(), Diagnostic> {
         self.budget.charge_bytes(pointer, bytes, self.resolver.total_bytes())
     }
 
-    /// The bytes of a buffer view, decompressed if necessary. `user` is the pointer to the member
-    /// that refers to it.
+    /// Returns the bytes of a buffer view, decompressed if necessary. `user` is the pointer to the
+    /// member that refers to it.
     ///
     /// # Errors
-    /// The view or its buffer does not exist or cannot be read, its range is not inside the buffer,
-    /// or the compressed stream is invalid.
+    /// Fails if the view or its buffer does not exist or cannot be read, its range is not inside
+    /// the buffer, or the compressed stream is invalid.
     pub(super) fn buffer_view(
         &self,
         view: usize,
@@ -90,8 +90,8 @@ impl<'a> Buffers<'a> {
         Ok(BufferView { bytes, stride: json.byte_stride.map(|stride| stride.0), pointer })
     }
 
-    /// The bytes of a compressed view. The buffer that the view itself refers to need not contain
-    /// any: it is the fallback for readers without the extension.
+    /// Returns the bytes of a compressed view. The buffer that the view itself refers to need not
+    /// contain any: it is the fallback for readers without the extension.
     ///
     /// The declared length is charged to the budget before the stream is decoded. Later uses of the
     /// view cost nothing.
@@ -128,7 +128,7 @@ impl<'a> Buffers<'a> {
         })
     }
 
-    /// The bytes of a whole buffer, read on first use.
+    /// Returns the bytes of a whole buffer, read on first use.
     ///
     /// Data beyond the declared `byteLength` is not visible. A buffer with less data than declared
     /// is accepted, as long as no view extends beyond it.
@@ -183,7 +183,7 @@ pub(super) struct BufferView<'a> {
     pub(super) pointer: String,
 }
 
-/// The `length` bytes beginning at `start`, if they all exist.
+/// Returns the `length` bytes beginning at `start`, if they all exist.
 pub(super) fn checked_slice(bytes: &[u8], start: u64, length: u64) -> Option<&[u8]> {
     let start = usize::try_from(start).ok()?;
     let length = usize::try_from(length).ok()?;

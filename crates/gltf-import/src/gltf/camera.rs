@@ -42,7 +42,7 @@ const DEFAULT_PROJECTION: CameraProjection =
 /// Reads and checks a camera.
 ///
 /// # Errors
-/// The type is unknown, the object of its type is missing, or a parameter is out of range.
+/// Fails if the type is unknown, the object of its type is missing, or a parameter is out of range.
 fn camera_projection(json: &Camera, pointer: &str) -> Result<CameraProjection, Diagnostic> {
     match (json.type_, &json.perspective, &json.orthographic) {
         (Checked::Valid(Type::Perspective), Some(json), _) => perspective_projection(json, pointer),
@@ -123,7 +123,7 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    /// The resulting projection, or the location and message of the error.
+    /// Reads the resulting projection, or the location and message of the error.
     fn read_camera(camera: serde_json::Value) -> Result<CameraProjection, (String, String)> {
         let camera = serde_json::from_value(camera).unwrap();
         camera_projection(&camera, "/cameras/0")

@@ -43,8 +43,8 @@ impl Container {
     /// byte order mark.
     ///
     /// # Errors
-    /// [`NOT_GLTF`](codes::NOT_GLTF) if the file is neither JSON nor a GLB, or its container is
-    /// damaged.
+    /// Returns [`NOT_GLTF`](codes::NOT_GLTF) if the file is neither JSON nor a GLB, or its
+    /// container is damaged.
     pub(super) fn from_bytes(
         bytes: &[u8],
         warnings: &mut ImportWarnings,
@@ -91,8 +91,8 @@ impl Container {
 /// Checks version and length; returns the end of the file as declared.
 ///
 /// # Errors
-/// The file is shorter than 12 bytes or than its declared length, or its version is not 2. In
-/// lenient mode, the existing part of a truncated file is read.
+/// Fails if the file is shorter than 12 bytes or than its declared length, or its version is not 2.
+/// In lenient mode, the existing part of a truncated file is read.
 fn check_glb_header(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<usize, Diagnostic> {
     let (Some(version), Some(length)) = (read_u32(bytes, 4), read_u32(bytes, 8)) else {
         return Err(format_error(&format!("the file has only {} bytes", bytes.len()), TRUNCATED));
@@ -135,7 +135,7 @@ struct GlbChunks<'a> {
 }
 
 impl<'a> GlbChunks<'a> {
-    /// The next chunk; `None` at the end.
+    /// Returns the next chunk, or `None` at the end.
     ///
     /// In lenient mode, a chunk that is too long ends with the file, and an incomplete header is
     /// ignored.
@@ -165,13 +165,13 @@ impl<'a> GlbChunks<'a> {
     }
 }
 
-/// The little-endian 32-bit integer at an offset; `None` if the bytes end before it.
+/// Reads the little-endian 32-bit integer at an offset. Returns `None` if the bytes end before it.
 fn read_u32(bytes: &[u8], at: usize) -> Option<usize> {
     let number = u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?);
     usize::try_from(number).ok()
 }
 
-/// The error for a damaged or foreign container, with advice.
+/// Returns the error for a damaged or foreign container, with advice.
 fn format_error(message: &str, help: &str) -> Diagnostic {
     Diagnostic::error(codes::NOT_GLTF, "", message.to_owned(), help)
 }

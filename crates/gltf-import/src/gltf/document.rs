@@ -43,8 +43,8 @@ impl GltfDocument {
     /// target node are dropped, because animation pointers are among them.
     ///
     /// # Errors
-    /// The text is not JSON, exceeds a limit, has an unsupported version, or has a member with a
-    /// wrong type.
+    /// Fails if the text is not JSON, exceeds a limit, has an unsupported version, or has a member
+    /// with a wrong type.
     pub(super) fn parse_json(
         text: &[u8],
         limits: &Limits,
@@ -70,7 +70,7 @@ impl GltfDocument {
 /// for other text an upper bound is enough. `serde_json` itself always stops at a depth of 128.
 ///
 /// # Errors
-/// [`LIMIT_EXCEEDED`](model::codes::LIMIT_EXCEEDED) for `json_depth` or `json_values`.
+/// Returns [`LIMIT_EXCEEDED`](model::codes::LIMIT_EXCEEDED) for `json_depth` or `json_values`.
 ///
 /// An object counts as ten values, which is roughly its memory cost compared with a number. The
 /// time is linear in the text, and strings are skipped in blocks.
@@ -111,7 +111,7 @@ pub fn check_json_limits(text: &[u8], limits: &Limits) -> Result<(), Diagnostic>
     Ok(())
 }
 
-/// The position after the quote that ends the string containing `at`.
+/// Returns the position after the quote that ends the string containing `at`.
 ///
 /// A backslash skips the character after it, which may be a quote. An unterminated string ends with
 /// the text; the JSON parser then reports it.
@@ -240,7 +240,7 @@ fn drop_untargeted_channels(value: &mut Value) {
     }
 }
 
-/// The objects of an array at the top level of the document.
+/// Returns the objects of an array at the top level of the document.
 fn objects_in<'a>(
     value: &'a mut Value,
     key: &str,
@@ -249,13 +249,13 @@ fn objects_in<'a>(
     items.into_iter().flatten().filter_map(Value::as_object_mut)
 }
 
-/// The error for text that is not JSON.
+/// Returns the error for text that is not JSON.
 fn syntax_error(error: &serde_json::Error) -> Diagnostic {
     let message = format!("the JSON is not well formed: {error}");
     Diagnostic::error(codes::NOT_GLTF, "", message, "correct it there or export the file again")
 }
 
-/// The error for a member with the wrong type, with the JSON pointer to it.
+/// Returns the error for a member with the wrong type, with the JSON pointer to it.
 ///
 /// The `gltf` crate's phrase for an index is replaced by a plainer one.
 pub(super) fn type_error(pointer: &str, message: &str) -> Diagnostic {

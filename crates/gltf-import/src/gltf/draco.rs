@@ -49,13 +49,13 @@ impl DracoData {
         ResolvedAccessor { data: Some(StridedBytes { bytes, stride }), ..elements }
     }
 
-    /// Whether the stream had data for an accessor.
+    /// Returns whether the stream had data for an accessor.
     pub(super) fn has_accessor(&self, accessor: usize) -> bool {
         self.attributes.contains_key(&accessor)
     }
 }
 
-/// The extension object of a primitive, if it is compressed.
+/// Returns the extension object of a primitive, if it is compressed.
 fn draco_extension(json: &Primitive) -> Option<&Value> {
     json.extensions.as_ref()?.others.get(EXTENSION)
 }
@@ -81,8 +81,8 @@ struct DracoStream<'a> {
 /// they are `custom`. `pointer` is the location of the primitive. `None` if it is not compressed.
 ///
 /// # Errors
-/// A member of the extension is missing, an accessor is invalid, the counts of the attributes
-/// differ, or the stream is malformed.
+/// Fails if a member of the extension is missing, an accessor is invalid, the counts of the
+/// attributes differ, or the stream is malformed.
 pub(super) fn decode_draco(
     source: &AccessorReader<'_>,
     json: &Primitive,
@@ -122,7 +122,7 @@ pub(super) fn decode_draco(
     stream.decode_mesh().map(Some)
 }
 
-/// The attributes to read: accessor and id in the stream.
+/// Returns the attributes to read: accessor and id in the stream.
 ///
 /// Attributes without an id are not in the stream: they are uncompressed, or absent. Custom
 /// attributes other than `custom`, and unneeded tangents, are skipped, which saves decoding them.
@@ -181,8 +181,8 @@ mod decoder {
         /// than they declare.
         ///
         /// # Errors
-        /// The stream is malformed, or its counts of vertices, indices or components do not match
-        /// the accessors.
+        /// Fails if the stream is malformed, or its counts of vertices, indices or components do
+        /// not match the accessors.
         pub(super) fn decode_mesh(self) -> Result<DracoData, Diagnostic> {
             for &(accessor, _) in &self.attributes {
                 self.source.charge_array(accessor, self.vertices, 16)?;
@@ -237,8 +237,8 @@ mod decoder {
         /// The bytes are little-endian, as in a buffer.
         ///
         /// # Errors
-        /// The stream has no attribute with this id, its components differ in number, or a vertex
-        /// has no value.
+        /// Fails if the stream has no attribute with this id, its components differ in number, or a
+        /// vertex has no value.
         fn decode_attribute(
             &self,
             mesh: &Mesh,
@@ -269,7 +269,7 @@ mod decoder {
         }
     }
 
-    /// The bytes of an attribute at a vertex.
+    /// Returns the bytes of an attribute at a vertex.
     ///
     /// Draco stores each distinct value once, and maps the vertices to values. All offsets are
     /// checked: they come from the stream.
@@ -312,7 +312,7 @@ mod decoder {
         }
     }
 
-    /// A little-endian number of any of Draco's types.
+    /// Reads a little-endian number of any of Draco's types.
     ///
     /// Missing high bytes are zeros; types without a case are read as unsigned integers.
     fn read_number(word: &[u8], kind: DataType) -> f64 {

@@ -41,7 +41,7 @@ pub(super) struct EdgeReader<'a, 'w> {
 }
 
 impl EdgeReader<'_, '_> {
-    /// The edges of a primitive of this topology, if the file marks any.
+    /// Reads the edges of a primitive of this topology, if the file marks any.
     ///
     /// Only triangles have edges. Errors in the extensions are warnings; exceeded limits and
     /// unreadable files are errors, as everywhere.
@@ -136,7 +136,7 @@ impl EdgeReader<'_, '_> {
     /// 8, rounded up.
     ///
     /// # Errors
-    /// The accessor is not a SCALAR of unsigned bytes, or has a different number of bytes.
+    /// Fails if the accessor is not a SCALAR of unsigned bytes, or has a different number of bytes.
     fn read_visibility_bits(
         &self,
         accessor: usize,
@@ -197,7 +197,7 @@ impl EdgeReader<'_, '_> {
         lines
     }
 
-    /// The material of edges; an index out of range is replaced by `None` with a warning.
+    /// Returns the material of edges; an index out of range is replaced by `None` with a warning.
     fn edge_material(&mut self, json: &Value, pointer: &str) -> Option<usize> {
         let (material, count) = (index_member(json, "material")?, self.source.root.materials.len());
         if material < count {
@@ -210,8 +210,8 @@ impl EdgeReader<'_, '_> {
     }
 }
 
-/// A member that is an index; one too large for the machine becomes `usize::MAX`, which no item
-/// has.
+/// Returns a member that is an index; one too large for the machine becomes `usize::MAX`, which no
+/// item has.
 fn index_member(json: &Value, member: &str) -> Option<usize> {
     json.get(member).and_then(Value::as_u64).map(|at| usize::try_from(at).unwrap_or(usize::MAX))
 }

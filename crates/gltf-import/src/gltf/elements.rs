@@ -51,7 +51,7 @@ pub(super) struct SparseElements<'a> {
 }
 
 impl ResolvedAccessor<'_> {
-    /// The elements of a range; elements that do not exist are skipped.
+    /// Returns the elements of a range; elements that do not exist are skipped.
     pub(super) fn slice_range(mut self, range: Range<usize>) -> Self {
         let end = range.end.min(self.count);
         self.first += range.start.min(end);
@@ -59,8 +59,8 @@ impl ResolvedAccessor<'_> {
         self
     }
 
-    /// The first `N` components of every element as floats. Normalized integers become numbers in
-    /// [0, 1] or [−1, 1] (glTF 2.0 §3.11), other integers are converted by value.
+    /// Returns the first `N` components of every element as floats. Normalized integers become
+    /// numbers in [0, 1] or [−1, 1] (glTF 2.0 §3.11), other integers are converted by value.
     ///
     /// Signed integers have two codes for −1 (−128 and −127, say), hence the maximum with −1.
     /// Unnormalized 32-bit integers above 2²⁴ are rounded.
@@ -80,7 +80,8 @@ impl ResolvedAccessor<'_> {
         }
     }
 
-    /// The first `N` components of every element, from unsigned bytes or shorts; others saturate.
+    /// Returns the first `N` components of every element, from unsigned bytes or shorts; others
+    /// saturate.
     ///
     /// Joint indices have these types; the table of allowed formats has already rejected the
     /// others.
@@ -92,7 +93,7 @@ impl ResolvedAccessor<'_> {
         }
     }
 
-    /// The elements as indices. They must be unsigned; others saturate.
+    /// Returns the elements as indices. They must be unsigned; others saturate.
     pub(super) fn to_indices(&self) -> Vec<u32> {
         let words: Vec<[u32; 1]> = match self.component_type {
             ComponentType::U8 => self.convert_components(|x: u8| u32::from(x)),
@@ -153,7 +154,7 @@ fn convert_element<const N: usize, C: Component, T>(
 trait Component: Copy {
     /// The number's bytes.
     type Word: Copy;
-    /// The words in a slice of bytes; an incomplete last word is skipped.
+    /// Returns the words in a slice of bytes; an incomplete last word is skipped.
     fn words(bytes: &[u8]) -> &[Self::Word];
     /// Decodes a word.
     fn read(word: &Self::Word) -> Self;

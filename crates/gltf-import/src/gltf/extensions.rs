@@ -97,7 +97,8 @@ const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
 /// Each extension is reported once, at its first mention.
 ///
 /// # Errors
-/// [`UNSUPPORTED_REQUIRED_EXTENSION`](codes::UNSUPPORTED_REQUIRED_EXTENSION), with the reason.
+/// Returns [`UNSUPPORTED_REQUIRED_EXTENSION`](codes::UNSUPPORTED_REQUIRED_EXTENSION) with the
+/// reason.
 pub(super) fn check_extensions(
     root: &Root,
     warnings: &mut ImportWarnings,

@@ -25,7 +25,7 @@ type InstanceTransform = Affine<ModelSpace, ModelSpace>;
 /// node. Single instances whose transform is not finite are dropped.
 ///
 /// # Errors
-/// Exceeded limits and unreadable files; errors in the content are warnings.
+/// Fails if a limit is exceeded or a file cannot be read; errors in the content are warnings.
 pub(super) fn import_instances(
     source: &AccessorReader<'_>,
     nodes: &mut [Node],
@@ -74,7 +74,7 @@ pub(super) fn import_instances(
 /// A transform is invalid if its quaternion has length 0, or if a number is not finite.
 ///
 /// # Errors
-/// An attribute is invalid, the counts differ, or the memory budget is spent.
+/// Fails if an attribute is invalid, the counts differ, or the memory budget is spent.
 fn instance_transforms(
     source: &AccessorReader<'_>,
     attributes: &Map<String, Value>,
@@ -126,10 +126,10 @@ struct InstanceAttributes<'a> {
 }
 
 impl InstanceAttributes<'_> {
-    /// An attribute, if the file has it.
+    /// Reads an attribute, if the file has it.
     ///
     /// # Errors
-    /// The member is not an index, or the accessor is invalid or has another format.
+    /// Fails if the member is not an index, or the accessor is invalid or has another format.
     fn read_attribute<const N: usize>(
         &self,
         name: &str,

@@ -209,10 +209,10 @@ fn read_encoded<'a>(
 /// The consequence stated in all warnings about images.
 const SHOWN_WITHOUT_IMAGE: &str = "the surface is shown without it";
 
-/// The encoded bytes, from a file, a data URI or a buffer view.
+/// Returns the encoded bytes, from a file, a data URI or a buffer view.
 ///
 /// # Errors
-/// The file or view cannot be read, or the image has neither.
+/// Fails if the file or view cannot be read, or the image has neither.
 fn image_bytes<'a>(
     json: &JsonImage,
     pointer: &str,
@@ -237,8 +237,8 @@ fn image_bytes<'a>(
 /// `texels_left` is the rest of the limit for all images of the file, and is reduced by this image.
 ///
 /// # Errors
-/// The size is 0, or [`LIMIT_EXCEEDED`](model::codes::LIMIT_EXCEEDED) for `image_side` or
-/// `image_texels`.
+/// Fails if the size is 0. Returns [`LIMIT_EXCEEDED`](model::codes::LIMIT_EXCEEDED) for
+/// `image_side` or `image_texels`.
 pub(crate) fn check_image_size(
     width: u32,
     height: u32,

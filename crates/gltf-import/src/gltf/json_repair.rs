@@ -25,7 +25,7 @@ const MAX_REPAIRS: usize = 500;
 /// number of mistakes times the length of the text; the budget limits it for hostile files.
 ///
 /// # Errors
-/// A mistake cannot or must not be repaired, or the budget is spent.
+/// Fails if a mistake cannot or must not be repaired, or the budget is spent.
 pub(super) fn deserialize_document(
     value: &mut Value,
     length: usize,
@@ -48,7 +48,7 @@ pub(super) fn deserialize_document(
 /// and the column of an error leads back to the value.
 ///
 /// # Errors
-/// The first mistake.
+/// Returns the first mistake.
 fn deserialize_root(value: &Value) -> Result<Root, Diagnostic> {
     let text = value.to_string();
     Root::from_str(&text).map_err(|error| {

@@ -73,7 +73,8 @@ fn attach_lights(
 /// Reads and checks a light; numbers out of bounds are clamped with a warning.
 ///
 /// # Errors
-/// The light is not an object, or its type is unknown; without a type the numbers have no meaning.
+/// Fails if the light is not an object or its type is unknown; without a type, its numbers have no
+/// meaning.
 fn parse_light(
     json: &Value,
     pointer: &str,
@@ -131,7 +132,7 @@ struct LightNumbers<'a, 'w> {
 }
 
 impl LightNumbers<'_, '_> {
-    /// A number clamped to bounds; `default` if it is absent.
+    /// Reads a number clamped to bounds; `default` if it is absent.
     ///
     /// A member that is not a number is replaced by the default, with a warning.
     fn read_number(&mut self, member: &str, default: f32, [min, max]: [f32; 2]) -> f32 {

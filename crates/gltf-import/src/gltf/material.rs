@@ -30,8 +30,8 @@ pub(super) fn import_materials(root: &Root, warnings: &mut ImportWarnings) -> Ve
         .collect()
 }
 
-/// The texture transform (KHR_texture_transform) in a slot; `None` if the file does not specify
-/// one.
+/// Returns the texture transform (KHR_texture_transform) in a slot, or `None` if the file does not
+/// specify one.
 ///
 /// The default is the identity: offset 0, rotation 0, scale 1. The rotation is in radians,
 /// counter-clockwise around the origin of the texture coordinates.
@@ -101,7 +101,7 @@ impl<'a> MaterialReader<'a, '_> {
         material
     }
 
-    /// The object of an extension, if the material has it.
+    /// Returns the object of an extension, if the material has it.
     fn extension_object(&self, name: &str) -> Option<&'a Map<String, Value>> {
         let extensions = self.root.materials[self.at].extensions.as_ref()?;
         extensions.others.get(name)?.as_object()
@@ -140,8 +140,8 @@ impl<'a> MaterialReader<'a, '_> {
         }
     }
 
-    /// The alpha mode with its cutoff (0.5 by default); an unknown mode becomes opaque, with a
-    /// warning.
+    /// Reads the alpha mode with its cutoff (0.5 by default); an unknown mode becomes opaque, with
+    /// a warning.
     ///
     /// The cutoff is not clamped: above 1 nothing is visible, which is valid (glTF 2.0 §3.9.4).
     fn read_alpha_mode(&mut self) -> AlphaMode {
@@ -256,7 +256,7 @@ impl<'a> MaterialReader<'a, '_> {
         }
     }
 
-    /// The normal map in a slot, with the scale of its x and y components.
+    /// Reads the normal map in a slot, with the scale of its x and y components.
     ///
     /// The scale may be negative, which inverts the relief; if it is not finite it becomes 1.
     fn read_normal_texture(&mut self, slot: TextureSlot) -> Option<NormalTexture> {
@@ -266,7 +266,7 @@ impl<'a> MaterialReader<'a, '_> {
         Some(NormalTexture { texture, scale })
     }
 
-    /// The texture in a slot; a reference to a texture that does not exist is a warning.
+    /// Reads the texture in a slot; a reference to a texture that does not exist is a warning.
     ///
     /// The `texCoord` of KHR_texture_transform, if present, overrides the one in the texture
     /// reference.
@@ -308,7 +308,7 @@ struct JsonTextureInfo<'a> {
 }
 
 impl<'a> JsonTextureInfo<'a> {
-    /// The reference in a slot of a material; its texture may not exist.
+    /// Returns the reference in a slot of a material; its texture may not exist.
     ///
     /// The core types of the `gltf` crate differ for normal, occlusion and other textures, so each
     /// has a branch; extensions are read from raw JSON at the path of the slot.
@@ -348,7 +348,7 @@ impl<'a> JsonTextureInfo<'a> {
         })
     }
 
-    /// The reference in a slot of an extension.
+    /// Returns the reference in a slot of an extension.
     ///
     /// A member that is not an object of the expected form becomes a reference to a texture that
     /// does not exist, for which the caller adds a warning.
@@ -392,7 +392,8 @@ pub(super) fn warn_of_missing_texcoords(model: &Model, warnings: &mut ImportWarn
     }
 }
 
-/// An array of exactly `N` numbers, rounded to single precision; `None` for anything else.
+/// Returns an array of exactly `N` numbers, rounded to single precision, or `None` for anything
+/// else.
 fn float_array<const N: usize>(value: &Value) -> Option<[f32; N]> {
     let numbers: Option<Vec<f32>> =
         value.as_array()?.iter().map(|item| item.as_f64().map(|x| x as f32)).collect();

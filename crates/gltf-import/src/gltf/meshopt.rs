@@ -64,8 +64,8 @@ enum MeshoptFilter {
 }
 
 impl CompressedView {
-    /// The compression of a buffer view, `None` if it is not compressed; `view` is the pointer to
-    /// the view.
+    /// Returns the compression of a buffer view, `None` if it is not compressed; `view` is the
+    /// pointer to the view.
     pub(crate) fn from_view(json: &View, view: &str) -> Result<Option<Self>, Diagnostic> {
         let Some(extensions) = &json.extensions else { return Ok(None) };
         let named = |name: &'static str| extensions.others.get(name).map(|value| (name, value));
@@ -113,11 +113,11 @@ impl CompressedView {
         Ok(Self { pointer, buffer, offset, length, count, stride, mode })
     }
 
-    /// The extension of a buffer view given as JSON; `None` if there is none, or if this is not a
-    /// buffer view.
+    /// Returns the extension of a buffer view given as JSON, or `None` if there is none, or if this
+    /// is not a buffer view.
     ///
     /// # Errors
-    /// The extension breaks a rule.
+    /// Fails if the extension breaks a rule.
     pub fn from_json(view: &Value, pointer: &str) -> Result<Option<Self>, Diagnostic> {
         match serde_json::from_value(view.clone()) {
             Ok(view) => Self::from_view(&view, pointer),
@@ -134,7 +134,7 @@ impl CompressedView {
     /// Decompresses the stream. The caller has charged the memory budget for the result.
     ///
     /// # Errors
-    /// The stream is invalid.
+    /// Fails if the stream is invalid.
     pub fn decompress(&self, stream: &[u8]) -> Result<Vec<u8>, Diagnostic> {
         let Self { count, stride, .. } = *self;
         let unpacked = match self.mode {

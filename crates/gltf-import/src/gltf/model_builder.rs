@@ -28,7 +28,7 @@ use model::{Diagnostic, Model, Node};
 /// The time of each step is added to the stopwatch of the options, as `geometry` or `images`.
 ///
 /// # Errors
-/// The first error that prevents drawing.
+/// Returns the first error that prevents drawing.
 pub(super) fn build_model(
     document: &GltfDocument,
     source: &AccessorReader<'_>,

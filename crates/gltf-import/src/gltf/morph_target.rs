@@ -22,7 +22,8 @@ impl MorphTargetReader<'_, '_, '_> {
     /// Reads the deltas; `further` are attributes that the JSON type lacks, by name.
     ///
     /// # Errors
-    /// Exceeded limits and unreadable files; an invalid delta is dropped with a warning.
+    /// Fails if a limit is exceeded or a file cannot be read. An invalid delta is dropped with a
+    /// warning.
     pub(super) fn read_target(
         &mut self,
         json: &json::mesh::MorphTarget,
@@ -51,7 +52,7 @@ impl MorphTargetReader<'_, '_, '_> {
         Ok(target)
     }
 
-    /// The deltas of one attribute, if the target has it and it is valid.
+    /// Reads the deltas of one attribute, if the target has it and it is valid.
     fn read_deltas<const N: usize>(
         &mut self,
         accessor: Option<usize>,

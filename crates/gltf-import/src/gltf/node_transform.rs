@@ -27,7 +27,8 @@ impl NodeTransform {
     /// The result has an entry for each node, in order.
     ///
     /// # Errors
-    /// A transform is not an array of the right length; in lenient mode, it becomes the identity.
+    /// Fails if a transform is not an array of the right length. In lenient mode, it becomes the
+    /// identity.
     pub(super) fn take_transforms(
         document: &mut Value,
         warnings: &mut ImportWarnings,
@@ -49,7 +50,7 @@ impl NodeTransform {
     /// Removes the transform from a node.
     ///
     /// # Errors
-    /// A member is present but is not an array of the right length.
+    /// Fails if a member is present but is not an array of the right length.
     fn take_transform(
         node: &mut Map<String, Value>,
         node_index: usize,
@@ -68,7 +69,7 @@ impl NodeTransform {
         })
     }
 
-    /// The transform as TRS; `None` for a matrix.
+    /// Returns the transform as TRS, or `None` for a matrix.
     pub(super) fn to_trs(&self) -> Option<Trs> {
         match self {
             Self::Matrix(_) => None,
@@ -76,10 +77,10 @@ impl NodeTransform {
         }
     }
 
-    /// The transform as an affine map.
+    /// Returns the transform as an affine map.
     ///
     /// # Errors
-    /// The matrix is not affine, or the rotation is a quaternion of length 0.
+    /// Fails if the matrix is not affine, or the rotation is a quaternion of length 0.
     pub(super) fn to_affine(&self, pointer: &str) -> Result<Affine<Model, Model>, Diagnostic> {
         match self {
             Self::Matrix(columns) => affine_from_columns(columns).ok_or_else(|| {
@@ -95,8 +96,8 @@ impl NodeTransform {
     }
 }
 
-/// An affine map from a matrix in column-major order; `None` if its last row is clearly not (0, 0,
-/// 0, 1).
+/// Returns an affine map from a matrix in column-major order, or `None` if its last row is clearly
+/// not (0, 0, 0, 1).
 ///
 /// Exporters that invert a matrix in single precision leave rounding errors in the last row.
 ///

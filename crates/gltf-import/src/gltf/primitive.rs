@@ -62,8 +62,8 @@ pub(super) struct PrimitiveContext<'a> {
 /// pointers and of the public interface, so they must not shift.
 ///
 /// # Errors
-/// Exceeded limits, unreadable files, and invalid positions or indices; in lenient mode, the last
-/// two are warnings.
+/// Fails if a limit is exceeded, a file cannot be read, or positions or indices are invalid. In
+/// lenient mode, invalid positions and indices are only warnings.
 pub(super) fn import_meshes(
     source: &AccessorReader<'_>,
     context: PrimitiveContext<'_>,
@@ -127,7 +127,7 @@ impl<'a> PrimitiveReader<'a, '_> {
     /// attributes are read last, for that range only.
     ///
     /// # Errors
-    /// The mode, the positions or the indices are invalid, or a limit is exceeded.
+    /// Fails if the mode, the positions or the indices are invalid, or a limit is exceeded.
     fn read_primitive(mut self) -> Result<Primitive, Diagnostic> {
         let Checked::Valid(mode) = self.json.mode else {
             let pointer = format!("{}/mode", self.pointer);
@@ -171,7 +171,8 @@ impl<'a> PrimitiveReader<'a, '_> {
         Ok(primitive)
     }
 
-    /// Whether any material of the primitive needs a tangent frame; tangents are read only then.
+    /// Returns whether any material of the primitive needs a tangent frame; tangents are read only
+    /// then.
     ///
     /// Tangents are 16 bytes for each vertex, and have no effect without a normal map or
     /// anisotropy. All material variants count: they can be selected after the import.
@@ -181,7 +182,7 @@ impl<'a> PrimitiveReader<'a, '_> {
         all.any(|at| self.context.materials.get(at).is_some_and(Material::needs_tangents))
     }
 
-    /// The materials of the primitive in the variants of the file (KHR_materials_variants).
+    /// Reads the materials of the primitive in the variants of the file (KHR_materials_variants).
     ///
     /// An invalid mapping is dropped with a warning.
     fn read_variants(&mut self) -> Vec<VariantMaterial> {
@@ -228,13 +229,14 @@ impl<'a> PrimitiveReader<'a, '_> {
         }
     }
 
-    /// The positions; `None` if the primitive has none.
+    /// Returns the positions, or `None` if the primitive has none.
     ///
     /// The specification allows a primitive without positions, for extensions that supply them
     /// in other ways (glTF 2.0 §3.7.2.1); no such extension is supported.
     ///
     /// # Errors
-    /// The accessor is invalid, or its format is neither three floats nor quantized integers.
+    /// Fails if the accessor is invalid, or its format is neither three floats nor quantized
+    /// integers.
     fn position_elements<'e>(
         &mut self,
         decoded: Option<&'e DracoData>,
@@ -256,7 +258,7 @@ impl<'a> PrimitiveReader<'a, '_> {
         }))
     }
 
-    /// The vertices in drawing order: the indices, or the file order if there are none.
+    /// Reads the vertices in drawing order: the indices, or the file order if there are none.
     ///
     /// A primitive without indices gets them here: `0, 1, 2, …`, so that all later steps have a
     /// single case.
@@ -316,7 +318,8 @@ impl<'a> PrimitiveReader<'a, '_> {
     /// missing set between two others becomes zeros, because materials refer to sets by number.
     ///
     /// # Errors
-    /// Exceeded limits and unreadable files. An invalid attribute is dropped with a warning.
+    /// Fails if a limit is exceeded or a file cannot be read. An invalid attribute is dropped with
+    /// a warning.
     fn read_attributes(
         &mut self,
         primitive: &mut Primitive,
@@ -370,7 +373,8 @@ impl<'a> PrimitiveReader<'a, '_> {
         Ok(())
     }
 
-    /// The accessor of an attribute, if the primitive has it; the index may be out of range.
+    /// Returns the accessor of an attribute, if the primitive has it; the index may be out of
+    /// range.
     fn attribute_accessor(&self, semantic: Semantic) -> Option<usize> {
         self.json.attributes.get(&Checked::Valid(semantic)).map(json::Index::value)
     }
@@ -396,7 +400,8 @@ impl<'a> PrimitiveReader<'a, '_> {
         }
     }
 
-    /// The material; one that does not exist is replaced by the default material with a warning.
+    /// Returns the material; one that does not exist is replaced by the default material with a
+    /// warning.
     fn checked_material(&mut self) -> Option<usize> {
         let material = self.json.material?.value();
         let count = self.source.root.materials.len();
@@ -410,7 +415,7 @@ impl<'a> PrimitiveReader<'a, '_> {
     }
 }
 
-/// A number of points, lines or triangles, with the noun.
+/// Returns a number of points, lines or triangles, with the noun.
 fn item_count(primitive: &Primitive, count: usize) -> String {
     let [singular, plural] = match primitive.topology {
         Topology::Points => ["point", "points"],
@@ -458,7 +463,7 @@ fn rebase_indices(indices: &mut [u32]) -> Range<usize> {
     used
 }
 
-/// The range from the lowest to the highest index.
+/// Returns the range from the lowest to the highest index.
 ///
 /// It is empty if there are no indices. The time is linear in the number of indices.
 fn used_range(indices: &[u32]) -> Range<usize> {

@@ -57,10 +57,10 @@ pub(super) fn scalar_attributes(root: &Root) -> Vec<String> {
 }
 
 impl CollectedScalars {
-    /// An empty list of values, for the attribute that the options name.
+    /// Creates an empty list of values, for the attribute that the options name.
     ///
     /// # Errors
-    /// The model has no such attribute.
+    /// Fails if the model has no such attribute.
     pub(super) fn new(colors: Option<&ScalarColors>, model: &Model) -> Result<Self, Diagnostic> {
         let Some(colors) = colors else { return Ok(Self::default()) };
         let index = colors.find_among(&model.scalar_attributes, "/meshes")?;
@@ -73,7 +73,8 @@ impl CollectedScalars {
     /// `named` returns the accessor of an attribute, if the primitive has it, and its location.
     ///
     /// # Errors
-    /// Exceeded limits and unreadable files. Invalid values are skipped with a warning.
+    /// Fails if a limit is exceeded or a file cannot be read. Invalid values are skipped with a
+    /// warning.
     pub(super) fn read_values(
         &mut self,
         mesh: usize,

@@ -21,8 +21,8 @@ use model::{Diagnostic, Mesh, MeshInstance, Model, Node, Primitive, SceneRoots, 
 /// The time is linear in the number of nodes and children.
 ///
 /// # Errors
-/// There are too many nodes, or they are nested too deeply; an index is out of range; a node has
-/// two parents or is its own ancestor. In lenient mode, the last three are warnings.
+/// Fails if there are too many nodes, they are nested too deeply, an index is out of range, or a
+/// node has two parents or is its own ancestor. In lenient mode, the last three are only warnings.
 pub(super) fn import_nodes(
     document: &GltfDocument,
     limits: &Limits,
@@ -90,12 +90,12 @@ fn read_node(
     })
 }
 
-/// An index that refers to one of `count` items.
+/// Returns an index that refers to one of `count` items.
 ///
 /// `what` is the member's name and, in messages, the kind of object that it refers to.
 ///
 /// # Errors
-/// The index is out of range; in lenient mode, the node then lacks the object.
+/// Fails if the index is out of range. In lenient mode, the node then lacks the object.
 fn checked_index<T>(
     index: Option<Index<T>>,
     what: &str,
@@ -116,7 +116,8 @@ fn checked_index<T>(
 /// Sets the parent of every node; each may have only one.
 ///
 /// # Errors
-/// A child does not exist or already has a parent. In lenient mode, the first parent is used.
+/// Fails if a child does not exist or already has a parent. In lenient mode, the first parent is
+/// used.
 ///
 /// The children lists are rebuilt from the accepted links, so that parents and children always
 /// agree afterwards.
@@ -153,7 +154,7 @@ fn link_parents(nodes: &mut [Node], warnings: &mut ImportWarnings) -> Result<(),
 /// breaks the cycle above or around it.
 ///
 /// # Errors
-/// A node is its own ancestor, a product of transforms overflows, or the limit of depth is
+/// Fails if a node is its own ancestor, a product of transforms overflows, or the depth limit is
 /// exceeded.
 fn update_global_transforms(
     nodes: &mut [Node],
@@ -184,7 +185,7 @@ fn update_global_transforms(
 /// Computes the global transforms of a root and its descendants, and checks their depth.
 ///
 /// # Errors
-/// A product of transforms overflows, or the hierarchy is deeper than the limit.
+/// Fails if a product of transforms overflows, or the hierarchy is deeper than the limit.
 ///
 /// Transforms are composed in double precision from the root down: each node costs one product.
 fn update_transforms_below(
@@ -221,7 +222,7 @@ fn update_transforms_below(
     Ok(())
 }
 
-/// All scenes of a file.
+/// Returns all scenes of a file.
 pub(super) fn import_scenes(root: &Root) -> Vec<SceneRoots> {
     let scene = |json: &gltf::json::Scene| SceneRoots {
         name: json.name.clone(),
@@ -238,7 +239,7 @@ pub(super) fn import_scenes(root: &Root) -> Vec<SceneRoots> {
 /// `scene` is the index of the active scene, which has been checked or defaulted by the caller.
 ///
 /// # Errors
-/// A listed node does not exist; in lenient mode, it is skipped.
+/// Fails if a listed node does not exist. In lenient mode, it is skipped.
 pub(super) fn scene_roots(
     root: &Root,
     scene: usize,
@@ -272,8 +273,8 @@ pub(super) fn scene_roots(
     Ok(roots)
 }
 
-/// Whether a node that a scene lists should be drawn as a root: not if one of its ancestors is
-/// listed, which already draws it.
+/// Returns whether a node that a scene lists should be drawn as a root: not if one of its ancestors
+/// is listed, which already draws it.
 fn is_scene_root(
     nodes: &[Node],
     listed: &[bool],
@@ -300,7 +301,7 @@ fn is_scene_root(
 /// of skinned meshes also count, and so do vertices of instanced meshes.
 ///
 /// # Errors
-/// The scene contains more items than a limit allows.
+/// Fails if the scene contains more items than a limit allows.
 pub fn check_scene_items(model: &Model, limits: &Limits) -> Result<(), Diagnostic> {
     let sum = |count: fn(&Primitive) -> usize| -> Vec<u64> {
         let of_mesh = |mesh: &Mesh| mesh.primitives.iter().map(|p| count(p) as u64 + 1).sum();

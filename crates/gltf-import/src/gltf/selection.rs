@@ -9,12 +9,13 @@ use gltf::json::{Root, mesh};
 use model::{Diagnostic, Mesh, VariantMaterial};
 use serde_json::Value;
 
-/// The active scene: the requested one, else the default scene, else the first.
+/// Returns the active scene: the requested one, else the default scene, else the first.
 ///
 /// The index is 0 for a file without scenes, whose root nodes are then drawn.
 ///
 /// # Errors
-/// The requested scene does not exist; the default scene does not exist, unless in lenient mode.
+/// Fails if the requested scene does not exist. A missing default scene is also an error, except in
+/// lenient mode.
 pub(super) fn select_scene(
     root: &Root,
     selector: Option<&NameOrIndex>,
@@ -51,7 +52,7 @@ pub(super) fn variant_names(root: &Root) -> Vec<String> {
 /// Index of the requested variant.
 ///
 /// # Errors
-/// The name is unknown or the index out of range; the error lists the existing names.
+/// Fails if the name is unknown or the index out of range; the error lists the existing names.
 pub(super) fn select_variant(
     names: &[String],
     selector: &NameOrIndex,

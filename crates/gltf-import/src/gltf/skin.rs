@@ -36,8 +36,8 @@ pub(super) fn import_skins(
 /// More matrices than joints are accepted, and the extra ones are ignored.
 ///
 /// # Errors
-/// A joint does not exist, there is none, or the matrices have another format, are too few or are
-/// not affine.
+/// Fails if there are no joints, a joint does not exist, or the inverse bind matrices have the
+/// wrong format, are too few or are not affine.
 fn read_skin(source: &AccessorReader<'_>, at: usize) -> Result<Skin, Diagnostic> {
     let json = &source.root.skins[at];
     let count = source.root.nodes.len();

@@ -40,7 +40,7 @@ pub(super) fn import_textures(root: &Root, warnings: &mut ImportWarnings) -> Vec
     textures
 }
 
-/// The image of a texture. An image from a supported extension (KHR_texture_basisu,
+/// Returns the image of a texture. An image from a supported extension (KHR_texture_basisu,
 /// EXT_texture_webp) takes precedence over the fallback for other readers.
 ///
 /// An index out of range leaves the texture without an image, and the surface is drawn untextured.
@@ -63,7 +63,7 @@ fn texture_image(root: &Root, at: usize, warnings: &mut ImportWarnings) -> Optio
     None
 }
 
-/// The sampler; missing or unknown states take their defaults.
+/// Converts the sampler; missing or unknown states take their defaults.
 ///
 /// ```text
 ///  minFilter                 min_filter   mipmap_mode

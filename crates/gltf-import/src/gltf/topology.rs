@@ -43,7 +43,7 @@ fn line_strip(vertices: &[u32]) -> Vec<u32> {
     vertices.array_windows().flat_map(|&[a, b]: &[u32; 2]| [a, b]).collect()
 }
 
-/// A line strip that is closed by a line from the last vertex to the first.
+/// Returns a line strip that is closed by a line from the last vertex to the first.
 fn line_loop(vertices: &[u32]) -> Vec<u32> {
     let mut lines = line_strip(vertices);
     if let [first, .., last] = vertices {

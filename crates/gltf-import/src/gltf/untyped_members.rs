@@ -46,7 +46,7 @@ fn indexed_items<'a>(json: &'a Value, key: &str) -> impl Iterator<Item = (usize,
     json.get(key).and_then(Value::as_array).into_iter().flatten().enumerate()
 }
 
-/// The index in a JSON number; if it is absent, `usize::MAX`, which is always out of range.
+/// Returns the index in a JSON number; if it is absent, `usize::MAX`, which is always out of range.
 fn index_or_max(value: Option<&Value>) -> usize {
     value.and_then(Value::as_u64).and_then(|at| usize::try_from(at).ok()).unwrap_or(usize::MAX)
 }

@@ -60,13 +60,13 @@ impl Elements {
         self.ends.push(self.corners.len() as u32);
     }
 
-    /// The corners of an element, as a range.
+    /// Returns the corners of an element, as a range.
     pub(super) fn corner_range(&self, element: usize) -> std::ops::Range<usize> {
         let start = element.checked_sub(1).map_or(0, |before| self.ends[before]);
         start as usize..self.ends[element] as usize
     }
 
-    /// Each run with the range of its elements.
+    /// Returns each run with the range of its elements.
     pub(super) fn runs(&self) -> impl Iterator<Item = (ElementState, std::ops::Range<usize>)> {
         let ends = self.runs.iter().skip(1).map(|run| run.first);
         let ends = ends.chain(std::iter::once(self.ends.len()));

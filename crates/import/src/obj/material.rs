@@ -128,17 +128,17 @@ fn set_textures<'a>(
 }
 
 impl MtlMaterial<'_> {
-    /// The number of a keyword.
+    /// Returns the number of a keyword.
     fn number(&self, key: &str) -> Option<f32> {
         self.numbers.get(key).copied()
     }
 
-    /// The number of a keyword, clamped to [0, 1].
+    /// Returns the number of a keyword, clamped to [0, 1].
     fn unit_number(&self, key: &str) -> Option<f32> {
         self.number(key).map(|number| number.clamp(0.0, 1.0))
     }
 
-    /// The keys of Phong shading.
+    /// Returns the keys of Phong shading.
     fn phong(&self) -> PhongMaterial {
         PhongMaterial {
             diffuse: self.diffuse,
@@ -151,7 +151,7 @@ impl MtlMaterial<'_> {
         }
     }
 
-    /// Whether the material has a texture for this keyword.
+    /// Returns whether the material has a texture for this keyword.
     fn has_texture(&self, key: &str) -> bool {
         self.textures.contains_key(key)
     }

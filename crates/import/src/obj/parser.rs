@@ -54,7 +54,7 @@ pub(super) struct GroupName<'a> {
 /// Parses an OBJ file in UTF-8.
 ///
 /// # Errors
-/// An element refers to a vertex that does not exist; in lenient mode it is skipped.
+/// Fails if an element refers to a vertex that does not exist. In lenient mode it is skipped.
 pub(super) fn parse_obj<'a>(
     text: &'a [u8],
     warnings: &mut ImportWarnings,
@@ -94,7 +94,7 @@ struct ObjParser<'a, 'w> {
 }
 
 impl<'a, 'w> ObjParser<'a, 'w> {
-    /// A parser at the beginning of a text.
+    /// Creates a parser at the beginning of a text.
     fn new(text: &'a [u8], warnings: &'w mut ImportWarnings) -> Self {
         Self {
             reader: StatementReader::new(text),
@@ -209,7 +209,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         self.smoothing = group.unwrap_or(0);
     }
 
-    /// The state of the next element.
+    /// Returns the state of the next element.
     fn element_state(&mut self, topology: Topology) -> ElementState {
         let group = *self.group.get_or_insert_with(|| {
             let next = self.file.groups.len() as u32;
@@ -256,7 +256,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         self.warnings.downgrade_if_lenient(fault, "the element is skipped")
     }
 
-    /// A reference to a vertex: `p`, `p/t`, `p//n` or `p/t/n`.
+    /// Reads a reference to a vertex: `p`, `p/t`, `p//n` or `p/t/n`.
     #[inline]
     fn read_corner(&mut self, token: Token<'a>) -> Result<Corner, String> {
         let mut rest = token.bytes;
@@ -372,7 +372,7 @@ fn resolve_index(reference: i64, count: usize) -> Option<u32> {
     u32::try_from(index).ok().filter(|index| *index != NONE && !is_relative_and_zero)
 }
 
-/// The message for a reference to a vertex that does not exist.
+/// Returns the message for a reference to a vertex that does not exist.
 fn missing_vertex(reference: &str, count: usize) -> String {
     match (reference, count) {
         ("0", _) => "there is no vertex 0: the first one is 1".to_owned(),
@@ -382,7 +382,7 @@ fn missing_vertex(reference: &str, count: usize) -> String {
     }
 }
 
-/// The message for a word that is not a reference.
+/// Returns the message for a word that is not a reference.
 fn not_a_reference(token: Token<'_>) -> String {
     let word: String = token.to_text().chars().take(32).collect();
     format!("{word:?} is not a reference to a vertex such as 1, 1/2, 1//3 or 1/2/3")

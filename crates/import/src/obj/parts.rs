@@ -52,7 +52,8 @@ impl Part {
 /// Cuts and sorts the elements of a file; parts are in the order of their first elements.
 ///
 /// # Errors
-/// An element has a vertex that is not three finite numbers; in lenient mode it is skipped.
+/// Fails if an element has a vertex that is not three finite numbers. In lenient mode it is
+/// skipped.
 pub(super) fn split_elements(
     file: &ObjFile<'_>,
     text: &[u8],
@@ -112,7 +113,7 @@ pub(super) fn split_elements(
     Ok(cutter.parts)
 }
 
-/// The error for an element with a vertex that has no position.
+/// Returns the error for an element with a vertex that has no position.
 fn broken_vertex(location: &str) -> Diagnostic {
     let message = "an element uses this vertex, which does not have three finite coordinates";
     let help = "export the file again, or load it with --lenient";
@@ -147,7 +148,7 @@ impl<'a> ElementCutter<'a> {
         }
     }
 
-    /// The part for an element; a new one if it is the first.
+    /// Returns the part for an element; a new one if it is the first.
     fn part_of(&mut self, state: ElementState, has_uvs: bool, has_normals: bool) -> usize {
         let ElementState { group, material, topology, .. } = state;
         let corners_per_item = topology.vertices_per_item();

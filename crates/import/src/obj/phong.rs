@@ -31,7 +31,8 @@ pub struct PhongMaterial {
 }
 
 impl PhongMaterial {
-    /// The double-sided metallic-roughness material that looks similar, without its textures.
+    /// Returns the double-sided metallic-roughness material that looks similar, without its
+    /// textures.
     #[must_use]
     pub fn to_material(&self) -> Material {
         let mut material = Material { base_color: self.base_color(), ..double_sided_matte() };
@@ -42,7 +43,7 @@ impl PhongMaterial {
         material
     }
 
-    /// The diffuse color in linear light, with alpha.
+    /// Returns the diffuse color in linear light, with alpha.
     pub(super) fn base_color(&self) -> [f32; 4] {
         let color = color_beside_texture(self.diffuse, self.has_texture, PLAIN_COLOR);
         let [r, g, b] = linear_color(color);
@@ -61,7 +62,7 @@ impl PhongMaterial {
         }
     }
 
-    /// Whether only `Tr 1` gives the opacity.
+    /// Returns whether only `Tr 1` gives the opacity.
     pub(super) fn is_invisible_by_transparency(&self) -> bool {
         self.dissolve.is_none() && self.transparency.is_some_and(|transparency| transparency >= 1.0)
     }
@@ -93,13 +94,13 @@ impl PhongMaterial {
     }
 }
 
-/// A purely diffuse material, seen from both sides.
+/// Returns a purely diffuse material, seen from both sides.
 pub(super) fn double_sided_matte() -> Material {
     Material { double_sided: true, metallic: 0.0, roughness: 1.0, ..Material::plain() }
 }
 
-/// A color multiplied by a texture: white if it is black or missing, because the texture would
-/// otherwise be invisible.
+/// Returns a color multiplied by a texture: white if it is black or missing, because the texture
+/// would otherwise be invisible.
 pub(super) fn color_beside_texture(
     color: Option<[f32; 3]>,
     has_texture: bool,

@@ -21,7 +21,8 @@ pub(super) struct GroupPrimitive {
 /// Builds the primitives of a file, in the order of their first elements.
 ///
 /// # Errors
-/// An element has a vertex that is not three finite numbers; in lenient mode it is skipped.
+/// Fails if an element has a vertex that is not three finite numbers. In lenient mode it is
+/// skipped.
 pub(super) fn build_primitives(
     mut file: ObjFile<'_>,
     text: &[u8],
@@ -56,7 +57,7 @@ pub(super) fn build_primitives(
     Ok(primitives)
 }
 
-/// Whether the normals of a part are computed.
+/// Returns whether the normals of a part are computed.
 fn is_computed(part: &Part) -> bool {
     part.topology() == Topology::Triangles && !part.key.has_normals
 }

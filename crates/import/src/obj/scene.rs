@@ -41,7 +41,7 @@ pub(super) fn build_scene(
     }
 }
 
-/// A mesh without primitives, named after its group, or else its object.
+/// Returns a mesh without primitives, named after its group, or else its object.
 fn group_mesh(names: &GroupName<'_>) -> Mesh {
     let name = if names.group.is_empty() { names.object } else { names.group };
     Mesh { name: to_name(name), ..Mesh::default() }
@@ -58,7 +58,7 @@ fn push_node(model: &mut Model, name: Option<String>, parent: Option<usize>) -> 
     node
 }
 
-/// A name as text, in UTF-8 or else ISO 8859-1; `None` for an empty one.
+/// Returns a name as text, in UTF-8 or else ISO 8859-1, or `None` for an empty one.
 pub(super) fn to_name(bytes: &[u8]) -> Option<String> {
     let latin_1 = || bytes.iter().map(|&byte| char::from(byte)).collect();
     (!bytes.is_empty()).then(|| str::from_utf8(bytes).map_or_else(|_| latin_1(), str::to_owned))

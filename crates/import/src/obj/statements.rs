@@ -14,12 +14,12 @@ pub(super) struct StatementReader<'a> {
 }
 
 impl<'a> StatementReader<'a> {
-    /// A reader at the beginning of a text.
+    /// Creates a reader at the beginning of a text.
     pub(super) const fn new(text: &'a [u8]) -> Self {
         Self { text, at: 0 }
     }
 
-    /// The keyword of the next statement; `None` at the end of the text.
+    /// Returns the keyword of the next statement, or `None` at the end of the text.
     ///
     /// The rest of the current statement is skipped, as are blank lines and comments.
     pub(super) fn next_statement(&mut self) -> Option<Token<'a>> {
@@ -36,7 +36,7 @@ impl<'a> StatementReader<'a> {
         None
     }
 
-    /// The next argument of the current statement; `None` at its end.
+    /// Returns the next argument of the current statement, or `None` at its end.
     #[inline]
     pub(super) fn next_argument(&mut self) -> Option<Token<'a>> {
         let (text, mut start) = (self.text, self.at);
@@ -67,7 +67,8 @@ impl<'a> StatementReader<'a> {
         Some(Token { bytes: &text[start..end], offset: start })
     }
 
-    /// The rest of the line, for names, which may contain spaces; without surrounding white space.
+    /// Returns the rest of the line, for names, which may contain spaces; without surrounding white
+    /// space.
     pub(super) fn rest_of_line(&mut self) -> Token<'a> {
         let rest = self.text.get(self.at..).unwrap_or_default();
         let length = line_length(rest);
@@ -112,7 +113,7 @@ fn line_length(rest: &[u8]) -> usize {
 mod tests {
     use super::*;
 
-    /// The statements, each as words.
+    /// Returns the statements, each as words.
     fn statements(text: &str) -> Vec<Vec<String>> {
         let mut reader = StatementReader::new(text.as_bytes());
         let mut all = Vec::new();

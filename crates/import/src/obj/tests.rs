@@ -18,7 +18,7 @@ fn read_leniently(text: &str) -> Model {
     load_bytes("test.obj", text.as_bytes(), &options).unwrap()
 }
 
-/// The primitives of a model, in order.
+/// Returns the primitives of a model, in order.
 fn primitives(model: &Model) -> Vec<&Primitive> {
     model.meshes.iter().flat_map(|mesh| &mesh.primitives).collect()
 }

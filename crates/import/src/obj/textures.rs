@@ -41,21 +41,21 @@ enum ImageSource<'a> {
 }
 
 impl<'a> TextureTable<'a> {
-    /// The texture of a file.
+    /// Returns the texture of a file.
     pub(super) fn use_file(&mut self, mtl: &MtlTexture<'a>) -> TextureInfo {
         let image = self.file_image(mtl);
         self.texture_of(image, mtl)
     }
 
-    /// The texture of a bump map, which is used only if it is a normal map.
+    /// Returns the texture of a bump map, which is used only if it is a normal map.
     pub(super) fn use_bump_map(&mut self, mtl: &MtlTexture<'a>) -> TextureInfo {
         let image = self.file_image(mtl);
         self.bump_maps.insert(image);
         self.texture_of(image, mtl)
     }
 
-    /// The texture of color and opacity; the options of the color texture are used, if there is
-    /// one.
+    /// Returns the texture of color and opacity; the options of the color texture are used, if
+    /// there is one.
     ///
     /// A file that is both is used as it is, with its own alpha.
     pub(super) fn base_color(
@@ -81,8 +81,8 @@ impl<'a> TextureTable<'a> {
         Some(self.texture_of(image, options))
     }
 
-    /// The texture of roughness and metalness; the options of the roughness texture are used, if
-    /// there is one.
+    /// Returns the texture of roughness and metalness; the options of the roughness texture are
+    /// used, if there is one.
     pub(super) fn metallic_roughness(
         &mut self,
         roughness: Option<&MtlTexture<'a>>,
@@ -112,7 +112,7 @@ impl<'a> TextureTable<'a> {
         self.images.len() - 1
     }
 
-    /// A reference to an image with the options of a statement.
+    /// Returns a reference to an image with the options of a statement.
     ///
     /// With v up, coordinates are scaled and then translated; here v points down.
     fn texture_of(&mut self, image: usize, mtl: &MtlTexture<'a>) -> TextureInfo {
@@ -233,7 +233,7 @@ fn read_image<'a>(
     TextureImage { name, location, bytes: Some(bytes.map(Cow::Owned)) }
 }
 
-/// An image beyond the maximum number.
+/// Returns an image beyond the maximum number.
 fn unread_image<'a>(name: &[u8]) -> TextureImage<'a> {
     let name = String::from_utf8_lossy(name).into_owned();
     let location = format!("texture {}", shorten(&name));
@@ -248,7 +248,7 @@ struct TexelLimit {
 }
 
 impl TexelLimit {
-    /// Whether an image of this size may be made.
+    /// Returns whether an image of this size may be made.
     fn allows(&mut self, image: &Image) -> bool {
         let left = self.left.checked_sub(u64::from(image.width) * u64::from(image.height));
         self.left = left.unwrap_or(0);
@@ -256,8 +256,8 @@ impl TexelLimit {
     }
 }
 
-/// An image of the size of `like`; each texel is made from its own and the other image's texel at
-/// the same position.
+/// Combines an image of the size of `like`; each texel is made from its own and the other image's
+/// texel at the same position.
 fn combine_images(
     like: &Image,
     other: Option<&Image>,
@@ -277,8 +277,8 @@ fn combine_images(
     Image { width, height, rgba }
 }
 
-/// The opacity of a texel: its alpha if the image has any, else its luminance, or the channel named
-/// by `-imfchan`.
+/// Returns the opacity of a texel: its alpha if the image has any, else its luminance, or the
+/// channel named by `-imfchan`.
 fn opacity([r, g, b, a]: [u8; 4], channel: Option<u8>, has_alpha: bool) -> u8 {
     // Rec. 709 in 256ths.
     let luminance = (54 * u32::from(r) + 183 * u32::from(g) + 19 * u32::from(b)) / 256;

@@ -24,7 +24,7 @@ impl VertexSharing {
         Self { latest: vec![NONE; positions], before: Vec::new(), corners: Vec::new() }
     }
 
-    /// The vertex of a corner, whose position is in range.
+    /// Returns the vertex of a corner, whose position is in range.
     #[inline]
     pub(super) fn vertex_at(&mut self, corner: Corner) -> u32 {
         let latest = self.latest[corner.position as usize];

@@ -24,15 +24,15 @@ pub(super) struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// The body that begins at an offset of the file.
+    /// Creates the body that begins at an offset of the file.
     pub(super) fn new(bytes: &'a [u8], at: usize, encoding: Encoding) -> Self {
         let lines = RefCell::new(LineCounter::new(bytes));
         let at = at.min(bytes.len());
         Self { bytes, at, encoding, lines, has_lines: false, longer: None }
     }
 
-    /// The body of a file with this many records: if a text has the same number of lines, each line
-    /// is a record.
+    /// Creates the body of a file with this many records: if a text has the same number of lines,
+    /// each line is a record.
     pub(super) fn with_records(mut self, count: u64) -> Self {
         if self.encoding == Encoding::Ascii {
             let lines = self.bytes[self.at..].split(|byte| *byte == b'\n' || *byte == b'\r');
@@ -65,7 +65,7 @@ impl<'a> Body<'a> {
         self.at += end;
     }
 
-    /// The warning about records that are longer than the header declares.
+    /// Returns the warning about records that are longer than the header declares.
     pub(super) fn longer_records(&self) -> Option<(&str, String)> {
         let (place, count) = self.longer.as_ref()?;
         let message = match count {
@@ -80,17 +80,18 @@ impl<'a> Body<'a> {
         Some((place, message))
     }
 
-    /// The maximum number of records that the file can hold from here, for reserving memory.
+    /// Returns the maximum number of records that the file can hold from here, for reserving
+    /// memory.
     pub(super) fn plausible_records(&self, element: &PlyElement) -> usize {
         let left = self.bytes.len() - self.at;
         let possible = left / element.min_record_bytes(self.encoding).max(1) + 1;
         usize::try_from(element.count).unwrap_or(usize::MAX).min(possible)
     }
 
-    /// The next number.
+    /// Returns the next number.
     ///
     /// # Errors
-    /// The file ends, or the next word is not a number.
+    /// Fails if the file ends, or the next word is not a number.
     pub(super) fn next_number(&mut self, scalar: ScalarType) -> Result<f64, Diagnostic> {
         if self.encoding == Encoding::Ascii {
             return self.next_decimal();
@@ -108,10 +109,10 @@ impl<'a> Body<'a> {
         Ok(to_number(u64::from_le_bytes(value), scalar))
     }
 
-    /// The length of a list, checked against the remaining bytes.
+    /// Returns the length of a list, checked against the remaining bytes.
     ///
     /// # Errors
-    /// The length is negative, not an integer, or more than the rest of the file can hold.
+    /// Fails if the length is negative, not an integer, or more than the rest of the file can hold.
     pub(super) fn next_list_length(
         &mut self,
         length: ScalarType,
@@ -135,7 +136,7 @@ impl<'a> Body<'a> {
     /// Skips the records of an unknown element.
     ///
     /// # Errors
-    /// The file ends before its last record.
+    /// Fails if the file ends before its last record.
     pub(super) fn skip_element(&mut self, element: &PlyElement) -> Result<(), Diagnostic> {
         if element.properties.is_empty() {
             return Ok(());
@@ -156,7 +157,7 @@ impl<'a> Body<'a> {
     /// Skips numbers.
     ///
     /// # Errors
-    /// The file ends too early.
+    /// Fails if the file ends too early.
     pub(super) fn skip_numbers(
         &mut self,
         count: usize,
@@ -168,7 +169,7 @@ impl<'a> Body<'a> {
         Ok(())
     }
 
-    /// The next number of a text, after any white space.
+    /// Returns the next number of a text, after any white space.
     fn next_decimal(&mut self) -> Result<f64, Diagnostic> {
         let mut scanner = TextScanner::new(&self.bytes[self.at..]);
         let Some(Token { bytes: token, offset }) = scanner.next_token() else {
@@ -188,14 +189,14 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// An error at the current location.
+    /// Returns an error at the current location.
     #[cold]
     #[inline(never)]
     pub(super) fn fault(&self, message: &str) -> Diagnostic {
         Diagnostic::invalid(&self.location(), message)
     }
 
-    /// The current location: line and column of a text, otherwise the byte.
+    /// Returns the current location: line and column of a text, otherwise the byte.
     pub(super) fn location(&self) -> String {
         if self.encoding != Encoding::Ascii {
             return format!("byte {}", self.at);
@@ -204,7 +205,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// The number stored in the lowest bytes of a word.
+/// Returns the number stored in the lowest bytes of a word.
 fn to_number(word: u64, scalar: ScalarType) -> f64 {
     match scalar {
         ScalarType::I8 => f64::from(word as i8),

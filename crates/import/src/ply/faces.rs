@@ -57,8 +57,8 @@ struct FaceRecord {
 /// Reads the polygons of an element.
 ///
 /// # Errors
-/// An index has no vertex, or the file ends before the last face. In lenient mode the face or the
-/// rest is skipped.
+/// Fails if an index has no vertex, or the file ends before the last face. In lenient mode the face
+/// or the rest is skipped.
 pub(super) fn read_faces(
     body: &mut Body<'_>,
     element: &PlyElement,
@@ -107,7 +107,7 @@ impl FaceRecord {
     /// Reads a face; an error inside the result concerns only this face.
     ///
     /// # Errors
-    /// Nothing after the fault can be read.
+    /// Fails if nothing after the error can be read.
     fn read(
         &mut self,
         body: &mut Body<'_>,
@@ -153,7 +153,7 @@ impl FaceRecord {
     }
 }
 
-/// The error for an index without a vertex.
+/// Returns the error for an index without a vertex.
 pub(super) fn no_such_vertex(body: &Body<'_>, vertex: f64, vertices: u64) -> Diagnostic {
     body.fault(&format!("there is no vertex {vertex}: the file has {vertices}, counted from 0"))
 }
@@ -190,7 +190,7 @@ impl Faces {
 /// Every second triangle of a strip is reversed, so that all face the same way.
 ///
 /// # Errors
-/// As for [`read_faces`].
+/// Fails in the same cases as [`read_faces`].
 pub(super) fn read_strips(
     body: &mut Body<'_>,
     element: &PlyElement,
@@ -241,7 +241,7 @@ pub(super) fn read_strips(
 /// Reads edges, as pairs of vertices.
 ///
 /// # Errors
-/// As for [`read_faces`].
+/// Fails in the same cases as [`read_faces`].
 pub(super) fn read_edges(
     body: &mut Body<'_>,
     element: &PlyElement,

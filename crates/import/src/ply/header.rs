@@ -42,7 +42,7 @@ pub(super) enum ScalarType {
 }
 
 impl ScalarType {
-    /// The type for a name, in the old convention (`uchar`) or the new one (`uint8`).
+    /// Returns the type for a name, in the old convention (`uchar`) or the new one (`uint8`).
     fn from_name(name: &str) -> Option<Self> {
         Some(match name {
             "char" | "int8" => Self::I8,
@@ -67,7 +67,7 @@ impl ScalarType {
         }
     }
 
-    /// The value that represents 1 in stored colors: the largest of an integer type.
+    /// Returns the value that represents 1 in stored colors: the largest of an integer type.
     pub(super) const fn color_scale(self) -> f32 {
         match self {
             Self::I8 | Self::U8 => u8::MAX as f32,
@@ -101,7 +101,7 @@ pub(super) struct PlyElement {
 }
 
 impl PlyElement {
-    /// The minimum number of bytes of a record in the body; 0 only without properties.
+    /// Returns the minimum number of bytes of a record in the body; 0 only without properties.
     pub(super) fn min_record_bytes(&self, encoding: Encoding) -> usize {
         let bytes = |property: &PlyProperty| match encoding {
             // A digit and a separator.
@@ -132,7 +132,7 @@ impl Header {
     /// Reads the header of a file.
     ///
     /// # Errors
-    /// A line does not follow the format, or there is no `end_header`.
+    /// Fails if a line does not follow the format, or there is no `end_header`.
     pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, Diagnostic> {
         let mut lines = Lines::new(bytes);
         let mut header = Self {
@@ -189,7 +189,7 @@ impl Header {
     /// Takes a line that begins with an unknown word as a comment.
     ///
     /// # Errors
-    /// The word is almost one of the format, or there are too many such lines.
+    /// Fails if the word is almost a keyword of the format, or there are too many such lines.
     fn add_stray_line(&mut self, number: usize, line: &str, word: &str) -> Result<(), Diagnostic> {
         if is_misspelled(word) || self.stray_lines.len() == MAX_STRAY_LINES {
             let message = format!(
@@ -207,19 +207,19 @@ impl Header {
 /// The maximum number of header lines that are taken as comments.
 const MAX_STRAY_LINES: usize = 16;
 
-/// Whether a word could be a misspelled keyword of the format, so that its line matters.
+/// Returns whether a word could be a misspelled keyword of the format, so that its line matters.
 fn is_misspelled(word: &str) -> bool {
     let words = ["comment", "element", "end_header", "format", "obj_info", "property"];
     let word = word.to_ascii_lowercase();
     words.iter().any(|known| strsim::levenshtein(known, &word) <= 2)
 }
 
-/// The first characters of a text, for quoting in a message.
+/// Returns the first characters of a text, for quoting in a message.
 fn shorten(text: &str) -> String {
     text.chars().take(32).collect()
 }
 
-/// The name of a texture in a MeshLab comment, without surrounding spaces.
+/// Returns the name of a texture in a MeshLab comment, without surrounding spaces.
 fn texture_file(line: &str) -> Option<String> {
     let rest = line.trim_start().strip_prefix("comment")?.trim_start();
     let name = rest.get(.."texturefile".len())?;
@@ -228,7 +228,7 @@ fn texture_file(line: &str) -> Option<String> {
     (is_texture && name.starts_with([' ', '\t'])).then(|| name.trim().to_owned())
 }
 
-/// The encoding that a `format` line names.
+/// Parses the encoding that a `format` line names.
 fn parse_encoding(name: Option<&str>, location: &str) -> Result<Encoding, Diagnostic> {
     match name {
         Some("ascii") => Ok(Encoding::Ascii),
@@ -243,7 +243,7 @@ fn parse_encoding(name: Option<&str>, location: &str) -> Result<Encoding, Diagno
     }
 }
 
-/// An element without its properties: `vertex 8`.
+/// Parses an element without its properties: `vertex 8`.
 fn parse_element<'a>(
     mut words: impl Iterator<Item = &'a str>,
     location: &str,
@@ -257,7 +257,7 @@ fn parse_element<'a>(
     Ok(PlyElement { name: name.to_owned(), count, properties: Vec::new() })
 }
 
-/// A property: `float x` or `list uchar int vertex_indices`.
+/// Parses a property: `float x` or `list uchar int vertex_indices`.
 fn parse_property<'a>(
     mut words: impl Iterator<Item = &'a str>,
     location: &str,
@@ -299,7 +299,7 @@ impl<'a> Lines<'a> {
         Self { bytes, at: 0, number: 0, ends_with_cr }
     }
 
-    /// The next line without its end; `None` at the end of the file.
+    /// Returns the next line without its end, or `None` at the end of the file.
     fn next_line(&mut self) -> Option<&'a [u8]> {
         let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
         self.number += 1;

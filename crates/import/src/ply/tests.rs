@@ -36,7 +36,7 @@ const HEADER: &str = "element vertex 4\nproperty short flags\nproperty float z\n
                       property list int short words\nproperty uchar mark\nelement face 1\n\
                       property list uint8 uint16 vertex_index\nend_header\n";
 
-/// The square with properties in an unusual order, and an element without meaning.
+/// Returns the square with properties in an unusual order, and an element without meaning.
 fn binary_square(is_big: bool) -> Vec<u8> {
     let name = if is_big { "binary_big_endian" } else { "binary_little_endian" };
     let mut file = format!("ply\nformat {name} 1.0\n{HEADER}").into_bytes();
@@ -81,7 +81,7 @@ fn all_encodings_are_read_alike() {
     }
 }
 
-/// A text with vertices at (0,0,0), (1,0,0), (0,1,0), with additional properties.
+/// Returns a text with vertices at (0,0,0), (1,0,0), (0,1,0), with additional properties.
 fn triangle(properties: &str, values: [&str; 3], rest: &str, faces: &str) -> String {
     let [a, b, c] = values;
     format!(

@@ -38,7 +38,8 @@ struct VertexRow {
     scalar: f64,
 }
 
-/// The index of a property in a row: x y z, nx ny nz, s t, red green blue alpha, f_dc_0 to f_dc_2.
+/// Returns the index of a property in a row: x y z, nx ny nz, s t, red green blue alpha, f_dc_0 to
+/// f_dc_2.
 fn row_place(name: &str) -> usize {
     match name {
         "x" => 0,
@@ -56,7 +57,7 @@ fn row_place(name: &str) -> usize {
     }
 }
 
-/// The color channel of a vertex or face property.
+/// Returns the color channel of a vertex or face property.
 pub(super) fn color_channel(name: &str) -> Option<usize> {
     match name.strip_prefix("diffuse_").unwrap_or(name) {
         "red" | "r" => Some(0),
@@ -81,8 +82,8 @@ pub(super) fn scalar_attributes(header: &Header) -> Vec<String> {
 /// Reads the vertices. `scalar` is the property that is read as the scalar of each vertex.
 ///
 /// # Errors
-/// They have no x, y and z, or the file ends before the last; in lenient mode, those before the
-/// error are kept.
+/// Fails if the vertices lack x, y or z, or the file ends before the last vertex. In lenient mode,
+/// the vertices before the error are used.
 pub(super) fn read_vertices(
     body: &mut Body<'_>,
     element: &PlyElement,
@@ -227,7 +228,7 @@ pub(super) fn linearize_colors(
     }
 }
 
-/// The nearest number in [0, 1]; 0 for NaN.
+/// Returns the nearest number in [0, 1]; 0 for NaN.
 fn clamp_to_unit(value: f32) -> f32 {
     if value > 0.0 { value.min(1.0) } else { 0.0 }
 }

@@ -159,7 +159,7 @@ impl SmoothVertices {
     }
 }
 
-/// The direction of a vector; +z if it has none.
+/// Returns the direction of a vector; +z if it has none.
 fn unit_or_z(sum: Vec3) -> Vec3 {
     sum.try_normalize().unwrap_or(Vec3::Z)
 }
@@ -193,15 +193,15 @@ impl Face {
         Self { normal, angles: [arc_cosine(at_a), arc_cosine(at_b)] }
     }
 
-    /// The normal, scaled to the angle at corner 0, 1 or 2.
+    /// Returns the normal, scaled to the angle at corner 0, 1 or 2.
     fn weighted_normal(&self, corner: usize) -> Vec3 {
         let [a, b] = self.angles;
         self.normal * [a, b, (std::f32::consts::PI - a - b).max(0.0)][corner]
     }
 }
 
-/// The angle of a cosine in radians, to within 7 · 10⁻⁵ (Abramowitz and Stegun 4.4.45): accurate
-/// enough for weights.
+/// Returns the angle of a cosine in radians, to within 7 · 10⁻⁵ (Abramowitz and Stegun 4.4.45):
+/// accurate enough for weights.
 fn arc_cosine(cosine: f32) -> f32 {
     let x = cosine.abs().min(1.0);
     let series = 1.570_728_8 + x * (-0.212_114_4 + x * (0.074_261 + x * -0.018_729_3));
@@ -238,7 +238,7 @@ impl CornersByVertex {
         Self { ends, corners }
     }
 
-    /// The corners at a vertex.
+    /// Returns the corners at a vertex.
     fn corners_of(&self, vertex: usize) -> &[u32] {
         let start = vertex.checked_sub(1).map_or(0, |before| self.ends[before]);
         &self.corners[start as usize..self.ends[vertex] as usize]
@@ -256,7 +256,7 @@ struct SmoothEdges<'a> {
 }
 
 impl<'a> SmoothEdges<'a> {
-    /// The rule for a smoothing of some triangles.
+    /// Creates the rule for a smoothing of some triangles.
     fn new(smoothing: Smoothing<'a>, faces: &'a [Face]) -> Self {
         match smoothing {
             Smoothing::CreaseAngle(degrees) => {
@@ -267,7 +267,7 @@ impl<'a> SmoothEdges<'a> {
         }
     }
 
-    /// Whether the common edge of two triangles with area is smooth.
+    /// Returns whether the common edge of two triangles with area is smooth.
     fn joins(&self, one: u32, other: u32) -> bool {
         let (one, other) = (one as usize, other as usize);
         if let Some(least) = self.cosine {
@@ -277,7 +277,7 @@ impl<'a> SmoothEdges<'a> {
         group(one) != 0 && group(one) == group(other)
     }
 
-    /// Whether a triangle has an area.
+    /// Returns whether a triangle has an area.
     fn has_area(&self, triangle: u32) -> bool {
         self.faces[triangle as usize].normal != Vec3::ZERO
     }
@@ -331,7 +331,7 @@ impl VertexFans {
         }
     }
 
-    /// The first corner of a group, halving the path to it on the way.
+    /// Finds the first corner of a group, halving the path to it on the way.
     fn find_root(&mut self, mut at: u32) -> u32 {
         while self.roots[at as usize] != at {
             let next = self.roots[at as usize];
@@ -346,8 +346,8 @@ impl VertexFans {
 mod tests {
     use super::*;
 
-    /// A strip of `count` rectangles, each turned by `degrees` from the previous one about the z
-    /// axis.
+    /// Returns a strip of `count` rectangles, each turned by `degrees` from the previous one about
+    /// the z axis.
     fn bent_strip(count: usize, degrees: f64) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
         let (mut at, mut positions, mut triangles) = (DVec3::ZERO, Vec::new(), Vec::new());
         for step in 0..=count {

@@ -22,7 +22,7 @@ pub(super) fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     exact_orient2d(a, b, c)
 }
 
-/// The largest component of the exact determinant: it has the sign of the whole.
+/// Returns the largest component of the exact determinant: it has the sign of the whole.
 fn exact_orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     let products =
         [a[0] * b[1], -(a[1] * b[0]), b[0] * c[1], -(b[1] * c[0]), c[0] * a[1], -(c[1] * a[0])];
@@ -38,7 +38,7 @@ fn exact_orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     expansion.into_iter().rev().find(|component| *component != 0.0).unwrap_or(0.0)
 }
 
-/// The rounded sum of two numbers, and the rounding error.
+/// Returns the rounded sum of two numbers, and the rounding error.
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let of_b = sum - a;

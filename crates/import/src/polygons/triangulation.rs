@@ -54,7 +54,7 @@ pub(crate) struct Triangulator {
 }
 
 impl Default for Triangulator {
-    /// A triangulator for the polygons of one file.
+    /// Returns a triangulator for the polygons of one file.
     fn default() -> Self {
         Self {
             points: Vec::new(),
@@ -117,8 +117,8 @@ impl Triangulator {
         true
     }
 
-    /// Whether the fan around the first corner is a triangulation: seen from it, the other corners
-    /// follow each other counter-clockwise within half a turn.
+    /// Returns whether the fan around the first corner is a triangulation: seen from it, the other
+    /// corners follow each other counter-clockwise within half a turn.
     ///
     /// This holds for all convex polygons, which are the vast majority.
     fn is_visible_from_first(&self) -> bool {
@@ -200,20 +200,20 @@ impl Triangulator {
         orient2d(a, b, c)
     }
 
-    /// The triangle that would be removed by cutting a corner.
+    /// Returns the triangle that would be removed by cutting a corner.
     fn ear_triangle(&self, at: u32) -> [[f64; 2]; 3] {
         let around = [self.previous[at as usize], at, self.next[at as usize]];
         around.map(|corner| self.points[corner as usize])
     }
 
-    /// Whether the edge to a collinear corner doubles back on itself, or has no length.
+    /// Returns whether the edge to a collinear corner doubles back on itself, or has no length.
     fn is_spike(&self, at: u32) -> bool {
         let [a, b, c] = self.ear_triangle(at);
         let is_between = |k: usize| a[k].min(c[k]) <= b[k] && b[k] <= a[k].max(c[k]);
         b == a || b == c || !is_between(0) || !is_between(1)
     }
 
-    /// Whether no other corner is in the triangle at a convex corner, including its edges.
+    /// Returns whether no other corner is in the triangle at a convex corner, including its edges.
     ///
     /// Corners at the same position as one of the triangle's are ignored: they are the ends of
     /// bridges to holes. Only reflex corners need a test: of the corners in the triangle, the one
@@ -242,14 +242,14 @@ impl Triangulator {
         !is_blocked
     }
 
-    /// The remaining corners in order, starting at one of them.
+    /// Returns the remaining corners in order, starting at one of them.
     fn ring(&self, from: u32) -> impl Iterator<Item = u32> + use<'_> {
         let after = move |at: &u32| Some(self.next[*at as usize]).filter(|next| *next != from);
         std::iter::successors(Some(from), after)
     }
 }
 
-/// The axis along which points spread farther.
+/// Returns the axis along which points spread farther.
 fn long_axis(points: &[[f64; 2]]) -> usize {
     let extent = |axis: usize| {
         let values = || points.iter().map(|point| point[axis]);
@@ -268,7 +268,7 @@ fn push_fan(corners: impl IntoIterator<Item = u32>, triangles: &mut Vec<[u32; 3]
     }
 }
 
-/// The sum of the cross products of a polygon's edges: twice its area, along its normal.
+/// Returns the sum of the cross products of a polygon's edges: twice its area, along its normal.
 fn newell_normal(corners: &[[f32; 3]]) -> [f64; 3] {
     let mut normal = [0.0; 3];
     let Some(origin) = corners.first().map(|at| at.map(f64::from)) else { return normal };

@@ -27,7 +27,7 @@ const BATCH: usize = 192;
 const LEAST_SLOTS: usize = 64;
 
 impl VertexWelder {
-    /// A welder that holds this number of vertices before it has to grow.
+    /// Creates a welder that holds this number of vertices before it has to grow.
     pub(crate) fn with_capacity(vertices: usize) -> Self {
         let slots = (2 * vertices).next_power_of_two().max(LEAST_SLOTS);
         Self {
@@ -37,8 +37,8 @@ impl VertexWelder {
         }
     }
 
-    /// The vertices at some positions; new positions get new vertices. There must be fewer than 2³²
-    /// − 1 vertices.
+    /// Returns the vertices at some positions; new positions get new vertices. There must be fewer
+    /// than 2³² − 1 vertices.
     ///
     /// Slots and vertices of a batch are read before they are needed: most of the time is spent
     /// waiting for memory, and independent reads wait together.
@@ -57,7 +57,7 @@ impl VertexWelder {
         vertices
     }
 
-    /// The vertex at one position.
+    /// Returns the vertex at one position.
     #[cfg(test)]
     fn weld(&mut self, position: [f32; 3]) -> u32 {
         self.weld_hashed(position, hash_bits(canonical(position).map(f32::to_bits)))
@@ -73,7 +73,7 @@ impl VertexWelder {
         vertices.fold(first, |sum, place| sum.wrapping_add(place[0].to_bits()))
     }
 
-    /// The vertex at a position with this hash.
+    /// Returns the vertex at a position with this hash.
     #[inline]
     fn weld_hashed(&mut self, position: [f32; 3], start: usize) -> u32 {
         let position = canonical(position);
@@ -103,7 +103,7 @@ impl VertexWelder {
         vertex
     }
 
-    /// The positions of the vertices, in the order of their numbers.
+    /// Returns the positions of the vertices, in the order of their numbers.
     pub(crate) fn into_positions(self) -> Vec<[f32; 3]> {
         self.positions
     }
@@ -135,13 +135,13 @@ impl VertexWelder {
     }
 }
 
-/// The position with 0 for −0: the addition leaves everything else unchanged.
+/// Returns the position with 0 for −0: the addition leaves everything else unchanged.
 #[inline]
 fn canonical(position: [f32; 3]) -> [f32; 3] {
     position.map(|x| x + 0.0)
 }
 
-/// A hash of three words: multiplications by odd constants, which mix the upper bits well.
+/// Returns a hash of three words: multiplications by odd constants, which mix the upper bits well.
 #[inline]
 fn hash_bits([x, y, z]: [u32; 3]) -> usize {
     let pair = u64::from(x) | u64::from(y) << 32;

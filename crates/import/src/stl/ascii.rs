@@ -24,8 +24,8 @@ use model::{Diagnostic, codes};
 /// Reads the solids of a text.
 ///
 /// # Errors
-/// The text has unexpected words or facets that are not triangles, or ends within one; in lenient
-/// mode these are skipped. There are more solids than allowed nodes.
+/// Fails if the text has unexpected words or facets that are not triangles, or ends within a facet;
+/// in lenient mode these are skipped. Also fails if there are more solids than nodes allowed.
 pub(super) fn read_solids(
     text: &[u8],
     limits: &Limits,
@@ -92,7 +92,7 @@ impl<'a> SolidReader<'a, '_> {
         Err(self.unexpected(keyword, "facet"))
     }
 
-    /// The rest of a line, up to a facet if there is one: some files have no line ends.
+    /// Reads the rest of a line, up to a facet if there is one: some files have no line ends.
     fn read_name(&mut self) -> String {
         let mut rest = self.scanner.clone();
         let Some(line) = rest.next_line() else { return String::new() };
@@ -129,8 +129,8 @@ impl<'a> SolidReader<'a, '_> {
         Ok(())
     }
 
-    /// The corners of a facet in the usual form, in lowercase; `None` for any other form, and then
-    /// nothing has been consumed.
+    /// Reads the corners of a facet in the usual form, in lowercase. Returns `None` for any other
+    /// form, and then nothing has been consumed.
     fn read_usual_corners(&mut self) -> Option<[[f32; 3]; 3]> {
         let mut scanner = self.scanner.clone();
         let skip = |scanner: &mut TextScanner<'a>, tokens: &[&[u8]]| {
@@ -153,7 +153,7 @@ impl<'a> SolidReader<'a, '_> {
         Some(corners)
     }
 
-    /// The corners of a facet. Its normal is skipped, even if it is malformed.
+    /// Reads the corners of a facet. Its normal is skipped, even if it is malformed.
     fn read_corners(&mut self) -> Result<[[f32; 3]; 3], Diagnostic> {
         let mut token = self.require("normal")?;
         if token.is_keyword("normal") {
@@ -181,7 +181,7 @@ impl<'a> SolidReader<'a, '_> {
         Ok(corners)
     }
 
-    /// The next token; `wanted` describes the expected one.
+    /// Returns the next token; `wanted` describes the expected one.
     fn require(&mut self, wanted: &str) -> Result<Token<'a>, Diagnostic> {
         self.scanner.next_token().ok_or_else(|| {
             let location = self.lines.locate(self.text.len());
@@ -229,7 +229,7 @@ impl<'a> SolidReader<'a, '_> {
         Ok(())
     }
 
-    /// The error for an unexpected token.
+    /// Returns the error for an unexpected token.
     fn unexpected(&mut self, token: Token<'_>, wanted: &str) -> Diagnostic {
         let shown = token.bytes.get(..40).unwrap_or(token.bytes);
         let message = format!("expected {wanted}, found {:?}", String::from_utf8_lossy(shown));

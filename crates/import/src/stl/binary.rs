@@ -39,7 +39,8 @@ pub(super) struct BinaryFile<'a> {
 /// seek back to write it leave 0; then all triangles are read.
 ///
 /// # Errors
-/// The file is too short for its triangles, too large for the budget, or cannot be read to its end.
+/// Fails if the file is too short for its triangles, too large for the budget, or cannot be read to
+/// its end.
 pub(super) fn read_solid(
     file: BinaryFile<'_>,
     budget: &MemoryBudget<'_>,
@@ -72,7 +73,7 @@ pub(super) fn read_solid(
     Ok(solid)
 }
 
-/// The corners of a triangle: nine numbers after its normal.
+/// Returns the corners of a triangle: nine numbers after its normal.
 fn corners(facet: &[u8; TRIANGLE_BYTES]) -> [[f32; 3]; 3] {
     let words = facet[12..48].as_chunks::<4>().0;
     std::array::from_fn(|corner| {
@@ -80,14 +81,14 @@ fn corners(facet: &[u8; TRIANGLE_BYTES]) -> [[f32; 3]; 3] {
     })
 }
 
-/// The error for a file that ends, or fails, while it is read.
+/// Returns the error for a file that ends, or fails, while it is read.
 fn unreadable_body(triangle: usize, error: &std::io::Error) -> Diagnostic {
     let location = format!("byte {}", HEADER_BYTES + triangle * TRIANGLE_BYTES);
     let message = format!("cannot read the rest of the file: {error}");
     Diagnostic::error(codes::IO_ERROR, &location, message, "copy or export it again")
 }
 
-/// The number of triangles to read: the header's, compared with the length of the file.
+/// Returns the number of triangles to read: the header's, compared with the length of the file.
 fn count_triangles(
     header: &[u8; HEADER_BYTES],
     length: usize,
@@ -115,7 +116,7 @@ fn count_triangles(
     Ok(declared)
 }
 
-/// The error for a file that is too short to be binary, and is not text either.
+/// Returns the error for a file that is too short to be binary, and is not text either.
 pub(super) fn no_stl(bytes: &[u8]) -> Diagnostic {
     let message = match bytes.len() {
         0 => "the file is empty".to_owned(),

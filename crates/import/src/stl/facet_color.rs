@@ -28,7 +28,7 @@ pub(super) struct FacetColors {
 }
 
 impl FacetColors {
-    /// The convention of a file, from the 80 bytes at its beginning.
+    /// Returns the convention of a file, from the 80 bytes at its beginning.
     pub(super) fn from_header(header: &[u8]) -> Self {
         let key = b"COLOR=";
         let at = header.windows(key.len()).position(|window| window == key);
@@ -72,7 +72,7 @@ impl FacetColors {
         primitive.colors = Some(codes.into_iter().map(|code| self.linear_color(code)).collect());
     }
 
-    /// The linear color of a code, with alpha.
+    /// Returns the linear color of a code, with alpha.
     fn linear_color(&self, code: u16) -> [f32; 4] {
         let encoded = match self.header {
             _ if code != DEFAULT_CODE => {

@@ -29,7 +29,8 @@ pub(super) struct Solid {
 }
 
 impl Solid {
-    /// A solid with room for a number of triangles. A closed surface has half as many vertices.
+    /// Creates a solid with room for a number of triangles. A closed surface has half as many
+    /// vertices.
     pub(super) fn with_capacity(triangles: usize) -> Self {
         Self {
             triangles: Vec::with_capacity(triangles),
@@ -60,7 +61,7 @@ impl Solid {
         is_finite
     }
 
-    /// The number of triangles.
+    /// Returns the number of triangles.
     pub(super) fn triangle_count(&self) -> usize {
         self.triangles.len() + self.waiting.len() / 3
     }
@@ -81,7 +82,7 @@ impl Solid {
         }
     }
 
-    /// The primitive, with normals by crease angle and vertices split between colors.
+    /// Returns the primitive, with normals by crease angle and vertices split between colors.
     pub(super) fn into_primitive(mut self, crease_degrees: f64) -> Primitive {
         self.weld_waiting();
         let mut positions = self.welder.into_positions();

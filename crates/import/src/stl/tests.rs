@@ -5,7 +5,7 @@ use crate::load_bytes;
 use gltf_import::ImportOptions;
 use model::{Model, Severity};
 
-/// A binary file of these triangles, each with its attribute.
+/// Returns a binary file of these triangles, each with its attribute.
 fn binary(header: &[u8], triangles: &[([[f32; 3]; 3], u16)]) -> Vec<u8> {
     let mut file = header.to_vec();
     file.resize(80, b' ');
@@ -24,7 +24,7 @@ const SQUARE: [[[f32; 3]; 3]; 2] = [
     [[-0.0, 0.0, 0.0], [1.0, 1.0, -0.0], [0.0, 1.0, 0.0]],
 ];
 
-/// The square as text, with these line ends.
+/// Returns the square as text, with these line ends.
 fn ascii(end: &str) -> String {
     let facet = |corners: [[f32; 3]; 3]| {
         let vertex = |[x, y, z]: [f32; 3]| format!("vertex {x:e} {y} {z:.3}{end}");
@@ -216,7 +216,7 @@ fn words_of_no_form_have_a_line_and_a_column() {
     }
 }
 
-/// The linear colors of the two triangles of a square.
+/// Returns the linear colors of the two triangles of a square.
 fn colors(header: &[u8], attributes: [u16; 2]) -> Option<[[f32; 4]; 2]> {
     let facets = [(SQUARE[0], attributes[0]), (SQUARE[1], attributes[1])];
     let model = read(&binary(header, &facets));

@@ -10,7 +10,7 @@ const POWERS_OF_TEN: [f64; 23] = [
     1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
 ];
 
-/// The double nearest to a decimal number; `None` if the token is not a number.
+/// Parses the double nearest to a decimal number. Returns `None` if the token is not a number.
 ///
 /// Accepts `1`, `-.5`, `+2.`, `1e-3`, `1.5D+2` (Fortran), `nan`, `inf`, and the spellings of the
 /// last two by the runtime of Microsoft's compiler: `1.#QNAN`, `-1.#IND`, `1.#INF`.
@@ -19,7 +19,7 @@ pub(crate) fn parse_f64(token: &[u8]) -> Option<f64> {
     fast_decimal(token).or_else(|| slow_decimal(token))
 }
 
-/// The float nearest to a decimal number, as for [`parse_f64`].
+/// Parses the float nearest to a decimal number, as for [`parse_f64`].
 ///
 /// A double halfway between two floats may itself be the result of rounding; then the digits
 /// decide.
@@ -29,8 +29,8 @@ pub(crate) fn parse_f32(token: &[u8]) -> Option<f32> {
     round_to_f32(value).or_else(|| standard_form(token).parse().ok())
 }
 
-/// An integer with an optional sign; `None` if the token is not an integer, or does not fit in 64
-/// bits.
+/// Parses an integer with an optional sign. Returns `None` if the token is not an integer, or does
+/// not fit in 64 bits.
 #[inline]
 pub(crate) fn parse_integer(token: &[u8]) -> Option<i64> {
     let (is_negative, digits) = match token {
@@ -51,8 +51,8 @@ pub(crate) fn parse_integer(token: &[u8]) -> Option<i64> {
     Some(if is_negative { -value } else { value })
 }
 
-/// The float at the beginning of a text and the length of its token, in one pass; `None` unless it
-/// has few digits and a small exponent, and is followed by white space.
+/// Returns the float at the beginning of a text and the length of its token, in one pass, or `None`
+/// unless it has few digits and a small exponent, and is followed by white space.
 #[inline]
 pub(super) fn simple_decimal(text: &[u8]) -> Option<(f32, usize)> {
     let (value, length) = scan_decimal(text)?;
@@ -60,8 +60,8 @@ pub(super) fn simple_decimal(text: &[u8]) -> Option<(f32, usize)> {
     round_to_f32(value).filter(|_| is_token).map(|number| (number, length))
 }
 
-/// The float nearest to a correctly rounded double; `None` if the double may have been rounded to
-/// the midpoint of two floats.
+/// Returns the float nearest to a correctly rounded double, or `None` if the double may have been
+/// rounded to the midpoint of two floats.
 #[inline]
 fn round_to_f32(value: f64) -> Option<f32> {
     let is_halfway = value.to_bits() & 0x1FFF_FFFF == 0x1000_0000;
@@ -69,15 +69,15 @@ fn round_to_f32(value: f64) -> Option<f32> {
     (!(is_halfway || is_subnormal) || !value.is_finite()).then_some(value as f32)
 }
 
-/// A number with few digits and a small exponent, by one exact operation; `None` for any other
-/// token.
+/// Returns a number with few digits and a small exponent, by one exact operation, or `None` for any
+/// other token.
 #[inline]
 fn fast_decimal(token: &[u8]) -> Option<f64> {
     scan_decimal(token).filter(|(_, length)| *length == token.len()).map(|(value, _)| value)
 }
 
-/// The number at the beginning of a text and its length, by one exact operation; `None` if it has
-/// too many digits or too large an exponent for that.
+/// Returns the number at the beginning of a text and its length, by one exact operation, or `None`
+/// if it has too many digits or too large an exponent for that.
 #[inline]
 fn scan_decimal(text: &[u8]) -> Option<(f64, usize)> {
     let digit_at = |at: usize| text.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|d| *d <= 9);
@@ -139,7 +139,7 @@ fn slow_decimal(token: &[u8]) -> Option<f64> {
     (begins_with(b"1.#") || begins_with(b"nan")).then_some(f64::NAN)
 }
 
-/// The number in the standard library's form: with `e` for the exponent.
+/// Returns the number in the standard library's form: with `e` for the exponent.
 fn standard_form(token: &[u8]) -> String {
     let letter = |byte: &u8| if matches!(byte, b'd' | b'D') { 'e' } else { char::from(*byte) };
     token.iter().map(letter).collect()

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-/// The text of a file in UTF-8, without a byte order mark.
+/// Decodes the text of a file in UTF-8, without a byte order mark.
 ///
 /// UTF-16 is recognized by its byte order mark, and invalid characters become U+FFFD. Bytes without
 /// such a mark stay as they are: names may be in any encoding, keywords and numbers are ASCII.

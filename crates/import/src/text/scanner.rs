@@ -22,12 +22,12 @@ pub(crate) struct Token<'a> {
 }
 
 impl<'a> TextScanner<'a> {
-    /// A scanner at the beginning of a text in UTF-8.
+    /// Creates a scanner at the beginning of a text in UTF-8.
     pub(crate) const fn new(text: &'a [u8]) -> Self {
         Self { text, at: 0 }
     }
 
-    /// A scanner in the middle of a text.
+    /// Returns a scanner in the middle of a text.
     pub(crate) const fn starting_at(text: &'a [u8], offset: usize) -> Self {
         Self { text, at: offset }
     }
@@ -37,7 +37,7 @@ impl<'a> TextScanner<'a> {
         self.at
     }
 
-    /// The rest of the current line, without its end; `None` at the end of the text.
+    /// Returns the rest of the current line, without its end, or `None` at the end of the text.
     ///
     /// A carriage return followed by a line feed is one line end.
     pub(crate) fn next_line(&mut self) -> Option<Token<'a>> {
@@ -62,8 +62,8 @@ impl<'a> TextScanner<'a> {
         is_next
     }
 
-    /// Reads a number in the usual form, faster than as a token; `None` for any other token, which
-    /// is not consumed.
+    /// Reads a number in the usual form, faster than as a token. Returns `None` for any other
+    /// token, which is not consumed.
     #[inline]
     pub(crate) fn next_simple_number(&mut self) -> Option<f32> {
         let start = self.skip_space();
@@ -72,7 +72,7 @@ impl<'a> TextScanner<'a> {
         Some(number)
     }
 
-    /// The offset of the next byte that is not white space.
+    /// Returns the offset of the next byte that is not white space.
     #[inline]
     fn skip_space(&self) -> usize {
         let mut start = self.at;
@@ -82,7 +82,7 @@ impl<'a> TextScanner<'a> {
         start
     }
 
-    /// The next token, on this line or a later one; `None` at the end of the text.
+    /// Returns the next token, on this line or a later one, or `None` at the end of the text.
     #[inline]
     pub(crate) fn next_token(&mut self) -> Option<Token<'a>> {
         let (text, mut start) = (self.text, self.at);
@@ -99,7 +99,7 @@ impl<'a> TextScanner<'a> {
 }
 
 impl<'a> Token<'a> {
-    /// The tokens of a line, with their offsets in the whole text.
+    /// Returns the tokens of a line, with their offsets in the whole text.
     pub(crate) fn tokens(self) -> impl Iterator<Item = Token<'a>> + Clone {
         let mut scanner = TextScanner::new(self.bytes);
         std::iter::from_fn(move || {
@@ -108,19 +108,19 @@ impl<'a> Token<'a> {
         })
     }
 
-    /// The piece without leading and trailing white space.
+    /// Returns the piece without leading and trailing white space.
     pub(crate) fn trim(self) -> Self {
         let start = self.bytes.iter().position(|byte| *byte > b' ').unwrap_or(self.bytes.len());
         let end = self.bytes.iter().rposition(|byte| *byte > b' ').map_or(start, |last| last + 1);
         Self { bytes: &self.bytes[start..end], offset: self.offset + start }
     }
 
-    /// Whether this is the given lowercase keyword, ignoring case.
+    /// Returns whether this is the given lowercase keyword, ignoring case.
     pub(crate) fn is_keyword(self, keyword: &str) -> bool {
         self.bytes.eq_ignore_ascii_case(keyword.as_bytes())
     }
 
-    /// The piece as text; bytes that are not UTF-8 become U+FFFD.
+    /// Returns the piece as text; bytes that are not UTF-8 become U+FFFD.
     pub(crate) fn to_text(self) -> String {
         String::from_utf8_lossy(self.bytes).into_owned()
     }
@@ -138,12 +138,12 @@ pub(crate) struct LineCounter<'a> {
 }
 
 impl<'a> LineCounter<'a> {
-    /// A counter for the text that offsets refer to.
+    /// Creates a counter for the text that offsets refer to.
     pub(crate) const fn new(text: &'a [u8]) -> Self {
         Self { text, at: 0, line: 1, line_start: 0 }
     }
 
-    /// The location of an offset: `line 12, column 5`. Both count from 1, columns in bytes.
+    /// Returns the location of an offset: `line 12, column 5`. Both count from 1, columns in bytes.
     pub(crate) fn locate(&mut self, offset: usize) -> String {
         if offset < self.at {
             *self = Self::new(self.text);

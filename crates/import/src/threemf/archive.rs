@@ -51,7 +51,7 @@ impl<'a> Archive<'a> {
     /// Reads the central directory of an archive.
     ///
     /// # Errors
-    /// The archive is truncated, is not a zip archive, or has too many entries.
+    /// Fails if the archive is truncated, is not a zip archive, or has too many entries.
     pub(super) fn from_bytes(bytes: &'a [u8]) -> Result<Self, Diagnostic> {
         let (mut at, count) = find_directory(bytes).ok_or_else(|| {
             let message = "the zip archive has no directory: it is truncated";
@@ -80,10 +80,11 @@ impl<'a> Archive<'a> {
         self.bytes.len() as u64
     }
 
-    /// The content of an entry.
+    /// Reads the content of an entry.
     ///
     /// # Errors
-    /// The entry is encrypted, compressed by another method, broken, or larger than the budget.
+    /// Fails if the entry is encrypted, compressed by another method, broken, or larger than the
+    /// budget.
     pub(super) fn read_entry(
         &self,
         entry: &Entry,
@@ -120,7 +121,7 @@ impl<'a> Archive<'a> {
         Ok(content)
     }
 
-    /// The bytes of an entry as stored in the archive.
+    /// Returns the bytes of an entry as stored in the archive.
     fn compressed_bytes(&self, entry: &Entry) -> Option<&'a [u8]> {
         let local = self.bytes.get(usize::try_from(entry.offset).ok()?..)?;
         if !local.starts_with(b"PK\x03\x04") {
@@ -190,7 +191,7 @@ fn find_directory(bytes: &[u8]) -> Option<(usize, u64)> {
     Some((usize::try_from(read_u64(record, 48)?).ok()?, read_u64(record, 32)?))
 }
 
-/// The central directory record at an offset, and the offset of the next one.
+/// Reads the central directory record at an offset, and the offset of the next one.
 fn read_entry(bytes: &[u8], at: usize) -> Option<(Entry, usize)> {
     let record = bytes.get(at..)?;
     if !record.starts_with(b"PK\x01\x02") {
@@ -235,17 +236,17 @@ fn zip64_fields(fields: [u32; 3], mut extra: &[u8]) -> Option<[u64; 3]> {
     Some(values)
 }
 
-/// The little-endian number at an offset.
+/// Reads the little-endian number at an offset.
 fn read_u16(bytes: &[u8], at: usize) -> Option<u32> {
     bytes.get(at..)?.first_chunk().map(|&b| u32::from(u16::from_le_bytes(b)))
 }
 
-/// The little-endian number at an offset.
+/// Reads the little-endian number at an offset.
 fn read_u32(bytes: &[u8], at: usize) -> Option<u32> {
     bytes.get(at..)?.first_chunk().map(|&b| u32::from_le_bytes(b))
 }
 
-/// The little-endian number at an offset.
+/// Reads the little-endian number at an offset.
 fn read_u64(bytes: &[u8], at: usize) -> Option<u64> {
     bytes.get(at..)?.first_chunk().map(|&b| u64::from_le_bytes(b))
 }

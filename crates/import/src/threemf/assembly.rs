@@ -81,7 +81,7 @@ impl Assembly {
     /// Resolves the references in a part to objects; those that are not shown are skipped.
     ///
     /// # Errors
-    /// There is no such object; in lenient mode the reference is skipped.
+    /// Fails if there is no such object. In lenient mode the reference is skipped.
     pub(super) fn resolve(
         &mut self,
         references: &[ObjectReference],
@@ -120,12 +120,12 @@ impl Assembly {
         self.objects[object].mesh = Some(mesh);
     }
 
-    /// Whether an object is built, after [`Self::count_nodes`].
+    /// Returns whether an object is built, after [`Self::count_nodes`].
     pub(super) fn is_built(&self, object: usize) -> bool {
         self.objects[object].progress == Progress::Counted
     }
 
-    /// All shown objects that are not components, for files that build nothing.
+    /// Returns all shown objects that are not components, for files that build nothing.
     pub(super) fn top_objects(&self) -> Vec<Placement> {
         let mut is_top: Vec<bool> = self.objects.iter().map(|object| object.is_shown).collect();
         for component in self.objects.iter().flat_map(|object| &object.components) {
@@ -138,8 +138,8 @@ impl Assembly {
     /// Counts the nodes that the items will have, before any of them is made.
     ///
     /// # Errors
-    /// An object contains itself (in lenient mode it is skipped there), or there are more nodes or
-    /// deeper levels than the limits allow.
+    /// Fails if an object contains itself (in lenient mode it is skipped there), or there are more
+    /// nodes or deeper levels than the limits allow.
     pub(super) fn count_nodes(
         &mut self,
         items: &[Placement],
@@ -225,7 +225,8 @@ impl Assembly {
     /// Creates the nodes of the items; several get a common root.
     ///
     /// # Errors
-    /// A product of transforms overflows; in lenient mode the node is placed at its parent.
+    /// Fails if a product of transforms overflows. In lenient mode the node is placed at its
+    /// parent.
     pub(super) fn build_nodes(
         &self,
         items: &[Placement],

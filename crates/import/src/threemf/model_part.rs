@@ -53,7 +53,7 @@ pub(super) struct PartReader<'a, 'w> {
 }
 
 impl<'a, 'w> PartReader<'a, 'w> {
-    /// A reader of the part with a name.
+    /// Creates a reader of the part with a name.
     pub(super) fn new(
         text: &'a [u8],
         name: &'a str,
@@ -68,8 +68,8 @@ impl<'a, 'w> PartReader<'a, 'w> {
     /// Reads the part.
     ///
     /// # Errors
-    /// It is not XML, is not a model, breaks a rule, or requires an unknown extension. In lenient
-    /// mode the content before the error is kept.
+    /// Fails if the part is not XML, is not a model, breaks a rule, or requires an unknown
+    /// extension. In lenient mode, the content before the error is used.
     pub(super) fn read_part(&mut self) -> Result<ModelPart, Diagnostic> {
         let mut part = ModelPart { unit: LengthUnit::Millimeter, ..ModelPart::default() };
         let Some(root) = self.xml.next_child(0)?.filter(|root| root.local_name() == "model") else {
@@ -85,7 +85,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
         Ok(part)
     }
 
-    /// The unit of the model.
+    /// Reads the unit of the model.
     fn read_unit(&mut self, root: &Element<'_>) -> LengthUnit {
         match root.attribute("unit") {
             None | Some(b"millimeter") => LengthUnit::Millimeter,
@@ -116,7 +116,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
         Ok(())
     }
 
-    /// Whether the namespace of an element is read; warns if it is skipped.
+    /// Returns whether the namespace of an element is read; warns if it is skipped.
     pub(super) fn is_read(&mut self, element: &Element<'_>) -> bool {
         if self.namespaces.is_read(element) {
             return true;

@@ -40,7 +40,7 @@ pub(super) struct Namespaces<'a> {
 }
 
 impl<'a> Namespaces<'a> {
-    /// The namespaces that the root element of a part declares.
+    /// Returns the namespaces that the root element of a part declares.
     pub(super) fn from_root(root: &Element<'a>) -> Self {
         let declared = root.attributes().filter_map(|(prefix, local, uri)| match (prefix, local) {
             (b"xmlns", prefix) => Some((prefix, uri)),
@@ -51,8 +51,8 @@ impl<'a> Namespaces<'a> {
         Self { prefixes: declared.take(64).collect() }
     }
 
-    /// The name of a prefix's namespace in messages, and its level of support; an undeclared prefix
-    /// counts as read.
+    /// Returns the name of a prefix's namespace in messages, and its level of support; an
+    /// undeclared prefix counts as read.
     pub(super) fn support_of(&self, prefix: &[u8]) -> (&'static str, Support) {
         let Some(uri) = self.prefixes.iter().find(|(p, _)| *p == prefix).map(|(_, uri)| *uri)
         else {
@@ -63,7 +63,7 @@ impl<'a> Namespaces<'a> {
         known.map_or(("", Support::Ignored), |&(_, name, support)| (name, support))
     }
 
-    /// Whether elements of a prefix are read.
+    /// Returns whether elements of a prefix are read.
     pub(super) fn is_read(&self, element: &Element<'_>) -> bool {
         // Most elements have no prefix, and all elements are checked here.
         element.prefix().is_empty() || self.support_of(element.prefix()).1 == Support::Read
@@ -72,7 +72,7 @@ impl<'a> Namespaces<'a> {
     /// Checks the extensions that a part requires.
     ///
     /// # Errors
-    /// An extension is unknown, or encrypts the content; in lenient mode it is ignored.
+    /// Fails if an extension is unknown, or encrypts the content. In lenient mode it is ignored.
     pub(super) fn check_required(
         &self,
         root: &Element<'_>,

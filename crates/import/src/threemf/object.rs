@@ -165,7 +165,7 @@ impl PartReader<'_, '_> {
     }
 }
 
-/// Whether all coordinates are finite.
+/// Returns whether all coordinates are finite.
 fn is_finite(position: &[f32; 3]) -> bool {
     position.iter().all(|coordinate| coordinate.is_finite())
 }
@@ -178,7 +178,7 @@ impl ObjectMesh {
         vertices * 24 + triangles * (24 + corner)
     }
 
-    /// The mesh as primitives, one for each material.
+    /// Returns the mesh as primitives, one for each material.
     pub(super) fn into_mesh(
         self,
         object: &Object,
@@ -255,10 +255,10 @@ struct PropertySummary {
 }
 
 impl PropertyLookup<'_> {
-    /// The property of a corner, if it has one.
+    /// Returns the property of a corner, if it has one.
     ///
     /// # Errors
-    /// It is named but does not exist.
+    /// Fails if the property is named but does not exist.
     fn property_at(&self, triangle: usize, corner: usize) -> Result<Option<Property>, ()> {
         let named = self.properties.get(triangle).unwrap_or(&self.default);
         let [group, default_group] = [named.group, self.default.group];

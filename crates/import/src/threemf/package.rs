@@ -28,7 +28,8 @@ impl<'a> Package<'a> {
     /// Opens the package in an archive.
     ///
     /// # Errors
-    /// The archive is broken, or two parts have the same name; in lenient mode the first is used.
+    /// Fails if the archive is broken, or two parts have the same name. In lenient mode the first
+    /// is used.
     pub(super) fn from_bytes(
         bytes: &'a [u8],
         limits: &'a Limits,
@@ -49,22 +50,22 @@ impl<'a> Package<'a> {
         Ok(Self { archive, parts, budget: MemoryBudget::new(limits) })
     }
 
-    /// The entry of a part by name, with or without a leading `/`, escaped or not.
+    /// Finds the entry of a part by name, with or without a leading `/`, escaped or not.
     fn find_part(&self, name: &str) -> Option<&Entry> {
         let name = name.trim_start_matches('/').to_ascii_lowercase();
         let at = self.parts.get(&name).or_else(|| self.parts.get(&percent_decode(&name)?));
         at.and_then(|&at| self.archive.entries.get(at))
     }
 
-    /// The name of a part as stored in the archive, if it exists.
+    /// Returns the name of a part as stored in the archive, if it exists.
     pub(super) fn part_name(&self, name: &str) -> Option<&str> {
         self.find_part(name).map(|entry| entry.name.as_str())
     }
 
-    /// The content of a part; `location` is where the file refers to it.
+    /// Reads the content of a part; `location` is where the file refers to it.
     ///
     /// # Errors
-    /// There is no such part, or it cannot be read.
+    /// Fails if there is no such part, or it cannot be read.
     pub(super) fn read_part(
         &self,
         name: &str,
@@ -81,16 +82,16 @@ impl<'a> Package<'a> {
     /// Counts memory for data derived from the file, in addition to its parts.
     ///
     /// # Errors
-    /// The limits are exceeded.
+    /// Fails if a limit is exceeded.
     pub(super) fn charge_bytes(&self, location: &str, bytes: u64) -> Result<(), Diagnostic> {
         self.budget.charge_bytes(location, bytes, self.archive.byte_count())
     }
 
-    /// The name of the model part: the target of the package's relationship, or else the only part
-    /// with the name of a model.
+    /// Returns the name of the model part: the target of the package's relationship, or else the
+    /// only part with the name of a model.
     ///
     /// # Errors
-    /// There is none: the archive is not 3MF.
+    /// Fails if there is no model part: the archive is not 3MF.
     pub(super) fn model_part(&self, warnings: &mut ImportWarnings) -> Result<String, Diagnostic> {
         const RELATIONSHIPS: &str = "_rels/.rels";
         if self.part_name(RELATIONSHIPS).is_some() {
@@ -116,12 +117,12 @@ impl<'a> Package<'a> {
     }
 }
 
-/// Whether a name stays within the archive: relative and without `..`.
+/// Returns whether a name stays within the archive: relative and without `..`.
 fn is_part_name(name: &str) -> bool {
     !name.starts_with('/') && !name.contains([':', '\0']) && name.split('/').all(|s| s != "..")
 }
 
-/// The target of the first relationship to a model.
+/// Finds the target of the first relationship to a model.
 fn find_model_target(text: &[u8]) -> Result<Option<String>, Diagnostic> {
     let mut reader = XmlReader::new(text, "_rels/.rels");
     let Some(_) = reader.next_child(0)? else { return Ok(None) };

@@ -93,19 +93,19 @@ impl Palette {
         })
     }
 
-    /// The material of surfaces without properties.
+    /// Returns the material of surfaces without properties.
     pub(super) fn plain_material(&mut self) -> u32 {
         let material = self.plain.unwrap_or_else(|| self.push_material(Material::plain()));
         *self.plain.insert(material)
     }
 
-    /// Whether a material has a texture.
+    /// Returns whether a material has a texture.
     pub(super) fn has_texture(&self, material: u32) -> bool {
         let material = self.materials.get(material as usize);
         material.is_some_and(|material| material.base_color_texture.is_some())
     }
 
-    /// The material that shows the colors of corners.
+    /// Returns the material that shows the colors of corners.
     fn colored_material(&mut self, is_blended: bool) -> u32 {
         if let Some(material) = self.colored[usize::from(is_blended)] {
             return material;
@@ -116,7 +116,7 @@ impl Palette {
         material
     }
 
-    /// The color of a property without its texture.
+    /// Returns the color of a property without its texture.
     fn color_of(&self, property: &Property) -> [f32; 4] {
         let base =
             self.materials.get(property.material as usize).map_or([1.0; 4], |m| m.base_color);
@@ -124,7 +124,7 @@ impl Palette {
     }
 }
 
-/// The material of surfaces colored by corners or by a texture.
+/// Returns the material of surfaces colored by corners or by a texture.
 fn white() -> Material {
     Material { base_color: [1.0; 4], ..Material::plain() }
 }
@@ -148,12 +148,12 @@ pub(super) fn parse_color(text: &[u8]) -> Option<[f32; 4]> {
     Some([linear(0), linear(1), linear(2), f32::from(rgba[3]) / 255.0])
 }
 
-/// The id that an attribute holds.
+/// Parses the id that an attribute holds.
 pub(super) fn parse_id(element: &Element<'_>, name: &str) -> Option<u32> {
     parse_integer(element.attribute(name)?).and_then(|id| id.try_into().ok())
 }
 
-/// The number that an attribute holds, if it is finite.
+/// Parses the number that an attribute holds, if it is finite.
 pub(super) fn parse_number(element: &Element<'_>, name: &str) -> Option<f32> {
     element.attribute(name).and_then(parse_f32).filter(|number| number.is_finite())
 }
@@ -190,7 +190,7 @@ pub(super) struct Layer {
 }
 
 impl PartProperties {
-    /// The group of an id.
+    /// Returns the group of an id.
     pub(super) fn group(&self, id: u32) -> Option<&PropertyGroup> {
         self.group_of.get(&id).and_then(|&at| self.groups.get(at as usize))
     }
@@ -228,7 +228,7 @@ impl PartProperties {
         self.textures.insert(id, material);
     }
 
-    /// The group that a start tag begins; an error message if its references are invalid.
+    /// Returns the group that a start tag begins; an error message if its references are invalid.
     pub(super) fn open_group(
         &self,
         element: &Element<'_>,
@@ -294,7 +294,7 @@ impl PartProperties {
         self.metallic.push(entries);
     }
 
-    /// The mixture of the properties named by an entry of multiproperties.
+    /// Computes the mixture of the properties named by an entry of multiproperties.
     fn blend_layers(&self, layers: &[Layer], indices: &[u32], palette: &mut Palette) -> Property {
         let mut mixed: Option<Property> = None;
         let mut color = [1.0; 4];
@@ -331,7 +331,7 @@ impl PartProperties {
 }
 
 impl OpenGroup {
-    /// The kind of the group; `None` for anything other than a property group.
+    /// Returns the kind of the group, or `None` for anything other than a property group.
     pub(super) const fn kind(&self) -> Option<GroupKind> {
         Some(match self {
             Self::Base { .. } => GroupKind::Base,
@@ -343,7 +343,7 @@ impl OpenGroup {
         })
     }
 
-    /// The property of a child element; `at` is its index. `None` if it is malformed.
+    /// Reads the property of a child element; `at` is its index. `None` if it is malformed.
     pub(super) fn read_entry(
         &self,
         element: &Element<'_>,
@@ -394,7 +394,7 @@ impl OpenGroup {
     }
 }
 
-/// The mean of colors, weighted by the proportions of their materials.
+/// Returns the mean of colors, weighted by the proportions of their materials.
 fn mixture(colors: &[[f32; 4]], weights: &[f32]) -> Option<[f32; 4]> {
     let sum: f32 = weights.iter().take(colors.len()).sum();
     let is_valid = weights.iter().all(|&weight| weight >= 0.0) && sum > 0.0 && sum.is_finite();

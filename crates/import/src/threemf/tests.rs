@@ -4,7 +4,7 @@ use crate::load_bytes;
 use gltf_import::{ImportError, ImportOptions, Limits};
 use model::{AlphaMode, LengthUnit, Model, UpAxis};
 
-/// A zip archive of stored (method 0) or deflated (8) entries.
+/// Returns a zip archive of stored (method 0) or deflated (8) entries.
 fn zip(entries: &[(&str, &[u8])], method: u16) -> Vec<u8> {
     let (mut file, mut directory) = (Vec::new(), Vec::new());
     for (name, content) in entries {
@@ -45,7 +45,7 @@ const XMLNS: &str = r#"xmlns="http://schemas.microsoft.com/3dmanufacturing/core/
     xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02"
     xmlns:x="http://example.com/unheard-of""#;
 
-/// An object of one triangle with the corners 0, (x, 0, 0), (0, 1, 0).
+/// Returns an object of one triangle with the corners 0, (x, 0, 0), (0, 1, 0).
 fn object(id: u32, x: u32, attributes: &str, triangle: &str) -> String {
     format!(
         r#"<object id="{id}" {attributes}><mesh><vertices><vertex x="0" y="0" z="0"/>
@@ -54,7 +54,7 @@ fn object(id: u32, x: u32, attributes: &str, triangle: &str) -> String {
     )
 }
 
-/// A model with resources and build items.
+/// Returns a model with resources and build items.
 fn model_text(attributes: &str, resources: &str, build: &str) -> String {
     format!(
         "<?xml version=\"1.0\"?><model {XMLNS} {attributes}><resources>{resources}</resources>\
@@ -62,7 +62,7 @@ fn model_text(attributes: &str, resources: &str, build: &str) -> String {
     )
 }
 
-/// A package of a model.
+/// Returns a package of a model.
 fn package(attributes: &str, resources: &str, build: &str) -> Vec<u8> {
     let model = model_text(attributes, resources, build);
     zip(&[("_rels/.rels", RELATIONSHIPS), ("3D/3dmodel.model", model.as_bytes())], 8)
@@ -85,7 +85,7 @@ fn messages(model: &Model) -> Vec<String> {
     model.warnings.iter().map(model::Diagnostic::sentence).collect()
 }
 
-/// The bounds in the file's coordinates, which have z up.
+/// Returns the bounds in the file's coordinates, which have z up.
 fn bounds(bytes: &[u8]) -> [[f64; 3]; 2] {
     let options = ImportOptions { up: Some(UpAxis::Y), ..ImportOptions::default() };
     let bounds = load_bytes("a.3mf", bytes, &options).unwrap().bounds().unwrap();

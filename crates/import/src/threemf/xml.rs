@@ -42,22 +42,22 @@ enum Tag<'a> {
 }
 
 impl<'a> XmlReader<'a> {
-    /// A reader at the beginning of a text in UTF-8; `document` is its name in messages.
+    /// Creates a reader at the beginning of a text in UTF-8; `document` is its name in messages.
     pub(super) const fn new(text: &'a [u8], document: &'a str) -> Self {
         let lines = RefCell::new(LineCounter::new(text));
         Self { text, at: 0, open: Vec::new(), closes_next: false, document, lines }
     }
 
-    /// The number of open elements: the depth of the last returned element.
+    /// Returns the number of open elements: the depth of the last returned element.
     pub(super) const fn depth(&self) -> usize {
         self.open.len()
     }
 
-    /// The next child of the open element at a depth, 0 for the document; the rest of the previous
-    /// child is skipped. `None` at the end of the element.
+    /// Returns the next child of the open element at a depth, 0 for the document; the rest of the
+    /// previous child is skipped. `None` at the end of the element.
     ///
     /// # Errors
-    /// The text is not XML, or has a document type declaration.
+    /// Fails if the text is not XML, or has a document type declaration.
     pub(super) fn next_child(&mut self, depth: usize) -> Result<Option<Element<'a>>, Diagnostic> {
         loop {
             match self.next_tag()? {
@@ -72,7 +72,7 @@ impl<'a> XmlReader<'a> {
         }
     }
 
-    /// The next tag; `None` at the end of the text.
+    /// Returns the next tag, or `None` at the end of the text.
     fn next_tag(&mut self) -> Result<Option<Tag<'a>>, Diagnostic> {
         if std::mem::take(&mut self.closes_next) {
             self.open.pop();
@@ -140,7 +140,7 @@ impl<'a> XmlReader<'a> {
         Ok(Tag::Start(element))
     }
 
-    /// An error at an offset.
+    /// Returns an error at an offset.
     #[cold]
     #[inline(never)]
     pub(super) fn fault(&self, offset: usize, message: &str) -> Diagnostic {
@@ -159,7 +159,7 @@ impl<'a> XmlReader<'a> {
     }
 }
 
-/// The offset of the `>` that ends a tag: one that is not inside quotation marks.
+/// Returns the offset of the `>` that ends a tag: one that is not inside quotation marks.
 fn tag_length(rest: &[u8]) -> Option<usize> {
     let mut quote = 0;
     rest.iter().position(|&byte| {
@@ -174,29 +174,30 @@ fn tag_length(rest: &[u8]) -> Option<usize> {
 }
 
 impl<'a> Element<'a> {
-    /// The prefix of the name, empty if it has none.
+    /// Returns the prefix of the name, empty if it has none.
     pub(super) fn prefix(&self) -> &'a [u8] {
         split_name(self.name).0
     }
 
-    /// The name without its prefix; empty if it is not text.
+    /// Returns the name without its prefix; empty if it is not text.
     pub(super) fn local_name(&self) -> &'a str {
         std::str::from_utf8(split_name(self.name).1).unwrap_or("")
     }
 
-    /// The attributes in order: prefix and local name, and the raw value.
+    /// Returns the attributes in order: prefix and local name, and the raw value.
     pub(super) fn attributes(&self) -> Attributes<'a> {
         Attributes { rest: self.attributes }
     }
 
-    /// The raw value of the first attribute with a local name, without surrounding white space.
+    /// Returns the raw value of the first attribute with a local name, without surrounding white
+    /// space.
     #[inline(never)]
     pub(super) fn attribute(&self, name: &str) -> Option<&'a [u8]> {
         let found = self.attributes().find(|(_, local, _)| *local == name.as_bytes());
         found.map(|(_, _, value)| value.trim_ascii())
     }
 
-    /// The value of an attribute with its character references resolved.
+    /// Returns the value of an attribute with its character references resolved.
     #[inline(never)]
     pub(super) fn text_attribute(&self, name: &str) -> Option<String> {
         self.attribute(name).map(|value| unescape(value).into_owned())
@@ -259,7 +260,7 @@ pub(super) fn unescape(value: &[u8]) -> Cow<'_, str> {
     Cow::Owned(resolved)
 }
 
-/// The character of a reference without `&` and `;`.
+/// Returns the character of a reference without `&` and `;`.
 fn referenced_character(name: &str) -> Option<char> {
     match name {
         "lt" => Some('<'),

@@ -48,7 +48,7 @@ pub enum Interpolation {
 }
 
 impl AnimationCurve {
-    /// The value at a time in seconds.
+    /// Returns the value at a time in seconds.
     ///
     /// A rotation is a quaternion of any nonzero length. Halfway between two opposite rotations,
     /// which have no shorter arc, it is 0.
@@ -82,7 +82,7 @@ impl AnimationCurve {
         }
     }
 
-    /// The value at a keyframe, without its tangents.
+    /// Returns the value at a keyframe, without its tangents.
     fn key_value(&self, key: usize) -> Vec<f64> {
         match self.interpolation {
             Interpolation::CubicSpline => self.stored_row(3 * key + 1),
@@ -90,7 +90,7 @@ impl AnimationCurve {
         }
     }
 
-    /// The `row`-th group of `components` numbers in `values`.
+    /// Returns the `row`-th group of `components` numbers in `values`.
     fn stored_row(&self, row: usize) -> Vec<f64> {
         let numbers = self.values.get(row * self.components..).unwrap_or(&[]);
         numbers.iter().take(self.components).map(|&number| f64::from(number)).collect()

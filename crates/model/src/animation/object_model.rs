@@ -138,19 +138,19 @@ const CAMERA_PROPERTIES: [&str; 8] = [
 ];
 
 impl ObjectProperty {
-    /// The property of a material at a JSON pointer (without the leading slash) into it.
+    /// Returns the property of a material at a JSON pointer (without the leading slash) into it.
     #[must_use]
     pub fn for_material(path: &str) -> Option<Self> {
         MATERIAL_PROPERTIES.iter().position(|row| row.path == path).map(Self::Material)
     }
 
-    /// The property of a light at a JSON pointer (without the leading slash) into it.
+    /// Returns the property of a light at a JSON pointer (without the leading slash) into it.
     #[must_use]
     pub fn for_light(path: &str) -> Option<Self> {
         LIGHT_PROPERTIES.iter().position(|row| row.path == path).map(Self::Light)
     }
 
-    /// The property of a camera at a JSON pointer (without the leading slash) into it.
+    /// Returns the property of a camera at a JSON pointer (without the leading slash) into it.
     #[must_use]
     pub fn for_camera(path: &str) -> Option<Self> {
         CAMERA_PROPERTIES.iter().position(|row| *row == path).map(Self::Camera)
@@ -277,7 +277,7 @@ impl CameraProjection {
         }
     }
 
-    /// Whether the property belongs to this type of projection.
+    /// Returns whether the property belongs to this type of projection.
     pub fn has_property(&self, field: ObjectProperty) -> bool {
         match (self, field) {
             (Self::Perspective { .. }, ObjectProperty::Camera(row_index)) => row_index < 4,
@@ -286,7 +286,7 @@ impl CameraProjection {
         }
     }
 
-    /// Whether the parameters define a view volume.
+    /// Returns whether the parameters define a view volume.
     fn is_valid(&self) -> bool {
         match *self {
             Self::Perspective { fov_y, aspect, near, far } => {

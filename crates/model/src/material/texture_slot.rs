@@ -80,7 +80,7 @@ impl TextureSlot {
         (Self::Anisotropy, "extensions/KHR_materials_anisotropy/anisotropyTexture"),
     ];
 
-    /// Whether red, green and blue of the texture are sRGB encoded; alpha never is.
+    /// Returns whether red, green and blue of the texture are sRGB encoded; alpha never is.
     #[must_use]
     pub const fn is_srgb(self) -> bool {
         matches!(
@@ -94,7 +94,7 @@ impl TextureSlot {
         )
     }
 
-    /// The slot's location in a glTF material: a JSON pointer without the leading slash.
+    /// Returns the slot's location in a glTF material: a JSON pointer without the leading slash.
     #[must_use]
     pub fn json_path(self) -> &'static str {
         Self::PATHS.iter().find(|(slot, _)| *slot == self).map_or("", |(_, path)| path)
@@ -102,7 +102,7 @@ impl TextureSlot {
 }
 
 impl Material {
-    /// All textures of the material, each with its slot.
+    /// Returns all textures of the material, each with its slot.
     pub fn all_textures(&self) -> impl Iterator<Item = (TextureSlot, TextureInfo)> {
         let mut copy = self.clone();
         let slots = TextureSlot::PATHS.iter().map(|(slot, _)| *slot);
@@ -119,7 +119,7 @@ impl Material {
         })
     }
 
-    /// The texture in a slot, for changes.
+    /// Returns the texture in a slot, for changes.
     ///
     /// `None` if the slot is empty or its extension is absent.
     pub fn texture_mut(&mut self, slot: TextureSlot) -> Option<&mut TextureInfo> {

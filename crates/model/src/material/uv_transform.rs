@@ -29,8 +29,8 @@ pub enum UvTransformPart {
 }
 
 impl UvTransform {
-    /// The composed transform, for [`TextureInfo::uv_matrix`]; the identity if a number is not
-    /// finite.
+    /// Returns the composed transform, for [`TextureInfo::uv_matrix`]; the identity if a number is
+    /// not finite.
     #[must_use]
     pub fn to_matrix(&self) -> [[f32; 3]; 2] {
         let ([u, v], [width, height]) = (self.offset, self.scale);

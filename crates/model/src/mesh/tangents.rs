@@ -15,7 +15,7 @@ use std::borrow::Cow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 impl Primitive {
-    /// Unit tangents for the tangent frame of a normal map, one for each of the
+    /// Returns unit tangents for the tangent frame of a normal map, one for each of the
     /// [`indices`](Self::indices), with the handedness of the bitangent (1 or −1) in w.
     ///
     /// `uv_set` is the set of texture coordinates that the normal map uses. Flat normals replace
@@ -59,7 +59,7 @@ struct MikktspaceInput<'a> {
 }
 
 impl MikktspaceInput<'_> {
-    /// The vertex at corner 0, 1 or 2 of a triangle.
+    /// Returns the vertex at corner 0, 1 or 2 of a triangle.
     fn vertex_index(&self, face: usize, corner: usize) -> usize {
         self.primitive.indices[3 * face + corner] as usize
     }
@@ -122,8 +122,8 @@ mod tests {
     use super::*;
     use crate::mesh::DerivedData;
 
-    /// A unit square in the plane z = 0 that faces +z, with texture coordinates at (0, 0), (1, 0),
-    /// (1, 1) and (0, 1).
+    /// Returns a unit square in the plane z = 0 that faces +z, with texture coordinates at (0, 0),
+    /// (1, 0), (1, 1) and (0, 1).
     fn textured_square(uvs: [[f32; 2]; 4]) -> Primitive {
         Primitive {
             indices: vec![0, 1, 2, 0, 2, 3],

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use homog::{Bounds, Model as ModelSpace, Point};
 
 impl Model {
-    /// The primitives of the active scene, once for every instance of their mesh.
+    /// Returns the primitives of the active scene, once for every instance of their mesh.
     pub fn scene_primitives(&self) -> impl Iterator<Item = (MeshInstance, &Primitive)> {
         self.primitives_below(&self.roots)
     }

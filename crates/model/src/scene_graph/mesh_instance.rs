@@ -14,8 +14,8 @@ pub struct MeshInstance {
 }
 
 impl Model {
-    /// All nodes of the active scene, parents before their children, otherwise in the order of the
-    /// file.
+    /// Returns all nodes of the active scene, parents before their children, otherwise in the order
+    /// of the file.
     ///
     /// The traversal has its own stack, so a deep hierarchy cannot overflow the thread's.
     #[must_use]
@@ -23,7 +23,7 @@ impl Model {
         self.instances_below(&self.roots)
     }
 
-    /// The given nodes and all their descendants.
+    /// Returns the given nodes and all their descendants.
     ///
     /// Roots and children are pushed in reverse, so that they are popped in the order of the file.
     pub(super) fn instances_below(&self, roots: &[usize]) -> Vec<MeshInstance> {
@@ -66,7 +66,7 @@ impl Model {
         })
     }
 
-    /// The node with its local transform concatenated to its parent's global transform.
+    /// Returns the node with its local transform concatenated to its parent's global transform.
     fn child_instance(&self, node: usize, parent: Affine<ModelSpace, ModelSpace>) -> MeshInstance {
         MeshInstance { node, node_to_model: self.nodes[node].to_parent.then(parent) }
     }

@@ -16,7 +16,8 @@ pub struct Trs {
 }
 
 impl Trs {
-    /// The composed transform; `None` if the quaternion is zero or the result is not finite.
+    /// Returns the composed transform, or `None` if the quaternion is zero or the result is not
+    /// finite.
     #[must_use]
     pub fn to_affine(&self) -> Option<Affine<ModelSpace, ModelSpace>> {
         let [x, y, z] = self.scale;

@@ -23,8 +23,8 @@ pub(super) struct DenoiseEight<'a> {
 impl Kernel for DenoiseEight<'_> {
     type Output = [f32; LANES];
 
-    /// A bilateral filter: the neighbors are weighted by their distance from the plane of the
-    /// pixel's surface, on which depth is linear.
+    /// Computes a bilateral filter: the neighbors are weighted by their distance from the plane of
+    /// the pixel's surface, on which depth is linear.
     #[inline(always)]
     fn run(self) -> [f32; LANES] {
         let at = [self.x, self.y];
@@ -51,7 +51,8 @@ impl Kernel for DenoiseEight<'_> {
 }
 
 impl DenoiseEight<'_> {
-    /// The change of depth, toward the viewer, over the distance at which a neighbor has no weight.
+    /// Computes the change of depth, toward the viewer, over the distance at which a neighbor has
+    /// no weight.
     #[inline(always)]
     fn depth_distances(&self, depths: Lanes<LANES>) -> Lanes<LANES> {
         let space = self.space;

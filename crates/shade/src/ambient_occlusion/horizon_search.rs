@@ -94,13 +94,13 @@ struct Slice<const N: usize> {
 }
 
 impl<const N: usize> Slice<N> {
-    /// The cosines from the view down to the surface itself, ahead and behind.
+    /// Computes the cosines from the view down to the surface itself, ahead and behind.
     #[inline(always)]
     fn surface_horizons(&self) -> [Lanes<N>; 2] {
         [-self.sine, self.sine]
     }
 
-    /// The light between two horizons, given by their cosines ahead and behind.
+    /// Computes the light between two horizons, given by their cosines ahead and behind.
     #[inline(always)]
     fn visible_arc(&self, [ahead, behind]: [Lanes<N>; 2]) -> Lanes<N> {
         // Behind, the normal leans the other way.
@@ -137,7 +137,7 @@ impl<const N: usize> Kernel for HorizonSearch<'_, N> {
 }
 
 impl<const N: usize> HorizonSearch<'_, N> {
-    /// The part of the pattern for the pixels.
+    /// Returns the part of the pattern for the pixels.
     #[inline(always)]
     fn lanes_of(&self, pattern: &[f32; LANES]) -> Lanes<N> {
         let start = self.x % LANES;
@@ -146,7 +146,7 @@ impl<const N: usize> HorizonSearch<'_, N> {
         lanes
     }
 
-    /// The surfaces at the pixels, from the depth buffer.
+    /// Finds the surfaces at the pixels, from the depth buffer.
     #[inline(always)]
     fn find_surfaces(&self, depths: Lanes<N>) -> Surfaces<N> {
         let space = self.space;
@@ -191,7 +191,7 @@ impl<const N: usize> HorizonSearch<'_, N> {
         Slice { direction, weight, cosine, sine, slice_normal, out_of_slice }
     }
 
-    /// The cosines from the view down to the horizons, ahead and behind.
+    /// Finds the cosines from the view down to the horizons, ahead and behind.
     ///
     /// Each surface takes the light between its height and the height of earlier ones, reduced with
     /// distance: occlusion falls off with the square of the distance. If a surface faces the
@@ -226,8 +226,8 @@ impl<const N: usize> HorizonSearch<'_, N> {
         [0, 1].map(|side| surface_horizons[side] + occluded[side].sqrt())
     }
 
-    /// The surfaces at pixels along a slice: their positions relative to the start of the slice,
-    /// and their depths.
+    /// Returns the surfaces at pixels along a slice: their positions relative to the start of the
+    /// slice, and their depths.
     #[inline(always)]
     fn surface_at(
         &self,
@@ -249,7 +249,7 @@ impl<const N: usize> HorizonSearch<'_, N> {
     }
 }
 
-/// The pixels that contain coordinates; coordinates outside the picture move to the margin.
+/// Returns the pixels that contain coordinates; coordinates outside the picture move to the margin.
 #[inline(always)]
 fn containing_pixels<const N: usize>(coordinates: Lanes<N>, side: u32) -> [i32; N] {
     let mut pixels = [0; N];
@@ -260,7 +260,7 @@ fn containing_pixels<const N: usize>(coordinates: Lanes<N>, side: u32) -> [i32; 
     pixels
 }
 
-/// The change of depth per pixel to the right and down, on the surface of each pixel.
+/// Computes the change of depth per pixel to the right and down, on the surface of each pixel.
 ///
 /// Depth is linear on a plane: of the two neighbors, the one collinear with the next beyond it is
 /// used. At a silhouette that is the neighbor on the surface, and at a crease one of the two faces.
@@ -289,8 +289,8 @@ pub(super) fn depth_slopes<const N: usize>(
     })
 }
 
-/// The light between the view and a horizon: the integral of the cosine to the normal times the
-/// sine to the view, (cos n − cos(2h − n) + 2h · sin n) / 4 (Jimenez et al. 2016, eq. 7).
+/// Computes the light between the view and a horizon: the integral of the cosine to the normal
+/// times the sine to the view, (cos n − cos(2h − n) + 2h · sin n) / 4 (Jimenez et al. 2016, eq. 7).
 #[inline(always)]
 fn integrate_arc<const N: usize>(horizon: Lanes<N>, cosine: Lanes<N>, sine: Lanes<N>) -> Lanes<N> {
     let horizon = horizon.max(-1.0).min(1.0);

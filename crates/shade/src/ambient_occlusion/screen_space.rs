@@ -30,7 +30,8 @@ pub struct ScreenSpace {
 }
 
 impl ScreenSpace {
-    /// The mapping for a picture of this size, whose depths are at `sample_offset` in each pixel.
+    /// Creates the mapping for a picture of this size, whose depths are at `sample_offset` in each
+    /// pixel.
     ///
     /// `world_to_screen` maps the world to pixels and depth. `origin` is a position near the
     /// surfaces. `viewer` is the eye or, in parallel projection, the direction to it.
@@ -66,7 +67,7 @@ impl ScreenSpace {
         self.size
     }
 
-    /// The distance in the world beyond which nothing occludes.
+    /// Returns the distance in the world beyond which nothing occludes.
     #[inline(always)]
     pub(super) fn radius(&self) -> f32 {
         self.radius
@@ -78,7 +79,7 @@ impl ScreenSpace {
         positions - Vec3Lanes::splat(self.origin)
     }
 
-    /// The unit vectors to the viewer.
+    /// Returns the unit vectors to the viewer.
     #[inline(always)]
     pub(super) fn views<const N: usize>(&self, positions: Vec3Lanes<N>) -> Vec3Lanes<N> {
         let [x, y, z, w] = self.viewer;
@@ -99,7 +100,7 @@ impl ScreenSpace {
         } * inv_w
     }
 
-    /// The relative positions of screen positions with a depth.
+    /// Computes the relative positions of screen positions with a depth.
     #[inline(always)]
     pub(super) fn unproject<const N: usize>(
         &self,
@@ -115,8 +116,8 @@ impl ScreenSpace {
         } * inv_w
     }
 
-    /// The relative positions of the surfaces visible at pixels, given their columns, rows and
-    /// depths.
+    /// Computes the relative positions of the surfaces visible at pixels, given their columns, rows
+    /// and depths.
     #[inline(always)]
     pub(super) fn unproject_pixels<const N: usize>(
         &self,
@@ -127,8 +128,8 @@ impl ScreenSpace {
         self.unproject([columns + x, rows + y], depths)
     }
 
-    /// The columns and rows of the pixels that show positions; outside the picture or behind the
-    /// eye, a pixel of the margin.
+    /// Returns the columns and rows of the pixels that show positions; outside the picture or
+    /// behind the eye, a pixel of the margin.
     #[inline(always)]
     pub(super) fn pixels_at<const N: usize>(&self, positions: Vec3Lanes<N>) -> [[i32; 2]; N] {
         let projected = self.project(positions);
@@ -143,7 +144,7 @@ impl ScreenSpace {
         pixels
     }
 
-    /// The radius in pixels at some positions, at most the diagonal of the picture.
+    /// Computes the radius in pixels at some positions, at most the diagonal of the picture.
     #[inline(always)]
     pub(super) fn radius_in_pixels<const N: usize>(
         &self,
@@ -157,7 +158,7 @@ impl ScreenSpace {
     }
 }
 
-/// A row of an affine or projective matrix times positions.
+/// Computes a row of an affine or projective matrix times positions.
 #[inline(always)]
 fn transform_row<T>(row: &[f32; 4], [x, y, z]: [T; 3]) -> T
 where
@@ -202,15 +203,16 @@ impl PixelGrid {
         }
     }
 
-    /// The rows of the picture with their indices, each extended to a multiple of eight pixels.
+    /// Returns the rows of the picture with their indices, each extended to a multiple of eight
+    /// pixels.
     pub(super) fn rows_mut(&mut self) -> impl ExactSizeIterator<Item = (usize, &mut [f32])> + Send {
         let width = self.stride - 2 * MARGIN;
         let rows = self.values.chunks_exact_mut(self.stride).skip(MARGIN).take(self.size[1]);
         rows.map(move |row| &mut row[MARGIN..MARGIN + width]).enumerate()
     }
 
-    /// The value of the pixel at an offset from another, which is in the picture or up to two
-    /// pixels outside it.
+    /// Returns the value of the pixel at an offset from another, which is in the picture or up to
+    /// two pixels outside it.
     #[inline(always)]
     pub(super) fn at(&self, [x, y]: [i32; 2], [dx, dy]: [i32; 2]) -> f32 {
         let (column, row) = ((x + dx) as isize, (y + dy) as isize);
@@ -218,7 +220,7 @@ impl PixelGrid {
             [((row + MARGIN as isize) * self.stride as isize + column + MARGIN as isize) as usize]
     }
 
-    /// The values of pixels to the right of one, moved by an offset of at most eight.
+    /// Returns the values of pixels to the right of one, moved by an offset of at most eight.
     #[inline(always)]
     pub(super) fn lanes_at<const N: usize>(
         &self,

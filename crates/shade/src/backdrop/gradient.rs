@@ -24,7 +24,8 @@ pub struct Gradient {
 }
 
 impl Gradient {
-    /// Creates a gradient through one or more colors, given as sRGB codes, for a picture of this size.
+    /// Creates the gradient through at least one color, given in sRGB codes, in a picture of this
+    /// size.
     ///
     /// At an angle of 0 radians it runs down, at π/2 to the right.
     #[must_use]
@@ -48,7 +49,7 @@ impl Gradient {
         Self { table: (0..=TABLE_STEPS).map(mixed).collect(), axis }
     }
 
-    /// The color at a position in fractions of the picture: linear, opaque.
+    /// Returns the color at a position in fractions of the picture: linear, opaque.
     pub(super) fn color_at(&self, [x, y]: [f32; 2]) -> [f32; 4] {
         let [across, down] = self.axis;
         let along = (0.5 + (x - 0.5) * across + (y - 0.5) * down).clamp(0.0, 1.0);
@@ -60,7 +61,7 @@ impl Gradient {
         [r, g, b, 1.0]
     }
 
-    /// The color at its center: linear, opaque.
+    /// Computes the color at its center: linear, opaque.
     #[must_use]
     pub fn center_color(&self) -> [f32; 4] {
         self.color_at([0.5, 0.5])

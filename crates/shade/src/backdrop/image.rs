@@ -36,7 +36,7 @@ impl std::fmt::Debug for BackdropImage {
 }
 
 impl BackdropImage {
-    /// An image over a background (linear, multiplied by alpha) in a picture of this size.
+    /// Creates an image over a background (linear, multiplied by alpha) in a picture of this size.
     ///
     /// An image much larger than its displayed size is downsampled first, so that no texel is
     /// skipped.
@@ -60,14 +60,14 @@ impl BackdropImage {
         Self { size, texels, upper_left, extent, background }
     }
 
-    /// Whether the picture is opaque everywhere.
+    /// Returns whether the picture is opaque everywhere.
     pub(super) fn is_opaque(&self) -> bool {
         let covers = [0, 1].iter().all(|&k| self.upper_left[k] <= 0.0);
         self.background[3] >= 1.0
             || (covers && self.texels.iter().all(|texel| texel[3] == u16::MAX))
     }
 
-    /// The color at a position in fractions of the picture: linear, multiplied by alpha.
+    /// Returns the color at a position in fractions of the picture: linear, multiplied by alpha.
     pub(super) fn color_at(&self, position: [f32; 2]) -> [f32; 4] {
         let image_position = [0, 1].map(|k| (position[k] - self.upper_left[k]) / self.extent[k]);
         if !image_position.iter().all(|coordinate| (0.0..=1.0).contains(coordinate)) {

@@ -34,8 +34,8 @@ pub(super) struct Anisotropy<const N: usize> {
 }
 
 impl<const N: usize> Anisotropy<N> {
-    /// The frame of a surface with these tangents, rotated by the material's angle in radians and
-    /// by the direction of its texture.
+    /// Creates the frame of a surface with these tangents, rotated by the material's angle in
+    /// radians and by the direction of its texture.
     #[inline(always)]
     pub(super) fn new(
         inputs: &MaterialInputs<N>,
@@ -66,7 +66,7 @@ impl<const N: usize> Anisotropy<N> {
         }
     }
 
-    /// The bent normals for environment reflections, for a perceptual roughness.
+    /// Computes the bent normals for environment reflections, for a perceptual roughness.
     ///
     /// A stretched lobe mirrors a fan of directions, and the prefiltered environment has only round
     /// lobes. So the normal is bent toward the plane of the bitangent and the view, in which the
@@ -86,8 +86,8 @@ impl<const N: usize> Anisotropy<N> {
         bent * (1.0 / bent.dot(bent).max(1e-12).sqrt())
     }
 
-    /// The anisotropic GGX lobe without Fresnel, times the cosine of the light: `D · V · n·l`, with
-    /// `alpha` along the bitangent.
+    /// Computes the anisotropic GGX lobe without Fresnel, times the cosine of the light: `D · V ·
+    /// n·l`, with `alpha` along the bitangent.
     ///
     /// The isotropic lobe is `ShadingAngles::ggx_lobe` in `microfacet.rs`.
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
@@ -124,7 +124,7 @@ impl<const N: usize> Anisotropy<N> {
 mod tests {
     use super::*;
 
-    /// A frame whose lobe is stretched along x, with this strength.
+    /// Returns a frame whose lobe is stretched along x, with this strength.
     fn frame(strength: f32) -> Anisotropy<1> {
         Anisotropy {
             tangents: Vec3Lanes::splat([1.0, 0.0, 0.0]),
@@ -134,7 +134,7 @@ mod tests {
         }
     }
 
-    /// The bent normal of z, seen from the side, for a perceptual roughness.
+    /// Computes the bent normal of z, seen from the side, for a perceptual roughness.
     fn bent_normal(strength: f32, roughness: f32) -> [f32; 3] {
         let normal = Vec3Lanes::splat([0.0, 0.0, 1.0]);
         let view = Vec3Lanes::splat([0.6, 0.48, 0.64]);

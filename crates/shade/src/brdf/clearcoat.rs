@@ -37,7 +37,7 @@ pub(super) struct Clearcoat<const N: usize> {
 }
 
 impl<const N: usize> Clearcoat<N> {
-    /// The layer over a surface; `geometry` has the clearcoat's own normals.
+    /// Creates the layer over a surface; `geometry` has the clearcoat's own normals.
     #[inline(always)]
     pub(super) fn new(layers: &LayerInputs<N>, geometry: SurfaceGeometry<N>) -> Self {
         // Geometric specular antialiasing, as for the base.
@@ -75,7 +75,7 @@ impl<const N: usize> Clearcoat<N> {
         self.specular_light += environment.specular_radiance(normals, views, self.roughness);
     }
 
-    /// The fraction of the light from below that the layer lets through.
+    /// Computes the fraction of the light from below that the layer lets through.
     #[inline(always)]
     pub(super) fn transmittance(&self) -> Lanes<N> {
         1.0 - self.reflectance

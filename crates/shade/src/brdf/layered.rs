@@ -54,8 +54,8 @@ pub(crate) struct LayeredBrdf<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> LayeredBrdf<'a, N> {
-    /// The BRDF of a draw's material on surfaces with these smooth normals; at first they only
-    /// emit.
+    /// Creates the BRDF of a draw's material on surfaces with these smooth normals; at first they
+    /// only emit.
     ///
     /// The normal map bends base, sheen and anisotropy; shadows and ambient occlusion keep the
     /// smooth normals.
@@ -211,7 +211,7 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         Some((display, light.alpha))
     }
 
-    /// The fraction of light from all directions that sheen leaves for the base.
+    /// Computes the fraction of light from all directions that sheen leaves for the base.
     #[inline(always)]
     fn base_scale(&self) -> Lanes<N> {
         match &self.sheen {
@@ -220,7 +220,7 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         }
     }
 
-    /// The radiance of all layers, the clearcoat over the rest.
+    /// Computes the radiance of all layers, the clearcoat over the rest.
     #[inline(always)]
     pub(crate) fn finish(&self) -> Rgb<N> {
         match &self.clearcoat {

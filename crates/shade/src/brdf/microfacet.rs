@@ -45,8 +45,8 @@ pub(super) struct ShadingAngles<const N: usize> {
 }
 
 impl<const N: usize> ShadingAngles<N> {
-    /// The angles between unit vectors: the normal, the direction to the viewer, the direction to
-    /// the light.
+    /// Creates the angles between unit vectors: the normal, the direction to the viewer, the
+    /// direction to the light.
     ///
     /// The half vector is the normal of the microfacets that mirror l to v.
     #[inline(always)]
@@ -64,7 +64,8 @@ impl<const N: usize> ShadingAngles<N> {
         }
     }
 
-    /// The GGX specular lobe without Fresnel, times the cosine of the light: `D · V · n·l`.
+    /// Computes the GGX specular lobe without Fresnel, times the cosine of the light: `D · V ·
+    /// n·l`.
     #[inline(always)]
     pub(super) fn ggx_lobe(&self, alpha: Lanes<N>) -> Lanes<N> {
         // GGX depends only on α².
@@ -105,13 +106,13 @@ pub(super) fn roughness_to_alpha<const N: usize>(roughness: Lanes<N>) -> Lanes<N
 mod tests {
     use super::*;
 
-    /// The lobe of one light.
+    /// Computes the lobe of one light.
     fn ggx_lobe(n: [f32; 3], v: [f32; 3], l: [f32; 3], alpha: f32) -> f32 {
         let [n, v, l] = [n, v, l].map(Vec3Lanes::<1>::splat);
         ShadingAngles::new(n, v, l).ggx_lobe(Lanes([alpha]))[0]
     }
 
-    /// The formulas as written in the specification, in double precision.
+    /// Computes the formulas as written in the specification, in double precision.
     fn specified_lobe(n: [f64; 3], v: [f64; 3], l: [f64; 3], alpha: f64) -> f64 {
         let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         let unit = |a: [f64; 3]| a.map(|c| c / dot(a, a).sqrt());

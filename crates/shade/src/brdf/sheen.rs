@@ -42,7 +42,7 @@ pub(super) struct Sheen<const N: usize> {
 }
 
 impl<const N: usize> Sheen<N> {
-    /// The layer that a material's inputs describe, seen by a viewer.
+    /// Creates the layer that a material's inputs describe, seen by a viewer.
     #[inline(always)]
     pub(super) fn new(layers: &LayerInputs<N>, geometry: &SurfaceGeometry<N>) -> Self {
         let roughness = layers.sheen_roughness.clamp(MIN_SHEEN_ROUGHNESS, 1.0);
@@ -74,20 +74,20 @@ impl<const N: usize> Sheen<N> {
         light.lux = light.lux * base_scale;
     }
 
-    /// The fraction of light from all directions that is left for the layers below.
+    /// Computes the fraction of light from all directions that is left for the layers below.
     #[inline(always)]
     pub(super) fn base_scale(&self) -> Lanes<N> {
         1.0 - self.max_color * self.albedo
     }
 
-    /// The fraction of light from all directions that the layer reflects.
+    /// Computes the fraction of light from all directions that the layer reflects.
     #[inline(always)]
     pub(super) fn reflectance(&self) -> Rgb<N> {
         self.color * self.albedo
     }
 }
 
-/// The Charlie lobe of white sheen, times the cosine of the light: `D · V · n·l`.
+/// Computes the Charlie lobe of white sheen, times the cosine of the light: `D · V · n·l`.
 ///
 /// The distribution of Estevez and Kulla 2017 has its maximum at grazing half vectors: fibers are
 /// perpendicular to the surface, and light up at silhouettes.
@@ -124,8 +124,8 @@ fn charlie_lambda(cosine: f32, alpha: f32) -> f32 {
     libm::expf(exponent)
 }
 
-/// The directional albedo of white sheen: the integral of the lobe over the hemisphere, at most 1.
-/// Bilinear in the table.
+/// Computes the directional albedo of white sheen: the integral of the lobe over the hemisphere, at
+/// most 1. Bilinear in the table.
 ///
 /// Sixteen roughnesses by sixteen square roots of cosines; the root puts more entries near grazing
 /// angles.

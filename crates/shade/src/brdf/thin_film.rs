@@ -21,7 +21,7 @@ use crate::color::{XYZ_TO_SRGB, multiply_matrix};
 use crate::lanes::{Lanes, Rgb};
 use std::f32::consts::{LOG2_E, PI};
 
-/// The F0 of surfaces under a thin film, at the cosines of the view.
+/// Computes the F0 of surfaces under a thin film, at the cosines of the view.
 ///
 /// `f0` is the surface's F0 without the film, `ior` the film's index of refraction, `thickness` in
 /// nanometers. As the thickness approaches 0, the film's index approaches 1, as in air.
@@ -87,8 +87,9 @@ fn schlick_fresnel<const N: usize>(f0: Lanes<N>, cosine: Lanes<N>) -> Lanes<N> {
     f0 + (1.0 - f0) * pow5(1.0 - cosine)
 }
 
-/// The response of the eye to waves with an optical path difference in nanometers, in linear sRGB:
-/// the Fourier transform of the CIE 1931 curves, fitted by Gaussians (Belcour and Barla 2017).
+/// Computes the response of the eye to waves with an optical path difference in nanometers, in
+/// linear sRGB: the Fourier transform of the CIE 1931 curves, fitted by Gaussians (Belcour and
+/// Barla 2017).
 ///
 /// XYZ are weighted with separate phase shifts, in turns, one per channel of the base, then
 /// converted to sRGB.
@@ -114,7 +115,7 @@ fn spectral_sensitivity<const N: usize>(path: Lanes<N>, shifts: Rgb<N>) -> Rgb<N
 mod tests {
     use super::*;
 
-    /// The F0 of one surface.
+    /// Computes the F0 of one surface.
     fn film_f0(f0: [f32; 3], ior: f32, thickness: f32, cosine: f32) -> [f32; 3] {
         thin_film_f0(Rgb::<1>::splat(f0), ior, Lanes([thickness]), Lanes([cosine])).lane(0)
     }

@@ -23,7 +23,7 @@ pub struct Srgb16Encoder {
 }
 
 impl Srgb16Encoder {
-    /// The encoder, shared by the whole program; its tables are computed once.
+    /// Returns the encoder, shared by the whole program; its tables are computed once.
     #[must_use]
     pub fn shared() -> &'static Self {
         static ENCODER: OnceLock<Srgb16Encoder> = OnceLock::new();
@@ -42,7 +42,7 @@ impl Srgb16Encoder {
         Self { thresholds, step_codes }
     }
 
-    /// The nearest 16-bit sRGB code; light beyond \[0, 1\] is clamped, NaN to 0.
+    /// Computes the nearest 16-bit sRGB code; light beyond \[0, 1\] is clamped, NaN to 0.
     #[must_use]
     pub fn encode(&self, light: f32) -> u16 {
         let least = f32::from_bits(MIN_LIGHT_BITS);

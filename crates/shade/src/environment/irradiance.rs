@@ -30,7 +30,7 @@ const BASIS_NORMALIZATION: [f64; 9] = [
     0.9375 / PI,
 ];
 
-/// The nine real spherical harmonics up to the second degree, without their factors.
+/// Computes the nine real spherical harmonics up to the second degree, without their factors.
 fn basis_functions([x, y, z]: [f64; 3]) -> [f64; 9] {
     [1.0, x, y, z, x * y, y * z, 3.0 * z * z - 1.0, x * z, x * x - y * y]
 }
@@ -93,7 +93,7 @@ impl IrradianceHarmonics {
     }
 }
 
-/// The sum of the nine functions with these coefficients, clamped below at 0.
+/// Computes the sum of the nine functions with these coefficients, clamped below at 0.
 #[inline(always)]
 fn sum_harmonics<const N: usize>(f: &[f32; 9], normals: Vec3Lanes<N>) -> Lanes<N> {
     let Vec3Lanes { x, y, z } = normals;

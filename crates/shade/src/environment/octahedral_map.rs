@@ -63,7 +63,7 @@ pub(super) fn sample_trilinear<'a, const N: usize>(
     colors
 }
 
-/// The positions of directions on the square, between 0 and 1.
+/// Computes the positions of directions on the square, between 0 and 1.
 #[inline(always)]
 pub(super) fn encode_octahedral<const N: usize>(directions: Vec3Lanes<N>) -> [Lanes<N>; 2] {
     let Vec3Lanes { x, y, z } = directions;
@@ -88,7 +88,8 @@ pub(super) struct BilinearNodes<const N: usize> {
 }
 
 impl<const N: usize> BilinearNodes<N> {
-    /// The nodes around positions between 0 and 1, in maps with these last columns and rows.
+    /// Returns the nodes around positions between 0 and 1, in maps with these last columns and
+    /// rows.
     #[inline(always)]
     pub(super) fn locate([u, v]: [Lanes<N>; 2], last_nodes: Lanes<N>) -> Self {
         let (columns, column_fractions) = split_coordinates(u, last_nodes);
@@ -122,7 +123,8 @@ impl OctahedralMap {
         lerp_texels(lerp_texels(a, b, s), lerp_texels(c, d, s), t)
     }
 
-    /// The next mip level, with half as many nodes along a side: a tent filter over 3 × 3 nodes.
+    /// Computes the next mip level, with half as many nodes along a side: a tent filter over 3 × 3
+    /// nodes.
     ///
     /// Nodes keep their positions, so that levels differ in sharpness and not in position.
     pub(super) fn downsample(&self) -> Self {
@@ -140,7 +142,7 @@ impl OctahedralMap {
         Self { side, texels: (0..side * side).map(texel).collect() }
     }
 
-    /// The index of a node; a node one step beyond a border is mirrored along that border.
+    /// Returns the index of a node; a node one step beyond a border is mirrored along that border.
     fn wrap_node(&self, x: i32, y: i32) -> usize {
         let last = self.side as i32 - 1;
         // Beyond the left or right border: back inside, with the row mirrored; likewise for rows.
@@ -162,12 +164,12 @@ fn lerp_texels(a: Texel, b: Texel, t: f32) -> Texel {
     texel
 }
 
-/// The coordinate of a node along one axis of the square, between −1 and 1.
+/// Computes the coordinate of a node along one axis of the square, between −1 and 1.
 pub(super) fn node_coordinate(node: usize, side: usize) -> f32 {
     2.0 * node as f32 / (side - 1) as f32 - 1.0
 }
 
-/// The direction at a position in the square, with coordinates from −1 to 1: a point on the
+/// Decodes the direction at a position in the square, with coordinates from −1 to 1: a point on the
 /// octahedron, not normalized.
 pub(super) fn decode_octahedral(u: f32, v: f32) -> [f32; 3] {
     let y = 1.0 - u.abs() - v.abs();
@@ -184,7 +186,7 @@ fn sign_not_zero(x: f32) -> f32 {
     if x < 0.0 { -1.0 } else { 1.0 }
 }
 
-/// The nodes before positions between 0 and 1, and the fractions toward the next.
+/// Returns the nodes before positions between 0 and 1, and the fractions toward the next.
 ///
 /// `max` and `min` instead of `clamp`, which checks its bounds, so that the loops are vectorized.
 #[inline(always)]

@@ -49,7 +49,7 @@ impl PartialEq for PrefilteredLevels {
 }
 
 impl PrefilteredLevels {
-    /// The levels of an environment; only the first is already computed.
+    /// Creates the levels of an environment; only the first is already computed.
     pub(super) fn new(environment: OctahedralMap) -> Self {
         let mut mip_chain = vec![environment];
         while mip_chain.len() < MIP_COUNT {
@@ -58,7 +58,7 @@ impl PrefilteredLevels {
         Self { mip_chain, filtered: Default::default() }
     }
 
-    /// A level by index, starting at 0 for mirrors; computed on the first request.
+    /// Returns a level by index, starting at 0 for mirrors; computed on the first request.
     #[inline(always)]
     pub(super) fn level(&self, index: usize) -> &OctahedralMap {
         match index.checked_sub(1) {

@@ -12,8 +12,8 @@ use model::{Colormap, TextureInfo};
 /// The number of checkerboard squares per unit of texture coordinates.
 const CHECKER_SQUARES: f32 = 8.0;
 
-/// The color of a glazed clay ball at normals with z toward the viewer: light from the upper left,
-/// a highlight and a rim.
+/// Computes the color of a glazed clay ball at normals with z toward the viewer: light from the
+/// upper left, a highlight and a rim.
 #[inline(always)]
 pub(super) fn matcap_ball_color<const N: usize>(normals: Vec3Lanes<N>) -> Rgb<N> {
     let light = [-0.4, 0.64, 0.656];
@@ -31,7 +31,7 @@ pub(super) fn matcap_ball_color<const N: usize>(normals: Vec3Lanes<N>) -> Rgb<N>
     Rgb { r: color(0.5, 0.5), g: color(0.24, 0.7), b: color(0.16, 1.0) }
 }
 
-/// A checkerboard whose squares fade if they are smaller than pixels; gray without texture
+/// Computes a checkerboard whose squares fade if they are smaller than pixels; gray without texture
 /// coordinates.
 #[inline(always)]
 pub(super) fn checker_color<const N: usize>(
@@ -59,7 +59,7 @@ pub(super) fn checker_color<const N: usize>(
     decode_codes(Rgb { r: ramp(u) * shade, g: ramp(v) * shade, b: 0.55 * shade })
 }
 
-/// The largest integers that are not above the numbers.
+/// Computes the largest integers that are not above the numbers.
 #[inline(always)]
 fn whole_part<const N: usize>(numbers: Lanes<N>) -> Lanes<N> {
     numbers.map(|x| floor_to_int(x) as f32)
@@ -88,13 +88,13 @@ pub(super) fn map_colors<const N: usize>(colormap: Colormap, numbers: Lanes<N>) 
     colors
 }
 
-/// The linear colors with these sRGB codes, from 0 to 1.
+/// Decodes the linear colors with these sRGB codes, from 0 to 1.
 #[inline(always)]
 pub(super) fn decode_codes<const N: usize>(codes: Rgb<N>) -> Rgb<N> {
     kernel_part!(N, decode_curve(codes))
 }
 
-/// The sRGB curve, decoded.
+/// Decodes the sRGB curve, decoded.
 #[inline(always)]
 fn decode_curve<const N: usize>(codes: Rgb<N>) -> Rgb<N> {
     codes.map(|code| {

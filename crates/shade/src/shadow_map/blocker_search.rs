@@ -11,8 +11,8 @@ use std::sync::LazyLock;
 pub(crate) static VOGEL_DISC: LazyLock<[[f32; 2]; 48]> =
     LazyLock::new(|| std::array::from_fn(|index| vogel_position(index, 48)));
 
-/// One of `count` evenly distributed positions in a disc of radius 1: Vogel's spiral (1979), with
-/// the golden angle.
+/// Returns one of `count` evenly distributed positions in a disc of radius 1: Vogel's spiral
+/// (1979), with the golden angle.
 fn vogel_position(index: usize, count: usize) -> [f32; 2] {
     let radius = ((index as f64 + 0.5) / count as f64).sqrt();
     let angle = index as f64 * 2.399_963_229_728_653;
@@ -24,7 +24,7 @@ fn vogel_position(index: usize, count: usize) -> [f32; 2] {
 pub(super) struct Disc<'a>(&'a [[Lanes<LANES>; 2]]);
 
 impl Disc<'_> {
-    /// The number of positions.
+    /// Returns the number of positions.
     #[inline(always)]
     pub(super) fn position_count(self) -> f32 {
         (self.0.len() * LANES) as f32
@@ -43,7 +43,7 @@ static DISCS: LazyLock<[[Lanes<LANES>; 2]; 12]> = LazyLock::new(|| {
     })
 });
 
-/// The positions of the search: fewer in a narrow disc, which has few texels.
+/// Returns the positions of the search: fewer in a narrow disc, which has few texels.
 #[inline(always)]
 pub(super) fn search_disc(radius: f32) -> Disc<'static> {
     let range = match radius {
@@ -54,7 +54,7 @@ pub(super) fn search_disc(radius: f32) -> Disc<'static> {
     Disc(DISCS.get(range).unwrap_or_default())
 }
 
-/// The positions of the filter.
+/// Returns the positions of the filter.
 #[inline(always)]
 pub(super) fn filter_disc(radius: f32) -> Disc<'static> {
     let range = match radius {
@@ -112,13 +112,13 @@ impl ShadowMap {
     }
 }
 
-/// The sum of all lanes, computed by halves.
+/// Computes the sum of all lanes, computed by halves.
 #[inline(always)]
 fn sum_lanes(Lanes([a, b, c, d, e, f, g, h]): Lanes<LANES>) -> f32 {
     ((a + e) + (c + g)) + ((b + f) + (d + h))
 }
 
-/// The depths of the receiver's plane at positions of the map.
+/// Computes the depths of the receiver's plane at positions of the map.
 #[inline(always)]
 fn plane_depths(receiver: &ReceiverPlane, x: Lanes<LANES>, y: Lanes<LANES>) -> Lanes<LANES> {
     receiver.depth + receiver.slope[0] * (x - receiver.x) + receiver.slope[1] * (y - receiver.y)

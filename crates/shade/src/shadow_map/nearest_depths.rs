@@ -70,8 +70,8 @@ impl NearestDepths {
         self.depths.clear();
     }
 
-    /// The nearest depth within `reach` texels of a position, or a nearer one; 1, the nearest
-    /// possible, if depths are not known.
+    /// Returns the nearest depth within `reach` texels of a position, or a nearer one; 1, the
+    /// nearest possible, if depths are not known.
     #[inline(always)]
     pub(super) fn depth_around(&self, [x, y]: [f32; 2], reach: f32) -> f32 {
         if reach <= BLOCK_SIDE as f32 {
@@ -86,7 +86,7 @@ impl NearestDepths {
         nearest
     }
 
-    /// The nearest depth in the neighborhood of a position, which is clamped to the map.
+    /// Returns the nearest depth in the neighborhood of a position, which is clamped to the map.
     #[inline(always)]
     fn depth_at(&self, x: f32, y: f32) -> f32 {
         let [columns, rows] = self.size;

@@ -36,7 +36,7 @@ pub(crate) struct ReceiverPlane {
 }
 
 impl ReceiverPlane {
-    /// The depth of the plane at a position of the map.
+    /// Returns the depth of the plane at a position of the map.
     #[inline(always)]
     pub(super) fn depth_at(&self, x: f32, y: f32) -> f32 {
         self.depth + self.slope[0] * (x - self.x) + self.slope[1] * (y - self.y)
@@ -44,7 +44,7 @@ impl ReceiverPlane {
 }
 
 impl<const N: usize> ReceiverPlanes<N> {
-    /// The receiver of one lane.
+    /// Returns the receiver of one lane.
     #[inline(always)]
     pub(crate) fn lane(&self, lane: usize) -> ReceiverPlane {
         let [along_row, along_column] = self.slope;

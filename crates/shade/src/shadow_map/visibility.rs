@@ -9,8 +9,8 @@ use crate::shadow_receiver::ShadowReceiver;
 use raster::{Kernel, SimdLevel, SurfaceDepth};
 
 impl ShadowMap {
-    /// The visibility of the light, 0 to 1, from the receivers in the `wanted` lanes; 0 in the
-    /// others.
+    /// Computes the visibility of the light, 0 to 1, from the receivers in the `wanted` lanes; 0 in
+    /// the others.
     ///
     /// Without softness four texels are compared; with softness up to 24, and within a penumbra up
     /// to 48 more. Outside the map and behind the light nothing is in shadow.
@@ -67,7 +67,8 @@ impl<const N: usize> Kernel for FindVisibility<'_, N> {
 }
 
 impl ShadowMap {
-    /// The visibility inside or outside a penumbra; `None` if it is too narrow to be visible.
+    /// Computes the visibility inside or outside a penumbra. Returns `None` if it is too narrow to
+    /// be visible.
     #[inline(always)]
     fn soft_visibility(&self, receiver: &ReceiverPlane) -> Option<f32> {
         let search_radius = self.search_radius(receiver)?;
@@ -93,8 +94,8 @@ impl ShadowMap {
         Some((positions - blocked) / positions)
     }
 
-    /// The radius of the blocker search: the penumbra radius of the nearest possible blocker.
-    /// `None` if nothing can shade the receiver.
+    /// Computes the radius of the blocker search: the penumbra radius of the nearest possible
+    /// blocker. `None` if nothing can shade the receiver.
     #[inline(always)]
     fn search_radius(&self, receiver: &ReceiverPlane) -> Option<f32> {
         let widest = self.penumbra_radius(receiver.depth, 1.0).clamp(1.5, MAX_FILTER_RADIUS);
@@ -106,7 +107,7 @@ impl ShadowMap {
         (nearest > least).then_some(radius)
     }
 
-    /// The radius in texels of the penumbra at one depth, from a caster at another.
+    /// Computes the radius in texels of the penumbra at one depth, from a caster at another.
     ///
     /// By similar triangles: the size of the light times the distance between receiver and caster,
     /// divided by the distance between caster and light. In parallel light it grows only with the
@@ -167,7 +168,7 @@ impl ShadowMap {
     }
 }
 
-/// The largest integers not above the numbers.
+/// Computes the largest integers not above the numbers.
 #[inline(always)]
 pub(super) fn floor_lanes<const N: usize>(numbers: Lanes<N>) -> [i32; N] {
     let mut integers = [0; N];

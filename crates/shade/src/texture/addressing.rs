@@ -57,7 +57,7 @@ pub(super) struct TexelQuads<const N: usize> {
 }
 
 impl TexelAddressing {
-    /// Whether the number of texels covered by a pixel matters.
+    /// Returns whether the number of texels covered by a pixel matters.
     #[inline(always)]
     fn needs_derivatives(&self) -> bool {
         self.last_level > 0 || self.sampler.mag_filter != self.sampler.min_filter

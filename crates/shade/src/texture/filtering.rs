@@ -20,8 +20,8 @@ use super::{MipChain, TexelLanes, UvLanes};
 use crate::lanes::{Lanes, Rgb, map_to_lanes};
 
 impl MipChain<'_> {
-    /// The filtered color of the texture, linear with straight alpha, over the footprints of
-    /// pixels.
+    /// Computes the filtered color of the texture, linear with straight alpha, over the footprints
+    /// of pixels.
     ///
     /// At most `anisotropy` taps are read along the longer axis of a footprint. Alpha is 1 unless
     /// it is needed.
@@ -112,7 +112,7 @@ impl MipChain<'_> {
         TexelLanes { color, alpha }
     }
 
-    /// The four texels of each quad, packed with red in the lowest byte.
+    /// Fetches the four texels of each quad, packed with red in the lowest byte.
     #[inline(always)]
     fn fetch_texels<const N: usize>(&self, quads: &TexelQuads<N>) -> [[u32; N]; 4] {
         let mut packed = [[0; N]; 4];
@@ -127,13 +127,13 @@ impl MipChain<'_> {
     }
 }
 
-/// One channel of a packed texel, from 0 to 255.
+/// Returns one channel of a packed texel, from 0 to 255.
 #[inline(always)]
 fn channel_code(texel: u32, channel: usize) -> u32 {
     texel >> (8 * channel) & 255
 }
 
-/// One channel that is stored linearly, from 0 to 1. The division by 255 comes after the
+/// Computes one channel that is stored linearly, from 0 to 1. The division by 255 comes after the
 /// interpolation: one division instead of four.
 #[inline(always)]
 fn filter_linear_channel<const N: usize>(

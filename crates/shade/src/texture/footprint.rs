@@ -48,7 +48,7 @@ pub(crate) struct Tap<const N: usize> {
 }
 
 impl<const N: usize> Footprint<N> {
-    /// The largest number of taps in any lane.
+    /// Returns the largest number of taps in any lane.
     #[inline(always)]
     pub(crate) fn max_tap_count(&self) -> u32 {
         let mut count = 1.0_f32;
@@ -58,7 +58,8 @@ impl<const N: usize> Footprint<N> {
         count as u32
     }
 
-    /// The tap at an index starting at 0: taps are at the midpoints of equal parts of the line.
+    /// Returns the tap at an index starting at 0: taps are at the midpoints of equal parts of the
+    /// line.
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
     #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(crate) fn tap(&self, addressing: &TexelAddressing, index: u32) -> Tap<N> {
@@ -80,7 +81,7 @@ impl<const N: usize> Footprint<N> {
 }
 
 impl TexelAddressing {
-    /// The footprints of pixels, with at most `anisotropy` taps.
+    /// Computes the footprints of pixels, with at most `anisotropy` taps.
     ///
     /// The number of taps is the ratio of the axes, rounded, and at least 1.
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]

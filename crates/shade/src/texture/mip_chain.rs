@@ -75,7 +75,7 @@ impl<'a> MipChain<'a> {
         }
     }
 
-    /// The chain with a copy of the full image, independent of the image's lifetime.
+    /// Returns the chain with a copy of the full image, independent of the image's lifetime.
     #[must_use]
     pub fn into_owned(self) -> MipChain<'static> {
         let own = |level: MipLevel<'_>| {
@@ -86,7 +86,7 @@ impl<'a> MipChain<'a> {
         MipChain { levels, addressing: self.addressing, srgb_table: self.srgb_table }
     }
 
-    /// The properties that determine which texels are read.
+    /// Returns the properties that determine which texels are read.
     #[inline(always)]
     pub(crate) const fn addressing(&self) -> &TexelAddressing {
         &self.addressing
@@ -94,8 +94,8 @@ impl<'a> MipChain<'a> {
 }
 
 impl MipLevel<'_> {
-    /// The next level, of half the size, by a box filter over 2 × 2 texels; `None` after a single
-    /// texel. If the number of rows or columns is odd, the last one is skipped.
+    /// Computes the next level, of half the size, by a box filter over 2 × 2 texels. Returns `None`
+    /// after a single texel. If the number of rows or columns is odd, the last one is skipped.
     fn downsample<'b>(&self, average: impl Fn([[u8; 4]; 4]) -> [u8; 4]) -> Option<MipLevel<'b>> {
         if self.width == 1 && self.height == 1 {
             return None;
@@ -121,7 +121,7 @@ impl MipLevel<'_> {
     }
 }
 
-/// The mean of four linear texels, rounded to nearest.
+/// Computes the mean of four linear texels, rounded to nearest.
 fn average_texels(four: [[u8; 4]; 4]) -> [u8; 4] {
     [0, 1, 2, 3].map(|k: usize| {
         let sum: u16 = four.iter().map(|texel| u16::from(texel[k])).sum();
@@ -139,7 +139,7 @@ struct SrgbAverager {
 }
 
 impl SrgbAverager {
-    /// The tables, computed once.
+    /// Returns the tables, computed once.
     fn shared() -> &'static Self {
         static TABLES: OnceLock<SrgbAverager> = OnceLock::new();
         TABLES.get_or_init(|| {
@@ -150,7 +150,7 @@ impl SrgbAverager {
         })
     }
 
-    /// The mean of four colors in linear light; alpha is already linear.
+    /// Computes the mean of four colors in linear light; alpha is already linear.
     fn average(&self, four: [[u8; 4]; 4]) -> [u8; 4] {
         let color = |k: usize| {
             // Mean in linear light, in 16 bits, then back to the nearest sRGB code.

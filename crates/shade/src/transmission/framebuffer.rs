@@ -67,7 +67,7 @@ impl<const N: usize> LightBehind<N> {
 }
 
 impl ScreenProjection {
-    /// The view for a framebuffer of `size` texels.
+    /// Creates the view for a framebuffer of `size` texels.
     ///
     /// `world_to_screen` maps the world to texels from the upper left corner. Positions are taken
     /// relative to `origin`, which should be near the surfaces, for precision in `f32`.
@@ -79,7 +79,7 @@ impl ScreenProjection {
         Self { size, origin: origin.to_array(), rows }
     }
 
-    /// The positions in texels; arbitrary for positions behind the eye.
+    /// Computes the positions in texels; arbitrary for positions behind the eye.
     #[inline(always)]
     fn project<const N: usize>(&self, positions: Vec3Lanes<N>) -> [Lanes<N>; 2] {
         let Vec3Lanes { x, y, z } = positions - Vec3Lanes::splat(self.origin);
@@ -90,7 +90,7 @@ impl ScreenProjection {
 }
 
 impl TransmissionFramebuffer {
-    /// The framebuffer for a picture of all opaque surfaces.
+    /// Creates the framebuffer for a picture of all opaque surfaces.
     ///
     /// `surfaces` is linear radiance, premultiplied by alpha, rows from the top; behind it are the
     /// backdrop and the `background`, a linear display color premultiplied by alpha. Uses up to
@@ -117,7 +117,7 @@ impl TransmissionFramebuffer {
         Self { projection, surfaces, backdrop, background }
     }
 
-    /// The light behind surfaces of a draw, refracted and blurred; not yet tinted.
+    /// Computes the light behind surfaces of a draw, refracted and blurred; not yet tinted.
     ///
     /// This is not inlined into the shading kernel: it is a gather from memory that wider
     /// instructions do not speed up, and most fragments do not need it.
@@ -149,7 +149,7 @@ impl TransmissionFramebuffer {
         light
     }
 
-    /// The mean light around positions in the world, at a mip level.
+    /// Computes the mean light around positions in the world, at a mip level.
     #[inline(always)]
     fn sample<const N: usize>(&self, positions: Vec3Lanes<N>, levels: Lanes<N>) -> LightBehind<N> {
         let [x, y] = self.projection.project(positions);
@@ -170,7 +170,7 @@ impl TransmissionFramebuffer {
     }
 }
 
-/// The backdrop over the background at each texel, without the parts that surfaces hide.
+/// Computes the backdrop over the background at each texel, without the parts that surfaces hide.
 fn visible_backdrop(
     backdrop: &Backdrop,
     background: [f32; 4],

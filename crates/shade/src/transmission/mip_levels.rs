@@ -40,7 +40,7 @@ impl MipLevels {
         Self { levels }
     }
 
-    /// The trilinear mean around a position in full-size pixels.
+    /// Computes the trilinear mean around a position in full-size pixels.
     ///
     /// Positions beyond the border have the value at the border. `level` is 0 for the full size; it
     /// is clamped to the existing levels.
@@ -64,8 +64,8 @@ impl MipLevels {
 }
 
 impl FramebufferLevel {
-    /// The level of half the size by a box filter; `None` after a single texel. A last row or
-    /// column without a partner is paired with itself.
+    /// Computes the level of half the size by a box filter. Returns `None` after a single texel. A
+    /// last row or column without a partner is paired with itself.
     fn downsample(&self, threads: usize) -> Option<Self> {
         let [width, height] = self.size;
         if self.texels.len() <= 1 {
@@ -101,7 +101,8 @@ impl FramebufferLevel {
         sum
     }
 
-    /// The quadratic B-spline over 3 × 3 texels: smooth, nowhere negative, with weights of sum 1.
+    /// Computes the quadratic B-spline over 3 × 3 texels: smooth, nowhere negative, with weights of
+    /// sum 1.
     #[inline(always)]
     fn sample_spline(&self, position: [f32; 2]) -> [f32; 4] {
         let [width, height] = self.size;
@@ -117,8 +118,8 @@ impl FramebufferLevel {
     }
 }
 
-/// The two texels whose centers are on either side of a coordinate, and the fraction of the way
-/// between them.
+/// Returns the two texels whose centers are on either side of a coordinate, and the fraction of the
+/// way between them.
 #[inline(always)]
 fn locate_pair(coordinate: f32, count: usize) -> ([usize; 2], f32) {
     let from_center = (coordinate - 0.5).max(0.0).min((count - 1) as f32);
@@ -126,7 +127,7 @@ fn locate_pair(coordinate: f32, count: usize) -> ([usize; 2], f32) {
     ([first, (first + 1).min(count - 1)], from_center - first as f32)
 }
 
-/// The three texels around a coordinate, and their weights in a quadratic B-spline.
+/// Returns the three texels around a coordinate, and their weights in a quadratic B-spline.
 #[inline(always)]
 fn locate_triple(coordinate: f32, count: usize) -> ([usize; 3], [f32; 3]) {
     let inside = coordinate.max(0.0).min(count as f32);

@@ -16,7 +16,7 @@ use crate::Draw;
 use crate::lanes::{Lanes, Vec3Lanes};
 use crate::surface_geometry::SurfaceGeometry;
 
-/// The indices of refraction for red, green and blue (KHR_materials_dispersion).
+/// Returns the indices of refraction for red, green and blue (KHR_materials_dispersion).
 ///
 /// Dispersion is 20 over the Abbe number; blue is refracted most.
 #[inline(always)]
@@ -26,7 +26,7 @@ pub(super) fn channel_iors(draw: &Draw<'_>) -> [f32; 3] {
     [extensions.ior - half_spread, extensions.ior, extensions.ior + half_spread]
 }
 
-/// The positions where refracted rays with these lengths end, in the world.
+/// Computes the positions where refracted rays with these lengths end, in the world.
 #[inline(always)]
 pub(super) fn refracted_exits<const N: usize>(
     geometry: &SurfaceGeometry<N>,
@@ -48,8 +48,8 @@ pub(super) fn refracted_exits<const N: usize>(
 const REFERENCE_SIDE: f32 = 1024.0;
 const REFERENCE_LEVELS: f32 = 10.0;
 
-/// The mip levels of a framebuffer with this longer side, in texels, that give the blur of these
-/// roughnesses.
+/// Computes the mip levels of a framebuffer with this longer side, in texels, that give the blur of
+/// these roughnesses.
 ///
 /// The Khronos sample viewer uses the level log₂(size) · roughness in a framebuffer of 1024 texels.
 /// At other sizes this would blur by another fraction of the picture, so the width of its filter is

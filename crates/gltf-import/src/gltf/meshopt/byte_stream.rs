@@ -37,26 +37,26 @@ pub(super) enum StreamError {
 pub(super) struct ByteStream<'a>(&'a [u8]);
 
 impl<'a> ByteStream<'a> {
-    /// A stream of which nothing has been read.
+    /// Creates a stream of which nothing has been read.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         Self(bytes)
     }
 
-    /// The next byte.
+    /// Reads the next byte.
     pub(super) fn read_byte(&mut self) -> Result<u8, StreamError> {
         let (&byte, rest) = self.0.split_first().ok_or(StreamError::Short)?;
         self.0 = rest;
         Ok(byte)
     }
 
-    /// The next `count` bytes.
+    /// Returns the next `count` bytes.
     pub(super) fn take_front(&mut self, count: usize) -> Result<&'a [u8], StreamError> {
         let (bytes, rest) = self.0.split_at_checked(count).ok_or(StreamError::Short)?;
         self.0 = rest;
         Ok(bytes)
     }
 
-    /// The last `count` bytes: tables are stored at the end of a stream.
+    /// Returns the last `count` bytes: tables are stored at the end of a stream.
     pub(super) fn take_back(&mut self, count: usize) -> Result<&'a [u8], StreamError> {
         let rest = self.0.len().checked_sub(count).ok_or(StreamError::Short)?;
         let (rest, bytes) = self.0.split_at(rest);
@@ -64,12 +64,12 @@ impl<'a> ByteStream<'a> {
         Ok(bytes)
     }
 
-    /// A variable-length integer (LEB128): seven bits per byte, lowest first; the highest bit of a
-    /// byte means that another follows.
+    /// Reads a variable-length integer (LEB128): seven bits per byte, lowest first; the highest bit
+    /// of a byte means that another follows.
     ///
     /// # Errors
-    /// [`StreamError::Number`] if the fifth byte says that a sixth follows; [`StreamError::Short`]
-    /// at the end.
+    /// Returns [`StreamError::Number`] if the fifth byte announces a sixth, and
+    /// [`StreamError::Short`] at the end.
     pub(super) fn read_varint(&mut self) -> Result<u32, StreamError> {
         let mut number = 0;
         for shift in [0, 7, 14, 21, 28] {

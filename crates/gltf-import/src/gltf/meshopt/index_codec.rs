@@ -18,8 +18,8 @@ use super::byte_stream::{ByteStream, StreamError, decode_zigzag, push_index};
 /// The last 16 bytes are the table of common codes for two vertices. The time is linear in `count`.
 ///
 /// # Errors
-/// The header or the table is invalid, a code refers to an edge or vertex before the first, or the
-/// stream has the wrong length.
+/// Fails if the header or the table is invalid, a code refers to an edge or vertex before the
+/// first, or the stream has the wrong length.
 pub(super) fn decode_triangles(
     stream: &[u8],
     count: usize,
@@ -95,7 +95,7 @@ impl TriangleDecoder<'_> {
         }
     }
 
-    /// The byte that encodes the second and third vertex; zero restarts the numbering of new
+    /// Reads the byte that encodes the second and third vertex; zero restarts the numbering of new
     /// vertices.
     fn read_corner_codes(&mut self) -> Result<u8, StreamError> {
         let corners = self.data.read_byte()?;
@@ -105,7 +105,7 @@ impl TriangleDecoder<'_> {
         Ok(corners)
     }
 
-    /// A triangle on a recent edge.
+    /// Decodes a triangle on a recent edge.
     ///
     /// Two edges are pushed, the ones that the next triangle can share: the third is the shared
     /// one. A vertex from the FIFO is not pushed again.
@@ -126,8 +126,8 @@ impl TriangleDecoder<'_> {
         Ok([a, b, c])
     }
 
-    /// A triangle without a shared edge; the two halves of `corners` encode its second and third
-    /// vertex.
+    /// Decodes a triangle without a shared edge; the two halves of `corners` encode its second and
+    /// third vertex.
     ///
     /// All three edges are pushed, in the opposite direction, as in a neighboring triangle.
     fn decode_free_triangle(&mut self, a: u32, corners: u8) -> Result<[u32; 3], StreamError> {
@@ -146,7 +146,7 @@ impl TriangleDecoder<'_> {
         Ok([a, b, c])
     }
 
-    /// A vertex: new, explicit, or one of the recent ones.
+    /// Decodes a vertex: new, explicit, or one of the recent ones.
     fn decode_corner(&mut self, from: u8) -> Result<u32, StreamError> {
         match from {
             0 => Ok(self.next_vertex()),
@@ -155,20 +155,20 @@ impl TriangleDecoder<'_> {
         }
     }
 
-    /// A vertex that has not been used before.
+    /// Returns a vertex that has not been used before.
     fn next_vertex(&mut self) -> u32 {
         let fresh = self.next_index;
         self.next_index = fresh.wrapping_add(1);
         fresh
     }
 
-    /// The explicit index at a given difference from the last one.
+    /// Returns the explicit index at a given difference from the last one.
     fn advance_last(&mut self, difference: u32) -> u32 {
         self.last_index = self.last_index.wrapping_add(difference);
         self.last_index
     }
 
-    /// An index stored as a zigzag-coded difference from the last explicit one.
+    /// Reads an index stored as a zigzag-coded difference from the last explicit one.
     fn read_explicit_index(&mut self) -> Result<u32, StreamError> {
         let number = self.data.read_varint()?;
         Ok(self.advance_last(decode_zigzag(number)))
@@ -193,10 +193,10 @@ impl<T: Copy> RecentFifo<T> {
         self.items[self.newest] = Some(item);
     }
 
-    /// The item that was pushed `steps` before the newest.
+    /// Returns the item that was pushed `steps` before the newest.
     ///
     /// # Errors
-    /// [`StreamError::Unwritten`] if fewer items have been pushed.
+    /// Returns [`StreamError::Unwritten`] if fewer items have been pushed.
     fn nth_newest(&self, steps: u8) -> Result<T, StreamError> {
         let at = (self.newest + 16 - usize::from(steps % 16)) % 16;
         self.items[at].ok_or(StreamError::Unwritten)

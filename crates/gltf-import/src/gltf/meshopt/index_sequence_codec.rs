@@ -14,7 +14,7 @@ use super::byte_stream::{ByteStream, StreamError, decode_zigzag, push_index};
 /// The last four bytes are padding, which lets other decoders read beyond an index.
 ///
 /// # Errors
-/// The header is unknown, the stream ends too early, or bytes remain at its end.
+/// Fails if the header is unknown, the stream ends too early, or bytes remain at its end.
 pub(super) fn decode_index_sequence(
     stream: &[u8],
     count: usize,

@@ -33,7 +33,8 @@ const VERTEX_BLOCK_MAX_SIZE: usize = 256;
 /// Time and memory are linear in `count * stride`, which the caller has charged to the budget.
 ///
 /// # Errors
-/// The header or a channel mode is unknown, the stream is too short, or bytes remain at its end.
+/// Fails if the header or a channel mode is unknown, the stream is too short, or bytes remain at
+/// its end.
 pub(super) fn decode_vertices(
     stream: &[u8],
     count: usize,
@@ -77,7 +78,7 @@ pub(super) fn decode_vertices(
 /// accumulate: each element is decoded from the previous one.
 ///
 /// # Errors
-/// The stream ends within the block.
+/// Fails if the stream ends within the block.
 fn decode_vertex_block(
     stream: &mut ByteStream<'_>,
     controls: Option<&[u8]>,
@@ -184,7 +185,7 @@ enum DeltaChannel {
 }
 
 impl DeltaChannel {
-    /// The channel that a mode byte declares.
+    /// Creates the channel that a mode byte declares.
     ///
     /// The low half is the kind, the high half the rotation of an exclusive or.
     fn new(mode: u8) -> Result<Self, StreamError> {

@@ -46,8 +46,8 @@ impl MeshoptFilter {
     }
 }
 
-/// A unit vector from octahedral coordinates (Meyer et al. 2010); `full_scale` represents 1 in the
-/// result.
+/// Decodes a unit vector from octahedral coordinates (Meyer et al. 2010); `full_scale` represents 1
+/// in the result.
 ///
 /// The octahedron |x| + |y| + |z| = 1 is unfolded into a square; `unit` is the value that
 /// represents 1 in x and y. The fourth component passes through.
@@ -63,7 +63,8 @@ fn decode_octahedral([x, y, unit, fourth]: [i16; 4], full_scale: f32) -> [i16; 4
     [round_to_i16(x), round_to_i16(y), round_to_i16(z), fourth]
 }
 
-/// A rotation from its three smaller components, scaled by √2, and the index of the largest.
+/// Decodes a rotation from its three smaller components, scaled by √2, and the index of the
+/// largest.
 ///
 /// The largest component follows from the unit length: √(1 − a² − b² − c²), and is positive,
 /// because q and −q are the same rotation. Its index is in the lowest two bits of the fourth
@@ -77,7 +78,7 @@ fn decode_quaternion([a, b, c, scale]: [i16; 4]) -> [i16; 4] {
     components
 }
 
-/// A float from an exponent of 8 bits and a mantissa of 24, both signed.
+/// Decodes a float from an exponent of 8 bits and a mantissa of 24, both signed.
 ///
 /// The value is mantissa · 2^exponent. The power is composed from its bits in double precision,
 /// which covers all 256 exponents without rounding.

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 struct Folder(PathBuf);
 
 impl Folder {
-    /// An empty folder; the name tells the tests apart.
+    /// Creates an empty folder; the name tells the tests apart.
     fn new(name: &str) -> Self {
         let path = std::env::temp_dir().join(format!("obj-{name}-{}", std::process::id()));
         std::fs::remove_dir_all(&path).ok();
@@ -37,7 +37,7 @@ impl Folder {
         load(&self.0.join(name), &ImportOptions::default()).unwrap()
     }
 
-    /// The path of the folder.
+    /// Returns the path of the folder.
     fn path(&self) -> &Path {
         &self.0
     }
@@ -49,12 +49,12 @@ impl Drop for Folder {
     }
 }
 
-/// A textured square with the material `m` of the library `a.mtl`.
+/// Returns a textured square with the material `m` of the library `a.mtl`.
 fn square() -> String {
     format!("mtllib a.mtl\nusemtl m\n{SQUARE}vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n")
 }
 
-/// A model of the square whose material has these statements.
+/// Returns a model of the square whose material has these statements.
 fn model_of(name: &str, statements: &str) -> Model {
     let folder = Folder::new(name);
     folder.write("a.mtl", format!("newmtl m\n{statements}\n"));
@@ -62,14 +62,14 @@ fn model_of(name: &str, statements: &str) -> Model {
     folder.load("a.obj")
 }
 
-/// The material of these statements.
+/// Returns the material of these statements.
 fn material_of(name: &str, statements: &str) -> Material {
     let mut model = model_of(name, statements);
     assert_eq!(model.materials.len(), 1);
     model.materials.remove(0)
 }
 
-/// Whether two numbers differ by rounding only.
+/// Returns whether two numbers differ by rounding only.
 fn is_near(a: f32, b: f64) -> bool {
     (f64::from(a) - b).abs() < 1e-5
 }

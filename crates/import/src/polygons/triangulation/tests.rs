@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// The triangles of a polygon, and how it was cut.
+/// Returns the triangles of a polygon, and how it was cut.
 fn triangulate(corners: &[[f32; 3]]) -> (Vec<[u32; 3]>, PolygonKind) {
     let mut triangles = vec![[9; 3]];
     let kind = Triangulator::default().triangulate(corners, &mut triangles);
