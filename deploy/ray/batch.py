@@ -1,14 +1,14 @@
-"""Renders many models on a Ray cluster, by the package `alberti`.
+"""Render many models on a Ray cluster with the package `alberti`.
 
     ray job submit -- python deploy/ray/batch.py MODELS OUT --size 256
 
-Each model is a task of one core, which Ray gives to a free node and restarts elsewhere
-if its worker or its node dies. Pictures appear under their names when they are whole, and a model whose
-picture is there is not drawn again: the same command continues after anything. Broken models are
-listed at the end and do not stop the others.
+Each model is a task for one core. Ray assigns it to any free node, and restarts it elsewhere if its worker
+or its node dies. A picture gets its final name only when it is complete, and a model whose picture exists
+is not drawn again, so the same command resumes after any interruption. Broken models are listed at the end
+and do not stop the others.
 
-`alberti batch` does more (limits of time and memory for each model, reports, keys by content): use this
-where the work is in Python anyway. `OUT` and `MODELS` are on a file system that all nodes share.
+`alberti batch` does more (time and memory limits for each model, reports, content hashes as keys); use this
+script if your work is in Python anyway. `OUT` and `MODELS` must be on a file system that all nodes share.
 """
 
 import argparse
@@ -25,13 +25,13 @@ FORMATS = {".gltf", ".glb", ".stl", ".obj", ".ply", ".3mf"}
 
 @ray.remote(num_cpus=1, max_retries=3)
 def draw(model: Path, picture: Path, size: int) -> str | None:
-    """Draws one model; returns its errors."""
+    """Draw one model, and return an error message if it is broken."""
     try:
         frame = alberti.render(alberti.load(model), size=(size, size), threads=1)
     except alberti.AlbertiError as error:
         return f"{model}: {error}"
     picture.parent.mkdir(parents=True, exist_ok=True)
-    # Two tries of one task may run at a time, on two nodes.
+    # Two attempts at one task may run at the same time, on two nodes.
     part = picture.with_name(f".{picture.name}.{socket.gethostname()}.{os.getpid()}.part")
     part.write_bytes(frame.png())
     os.replace(part, picture)
@@ -39,7 +39,7 @@ def draw(model: Path, picture: Path, size: int) -> str | None:
 
 
 def draw_missing(given: argparse.Namespace) -> Iterator[str | None]:
-    """Draws the models that have no picture; yields what `draw` returns, as tasks end."""
+    """Draw the models that have no picture, and yield the result of `draw` as each task ends."""
     waiting = []
     for path in sorted(given.models.rglob("*")):
         below = path.relative_to(given.models)
@@ -56,12 +56,12 @@ def draw_missing(given: argparse.Namespace) -> Iterator[str | None]:
 
 
 def main() -> int:
-    """Draws the missing pictures; returns the number of models that failed."""
+    """Draw the missing pictures, and return the number of models that failed."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("models", type=Path)
     parser.add_argument("out", type=Path)
     parser.add_argument("--size", type=int, default=256)
-    parser.add_argument("--in-flight", type=int, default=1000, help="tasks that wait or run")
+    parser.add_argument("--in-flight", type=int, default=1000, help="maximum number of pending tasks")
     given = parser.parse_args()
     ray.init(ignore_reinit_error=True)
     results = list(draw_missing(given))

@@ -2,7 +2,7 @@
 //! picture with one thing more or less.
 //!
 //! There is one scene per feature, all rendered in this process with one thread, in turn. The base
-//! is the program's usual picture: four samples, every material map, an environment, no shadows.
+//! is the program's default picture: four samples, every material map, an environment, no shadows.
 
 use crate::measure::{Contestant, Series, rounds};
 use model::{Anisotropy, Clearcoat, Iridescence, MaterialExtensions, Sheen, Transmission, Volume};
@@ -13,7 +13,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// The name of the base, to which the others are compared.
-pub const BASE: &str = "usual picture";
+pub const BASE: &str = "default picture";
 
 /// Each feature with its changes to the base: lights and the like, image fields, and materials.
 const FEATURES: [(&str, &str, &str, Change); 19] = [
@@ -22,7 +22,7 @@ const FEATURES: [(&str, &str, &str, Change); 19] = [
     ("one sun, no environment", "environment: Dark", "", AS_IT_IS),
     ("sky", "environment: Sky()", "", AS_IT_IS),
     (
-        "sun beside the studio",
+        "sun and studio",
         "lights: [Directional(intensity: 2, direction: (-1, -2, -1))]",
         "",
         AS_IT_IS,
@@ -47,8 +47,8 @@ const FEATURES: [(&str, &str, &str, Change); 19] = [
     ("anisotropy", "", "", |of| {
         of.anisotropy = Some(Box::new(Anisotropy { strength: 0.7, ..Default::default() }))
     }),
-    ("grey glass", "", "", |of| of.transmission = Some(Box::new(GLASS))),
-    ("coloured glass", "", "", |of| {
+    ("gray glass", "", "", |of| of.transmission = Some(Box::new(GLASS))),
+    ("colored glass", "", "", |of| {
         of.transmission = Some(Box::new(GLASS));
         of.volume = Some(Box::new(TINT));
     }),

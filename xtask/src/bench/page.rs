@@ -44,24 +44,23 @@ fn write(path: &Path, text: &str) -> Outcome {
 const INTRODUCTION: &str = "\
 # Benchmarks
 
-Written by `cargo xtask bench --page`. All figures are of one run on one machine, with the programs that were installed there;
-[benchmarks.csv](benchmarks.csv) holds every single time. What is lost comes first.
+Written by `cargo xtask bench --page`. All figures come from one run on one machine, with the programs installed there;
+[benchmarks.csv](benchmarks.csv) lists every individual time. The comparisons in which Alberti is slower come first.
 ";
 
 const METHOD: &str = "
 ## Method
 
-- Everybody draws the same vertices at 1920 × 1080 in one process with one thread, by turns: in each round everybody once, in another
-  order each time, after one round for warming up. What counts is CPU time of the thread, and the ratio within a round: a
-  machine that is busy for a second is busy for all. Tables show medians, and in parentheses the least and the greatest.
-- `raster` is the crate of that name with the plain shader that the peers have too. `render` is the whole of `pipeline::render`: it
-  shades the same scene with all that pictures of the program have. \"4x\" is with four samples a pixel. Slow contestants run in
-  fewer rounds.
-- Files are drawn by the programs as processes of their own, from the file to a PNG; CPU time and peak memory are the system's
-  account of the process. f3d has a virtual display, and Mesa's llvmpipe draws for it.
-- Peers on a graphics card, and programs that take minutes a picture, are not compared.
-- `tests/peers/README.md` says what is needed to run it. Nothing is asserted: times depend on the machine, not only on the code. What is
-  asserted are the counts of instructions at the end, which another run reproduces to the last one.
+- All contestants draw the same vertices at 1920 × 1080 in one process with one thread. After a warm-up round, each round runs every
+  contestant once, in a different order. The results are the CPU time of the thread, and the ratio within a round, because a busy machine
+  slows all contestants alike. Tables show medians, with minimum and maximum in parentheses.
+- `raster` is the crate of that name, with the same plain shader as the peers. `render` is all of `pipeline::render`: it shades the same
+  scene with every feature of the program's pictures. \"4x\" means four samples per pixel. Slow contestants run fewer rounds.
+- To compare files, each program runs as a separate process, from the file to a PNG. CPU time and peak memory are measured by the system.
+  f3d has a virtual display and draws with Mesa's llvmpipe.
+- Peers on a graphics card, and programs that take minutes per picture, are not compared.
+- `tests/peers/README.md` says what you need to run the benchmarks. Times are not asserted, because they do not depend on the code alone.
+  The instruction counts at the end are asserted; another run reproduces them exactly.
 ";
 
 /// The page.
@@ -76,14 +75,15 @@ fn page(place: &Place, figures: &Value, counts: &super::instructions::RecordedCo
     }
     text += &tables::files(&figures["files"]);
     text += &tables::contest("Limits of the machine", &figures["limits"], &["clear", "kernel"]);
-    text += &tables::contest(
-        "What features of the shading cost",
-        &figures["features"],
-        &["usual picture"],
-    );
+    text +=
+        &tables::contest("Cost of shading features", &figures["features"], &["default picture"]);
     text += &tables::threads(&figures["threads"]);
     text += &tables::goals(&figures["goals"]);
-    let _ = write!(text, "\n## Instructions\n\nBy callgrind, program of {}:\n\n", counts.compiler);
+    let _ = write!(
+        text,
+        "\n## Instructions\n\nCounted by callgrind, with the program compiled by {}:\n\n",
+        counts.compiler
+    );
     text += "| work | instructions |\n| --- | --- |\n";
     for (name, count) in &counts.counts {
         let _ = writeln!(text, "| {name} | {count} |");

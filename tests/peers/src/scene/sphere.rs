@@ -17,12 +17,12 @@ pub fn sphere(name: &'static str, rows: u32, two_sided: bool) -> Result<Scene, S
     let quads = (0..rows).flat_map(|i| (0..2 * rows).map(move |j| i * stride + j));
     let indices: Vec<u32> =
         quads.flat_map(|a| [a, a + stride, a + 1, a + 1, a + stride, a + stride + 1]).collect();
-    let sides = if two_sided { " with both sides" } else { "" };
+    let sides = if two_sided { "double-sided " } else { "" };
     let camera = Camera::look_at(Point::new(1.2, 0.9, 3.4), Point::ORIGIN, Vector::Y);
     let lens = Perspective::new(Fov::vertical_degrees(36.0), aspect(), 1.0, 10.0);
     Ok(Scene {
         name,
-        about: format!("a sphere with bumps, {} triangles{sides}, lambert", indices.len() / 3),
+        about: format!("a bumpy sphere, {} {sides}triangles, lambert", indices.len() / 3),
         parts: vec![Part {
             indices: 0..indices.len(),
             tint: [0.9, 0.7, 0.5],

@@ -14,11 +14,11 @@ pub fn to_markdown(figures: &Value) -> String {
         found += &super::tables::goal_row(goal);
     }
     if found.is_empty() {
-        return "\n## What is lost\n\nNothing of what was measured.\n".into();
+        return "\n## Losses\n\nNone.\n".into();
     }
     format!(
-        "\n## What is lost\n\nPeers that take less time than we do, as their time over ours, and goals that are missed.\n\n\
-         | what | reached | wanted |\n| --- | --- | --- |\n{found}"
+        "\n## Losses\n\nThese peers take less time than Alberti (the ratio is their time divided by ours), and these goals are missed.\n\n\
+         | comparison | measured | goal |\n| --- | --- | --- |\n{found}"
     )
 }
 

@@ -45,7 +45,7 @@ impl Place {
     /// The section of the page. The versions of Mesa and f3d come from the figures.
     pub fn to_markdown(&self, figures: &Value) -> String {
         let or_missing = |value: &Value| match text(value) {
-            "" => "not installed: left out".to_owned(),
+            "" => "not installed, skipped".to_owned(),
             version => version.to_owned(),
         };
         let peers = format!(
@@ -64,15 +64,15 @@ impl Place {
             ("date", self.date.clone()),
             ("peers", peers),
             ("rounds", rounds(figures).to_string()),
-            ("load of the machine before and after", load),
+            ("machine load before and after", load),
         ];
-        let mut text = "\n## Where and when\n\n| | |\n| --- | --- |\n".to_owned();
+        let mut text = "\n## Setup\n\n| | |\n| --- | --- |\n".to_owned();
         for (name, value) in rows {
             let _ = writeln!(text, "| {name} | {value} |");
         }
         if self.was_busy() {
-            text += "\n**The machine was busy with other work.** Ratios of one round still compare like with like, but caches and clocks were \
-                     shared: run it again on a quiet machine before you rely on a figure.\n";
+            text += "\n**The machine was busy with other work.** Ratios within a round still compare like with like, but caches and clock \
+                     speeds were shared. Repeat the run on a quiet machine before you rely on a figure.\n";
         }
         text
     }
@@ -117,9 +117,7 @@ mod tests {
         let at = |load| Place { cores: 4, load_before: Some(load), ..Place::default() };
         let text = |load| at(load).to_markdown(&Value::Null);
         assert!(text(2.0).contains("was busy") && !text(0.5).contains("was busy"));
-        assert!(
-            text(0.5).contains("| load of the machine before and after | 0.50, then unknown |")
-        );
+        assert!(text(0.5).contains("| machine load before and after | 0.50, then unknown |"));
         assert!(locked_version("euc").starts_with("0.5"));
     }
 }

@@ -31,7 +31,7 @@ pub fn scene(scene: &Value) -> String {
     for found in list(&scene["agreement"]) {
         let _ = write!(
             markdown,
-            "\nAgainst {}: {} of {} pixels covered otherwise, {} colored otherwise.\n",
+            "\nAgainst {}: {} of {} pixels covered differently, {} colored differently.\n",
             text(&found["peer"]),
             found["covered_otherwise"],
             found["drawn"],
@@ -93,8 +93,8 @@ pub fn threads(threads: &Value) -> String {
     if list(threads).is_empty() {
         return markdown;
     }
-    markdown += "\n## Two threads\n\nWall time over that of one thread, in the rounds in which one thread had its core to itself.\n\n\
-                 | scene | whose | wall time | quiet rounds | same picture |\n| --- | --- | --- | --- | --- |\n";
+    markdown += "\n## Two threads\n\nWall time divided by the wall time with one thread, in rounds in which that thread had its core to itself.\n\n\
+                 | scene | contestant | wall time | quiet rounds | same picture |\n| --- | --- | --- | --- | --- |\n";
     for found in list(threads) {
         let _ = writeln!(
             markdown,
@@ -115,7 +115,7 @@ pub fn goals(goals: &Value) -> String {
     if list(goals).is_empty() {
         return markdown;
     }
-    markdown += "\n## Goals\n\n| | what | reached | wanted |\n| --- | --- | --- | --- |\n";
+    markdown += "\n## Goals\n\n| | comparison | measured | goal |\n| --- | --- | --- | --- |\n";
     for goal in list(goals) {
         let verdict = if goal["met"] == true { "met" } else { "missed" };
         markdown += &format!("| {verdict} {}", goal_row(goal));
