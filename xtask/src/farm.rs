@@ -82,7 +82,7 @@ fn tables(times: &PictureTimes) -> String {
 
 /// The time, by node count and shard count.
 fn scaling_table(times: &PictureTimes) -> String {
-    let mut text = "| nodes | cores | shards | time | pictures per second | cores at work |\n\
+    let mut text = "| nodes | cores | shards | time | pictures per second | cores in use |\n\
                     | ---: | ---: | ---: | ---: | ---: | ---: |\n"
         .to_owned();
     for (nodes, shards) in [(1, 1), (4, 16), (16, 64), (64, 64), (64, 256), (64, 1024), (64, 4096)]
