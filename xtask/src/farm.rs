@@ -99,7 +99,7 @@ fn scaling_table(times: &PictureTimes) -> String {
 
 /// The cost of node failures.
 fn death_table(times: &PictureTimes) -> String {
-    let mut text = "| each node dies every | time | if shards began again |\n\
+    let mut text = "| each node fails every | time | if shards started over |\n\
                     | ---: | ---: | ---: |\n"
         .to_owned();
     for hours in [0, 100, 10, 2] {
@@ -115,7 +115,7 @@ fn death_table(times: &PictureTimes) -> String {
 /// The number of requests per second that the file system has to answer.
 fn request_table(rate: f64) -> String {
     let mut text =
-        "| cores | a file a picture | `--tar 1000` |\n| ---: | ---: | ---: |\n".to_owned();
+        "| cores | one file per picture | `--tar 1000` |\n| ---: | ---: | ---: |\n".to_owned();
     for cores in [16, 64, 256, 1024] {
         let pictures = (rate * f64::from(cores)) as u64;
         let files = pictures * (REQUESTS_TO_READ + REQUESTS_TO_WRITE);

@@ -9,7 +9,7 @@ use serde_json::json;
 /// Segments around the axis.
 const SEGMENTS: u32 = 48;
 
-/// A closed outline in radius and height, so the solid of revolution has a bore.
+/// A closed outline in radius and height, which gives the solid of revolution a bore.
 type Profile<'a> = &'a [(f64, f64)];
 
 const HOUSING: Profile<'_> = &[
@@ -37,7 +37,7 @@ const SHAFT: Profile<'_> = &[
     (0.3, 2.3),
     (0.0, 2.3),
 ];
-/// Only the head.
+/// Only the bolt head.
 const BOLT: Profile<'_> = &[(0.0, 0.3), (0.2, 0.3), (0.2, 0.45), (0.0, 0.45)];
 
 pub(crate) fn bearing() -> Document {

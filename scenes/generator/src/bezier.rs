@@ -2,7 +2,7 @@
 //!
 //! `P(u, v) = Σ B_i(v) B_j(u) p_ij` with Bernstein's cubics (Bézier 1968; Foley et al., 2nd ed.,
 //! §11.3.2); `u` runs along a row of control points, `v` from row to row. The normal is
-//! `P_u × P_v`. Where all control points of a row coincide, at a pole, `P_u` is zero; near it
+//! `P_u × P_v`. At a pole, where all control points of a row coincide, `P_u` is zero. Near a pole,
 //! `P_u ≈ ±v P_uv`, so the mixed derivative gives the limit of the direction.
 
 use crate::mesh::Mesh;
@@ -32,13 +32,13 @@ fn patch_normal(patch: &Patch, u: f64, v: f64) -> DVec3 {
     if along_u.length() > 1e-9 {
         return along_u.cross(along_v).normalize();
     }
-    // Going away from the pole: forwards from the first row, backwards from the last.
+    // Away from the pole: forward from the first row, backward from the last.
     let away = if v < 0.5 { 1.0 } else { -1.0 };
     let opening = patch_point(patch, bernstein_slopes(u), bernstein_slopes(v)) * away;
     opening.cross(along_v).normalize()
 }
 
-/// The weighted sum of control points, with one weight for each column and one for each row.
+/// Computes the weighted sum of the control points, with a weight for each column and each row.
 fn patch_point(patch: &Patch, columns: DVec4, rows: DVec4) -> DVec3 {
     let blend = |points: [DVec3; 4], weights: DVec4| {
         points[0] * weights.x
@@ -49,13 +49,13 @@ fn patch_point(patch: &Patch, columns: DVec4, rows: DVec4) -> DVec3 {
     blend(patch.map(|row| blend(row, columns)), rows)
 }
 
-/// Bernstein's cubics at `t`.
+/// Evaluates Bernstein's cubics at `t`.
 fn bernstein_cubics(t: f64) -> DVec4 {
     let s = 1.0 - t;
     dvec4(s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t)
 }
 
-/// Their derivatives at `t`.
+/// Evaluates the derivatives of Bernstein's cubics at `t`.
 fn bernstein_slopes(t: f64) -> DVec4 {
     let s = 1.0 - t;
     dvec4(-3.0 * s * s, 3.0 * s * s - 6.0 * s * t, 6.0 * s * t - 3.0 * t * t, 3.0 * t * t)
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn at_a_pole_the_normal_is_the_limit_of_those_beside_it() {
+    fn normal_at_a_pole_is_the_limit_of_nearby_normals() {
         let poles = [("lid", 0.0, DVec3::Z), ("bottom", 1.0, DVec3::NEG_Z)];
         for (name, v, axis) in poles {
             let part = teapot_parts().into_iter().find(|part| part.name == name).unwrap();

@@ -1,4 +1,4 @@
-//! Wooden crate (base color texture) and glass panes (alpha modes BLEND, MASK and OPAQUE).
+//! A wooden crate (base color texture) and glass panes (alpha modes BLEND, MASK and OPAQUE).
 
 use crate::document::Document;
 use crate::mesh::Mesh;
@@ -7,7 +7,7 @@ use crate::wood;
 use glam::{DVec3, dvec3};
 use serde_json::json;
 
-/// A cube of one meter on the ground with one texture on all six faces.
+/// Builds a cube of one meter that rests on the ground, with one texture on all six faces.
 pub(crate) fn wooden_crate() -> Result<Document, String> {
     let mut document = Document::default();
     let planks = document.add_texture("planks", &wood::crate_side_png()?);
@@ -17,11 +17,9 @@ pub(crate) fn wooden_crate() -> Result<Document, String> {
     Ok(document)
 }
 
-/// Three panes of colored glass (BLEND) with a perforated screen (MASK) behind them, in a slate
-/// rail (OPAQUE).
-///
-/// The panes are listed from front to back, against the order in which they must be blended from a
-/// camera in front.
+/// Builds three panes of colored glass (BLEND) with a perforated screen (MASK) behind them, in a
+/// slate rail (OPAQUE). The panes are listed from front to back, the opposite of the order in which
+/// they must be blended for a camera in front.
 pub(crate) fn panes() -> Result<Document, String> {
     let mut document = Document::default();
     let rail = document.add_material("rail", SLATE);
@@ -51,7 +49,7 @@ pub(crate) fn panes() -> Result<Document, String> {
     Ok(document)
 }
 
-/// A rectangle that faces +z; `at` is the center of its lower edge.
+/// Builds a rectangle that faces +z; `at` is the center of its lower edge.
 fn upright_pane(at: DVec3, width: f64, height: f64) -> Mesh {
     let side = DVec3::X * (width / 2.0);
     let up = DVec3::Y * height;

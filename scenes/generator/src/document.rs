@@ -29,17 +29,17 @@ pub struct TextureId(usize);
 pub enum PrimitiveMode {
     /// One point per index.
     Points = 0,
-    /// One segment per pair.
+    /// One segment per pair of indices.
     Lines = 1,
     /// A closed polyline.
     LineLoop = 2,
     /// An open polyline.
     LineStrip = 3,
-    /// One triangle per three.
+    /// One triangle per three indices.
     Triangles = 4,
-    /// Each index after the second makes a triangle with the two before it.
+    /// Each index after the second forms a triangle with the two preceding indices.
     TriangleStrip = 5,
-    /// Each index after the second makes a triangle with the one before it and the first.
+    /// Each index after the second forms a triangle with the preceding index and the first.
     TriangleFan = 6,
 }
 
@@ -65,12 +65,12 @@ const UNSIGNED_INT: u32 = 5125;
 const FLOAT: u32 = 5126;
 
 impl Document {
-    /// A rough dielectric of one color.
+    /// Adds a rough dielectric of one color.
     pub fn add_material(&mut self, name: &str, color: Color) -> MaterialId {
         self.add_surface(name, json!({ "baseColorFactor": opaque_factor(color) }), json!({}))
     }
 
-    /// A rough dielectric of one color without back-face culling.
+    /// Adds a rough, double-sided dielectric of one color.
     pub fn add_double_sided(&mut self, name: &str, color: Color) -> MaterialId {
         self.add_surface(
             name,
@@ -79,7 +79,7 @@ impl Document {
         )
     }
 
-    /// A transparent material: alpha mode BLEND, both faces drawn.
+    /// Adds a transparent material with alpha mode BLEND whose two faces are both drawn.
     pub fn add_glass(&mut self, name: &str, color: Color, alpha: f64) -> MaterialId {
         let [r, g, b] = color.linear();
         self.add_surface(
@@ -89,8 +89,8 @@ impl Document {
         )
     }
 
-    /// A material with a base color texture; `others` are further members of the material, such as
-    /// its alpha mode.
+    /// Adds a material with a base color texture; `others` contains further members of the
+    /// material, such as its alpha mode.
     pub fn add_textured(&mut self, name: &str, texture: TextureId, others: Value) -> MaterialId {
         self.add_surface(name, json!({ "baseColorTexture": { "index": texture.0 } }), others)
     }
@@ -104,14 +104,15 @@ impl Document {
         MaterialId(self.materials.len() - 1)
     }
 
-    /// A material by its glTF members; only the name is added.
+    /// Adds a material given by its glTF members, except for the name.
     pub fn add_finish(&mut self, name: &str, mut material: Value) -> MaterialId {
         material["name"] = json!(name);
         self.materials.push(material);
         MaterialId(self.materials.len() - 1)
     }
 
-    /// A texture from the bytes of a PNG, filtered trilinearly and repeated in both directions.
+    /// Adds a texture from the bytes of a PNG, filtered trilinearly and repeated in both
+    /// directions.
     pub fn add_texture(&mut self, name: &str, png: &[u8]) -> TextureId {
         let view = self.add_buffer_view(png, None);
         let image = push_index(
@@ -124,14 +125,14 @@ impl Document {
         ))
     }
 
-    /// A mesh of triangles.
+    /// Adds a mesh of triangles.
     pub fn add_mesh(&mut self, name: &str, parts: &[(&Mesh, MaterialId)]) -> MeshId {
         let parts: Vec<_> =
             parts.iter().map(|(mesh, by)| (*mesh, *by, PrimitiveMode::Triangles)).collect();
         self.add_mesh_of_modes(name, &parts)
     }
 
-    /// A mesh whose parts each have a primitive mode.
+    /// Adds a mesh whose parts each have a primitive mode.
     pub fn add_mesh_of_modes(
         &mut self,
         name: &str,
@@ -169,8 +170,8 @@ impl Document {
         primitive
     }
 
-    /// Positions are the only attribute that must have bounds (glTF 2.0, §3.7.2.1). They bound the
-    /// stored f32 values.
+    /// Adds positions, the only attribute that must have bounds (glTF 2.0, §3.7.2.1). The bounds
+    /// are computed from the stored f32 values.
     fn add_positions(&mut self, positions: &[DVec3]) -> Value {
         let stored = positions.iter().map(|position| position.as_vec3().as_dvec3());
         let low = stored.clone().fold(DVec3::INFINITY, DVec3::min);
@@ -191,7 +192,8 @@ impl Document {
         }))
     }
 
-    /// Vertex colors in 16 bits: linear light in 8 would show bands in the dark.
+    /// Adds vertex colors in 16 bits, because linear light in 8 bits would show banding in dark
+    /// areas.
     fn add_colors(&mut self, colors: &[[f64; 3]]) -> Value {
         let channels = |color: &[f64; 3]| [color[0], color[1], color[2], 1.0];
         let bytes: Vec<u8> = colors
@@ -206,7 +208,7 @@ impl Document {
         }))
     }
 
-    /// 16-bit indices where they suffice; 65535 is the primitive restart value.
+    /// Adds indices, in 16 bits if that suffices; 65535 is the primitive restart value.
     fn add_indices(&mut self, mesh: &Mesh) -> Value {
         let short = mesh.positions.len() < 65535;
         let bytes: Vec<u8> = if short {
@@ -236,14 +238,15 @@ impl Document {
         push_index(&mut self.buffer_views, view)
     }
 
-    /// A root node of the scene. `members` are its transform and other members of a glTF node.
+    /// Adds a root node to the scene. `members` contains its transform and other members of a glTF
+    /// node.
     pub fn add_root(&mut self, name: &str, mesh: Option<MeshId>, members: Value) -> NodeId {
         let node = self.add_node(name, mesh, members);
         self.roots.push(node.0);
         node
     }
 
-    /// A child of another node.
+    /// Adds a child to another node.
     pub fn add_child(
         &mut self,
         of: NodeId,
@@ -267,8 +270,8 @@ impl Document {
         NodeId(push_index(&mut self.nodes, members))
     }
 
-    /// A root node with a camera at `eye`, rotated by the unit quaternion `rotation` (x, y, z, w);
-    /// it looks along its own −z. `lens` is the glTF camera object.
+    /// Adds a root node with a camera at `eye`, rotated by the unit quaternion `rotation` (x, y, z,
+    /// w); it looks along its own −z. `lens` is the glTF camera object.
     pub fn add_camera(
         &mut self,
         name: &str,
@@ -286,7 +289,7 @@ impl Document {
         )
     }
 
-    /// The bytes of a `.glb` file (glTF 2.0, §4.4).
+    /// Returns the bytes of a `.glb` file (glTF 2.0, §4.4).
     pub fn into_glb(self) -> Vec<u8> {
         encode_glb(self.to_json().to_string().as_bytes(), &self.binary)
     }
@@ -329,7 +332,7 @@ impl Document {
     }
 }
 
-/// A rotation by `degrees` about an axis, as glTF's unit quaternion (x, y, z, w).
+/// Returns a rotation by `degrees` about an axis as glTF's unit quaternion (x, y, z, w).
 pub fn rotation_quaternion(axis: DVec3, degrees: f64) -> [f64; 4] {
     let (sine, cosine) = libm::sincos(degrees.to_radians() / 2.0);
     let [x, y, z] = (axis * sine).to_array();

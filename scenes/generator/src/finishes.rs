@@ -4,7 +4,7 @@ use crate::document::Document;
 use crate::mesh::Mesh;
 use serde_json::{Value, json};
 
-/// Rows from above: metals, dielectrics, layers.
+/// Builds the spheres in rows, from the top: metals, dielectrics, layers.
 pub(crate) fn finishes() -> Document {
     let mut document = Document::default();
     let ball = Mesh::sphere(0.45, 28);
@@ -33,8 +33,8 @@ pub(crate) fn finishes() -> Document {
     document
 }
 
-/// The material extension of a column: clearcoat, sheen, iridescence, transmission, index of
-/// refraction.
+/// Returns the material extension of a column: clearcoat, sheen, iridescence, transmission, index
+/// of refraction.
 fn layer_extension(which: u32) -> Value {
     let (color, metallic, roughness, name, extension) = match which {
         0 => (

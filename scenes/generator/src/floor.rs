@@ -1,4 +1,4 @@
-//! Checkered floor with rows of posts that extends behind a camera at the origin.
+//! A checkered floor with rows of posts that extends behind a camera at the origin.
 //!
 //! Every tile is a separate face. Tiles below the camera cross the plane w = 0, where a renderer
 //! that divides before it clips shows wrap-around.
@@ -9,7 +9,7 @@ use crate::palette::{BRICK, CREAM, SAND, SLATE};
 use glam::{DVec3, dvec3};
 use serde_json::json;
 
-/// Half the number of tiles across; a tile is one meter.
+/// Half the number of tiles across; a tile is one meter wide.
 const HALF_WIDTH: i32 = 4;
 /// The rows of tiles from behind the camera to the far end.
 const FROM_Z: i32 = -72;
@@ -41,7 +41,7 @@ pub(crate) fn floor() -> Document {
     document
 }
 
-/// The tiles of one color, on a grid of shared vertices.
+/// Builds the tiles of one color, on a grid of shared vertices.
 fn floor_tiles(odd: i32) -> Mesh {
     let mut mesh = Mesh::default();
     let across = 2 * HALF_WIDTH + 1;
@@ -52,7 +52,7 @@ fn floor_tiles(odd: i32) -> Mesh {
     }
     for row in 0..TO_Z - FROM_Z {
         for column in (0..across - 1).filter(|column| (row + column) % 2 == odd) {
-            // Seen from above, z runs down the page, so this order is counter-clockwise.
+            // Seen from above, z runs down the page, so this order is counterclockwise.
             let corner = (row * across + column) as u32;
             let below = corner + across as u32;
             mesh.indices.extend([corner, below, below + 1, corner, below + 1, corner + 1]);

@@ -6,8 +6,8 @@ use crate::palette::{BRICK, CREAM, INK, PAPER, SKY, SLATE, TEAL};
 use glam::{DVec3, dvec3};
 use serde_json::json;
 
-/// Half the width (x) and half the depth (z) of the walls, height of the eaves and of the ridge,
-/// which runs along z.
+/// Half the width (x) and half the depth (z) of the walls, and the heights of the eaves and of the
+/// ridge, which runs along z.
 const HALF_WIDTH: f64 = 2.0;
 const HALF_DEPTH: f64 = 2.8;
 const EAVES: f64 = 2.4;
@@ -15,7 +15,7 @@ const RIDGE: f64 = 4.2;
 const ROOF_THICKNESS: f64 = 0.18;
 const OVERHANG: f64 = 0.35;
 
-/// The solid house: walls, roof, chimney, door and windows.
+/// Builds the solid house: walls, roof, chimney, door and windows.
 pub(crate) fn solid_house() -> Document {
     let mut document = Document::default();
     let plaster = document.add_material("plaster", CREAM);
@@ -45,7 +45,7 @@ pub(crate) fn solid_house() -> Document {
     document
 }
 
-/// The outline of the gable wall, counter-clockwise seen from the front.
+/// Returns the outline of the gable wall, counterclockwise seen from the front.
 fn gable_outline(z: f64) -> [DVec3; 5] {
     [
         dvec3(-HALF_WIDTH, 0.0, z),
@@ -67,7 +67,7 @@ fn wall_mesh() -> Mesh {
     mesh
 }
 
-/// Two slabs on the gables that overhang the walls.
+/// Builds two slabs on the gables that overhang the walls.
 fn roof_mesh() -> Mesh {
     let slope = dvec3(HALF_WIDTH, EAVES - RIDGE, 0.0);
     let reach = slope * (1.0 + OVERHANG / slope.length());
@@ -76,7 +76,7 @@ fn roof_mesh() -> Mesh {
     for side in [1.0, -1.0] {
         let ridge = dvec3(0.0, RIDGE, 0.0);
         let eave = ridge + dvec3(reach.x * side, reach.y, 0.0);
-        // One slab: its cross-section counter-clockwise seen from the front, for both sides.
+        // The cross-section of one slab, counterclockwise seen from the front, for both sides.
         let mut section = [ridge, eave, eave + up, ridge + up];
         if side < 0.0 {
             section.reverse();
@@ -86,7 +86,7 @@ fn roof_mesh() -> Mesh {
     mesh
 }
 
-/// A bar along z with the given cross-section, from −half to +half.
+/// Adds a bar along z with the given cross-section, from −half to +half.
 fn add_prism(mesh: &mut Mesh, section: &[DVec3; 4], half: f64) {
     let at = |point: DVec3, z: f64| point + dvec3(0.0, 0.0, z);
     mesh.add_polygon(&section.map(|point| at(point, half)));
@@ -103,7 +103,7 @@ fn chimney_mesh() -> Mesh {
     Mesh::block_on(dvec3(-1.0, 3.0, -1.3), dvec3(0.55, 1.75, 0.55)).without_uvs()
 }
 
-/// The window panes and their frames.
+/// Builds the window panes and their frames.
 fn window_meshes() -> (Mesh, Mesh) {
     let (mut panes, mut frames) = (Mesh::default(), Mesh::default());
     let thin = 0.06;
@@ -124,7 +124,7 @@ fn window_meshes() -> (Mesh, Mesh) {
     (panes, frames)
 }
 
-/// The edges of the house as segments, without faces to hide them.
+/// Builds the edges of the house as segments, without faces to hide them.
 pub(crate) fn house_edges() -> Document {
     let mut drawing = Mesh::default();
     for z in [HALF_DEPTH, -HALF_DEPTH] {
@@ -155,7 +155,7 @@ pub(crate) fn house_edges() -> Document {
     document
 }
 
-/// The vertical edges of the chimney end at the height of the roof's slope.
+/// Adds the chimney's edges; the vertical edges end at the slope of the roof.
 fn chimney_edges(drawing: &mut Mesh) {
     let (top, half) = (4.75, 0.275);
     let roof_at = |x: f64| RIDGE + (EAVES - RIDGE) * x.abs() / HALF_WIDTH;
@@ -176,7 +176,7 @@ fn rectangle_points(corner: DVec3, side: DVec3, up: DVec3) -> [DVec3; 4] {
     [corner, corner + side, corner + side + up, corner + up]
 }
 
-/// The segments of a closed outline.
+/// Adds the segments of a closed outline.
 fn add_closed_line(drawing: &mut Mesh, corners: &[DVec3]) {
     for (i, corner) in corners.iter().enumerate() {
         add_segment(drawing, *corner, corners[(i + 1) % corners.len()]);

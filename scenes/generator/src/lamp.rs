@@ -49,13 +49,13 @@ pub(crate) fn lamp() -> Document {
     document
 }
 
-/// A joint: translated along the previous part, then rotated.
+/// Returns the node of a joint, translated along the previous part, then rotated.
 fn joint_node(at: f64, axis: DVec3, degrees: f64) -> Value {
     json!({ "translation": [0.0, at, 0.0], "rotation": rotation_quaternion(axis, degrees) })
 }
 
-/// The head's transform as a column-major matrix: −78° about z at the end of the upper arm, scaled
-/// by 1.1 along its axis.
+/// Returns the head's transform as a column-major matrix: −78° about z at the end of the upper arm,
+/// scaled by 1.1 along its axis.
 fn head_matrix() -> Value {
     let (sine, cosine) = libm::sincos((-78.0_f64).to_radians());
     let length = 1.1;
@@ -67,7 +67,7 @@ fn head_matrix() -> Value {
     ] })
 }
 
-/// An open bell about the y axis, its mouth up.
+/// Builds an open bell about the y axis that opens upward.
 fn shade_mesh() -> Mesh {
     Mesh::lathe(
         &sharp_outline(&[(0.0, 0.1), (0.16, 0.1), (0.18, 0.24), (0.5, 0.72), (0.5, 0.78)]),

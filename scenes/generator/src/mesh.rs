@@ -1,9 +1,7 @@
 //! Indexed triangle meshes under construction, and the shapes that models are built from: quads,
-//! boxes, surfaces of revolution, spheres.
-//!
-//! Triangles are counter-clockwise seen from outside. Shapes carry the exact normals of the smooth
-//! surface they approximate, not the normals of their triangles. Flat faces share no vertices, so
-//! their edges stay sharp.
+//! boxes, surfaces of revolution, spheres. Triangles are counterclockwise seen from outside. Shapes
+//! have the exact normals of the smooth surface they approximate, not the normals of their
+//! triangles. Flat faces do not share vertices, so their edges stay sharp.
 
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -20,7 +18,8 @@ pub struct Mesh {
     pub uvs: Vec<DVec2>,
     /// Linear light, 0 to 1.
     pub colors: Vec<[f64; 3]>,
-    /// Vertices of the triangles, or of other primitives if the document uses the mesh for them.
+    /// Vertex indices of the triangles, or of other primitives if the document uses the mesh for
+    /// them.
     pub indices: Vec<u32>,
 }
 
@@ -43,7 +42,8 @@ impl Mesh {
         self.positions.len() as u32 - 1
     }
 
-    /// Adds a triangle, unless it is degenerate: at a pole of a sphere two vertices coincide.
+    /// Adds a triangle unless it is degenerate, as at a pole of a sphere, where two vertices
+    /// coincide.
     pub fn add_triangle(&mut self, corners: [u32; 3]) {
         let [a, b, c] = corners.map(|index| self.positions[index as usize]);
         if (b - a).cross(c - a).length() > 1e-12 {
@@ -51,10 +51,9 @@ impl Mesh {
         }
     }
 
-    /// Adds the two triangles of each cell of a grid of `columns` by `rows` vertices, stored row by
-    /// row from index `first`.
-    ///
-    /// The front is the side from which rows run to the right and follow each other upwards.
+    /// Adds two triangles for each cell of a grid of `columns` by `rows` vertices, stored row by
+    /// row from index `first`. The front is the side from which rows run to the right and follow
+    /// each other upward.
     pub fn add_grid_triangles(&mut self, first: u32, columns: u32, rows: u32) {
         for row in 0..rows - 1 {
             for column in 0..columns - 1 {
@@ -66,8 +65,8 @@ impl Mesh {
         }
     }
 
-    /// A flat four-sided face with texture coordinates over the whole square, its corners
-    /// counter-clockwise from the lower left.
+    /// Adds a flat four-sided face, with corners counterclockwise from the lower left and texture
+    /// coordinates that cover the whole square.
     pub fn add_quad(&mut self, corners: [DVec3; 4]) {
         let [a, b, c, d] = corners;
         let normal = (b - a).cross(d - a).normalize();
@@ -79,7 +78,7 @@ impl Mesh {
         self.indices.extend([0, 1, 2, 0, 2, 3].map(|corner| first + corner));
     }
 
-    /// A flat convex face, its corners counter-clockwise; without texture coordinates.
+    /// Adds a flat convex face, with corners counterclockwise and without texture coordinates.
     pub fn add_polygon(&mut self, corners: &[DVec3]) {
         let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
         let first = self.positions.len() as u32;
@@ -91,7 +90,7 @@ impl Mesh {
         }
     }
 
-    /// A box with its faces along the axes.
+    /// Builds an axis-aligned box.
     #[must_use]
     pub fn cuboid(low: DVec3, high: DVec3) -> Self {
         let corner = |x: bool, y: bool, z: bool| {
@@ -113,15 +112,15 @@ impl Mesh {
         mesh
     }
 
-    /// A box of the given size, resting on the ground and centered over `(x, z)`.
+    /// Builds a box of the given size, resting on the ground and centered over `(x, z)`.
     #[must_use]
     pub fn block_on(at: DVec3, size: DVec3) -> Self {
         let half = dvec3(size.x / 2.0, 0.0, size.z / 2.0);
         Self::cuboid(at - half, at + half + dvec3(0.0, size.y, 0.0))
     }
 
-    /// The surface that an outline sweeps about the y axis, in `segments` steps. The outline is
-    /// given from the bottom up along the outside, so that outside is to its right.
+    /// Builds the surface that an outline sweeps about the y axis, in `segments` steps. The outline
+    /// goes from the bottom up along the outside, so that the outside is to its right.
     #[must_use]
     pub fn lathe(outline: &[OutlinePoint], segments: u32) -> Self {
         let mut mesh = Self::default();
@@ -139,7 +138,8 @@ impl Mesh {
         mesh
     }
 
-    /// A sphere about the origin: `segments` around the axis, half as many from pole to pole.
+    /// Builds a sphere about the origin, with `segments` around the axis and half as many from pole
+    /// to pole.
     #[must_use]
     pub fn sphere(radius: f64, segments: u32) -> Self {
         let rings = segments / 2;
@@ -159,7 +159,7 @@ impl Mesh {
         Self::lathe(&outline, segments)
     }
 
-    /// A closed round post from the ground up, wider or narrower at its top.
+    /// Builds a closed round post from the ground up, with different radii at the bottom and top.
     #[must_use]
     pub fn post(bottom: f64, top: f64, height: f64, segments: u32) -> Self {
         Self::lathe(
@@ -178,7 +178,7 @@ impl Mesh {
         self.indices.extend(other.indices.iter().map(|index| first + index));
     }
 
-    /// The mesh translated by `by`.
+    /// Returns the mesh translated by `by`.
     #[must_use]
     pub fn translated(mut self, by: DVec3) -> Self {
         for position in &mut self.positions {
@@ -187,7 +187,7 @@ impl Mesh {
         self
     }
 
-    /// The mesh without texture coordinates, for materials without textures.
+    /// Returns the mesh without texture coordinates, for materials without textures.
     #[must_use]
     pub fn without_uvs(mut self) -> Self {
         self.uvs.clear();
@@ -195,8 +195,8 @@ impl Mesh {
     }
 }
 
-/// An outline of straight pieces with sharp corners between them: each corner is written twice,
-/// once for the piece below and once for the piece above.
+/// Returns an outline of straight pieces with sharp corners between them: each corner appears
+/// twice, once for the piece below and once for the piece above.
 #[must_use]
 pub fn sharp_outline(points: &[(f64, f64)]) -> Vec<OutlinePoint> {
     let mut outline = Vec::new();
@@ -213,7 +213,8 @@ pub fn sharp_outline(points: &[(f64, f64)]) -> Vec<OutlinePoint> {
 mod tests {
     use super::*;
 
-    /// The signed volume by the divergence theorem: positive when all faces look outwards.
+    /// Computes the signed volume by the divergence theorem; it is positive if all faces point
+    /// outward.
     fn volume(mesh: &Mesh) -> f64 {
         let corner = |index: u32| mesh.positions[index as usize];
         let faces = mesh.indices.chunks_exact(3);
@@ -221,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn shapes_look_outwards_and_enclose_what_they_should() {
+    fn faces_point_outward_and_volumes_are_correct() {
         let cuboid = Mesh::cuboid(dvec3(1.0, 2.0, 3.0), dvec3(2.0, 4.0, 6.0));
         assert!((volume(&cuboid) - 6.0).abs() < 1e-12);
         let ball = volume(&Mesh::sphere(1.0, 64));
@@ -231,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn normals_agree_with_the_faces_they_belong_to() {
+    fn normals_agree_with_their_faces() {
         for mesh in [
             Mesh::sphere(2.0, 16),
             Mesh::post(1.0, 0.5, 2.0, 12),

@@ -1,9 +1,9 @@
 //! The Mexican hat: a height field over a square grid.
 //!
 //! Grid indices map to `[-1, 1]²` by `x = 2i/(rows−1) − 1`, `z = 2j/(columns−1) − 1`. The height is
-//! `sin(R)/R` with `R = 2π√(x² + z²)`: 1 in the middle, the first trough on the circle of radius
-//! 0.715, the second crest just outside the midpoints of the edges. (Angel's *Interactive Computer
-//! Graphics* draws the same surface.)
+//! `sin(R)/R` with `R = 2π√(x² + z²)`: it is 1 in the middle, the first trough is a circle with
+//! radius 0.715, and the second crest is just outside the midpoints of the edges. (Angel's
+//! *Interactive Computer Graphics* draws the same surface.)
 
 use crate::document::{Document, PrimitiveMode};
 use crate::mesh::Mesh;
@@ -17,7 +17,7 @@ const COLUMNS: u32 = 49;
 /// The vertical scale: the peak is about as high as half the width of the brim.
 const HEIGHT: f64 = 0.9;
 
-/// The surface with vertex colors by height.
+/// Builds the surface with vertex colors by height.
 pub(crate) fn hat_surface() -> Document {
     let mut mesh = Mesh::default();
     for (x, z) in grid_points() {
@@ -33,7 +33,7 @@ pub(crate) fn hat_surface() -> Document {
     document
 }
 
-/// Every second row and column of the grid as polylines, each a LINE_STRIP without indices.
+/// Builds every second row and column of the grid as polylines, each a LINE_STRIP without indices.
 pub(crate) fn hat_lines() -> Document {
     let mut document = Document::default();
     let ink = document.add_material("ink", INK);
@@ -53,7 +53,7 @@ pub(crate) fn hat_lines() -> Document {
     document
 }
 
-/// The grid points, row by row.
+/// Returns the grid points, row by row.
 fn grid_points() -> impl Iterator<Item = (f64, f64)> {
     let place = |index, count| 2.0 * f64::from(index) / f64::from(count - 1) - 1.0;
     (0..ROWS).flat_map(move |i| (0..COLUMNS).map(move |j| (place(i, ROWS), place(j, COLUMNS))))
@@ -67,7 +67,8 @@ struct HatPoint {
 }
 
 impl HatPoint {
-    /// With `s = sin(R)/R`, `ds/dx = (cos R − s)/R · dR/dx` and `dR/dx = (2π)² x / R`.
+    /// Computes height and slopes: with `s = sin(R)/R`, `ds/dx = (cos R − s)/R · dR/dx` and
+    /// `dR/dx = (2π)² x / R`.
     fn at(x: f64, z: f64) -> Self {
         let big_r = TAU * libm::sqrt(x * x + z * z);
         if big_r < 1e-9 {
@@ -84,7 +85,7 @@ impl HatPoint {
     }
 }
 
-/// From the trough, the minimum height of −0.2172, to the peak.
+/// Returns the color of a height; the ramp spans from the trough, at −0.2172, to the peak.
 fn height_color(height: f64) -> [f64; 3] {
     let stops = [TEAL, SKY, CREAM, SAND, OCHRE, CLAY, BRICK];
     color_ramp(&stops.map(Color::linear), (height + 0.2172) / 1.2172)

@@ -1,7 +1,7 @@
-//! The palette of the scenes: fourteen muted colors, sRGB in the source and linear light in the
-//! files.
+//! The palette of the scenes: fourteen muted colors, in sRGB in the source and in linear light in
+//! the files.
 
-/// An sRGB color, eight bits per channel: red, green, blue.
+/// An sRGB color with eight bits per channel: red, green, blue.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Color(pub u8, pub u8, pub u8);
 
@@ -19,7 +19,7 @@ pub const CLAY: Color = Color(0xc8, 0x66, 0x4a);
 pub const BRICK: Color = Color(0x9c, 0x44, 0x38);
 /// A dark purple.
 pub const PLUM: Color = Color(0x6d, 0x46, 0x6b);
-/// A middle brown: furniture.
+/// A medium brown: furniture.
 pub const WOOD: Color = Color(0xa8, 0x74, 0x4a);
 /// A dark brown.
 pub const BARK: Color = Color(0x6b, 0x47, 0x2f);
@@ -35,8 +35,8 @@ pub const SLATE: Color = Color(0x4a, 0x62, 0x74);
 pub const INK: Color = Color(0x22, 0x31, 0x3f);
 
 impl Color {
-    /// The channels in linear light, 0 to 1, by the sRGB transfer function (IEC 61966-2-1).
-    /// Rounded to four digits, which are enough for eight bits and keep the files short.
+    /// Returns the channels in linear light, 0 to 1, by the sRGB transfer function (IEC 61966-2-1).
+    /// They are rounded to four digits, which suffice for eight bits and keep the files short.
     pub fn linear(self) -> [f64; 3] {
         [self.0, self.1, self.2].map(|channel| {
             let encoded = f64::from(channel) / 255.0;
@@ -49,14 +49,14 @@ impl Color {
         })
     }
 
-    /// The sRGB codes, 0 to 255.
+    /// Returns the sRGB code values, 0 to 255.
     pub fn srgb(self) -> [f64; 3] {
         [self.0, self.1, self.2].map(f64::from)
     }
 }
 
-/// Piecewise linear color ramp: `stops` are evenly spaced over 0 to 1, `t` is clamped to that
-/// range.
+/// Evaluates a piecewise linear color ramp: `stops` are evenly spaced over 0 to 1, and `t` is
+/// clamped to that range.
 ///
 /// # Panics
 /// If there are no stops.
@@ -67,7 +67,7 @@ pub fn color_ramp(stops: &[[f64; 3]], t: f64) -> [f64; 3] {
     mix_colors(stops[below], stops[(below + 1).min(last)], position - below as f64)
 }
 
-/// Linear interpolation from `a` at 0 to `b` at 1.
+/// Interpolates linearly from `a` at 0 to `b` at 1.
 pub fn mix_colors(a: [f64; 3], b: [f64; 3], t: f64) -> [f64; 3] {
     [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * t)
 }
@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn linear_light_keeps_black_and_white_and_darkens_the_middle() {
+    fn linear_light_keeps_black_and_white_and_darkens_mid_gray() {
         assert_eq!(Color(0, 0, 0).linear(), [0.0; 3]);
         assert_eq!(Color(255, 255, 255).linear(), [1.0; 3]);
         assert_eq!(Color(188, 188, 188).linear(), [0.5029; 3]);

@@ -1,4 +1,4 @@
-//! One star for each of glTF's seven primitive modes, in their numerical order, two rows.
+//! One star for each of glTF's seven primitive modes, in numerical order, in two rows.
 
 use crate::document::{Document, PrimitiveMode};
 use crate::mesh::Mesh;
@@ -7,7 +7,7 @@ use glam::{DVec3, dvec3};
 use serde_json::json;
 use std::f64::consts::{PI, TAU};
 
-/// Points of the star.
+/// The number of points of the star.
 const RAY_COUNT: u32 = 7;
 
 pub(crate) fn primitives() -> Document {
@@ -38,8 +38,8 @@ pub(crate) fn primitives() -> Document {
     document
 }
 
-/// Outer and inner points of the outline in turn, then the center, then an inner ring. Normals only
-/// for triangles.
+/// Builds the vertices: outer and inner points of the outline in turn, then the center, then an
+/// inner ring. Only triangles have normals.
 fn star_mesh(faces: bool) -> Mesh {
     let at = |step: u32, radius: f64| {
         let (sine, cosine) =
@@ -54,18 +54,18 @@ fn star_mesh(faces: bool) -> Mesh {
     Mesh { positions, normals, ..Mesh::default() }
 }
 
-/// Separate triangles: each point of the star with the hollows beside it.
+/// Returns separate triangles: each point of the star with the two adjacent inner points.
 fn ray_indices() -> Vec<u32> {
     let count = 2 * RAY_COUNT;
     (0..RAY_COUNT).flat_map(|ray| [(2 * ray + count - 1) % count, 2 * ray, 2 * ray + 1]).collect()
 }
 
-/// A strip between the outline and the inner ring, closed.
+/// Returns a closed strip between the outline and the inner ring.
 fn ring_indices(count: u32) -> Vec<u32> {
     (0..=count).flat_map(|step| [count + 1 + step % count, step % count]).collect()
 }
 
-/// A fan about the middle, closed.
+/// Returns a closed fan about the center.
 fn fan_indices(count: u32) -> Vec<u32> {
     std::iter::once(count).chain((0..=count).map(|step| step % count)).collect()
 }

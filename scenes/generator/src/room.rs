@@ -1,4 +1,4 @@
-//! Open room with three cameras in the file: a view from the door, a plan and an elevation.
+//! An open room with three cameras in the file: a view from the door, a plan and an elevation.
 
 use crate::document::{Document, rotation_quaternion};
 use crate::mesh::Mesh;
@@ -6,7 +6,8 @@ use crate::palette::{BARK, BRICK, CREAM, OCHRE, PAPER, PLUM, SAGE, SKY, TEAL, WO
 use glam::{DVec3, dvec3};
 use serde_json::json;
 
-/// The floor spans −2.5 to 2.5 in x and −2 to 2 in z; only the walls at −x and −z exist.
+/// Builds the room. The floor spans −2.5 to 2.5 in x and −2 to 2 in z; there are walls only at −x
+/// and −z.
 pub(crate) fn room() -> Document {
     let mut document = Document::default();
     let mut piece = |name: &str, color, boxes: &[(DVec3, DVec3)]| {
@@ -92,8 +93,8 @@ fn book_boxes() -> Vec<(DVec3, DVec3)> {
     heights.iter().enumerate().map(book).collect()
 }
 
-/// glTF cameras look along their own −z with y up; the camera at the door is turned about y and
-/// then tilted down.
+/// Adds the cameras. glTF cameras look along their own −z with y up; the camera at the door is
+/// turned about y and then tilted down.
 fn add_cameras(document: &mut Document) {
     let lens = json!({ "type": "perspective",
         "perspective": { "yfov": 50.0_f64.to_radians(), "znear": 0.1, "zfar": 50.0 } });

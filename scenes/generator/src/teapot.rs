@@ -8,13 +8,13 @@ use crate::teapot_patches::{Part, teapot_parts};
 use glam::{DVec3, dvec2, dvec3};
 use serde_json::json;
 
-/// Steps along each side of a patch: forty around the pot.
+/// Steps along each side of a patch, which makes forty around the pot.
 const PATCH_STEPS: u32 = 10;
 
 pub(crate) fn teapot() -> Document {
     let mut document = Document::default();
     // The inside is visible through the spout and through the gap around the lid, which the
-    // original has as well.
+    // original also has.
     let glaze = document.add_double_sided("glaze", TEAL);
     let root = document.add_root("teapot", None, json!({}));
     for part in teapot_parts() {
@@ -24,7 +24,7 @@ pub(crate) fn teapot() -> Document {
     document
 }
 
-/// The patches of a part as one mesh, rotated from z up to glTF's y up.
+/// Tessellates the patches of a part into one mesh, rotated from z up to glTF's y up.
 fn tessellate_part(part: &Part) -> Mesh {
     let mut mesh = Mesh::default();
     for patch in &part.patches {
@@ -36,11 +36,11 @@ fn tessellate_part(part: &Part) -> Mesh {
     mesh
 }
 
-/// Radius of the table top, and of the part of it inside its darker rim.
+/// The radius of the table top, and of its part inside the darker rim.
 const TABLE_RADIUS: f64 = 4.2;
 const TABLE_RIM: f64 = 4.05;
 
-/// A round table top, with the contact shadow of a pot of radius 1.5 in its vertex colors.
+/// Builds a round table top, with the contact shadow of a pot of radius 1.5 in its vertex colors.
 pub(crate) fn table_document() -> Document {
     let mut document = Document::default();
     let cloth = document.add_material("table top", crate::palette::Color(255, 255, 255));
@@ -55,7 +55,7 @@ fn table_top() -> Mesh {
     let edge = dvec2(1.0, 0.0);
     let mut rings = vec![outline(edge, TABLE_RADIUS, -0.25), outline(edge, TABLE_RADIUS, 0.0)];
     rings.extend([TABLE_RADIUS, TABLE_RIM + 0.01, TABLE_RIM - 0.01, 3.5].map(flat));
-    // Fine steps only where the shadow ends.
+    // The steps are fine only where the shadow ends.
     rings.extend((12..=28).rev().map(|tenth| flat(f64::from(tenth) / 10.0)));
     rings.push(flat(0.0));
     let mut mesh = Mesh::lathe(&rings, 64);
@@ -71,7 +71,7 @@ fn table_color(position: DVec3) -> [f64; 3] {
     if r > TABLE_RIM {
         return SAND.linear();
     }
-    // Darkest under the pot; gone two thirds of a radius beyond its foot.
+    // The shadow is darkest under the pot, and ends two thirds of a radius beyond its foot.
     let shade = ((r - 1.3) / 1.4).clamp(0.0, 1.0);
     let shade = shade * shade * (3.0 - 2.0 * shade);
     mix_colors(CREAM.linear().map(|channel| channel * 0.38), CREAM.linear(), shade)

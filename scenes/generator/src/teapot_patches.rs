@@ -1,12 +1,11 @@
 //! The published patches of Martin Newell's teapot (University of Utah, 1975): 32 bicubic Bézier
-//! patches, the last four of them the bottom that Frank Crow added ("The Origins of the Teapot",
-//! IEEE Computer Graphics and Applications 7(1), 1987).
-//!
-//! The published table lists 306 control points. All but a few dozen follow from the others: body,
-//! lid and bottom are outlines swept about the axis in four quarters, with 0.56 of the radius where
-//! an exact circle would need 0.5523, and handle and spout are halves with their mirror images.
-//! This file has only the outlines and halves, and builds the 32 patches from them. The test
-//! compares them with entries of the table.
+//! patches, of which the last four form the bottom that Frank Crow added ("The Origins of the
+//! Teapot", IEEE Computer Graphics and Applications 7(1), 1987). The published table lists 306
+//! control points. All but a few dozen follow from the others: body, lid and bottom are outlines
+//! swept about the axis in four quarters, with 0.56 of the radius where an exact circle would need
+//! 0.5523, and handle and spout are halves with their mirror images. This file contains only the
+//! outlines and halves, and builds the 32 patches from them. The test compares them with entries of
+//! the table.
 //!
 //! z is up, as in the table; the spout points along +x and the handle along −x.
 
@@ -21,8 +20,8 @@ pub(crate) struct Part {
     pub(crate) patches: Vec<Patch>,
 }
 
-/// A point of an outline: radius, height, and the fraction of the radius at which the inner control
-/// points of a quarter circle are.
+/// A point of an outline: radius, height, and the position of a quarter circle's inner control
+/// points as a fraction of the radius.
 type Ring = (f64, f64, f64);
 
 const QUARTER: f64 = 0.56;
@@ -43,11 +42,11 @@ const LID_KNOB: [Ring; 4] =
     [(0.0, 3.15, QUARTER), (0.8, 3.15, KNOB), (0.0, 2.85, QUARTER), (0.2, 2.7, QUARTER)];
 const LID: [Ring; 4] =
     [(0.2, 2.7, QUARTER), (0.4, 2.55, QUARTER), (1.3, 2.55, QUARTER), (1.3, 2.4, QUARTER)];
-/// From the foot to the center, against the order of the table, so that its outside faces down.
+/// From the foot to the center, the reverse of the table's order, so that the outside faces down.
 const BOTTOM: [Ring; 4] =
     [(1.5, 0.15, QUARTER), (1.5, 0.075, QUARTER), (1.425, 0.0, QUARTER), (0.0, 0.0, QUARTER)];
 
-/// A half of handle or spout, its y at most 0: rows along the tube, columns about it.
+/// One half of the handle or spout, with y ≤ 0: rows run along the tube, columns around it.
 type HalfPatch = [[[f64; 3]; 4]; 4];
 
 const UPPER_HANDLE: HalfPatch = [
@@ -75,7 +74,7 @@ const UPPER_SPOUT: HalfPatch = [
     [[2.8, 0.0, 2.4], [2.8, -0.15, 2.4], [3.2, -0.15, 2.4], [3.2, 0.0, 2.4]],
 ];
 
-/// The pot, part by part, in the order of the published table.
+/// Returns the parts of the pot, in the order of the published table.
 #[must_use]
 pub(crate) fn teapot_parts() -> Vec<Part> {
     let turned = |outlines: &[&[Ring; 4]]| {
@@ -92,7 +91,7 @@ pub(crate) fn teapot_parts() -> Vec<Part> {
     ]
 }
 
-/// An outline swept about the z axis: four patches, clockwise seen from above.
+/// Sweeps an outline about the z axis: four patches, clockwise seen from above.
 fn quarter_patches(outline: &[Ring; 4]) -> [Patch; 4] {
     let first = outline.map(|(radius, z, share)| {
         let inner = radius * share;
@@ -109,8 +108,8 @@ fn quarter_patches(outline: &[Ring; 4]) -> [Patch; 4] {
     [first, second, third, turn(third)]
 }
 
-/// A half and its mirror image in the plane y = 0, whose columns run the other way so that outside
-/// stays outside.
+/// Returns a half and its mirror image in the plane y = 0, whose columns run the other way so that
+/// the outside stays outside.
 fn mirrored_patches(half: &HalfPatch) -> [Patch; 2] {
     let patch = half.map(|row| row.map(DVec3::from));
     let mirrored = patch.map(|[a, b, c, d]| [d, c, b, a].map(|p| dvec3(p.x, -p.y, p.z)));
@@ -121,8 +120,8 @@ fn mirrored_patches(half: &HalfPatch) -> [Patch; 2] {
 mod tests {
     use super::*;
 
-    /// (patch, row, column) of the published table, both counted from 0, and the control point it
-    /// has there.
+    /// (patch, row, column) in the published table, all counted from 0, and the control point
+    /// there.
     const PUBLISHED: [(usize, usize, usize, [f64; 3]); 14] = [
         (0, 0, 1, [1.4, -0.784, 2.4]),
         (1, 1, 1, [-0.749, -1.3375, 2.53125]),
@@ -141,7 +140,7 @@ mod tests {
     ];
 
     #[test]
-    fn the_patches_are_those_of_the_published_table() {
+    fn patches_match_the_published_table() {
         let patches: Vec<Patch> =
             teapot_parts().into_iter().flat_map(|part| part.patches).collect();
         assert_eq!(patches.len(), 32);
@@ -155,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbouring_patches_share_their_border() {
+    fn neighboring_patches_share_their_border() {
         for part in teapot_parts() {
             let column = |patch: &Patch, i: usize| patch.map(|row| row[i]);
             let all = &part.patches;

@@ -3,7 +3,7 @@
 use super::all_models;
 use serde_json::Value;
 
-/// A `.glb` taken apart: its JSON and its binary chunk.
+/// The contents of a `.glb` file: its JSON and its binary chunk.
 struct Glb {
     json: Value,
     binary: Vec<u8>,
@@ -26,7 +26,7 @@ fn parse_glb(bytes: &[u8]) -> Glb {
 }
 
 impl Glb {
-    /// The values in an accessor, element after element.
+    /// Returns the values of an accessor, element by element.
     fn accessor_values(&self, accessor: &Value) -> Vec<f64> {
         let accessor = &self.json["accessors"][as_index(accessor)];
         let view = &self.json["bufferViews"][as_index(&accessor["bufferView"])];
@@ -66,7 +66,7 @@ fn as_array(value: &Value) -> &[Value] {
 }
 
 #[test]
-fn attributes_are_finite_of_one_length_and_indices_stay_within_them() {
+fn attributes_are_finite_and_of_one_length_and_indices_are_in_range() {
     for (name, glb) in parsed_models() {
         for primitive in glb.primitives() {
             let attributes = primitive["attributes"].as_object().unwrap();
@@ -88,7 +88,7 @@ fn attributes_are_finite_of_one_length_and_indices_stay_within_them() {
 }
 
 #[test]
-fn positions_reach_exactly_their_stated_bounds() {
+fn position_bounds_are_exact() {
     for (name, glb) in parsed_models() {
         for primitive in glb.primitives() {
             let accessor = &primitive["attributes"]["POSITION"];
@@ -100,7 +100,7 @@ fn positions_reach_exactly_their_stated_bounds() {
                 };
                 let low = values.clone().fold(f64::INFINITY, f64::min);
                 let high = values.fold(f64::NEG_INFINITY, f64::max);
-                // The JSON reader may be off by the last bit of a double; the f32 it represents is
+                // The JSON parser may be off by the last bit of a double; as an f32, the value is
                 // exact.
                 assert_eq!(low as f32, stated("min") as f32, "{name}");
                 assert_eq!(high as f32, stated("max") as f32, "{name}");
@@ -124,7 +124,7 @@ fn normals_have_unit_length() {
 }
 
 #[test]
-fn triangles_look_the_way_their_normals_do() {
+fn triangles_face_the_way_their_normals_do() {
     for (name, glb) in parsed_models() {
         for primitive in glb.primitives().filter(|primitive| primitive.get("mode").is_none()) {
             let [positions, normals] = ["POSITION", "NORMAL"]

@@ -1,4 +1,4 @@
-//! Tall building, for cameras with lens shift that keep verticals vertical.
+//! A tall building, for cameras with lens shift that keep verticals vertical.
 
 use crate::document::Document;
 use crate::mesh::Mesh;
@@ -41,7 +41,7 @@ pub(crate) fn tower() -> Document {
     document
 }
 
-/// The bands between the stories.
+/// Builds the bands between the stories.
 fn story_meshes() -> Mesh {
     let mut mesh = Mesh::default();
     for storey in 1..STORIES {
@@ -51,7 +51,7 @@ fn story_meshes() -> Mesh {
     mesh
 }
 
-/// Four windows per story on the two visible sides; none at the door.
+/// Builds four windows per story on the two visible sides, except at the door.
 fn window_mesh() -> Mesh {
     let mut mesh = Mesh::default();
     for storey in 0..STORIES {

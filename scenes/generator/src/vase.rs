@@ -1,4 +1,4 @@
-//! Vase on a plinth: a surface of revolution for light and shadow.
+//! A vase on a plinth: a surface of revolution for light and shadow.
 
 use crate::document::Document;
 use crate::mesh::{Mesh, OutlinePoint, sharp_outline};
@@ -43,8 +43,8 @@ pub(crate) fn vase() -> Document {
     document
 }
 
-/// A Catmull-Rom curve through the outline (Catmull and Rom 1974), closed by the foot's flat
-/// underside.
+/// Returns a Catmull-Rom curve through the outline (Catmull and Rom 1974), closed by the flat
+/// underside of the foot.
 fn outline_curve() -> Vec<OutlinePoint> {
     let mut turned = Vec::new();
     let point = |i: usize| OUTLINE[i.min(OUTLINE.len() - 1)];
@@ -58,8 +58,8 @@ fn outline_curve() -> Vec<OutlinePoint> {
     turned
 }
 
-/// The point at `t` between the second and the third of four points, and the normal to the right of
-/// the curve's direction.
+/// Returns the point at `t` between the second and the third of four points, and the normal to the
+/// right of the curve's direction.
 fn curve_point([a, b, c, d]: [DVec2; 4], t: f64) -> OutlinePoint {
     let (p, q, r) = (c - a, a * 2.0 - b * 5.0 + c * 4.0 - d, b * 3.0 - a - c * 3.0 + d);
     let place = b + (p * t + q * (t * t) + r * (t * t * t)) * 0.5;

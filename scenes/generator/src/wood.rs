@@ -5,7 +5,8 @@ use crate::palette::{BARK, Color, SAGE, WOOD, mix_colors};
 /// Width and height in texels.
 const TEXTURE_SIZE: u32 = 128;
 
-/// The side of a crate: five planks in a frame with a diagonal brace, nails at its corners. RGB.
+/// Returns the side of a crate as an RGB image: five planks in a frame with a diagonal brace, and
+/// nails at its corners.
 pub(crate) fn crate_side_png() -> Result<Vec<u8>, String> {
     let mut texels = Vec::new();
     for y in 0..TEXTURE_SIZE {
@@ -18,7 +19,7 @@ pub(crate) fn crate_side_png() -> Result<Vec<u8>, String> {
     encode_png(&texels, png::ColorType::Rgb)
 }
 
-/// Color of the crate's side at a texel.
+/// Returns the color of the crate's side at a texel.
 fn plank_color(x: u32, y: u32) -> [f64; 3] {
     let (light, dark) = (WOOD.srgb(), BARK.srgb());
     if is_nail(x, y) {
@@ -36,7 +37,7 @@ fn plank_color(x: u32, y: u32) -> [f64; 3] {
         let edge = if diagonal == 11 { 0.7 } else { 0.2 };
         return grain_color(light, dark, x + y, diagonal + 40, edge);
     }
-    // Shadow beside the frame, and the gaps between the planks.
+    // The shadow next to the frame, and the gaps between the planks.
     let edge = if border < 19 || x % 19 == 15 { 0.85 } else { 0.38 };
     grain_color(light, dark, y, x + x / 19 * 31, edge)
 }
@@ -46,14 +47,14 @@ fn is_nail(x: u32, y: u32) -> bool {
     near(x) && near(y)
 }
 
-/// Wood grain: streaks between `light` and `dark` that differ from line to line; `shade` is their
-/// mean.
+/// Returns wood grain: streaks between `light` and `dark` that differ from line to line; `shade` is
+/// their mean.
 fn grain_color(light: [f64; 3], dark: [f64; 3], along: u32, across: u32, shade: f64) -> [f64; 3] {
     let streak = value_noise(across, along / 24) * 0.6 + value_noise(across, along / 7 + 99) * 0.4;
     mix_colors(light, dark, shade + (streak - 0.5) * 0.3)
 }
 
-/// Value noise in 0 to 1: an integer hash of the position.
+/// Returns value noise from 0 to 1, an integer hash of the position.
 fn value_noise(x: u32, y: u32) -> f64 {
     let mut hash = x.wrapping_mul(0x9e37_79b1) ^ y.wrapping_mul(0x85eb_ca77);
     hash = (hash ^ (hash >> 15)).wrapping_mul(0x2c1b_3c6d);
@@ -61,13 +62,13 @@ fn value_noise(x: u32, y: u32) -> f64 {
     f64::from((hash ^ (hash >> 15)) & 0xffff) / 65535.0
 }
 
-/// Round holes in a square lattice, RGBA, alpha 0 in the holes.
+/// Returns round holes in a square lattice, as an RGBA image with alpha 0 in the holes.
 pub(crate) fn lattice_png() -> Result<Vec<u8>, String> {
     let Color(r, g, b) = SAGE;
     let mut texels = Vec::new();
     for y in 0..TEXTURE_SIZE {
         for x in 0..TEXTURE_SIZE {
-            // Four holes across; distances in quarter-hole units, from each hole's middle.
+            // Four holes across; distances from each hole's center, in units of a quarter hole.
             let [dx, dy] = [x, y].map(|t| f64::from(t % 32) - 15.5);
             let beyond = libm::sqrt(dx * dx + dy * dy) - 11.5;
             let alpha = (128.0 + beyond * 64.0).clamp(0.0, 255.0);

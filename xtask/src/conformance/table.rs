@@ -12,15 +12,15 @@ const DOCUMENTS: &str = "documents";
 const OPENING: &str = "\
 # Conformance
 
-The topics that the sources of this project teach, the exercises of the textbook's chapter and the misprints found in the sources,
-each with its tests. The sources and the formulas are listed in [docs/formulas.md](../docs/formulas.md).
+This page lists the topics that the sources of this project teach, the exercises of the textbook's chapter, and the misprints found in
+the sources, each with its tests. [docs/formulas.md](../docs/formulas.md) lists the sources and the formulas.
 
 `cargo xtask conformance` generates this file from the tests: from their names (`c16_…`, `misprint_m11_…`, `exercise_3_…`) and
-from the doc comments above them. `cargo xtask test conformance` fails if the file is out of date, or if one of the crates of
-mathematics has no test of a topic that it implements.
+from the doc comments above them. `cargo xtask test conformance` fails if the file is out of date, or if one of the math
+crates has no test for a topic that it implements.
 
-“Not yet” marks a crate that implements a topic and has no test that names it. The files of
-[exact vectors](vectors/data/README.md) are a second, independent test. A topic outside mathematics has a page of the book.
+“Not yet” marks a crate that implements a topic but has no test that cites it. The
+[exact vectors](vectors/data/README.md) are a second, independent test. Topics outside mathematics are covered by a page of the book.
 ";
 
 /// The whole document.

@@ -1,10 +1,10 @@
 //! Accessors: typed views into buffers, checked once so that reading their elements cannot fail.
 //!
-//! An accessor declares a byte offset, a number of elements, their type and, by its buffer view,
-//! the stride between them (glTF 2.0 §3.6.2). [`AccessorReader::resolve_accessor`] checks the
-//! declaration in 64-bit arithmetic against the existing bytes. Arrays are made by
-//! [`AccessorReader::read_floats`] and its siblings, which charge the memory budget: an accessor
-//! without bytes (zeros, by the specification), or the same bytes used a thousand times, must not
+//! An accessor declares a byte offset, a number of elements, their type and, through its buffer
+//! view, the stride between them (glTF 2.0 §3.6.2). [`AccessorReader::resolve_accessor`] checks the
+//! declaration against the existing bytes in 64-bit arithmetic. [`AccessorReader::read_floats`] and
+//! its siblings create arrays and charge the memory budget, so that accessors without bytes (which
+//! the specification defines as zeros), or with the same bytes used a thousand times, cannot
 //! exhaust memory.
 
 use super::buffers::{Buffers, checked_slice};
@@ -15,10 +15,10 @@ use gltf::json::accessor::{Accessor, ComponentType, IndexComponentType, Type, sp
 use gltf::json::validation::Checked;
 use model::Diagnostic;
 
-/// Reader of the file's accessors.
+/// Reads the accessors of a file.
 ///
-/// All readers of the import borrow it: its only mutable state is the memory budget and the lazily
-/// loaded buffers.
+/// All other readers borrow it; its only mutable state is the memory budget and the lazily loaded
+/// buffers.
 pub(super) struct AccessorReader<'a> {
     /// The parsed document, whose indices have not been checked.
     pub(super) root: &'a Root,
@@ -39,8 +39,8 @@ impl<'a> AccessorReader<'a> {
     /// Fails if the accessor does not exist, has an invalid type, or its elements are not all in
     /// the buffer.
     ///
-    /// Nothing is converted or allocated here, apart from sparse indices. A view is resolved again
-    /// for each of its users, which costs little: the bytes are borrowed.
+    /// Nothing is converted or allocated here, except for sparse indices. A view is resolved again
+    /// for each of its users, which costs little because the bytes are borrowed.
     pub(super) fn resolve_accessor(
         &self,
         accessor: usize,
@@ -78,11 +78,11 @@ impl<'a> AccessorReader<'a> {
         })
     }
 
-    /// Returns whether an accessor exists and has no bytes: neither a buffer view nor sparse
+    /// Returns whether an accessor exists but has no bytes: neither a buffer view nor sparse
     /// values.
     ///
-    /// Such an accessor means zeros (glTF 2.0 §3.6.2.3), or data that an extension such as Draco
-    /// supplies.
+    /// Such an accessor represents zeros (glTF 2.0 §3.6.2.3), or data that an extension such as
+    /// Draco supplies.
     pub(super) fn has_no_data(&self, accessor: usize) -> bool {
         let json = self.root.accessors.get(accessor);
         json.is_some_and(|json| json.buffer_view.is_none() && json.sparse.is_none())
@@ -125,12 +125,12 @@ impl<'a> AccessorReader<'a> {
         Ok(elements.to_indices())
     }
 
-    /// Charges the memory budget for an array that is about to be made from an accessor.
+    /// Charges the memory budget for an array before it is created from an accessor.
     ///
     /// `bytes` is the size of an element in the new array, not in the file.
     ///
     /// # Errors
-    /// Returns [`LIMIT_EXCEEDED`](model::codes::LIMIT_EXCEEDED) if the budget is spent.
+    /// Returns [`LIMIT_EXCEEDED`](model::codes::LIMIT_EXCEEDED) if the budget is exhausted.
     pub(super) fn charge_array(
         &self,
         accessor: usize,
@@ -143,11 +143,11 @@ impl<'a> AccessorReader<'a> {
 
     /// Returns the bytes of elements that begin at an offset in a buffer view.
     ///
-    /// The last element needs only its own size, not a whole stride (glTF 2.0 §3.6.2.4):
-    /// interleaved attributes end before the stride of the last vertex is full. Overflow saturates
-    /// and then exceeds any buffer, so that it is reported as missing bytes.
+    /// The last element needs only its own size, not a whole stride (glTF 2.0 §3.6.2.4), because
+    /// interleaved attributes may end before the last stride does. Overflow saturates and exceeds
+    /// any buffer, so it is reported as missing bytes.
     ///
-    /// A stride smaller than an element would make elements overlap, and is an error unless there
+    /// A stride smaller than an element would make elements overlap, so it is an error unless there
     /// is only one element.
     fn strided_bytes(
         &self,
@@ -180,13 +180,13 @@ impl<'a> AccessorReader<'a> {
         }
     }
 
-    /// Resolves a sparse accessor: indices and values of the elements that replace some of the
-    /// `base` (glTF 2.0 §3.6.2.3).
+    /// Resolves a sparse accessor: the indices and values of elements that replace some of the
+    /// `base` elements (glTF 2.0 §3.6.2.3).
     ///
-    /// Every index is checked to be less than the number of elements. The rule that indices
-    /// increase is left to the checker: reading does not depend on it.
+    /// Every index is checked to be less than the number of elements. Whether indices increase is
+    /// left to the validator, because reading does not depend on it.
     ///
-    /// The values have the format of the accessor; both arrays are tightly packed.
+    /// The values have the accessor's format; both arrays are tightly packed.
     ///
     /// # Errors
     /// Fails if the component type of the indices is invalid, an index is out of range, or bytes
@@ -227,7 +227,7 @@ impl<'a> AccessorReader<'a> {
     }
 }
 
-/// Number and size of the elements that must be present; `pointer` is the location that declares
+/// The number and size of elements that must be present; `pointer` is the location that declares
 /// them.
 ///
 /// It describes the base elements of an accessor, or the indices or values of its sparse part.
@@ -241,10 +241,10 @@ struct ElementLayout<'a> {
     size: usize,
 }
 
-/// Component type and element type of an accessor.
+/// Returns the component type and element type of an accessor.
 ///
 /// # Errors
-/// Fails if the specification does not allow one of them (glTF 2.0 §3.6.2.2).
+/// Fails if the specification does not allow one of the types (glTF 2.0 §3.6.2.2).
 fn accessor_format(json: &Accessor, pointer: &str) -> Result<(ComponentType, Type), Diagnostic> {
     let Checked::Valid(component) = json.component_type else {
         let message = "the component type must be 5120, 5121, 5122, 5123, 5125 or 5126";
@@ -257,8 +257,8 @@ fn accessor_format(json: &Accessor, pointer: &str) -> Result<(ComponentType, Typ
     Ok((component.0, shape))
 }
 
-/// Size of an element in bytes. Columns of matrices begin at multiples of four (glTF 2.0 §3.6.2.4),
-/// which makes a difference for small matrices of small integers.
+/// Returns the size of an element in bytes. Matrix columns begin at multiples of four (glTF 2.0
+/// §3.6.2.4), which matters for small matrices of small integers.
 ///
 /// ```text
 ///  MAT3 of bytes:  c0 c0 c0 ··  c1 c1 c1 ··  c2 c2 c2 ··     12 bytes, not 9

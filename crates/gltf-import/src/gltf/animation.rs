@@ -1,5 +1,5 @@
-//! Animations: channels and samplers become keyframe curves; invalid channels are skipped with a
-//! warning.
+//! Animations: converts channels and samplers to keyframe curves. Invalid channels are skipped with
+//! a warning.
 //!
 //! A sampler has keyframe times (`input`) and values (`output`); a channel selects the node
 //! property that they set. LINEAR means slerp for rotations. Values may be normalized integers,
@@ -21,27 +21,27 @@ use model::{
     Material, ModelCamera, Node, NodeProperty, PunctualLight, UvTransform,
 };
 
-/// Objects that channels can change, and the list of texture transforms that they need.
+/// The objects that channels can change, and the list of texture transforms that channels need.
 pub(super) struct AnimatedObjects<'a> {
-    /// Nodes, for transforms and morph weights.
+    /// The nodes, for transforms and morph weights.
     pub(super) nodes: &'a [Node],
-    /// Materials; mutable only because the property table gives mutable access.
+    /// The materials; mutable only because the property table provides mutable access.
     pub(super) materials: &'a mut [Material],
     /// Punctual lights.
     pub(super) lights: &'a [PunctualLight],
     /// Cameras.
     pub(super) cameras: &'a [ModelCamera],
-    /// Texture transforms that any channel animates; each is appended on first use.
+    /// The texture transforms that channels animate; each is appended on first use.
     pub(super) uv_transforms: &'a mut Vec<UvTransform>,
 }
 
 /// Reads all animations of a file.
 ///
-/// Channels with a node come first, then those with a pointer. The duration is the time of the last
-/// keyframe over all channels, in seconds.
+/// Channels with a node come first, then channels with a pointer. The duration is the time of the
+/// last keyframe of all channels, in seconds.
 ///
 /// # Errors
-/// Exceeded limits and unreadable files; errors in channels are warnings.
+/// Fails if a limit is exceeded or a file cannot be read; errors in channels are only warnings.
 pub(super) fn import_animations(
     source: &AccessorReader<'_>,
     pointers: &[PointerChannel],
@@ -74,12 +74,13 @@ pub(super) fn import_animations(
     Ok(animations)
 }
 
-/// Reader of the channels of one animation.
+/// Reads the channels of one animation.
 ///
-/// Samplers are read once for each channel that uses them: sharing is rare, and curves are small.
+/// Samplers are read again for each channel that uses them, because sharing is rare and curves are
+/// small.
 struct AnimationReader<'a> {
     source: &'a AccessorReader<'a>,
-    /// The samplers of the animation, to which its channels refer.
+    /// The samplers of the animation, which its channels refer to.
     samplers: &'a [json::animation::Sampler],
     /// Index of the animation.
     animation: usize,
@@ -121,7 +122,7 @@ impl AnimationReader<'_> {
         Ok(AnimationChannel { target: AnimationTarget::Node { node, property }, curve })
     }
 
-    /// Reads a channel that gives its target as a JSON pointer (KHR_animation_pointer).
+    /// Reads a channel whose target is a JSON pointer (KHR_animation_pointer).
     ///
     /// # Errors
     /// Fails if the pointer does not identify a supported property, or the curve is invalid.
@@ -163,11 +164,11 @@ impl AnimationReader<'_> {
         self.read_curve(json, kind, &format!("/animations/{}/samplers/{sampler}", self.animation))
     }
 
-    /// Reads keyframes and values, and checks that their counts agree.
+    /// Reads keyframe times and values, and checks that their counts match.
     ///
     /// The number of values per keyframe depends on the target: 3 for translation and scale, 4 for
     /// rotation, and one per target for morph weights. Cubic splines have three times as many:
-    /// in-tangent, value, out-tangent.
+    /// in-tangent, value and out-tangent.
     ///
     /// # Errors
     /// Fails if the interpolation is unknown, times do not increase, or there are too few or too
@@ -225,10 +226,10 @@ impl AnimationReader<'_> {
         Ok(AnimationCurve { interpolation, times, values, components: width })
     }
 
-    /// Times of the keyframes: at least one, finite, strictly increasing.
+    /// Reads the keyframe times: at least one, finite and strictly increasing.
     ///
-    /// Only strictly increasing times make the binary search and the division by their difference
-    /// safe.
+    /// The binary search and the division by time differences are safe only if times strictly
+    /// increase.
     ///
     /// # Errors
     /// Fails if the accessor is not a SCALAR of floats, or the times violate the rules.
@@ -248,7 +249,7 @@ impl AnimationReader<'_> {
         Ok(times)
     }
 
-    /// Values as one flat array of finite numbers.
+    /// Reads the values as one flat array of finite numbers.
     ///
     /// # Errors
     /// Fails if the format is not allowed, or a value is not finite.

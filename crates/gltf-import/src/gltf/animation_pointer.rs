@@ -1,6 +1,7 @@
-//! Animation pointers (KHR_animation_pointer): resolves a JSON pointer to the property it animates.
+//! Animation pointers (KHR_animation_pointer): resolves JSON pointers to the properties they
+//! animate.
 //!
-//! Supports node transforms and weights, properties of materials, lights and cameras, and texture
+//! Supports node transforms and weights, material, light and camera properties, and texture
 //! transforms.
 //!
 //! ```text
@@ -16,7 +17,7 @@ use gltf::json::Root;
 use model::object_model::{LIGHT_PROPERTIES, MATERIAL_PROPERTIES};
 use model::{AnimationTarget, NodeProperty, ObjectProperty, TextureSlot, UvTransformPart};
 
-/// Type of a channel's values.
+/// The type of a channel's values.
 ///
 /// It determines the accessor format and the number of components per keyframe.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -32,7 +33,7 @@ pub(super) enum ChannelValueKind {
 }
 
 impl ChannelValueKind {
-    /// Returns the type of the values of a node's property.
+    /// Returns the value type of a node property.
     pub(super) fn for_property(property: NodeProperty) -> Self {
         match property {
             NodeProperty::Translation | NodeProperty::Scale => Self::TranslationOrScale,
@@ -42,11 +43,11 @@ impl ChannelValueKind {
     }
 }
 
-/// Resolves the target of a pointer and the type of its values. Returns `None` if it does not
-/// identify an animatable property.
+/// Resolves a pointer to its target and value type. Returns `None` if it does not identify an
+/// animatable property.
 ///
-/// The object must exist and must have the property: a pointer into an absent extension or texture
-/// is not a target. Escapes of JSON pointers do not occur in the supported paths.
+/// The object must exist and have the property; a pointer into an absent extension or texture is
+/// not a target. The supported paths do not contain JSON pointer escapes.
 pub(super) fn resolve_pointer(
     root: &Root,
     targets: &mut AnimatedObjects<'_>,
@@ -90,9 +91,9 @@ pub(super) fn resolve_pointer(
     }
 }
 
-/// Parses an index in a JSON pointer: digits only.
+/// Parses an index in a JSON pointer, which may contain only digits.
 ///
-/// `+1` and an empty token are rejected; [`str::parse`] would accept the former.
+/// `+1` is rejected, although [`str::parse`] would accept it, and so is an empty token.
 fn parse_index(step: &str) -> Option<usize> {
     step.bytes().all(|byte| byte.is_ascii_digit()).then(|| step.parse().ok())?
 }
@@ -127,10 +128,11 @@ fn node_target(
     ))
 }
 
-/// Morph target of `weights/N`, or `None` inside for `weights`, which means all of them.
+/// Returns the morph target index of `weights/N`, or `Some(None)` for `weights`, which means all
+/// targets.
 ///
-/// The number of targets is the largest among the primitives of the mesh. The outer `None` means a
-/// path that is neither, or a target that does not exist.
+/// The number of targets is the largest among the primitives of the mesh. Returns `None` for any
+/// other path, or if the target does not exist.
 fn morph_target_index(root: &Root, mesh: usize, path: &str) -> Option<Option<usize>> {
     let mesh = root.meshes.get(mesh)?;
     if path == "weights" {
@@ -144,8 +146,8 @@ fn morph_target_index(root: &Root, mesh: usize, path: &str) -> Option<Option<usi
 
 /// Returns a numeric property of a material.
 ///
-/// Access through the table shows whether the material has the extension that the number belongs
-/// to.
+/// Access through the table reveals whether the material has the extension that defines the
+/// property.
 fn material_target(
     targets: &mut AnimatedObjects<'_>,
     index: usize,
@@ -160,11 +162,11 @@ fn material_target(
     ))
 }
 
-/// Returns a property of a texture transform. The transform is added to the list, once for all its
+/// Returns a property of a texture transform. The transform is added to the list once for all its
 /// properties.
 ///
-/// The texture must exist in the material. A transform in the file is the initial value of the
-/// parts that are not animated.
+/// The texture must exist in the material. A transform in the file supplies the values of the
+/// properties that are not animated.
 fn texture_transform_target(
     root: &Root,
     targets: &mut AnimatedObjects<'_>,

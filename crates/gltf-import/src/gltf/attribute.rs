@@ -1,7 +1,7 @@
-//! Vertex attributes: the formats allowed for each, and reading of the optional ones.
+//! Vertex attributes: their allowed formats, and the reader for optional attributes.
 //!
-//! The formats listed here go beyond core glTF: files use quantized formats without declaring
-//! KHR_mesh_quantization, and their meaning is unambiguous. The validator reports them.
+//! The formats listed here go beyond core glTF, because some files use quantized formats without
+//! declaring KHR_mesh_quantization, and their meaning is unambiguous. The validator reports them.
 
 use super::accessor::AccessorReader;
 use super::draco::DracoData;
@@ -15,8 +15,7 @@ use std::ops::Range;
 /// Element and component types allowed for an attribute or for animation values, including
 /// KHR_mesh_quantization.
 ///
-/// Whether integers are normalized is not restricted: the accessor specifies it, and conversion
-/// follows.
+/// Normalization is not restricted; conversion follows the accessor.
 pub(super) struct AllowedFormats {
     /// glTF's `type`.
     element_types: &'static [Type],
@@ -24,7 +23,7 @@ pub(super) struct AllowedFormats {
     component_types: &'static [ComponentType],
 }
 
-/// Primitive indices, and vertices of edges.
+/// Primitive indices and edge vertices.
 pub(super) const INDICES: AllowedFormats =
     AllowedFormats { element_types: &[Type::Scalar], component_types: &[U8, U16, U32] };
 /// Positions; the integers come from KHR_mesh_quantization.
@@ -56,10 +55,10 @@ pub(super) const WEIGHTS: AllowedFormats =
 /// Keyframe values of translations and scales.
 pub(super) const TRANSLATION_OR_SCALE: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec3], component_types: &[F32] };
-/// Keyframe values of rotations: quaternions, x, y, z, w.
+/// Keyframe values of rotations: quaternions in the order x, y, z, w.
 pub(super) const ROTATION: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec4], component_types: &[F32, I8, U8, I16, U16] };
-/// Keyframe values of single numbers, and of morph weights.
+/// Keyframe values of single numbers and morph weights.
 pub(super) const SCALAR_VALUES: AllowedFormats =
     AllowedFormats { element_types: &[Type::Scalar], component_types: &[F32, I8, U8, I16, U16] };
 /// Keyframe values of pairs, such as texture offsets.
@@ -99,7 +98,7 @@ impl AllowedFormats {
     }
 }
 
-/// Returns the name of an element type in JSON.
+/// Returns the JSON name of an element type.
 fn type_name(shape: Type) -> &'static str {
     match shape {
         Type::Scalar => "SCALAR",
@@ -112,17 +111,17 @@ fn type_name(shape: Type) -> &'static str {
     }
 }
 
-/// The range of a primitive's vertices that its indices use.
+/// The range of vertices that a primitive's indices use.
 ///
-/// Arrays that are read have `used.len()` elements: index 0 is the vertex `used.start` of the file.
+/// Arrays that are read have `used.len()` elements; index 0 is the vertex `used.start` in the file.
 pub(super) struct VertexRange {
     /// Number of vertices in the file.
     pub(super) vertices: usize,
-    /// The vertices between the lowest and the highest index.
+    /// The vertices from the lowest to the highest index.
     pub(super) used: Range<usize>,
 }
 
-/// Reader of the attributes of one primitive.
+/// Reads the attributes of one primitive.
 pub(super) struct AttributeReader<'a, 'w> {
     pub(super) source: &'a AccessorReader<'a>,
     pub(super) range: VertexRange,
@@ -133,9 +132,9 @@ pub(super) struct AttributeReader<'a, 'w> {
 }
 
 impl AttributeReader<'_, '_> {
-    /// Reads an optional attribute: an invalid one is skipped with a warning.
+    /// Reads an optional attribute. An invalid attribute is skipped with a warning.
     ///
-    /// Only the range of vertices that the indices use is converted.
+    /// Only the vertices in the range that the indices use are converted.
     ///
     /// # Errors
     /// Fails if a limit is exceeded or a file cannot be read; errors in the content are warnings.
@@ -177,10 +176,10 @@ impl AttributeReader<'_, '_> {
         }
     }
 
-    /// Reads a set of texture coordinates; coordinates that are not finite become 0.
+    /// Reads a set of texture coordinates. Non-finite coordinates become 0.
     ///
-    /// A single NaN would otherwise spread over the triangle and its mip level selection.
-    /// Coordinates outside [0, 1] are valid: the sampler wraps them.
+    /// Otherwise a single NaN would spread over the triangle and its mip level selection.
+    /// Coordinates outside [0, 1] are valid, because the sampler wraps them.
     ///
     /// # Errors
     /// Fails if a limit is exceeded or a file cannot be read.
@@ -210,10 +209,10 @@ impl AttributeReader<'_, '_> {
         Ok(Some(uvs))
     }
 
-    /// Reads colors of three or four components as RGBA, each clamped to [0, 1].
+    /// Reads colors with three or four components as RGBA, each component clamped to [0, 1].
     ///
-    /// Three components are opaque. Only the morph targets of colors may be negative, so clamping
-    /// here loses nothing.
+    /// Colors with three components are opaque. Only color deltas in morph targets may be negative,
+    /// so clamping here loses nothing.
     ///
     /// # Errors
     /// Fails if a limit is exceeded or a file cannot be read.

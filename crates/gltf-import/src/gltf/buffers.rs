@@ -1,4 +1,4 @@
-//! Buffers and buffer views: read, and decompressed with meshopt, once and on first use.
+//! Buffers and buffer views, read and decompressed (meshopt) once, on first use.
 //!
 //! ```text
 //!  uri ────────────┐
@@ -7,8 +7,8 @@
 //! ```
 //!
 //! Each buffer and each compressed view has a [`OnceLock`], which is filled through a shared
-//! reference. Slices of one buffer stay valid while another is loaded, and unused buffers are never
-//! read.
+//! reference. Slices of one buffer stay valid while another buffer is loaded, and unused buffers
+//! are never read.
 
 use super::meshopt::CompressedView;
 use crate::limits::Limits;
@@ -28,16 +28,16 @@ pub(super) struct Buffers<'a> {
     pub(super) resolver: &'a UriResolver<'a>,
     /// The binary chunk of a GLB file, which is buffer 0.
     binary_chunk: Option<&'a [u8]>,
-    /// Buffers that have been read from other sources.
+    /// Buffers that have been read from files or data URIs.
     loaded: Vec<OnceLock<Vec<u8>>>,
     /// Buffer views that have been decompressed.
     decompressed: Vec<OnceLock<Vec<u8>>>,
-    /// Memory that arrays and decompressed views may take.
+    /// The budget for arrays and decompressed views.
     budget: MemoryBudget<'a>,
 }
 
 impl<'a> Buffers<'a> {
-    /// Buffers of a document whose indices have not been checked; nothing is read yet.
+    /// Creates the buffers of a document whose indices have not been checked. Nothing is read yet.
     pub(super) fn new(
         root: &'a Root,
         resolver: &'a UriResolver<'a>,
@@ -59,7 +59,7 @@ impl<'a> Buffers<'a> {
     /// Charges the memory budget for an array; `pointer` is the location that declares its length.
     ///
     /// # Errors
-    /// Fails if the budget, which is proportional to the bytes of all files, is spent.
+    /// Fails if the budget, which is proportional to the size of all files, is exhausted.
     pub(super) fn charge_bytes(&self, pointer: &str, bytes: u64) -> Result<(), Diagnostic> {
         self.budget.charge_bytes(pointer, bytes, self.resolver.total_bytes())
     }
@@ -90,11 +90,11 @@ impl<'a> Buffers<'a> {
         Ok(BufferView { bytes, stride: json.byte_stride.map(|stride| stride.0), pointer })
     }
 
-    /// Returns the bytes of a compressed view. The buffer that the view itself refers to need not
-    /// contain any: it is the fallback for readers without the extension.
+    /// Returns the bytes of a compressed view. The buffer that the view itself refers to may be
+    /// empty, because it is a fallback for readers without the extension.
     ///
     /// The declared length is charged to the budget before the stream is decoded. Later uses of the
-    /// view cost nothing.
+    /// view are free.
     fn decompressed_view(&self, view: usize, packed: &CompressedView) -> Result<&[u8], Diagnostic> {
         let slot = &self.decompressed[view];
         if let Some(bytes) = slot.get() {
@@ -107,8 +107,8 @@ impl<'a> Buffers<'a> {
         Ok(slot.get_or_init(|| bytes))
     }
 
-    /// `length` bytes of a buffer, beginning at `start`; `user` is the location that refers to
-    /// them.
+    /// Returns `length` bytes of a buffer, beginning at `start`; `user` is the location that refers
+    /// to them.
     ///
     /// The whole range must exist: a partial view would shift the meaning of later bytes.
     fn buffer_range(
@@ -130,8 +130,8 @@ impl<'a> Buffers<'a> {
 
     /// Returns the bytes of a whole buffer, read on first use.
     ///
-    /// Data beyond the declared `byteLength` is not visible. A buffer with less data than declared
-    /// is accepted, as long as no view extends beyond it.
+    /// Data beyond the declared `byteLength` is not returned. A buffer with less data than declared
+    /// is accepted as long as no view extends beyond the data.
     fn buffer_bytes(&self, buffer: usize, view: &str) -> Result<&[u8], Diagnostic> {
         let (Some(json), Some(read)) = (self.root.buffers.get(buffer), self.loaded.get(buffer))
         else {
@@ -164,7 +164,8 @@ impl<'a> Buffers<'a> {
 }
 
 impl Buffers<'_> {
-    /// In lenient mode, a missing file means missing data, and only the items that use it are lost.
+    /// Turns a missing file into missing data in lenient mode, so that only the items that use it
+    /// are lost.
     fn soften_missing_file(&self, diagnostic: Diagnostic) -> Diagnostic {
         let is_file = matches!(diagnostic.code, codes::IO_ERROR | codes::FORBIDDEN_PATH);
         let code =
@@ -173,17 +174,17 @@ impl Buffers<'_> {
     }
 }
 
-/// A buffer view: part of a buffer.
+/// A buffer view: a part of a buffer.
 pub(super) struct BufferView<'a> {
     /// The bytes of the view, decompressed.
     pub(super) bytes: &'a [u8],
     /// Stride between elements, if the view declares one.
     pub(super) stride: Option<usize>,
-    /// JSON pointer to its declaration.
+    /// JSON pointer to the declaration of the view.
     pub(super) pointer: String,
 }
 
-/// Returns the `length` bytes beginning at `start`, if they all exist.
+/// Returns `length` bytes beginning at `start`, if all of them exist.
 pub(super) fn checked_slice(bytes: &[u8], start: u64, length: u64) -> Option<&[u8]> {
     let start = usize::try_from(start).ok()?;
     let length = usize::try_from(length).ok()?;

@@ -1,9 +1,9 @@
 //! Edges for line drawings: EXT_mesh_primitive_edge_visibility and CESIUM_primitive_outline.
 //!
-//! The first packs two bits for each edge of each triangle, lowest bits first, and may add edges as
-//! line strings; the second lists pairs of vertices. Invalid data is skipped with a warning:
-//! drawings then find edges from the shape. The silhouette normals of the first are not read: the
-//! triangles have normals.
+//! The first packs two bits per triangle edge, lowest bits first, and may add edges as line
+//! strings. The second lists pairs of vertices. Invalid data is skipped with a warning; drawings
+//! then find edges from the shape. The silhouette normals of the first extension are not read,
+//! because the triangles have normals.
 //!
 //! ```text
 //!  byte    0                 1                 2
@@ -20,14 +20,15 @@ use gltf::json::mesh::Primitive as Json;
 use model::{Diagnostic, EdgeList, EdgeVisibility, PrimitiveEdges, Topology};
 use serde_json::Value;
 
-/// Extension with visibility bits for the edges of triangles.
+/// The extension with visibility bits for triangle edges.
 const VISIBILITY_EXTENSION: &str = "EXT_mesh_primitive_edge_visibility";
-/// Older extension by Cesium with pairs of vertices.
+/// The older extension by Cesium, with pairs of vertices.
 const OUTLINE_EXTENSION: &str = "CESIUM_primitive_outline";
 
-/// Reader of the edges of one primitive.
+/// Reads the edges of one primitive.
 ///
-/// The counts are the file's, before invalid triangles are dropped: the bits refer to them.
+/// The counts are those in the file, before invalid triangles are dropped, because the bits refer
+/// to them.
 pub(super) struct EdgeReader<'a, 'w> {
     pub(super) source: &'a AccessorReader<'a>,
     pub(super) json: &'a Json,
@@ -41,10 +42,10 @@ pub(super) struct EdgeReader<'a, 'w> {
 }
 
 impl EdgeReader<'_, '_> {
-    /// Reads the edges of a primitive of this topology, if the file marks any.
+    /// Reads the edges of a primitive with this topology, if the file marks any.
     ///
-    /// Only triangles have edges. Errors in the extensions are warnings; exceeded limits and
-    /// unreadable files are errors, as everywhere.
+    /// Only triangles have edges. Errors in the extensions are only warnings; exceeded limits and
+    /// unreadable files are errors, as elsewhere.
     pub(super) fn read_edges(
         mut self,
         topology: Topology,
@@ -68,9 +69,9 @@ impl EdgeReader<'_, '_> {
         Ok((!is_empty).then(|| Box::new(edges)))
     }
 
-    /// Downgrades errors in the file's content to a warning.
+    /// Downgrades errors in the file's content to warnings.
     ///
-    /// Edges are an addition to the triangles, so an error in them never discards the primitive.
+    /// Edges are optional, so an error in them never discards the primitive.
     fn warn_if_soft(&mut self, read: Result<(), Diagnostic>) -> Result<(), Diagnostic> {
         match read {
             Err(diagnostic) if diagnostic.is_downgradable() => {
@@ -117,7 +118,7 @@ impl EdgeReader<'_, '_> {
 
     /// Reads CESIUM_primitive_outline.
     ///
-    /// An odd vertex at the end is ignored.
+    /// An unpaired vertex at the end is ignored.
     fn read_outline(&mut self, json: &Value, edges: &mut PrimitiveEdges) -> Result<(), Diagnostic> {
         let pointer = format!("{}/extensions/{OUTLINE_EXTENSION}/indices", self.pointer);
         let Some(accessor) = index_member(json, "indices") else {
@@ -129,9 +130,9 @@ impl EdgeReader<'_, '_> {
         Ok(())
     }
 
-    /// Unpacks two bits for each edge of each triangle.
+    /// Unpacks the two bits per triangle edge.
     ///
-    /// Edge e of triangle t is at bits 2 (3t + e) of the byte array, lowest bits first, so that a
+    /// Edge e of triangle t is at bit 2 (3t + e) of the byte array, lowest bits first, so a
     /// triangle's six bits may span two bytes. The number of bytes must be exactly 6 · triangles /
     /// 8, rounded up.
     ///
@@ -165,8 +166,8 @@ impl EdgeReader<'_, '_> {
         Ok((0..self.triangles).map(|at| [0, 1, 2].map(|k| edge(3 * at + k))).collect())
     }
 
-    /// Vertices of line strings, and the primitive restart index that separates them: the largest
-    /// value of the component type.
+    /// Returns the vertices of line strings, and the primitive restart index that separates the
+    /// strings: the largest value of the component type.
     fn read_line_indices(
         &self,
         accessor: usize,
@@ -179,7 +180,7 @@ impl EdgeReader<'_, '_> {
             ComponentType::U16 => u32::from(u16::MAX),
             _ => u32::MAX,
         };
-        // Indices and the pairs made from them: 8 bytes per index in total.
+        // The indices and the pairs built from them take 8 bytes per index in total.
         self.source.charge_array(accessor, elements.count, 8)?;
         Ok((self.source.read_indices(&elements)?, restart))
     }
@@ -197,7 +198,7 @@ impl EdgeReader<'_, '_> {
         lines
     }
 
-    /// Returns the material of edges; an index out of range is replaced by `None` with a warning.
+    /// Returns the material of edges. An out-of-range index is replaced by `None` with a warning.
     fn edge_material(&mut self, json: &Value, pointer: &str) -> Option<usize> {
         let (material, count) = (index_member(json, "material")?, self.source.root.materials.len());
         if material < count {
@@ -210,13 +211,13 @@ impl EdgeReader<'_, '_> {
     }
 }
 
-/// Returns a member that is an index; one too large for the machine becomes `usize::MAX`, which no
-/// item has.
+/// Returns a member that is an index. An index that does not fit in `usize` becomes `usize::MAX`,
+/// which is always out of range.
 fn index_member(json: &Value, member: &str) -> Option<usize> {
     json.get(member).and_then(Value::as_u64).map(|at| usize::try_from(at).unwrap_or(usize::MAX))
 }
 
-/// Renumbers the vertices of edges from the first used vertex on, as for the triangles; edges with
+/// Renumbers edge vertices relative to the first used vertex, as for the triangles. Edges with
 /// unused vertices are removed.
 pub(super) fn rebase_edges(edges: &mut PrimitiveEdges, used: &std::ops::Range<usize>) {
     for lines in &mut edges.lines {

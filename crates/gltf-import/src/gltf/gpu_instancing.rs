@@ -1,8 +1,8 @@
-//! GPU instancing (EXT_mesh_gpu_instancing): meshes that one node draws many times.
+//! GPU instancing (EXT_mesh_gpu_instancing): a node draws its mesh many times.
 //!
-//! Translation, rotation and scale of the instances are accessors with one element per instance;
-//! missing ones default to the identity. They are composed as T · R · S and apply before the node's
-//! own transform.
+//! The translation, rotation and scale of the instances are accessors with one element per
+//! instance; missing attributes default to the identity. They are composed as T · R · S and applied
+//! before the node's own transform.
 
 use super::accessor::AccessorReader;
 use super::attribute::{AllowedFormats, ROTATION, TRANSLATION_OR_SCALE};
@@ -15,14 +15,14 @@ use serde_json::{Map, Value};
 /// The extension's name, as in `extensionsUsed`.
 const EXTENSION: &str = "EXT_mesh_gpu_instancing";
 
-/// Transform of an instance relative to its node.
+/// The transform of an instance relative to its node.
 type InstanceTransform = Affine<ModelSpace, ModelSpace>;
 
-/// Reads the instance transforms of all nodes. If they are invalid, the mesh is drawn once, at its
-/// node.
+/// Reads the instance transforms of all nodes. If a node's transforms are invalid, its mesh is
+/// drawn once, at the node.
 ///
-/// The extension is ignored on a node with a skin, whose vertices follow the joints and not the
-/// node. Single instances whose transform is not finite are dropped.
+/// The extension is ignored on a node with a skin, because skinned vertices follow the joints, not
+/// the node. Individual instances with a non-finite transform are dropped.
 ///
 /// # Errors
 /// Fails if a limit is exceeded or a file cannot be read; errors in the content are warnings.
@@ -69,12 +69,12 @@ pub(super) fn import_instances(
     Ok(())
 }
 
-/// Composes the transforms from translation, rotation and scale; `None` for invalid ones.
+/// Composes the transforms from translation, rotation and scale; invalid transforms are `None`.
 ///
 /// A transform is invalid if its quaternion has length 0, or if a number is not finite.
 ///
 /// # Errors
-/// Fails if an attribute is invalid, the counts differ, or the memory budget is spent.
+/// Fails if an attribute is invalid, the counts differ, or the memory budget is exhausted.
 fn instance_transforms(
     source: &AccessorReader<'_>,
     attributes: &Map<String, Value>,
@@ -116,7 +116,7 @@ fn instance_transforms(
     Ok((0..count).map(transform).collect())
 }
 
-/// Reader of the attributes of the instances of one node.
+/// Reads the instance attributes of one node.
 struct InstanceAttributes<'a> {
     source: &'a AccessorReader<'a>,
     /// Accessor indices by attribute name.
@@ -126,10 +126,10 @@ struct InstanceAttributes<'a> {
 }
 
 impl InstanceAttributes<'_> {
-    /// Reads an attribute, if the file has it.
+    /// Reads an attribute if the file has it.
     ///
     /// # Errors
-    /// Fails if the member is not an index, or the accessor is invalid or has another format.
+    /// Fails if the member is not an index, or the accessor is invalid or has the wrong format.
     fn read_attribute<const N: usize>(
         &self,
         name: &str,

@@ -1,8 +1,8 @@
-//! Images: the visible ones, read and checked against the limits, then decoded.
+//! Images: reads the visible images, checks them against the limits, and decodes them.
 //!
 //! Only images that a visible surface uses are read. A broken image causes a warning and never
-//! discards the model. The limit on texels is spent in file order, by the sizes in the headers,
-//! before any decoder runs.
+//! discards the model. The texel limit is applied in file order to the sizes in the headers, before
+//! any decoder runs.
 
 use super::accessor::AccessorReader;
 use super::selection;
@@ -18,10 +18,10 @@ use std::borrow::Cow;
 
 /// Images of a file that have been read but not decoded.
 ///
-/// Bytes are borrowed from buffers if the image is in a buffer view.
+/// If an image is in a buffer view, its bytes are borrowed from the buffer.
 #[derive(Default)]
 pub(super) struct EncodedImages<'a> {
-    /// For each image of the file, whether it should be read.
+    /// Whether each image of the file should be read.
     needed: Vec<bool>,
     /// The images that could be read.
     pub(super) encoded: Vec<EncodedImage<'a>>,
@@ -38,12 +38,13 @@ impl<'a> EncodedImages<'a> {
     }
 }
 
-/// Images that the surfaces of the active scene will use, according to the JSON.
+/// Returns the images that the surfaces of the active scene will use, according to the JSON.
 ///
-/// This is used before meshes are read, so that images can be decoded meanwhile.
+/// This runs before meshes are read, so that images can be decoded in the meantime.
 ///
-/// Materials of the active variant replace the default ones. The result may differ from
-/// [`needed_images`], which knows the primitives: one without items needs no images.
+/// Materials of the active variant replace the default materials. The result may differ from
+/// [`needed_images`], which takes the imported primitives into account: a primitive without items
+/// needs no images.
 pub(super) fn announced_images(root: &Root, model: &Model, variant: Option<usize>) -> Vec<bool> {
     let mut needed = vec![false; root.images.len()];
     for (mesh, _) in
@@ -59,9 +60,9 @@ pub(super) fn announced_images(root: &Root, model: &Model, variant: Option<usize
     needed
 }
 
-/// Images that visible surfaces use.
+/// Returns the images that visible surfaces use.
 ///
-/// `images` is the number of images in the file; the result has a flag for each.
+/// `images` is the number of images in the file; the result has a flag for each image.
 fn needed_images(model: &Model, images: usize) -> Vec<bool> {
     let mut needed = vec![false; images];
     let is_visible = visible_meshes(model, model.meshes.len());
@@ -72,7 +73,7 @@ fn needed_images(model: &Model, images: usize) -> Vec<bool> {
     needed
 }
 
-/// For each mesh, whether the active scene draws it.
+/// Returns for each mesh whether the active scene draws it.
 ///
 /// A mesh without an instance in the active scene is imported, but its images are not decoded.
 fn visible_meshes(model: &Model, meshes: usize) -> Vec<bool> {
@@ -89,7 +90,7 @@ fn visible_meshes(model: &Model, meshes: usize) -> Vec<bool> {
 
 /// Marks the images of a material.
 ///
-/// Only textures that affect the picture count; an unlit material uses only its base color.
+/// Only textures that affect the picture count; an unlit material uses only its base color texture.
 fn mark_material_images(material: Option<usize>, model: &Model, needed: &mut [bool]) {
     let material = material.and_then(|at| model.materials.get(at));
     for (_, info) in material.into_iter().flat_map(Material::visible_textures) {
@@ -102,8 +103,8 @@ fn mark_material_images(material: Option<usize>, model: &Model, needed: &mut [bo
 
 /// Adds the images to an otherwise complete model.
 ///
-/// Images that were read early and `decoded` meanwhile are used, unless the meshes turned out to
-/// need images other than those announced.
+/// The images that were read early and have been `decoded` are used, unless the meshes turn out to
+/// need images that were not expected.
 pub(super) fn import_images(
     source: &AccessorReader<'_>,
     model: &mut Model,
@@ -124,7 +125,7 @@ pub(super) fn import_images(
             store_decoded(model, encoded_images, decoded, warnings);
         }
         ImageLoading::Headers => {
-            // The others are not visible, and do not need warnings.
+            // The other images are not visible and do not need warnings.
             let others = needed.iter().map(|needed| !needed).collect();
             store_headers(
                 &EncodedImages::read_needed(source, others).encoded,
@@ -137,7 +138,7 @@ pub(super) fn import_images(
 
 /// Stores decoded images in the model, and adds a warning for each failure.
 ///
-/// A failed image loses its texture: the surface is drawn without it.
+/// A surface whose image failed is drawn without the texture.
 fn store_decoded(
     model: &mut Model,
     encoded_images: EncodedImages<'_>,
@@ -159,14 +160,14 @@ fn store_decoded(
     model.images = images.into();
 }
 
-/// Name and URI of an image.
+/// Returns the name and URI of an image.
 fn image_info(json: &JsonImage) -> ImageInfo {
     let is_data = |uri: &str| uri.get(..5).is_some_and(|s| s.eq_ignore_ascii_case("data:"));
     let uri = json.uri.as_deref().map(|uri| if is_data(uri) { "data:" } else { uri }.to_owned());
     ImageInfo { name: json.name.clone(), uri, header: None }
 }
 
-/// Stores format and size of the images that were read.
+/// Stores the format and size of the images that were read.
 ///
 /// Images that could not be read have no header.
 fn store_headers(encoded: &[EncodedImage<'_>], files: &mut [ImageInfo]) {
@@ -178,7 +179,7 @@ fn store_headers(encoded: &[EncodedImage<'_>], files: &mut [ImageInfo]) {
 
 /// Reads the bytes of the needed images; failures are warnings.
 ///
-/// The limit on texels is spent here, by the sizes in the headers, so that no decoder starts on an
+/// The texel limit is applied here to the sizes in the headers, so that no decoder starts on an
 /// image that would exceed it.
 ///
 /// All image bytes are in memory before decoding starts, because decoding runs on other threads.
@@ -206,10 +207,10 @@ fn read_encoded<'a>(
     encoded_images
 }
 
-/// The consequence stated in all warnings about images.
+/// The consequence that all image warnings state.
 const SHOWN_WITHOUT_IMAGE: &str = "the surface is shown without it";
 
-/// Returns the encoded bytes, from a file, a data URI or a buffer view.
+/// Returns the encoded bytes from a file, a data URI or a buffer view.
 ///
 /// # Errors
 /// Fails if the file or view cannot be read, or the image has neither.
@@ -232,9 +233,10 @@ fn image_bytes<'a>(
     }
 }
 
-/// Checks size and number of texels against the limits.
+/// Checks the size and number of texels against the limits.
 ///
-/// `texels_left` is the rest of the limit for all images of the file, and is reduced by this image.
+/// `texels_left` is the remainder of the limit for all images of the file, and is reduced by this
+/// image.
 ///
 /// # Errors
 /// Fails if the size is 0. Returns [`LIMIT_EXCEEDED`](model::codes::LIMIT_EXCEEDED) for

@@ -1,7 +1,8 @@
 //! Materials: factors and textures, including the KHR_materials extensions.
 //!
-//! Numbers of extensions are found with the table of [animatable properties](model::object_model),
-//! which has their JSON pointers and bounds; textures with the table of [`TextureSlot`]s.
+//! Extension numbers are found through the table of [animatable properties](model::object_model),
+//! which contains their JSON pointers and bounds, and textures through the table of
+//! [`TextureSlot`]s.
 //!
 //! ```text
 //!  core members ──────────────────────────► Material
@@ -9,8 +10,8 @@
 //!               └─ numbers by pointer ────► clamped to their bounds
 //! ```
 //!
-//! A material is never rejected: it affects only the appearance, and a value out of range has an
-//! obvious replacement.
+//! A material is never rejected, because it affects only the appearance, and values out of range
+//! have an obvious replacement.
 
 use crate::warnings::ImportWarnings;
 use gltf::json::Root;
@@ -23,15 +24,14 @@ use model::{
 };
 use serde_json::{Map, Value};
 
-/// Reads all materials of a file. Errors in them are warnings.
+/// Reads all materials of a file. Errors in materials are only warnings.
 pub(super) fn import_materials(root: &Root, warnings: &mut ImportWarnings) -> Vec<Material> {
     (0..root.materials.len())
         .map(|at| MaterialReader { root, at, warnings: &mut *warnings }.read_material())
         .collect()
 }
 
-/// Returns the texture transform (KHR_texture_transform) in a slot, or `None` if the file does not
-/// specify one.
+/// Returns the texture transform (KHR_texture_transform) in a slot, if the file specifies it.
 ///
 /// The default is the identity: offset 0, rotation 0, scale 1. The rotation is in radians,
 /// counter-clockwise around the origin of the texture coordinates.
@@ -51,9 +51,9 @@ pub(super) fn texture_transform(
     })
 }
 
-/// Reader of one material.
+/// Reads one material.
 ///
-/// JSON pointers for warnings are composed on demand, because valid materials need none.
+/// JSON pointers for warnings are composed on demand, because valid materials do not need them.
 struct MaterialReader<'a, 'w> {
     root: &'a Root,
     /// Index of the material.
@@ -62,13 +62,13 @@ struct MaterialReader<'a, 'w> {
 }
 
 impl<'a> MaterialReader<'a, '_> {
-    /// Reads core properties first, then the extensions.
+    /// Reads the core properties, then the extensions.
     ///
-    /// Factors out of range are clamped with a warning. Textures of specular-glossiness replace
-    /// the metallic-roughness textures, which files also contain for readers without the extension.
+    /// Factors out of range are clamped with a warning. Specular-glossiness textures replace the
+    /// metallic-roughness textures, which files also contain for readers without the extension.
     ///
-    /// Fields that depend on several others are computed at the end by `update_derived`, which
-    /// animations also call.
+    /// At the end, `update_derived` computes fields that depend on several others. Animations call
+    /// it too.
     fn read_material(mut self) -> Material {
         let json = &self.root.materials[self.at];
         let pbr = &json.pbr_metallic_roughness;
@@ -101,13 +101,13 @@ impl<'a> MaterialReader<'a, '_> {
         material
     }
 
-    /// Returns the object of an extension, if the material has it.
+    /// Returns the object of an extension if the material has it.
     fn extension_object(&self, name: &str) -> Option<&'a Map<String, Value>> {
         let extensions = self.root.materials[self.at].extensions.as_ref()?;
         extensions.others.get(name)?.as_object()
     }
 
-    /// JSON pointer to a member of the material.
+    /// Returns the JSON pointer to a member of the material.
     fn member_pointer(&self, member: &str) -> String {
         format!("/materials/{}/{member}", self.at)
     }
@@ -119,12 +119,12 @@ impl<'a> MaterialReader<'a, '_> {
         inside
     }
 
-    /// Clamps numbers to bounds, with a warning; NaN becomes the minimum.
+    /// Clamps numbers to bounds, with a warning. NaN becomes the minimum.
     ///
-    /// The comparison is written so that NaN fails it.
+    /// The comparison is written so that it fails for NaN.
     ///
     /// The warning lists the numbers before and after the correction. A maximum of `f32::MAX` means
-    /// none.
+    /// no maximum.
     fn clamp_numbers(&mut self, member: &str, numbers: &mut [f32], [min, max]: [f32; 2]) {
         let given = numbers.to_vec();
         for number in &mut *numbers {
@@ -140,10 +140,11 @@ impl<'a> MaterialReader<'a, '_> {
         }
     }
 
-    /// Reads the alpha mode with its cutoff (0.5 by default); an unknown mode becomes opaque, with
+    /// Reads the alpha mode with its cutoff (0.5 by default). An unknown mode becomes opaque, with
     /// a warning.
     ///
-    /// The cutoff is not clamped: above 1 nothing is visible, which is valid (glTF 2.0 §3.9.4).
+    /// The cutoff is not clamped; with a cutoff above 1 nothing is visible, which is valid (glTF
+    /// 2.0 §3.9.4).
     fn read_alpha_mode(&mut self) -> AlphaMode {
         let json = &self.root.materials[self.at];
         match json.alpha_mode {
@@ -160,11 +161,10 @@ impl<'a> MaterialReader<'a, '_> {
         }
     }
 
-    /// Reads the extensions: first the records with their textures, then the numbers with their
-    /// table.
+    /// Reads the extensions: first the records with their textures, then the numbers.
     ///
     /// The table of animatable properties lists each number of each extension with its bounds, so
-    /// that no number is handled here by name. If a value has the wrong type or length, the default
+    /// no number is handled by name here. If a value has the wrong type or length, the default
     /// stays in effect, with a warning.
     fn read_extensions(&mut self, material: &mut Material) {
         self.create_extensions(material);
@@ -174,7 +174,7 @@ impl<'a> MaterialReader<'a, '_> {
             else {
                 continue;
             };
-            // The scale of the coat's normals is read with their texture.
+            // The scale of the clearcoat normals is read with their texture.
             let json = self.extension_object(name).and_then(|extension| extension.get(member));
             let (Some(json), Some(numbers)) = (json, numbers(material)) else { continue };
             let given: Option<Vec<f32>> = match json {
@@ -203,9 +203,9 @@ impl<'a> MaterialReader<'a, '_> {
 
     /// Creates the record of each extension that is present, with its textures and default numbers.
     ///
-    /// A record exists if the extension's object does, even if it is empty: KHR_materials_clearcoat
-    /// without members, for instance, is a coating of factor 0. With specular-glossiness the base
-    /// color factor is reset first, because the core factor belongs to the fallback.
+    /// A record exists if the extension's object exists, even if that is empty: for example,
+    /// KHR_materials_clearcoat without members is a coating with factor 0. With specular-glossiness
+    /// the base color factor is reset first, because the core factor belongs to the fallback.
     fn create_extensions(&mut self, material: &mut Material) {
         use TextureSlot as Slot;
         let extensions = &mut material.extensions;
@@ -258,7 +258,7 @@ impl<'a> MaterialReader<'a, '_> {
 
     /// Reads the normal map in a slot, with the scale of its x and y components.
     ///
-    /// The scale may be negative, which inverts the relief; if it is not finite it becomes 1.
+    /// The scale may be negative, which inverts the relief. If it is not finite, it becomes 1.
     fn read_normal_texture(&mut self, slot: TextureSlot) -> Option<NormalTexture> {
         let texture = self.read_texture(slot)?;
         let scale = JsonTextureInfo::from_slot(self.root, self.at, slot)?.scale;
@@ -266,9 +266,9 @@ impl<'a> MaterialReader<'a, '_> {
         Some(NormalTexture { texture, scale })
     }
 
-    /// Reads the texture in a slot; a reference to a texture that does not exist is a warning.
+    /// Reads the texture in a slot. A reference to a missing texture causes a warning.
     ///
-    /// The `texCoord` of KHR_texture_transform, if present, overrides the one in the texture
+    /// The `texCoord` of KHR_texture_transform, if present, overrides that of the texture
     /// reference.
     fn read_texture(&mut self, slot: TextureSlot) -> Option<TextureInfo> {
         let JsonTextureInfo { texture, uv_set, transform, .. } =
@@ -295,11 +295,11 @@ impl<'a> MaterialReader<'a, '_> {
     }
 }
 
-/// A texture reference as in the file.
+/// A texture reference as stored in the file.
 struct JsonTextureInfo<'a> {
-    /// Index of the texture, `usize::MAX` if the file has none or a negative one.
+    /// Index of the texture, or `usize::MAX` if it is absent or negative.
     texture: usize,
-    /// Set of texture coordinates: `n` of `TEXCOORD_n`.
+    /// Texture coordinate set: `n` in `TEXCOORD_n`.
     uv_set: usize,
     /// Scale of a normal map's x and y components; 1 for other textures.
     scale: f32,
@@ -308,10 +308,10 @@ struct JsonTextureInfo<'a> {
 }
 
 impl<'a> JsonTextureInfo<'a> {
-    /// Returns the reference in a slot of a material; its texture may not exist.
+    /// Returns the texture reference in a slot of a material. The texture may not exist.
     ///
-    /// The core types of the `gltf` crate differ for normal, occlusion and other textures, so each
-    /// has a branch; extensions are read from raw JSON at the path of the slot.
+    /// The `gltf` crate has different types for normal, occlusion and other textures, so each has a
+    /// branch. Extensions are read from raw JSON at the slot's path.
     fn from_slot(root: &'a Root, material: usize, slot: TextureSlot) -> Option<Self> {
         let json = root.materials.get(material)?;
         let pbr = &json.pbr_metallic_roughness;
@@ -348,10 +348,10 @@ impl<'a> JsonTextureInfo<'a> {
         })
     }
 
-    /// Returns the reference in a slot of an extension.
+    /// Returns the texture reference in a slot of an extension.
     ///
-    /// A member that is not an object of the expected form becomes a reference to a texture that
-    /// does not exist, for which the caller adds a warning.
+    /// A member that is not an object of the expected form becomes a reference to a missing
+    /// texture, for which the caller adds a warning.
     fn from_extension(root: &'a Root, material: usize, slot: TextureSlot) -> Option<Self> {
         let (name, member) = slot.json_path().strip_prefix("extensions/")?.split_once('/')?;
         let json = root.materials[material].extensions.as_ref()?.others.get(name)?.get(member)?;
@@ -365,13 +365,14 @@ impl<'a> JsonTextureInfo<'a> {
     }
 }
 
-/// Extension for affine transforms of texture coordinates; it may occur in any texture reference.
+/// The extension for affine transforms of texture coordinates, which may occur in any texture
+/// reference.
 const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
 
-/// Warns of primitives that lack the texture coordinates their material uses.
+/// Warns about primitives that lack the texture coordinates their material uses.
 ///
-/// It runs when both materials and meshes are complete. Only the first missing set of a primitive
-/// is reported. A primitive without items is skipped, because none of it is drawn.
+/// This runs once both materials and meshes are complete. Only the first missing set of a primitive
+/// is reported. Primitives without items are skipped, because they are not drawn.
 pub(super) fn warn_of_missing_texcoords(model: &Model, warnings: &mut ImportWarnings) {
     for (at, mesh) in model.meshes.iter().enumerate() {
         for (primitive_index, primitive) in mesh.primitives.iter().enumerate() {
@@ -392,8 +393,8 @@ pub(super) fn warn_of_missing_texcoords(model: &Model, warnings: &mut ImportWarn
     }
 }
 
-/// Returns an array of exactly `N` numbers, rounded to single precision, or `None` for anything
-/// else.
+/// Returns an array of exactly `N` numbers, rounded to single precision, or `None` for any other
+/// value.
 fn float_array<const N: usize>(value: &Value) -> Option<[f32; N]> {
     let numbers: Option<Vec<f32>> =
         value.as_array()?.iter().map(|item| item.as_f64().map(|x| x as f32)).collect();

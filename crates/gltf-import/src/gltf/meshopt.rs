@@ -1,4 +1,4 @@
-//! meshopt compression of buffer views: EXT_meshopt_compression, and its superset
+//! meshopt compression of buffer views: EXT_meshopt_compression and its superset,
 //! KHR_meshopt_compression.
 //!
 //! ```text
@@ -8,10 +8,10 @@
 //!                                                                           index_sequence_codec
 //! ```
 //!
-//! This is written from the text of the extensions, whose appendices define the streams byte by
-//! byte. A stream does not contain its length: the JSON declares the length of the result, and a
-//! stream that ends earlier or later is invalid. Both names accept both versions of the streams and
-//! all filters.
+//! This implementation follows the text of the extensions, whose appendices define the streams byte
+//! by byte. A stream does not contain its length: the JSON declares the length of the result, and a
+//! stream that ends earlier or later is invalid. Both stream versions and all filters are accepted
+//! under either extension name.
 
 mod byte_stream;
 mod index_codec;
@@ -26,14 +26,14 @@ use gltf::json::buffer::View;
 use model::Diagnostic;
 use serde_json::{Map, Value};
 
-/// A compressed buffer view as its extension declares it.
+/// A compressed buffer view as declared by the extension.
 #[derive(Debug)]
 pub struct CompressedView {
     /// JSON pointer to the extension.
     pub pointer: String,
-    /// Index of the buffer with the stream.
+    /// Index of the buffer that contains the stream.
     pub buffer: usize,
-    /// Offset of the stream in it.
+    /// Offset of the stream in the buffer.
     pub offset: u64,
     /// Length of the stream in bytes.
     pub length: u64,
@@ -64,7 +64,7 @@ enum MeshoptFilter {
 }
 
 impl CompressedView {
-    /// Returns the compression of a buffer view, `None` if it is not compressed; `view` is the
+    /// Returns the compression of a buffer view, or `None` if it is not compressed. `view` is the
     /// pointer to the view.
     pub(crate) fn from_view(json: &View, view: &str) -> Result<Option<Self>, Diagnostic> {
         let Some(extensions) = &json.extensions else { return Ok(None) };
@@ -113,8 +113,8 @@ impl CompressedView {
         Ok(Self { pointer, buffer, offset, length, count, stride, mode })
     }
 
-    /// Returns the extension of a buffer view given as JSON, or `None` if there is none, or if this
-    /// is not a buffer view.
+    /// Returns the compression of a buffer view from its JSON, or `None` if it is not compressed or
+    /// not a buffer view.
     ///
     /// # Errors
     /// Fails if the extension breaks a rule.
@@ -125,13 +125,13 @@ impl CompressedView {
         }
     }
 
-    /// Length of the decompressed view in bytes.
+    /// Returns the length of the decompressed view in bytes.
     #[must_use]
     pub fn decompressed_length(&self) -> u64 {
         (self.count as u64).saturating_mul(self.stride as u64)
     }
 
-    /// Decompresses the stream. The caller has charged the memory budget for the result.
+    /// Decompresses the stream. The caller must have charged the result to the memory budget.
     ///
     /// # Errors
     /// Fails if the stream is invalid.
@@ -154,7 +154,7 @@ impl CompressedView {
 }
 
 impl CompressionMode {
-    /// Reads mode and filter.
+    /// Reads the mode and filter.
     fn from_members(members: &Map<String, Value>, pointer: &str) -> Result<Self, Diagnostic> {
         let string_member =
             |key: &str| members.get(key).map(|value| value.as_str().unwrap_or("not a string"));
@@ -187,7 +187,7 @@ impl CompressionMode {
         }
     }
 
-    /// Checks the element size; the error names the allowed ones.
+    /// Checks the element size. The error names the allowed sizes.
     fn check_stride(self, stride: usize) -> Result<(), &'static str> {
         let fits = |fits: bool, allowed| if fits { Ok(()) } else { Err(allowed) };
         match self {

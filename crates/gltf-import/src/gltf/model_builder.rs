@@ -1,13 +1,13 @@
-//! Model assembly: the order in which the parts of a document are read.
+//! Model assembly: reads the parts of a document in this order:
 //!
 //! ```text
 //!  1. scene graph    nodes, scenes, cameras, lights, materials, textures, skins, animations
-//!  2. images         read if the JSON announces them, then decoded by other threads
+//!  2. images         those that the JSON appears to need: read, then decoded by other threads
 //!  3. geometry       meshes, variants, instances, while the images are decoded
-//!  4. images         stored; read again if the meshes turned out to need others
+//!  4. images         stored, or read again if the meshes turn out to need others
 //! ```
 //!
-//! Each step needs only the results of earlier ones. Images come early because decoding takes
+//! Each step needs only the results of earlier steps. Images come early because decoding takes
 //! longest and is independent of everything else.
 
 use super::accessor::AccessorReader;
@@ -25,7 +25,7 @@ use model::{Diagnostic, Model, Node};
 
 /// Builds the model of a document. Images are decoded while the meshes are read.
 ///
-/// The time of each step is added to the stopwatch of the options, as `geometry` or `images`.
+/// The time of each step is added to the timings in the options, as `geometry` or `images`.
 ///
 /// # Errors
 /// Returns the first error that prevents drawing.
@@ -70,8 +70,8 @@ fn collect_announced_images<'a>(
 ///
 /// References to invalid skins and cameras are cleared, so that every index in the nodes is valid.
 ///
-/// The order follows the dependencies: lights are attached to nodes, animations check their targets
-/// against nodes, materials, lights and cameras.
+/// The order follows the dependencies: lights are attached to nodes, and animations check their
+/// targets against nodes, materials, lights and cameras.
 fn build_scene_graph(
     document: &GltfDocument,
     source: &AccessorReader<'_>,
@@ -106,9 +106,9 @@ fn build_scene_graph(
     Ok(model)
 }
 
-/// Reads the animations; pointers of KHR_animation_pointer may add texture transforms to materials.
+/// Reads the animations. KHR_animation_pointer may add texture transforms to materials.
 ///
-/// Disjoint fields of the model are borrowed, some of them mutably, which a method on the model
+/// This borrows disjoint fields of the model, some of them mutably, which a method on the model
 /// could not do.
 fn build_animations(
     document: &GltfDocument,
@@ -128,7 +128,7 @@ fn build_animations(
     Ok(())
 }
 
-/// Reads the meshes with the materials of the active variant or the colors of a scalar attribute,
+/// Reads the meshes, with the materials of the active variant or the colors of a scalar attribute,
 /// and their instances.
 ///
 /// The limit on scene items is checked at the end, when the number of instances is known.
@@ -159,7 +159,7 @@ fn build_meshes(
 
 /// Clears references from nodes to skipped skins and cameras.
 ///
-/// Lights need no such step: they are attached only if they are valid.
+/// Lights do not need this, because they are attached only if they are valid.
 fn drop_dangling_references(model: &mut Model, usable_cameras: &[bool]) {
     let Model { nodes, skins, .. } = model;
     for Node { skin, camera, .. } in nodes {
@@ -168,7 +168,7 @@ fn drop_dangling_references(model: &mut Model, usable_cameras: &[bool]) {
     }
 }
 
-/// Extension names in alphabetical order, without duplicates.
+/// Returns the extension names in alphabetical order, without duplicates.
 fn sorted_names(names: &[String]) -> Vec<String> {
     let mut names = names.to_vec();
     names.sort();

@@ -1,25 +1,25 @@
-//! Morph targets: deltas of vertex attributes; an invalid one is skipped with a warning.
+//! Morph targets: deltas of vertex attributes. Invalid deltas are skipped with a warning.
 //!
 //! Deltas have the formats of the attributes they change, except that tangents have three
 //! components: w, the handedness, does not morph. Deltas of texture coordinates and colors are
-//! rarely supported elsewhere, but allowed (glTF 2.0 §3.7.2.2).
+//! allowed (glTF 2.0 §3.7.2.2), although few renderers support them.
 
 use super::attribute::{AllowedFormats, AttributeReader, COLOR, POSITION, TEXCOORD};
 use gltf::json;
 use model::{Diagnostic, MorphTarget};
 
-/// Reader of one morph target.
+/// Reads one morph target.
 pub(super) struct MorphTargetReader<'r, 'a, 'w> {
-    /// The reader of the primitive's attributes: deltas cover the same range of vertices.
+    /// The reader of the primitive's attributes, because deltas cover the same range of vertices.
     pub(super) attributes: &'r mut AttributeReader<'a, 'w>,
     /// Location of the morph target.
     pub(super) pointer: String,
-    /// Whether tangents are read.
+    /// Whether to read tangents.
     pub(super) tangents: bool,
 }
 
 impl MorphTargetReader<'_, '_, '_> {
-    /// Reads the deltas; `further` are attributes that the JSON type lacks, by name.
+    /// Reads the deltas. `further` contains the attributes that the JSON type lacks, by name.
     ///
     /// # Errors
     /// Fails if a limit is exceeded or a file cannot be read. An invalid delta is dropped with a
@@ -52,7 +52,7 @@ impl MorphTargetReader<'_, '_, '_> {
         Ok(target)
     }
 
-    /// Reads the deltas of one attribute, if the target has it and it is valid.
+    /// Reads the deltas of one attribute if the target has it and it is valid.
     fn read_deltas<const N: usize>(
         &mut self,
         accessor: Option<usize>,

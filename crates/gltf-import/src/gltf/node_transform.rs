@@ -1,8 +1,8 @@
 //! Node transforms, in the double precision of JSON numbers.
 //!
-//! The `gltf` crate stores them in single precision. Models far from the origin, as is common in
-//! CAD and map data, would lose millimeters, so the transforms are removed from the JSON
-//! beforehand.
+//! The `gltf` crate stores transforms in single precision, which would lose millimeters in models
+//! far from the origin, as is common in CAD and map data. So the transforms are removed from the
+//! JSON beforehand.
 
 use crate::warnings::ImportWarnings;
 use glam::{DMat4, DVec4};
@@ -10,7 +10,7 @@ use homog::{Affine, Model};
 use model::{Diagnostic, Trs};
 use serde_json::{Map, Value};
 
-/// A node's local transform as given in the file; all numbers are finite.
+/// A node's local transform as stored in the file. All numbers are finite.
 ///
 /// A matrix takes precedence over translation, rotation and scale in files that have both.
 #[derive(Clone, Debug)]
@@ -24,7 +24,7 @@ pub(super) enum NodeTransform {
 impl NodeTransform {
     /// Removes the transforms from the nodes of a document and returns them.
     ///
-    /// The result has an entry for each node, in order.
+    /// The result has one entry per node, in order.
     ///
     /// # Errors
     /// Fails if a transform is not an array of the right length. In lenient mode, it becomes the
@@ -96,13 +96,13 @@ impl NodeTransform {
     }
 }
 
-/// Returns an affine map from a matrix in column-major order, or `None` if its last row is clearly
-/// not (0, 0, 0, 1).
+/// Converts a column-major matrix to an affine map. Returns `None` if its last row is clearly not
+/// (0, 0, 0, 1).
 ///
 /// Exporters that invert a matrix in single precision leave rounding errors in the last row.
 ///
-/// A deviation of up to 0.001 is accepted and corrected to an exact last row, because later
-/// products rely on it.
+/// A deviation of up to 0.001 is accepted and corrected, because later products rely on an exact
+/// last row.
 pub(super) fn affine_from_columns(columns: &[f64; 16]) -> Option<Affine<Model, Model>> {
     let mut matrix = DMat4::from_cols_array(columns);
     let deviation = (matrix.row(3) - DVec4::W).abs().max_element();

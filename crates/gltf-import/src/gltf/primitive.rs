@@ -1,7 +1,7 @@
-//! Mesh primitives: accessors become plain arrays, and undrawable items are removed.
+//! Mesh primitives: converts accessors to plain arrays, and removes items that cannot be drawn.
 //!
-//! Positions and indices define the shape; if they are invalid the file is rejected. All other
-//! attributes affect only the appearance: an invalid one is skipped with a warning.
+//! Positions and indices define the shape; if they are invalid, the file is rejected. All other
+//! attributes affect only the appearance; if they are invalid, they are skipped with a warning.
 //!
 //! ```text
 //!  POSITION ──► number of vertices ─┐
@@ -10,9 +10,9 @@
 //!  positions of that range ─► drop items with vertices that are not finite ─► other attributes
 //! ```
 //!
-//! Only the range of vertices between the lowest and the highest index is read. Otherwise exporters
-//! that share one array of vertices between all primitives would cost memory in proportion to the
-//! square of their number.
+//! Only the vertices from the lowest to the highest index are read. Otherwise, files in which all
+//! primitives share one vertex array would take memory proportional to the square of the number of
+//! primitives.
 
 use super::accessor::AccessorReader;
 use super::attribute::{
@@ -35,16 +35,16 @@ use model::{
 };
 use std::ops::Range;
 
-/// Maximum number of texture coordinate sets that are read.
+/// Maximum number of texture coordinate sets to read.
 ///
-/// Materials rarely use more than two; the specification sets no maximum.
+/// Materials rarely use more than two; the specification does not set a maximum.
 pub(super) const UV_SETS: u32 = 8;
-/// Maximum number of joint sets that are read.
+/// Maximum number of joint sets to read.
 ///
-/// Each set has four influences, so a vertex may follow 64 joints.
+/// Each set has four influences, so a vertex may follow up to 64 joints.
 const JOINT_SETS: u32 = 16;
 
-/// Context of primitives: the other parts of the file that they refer to.
+/// The context of primitives: the other parts of the file that they refer to.
 #[derive(Clone, Copy)]
 pub(super) struct PrimitiveContext<'a> {
     /// The imported materials, which determine whether tangents are needed.
@@ -58,8 +58,8 @@ pub(super) struct PrimitiveContext<'a> {
 
 /// Reads all meshes of a file, and collects the values of a scalar attribute.
 ///
-/// A primitive that cannot be read becomes an empty one: indices of primitives are part of JSON
-/// pointers and of the public interface, so they must not shift.
+/// A primitive that cannot be read becomes an empty primitive, because primitive indices are part
+/// of JSON pointers and of the public interface, and must not shift.
 ///
 /// # Errors
 /// Fails if a limit is exceeded, a file cannot be read, or positions or indices are invalid. In
@@ -104,14 +104,15 @@ pub(super) fn import_meshes(
     Ok(meshes)
 }
 
-/// Reader of one primitive.
+/// Reads one primitive.
 ///
-/// It lives for one primitive; `scalars` and `warnings` are shared by the whole import.
+/// A new reader is created for each primitive; `scalars` and `warnings` are shared by the whole
+/// import.
 struct PrimitiveReader<'a, 'w> {
     source: &'a AccessorReader<'a>,
     json: &'a json::mesh::Primitive,
     context: PrimitiveContext<'a>,
-    /// Index of the mesh, and of the primitive in it.
+    /// The index of the mesh, and of the primitive in the mesh.
     mesh_and_part: (usize, usize),
     pointer: String,
     scalars: &'w mut CollectedScalars,
@@ -123,8 +124,8 @@ impl<'a> PrimitiveReader<'a, '_> {
     /// reads the attributes of the used vertices.
     ///
     /// The order of the steps matters. Invalid indices are removed before the range of used
-    /// vertices is determined, because one wrong index would widen that range to the whole array;
-    /// attributes are read last, for that range only.
+    /// vertices is determined, because a single wrong index could widen that range to the whole
+    /// array. Attributes are read last, for that range only.
     ///
     /// # Errors
     /// Fails if the mode, the positions or the indices are invalid, or a limit is exceeded.
@@ -171,18 +172,18 @@ impl<'a> PrimitiveReader<'a, '_> {
         Ok(primitive)
     }
 
-    /// Returns whether any material of the primitive needs a tangent frame; tangents are read only
-    /// then.
+    /// Returns whether any material of the primitive needs a tangent frame. Tangents are read only
+    /// in this case.
     ///
-    /// Tangents are 16 bytes for each vertex, and have no effect without a normal map or
-    /// anisotropy. All material variants count: they can be selected after the import.
+    /// Tangents take 16 bytes per vertex, and have no effect without a normal map or anisotropy.
+    /// All material variants count, because they can be selected after the import.
     fn needs_tangents(&self, material: Option<usize>, variants: &[VariantMaterial]) -> bool {
         let others = variants.iter().map(|variant| variant.material);
         let mut all = material.into_iter().chain(others);
         all.any(|at| self.context.materials.get(at).is_some_and(Material::needs_tangents))
     }
 
-    /// Reads the materials of the primitive in the variants of the file (KHR_materials_variants).
+    /// Reads the materials of the primitive for the variants of the file (KHR_materials_variants).
     ///
     /// An invalid mapping is dropped with a warning.
     fn read_variants(&mut self) -> Vec<VariantMaterial> {
@@ -191,11 +192,10 @@ impl<'a> PrimitiveReader<'a, '_> {
         selection::variant_materials(root, self.json, &self.pointer, variants, self.warnings)
     }
 
-    /// Edges for line drawings, from the extensions that mark them; `None` if there is no such
-    /// extension.
+    /// Reads the edges for line drawings, if an extension marks any.
     ///
-    /// They must be read before any triangle is dropped: the extension has bits for each triangle
-    /// of the file, in order.
+    /// Edges must be read before any triangle is dropped, because the extension has bits for each
+    /// triangle in the file, in order.
     fn read_edges(
         &mut self,
         primitive: &Primitive,
@@ -212,10 +212,11 @@ impl<'a> PrimitiveReader<'a, '_> {
         reader.read_edges(primitive.topology)
     }
 
-    /// Decoded data of a Draco-compressed primitive.
+    /// Decodes the data of a Draco-compressed primitive.
     ///
-    /// `None` if it is not compressed. Also `None`, with a warning, if the stream is broken and the
-    /// file has uncompressed data as a fallback for readers without the extension.
+    /// Returns `None` if it is not compressed. Also returns `None`, with a warning, if the stream
+    /// is broken and the file has uncompressed data as a fallback for readers without the
+    /// extension.
     fn decode_draco_data(&mut self, tangents: bool) -> Result<Option<DracoData>, Diagnostic> {
         let positions = self.attribute_accessor(Semantic::Positions);
         let has_other_data = positions.is_some_and(|accessor| !self.source.has_no_data(accessor));
@@ -258,10 +259,9 @@ impl<'a> PrimitiveReader<'a, '_> {
         }))
     }
 
-    /// Reads the vertices in drawing order: the indices, or the file order if there are none.
+    /// Reads the vertices in drawing order: the indices if they exist, otherwise the file order.
     ///
-    /// A primitive without indices gets them here: `0, 1, 2, …`, so that all later steps have a
-    /// single case.
+    /// A primitive without indices gets `0, 1, 2, …`, so that all later steps have a single case.
     fn read_vertex_order(&self, vertices: usize) -> Result<Vec<u32>, Diagnostic> {
         let Some(accessor) = self.json.indices else {
             let accessor = self.attribute_accessor(Semantic::Positions).unwrap_or(0);
@@ -274,13 +274,13 @@ impl<'a> PrimitiveReader<'a, '_> {
         self.source.read_indices(&elements)
     }
 
-    /// Removes items with an index out of range: all remaining indices are valid.
+    /// Removes items with an out-of-range index. All remaining indices are valid.
     ///
-    /// Whole points, lines or triangles are removed, never single indices, which would shift all
-    /// others.
+    /// Whole points, lines or triangles are removed, never single indices, because this would shift
+    /// all others.
     ///
-    /// The test of the highest index comes first: it is one pass that the compiler vectorizes, and
-    /// almost all files need no more.
+    /// The highest index is tested first, in one pass that the compiler vectorizes; almost all
+    /// files need only this test.
     fn drop_items_without_vertices(&mut self, primitive: &mut Primitive, vertices: usize) {
         if used_range(&primitive.indices).end <= vertices {
             return;
@@ -291,12 +291,12 @@ impl<'a> PrimitiveReader<'a, '_> {
         self.warnings.push_warning(&format!("{}/indices", self.pointer), message);
     }
 
-    /// Removes items with a vertex position that is not finite: all remaining positions are finite.
+    /// Removes items with a non-finite vertex position. All remaining positions are finite.
     ///
-    /// The positions themselves are set to 0, so that bounding boxes over all positions are finite
-    /// too.
+    /// The non-finite positions are set to 0, so that bounding boxes of all positions are also
+    /// finite.
     fn drop_nonfinite_items(&mut self, primitive: &mut Primitive) {
-        // A fold without an early exit is vectorized by the compiler.
+        // The compiler vectorizes a fold without an early exit.
         let all = primitive.positions.as_flattened();
         if all.iter().fold(true, |finite, x| finite & x.is_finite()) {
             return;
@@ -312,10 +312,10 @@ impl<'a> PrimitiveReader<'a, '_> {
         self.warnings.push_warning(&format!("{}/attributes/POSITION", self.pointer), message);
     }
 
-    /// Reads all attributes except the positions.
+    /// Reads all attributes except positions.
     ///
-    /// Texture coordinates are read set by set, up to the last set that the primitive has. A
-    /// missing set between two others becomes zeros, because materials refer to sets by number.
+    /// Texture coordinates are read up to the last set that the primitive has. A missing set before
+    /// it becomes zeros, because materials refer to sets by number.
     ///
     /// # Errors
     /// Fails if a limit is exceeded or a file cannot be read. An invalid attribute is dropped with
@@ -373,16 +373,15 @@ impl<'a> PrimitiveReader<'a, '_> {
         Ok(())
     }
 
-    /// Returns the accessor of an attribute, if the primitive has it; the index may be out of
-    /// range.
+    /// Returns the accessor of an attribute if the primitive has it. The index may be out of range.
     fn attribute_accessor(&self, semantic: Semantic) -> Option<usize> {
         self.json.attributes.get(&Checked::Valid(semantic)).map(json::Index::value)
     }
 
-    /// Normalizes the normals, with warnings.
+    /// Normalizes the normals and warns about corrections.
     ///
-    /// Quantized normals rarely have unit length; the warnings include counts and appear once for
-    /// each primitive.
+    /// Quantized normals rarely have unit length, so warnings are counted and appear once per
+    /// primitive.
     fn repair_normals(&mut self, primitive: &mut Primitive) {
         let normals::NormalRepairs { lengths, replaced } = normals::normalize_normals(primitive);
         let pointer = format!("{}/attributes/NORMAL", self.pointer);
@@ -400,7 +399,7 @@ impl<'a> PrimitiveReader<'a, '_> {
         }
     }
 
-    /// Returns the material; one that does not exist is replaced by the default material with a
+    /// Returns the material. A missing material is replaced by the default material, with a
     /// warning.
     fn checked_material(&mut self) -> Option<usize> {
         let material = self.json.material?.value();
@@ -415,7 +414,7 @@ impl<'a> PrimitiveReader<'a, '_> {
     }
 }
 
-/// Returns a number of points, lines or triangles, with the noun.
+/// Formats a number of points, lines or triangles with the noun.
 fn item_count(primitive: &Primitive, count: usize) -> String {
     let [singular, plural] = match primitive.topology {
         Topology::Points => ["point", "points"],
@@ -425,13 +424,13 @@ fn item_count(primitive: &Primitive, count: usize) -> String {
     counted(count, singular, plural)
 }
 
-/// Reads the sets of joints and weights, up to the first that is missing or invalid.
+/// Reads the sets of joints and weights up to the first missing or invalid set.
 ///
-/// `named` returns the accessor of an attribute, if the primitive has it, and its location. A set
-/// of joints without weights has no meaning, nor do weights without joints: both are dropped.
+/// `named` returns the accessor of an attribute and its location, if the primitive has it. Joints
+/// without weights are meaningless, as are weights without joints, so both are dropped.
 ///
-/// Four influences are one set: `JOINTS_0` with `WEIGHTS_0`, `JOINTS_1` with `WEIGHTS_1`, and so on
-/// (glTF 2.0 §3.7.3.3).
+/// Each set has four influences: `JOINTS_0` with `WEIGHTS_0`, `JOINTS_1` with `WEIGHTS_1`, and so
+/// on (glTF 2.0 §3.7.3.3).
 fn read_joints(
     primitive: &mut Primitive,
     attributes: &mut AttributeReader<'_, '_>,
@@ -451,9 +450,10 @@ fn read_joints(
     Ok(())
 }
 
-/// Renumbers indices from the lowest one on; returns the original range.
+/// Renumbers indices relative to the lowest, and returns the original range.
 ///
-/// Exporters often store the vertices of all primitives in one array, of which each uses a range.
+/// Exporters often store the vertices of all primitives in one array, of which each primitive uses
+/// a range.
 fn rebase_indices(indices: &mut [u32]) -> Range<usize> {
     let used = used_range(indices);
     let low = used.start as u32;
@@ -465,16 +465,17 @@ fn rebase_indices(indices: &mut [u32]) -> Range<usize> {
 
 /// Returns the range from the lowest to the highest index.
 ///
-/// It is empty if there are no indices. The time is linear in the number of indices.
+/// The range is empty if there are no indices. The time is linear in the number of indices.
 fn used_range(indices: &[u32]) -> Range<usize> {
     let (low, high) =
         indices.iter().fold((u32::MAX, 0), |(low, high), &i| (low.min(i), high.max(i)));
     if indices.is_empty() { 0..0 } else { low as usize..high as usize + 1 }
 }
 
-/// Retains the points, lines or triangles that `keep` accepts; returns the number of removed ones.
+/// Retains the points, lines or triangles that `keep` accepts, and returns the number of removed
+/// items.
 ///
-/// The visibility bits of edges are stored for each triangle and are filtered along with them.
+/// Edge visibility bits are stored per triangle and are filtered along with the triangles.
 fn retain_items(primitive: &mut Primitive, keep: impl Fn(&[u32]) -> bool) -> usize {
     let Primitive { topology, indices, edges, .. } = primitive;
     let before = indices.len();

@@ -1,8 +1,8 @@
-//! Scalar attributes of primitives: custom attributes such as `_TEMPERATURE` with accessors of type
-//! `SCALAR`.
+//! Scalar attributes of primitives: custom attributes such as `_TEMPERATURE`, with accessors of
+//! type `SCALAR`.
 //!
-//! The colors cover the range of the whole model. So the values of all primitives are collected
-//! first, and become colors afterwards.
+//! The colors cover the value range of the whole model, so the values of all primitives are
+//! collected first and converted to colors afterwards.
 
 use super::attribute::{AttributeReader, CUSTOM_SCALAR};
 use crate::ScalarColors;
@@ -22,20 +22,20 @@ struct PrimitiveScalars {
     mesh: usize,
     /// The index of the primitive in the mesh.
     primitive: usize,
-    /// A value for each vertex.
+    /// One value per vertex.
     values: Vec<f32>,
 }
 
 /// The values of the attribute that the options name, by primitive.
 #[derive(Debug, Default)]
 pub(super) struct CollectedScalars {
-    /// The attribute; `None` if the options name none.
+    /// The attribute, if the options name one.
     pub(super) attribute: Option<Semantic>,
-    /// The primitives that have it, in the order of the file.
+    /// The values of the primitives that have the attribute, in file order.
     primitives: Vec<PrimitiveScalars>,
 }
 
-/// Names of the scalar attributes of all primitives, each once, in alphabetical order.
+/// The names of all scalar attributes, without duplicates, in alphabetical order.
 pub(super) fn scalar_attributes(root: &Root) -> Vec<String> {
     let is_scalar = |accessor: &json::Index<json::Accessor>| {
         let accessor = root.accessors.get(accessor.value());
@@ -57,7 +57,7 @@ pub(super) fn scalar_attributes(root: &Root) -> Vec<String> {
 }
 
 impl CollectedScalars {
-    /// Creates an empty list of values, for the attribute that the options name.
+    /// Creates an empty list of values for the attribute that the options name.
     ///
     /// # Errors
     /// Fails if the model has no such attribute.
@@ -68,9 +68,9 @@ impl CollectedScalars {
         Ok(Self { attribute: Some(Semantic::Extras(bare)), primitives: Vec::new() })
     }
 
-    /// Reads the values of a primitive, if it has the attribute.
+    /// Reads the values of a primitive if it has the attribute.
     ///
-    /// `named` returns the accessor of an attribute, if the primitive has it, and its location.
+    /// `named` returns the accessor of an attribute and its location, if the primitive has it.
     ///
     /// # Errors
     /// Fails if a limit is exceeded or a file cannot be read. Invalid values are skipped with a
@@ -86,7 +86,7 @@ impl CollectedScalars {
         let (accessor, pointer) = named(attribute.clone());
         let values =
             attributes.read_attribute(accessor, &pointer, &CUSTOM_SCALAR, |source, elements| {
-                // Converts the values to colors.
+                // Charges for the conversion to colors.
                 source.charge_array(elements.accessor, elements.count, 16)?;
                 source.read_floats::<1>(&elements)
             })?;
@@ -96,10 +96,11 @@ impl CollectedScalars {
         Ok(())
     }
 
-    /// Gives the primitives with values their colors, and a plain white material.
+    /// Sets the colors of primitives with values, and gives these primitives a plain white
+    /// material.
     ///
-    /// Variants of the material and morph targets of `COLOR_0` are removed there: they would change
-    /// what a color means.
+    /// Their material variants and `COLOR_0` morph targets are removed, because these would change
+    /// the meaning of a color.
     pub(super) fn color_primitives(
         self,
         colors: &ScalarColors,
@@ -112,7 +113,7 @@ impl CollectedScalars {
         model.materials.push(Material { name: Some("scalars".to_owned()), ..Material::white() });
         for (scalars, colors) in self.primitives.iter().zip(arrays) {
             let primitive = &mut model.meshes[scalars.mesh].primitives[scalars.primitive];
-            // A primitive that turned out to be broken has been replaced by an empty one.
+            // A broken primitive has been replaced by an empty primitive.
             if primitive.positions.len() == colors.len() {
                 primitive.colors = Some(colors);
                 primitive.material = Some(white);

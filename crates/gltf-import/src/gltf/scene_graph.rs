@@ -1,11 +1,11 @@
 //! Scene graph import: nodes with their transforms, a check that they form a forest, and scene
 //! roots.
 //!
-//! In glTF, children are listed by their parents. Nothing in the format prevents a node from having
-//! two parents or from being its own ancestor; both would make traversal of the model wrong or
-//! endless. The check has two steps: each node gets at most one parent, and a traversal from the
-//! nodes without a parent must visit every node. Traversals have an explicit stack, so depth costs
-//! memory and not the thread's stack; [`Limits::node_depth`] bounds it anyway.
+//! In glTF, parents list their children. Nothing in the format prevents a node from having two
+//! parents or from being its own ancestor, either of which would make traversal of the model wrong
+//! or endless. The check has two steps: each node gets at most one parent, and a traversal from the
+//! nodes without a parent must visit every node. Traversals use an explicit stack, so deep
+//! hierarchies cannot overflow the thread's stack; [`Limits::node_depth`] also limits the depth.
 
 use super::document::GltfDocument;
 use super::node_transform::NodeTransform;
@@ -40,12 +40,12 @@ pub(super) fn import_nodes(
     Ok(nodes)
 }
 
-/// Reads a node without its position in the hierarchy.
+/// Reads a node, without its parent and children.
 ///
-/// Its mesh, skin and camera are checked to exist; a skin without a mesh is dropped with a warning.
+/// Checks that its mesh, skin and camera exist. A skin without a mesh is dropped with a warning.
 ///
-/// A node whose matrix is not finite is placed at its parent in lenient mode. A node with a matrix
-/// has no `trs`, and cannot be animated.
+/// In lenient mode, a node whose matrix is not finite gets its parent's transform. A node with a
+/// matrix has no `trs` and cannot be animated.
 fn read_node(
     document: &GltfDocument,
     at: usize,
@@ -90,9 +90,9 @@ fn read_node(
     })
 }
 
-/// Returns an index that refers to one of `count` items.
+/// Returns an index after checking that it refers to one of `count` items.
 ///
-/// `what` is the member's name and, in messages, the kind of object that it refers to.
+/// `what` is the name of the member and, in messages, the kind of object that it refers to.
 ///
 /// # Errors
 /// Fails if the index is out of range. In lenient mode, the node then lacks the object.
@@ -113,14 +113,14 @@ fn checked_index<T>(
     }
 }
 
-/// Sets the parent of every node; each may have only one.
+/// Sets the parent of every node. Each node may have only one parent.
 ///
 /// # Errors
 /// Fails if a child does not exist or already has a parent. In lenient mode, the first parent is
 /// used.
 ///
-/// The children lists are rebuilt from the accepted links, so that parents and children always
-/// agree afterwards.
+/// The children lists are rebuilt from the accepted links, so that parents and children are
+/// consistent afterwards.
 fn link_parents(nodes: &mut [Node], warnings: &mut ImportWarnings) -> Result<(), Diagnostic> {
     let count = nodes.len();
     for parent in 0..count {
@@ -147,11 +147,11 @@ fn link_parents(nodes: &mut [Node], warnings: &mut ImportWarnings) -> Result<(),
     Ok(())
 }
 
-/// Computes global transforms. With one parent each, the nodes form a forest if a traversal from
-/// the roots visits them all; nodes that it misses are in cycles.
+/// Computes global transforms. Because each node has at most one parent, the nodes form a forest if
+/// a traversal from the roots visits them all; nodes that it misses are in or below cycles.
 ///
 /// In lenient mode, the first node that cannot be reached from a root becomes a root itself, which
-/// breaks the cycle above or around it.
+/// breaks a cycle that contains it.
 ///
 /// # Errors
 /// Fails if a node is its own ancestor, a product of transforms overflows, or the depth limit is
@@ -187,7 +187,7 @@ fn update_global_transforms(
 /// # Errors
 /// Fails if a product of transforms overflows, or the hierarchy is deeper than the limit.
 ///
-/// Transforms are composed in double precision from the root down: each node costs one product.
+/// Transforms are composed in double precision from the root down, with one product per node.
 fn update_transforms_below(
     nodes: &mut [Node],
     root: usize,
@@ -231,12 +231,12 @@ pub(super) fn import_scenes(root: &Root) -> Vec<SceneRoots> {
     root.scenes.iter().map(scene).collect()
 }
 
-/// Roots of the active scene; without scenes, all nodes without a parent.
+/// Returns the roots of the active scene or, if there are no scenes, all nodes without a parent.
 ///
-/// A node that is listed twice is drawn once, with a warning. One that has a parent is drawn too,
-/// unless an ancestor is listed as well; the specification forbids both.
+/// A node that is listed twice is drawn once, with a warning. A listed node that has a parent is
+/// also drawn, unless one of its ancestors is listed. The specification forbids both cases.
 ///
-/// `scene` is the index of the active scene, which has been checked or defaulted by the caller.
+/// `scene` is the index of the active scene, which the caller has checked or defaulted.
 ///
 /// # Errors
 /// Fails if a listed node does not exist. In lenient mode, it is skipped.
@@ -273,8 +273,8 @@ pub(super) fn scene_roots(
     Ok(roots)
 }
 
-/// Returns whether a node that a scene lists should be drawn as a root: not if one of its ancestors
-/// is listed, which already draws it.
+/// Returns whether a node that a scene lists should be drawn as a root. If one of its ancestors is
+/// also listed, that already draws the node.
 fn is_scene_root(
     nodes: &[Node],
     listed: &[bool],
@@ -295,10 +295,10 @@ fn is_scene_root(
     true
 }
 
-/// Checks the number of items that the active scene draws, each counted for every instance.
+/// Checks the number of items that the active scene draws, counting each once per instance.
 ///
-/// A primitive counts as one more item, so that many empty ones are not free. Vertices and joints
-/// of skinned meshes also count, and so do vertices of instanced meshes.
+/// A primitive counts as one additional item, so that many empty primitives are not free. Vertices
+/// and joints of skinned meshes also count, and so do vertices of instanced meshes.
 ///
 /// # Errors
 /// Fails if the scene contains more items than a limit allows.

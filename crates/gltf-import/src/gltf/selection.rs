@@ -1,7 +1,8 @@
-//! Active scene and material variants (KHR_materials_variants).
+//! The active scene and material variants (KHR_materials_variants).
 //!
-//! The document's root names the variants; each primitive maps some of them to materials. Choosing
-//! a variant replaces the material of every primitive that maps it, once, when the file is loaded.
+//! The document root names the variants, and each primitive maps some of them to materials.
+//! Choosing a variant replaces the material of every primitive that maps it, once, when the file is
+//! loaded.
 
 use crate::NameOrIndex;
 use crate::warnings::ImportWarnings;
@@ -9,7 +10,7 @@ use gltf::json::{Root, mesh};
 use model::{Diagnostic, Mesh, VariantMaterial};
 use serde_json::Value;
 
-/// Returns the active scene: the requested one, else the default scene, else the first.
+/// Returns the active scene: the requested scene, else the default scene, else the first.
 ///
 /// The index is 0 for a file without scenes, whose root nodes are then drawn.
 ///
@@ -38,9 +39,9 @@ pub(super) fn select_scene(
 /// The extension's name, in the root and in primitives.
 const VARIANTS_EXTENSION: &str = "KHR_materials_variants";
 
-/// Names of the variants of a file.
+/// Returns the names of the variants in a file.
 ///
-/// A variant without a name gets an empty one: variants are identified by index.
+/// The name of an unnamed variant is empty; variants are identified by index.
 pub(super) fn variant_names(root: &Root) -> Vec<String> {
     let extension =
         root.extensions.as_ref().and_then(|extensions| extensions.others.get(VARIANTS_EXTENSION));
@@ -49,10 +50,10 @@ pub(super) fn variant_names(root: &Root) -> Vec<String> {
     list.into_iter().flatten().map(name).collect()
 }
 
-/// Index of the requested variant.
+/// Returns the index of the requested variant.
 ///
 /// # Errors
-/// Fails if the name is unknown or the index out of range; the error lists the existing names.
+/// Fails if the name is unknown or the index is out of range. The error lists the existing names.
 pub(super) fn select_variant(
     names: &[String],
     selector: &NameOrIndex,
@@ -61,9 +62,10 @@ pub(super) fn select_variant(
     selector.find_among(&names, "variant", &format!("/extensions/{VARIANTS_EXTENSION}/variants"))
 }
 
-/// Materials of a primitive in the variants. Invalid references are skipped with a warning.
+/// Returns the materials of a primitive for the variants. Invalid references are skipped with a
+/// warning.
 ///
-/// One mapping assigns a material to several variants; the result has an entry for each pair.
+/// A mapping may assign a material to several variants; the result has an entry for each pair.
 pub(super) fn variant_materials(
     root: &Root,
     json: &mesh::Primitive,
@@ -101,10 +103,10 @@ pub(super) fn variant_materials(
     assignments
 }
 
-/// Material of a primitive in a variant, if the variant changes it.
+/// Returns the material of a primitive in a variant, if the variant changes it.
 ///
-/// It is used to predict images before primitives are imported, and discards warnings: the import
-/// adds them.
+/// This is used to predict images before primitives are imported. It discards warnings, because the
+/// import adds them.
 pub(super) fn variant_material(
     root: &Root,
     json: &mesh::Primitive,

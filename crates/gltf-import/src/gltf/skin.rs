@@ -1,7 +1,7 @@
-//! Skins: joints and inverse bind matrices; an invalid skin is skipped with a warning.
+//! Skins: joints and inverse bind matrices. Invalid skins are skipped with a warning.
 //!
-//! A skin needs at least one joint, every joint must be a node, and there must be a matrix for
-//! each. The `skeleton` member is ignored: it does not affect the joint matrices.
+//! A skin needs at least one joint, every joint must be a node, and there must be a matrix for each
+//! joint. The `skeleton` member is ignored, because it does not affect the joint matrices.
 
 use super::accessor::AccessorReader;
 use super::node_transform::affine_from_columns;
@@ -12,8 +12,8 @@ use model::{Diagnostic, Skin};
 
 /// Reads all skins of a file.
 ///
-/// An invalid skin stays in the list without joints, so that indices remain valid; nodes'
-/// references to it are cleared later.
+/// An invalid skin remains in the list without joints, so that indices stay valid. References from
+/// nodes to it are cleared later.
 pub(super) fn import_skins(
     source: &AccessorReader<'_>,
     warnings: &mut ImportWarnings,
@@ -31,9 +31,9 @@ pub(super) fn import_skins(
     Ok(skins)
 }
 
-/// Reads and checks one skin. Missing matrices are identities (glTF 2.0 §3.7.3.1).
+/// Reads and checks one skin. If it has no matrices, they are identities (glTF 2.0 §3.7.3.1).
 ///
-/// More matrices than joints are accepted, and the extra ones are ignored.
+/// Extra matrices, beyond the number of joints, are ignored.
 ///
 /// # Errors
 /// Fails if there are no joints, a joint does not exist, or the inverse bind matrices have the
