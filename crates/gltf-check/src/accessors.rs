@@ -121,7 +121,7 @@ impl AccessorChecker<'_> {
     /// Validates a sparse accessor: its count, and the layout of its indices and values.
     ///
     /// Values and indices are tightly packed. The values have the accessor's component type; the
-    /// indices have a separate one (glTF 2.0 §3.6.2.3).
+    /// indices have a separate component type (glTF 2.0 §3.6.2.3).
     fn check_sparse(&self, sparse: &Value, layout: AccessorLayout) {
         let Some(count) = integer_member(sparse, "count") else { return };
         let diagnostics = self.document.diagnostics;

@@ -1,4 +1,4 @@
-//! Animations: samplers, channels and their targets (glTF 2.0 §3.11).
+//! Validation of animations: samplers, channels and their targets (glTF 2.0 §3.11).
 //!
 //! ```text
 //!  channel ──sampler──► sampler ──input───► times, one for each keyframe
@@ -20,10 +20,10 @@ use std::fmt::Display;
 
 /// Validates all animations, and records rules for the elements of their accessors.
 ///
-/// Samplers come first, because channels refer to them; unused samplers get a note.
+/// Samplers are validated first, because channels refer to them; unused samplers get a note.
 ///
-/// The number of morph targets of a mesh, which determines the count of weights, comes from its
-/// first primitive; all others must match it.
+/// The number of weights depends on the number of morph targets, which is taken from the mesh's
+/// first primitive; the other primitives must match it.
 pub(super) fn check_animations(
     document: &CheckedDocument<'_>,
     usage: &UsageMap<'_>,
@@ -68,9 +68,9 @@ pub(super) fn check_animations(
 struct AnimationChecker<'a, 'd> {
     document: &'a CheckedDocument<'a>,
     usage: &'a UsageMap<'a>,
-    /// The rules for the elements of accessors, collected for the pass over the data.
+    /// The rules for accessor elements, collected for the pass over the data.
     demands: &'d mut ElementRules,
-    /// The samplers of the animation; channels refer to them by index.
+    /// The animation's samplers; channels refer to them by index.
     samplers: &'a [Value],
     /// The number of morph targets of each mesh.
     targets: &'a [usize],
@@ -84,15 +84,15 @@ impl<'a> AnimationChecker<'a, '_> {
         self.document.diagnostics.add(code, format_args!("{}/{member}", self.pointer), message);
     }
 
-    /// The JSON of an accessor, if it exists.
+    /// Returns the JSON of an accessor, if it exists.
     fn accessor_json(&self, at: Option<usize>) -> Option<&'a Value> {
         self.document.root_array("accessors").get(at?)
     }
 
-    /// The accessors of a sampler: their uses and strides, and its keyframe times.
+    /// Validates the accessors of a sampler: their uses, their strides, and the keyframe times.
     ///
-    /// Keyframes are read one after the other: a `byteStride`, which exists for interleaved vertex
-    /// attributes, is not allowed on their buffer views.
+    /// Keyframes are stored contiguously: their buffer views must not have a `byteStride`, which
+    /// exists for interleaved vertex attributes.
     fn check_sampler(&mut self, number: usize, sampler: &Value) {
         for (key, role) in [("input", AccessorUse::Input), ("output", AccessorUse::Output)] {
             let Some(at) = index_member(sampler, key) else { continue };
@@ -112,15 +112,15 @@ impl<'a> AnimationChecker<'a, '_> {
         }
     }
 
-    /// Keyframe times: bounded, non-normalized float scalars, at least two for a cubic spline.
+    /// Validates keyframe times: float scalars with bounds, at least two for a cubic spline.
     ///
-    /// `min` and `max` are required here, because players take the duration of an animation from
+    /// `min` and `max` are required here, because players derive the duration of an animation from
     /// them without reading the data. A cubic spline with one keyframe has no segment to
     /// interpolate.
     fn check_input(&mut self, at: usize, sampler: &Value, member: &str, pointer: &str) {
         let Some(accessor) = self.accessor_json(Some(at)) else { return };
         if accessor.get("min").is_none() || accessor.get("max").is_none() {
-            let message = "an accessor of times must have min and max";
+            let message = "an accessor with keyframe times must have min and max";
             self.report(&codes::ANIMATION_SAMPLER_INPUT_ACCESSOR_WITHOUT_BOUNDS, member, message);
         }
         let Some(layout) = AccessorLayout::from_accessor(accessor) else { return };
@@ -129,7 +129,8 @@ impl<'a> AnimationChecker<'a, '_> {
         {
             self.demands.add(at, ElementRule::Times, pointer);
         } else {
-            let message = format_args!("the format of times cannot be {}", layout.format_name());
+            let message =
+                format_args!("keyframe times cannot have the format {}", layout.format_name());
             self.report(&codes::ANIMATION_SAMPLER_INPUT_ACCESSOR_INVALID_FORMAT, member, message);
         }
         if string_member(sampler, "interpolation") == Some("CUBICSPLINE") && layout.count < 2 {
@@ -138,13 +139,14 @@ impl<'a> AnimationChecker<'a, '_> {
         }
     }
 
-    /// A channel: its target is animated once and can be animated, and its sampler exists.
+    /// Validates a channel: its sampler exists, and its target can be animated and is animated only
+    /// once.
     ///
-    /// `known` has the targets of the preceding channels, as pairs of node and path.
+    /// `known` contains the targets of the preceding channels, as pairs of node and path.
     ///
-    /// Two channels for one property would race: the result would depend on the order of
-    /// evaluation. Checking the values needs the path, and is skipped for pointers, whose type the
-    /// loader resolves.
+    /// With two channels for one property, the result would depend on the order of evaluation.
+    /// Checking the values requires the path, so it is skipped for pointers, whose type the loader
+    /// resolves.
     fn check_channel(
         &mut self,
         number: usize,
@@ -190,11 +192,11 @@ impl<'a> AnimationChecker<'a, '_> {
         self.check_output(sampler, path, targets as u64, &format!("{member}/sampler"));
     }
 
-    /// A target by JSON pointer (KHR_animation_pointer): the path is `pointer`, and there is no
-    /// node.
+    /// Validates a target given as a JSON pointer (KHR_animation_pointer): the path is `pointer`,
+    /// and the node is absent.
     ///
-    /// The extension reuses the members of the target. It fixes both of them for old readers, which
-    /// then ignore the channel.
+    /// The extension reuses the members of the target, and fixes both so that old readers ignore
+    /// the channel.
     fn check_pointer_target(&self, target: &Value, path: &str, member: &str) {
         if path != "pointer" {
             let message = format_args!(
@@ -210,8 +212,8 @@ impl<'a> AnimationChecker<'a, '_> {
         }
     }
 
-    /// A target node: morph weights need morph targets, and a node with a matrix cannot be
-    /// animated, because an animation replaces its translation, rotation or scale.
+    /// Validates a target node: morph weights need morph targets, and a node with a matrix cannot
+    /// be animated, because an animation replaces its translation, rotation or scale.
     fn check_node_target(&self, at: usize, path: &str, member: &str) {
         let Some(node) = self.document.root_array("nodes").get(at) else { return };
         let member = format!("{member}/target");
@@ -228,13 +230,14 @@ impl<'a> AnimationChecker<'a, '_> {
         }
     }
 
-    /// The values of a channel: their format, and their number for the given keyframes.
+    /// Validates the values of a channel: their format, and their number for the sampler's
+    /// keyframes.
     ///
-    /// There is one value per keyframe, or one per target for morph weights. A cubic spline has
-    /// three of each, with in- and out-tangents (glTF 2.0 §3.11).
+    /// There is one value per keyframe, or for morph weights one per keyframe and target. A cubic
+    /// spline has three times as many: in-tangents, values and out-tangents (glTF 2.0 §3.11).
     ///
-    /// Quaternions also get a rule about their length, tested on the data. With a wrong count the
-    /// loader cannot assign values to keyframes, and skips the channel.
+    /// Quaternions also get a rule about their length, which is tested on the data. If the count is
+    /// wrong, the loader cannot assign values to keyframes and skips the channel.
     fn check_output(&mut self, sampler: &Value, path: &str, targets: u64, member: &str) {
         let at = index_member(sampler, "output");
         let Some(layout) = self.accessor_json(at).and_then(AccessorLayout::from_accessor) else {
@@ -243,7 +246,7 @@ impl<'a> AnimationChecker<'a, '_> {
         let spline = string_member(sampler, "interpolation") == Some("CUBICSPLINE");
         let Some(formats) = formats::animation_output_formats(path) else { return };
         if !formats::is_allowed(layout, &formats) {
-            let message = format_args!("the format of {path} cannot be {}", layout.format_name());
+            let message = format_args!("{path} cannot have the format {}", layout.format_name());
             self.report(&codes::ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_FORMAT, member, message);
         } else if path == "rotation" {
             let pointer = format!("{}/{member}", self.pointer);

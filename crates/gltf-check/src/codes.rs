@@ -1,8 +1,8 @@
-//! Diagnostic codes: name, severity and help of each.
+//! Diagnostic codes with their names, severities and help texts.
 //!
 //! Names and severities match the Khronos glTF validator 2.0 (its `ISSUES.md`) for every issue that
-//! it knows; its "information" and "hint" are notes here. The last few of each severity are our
-//! own: they report how the loader treats the file.
+//! it defines; its "information" and "hint" are notes here. The last few codes of each severity are
+//! our own: they report how the loader treats the file.
 
 use model::Severity;
 
@@ -13,11 +13,11 @@ pub(super) struct DiagnosticCode {
     pub(super) name: &'static str,
     /// The severity of every diagnostic with this code.
     pub(super) severity: Severity,
-    /// The fix, in the imperative.
+    /// The suggested fix, in the imperative.
     pub(super) remedy: &'static str,
 }
 
-/// Declares a constant for each code: severity, then help, then the names that share both.
+/// Declares a constant for each code from lists of names that share a severity and a help text.
 macro_rules! codes {
     ($($severity:ident { $($remedy:literal => $($name:ident)*;)* })*) => {$($($(
         pub(super) const $name: DiagnosticCode =
@@ -68,7 +68,7 @@ codes! {
         "copy the file next to the model and refer to it by a relative path" => IO_ERROR;
         "write a relative path with / and %20 for spaces, or correct the base64" => INVALID_URI;
         "write data:application/octet-stream;base64," => BUFFER_DATA_URI_MIME_TYPE_INVALID;
-        "the file is truncated or was assembled wrongly: copy or export it again" =>
+        "the file is truncated or was assembled incorrectly: copy or export it again" =>
             BUFFER_BYTE_LENGTH_MISMATCH BUFFER_MISSING_GLB_DATA
             GLB_CHUNK_LENGTH_UNALIGNED GLB_DUPLICATE_CHUNK GLB_EMPTY_CHUNK
             GLB_LENGTH_MISMATCH GLB_LENGTH_TOO_SMALL GLB_UNEXPECTED_BIN_CHUNK
@@ -84,7 +84,7 @@ codes! {
         "make outerConeAngle larger than innerConeAngle" => KHR_LIGHTS_PUNCTUAL_LIGHT_SPOT_ANGLES;
         "add the attribute to the base mesh, or remove it from the target" =>
             MESH_PRIMITIVE_MORPH_TARGET_NO_BASE_ACCESSOR;
-        "use a name of the specification, or start a custom name with _" =>
+        "use a name from the specification, or start a custom name with _" =>
             MESH_PRIMITIVE_INVALID_ATTRIBUTE;
         "export the mesh with tangents" => MESH_PRIMITIVE_NO_TANGENT_SPACE;
         "export the mesh with as many sets of texture coordinates as its material uses" =>

@@ -1,4 +1,4 @@
-//! The collection of diagnostics: deduplicated, and bounded even for a file with millions of them.
+//! Collects diagnostics without duplicates, bounded even for a file with millions of defects.
 
 use super::codes::DiagnosticCode;
 use model::{Diagnostic, Severity};
@@ -6,16 +6,17 @@ use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fmt::Display;
 
-/// The maximum number of listed diagnostics of each severity; further ones are only counted.
+/// The maximum number of listed diagnostics of each severity; any more are only counted.
 ///
-/// Nobody reads a longer report, but it would cost memory and time in all of its consumers.
+/// Nobody reads a longer report, but it would cost every consumer memory and time.
 const MAX_PER_SEVERITY: usize = 400;
-/// The maximum length of a message or pointer in bytes: names in a file may be megabytes long.
+/// The maximum length of a message or pointer in bytes, because names in a file may be megabytes
+/// long.
 const MAX_TEXT_LENGTH: usize = 500;
 
 /// Collects diagnostics while a file is validated.
 ///
-/// Interior mutability lets every check hold the document and report through it.
+/// Interior mutability lets every check borrow the document and report through it.
 #[derive(Default, Debug)]
 pub(super) struct Diagnostics {
     /// One list for each severity, in the order of [`Severity::ALL`].
@@ -24,26 +25,26 @@ pub(super) struct Diagnostics {
 
 /// The diagnostics of one severity.
 ///
-/// Duplicates are recognized by code and pointer: two messages with the same code and location say
-/// the same.
+/// Duplicates are recognized by code and pointer: two messages with the same code and location are
+/// equivalent.
 #[derive(Default, Debug)]
 struct SeverityList {
     /// The listed diagnostics, in the order in which they were added.
     retained: Vec<Diagnostic>,
-    /// Code and pointer of each, to drop duplicates.
+    /// The code and pointer of each diagnostic, to drop duplicates.
     known_keys: BTreeSet<(&'static str, String)>,
     /// The number of all diagnostics, listed or not.
     count: usize,
 }
 
 impl Diagnostics {
-    /// Adds a diagnostic with the help of its code. Nothing is formatted if the list is full.
+    /// Adds a diagnostic with the help text of its code. If the list is full, nothing is formatted.
     pub(super) fn add(&self, code: &DiagnosticCode, pointer: impl Display, message: impl Display) {
         self.add_with_help(code, pointer, message, code.remedy);
     }
 
-    /// Adds a diagnostic with specific help. A second one with the same code and pointer is
-    /// dropped.
+    /// Adds a diagnostic with a specific help text. A second diagnostic with the same code and
+    /// pointer is dropped.
     pub(super) fn add_with_help(
         &self,
         code: &DiagnosticCode,
@@ -65,7 +66,8 @@ impl Diagnostics {
         }
     }
 
-    /// Whether there is a diagnostic of severity `worst` or worse at this pointer or below it.
+    /// Returns whether there is a diagnostic of severity `worst` or worse at this pointer or below
+    /// it.
     pub(super) fn has_at_or_below(&self, worst: Severity, pointer: &str) -> bool {
         let lists = self.lists.borrow();
         let concerns = |problem: &Diagnostic| {
@@ -76,18 +78,18 @@ impl Diagnostics {
         !pointer.is_empty() && worse.iter().any(|list| list.retained.iter().any(concerns))
     }
 
-    /// Whether there is an error.
+    /// Returns whether there is an error.
     pub(super) fn has_errors(&self) -> bool {
         self.lists.borrow()[Severity::Error as usize].count > 0
     }
 
-    /// Whether there is a diagnostic with this code.
+    /// Returns whether there is a diagnostic with this code.
     pub(super) fn has_code(&self, code: &DiagnosticCode) -> bool {
         let list = &self.lists.borrow()[code.severity as usize];
         list.retained.iter().any(|problem| problem.code == code.name)
     }
 
-    /// The listed diagnostics, worst first, and the error, warning and note counts.
+    /// Returns the listed diagnostics, worst first, and the numbers of errors, warnings and notes.
     pub(super) fn into_parts(self) -> (Vec<Diagnostic>, [usize; 3]) {
         let lists = self.lists.into_inner();
         let [errors, warnings, info, hints] = Severity::ALL.map(|s| lists[s as usize].count);
@@ -96,7 +98,7 @@ impl Diagnostics {
     }
 }
 
-/// Truncates a text at a character boundary.
+/// Truncates a string at a character boundary.
 fn truncate_text(mut text: String) -> String {
     if text.len() > MAX_TEXT_LENGTH {
         let end = (0..=MAX_TEXT_LENGTH).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
@@ -112,7 +114,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_list_is_short_sorted_and_without_doubles() {
+    fn diagnostics_are_limited_sorted_and_deduplicated() {
         let diagnostics = Diagnostics::default();
         diagnostics.add(&codes::NODE_EMPTY, "/nodes/0", "empty");
         for at in [1, 1, 2] {

@@ -5,9 +5,9 @@
 
 use super::layout::AccessorLayout;
 
-/// The elements of one accessor, with sparse replacements; all bytes are present.
+/// The elements of one accessor, with sparse replacements. All their bytes are present.
 ///
-/// All numbers are read as f64, which represents each of the component types exactly.
+/// All numbers are read as f64, which represents every component type exactly.
 #[derive(Debug)]
 pub(super) struct AccessorElements<'a> {
     /// The layout that the accessor declares.
@@ -21,7 +21,7 @@ pub(super) struct AccessorElements<'a> {
 }
 
 impl<'a> AccessorElements<'a> {
-    /// Elements, with those at `indices` replaced by the tightly packed `values`.
+    /// Creates the elements, with those at `indices` replaced by the tightly packed `values`.
     pub(super) fn new(
         layout: AccessorLayout,
         base: Option<(&'a [u8], usize)>,
@@ -33,18 +33,20 @@ impl<'a> AccessorElements<'a> {
         Self { layout, base, replaced, values }
     }
 
-    /// Whether there is neither a buffer view nor a sparse replacement: all elements are zero.
+    /// Returns whether all elements are zero because there is neither a buffer view nor a sparse
+    /// replacement.
     pub(super) fn has_no_data(&self) -> bool {
         self.base.is_none() && self.replaced.is_empty()
     }
 
     /// Calls `see` with the index of each element and its components.
     ///
-    /// The components are as stored in the file: [`dequantize`](Self::dequantize) maps normalized
-    /// integers. The sorted replacements are merged with the elements, so that the pass is linear.
+    /// Components are passed as stored in the file; [`dequantize`](Self::dequantize) converts
+    /// normalized integers. The sorted replacements are merged with the elements in one linear
+    /// pass.
     ///
-    /// If there are several sparse values for one element, the last is used; sparse indices that
-    /// are not increasing are reported separately.
+    /// If an element has several sparse values, the last is used; sparse indices that are not
+    /// increasing are reported separately.
     pub(super) fn for_each_element(&self, mut see: impl FnMut(u64, &[f64])) {
         let mut numbers = [0.0; 16];
         let numbers = &mut numbers[..self.layout.element_type.component_count()];
@@ -67,7 +69,7 @@ impl<'a> AccessorElements<'a> {
 
     /// Decodes the components of the element that starts at a byte offset, column by column.
     ///
-    /// Columns of matrices are padded to four bytes; vectors have one column.
+    /// Matrix columns are padded to four bytes; vectors have one column.
     fn read_element(&self, bytes: &[u8], start: usize, numbers: &mut [f64]) {
         let AccessorLayout { component_type: component, element_type: shape, .. } = self.layout;
         let bytes = bytes.get(start..).unwrap_or(&[]);
@@ -78,7 +80,8 @@ impl<'a> AccessorElements<'a> {
         }
     }
 
-    /// The value of a component: normalized integers map to [0, 1] or [−1, 1] (glTF 2.0 §3.11).
+    /// Returns the value of a component, with normalized integers mapped to [0, 1] or [−1, 1] (glTF
+    /// 2.0 §3.11).
     pub(super) fn dequantize(&self, number: f64) -> f64 {
         match self.layout.normalized {
             true => (number / self.layout.component_type.max_value()).max(-1.0),
@@ -102,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn strides_replaced_elements_and_zeros() {
+    fn strides_sparse_values_and_zeros_are_decoded() {
         let layout = |kind, count| {
             let accessor = json!({"componentType": 5121, "type": kind, "count": count});
             AccessorLayout::from_accessor(&accessor).unwrap()

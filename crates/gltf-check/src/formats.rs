@@ -3,8 +3,7 @@
 //! KHR_mesh_quantization adds integer formats for positions, normals, tangents and texture
 //! coordinates.
 //!
-//! The integer formats of core glTF are normalized, except for joint indices and primitive indices,
-//! which are integers by nature:
+//! The integer formats of core glTF are normalized, except for joint indices and primitive indices:
 //!
 //! ```text
 //!               float   normalized integers        with KHR_mesh_quantization
@@ -18,24 +17,24 @@
 use super::layout::ComponentType::{F32, I8, I16, U8, U16, U32};
 use super::layout::{AccessorLayout, ComponentType, ElementType, SCALAR, VEC2, VEC3, VEC4};
 
-/// A format: element type, component type, and whether integers are normalized.
+/// A format: the element type, the component type, and whether integers are normalized.
 type AttributeFormat = (ElementType, ComponentType, bool);
 
-/// The semantic of an attribute, parsed from its name.
+/// The attribute semantic, parsed from the attribute's name.
 ///
-/// It borrows the name from the document.
+/// Borrows the name from the document.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Semantic<'a> {
-    /// POSITION, NORMAL, TANGENT.
+    /// POSITION, NORMAL or TANGENT.
     Single(&'a str),
-    /// TEXCOORD_0 and the like.
+    /// A name with a set index, such as TEXCOORD_0.
     Numbered(&'a str, u32),
     /// An application-specific name, which starts with an underscore.
     Custom,
 }
 
 impl<'a> Semantic<'a> {
-    /// Parses the name of an attribute; `None` for a name that glTF does not define.
+    /// Parses an attribute name. Returns `None` for a name that glTF does not define.
     ///
     /// A set index has no leading zeros: `TEXCOORD_01` is not an attribute.
     pub(super) fn from_name(name: &'a str) -> Option<Self> {
@@ -53,7 +52,7 @@ impl<'a> Semantic<'a> {
         Some(Self::Numbered(kind, number))
     }
 
-    /// The name without its set index; empty for a custom name.
+    /// Returns the name without its set index; empty for a custom name.
     fn base_name(self) -> &'a str {
         match self {
             Self::Single(kind) | Self::Numbered(kind, _) => kind,
@@ -61,13 +60,14 @@ impl<'a> Semantic<'a> {
         }
     }
 
-    /// The formats that an attribute may have; `None` for a custom name, which may have any.
+    /// Returns the formats that an attribute may have, or `None` for a custom name, which may have
+    /// any.
     ///
     /// `in_target` selects the displacements of morph targets: their tangents have three
     /// components, and signed integers are allowed for texture coordinates and colors.
     ///
-    /// `quantized` is set if the file uses KHR_mesh_quantization. The extension's formats are added
-    /// to the core glTF formats and never replace them.
+    /// `quantized` is set if the file uses KHR_mesh_quantization. The extension adds formats to
+    /// those of core glTF and never replaces them.
     pub(super) fn allowed_formats(
         self,
         in_target: bool,
@@ -90,7 +90,7 @@ impl<'a> Semantic<'a> {
         Some(formats)
     }
 
-    /// The formats that KHR_mesh_quantization allows in addition to core glTF.
+    /// Returns the formats that KHR_mesh_quantization allows in addition to core glTF.
     fn quantized_formats(self, in_target: bool) -> Vec<AttributeFormat> {
         let all = |shape, components: &[ComponentType], normalized: &[bool]| {
             let pairs = components.iter().flat_map(|&c| normalized.iter().map(move |&n| (c, n)));
@@ -107,9 +107,9 @@ impl<'a> Semantic<'a> {
     }
 }
 
-/// Float formats, and formats with normalized integers of some types.
+/// Returns float formats, and formats with normalized integers of the given types.
 ///
-/// Each element type is combined with each component type.
+/// Every element type is combined with every component type.
 fn float_or_normalized(
     shapes: &[ElementType],
     components: &[ComponentType],
@@ -121,16 +121,17 @@ fn float_or_normalized(
     shapes.iter().flat_map(of).collect()
 }
 
-/// Whether the format of a layout is allowed.
+/// Returns whether the format of a layout is allowed.
 pub(super) fn is_allowed(layout: AccessorLayout, formats: &[AttributeFormat]) -> bool {
     formats.contains(&(layout.element_type, layout.component_type, layout.normalized))
 }
 
-/// The formats of primitive indices.
+/// The formats allowed for primitive indices.
 pub(super) const INDEX_FORMATS: [AttributeFormat; 3] =
     [(SCALAR, U8, false), (SCALAR, U16, false), (SCALAR, U32, false)];
 
-/// The formats of an animation output by the path of its target; `None` for an unknown path.
+/// Returns the formats allowed for an animation output by target path, or `None` for an unknown
+/// path.
 ///
 /// Translations and scales are always floats, because they have no natural range (glTF 2.0 §3.11).
 pub(super) fn animation_output_formats(path: &str) -> Option<Vec<AttributeFormat>> {
@@ -147,7 +148,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_of_attributes() {
+    fn attribute_names_are_parsed() {
         assert_eq!(Semantic::from_name("TEXCOORD_10"), Some(Semantic::Numbered("TEXCOORD", 10)));
         assert_eq!(Semantic::from_name("NORMAL"), Some(Semantic::Single("NORMAL")));
         assert_eq!(Semantic::from_name("_HEAT"), Some(Semantic::Custom));
@@ -166,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn quantization_widens_the_formats() {
+    fn quantization_adds_formats() {
         let position = Semantic::Single("POSITION");
         assert_eq!(position.allowed_formats(false, false), Some(vec![(VEC3, F32, false)]));
         assert_eq!(position.allowed_formats(false, true).unwrap().len(), 9);

@@ -4,8 +4,8 @@
 //!  magic · version · length │ length · JSON · … │ length · BIN · … │ length · anything · …
 //! ```
 //!
-//! All numbers are little-endian 32-bit integers. The file header takes 12 bytes, each chunk header
-//! 8 bytes. The length of a chunk counts only its content, which is padded to a multiple of 4. A
+//! All numbers are little-endian 32-bit integers. The file header takes 12 bytes and each chunk
+//! header takes 8. A chunk's length counts only its content, which is padded to a multiple of 4. A
 //! defect in one chunk does not stop the validation if the start of the next chunk is known.
 
 use super::codes::{self, DiagnosticCode};
@@ -13,9 +13,10 @@ use super::diagnostics::Diagnostics;
 use std::fmt::Display;
 use std::ops::Range;
 
-/// The byte ranges of the parts of a file that can be determined.
+/// The parts of a file, as far as they can be located.
 ///
-/// A part is absent if the container is damaged before it; the JSON checks are then skipped.
+/// A part is absent if the container is damaged before it. Without a JSON part, the JSON checks are
+/// skipped.
 #[derive(Default, Debug)]
 pub(super) struct ContainerParts {
     /// The JSON; in a GLB, the content of the first chunk.
@@ -26,10 +27,10 @@ pub(super) struct ContainerParts {
     pub(super) is_binary: bool,
 }
 
-/// Validates the container, and finds its parts.
+/// Validates the container and finds its parts.
 ///
 /// A file that does not start with `glTF` is treated as JSON. A byte order mark is reported and
-/// skipped, because many editors write one and everything after it may be valid.
+/// skipped, because many editors write one, and everything after it may be valid.
 pub(super) fn check_container(bytes: &[u8], diagnostics: &Diagnostics) -> ContainerParts {
     if !bytes.starts_with(b"glTF") {
         let mark = if bytes.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
@@ -48,7 +49,7 @@ pub(super) fn check_container(bytes: &[u8], diagnostics: &Diagnostics) -> Contai
     reader.parts
 }
 
-/// JSON must not start with a byte order mark (glTF 2.0 §2.7); it is skipped.
+/// Reports and skips a byte order mark, with which JSON must not start (glTF 2.0 §2.7).
 fn check_byte_order_mark(json: &[u8], diagnostics: &Diagnostics) {
     if json.starts_with(b"\xEF\xBB\xBF") {
         diagnostics.add(&codes::INVALID_JSON, "", "the JSON starts with a byte order mark");
@@ -70,18 +71,18 @@ impl ContainerReader<'_> {
         self.diagnostics.add(code, "", message);
     }
 
-    /// The little-endian u32 at an offset.
+    /// Reads the little-endian u32 at an offset.
     fn read_u32(&self, at: usize) -> Option<usize> {
         let number = u32::from_le_bytes(*self.bytes.get(at..)?.first_chunk()?);
         usize::try_from(number).ok()
     }
 
-    /// Validates the 12-byte header: version, and declared length against the size of the file.
+    /// Validates the 12-byte header: the version, and the declared length against the file size.
     ///
-    /// Another version ends the validation, because its chunks may be laid out differently. Extra
-    /// bytes after the declared end cause a warning and are ignored; if a file is shorter than
-    /// declared, its existing part is read. The smallest meaningful length, 20, is a header and an
-    /// empty chunk.
+    /// An unsupported version ends the validation, because its chunks may be laid out differently.
+    /// Extra bytes after the declared end cause a warning and are ignored. If a file is shorter
+    /// than declared, the existing part is read. The minimum valid length, 20, is a file header and
+    /// an empty chunk.
     fn check_header(&mut self) {
         let actual = self.bytes.len();
         let (Some(version), Some(length)) = (self.read_u32(4), self.read_u32(8)) else {
@@ -112,14 +113,15 @@ impl ContainerReader<'_> {
 
     /// Validates all chunks, and finds the content of the JSON and BIN chunks.
     ///
-    /// The JSON chunk must be the first, and the BIN chunk the second (glTF 2.0 §4.4.3): later ones
-    /// are reported and ignored, as in the loader.
+    /// The JSON chunk must be first and the BIN chunk second (glTF 2.0 §4.4.3). Later JSON or BIN
+    /// chunks are reported and ignored, as in the loader.
     fn check_chunks(&mut self) {
         let (mut at, mut number, mut known) = (12, 0, [false; 2]);
         while at < self.bytes.len() {
             let (Some(length), Some(kind)) = (self.read_u32(at), self.bytes.get(at + 4..at + 8))
             else {
-                let message = format_args!("unexpected end of the header of chunk {number}");
+                let message =
+                    format_args!("unexpected end of file in the header of chunk {number}");
                 return self.report(&codes::GLB_UNEXPECTED_END_OF_CHUNK_HEADER, message);
             };
             let name = String::from_utf8_lossy(kind).escape_default().to_string();
@@ -147,9 +149,9 @@ impl ContainerReader<'_> {
 
     /// Validates one chunk: alignment, type, order and duplicates.
     ///
-    /// `known` has a flag for JSON and one for BIN, set once such a chunk has been found. Unknown
-    /// types are allowed and ignored (glTF 2.0 §4.4.3); the warning about them helps to find
-    /// misspelled types.
+    /// `known` has two flags, set once a JSON or BIN chunk has been found. Unknown types are
+    /// allowed and ignored (glTF 2.0 §4.4.3); the warning about them helps to find misspelled
+    /// types.
     fn check_chunk(
         &self,
         number: usize,
@@ -172,7 +174,7 @@ impl ContainerReader<'_> {
             b"JSON" => 0,
             b"BIN\0" => 1,
             _ => {
-                let message = format_args!("unknown type {name} of chunk {number}");
+                let message = format_args!("chunk {number} has the unknown type {name}");
                 return self.report(&codes::GLB_UNKNOWN_CHUNK_TYPE, message);
             }
         };
@@ -217,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn every_rule_of_the_container() {
+    fn container_rules_are_checked() {
         let (json, bin): (TestChunk<'_>, TestChunk<'_>) = ((b"JSON", b"{}  "), (b"BIN\0", b"1234"));
         let good = build_glb(None, &[json, bin]);
         let (parts, found) = reported_codes(&good);

@@ -6,15 +6,15 @@
 //!                  │ element   padding  │ element   padding  │ element    no padding at the end
 //! ```
 //!
-//! Sizes are in bytes, and sums saturate: a declared size may exceed any buffer, and is compared
-//! with the actual one later.
+//! Sizes are in bytes. Sums saturate, because a declared size may exceed any buffer and is compared
+//! with the actual size only later.
 
 use super::document::{index_member, integer_member, string_member};
 use serde_json::Value;
 
 /// The layout that an accessor declares.
 ///
-/// It is a copy of the accessor's members, which have passed the schema; it does not refer to the
+/// It is a copy of the accessor's members, which have passed the schema, and does not refer to the
 /// buffer.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct AccessorLayout {
@@ -22,13 +22,13 @@ pub(super) struct AccessorLayout {
     pub(super) component_type: ComponentType,
     /// The type of an element (`type`).
     pub(super) element_type: ElementType,
-    /// Whether integers represent fractions in [0, 1] or [−1, 1] (`normalized`).
+    /// Whether integers represent numbers in [0, 1] or [−1, 1] (`normalized`).
     pub(super) normalized: bool,
     /// The number of elements (`count`).
     pub(super) count: u64,
     /// The offset of the first element in the buffer view (`byteOffset`).
     pub(super) byte_offset: u64,
-    /// The index of the buffer view; without one all elements are zero.
+    /// The index of the buffer view; without it, all elements are zero.
     pub(super) buffer_view: Option<usize>,
 }
 
@@ -51,7 +51,7 @@ pub(super) enum ComponentType {
     F32,
 }
 
-/// The type of an element, as its number of rows and columns; vectors have one column.
+/// The type of an element, as numbers of rows and columns; vectors have one column.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct ElementType {
     /// The number of components of a vector or a matrix column.
@@ -68,11 +68,11 @@ pub(super) const VEC2: ElementType = ElementType { rows: 2, columns: 1 };
 pub(super) const VEC3: ElementType = ElementType { rows: 3, columns: 1 };
 /// Four components.
 pub(super) const VEC4: ElementType = ElementType { rows: 4, columns: 1 };
-/// A 4×4 matrix, column by column.
+/// A 4×4 matrix in column-major order.
 pub(super) const MAT4: ElementType = ElementType { rows: 4, columns: 4 };
 
 impl ComponentType {
-    /// The type of an OpenGL constant, such as 5126 for `FLOAT`.
+    /// Returns the type for an OpenGL constant, such as 5126 for `FLOAT`.
     pub(super) fn from_gl_constant(number: u64) -> Option<Self> {
         Some(match number {
             5120 => Self::I8,
@@ -85,7 +85,7 @@ impl ComponentType {
         })
     }
 
-    /// The size of a component in bytes.
+    /// Returns the size of a component in bytes.
     pub(super) fn byte_size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -94,9 +94,9 @@ impl ComponentType {
         }
     }
 
-    /// The maximum of the type. As an index it is the primitive restart value.
+    /// Returns the maximum of the type, which as an index is the primitive restart value.
     ///
-    /// Normalized integers are divided by it; for `F32` it has no use.
+    /// Normalized integers are divided by it; for `F32` it is unused.
     pub(super) fn max_value(self) -> f64 {
         match self {
             Self::I8 => f64::from(i8::MAX),
@@ -108,7 +108,7 @@ impl ComponentType {
         }
     }
 
-    /// Reads the component at the start of the bytes; 0 if there are too few, which callers
+    /// Reads the component at the start of the bytes. Returns 0 if there are too few, which callers
     /// prevent.
     pub(super) fn read_number(self, bytes: &[u8]) -> f64 {
         let one = || bytes.first().copied().unwrap_or(0);
@@ -124,7 +124,7 @@ impl ComponentType {
         }
     }
 
-    /// The name of the OpenGL constant, for messages.
+    /// Returns the name of the OpenGL constant, for messages.
     fn name(self) -> &'static str {
         match self {
             Self::I8 => "BYTE",
@@ -138,7 +138,7 @@ impl ComponentType {
 }
 
 impl ElementType {
-    /// The element type of a `type` member.
+    /// Returns the element type for the value of a `type` member.
     fn from_name(name: &str) -> Option<Self> {
         Some(match name {
             "SCALAR" => SCALAR,
@@ -152,17 +152,17 @@ impl ElementType {
         })
     }
 
-    /// The number of components of an element.
+    /// Returns the number of components of an element.
     pub(super) fn component_count(self) -> usize {
         self.rows * self.columns
     }
 
-    /// Whether an element is a matrix, whose columns are aligned.
+    /// Returns whether an element is a matrix, whose columns are aligned.
     pub(super) fn is_matrix(self) -> bool {
         self.columns > 1
     }
 
-    /// The name in glTF, for messages.
+    /// Returns the glTF name, for messages.
     fn name(self) -> &'static str {
         match (self.rows, self.columns) {
             (1, _) => "SCALAR",
@@ -177,9 +177,10 @@ impl ElementType {
 }
 
 impl AccessorLayout {
-    /// The layout of an accessor, if its type, component type and count are valid.
+    /// Returns the layout of an accessor, if its type, component type and count are valid.
     ///
-    /// `None` if the schema walk has reported a member: such an accessor has no layout to check.
+    /// Otherwise returns `None`: the schema walk has reported the member, and there is no layout to
+    /// check.
     pub(super) fn from_accessor(accessor: &Value) -> Option<Self> {
         Some(Self {
             component_type: ComponentType::from_gl_constant(integer_member(
@@ -197,29 +198,31 @@ impl AccessorLayout {
         })
     }
 
-    /// The bytes from one column to the next: columns of matrices are aligned to four (§3.6.2.4).
+    /// Returns the bytes from one column to the next; matrix columns are aligned to four bytes
+    /// (§3.6.2.4).
     ///
-    /// Without the alignment, a column of a small matrix would start at an odd address.
+    /// Without the alignment, a column of a small matrix could start at an odd address.
     pub(super) fn column_stride(&self) -> usize {
         let column = self.element_type.rows * self.component_type.byte_size();
         if self.element_type.is_matrix() { column.next_multiple_of(4) } else { column }
     }
 
-    /// The bytes of an element, up to the end of its last component.
+    /// Returns the size of an element in bytes, up to the end of its last component.
     pub(super) fn element_size(&self) -> usize {
         (self.element_type.columns - 1) * self.column_stride()
             + self.element_type.rows * self.component_type.byte_size()
     }
 
-    /// The bytes from one element to the next if the buffer view has no `byteStride`.
+    /// Returns the bytes from one element to the next if the buffer view has no `byteStride`.
     ///
-    /// For vectors it is the size of an element; for matrices it includes the padding of the last
+    /// For vectors this is the size of an element; for matrices it includes the padding of the last
     /// column.
     pub(super) fn packed_stride(&self) -> usize {
         self.element_type.columns * self.column_stride()
     }
 
-    /// The total bytes of all elements at this stride, up to the end of the last component.
+    /// Returns the size of all elements in bytes at this stride, up to the end of the last
+    /// component.
     pub(super) fn byte_length(&self, stride: usize) -> u64 {
         if self.count == 0 {
             return 0;
@@ -228,7 +231,7 @@ impl AccessorLayout {
         gaps.saturating_add(self.element_size() as u64)
     }
 
-    /// The format as written in messages, such as `VEC3 of FLOAT`.
+    /// Returns the format as written in messages, such as `VEC3 of FLOAT`.
     pub(super) fn format_name(&self) -> String {
         let normalized = if self.normalized { "normalized " } else { "" };
         format!("{} of {normalized}{}", self.element_type.name(), self.component_type.name())
@@ -241,7 +244,7 @@ mod tests {
     use serde_json::json;
 
     #[test]
-    fn sizes_of_elements() {
+    fn element_sizes_include_column_padding() {
         // Small matrices of small integers have gaps between their columns (§3.6.2.4).
         for (shape, component, size, tight) in [
             ("SCALAR", 5121, 1, 1),

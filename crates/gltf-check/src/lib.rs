@@ -13,8 +13,8 @@
 //!
 //! It works on the raw JSON, in which members may be missing or have any type. The rules follow
 //! glTF 2.0, with the codes and severities of the Khronos glTF validator. The
-//! [limits](import::Limits) apply as for loading: time and memory are bounded by the size of the
-//! files, not by the sizes they declare.
+//! [limits](import::Limits) apply as they do for loading: time and memory are bounded by the size
+//! of the files, not by the sizes they declare.
 
 mod accessors;
 mod animations;

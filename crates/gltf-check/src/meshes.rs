@@ -1,7 +1,8 @@
-//! Meshes: their attributes, indices and morph targets (glTF 2.0 §3.7.2).
+//! Validation of meshes: attributes, indices and morph targets (glTF 2.0 §3.7.2).
 //!
-//! This file checks declarations: names, formats and counts. The checks do not need a buffer. Rules
-//! about the stored values are passed on to [`data`](super::data), which reads every accessor once.
+//! This module checks the declared names, formats and counts, which does not require buffer data.
+//! Rules about the stored values are passed to [`data`](super::data), which reads every accessor
+//! once.
 
 use super::codes::{self, DiagnosticCode};
 use super::data::{ElementRule, ElementRules};
@@ -19,11 +20,11 @@ use std::fmt::Display;
 
 /// Validates all meshes, and records rules for the elements of their accessors.
 ///
-/// All primitives of a mesh have the same number of morph targets, and `weights` has one entry for
-/// each.
+/// All primitives of a mesh must have the same number of morph targets, and `weights` must have one
+/// entry per target.
 ///
-/// Renderers blend all primitives of a mesh with one list of weights, so the counts must agree. The
-/// first primitive sets the expected count, so that one deviating primitive gives one diagnostic.
+/// Renderers blend all primitives of a mesh with the same weights, so the counts must agree. The
+/// first primitive sets the expected count, so each deviating primitive gives one diagnostic.
 pub(super) fn check_meshes(
     document: &CheckedDocument<'_>,
     usage: &UsageMap<'_>,
@@ -66,7 +67,7 @@ pub(super) fn check_meshes(
 struct PrimitiveChecker<'a, 'd> {
     document: &'a CheckedDocument<'a>,
     usage: &'a UsageMap<'a>,
-    /// The rules for the elements of accessors, collected for the pass over the data.
+    /// The rules for accessor elements, collected for the pass over the data.
     rules: &'d mut ElementRules,
     /// The vertex attributes that each material requires.
     requirements: &'a [MaterialRequirements],
@@ -76,13 +77,14 @@ struct PrimitiveChecker<'a, 'd> {
     pointer: String,
 }
 
-/// The attributes of a primitive whose accessors exist: name, index and JSON of the accessor.
+/// The attributes of a primitive whose accessors exist: the name, and the accessor's index and
+/// JSON.
 type ResolvedAttributes<'a> = Vec<(&'a str, usize, &'a Value)>;
 
 /// The number of elements of each attribute of a primitive.
 ///
-/// `None` means an accessor without a valid `count`. Morph targets are compared with it: a
-/// displacement needs the base attribute, and one value for each vertex (glTF 2.0 §3.7.2.2).
+/// `None` means an accessor without a valid `count`. Morph targets must match these counts: a
+/// displacement needs the base attribute, and one value per vertex (glTF 2.0 §3.7.2.2).
 type AttributeCounts<'a> = BTreeMap<&'a str, Option<u64>>;
 
 impl<'a> PrimitiveChecker<'a, '_> {
@@ -95,8 +97,9 @@ impl<'a> PrimitiveChecker<'a, '_> {
 
     /// Validates attributes, indices, mode, material requirements and morph targets, in this order.
     ///
-    /// The order follows the data: the number of vertices comes from the attributes and limits the
-    /// indices. The number of indices, or else of vertices, must fit the mode.
+    /// The order follows the dependencies: the attributes determine the number of vertices, which
+    /// limits the indices. The number of indices, or of vertices without indices, must fit the
+    /// mode.
     fn check_primitive(&mut self) {
         let Some(named) = object_members(self.primitive, "attributes") else {
             self.check_indices(None);
@@ -129,9 +132,9 @@ impl<'a> PrimitiveChecker<'a, '_> {
         }
     }
 
-    /// The attributes whose accessors exist; the schema walk has reported the others.
+    /// Returns the attributes whose accessors exist; the schema walk has reported the others.
     ///
-    /// The JSON of the accessor is resolved once here instead of in each check.
+    /// The accessor JSON is looked up once here instead of in each check.
     fn resolve_attributes(&self, named: &'a Map<String, Value>) -> ResolvedAttributes<'a> {
         let accessors = self.document.root_array("accessors");
         let find = |(name, value): (&'a String, &Value)| {
@@ -141,13 +144,14 @@ impl<'a> PrimitiveChecker<'a, '_> {
         named.iter().filter_map(find).collect()
     }
 
-    /// Validates attribute names and their numbering; returns the number of `TEXCOORD` sets.
+    /// Validates attribute names and their numbering, and returns the number of `TEXCOORD` sets.
     ///
-    /// Sets are numbered from 0 without gaps, and there are as many sets of joints as of weights
-    /// (glTF 2.0 §3.7.2.1).
+    /// Sets must be numbered from 0 without gaps, and there must be as many sets of joints as of
+    /// weights (glTF 2.0 §3.7.2.1).
     ///
-    /// Gaps are an error because renderers stop at the first missing set. The check needs no sorted
-    /// list: `n` distinct indices are consecutive from 0 if and only if the largest is `n − 1`.
+    /// Gaps are an error because renderers stop at the first missing set. The check does not need
+    /// to sort the indices: `n` distinct indices are consecutive from 0 if and only if the largest
+    /// is `n − 1`.
     fn check_names(&self, named: &Map<String, Value>) -> u64 {
         for name in named.keys().filter(|name| Semantic::from_name(name).is_none()) {
             let message = format_args!("unknown attribute {name:?}");
@@ -185,7 +189,7 @@ impl<'a> PrimitiveChecker<'a, '_> {
         });
         if counts[2] != counts[3] {
             let message = format_args!(
-                "the number of JOINTS sets ({}) differs from that of WEIGHTS sets ({})",
+                "the numbers of JOINTS sets ({}) and WEIGHTS sets ({}) differ",
                 counts[2], counts[3]
             );
             self.report(&codes::MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH, "attributes", message);
@@ -193,14 +197,15 @@ impl<'a> PrimitiveChecker<'a, '_> {
         counts[0]
     }
 
-    /// Validates the formats and counts of all attributes; returns the number of vertices.
+    /// Validates the formats and counts of all attributes, and returns the number of vertices.
     ///
-    /// It is the count of `POSITION`, or of the first attribute if there is none.
+    /// The number of vertices is the count of `POSITION`, or of the first attribute if there are no
+    /// positions.
     ///
-    /// All counts must be equal, because one index addresses all attributes of a vertex.
+    /// All counts must be equal, because one index selects all attributes of a vertex.
     fn check_attributes(&mut self, attributes: &ResolvedAttributes<'_>) -> Option<u64> {
         let mut vertices = None;
-        // POSITION comes first, because its count is the number of vertices.
+        // POSITION is first, because its count is the number of vertices.
         let position = attributes.iter().find(|(name, ..)| *name == "POSITION");
         for &(name, at, accessor) in position.into_iter().chain(attributes) {
             let member = format!("attributes/{}", escape_pointer_token(name));
@@ -228,8 +233,8 @@ impl<'a> PrimitiveChecker<'a, '_> {
     ///
     /// Normals and tangents are unit vectors; float colors are in [0, 1].
     ///
-    /// Only float colors can leave [0, 1]: normalized integers are inside by construction. Values
-    /// in an invalid format are not read.
+    /// Only float colors can be outside [0, 1]; normalized integers cannot. Values in an invalid
+    /// format are not read.
     fn add_element_rules(&mut self, name: &str, at: usize, layout: AccessorLayout, pointer: &str) {
         let quantized = self.document.uses_extension("KHR_mesh_quantization");
         let formats = Semantic::from_name(name)
@@ -248,13 +253,13 @@ impl<'a> PrimitiveChecker<'a, '_> {
 
     /// Validates the format, bounds and alignment of an attribute.
     ///
-    /// `POSITION` needs `min` and `max`. Vertex data is aligned to four bytes, in its offset and in
-    /// its stride (glTF 2.0 §3.7.2.1).
+    /// `POSITION` needs `min` and `max`. The offset and stride of vertex data must be multiples of
+    /// four bytes (glTF 2.0 §3.7.2.1).
     fn check_format(&self, name: &str, accessor: &Value, member: &str, in_target: bool) {
         let Some(layout) = AccessorLayout::from_accessor(accessor) else { return };
         let has_bounds = accessor.get("min").is_some() && accessor.get("max").is_some();
         if name == "POSITION" && !has_bounds {
-            let message = "the accessor of POSITION must have min and max";
+            let message = "the POSITION accessor must have min and max";
             self.report(&codes::MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS, member, message);
         }
         let quantized = self.document.uses_extension("KHR_mesh_quantization");
@@ -262,7 +267,8 @@ impl<'a> PrimitiveChecker<'a, '_> {
             .map(|semantic| semantic.allowed_formats(in_target, quantized))
         {
             Some(Some(formats)) if !formats::is_allowed(layout, &formats) => {
-                let message = format_args!("the format cannot be {}", layout.format_name());
+                let message =
+                    format_args!("this attribute cannot have the format {}", layout.format_name());
                 self.report(
                     &codes::MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT,
                     member,
@@ -270,7 +276,7 @@ impl<'a> PrimitiveChecker<'a, '_> {
                 );
             }
             None | Some(None) if layout.component_type == ComponentType::U32 => {
-                let message = "an attribute cannot be of UNSIGNED_INT";
+                let message = "an attribute cannot have the component type UNSIGNED_INT";
                 self.report(
                     &codes::MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_UNSIGNED_INT,
                     member,
@@ -292,9 +298,9 @@ impl<'a> PrimitiveChecker<'a, '_> {
         }
     }
 
-    /// Validates the format of the indices; returns their number.
+    /// Validates the format of the indices, and returns their number.
     ///
-    /// Their range, restart values and degenerate triangles are rules for the pass over the data.
+    /// Range, restart values and degenerate triangles are checked in the pass over the data.
     fn check_indices(&mut self, vertices: Option<u64>) -> Option<u64> {
         let at = index_member(self.primitive, "indices")?;
         let accessor = self.document.root_array("accessors").get(at)?;
@@ -314,13 +320,13 @@ impl<'a> PrimitiveChecker<'a, '_> {
             let demand = ElementRule::Indices { vertices: vertices.unwrap_or(0), triangles };
             self.rules.add(at, demand, &pointer);
         } else {
-            let message = format_args!("the format of indices cannot be {}", layout.format_name());
+            let message = format_args!("indices cannot have the format {}", layout.format_name());
             self.report(&codes::MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT, "indices", message);
         }
         Some(layout.count)
     }
 
-    /// The number of vertices or indices must form whole primitives of the mode.
+    /// Validates that the vertices or indices form whole primitives of the mode.
     fn check_mode(&self, count: Option<u64>) {
         let Some(count) = count else { return };
         let fits = match integer_member(self.primitive, "mode").unwrap_or(4) {
@@ -338,8 +344,8 @@ impl<'a> PrimitiveChecker<'a, '_> {
         }
     }
 
-    /// A morph target: its attributes can be displaced, exist in the base mesh, and have the same
-    /// number of elements.
+    /// Validates a morph target: its attributes can be displaced, exist in the base mesh, and have
+    /// the same number of elements.
     fn check_morph_target(
         &self,
         at: usize,
@@ -370,7 +376,7 @@ impl<'a> PrimitiveChecker<'a, '_> {
                     self.report(code, &member, message);
                 }
                 Some(count) if *count != integer_member(json, "count") => {
-                    let message = "the number of elements differs from that of the base mesh";
+                    let message = "the number of elements differs from the base mesh";
                     let code = &codes::MESH_PRIMITIVE_MORPH_TARGET_INVALID_ATTRIBUTE_COUNT;
                     self.report(code, &member, message);
                 }

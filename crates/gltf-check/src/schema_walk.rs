@@ -1,11 +1,11 @@
-//! Schema validation: walks a document along the tables of [`schema`](super::schema).
+//! Schema validation: walks a document, guided by the tables in [`schema`](super::schema).
 //!
-//! Every value is compared with the kind that the tables give its member. Every index that resolves
-//! marks its target as used, for the notes about unused objects. The codes match the Khronos
-//! validator, including its distinction between members and items of arrays.
+//! Every value is compared with the kind that the tables specify for its member. Every index that
+//! resolves marks its target as used, for the notes about unused objects. The codes match the
+//! Khronos validator, including its distinction between members and array items.
 //!
 //! The walk is a recursive descent. [`SchemaWalker::check_value`] dispatches on the kind of a
-//! value; objects and arrays descend with one more token on the JSON pointer:
+//! value; for objects and arrays the walk descends with one more token on the JSON pointer:
 //!
 //! ```text
 //!  check_object ──► check_value ──► check_number, check_index, …   leaves
@@ -13,8 +13,8 @@
 //!       └───────────────┴─► check_objects, check_object            inner nodes
 //! ```
 //!
-//! The recursion is as deep as the schema, not as deep as the file: members that are not in the
-//! tables are reported but never entered. The time is linear in the size of the JSON.
+//! The recursion is as deep as the schema, not the file: members that are not in the tables are
+//! reported but never entered. The time is linear in the size of the JSON.
 
 use super::codes::{self, DiagnosticCode};
 use super::document::{CheckedDocument, as_whole_number, escape_pointer_token};
@@ -25,7 +25,7 @@ use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 use std::fmt::Display;
 
-/// Validates a whole document against the schema, and records all references.
+/// Validates a whole document against the schema and records all references.
 ///
 /// A root that is not an object ends the walk with a single `TYPE_MISMATCH`. Later checks see
 /// missing and mistyped members as absent, so that each defect is reported once, here.
@@ -40,7 +40,7 @@ pub(super) fn check_schema(document: &CheckedDocument<'_>) {
 /// The state of the walk: the document and the JSON pointer of the current value.
 ///
 /// One buffer holds the pointer for the whole walk: tokens are appended on the way down and
-/// truncated on the way up, so that a value without a defect costs no allocation.
+/// truncated on the way up, so a value without a defect costs no allocation.
 struct SchemaWalker<'a> {
     /// The document, which records references and diagnostics.
     document: &'a CheckedDocument<'a>,
@@ -59,10 +59,10 @@ impl SchemaWalker<'_> {
         self.report(&codes::TYPE_MISMATCH, format_args!("{} is not {expected}", ShortValue(value)));
     }
 
-    /// Calls `work` for a member or an item, with its token appended to the JSON pointer.
+    /// Calls `work` with the token of a member or item appended to the JSON pointer.
     ///
-    /// Tokens are escaped as in RFC 6901: `~` becomes `~0` and `/` becomes `~1`. Names with
-    /// neither, which are almost all, are appended without a copy.
+    /// Tokens are escaped as in RFC 6901: `~` becomes `~0` and `/` becomes `~1`. Names without
+    /// these characters, which are almost all, are appended without a copy.
     fn descend(&mut self, name: &str, work: impl FnOnce(&mut Self)) {
         let length = self.pointer.len();
         self.pointer.push('/');
@@ -77,7 +77,7 @@ impl SchemaWalker<'_> {
     /// Validates an object: known members by kind, required members, unknown members, extensions.
     ///
     /// The first loop follows the schema and finds missing members; the second follows the file and
-    /// finds unknown ones. `extras` may hold anything (glTF 2.0 §5.16), and is not entered.
+    /// finds unknown members. `extras` may contain anything (glTF 2.0 §5.16) and is not entered.
     fn check_object(&mut self, members: &Map<String, Value>, object: &ObjectSchema) {
         for member in object.members {
             match members.get(member.name) {
@@ -114,14 +114,14 @@ impl SchemaWalker<'_> {
 
     /// Validates a member's rule about the presence of other members.
     ///
-    /// `UNSATISFIED_DEPENDENCY` is reported at the member that needs another one, `ONE_OF_MISMATCH`
-    /// at the parent, because neither of the two members is more at fault than the other.
+    /// `UNSATISFIED_DEPENDENCY` is reported at the member that requires another. `ONE_OF_MISMATCH`
+    /// is reported at the parent, because neither member is more wrong than the other.
     fn check_presence(&mut self, members: &Map<String, Value>, member: &MemberSchema) {
         let is_there = members.contains_key(member.name);
         match member.rule {
             PresenceRule::Requires(other) if is_there && !members.contains_key(other) => {
                 self.descend(member.name, |walker| {
-                    let message = format_args!("it requires the property `{other}`");
+                    let message = format_args!("this property requires `{other}`");
                     walker.report(&codes::UNSATISFIED_DEPENDENCY, message);
                 });
             }
@@ -139,8 +139,8 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// Validates the `extensions` of an object: an object with one member for each extension (glTF
-    /// 2.0 §3.12).
+    /// Validates the `extensions` of an object, which must be an object with one member per
+    /// extension (glTF 2.0 §3.12).
     fn check_extensions(&mut self, value: &Value, parent: &ObjectSchema) {
         let Value::Object(extensions) = value else {
             return self.report_type_mismatch(value, "an object");
@@ -152,10 +152,10 @@ impl SchemaWalker<'_> {
 
     /// Validates an extension object: it must be declared, and allowed in this parent.
     ///
-    /// Extensions that are not in the tables are only checked for their declaration. A known
+    /// For extensions that are not in the tables, only the declaration is checked. A known
     /// extension in an object where its specification does not allow it is an
-    /// `UNEXPECTED_EXTENSION_OBJECT`, and its members are not validated, because their meaning is
-    /// unknown there.
+    /// `UNEXPECTED_EXTENSION_OBJECT`; its members are not validated, because their meaning there is
+    /// unknown.
     fn check_extension(&mut self, name: &str, value: &Value, parent: &ObjectSchema) {
         if !self.document.uses_extension(name) {
             let message = format_args!("the extension is not listed in {}", "/extensionsUsed");
@@ -207,7 +207,8 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// Validates a version string of the form `2.0`: two decimal numbers and a dot (glTF 2.0 §5.9).
+    /// Validates a version string of the form `2.0`: two decimal numbers separated by a dot (glTF
+    /// 2.0 §5.9).
     fn check_version(&self, value: &Value) {
         let Some(text) = value.as_str() else {
             return self.report_type_mismatch(value, "a string");
@@ -220,9 +221,10 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// Validates a string with a fixed list of values.
+    /// Validates a string against a fixed list of values.
     ///
-    /// A string outside the list is only a warning, because an extension may define more values.
+    /// A string that is not in the list is only a warning, because an extension may define more
+    /// values.
     fn check_enum_string(&self, value: &Value, words: &[&str]) {
         match value.as_str() {
             None => self.report_type_mismatch(value, "a string"),
@@ -237,9 +239,9 @@ impl SchemaWalker<'_> {
 
     /// Validates an integer in an inclusive range.
     ///
-    /// `1.0` is accepted as an integer, as in the JSON schema of glTF; `1.5` has the wrong type. A
-    /// negative integer does not fit in `u64`, and is therefore a separate case that is also
-    /// reported as out of range.
+    /// `1.0` is accepted as an integer, as in the glTF JSON schema; `1.5` has the wrong type. A
+    /// negative integer does not fit in `u64`, so it is a separate case that is also reported as
+    /// out of range.
     fn check_integer(&self, value: &Value, min: u64, max: u64) {
         match (as_whole_number(value), value.as_f64()) {
             (Some(number), _) if (min..=max).contains(&number) => {}
@@ -251,7 +253,8 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// Reports an integer out of range; the message names the maximum only if the schema has one.
+    /// Reports an integer that is out of range. The message includes the maximum only if the schema
+    /// has one.
     fn report_out_of_range(&self, value: &Value, min: u64, max: u64) {
         let code = &codes::VALUE_NOT_IN_RANGE;
         if max == u64::MAX {
@@ -262,10 +265,11 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// Validates an integer with a fixed list of values, such as the OpenGL constants of a sampler.
+    /// Validates an integer against a fixed list of values, such as the OpenGL constants of a
+    /// sampler.
     ///
-    /// As in the Khronos validator, a number with a fraction is a value outside the list, not a
-    /// value of the wrong type.
+    /// As in the Khronos validator, a fractional number is reported as a value outside the list,
+    /// not as a value of the wrong type.
     fn check_enum_integer(&self, value: &Value, numbers: &[u64]) {
         match as_whole_number(value) {
             Some(number) if numbers.contains(&number) => {}
@@ -279,8 +283,7 @@ impl SchemaWalker<'_> {
 
     /// Validates a number in a range.
     ///
-    /// The message has the bracket of the interval's open or closed lower end: `(0, 1]` or `[0,
-    /// 1]`.
+    /// The message uses the bracket for an open or closed lower end: `(0, 1]` or `[0, 1]`.
     fn check_number(&self, number: f64, range: NumberRange) {
         let NumberRange { min, max, exclusive_min } = range;
         let is_inside = if exclusive_min { number > min } else { number >= min } && number <= max;
@@ -300,7 +303,7 @@ impl SchemaWalker<'_> {
     /// Validates an array of numbers, each in a range.
     ///
     /// `length` is the required number of items, or 0 for any length above 0. A wrong length ends
-    /// the check: the positions of the items would have no meaning.
+    /// the check, because the positions of the items would be meaningless.
     fn check_numbers(&mut self, value: &Value, length: usize, range: NumberRange) {
         let Value::Array(items) = value else {
             return self.report_type_mismatch(value, "an array of numbers");
@@ -335,9 +338,9 @@ impl SchemaWalker<'_> {
 
     /// Validates an index, and marks its target as used.
     ///
-    /// Indices into the samplers of an animation are relative to that animation, and are resolved
-    /// with it. A value such as `-1` or `1.5` is an `INVALID_INDEX`; an index past the end of its
-    /// collection is an `UNRESOLVED_REFERENCE`.
+    /// Sampler indices in an animation are relative to that animation and are resolved with it. A
+    /// value such as `-1` or `1.5` is an `INVALID_INDEX`; an index past the end of its collection
+    /// is an `UNRESOLVED_REFERENCE`.
     fn check_index(&self, value: &Value, collection: Collection) {
         match as_whole_number(value) {
             None if !value.is_number() => self.report_type_mismatch(value, "an index"),
@@ -348,13 +351,13 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// Reports a number that cannot be an index: negative, or with a fraction.
+    /// Reports a number that cannot be an index because it is negative or fractional.
     fn report_invalid_index(&self, value: &Value) {
         let message = format_args!("{} is not a valid index", ShortValue(value));
         self.report(&codes::INVALID_INDEX, message);
     }
 
-    /// Reports an index beyond the end of its collection.
+    /// Reports an index past the end of its collection.
     fn report_unresolved(&self, index: u64, collection: Collection) {
         let (_, pointer, _) = Collection::ALL[collection as usize];
         let count =
@@ -365,7 +368,7 @@ impl SchemaWalker<'_> {
 
     /// Validates a non-empty array of distinct indices, such as the children of a node.
     ///
-    /// A duplicate is reported in addition to the check of the index itself, with a separate code.
+    /// Duplicates are reported with a separate code, in addition to the check of each index.
     fn check_indices(&mut self, value: &Value, collection: Collection) {
         let Value::Array(items) = value else {
             return self.report_type_mismatch(value, "an array of indices");
@@ -417,8 +420,8 @@ impl SchemaWalker<'_> {
         if items.is_empty() {
             return self.report(&codes::EMPTY_ENTITY, "the array is empty");
         }
-        // The validator reports items of top-level arrays like members, and items of inner arrays
-        // with another code.
+        // The Khronos validator reports items of top-level arrays like members, and items of inner
+        // arrays with another code.
         let at_top = self.pointer.rfind('/') == Some(0);
         for (at, item) in items.iter().enumerate() {
             self.descend(&at.to_string(), |walker| match item {
@@ -431,7 +434,7 @@ impl SchemaWalker<'_> {
 
     /// Validates an attributes object: accessor indices by attribute name (glTF 2.0 §3.7.2.1).
     ///
-    /// The names themselves are validated with the meshes, which know the semantics.
+    /// The names themselves are validated with the meshes.
     fn check_attributes(&mut self, value: &Value) {
         let Value::Object(members) = value else {
             return self.report_type_mismatch(value, "an object");
@@ -464,9 +467,9 @@ impl SchemaWalker<'_> {
     }
 }
 
-/// A value as quoted in a message: arrays, objects and long strings only by their type.
+/// A value as quoted in a message; arrays, objects and long strings appear only as their type.
 ///
-/// A message must always stay one short line.
+/// This keeps a message to one short line.
 struct ShortValue<'a>(&'a Value);
 
 impl Display for ShortValue<'_> {

@@ -1,4 +1,4 @@
-//! Skins: joints, inverse bind matrices, and the joint weights of vertices (glTF 2.0 §3.7.3).
+//! Validation of skins: joints, inverse bind matrices, and vertex weights (glTF 2.0 §3.7.3).
 
 use super::codes::{self, DiagnosticCode};
 use super::data::{ElementRule, ElementRules};
@@ -14,11 +14,11 @@ use serde_json::{Map, Value};
 
 /// Validates all skins, and records rules for the elements of their accessors.
 ///
-/// The joint weights of vertices are validated later, by [`check_skinned_meshes`], because they
-/// need a mesh and a skin together.
+/// [`check_skinned_meshes`] validates the joint weights of vertices later, because they need both a
+/// mesh and a skin.
 ///
-/// `joints` that are not valid indices are skipped: the schema walk has reported them. They still
-/// count for the number of inverse bind matrices, which correspond to joints by position.
+/// Invalid indices in `joints` are skipped, because the schema walk has reported them. They still
+/// count toward the number of inverse bind matrices, which correspond to joints by position.
 pub(super) fn check_skins(
     document: &CheckedDocument<'_>,
     tree: &NodeTree,
@@ -37,8 +37,9 @@ pub(super) fn check_skins(
 
 /// Validates that the joints have a common root, and that `skeleton` is their common ancestor.
 ///
-/// Both are constant-time queries for each joint, because the tree has the root and the traversal
-/// interval of each node; walking up from each joint would take quadratic time for a long chain.
+/// Both are constant-time queries for each joint, because the tree stores the root and the
+/// traversal interval of each node. Walking up from each joint would take quadratic time for a long
+/// chain.
 fn check_common_root(
     document: &CheckedDocument<'_>,
     tree: &NodeTree,
@@ -63,10 +64,11 @@ fn check_common_root(
     }
 }
 
-/// Validates the inverse bind matrices: format, stride, and at least one for each joint.
+/// Validates the inverse bind matrices: their format, their stride, and that there is at least one
+/// per joint.
 ///
-/// The format is always MAT4 of floats (glTF 2.0 §5.28). More matrices than joints are allowed; the
-/// affine last row is tested with the data.
+/// The format is always MAT4 of floats (glTF 2.0 §5.28). More matrices than joints are allowed. The
+/// last row is tested with the data.
 fn check_inverse_bind_matrices(
     document: &CheckedDocument<'_>,
     usage: &UsageMap<'_>,
@@ -89,7 +91,7 @@ fn check_inverse_bind_matrices(
         demands.add(at, ElementRule::Matrices, &pointer);
     } else {
         let message =
-            format_args!("the format of inverse bind matrices cannot be {}", layout.format_name());
+            format_args!("inverse bind matrices cannot have the format {}", layout.format_name());
         diagnostics.add(&codes::SKIN_IBM_INVALID_FORMAT, &pointer, message);
     }
     if layout.count < joints as u64 {
@@ -100,12 +102,13 @@ fn check_inverse_bind_matrices(
 
 /// Validates the joints and weights of all skinned meshes.
 ///
-/// It runs after the accessors have been validated, so that only data in a valid format is decoded.
+/// This runs after the accessors have been validated, so that only data in a valid format is
+/// decoded.
 ///
-/// The cost is linear in the number of vertices and sets of influences. A mesh without a skinned
+/// The cost is linear in the number of vertices times the number of sets. A mesh without a skinned
 /// node is skipped, because its joint indices refer to nothing.
 pub(super) fn check_skinned_meshes(document: &CheckedDocument<'_>, store: &BufferStore<'_>) {
-    // A mesh may be used with several skins: its joint indices must fit the smallest.
+    // A mesh may be used with several skins; its joint indices must fit the smallest.
     let mut fewest_joints: Vec<Option<usize>> = vec![None; document.root_array("meshes").len()];
     let skins = document.root_array("skins");
     for node in document.root_array("nodes") {
@@ -128,31 +131,31 @@ pub(super) fn check_skinned_meshes(document: &CheckedDocument<'_>, store: &Buffe
     }
 }
 
-/// One set of joints and weights: four of each per vertex.
+/// One set of joints and weights, with four of each per vertex.
 ///
-/// The components of `JOINTS_n` and `WEIGHTS_n`, the weights after dequantization.
+/// Contains the components of `JOINTS_n` and the dequantized components of `WEIGHTS_n`.
 type InfluenceSet = (Vec<[f32; 4]>, Vec<[f32; 4]>);
 
-/// The validation of the joints and weights of one primitive.
+/// The validation of one primitive's joints and weights.
 struct InfluenceChecker<'a> {
     document: &'a CheckedDocument<'a>,
     store: &'a BufferStore<'a>,
     /// The number of joints of the skin.
     joints: usize,
-    /// The JSON pointer of the attributes.
+    /// The JSON pointer to the attributes.
     pointer: String,
 }
 
 /// The maximum number of sets of joints and weights to validate.
 ///
-/// Exporters write one or two sets, for four or eight influences. The maximum limits the memory,
-/// because all sets of a primitive are needed together for the sum of the weights.
+/// Exporters write one or two sets, for four or eight influences. The maximum limits memory,
+/// because the sum of the weights needs all sets of a primitive at once.
 const MAX_SETS: usize = 16;
 
-/// The tolerance for the sum of weights rounded to bytes, for every two joints beyond the first two
-/// (the Khronos validator's value).
+/// The tolerance for the sum of weights that are rounded to bytes, per two joints beyond the first
+/// two (the Khronos validator's value).
 ///
-/// It is 1/255: quantization to bytes changes each weight by up to half of that, so two joints can
+/// It is 1/255: quantization to bytes changes each weight by at most half a step, so two joints can
 /// change the sum by one step.
 const WEIGHT_ROUNDING: f64 = 0.003_921_6;
 
@@ -160,8 +163,8 @@ impl InfluenceChecker<'_> {
     /// Validates all sets of joints and weights of a primitive together, because the weights of a
     /// vertex sum to 1 over all sets.
     ///
-    /// Sets are read up to the first that is missing or undecodable. The four kinds of errors are
-    /// counted for each set, which gives one diagnostic for each kind and attribute.
+    /// Sets are read up to the first that is missing or cannot be decoded. The four kinds of errors
+    /// are counted per set, which gives one diagnostic for each kind and attribute.
     fn check_influences(&self, named: &Map<String, Value>) {
         let mut sets = Vec::new();
         while let (true, Some(joints), Some(weights)) = (
@@ -187,18 +190,18 @@ impl InfluenceChecker<'_> {
             self.check_vertex(&sets, vertex, &mut faults);
         }
         let words: [(&DiagnosticCode, &str, &str); 4] = [
-            (&codes::ACCESSOR_JOINTS_INDEX_OOB, "JOINTS", "joint indices are not in the skin"),
+            (
+                &codes::ACCESSOR_JOINTS_INDEX_OOB,
+                "JOINTS",
+                "joint indices are out of range for the skin",
+            ),
             (
                 &codes::ACCESSOR_JOINTS_INDEX_DUPLICATE,
                 "JOINTS",
                 "joints influence a vertex more than once",
             ),
             (&codes::ACCESSOR_WEIGHTS_NEGATIVE, "WEIGHTS", "weights are negative"),
-            (
-                &codes::ACCESSOR_WEIGHTS_NON_NORMALIZED,
-                "WEIGHTS",
-                "the weights of vertices do not sum to 1",
-            ),
+            (&codes::ACCESSOR_WEIGHTS_NON_NORMALIZED, "WEIGHTS", "vertex weights do not sum to 1"),
         ];
         for (set, counts) in faults.iter().enumerate() {
             for (count, (code, name, what)) in counts.iter().zip(words) {
@@ -212,7 +215,8 @@ impl InfluenceChecker<'_> {
 
     /// Decodes the four components of every vertex.
     ///
-    /// `None` leaves the primitive unvalidated: the accessor's defect has been reported.
+    /// Returns `None` if the accessor is invalid, which has been reported; the primitive is then
+    /// not validated.
     fn read_vec4s(&self, accessor: &Value) -> Option<Vec<[f32; 4]>> {
         let at = usize::try_from(as_whole_number(accessor)?).ok()?;
         let accessor = self.document.root_array("accessors").get(at)?;
@@ -220,7 +224,7 @@ impl InfluenceChecker<'_> {
             .filter(|layout| layout.element_type.component_count() == 4)?;
         let elements: AccessorElements<'_> = self.store.accessor_elements(accessor, layout)?;
         let pointer = format!("/accessors/{at}/count");
-        // An accessor without a buffer view is all zeros: do not allocate for it.
+        // An accessor without a buffer view is all zeros, so do not allocate for it.
         layout.buffer_view.filter(|_| integer_member(accessor, "count").is_some())?;
         self.store.charge_budget(&pointer, layout.count.saturating_mul(16)).then_some(())?;
         let mut all = Vec::new();
@@ -233,7 +237,7 @@ impl InfluenceChecker<'_> {
 
     /// Counts the violations of one vertex, by set and rule.
     ///
-    /// A joint may influence a vertex only once; joints of weight 0 do not count (glTF 2.0
+    /// A joint may influence a vertex only once, not counting joints with weight 0 (glTF 2.0
     /// §3.7.3.3).
     fn check_vertex(
         &self,
@@ -262,7 +266,7 @@ impl InfluenceChecker<'_> {
                 }
             }
         }
-        // The second term covers the rounding of a sum in single precision.
+        // The second term covers the rounding of a single-precision sum.
         let allowed =
             WEIGHT_ROUNDING * (number.div_ceil(2).saturating_sub(1)) as f64 + 2e-7 * number as f64;
         if (sum - 1.0).abs() > allowed {

@@ -5,9 +5,9 @@ use super::diagnostics::Diagnostics;
 use gltf_import::UriResolver;
 use model::{Diagnostic, codes as load};
 
-/// The media type of a data URI in lowercase; `None` for other URIs.
+/// Returns the media type of a data URI in lowercase, or `None` for other URIs.
 ///
-/// It is empty for `data:,`, whose type is text/plain according to RFC 2397.
+/// The type is empty for `data:,`, which is text/plain according to RFC 2397.
 pub(super) fn media_type(uri: &str) -> Option<String> {
     let (scheme, rest) = uri.split_once(':')?;
     let kind = rest.split([';', ',']).next()?;
@@ -16,8 +16,8 @@ pub(super) fn media_type(uri: &str) -> Option<String> {
 
 /// Checks the syntax of any URI.
 ///
-/// Data URIs are discouraged in a GLB, and absolute URIs anywhere, because they break when the file
-/// is moved.
+/// Data URIs are discouraged in a GLB. Absolute URIs are discouraged everywhere, because they break
+/// when the file is moved.
 pub(super) fn check_uri(uri: &str, pointer: &str, is_binary: bool, diagnostics: &Diagnostics) {
     let is_data = media_type(uri).is_some();
     if is_data && is_binary {
@@ -53,12 +53,12 @@ pub(super) fn check_buffer_uri(
     if let Some(kind) = media_type(uri)
         && !["application/octet-stream", "application/gltf-buffer"].contains(&kind.as_str())
     {
-        let message = format_args!("{kind:?} is not a media type of buffers");
+        let message = format_args!("{kind:?} is not a media type for buffers");
         diagnostics.add(&codes::BUFFER_DATA_URI_MIME_TYPE_INVALID, pointer, message);
     }
 }
 
-/// The bytes a URI refers to; `None`, with a diagnostic, if they cannot be read.
+/// Reads the bytes that a URI refers to. If this fails, reports a diagnostic and returns `None`.
 ///
 /// Only files below the allowed folders are read, and only within the limits.
 pub(super) fn read_uri(

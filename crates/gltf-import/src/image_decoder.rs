@@ -1,7 +1,7 @@
 //! Image decoding to 8-bit RGBA: PNG, JPEG and, with the features `webp` and `basisu`, WebP and
 //! KTX2.
 //!
-//! The format is recognized by the first bytes; the file's name and glTF's `mimeType` are ignored.
+//! The format is detected from the first bytes; the file name and the glTF `mimeType` are ignored.
 //! Sizes are read from the header and checked before any decoder allocates, and a decoder that
 //! panics counts as failed.
 
@@ -22,7 +22,7 @@ use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
-/// An image of a file that has been read but not decoded.
+/// An image that has been read from a file but not decoded.
 ///
 /// The size has been checked against the limits.
 pub(crate) struct EncodedImage<'a> {
@@ -34,7 +34,8 @@ pub(crate) struct EncodedImage<'a> {
     pub(crate) size: (u32, u32),
 }
 
-/// Whether images of a media type are decoded; for KTX2 and WebP this depends on the features.
+/// Returns whether images of a media type can be decoded; for KTX2 and WebP this depends on the
+/// features.
 #[must_use]
 pub fn is_decoded(media_type: &str) -> bool {
     match media_type {
@@ -44,14 +45,14 @@ pub fn is_decoded(media_type: &str) -> bool {
     }
 }
 
-/// Width and height, from the header without decoding.
+/// Reads the width and height from the header, without decoding.
 ///
-/// Rejects decompression bombs: sizes that so few bytes cannot encode.
+/// Rejects decompression bombs: sizes that the number of bytes cannot encode.
 ///
 /// # Errors
-/// A readable message: the format is unknown, the header is broken, or the size is implausible.
+/// Returns a message if the format is unknown, the header is broken, or the size is implausible.
 ///
-/// Whether a size is plausible depends on the compression ratio that the format can reach.
+/// Whether a size is plausible depends on the compression ratio that the format can achieve.
 pub fn image_size(bytes: &[u8]) -> Result<(u32, u32), String> {
     catch_decoder_panic(|| match ImageFormat::from_magic(bytes)? {
         ImageFormat::Png => {
@@ -83,7 +84,8 @@ pub fn image_size(bytes: &[u8]) -> Result<(u32, u32), String> {
     })
 }
 
-/// Name of the format (`png`, `jpeg`, `webp`, `ktx2`); empty if it is unknown.
+/// Returns the name of the format (`png`, `jpeg`, `webp` or `ktx2`), or an empty string if it is
+/// unknown.
 pub(crate) fn format_name(bytes: &[u8]) -> &'static str {
     match ImageFormat::from_magic(bytes) {
         Ok(ImageFormat::Png) => "png",
@@ -96,7 +98,7 @@ pub(crate) fn format_name(bytes: &[u8]) -> &'static str {
     }
 }
 
-/// Decodes an image with at most `most` texels; the header is checked before anything is allocated.
+/// Decodes an image of at most `most` texels; the header is checked before anything is allocated.
 ///
 /// ```
 /// let message = import::decode_image(b"GIF89a", 1 << 20).unwrap_err();
@@ -104,7 +106,7 @@ pub(crate) fn format_name(bytes: &[u8]) -> &'static str {
 /// ```
 ///
 /// # Errors
-/// A readable message: the format is unknown, the data is broken, or the image is too large.
+/// Returns a message if the format is unknown, the data is broken, or the image is too large.
 pub fn decode_bounded(bytes: &[u8], most: u64) -> Result<Image, String> {
     let (width, height) = image_size(bytes)?;
     if u64::from(width) * u64::from(height) > most {
@@ -125,21 +127,21 @@ pub(crate) fn decode_rgba(bytes: &[u8]) -> Result<Image, String> {
     })
 }
 
-/// Runs a decoder; a panic means that the image is broken.
+/// Runs a decoder. A panic is treated as a broken image.
 ///
-/// Decoders are written for well-formed files; an index out of range in one of them must not end
-/// the program because of a single texture.
+/// Decoders are written for well-formed files. An out-of-range index in a decoder must not end the
+/// program because of a single texture.
 fn catch_decoder_panic<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err("the decoder failed".to_owned()))
 }
 
-/// The message for a header that declares more texels than the bytes can encode.
+/// Returns the message for a header that declares more texels than the bytes can encode.
 fn decompression_bomb(width: u32, height: u32, bytes: usize) -> String {
     format!("the image declares {width} x {height} texels, too many for {bytes} bytes")
 }
 
-/// Number of texels allowed for an image of almost no bytes, in formats that can store a flat color
-/// that way.
+/// Number of texels allowed for an image of only a few bytes, in formats that can store a flat
+/// color that compactly.
 #[cfg(any(feature = "webp", feature = "basisu"))]
 const BOMB_ALLOWANCE_TEXELS: u64 = 8 << 20;
 
@@ -160,18 +162,18 @@ enum ImageFormat {
     /// WebP: lossy or lossless (RFC 9649).
     #[cfg(feature = "webp")]
     WebP,
-    /// KTX2: Basis Universal's ETC1S and UASTC, or 8-bit texels (KTX 2.0).
+    /// KTX2: ETC1S and UASTC from Basis Universal, or 8-bit texels (KTX 2.0).
     #[cfg(feature = "basisu")]
     Ktx2,
 }
 
 impl ImageFormat {
-    /// Upper bound on the number of texels that an image of this many bytes can encode.
+    /// Returns an upper bound on the number of texels that an image of this many bytes can encode.
     ///
-    /// - PNG: deflate expands one byte to at most 1,032 bytes, and a byte has eight 1-bit texels.
+    /// - PNG: deflate expands one byte to at most 1,032 bytes, and a byte holds eight 1-bit texels.
     /// - JPEG: each block of 64 texels takes at least one bit.
-    /// - WebP and KTX2: a flat image takes almost no bytes, so its size itself is limited: decoding
-    ///   [`BOMB_ALLOWANCE_TEXELS`] texels takes 70 MB.
+    /// - WebP and KTX2: a flat image takes almost no bytes, so the number of texels itself is
+    ///   limited. Decoding [`BOMB_ALLOWANCE_TEXELS`] texels takes 70 MB.
     fn max_plausible_texels(&self, bytes: usize) -> u64 {
         let bytes = bytes as u64;
         match self {
@@ -184,7 +186,7 @@ impl ImageFormat {
         }
     }
 
-    /// Recognizes the format by its magic number; the error names formats that are known but
+    /// Detects the format from its magic number. The error names formats that are known but
     /// unsupported.
     fn from_magic(bytes: &[u8]) -> Result<Self, String> {
         let other = match bytes {
@@ -207,20 +209,20 @@ impl ImageFormat {
     }
 }
 
-/// Whether a file begins like a WebP: a RIFF file of this type.
+/// Returns whether a file begins like a WebP, which is a RIFF file of that type.
 fn is_webp(bytes: &[u8]) -> bool {
     matches!(bytes, [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..])
 }
 
-/// The message for a PNG that cannot be decoded.
+/// Returns the message for a PNG that cannot be decoded.
 fn png_problem(error: &png::DecodingError) -> String {
     format!("the PNG is broken: {error}")
 }
 
-/// Decodes a PNG, converting palettes, gray and 16 bits to 8-bit RGBA.
+/// Decodes a PNG to 8-bit RGBA, converting palettes, gray and 16-bit channels.
 ///
-/// Color profiles and text chunks are skipped: glTF requires that profiles be ignored (§3.8.3).
-/// The decoder's memory is limited to 1 GiB.
+/// Color profiles and text chunks are skipped; glTF requires that profiles be ignored (§3.8.3). The
+/// decoder's memory is limited to 1 GiB.
 fn decode_png(bytes: &[u8]) -> Result<Image, String> {
     let message = |error: png::DecodingError| png_problem(&error);
     let mut decoder =
@@ -249,12 +251,13 @@ fn decode_png(bytes: &[u8]) -> Result<Image, String> {
     }
 }
 
-/// Texels for a decoder to fill in, transparent black.
+/// Allocates texels for a decoder to fill, initialized to transparent black.
 fn blank_texels(width: u32, height: u32) -> Vec<[u8; 4]> {
     vec![[0; 4]; width as usize * height as usize]
 }
 
-/// A JPEG decoder with RGBA output and the maximum size of the format, 65535 in each direction.
+/// Returns a JPEG decoder with RGBA output and the maximum size of the format, 65535 in each
+/// direction.
 fn jpeg_decoder(bytes: &[u8]) -> JpegDecoder<ZCursor<&[u8]>> {
     let options = DecoderOptions::default()
         .jpeg_set_out_colorspace(ColorSpace::RGBA)
@@ -263,7 +266,7 @@ fn jpeg_decoder(bytes: &[u8]) -> JpegDecoder<ZCursor<&[u8]>> {
     JpegDecoder::new_with_options(ZCursor::new(bytes), options)
 }
 
-/// The message for a JPEG that cannot be decoded.
+/// Returns the message for a JPEG that cannot be decoded.
 fn jpeg_problem(error: &zune_jpeg::errors::DecodeErrors) -> String {
     format!("the JPEG is broken: {error}")
 }
@@ -275,7 +278,7 @@ fn decode_jpeg(bytes: &[u8]) -> Result<Image, String> {
     decoder.decode_headers().map_err(|error| jpeg_problem(&error))?;
     if let Some(space @ (ColorSpace::CMYK | ColorSpace::YCCK)) = decoder.input_colorspace() {
         return Err(format!(
-            "the JPEG is in {space:?}, for printing; only RGB and gray are supported"
+            "the JPEG is in {space:?}, a print color space; only RGB and gray are supported"
         ));
     }
     let info = decoder.info().ok_or("the JPEG has no header")?;
@@ -285,7 +288,7 @@ fn decode_jpeg(bytes: &[u8]) -> Result<Image, String> {
     Ok(Image { width, height, rgba })
 }
 
-/// The image, if the number of texels matches its size.
+/// Returns the image if the number of texels matches its size.
 fn checked_image(width: u32, height: u32, rgba: Vec<[u8; 4]>) -> Result<Image, String> {
     if rgba.len() as u64 == u64::from(width) * u64::from(height) {
         Ok(Image { width, height, rgba })
@@ -298,7 +301,7 @@ fn checked_image(width: u32, height: u32, rgba: Vec<[u8; 4]>) -> Result<Image, S
 mod tests {
     use super::*;
 
-    /// A PNG of 2 x 1 texels with these bytes as its only row.
+    /// Returns a PNG of 2 x 1 texels with these bytes as its only row.
     fn png(color: ColorType, depth: BitDepth, row: &[u8], palette: Option<&[u8]>) -> Vec<u8> {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, 2, 1);
@@ -312,8 +315,8 @@ mod tests {
         bytes
     }
 
-    /// A baseline JPEG of 8 x 8 texels, all middle gray: every coefficient is 0, and each of the
-    /// two Huffman tables has the single code `0`, for "no difference" and for "end of block".
+    /// Returns a baseline JPEG of 8 x 8 middle gray texels. Every coefficient is 0, and each of the
+    /// two Huffman tables has the single code `0`, meaning "no difference" and "end of block".
     fn jpeg(components: u8) -> Vec<u8> {
         let numbers = || 1..=components;
         let mut bytes = vec![0xFF, 0xD8, 0xFF, 0xDB, 0, 67, 0];
@@ -331,7 +334,7 @@ mod tests {
     }
 
     #[test]
-    fn every_kind_of_png_becomes_rgba_of_8_bits() {
+    fn every_png_color_type_becomes_8_bit_rgba() {
         use ColorType::{Grayscale, GrayscaleAlpha, Indexed, Rgb, Rgba};
         let palette: &[u8] = &[1, 2, 3, 4, 5, 6];
         type Row<'a> = (ColorType, BitDepth, &'a [u8], Option<&'a [u8]>, [[u8; 4]; 2]);
@@ -355,18 +358,25 @@ mod tests {
         for (color, depth, row, palette, rgba) in table {
             let file = png(color, depth, row, palette);
             assert_eq!(image_size(&file), Ok((2, 1)));
-            assert_eq!(decode_rgba(&file).unwrap().rgba, rgba, "{color:?} of {depth:?} bits");
+            assert_eq!(
+                decode_rgba(&file).unwrap().rgba,
+                rgba,
+                "{color:?} with bit depth {depth:?}"
+            );
         }
     }
 
     #[test]
-    fn jpegs_of_one_and_three_components_are_read_and_those_for_printing_refused() {
+    fn gray_and_rgb_jpegs_are_read_and_cmyk_jpegs_rejected() {
         for components in [1, 3] {
             let image = decode_rgba(&jpeg(components)).unwrap();
             assert_eq!((image.width, image.height), (8, 8));
             assert_eq!(image.rgba, [[128, 128, 128, 255]; 64], "{components} components");
         }
         let message = decode_rgba(&jpeg(4)).unwrap_err();
-        assert_eq!(message, "the JPEG is in CMYK, for printing; only RGB and gray are supported");
+        assert_eq!(
+            message,
+            "the JPEG is in CMYK, a print color space; only RGB and gray are supported"
+        );
     }
 }

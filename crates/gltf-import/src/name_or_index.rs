@@ -1,7 +1,7 @@
-//! Selection of a scene or a variant of a file, by name or by index.
+//! Selection of a scene or variant in a file, by name or index.
 //!
-//! Users type `--scene 2` or `--scene Kitchen`; both are a [`NameOrIndex`]. An error lists the
-//! available names.
+//! `--scene 2` and `--scene Kitchen` both become a [`NameOrIndex`]. Errors list the available
+//! names.
 
 use model::{Diagnostic, codes};
 
@@ -15,9 +15,9 @@ pub enum NameOrIndex {
 }
 
 impl NameOrIndex {
-    /// The index of the selected item among items with these names, or an error that lists them.
+    /// Finds the index of the selected item among items with these names. The error lists them.
     ///
-    /// An index that is out of range may still be a numeric name.
+    /// An out-of-range index may still be a numeric name.
     pub(super) fn find_among(
         &self,
         names: &[Option<&str>],
@@ -59,11 +59,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn by_number_by_name_or_with_a_list_of_what_there_is() {
+    fn items_are_found_by_index_or_name_and_errors_list_them() {
         let names = [Some("day"), None, Some("7")];
         let among = |choice: NameOrIndex| choice.find_among(&names, "scene", "/scenes");
         assert_eq!(among(NameOrIndex::Index(1)), Ok(1));
-        assert_eq!(among(NameOrIndex::Index(7)), Ok(2), "a name of digits");
+        assert_eq!(among(NameOrIndex::Index(7)), Ok(2), "a name made of digits");
         assert_eq!(among(NameOrIndex::Name("day".to_owned())), Ok(0));
         let diagnostic = among(NameOrIndex::Name("night".to_owned())).unwrap_err();
         assert_eq!(diagnostic.code, codes::NO_SUCH_ITEM);

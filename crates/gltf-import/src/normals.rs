@@ -1,4 +1,4 @@
-//! Normal repair: every normal of an imported primitive has unit length.
+//! Repairs normals, so that every normal of an imported primitive has unit length.
 
 use glam::{DVec3, Vec3};
 use model::{Primitive, Topology};
@@ -6,20 +6,19 @@ use model::{Primitive, Topology};
 /// Counts of corrected normals.
 #[derive(Default, Debug, PartialEq, Eq)]
 pub struct NormalRepairs {
-    /// Normals with a direction that did not have unit length.
+    /// Normals that had a direction but not unit length.
     pub lengths: usize,
-    /// Normals without a direction (zero, infinite, not a number).
+    /// Normals without a direction (zero, infinite or NaN).
     pub replaced: usize,
 }
 
-/// Normalizes all normals. One without a direction is replaced by the area-weighted mean of the
-/// triangles around its vertex, or by (0, 0, 1) if those have none either.
+/// Normalizes all normals. A normal without a direction is replaced by the area-weighted mean
+/// normal of the triangles around its vertex, or by (0, 0, 1) if that has no direction either.
 ///
-/// Deviations of up to 2 %, which quantization to bytes can cause, are corrected without being
-/// counted.
+/// Deviations of up to 2%, which quantization to bytes can cause, are corrected but not counted.
 ///
 /// The time is linear; the sums over triangles are computed only if a normal has no direction.
-/// Comparing the squared length avoids the square root for normals that are already right.
+/// Comparing the squared length avoids a square root for normals that are already correct.
 pub fn normalize_normals(primitive: &mut Primitive) -> NormalRepairs {
     let mut repairs = NormalRepairs::default();
     let Some(mut normals) = primitive.normals.take() else { return repairs };
@@ -51,11 +50,11 @@ pub fn normalize_normals(primitive: &mut Primitive) -> NormalRepairs {
     repairs
 }
 
-/// For each vertex, the sum of the normals of its triangles, each with a length of twice the
+/// Computes for each vertex the sum of its triangles' normals, each with a length of twice the
 /// triangle's area.
 ///
-/// The cross product of two edges has this length, so no triangle needs to be normalized, and
-/// slivers have little weight.
+/// The cross product of two edges has this length, so no normalization is needed, and slivers have
+/// little weight.
 fn area_weighted_normals(primitive: &Primitive) -> Vec<DVec3> {
     let mut sums = vec![DVec3::ZERO; primitive.positions.len()];
     if primitive.topology != Topology::Triangles {
@@ -77,7 +76,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lengths_and_lost_directions_are_mended() {
+    fn normals_are_normalized_or_replaced() {
         let mut primitive = Primitive {
             indices: vec![0, 1, 2],
             positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [5.0; 3]],

@@ -1,12 +1,14 @@
 //! Percent-encoding of URIs and queries (RFC 3986 §2.1).
 
-/// Decodes `%41` to A; `None` if a `%` is not followed by two digits, and for anything but UTF-8.
+/// Decodes `%41` to A. Returns `None` if a `%` is not followed by two hexadecimal digits or the
+/// result is not UTF-8.
 #[must_use]
 pub fn percent_decode(text: &str) -> Option<String> {
     String::from_utf8(percent_decode_bytes(text)?).ok()
 }
 
-/// Decodes `%41` to the byte 0x41; `None` if a `%` is not followed by two digits.
+/// Decodes `%41` to the byte 0x41. Returns `None` if a `%` is not followed by two hexadecimal
+/// digits.
 pub(super) fn percent_decode_bytes(text: &str) -> Option<Vec<u8>> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();
@@ -23,8 +25,8 @@ pub(super) fn percent_decode_bytes(text: &str) -> Option<Vec<u8>> {
     Some(bytes)
 }
 
-/// Encodes each UTF-8 byte that is not a letter, a digit or one of `-_.,~/`, so that the text can
-/// be a relative path or a value in a query.
+/// Encodes each UTF-8 byte that is not a letter, a digit or one of `-_.,~/`, so that the string can
+/// be used as a relative path or a query value.
 #[must_use]
 pub fn percent_encode(text: &str) -> String {
     let mut encoded = String::with_capacity(text.len());
@@ -44,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_come_back() {
+    fn names_survive_a_round_trip() {
         for name in ["a b.glb", "100 %.stl", "模型.obj", "a&b=c#d?+", "sub/a,b~c.glb"] {
             let encoded = percent_encode(name);
             let special = ['&', '=', '#', '?', '+', ' '];
@@ -54,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn digits_in_both_cases_are_read_and_nothing_else() {
+    fn only_hexadecimal_digits_of_either_case_are_decoded() {
         assert_eq!(percent_decode_bytes("%fF%41b").as_deref(), Some(&b"\xffAb"[..]));
         for broken in ["%", "%4", "%zz", "%+1", "%é", "%ff"] {
             assert_eq!(percent_decode(broken), None, "{broken}");

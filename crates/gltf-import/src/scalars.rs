@@ -1,40 +1,40 @@
-//! Colors for scalar vertex attributes: temperature, stress, the quality of a scan.
+//! Colors for scalar vertex attributes such as temperature, stress or scan quality.
 //!
 //! The importers of formats with such attributes read the values of the attribute that the options
-//! name; here they become vertex colors. The surfaces then have one plain white material, so that
+//! name. This module maps them to vertex colors. The surfaces get a plain white material, so that
 //! shading shows their shape and no texture hides the colors.
 
 use super::srgb::linear_from_srgb;
 use super::warnings::ImportWarnings;
 use model::{Colormap, Diagnostic, codes};
 
-/// Colors from a scalar attribute of the vertices, instead of the materials of a file.
+/// Colors from a scalar vertex attribute, instead of the materials in a file.
 ///
 /// The attribute is a custom glTF attribute with accessors of type `SCALAR`, such as
-/// `_TEMPERATURE`, or a vertex property of a PLY file that has no other meaning, such as `quality`.
-/// Primitives without the attribute keep their materials. Values that are not finite are gray, with
-/// a warning.
+/// `_TEMPERATURE`, or a vertex property in a PLY file that has no other meaning, such as `quality`.
+/// Primitives without the attribute keep their materials. Non-finite values are gray, with a
+/// warning.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct ScalarColors {
-    /// The name of the attribute, in glTF with or without the leading underscore. Case is ignored
-    /// if the file has no exact match.
+    /// The name of the attribute; for glTF, the leading underscore is optional. Case is ignored if
+    /// the file has no exact match.
     pub attribute: String,
     /// The colormap. Default: Viridis.
     pub colormap: Colormap,
-    /// The values with the first and the last color; values outside the range get these colors too.
-    /// If the first is larger, the colors are reversed. Default: the smallest and the largest
-    /// finite value of the model. If both are equal, every value has the middle color.
+    /// The values that map to the first and last color; values outside the range also get these
+    /// colors. If the first value is larger, the colors are reversed. Default: the smallest and
+    /// largest finite values in the model. If both are equal, every value has the middle color.
     pub range: Option<[f64; 2]>,
 }
 
-/// The sRGB code of values that are not finite, as a fraction: a gray.
+/// The gray for non-finite values, as an sRGB code scaled to [0, 1].
 const NOT_FINITE_CODE: f32 = 0.5;
 
 impl ScalarColors {
     /// Finds the attribute among the names in a file.
     ///
     /// # Errors
-    /// [`NO_SUCH_ITEM`](codes::NO_SUCH_ITEM), with a list of the existing ones.
+    /// Returns [`NO_SUCH_ITEM`](codes::NO_SUCH_ITEM) with a list of the existing attributes.
     pub fn find_among(&self, names: &[String], location: &str) -> Result<usize, Diagnostic> {
         let wanted = self.attribute.as_str();
         let bare_wanted = bare_name(wanted);
@@ -58,7 +58,7 @@ impl ScalarColors {
         })
     }
 
-    /// The error for a format, given by name, without scalar attributes.
+    /// Returns the error for a format without scalar attributes; `format` is its name.
     #[must_use]
     pub fn unsupported_in(&self, format: &str) -> Diagnostic {
         let attribute = &self.attribute;
@@ -68,9 +68,9 @@ impl ScalarColors {
         Diagnostic::error(codes::NO_SUCH_ITEM, "", message, help)
     }
 
-    /// The color of each value, linear with alpha 1; several arrays share one range.
+    /// Returns the color of each value, linear with alpha 1. All arrays share one range.
     ///
-    /// Values that are not finite are counted in a warning.
+    /// A warning reports the number of non-finite values.
     pub fn color_arrays<T: Copy + Into<f64>>(
         &self,
         arrays: &[&[T]],
@@ -94,7 +94,7 @@ impl ScalarColors {
         arrays.iter().map(|values| values.iter().map(color).collect()).collect()
     }
 
-    /// The linear color of a value, with alpha 1.
+    /// Returns the linear color of a value, with alpha 1.
     fn linear_color(&self, value: f64, [min, max]: [f64; 2]) -> [f32; 4] {
         let codes = if !value.is_finite() {
             [NOT_FINITE_CODE; 3]
@@ -108,7 +108,7 @@ impl ScalarColors {
     }
 }
 
-/// The name of an attribute without the leading underscore of custom glTF attributes.
+/// Returns the name of an attribute without the leading underscore of custom glTF attributes.
 pub(crate) fn bare_name(name: &str) -> &str {
     name.strip_prefix('_').unwrap_or(name)
 }
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn the_ends_of_the_range_have_the_ends_of_the_colormap() {
+    fn range_limits_get_the_first_and_last_color() {
         let colormap = Colormap::Turbo;
         let own = ScalarColors { colormap, ..ScalarColors::default() };
         let at = |t| linear(colormap, t);
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn values_that_are_not_finite_are_gray_and_counted() {
+    fn non_finite_values_are_gray_and_counted() {
         let colors = ScalarColors { attribute: "t".to_owned(), ..ScalarColors::default() };
         let mut warnings = ImportWarnings::new(false);
         let arrays: [&[f32]; 2] = [&[f32::NAN, 2.0], &[f32::INFINITY, 4.0]];
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_found_with_and_without_underscore_exact_case_first() {
+    fn names_match_exact_case_first_and_without_underscore() {
         let names = ["_heat", "_HEAT", "_Load"].map(str::to_owned);
         let find = |attribute: &str| {
             let colors =

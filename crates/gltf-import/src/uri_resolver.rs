@@ -1,12 +1,12 @@
-//! URI resolution within a sandbox of folders: finds the file that a URI means, and checks whether
-//! it may be read.
+//! URI resolution within a sandbox of folders: finds the file that a URI refers to, and checks
+//! whether it may be read.
 //!
-//! A model is untrusted input, and so are its URIs: they may only be relative paths below one
-//! folder, the root. No absolute path, no scheme but `data:`, no `..` above the root, no symbolic
-//! link that leads out of it, no device or pipe, no file larger than the limit. Everything is
-//! checked before a file is opened, and a path that would leave the root is rejected without
-//! checking whether it exists. The user may allow other folders ([`ImportOptions::allow_outside`]):
-//! then `..` and symbolic links may lead there too.
+//! A model is untrusted input, and so are its URIs. Apart from `data:` URIs, they may only be
+//! relative paths to files below one folder, the root. Absolute paths, other schemes, `..` above
+//! the root, symbolic links that lead out of it, devices, pipes, and files larger than the limit
+//! are rejected. Everything is checked before a file is opened, and a path that would leave the
+//! root is rejected without checking whether it exists. The user may allow other folders
+//! ([`ImportOptions::allow_outside`]); `..` and symbolic links may then lead there too.
 
 use super::ImportOptions;
 use super::limits::Limits;
@@ -28,16 +28,16 @@ pub struct UriResolver<'a> {
     source: AssetSource<'a>,
     /// The limits in effect.
     pub limits: &'a Limits,
-    /// Whether a missing file is only a warning; see [`ImportOptions::lenient`].
+    /// Whether a missing file causes only a warning; see [`ImportOptions::lenient`].
     pub lenient: bool,
-    /// Bytes that have been read so far.
+    /// The number of bytes read so far.
     bytes_read: Cell<u64>,
 }
 
 /// The allowed location of referenced files.
 #[derive(Debug)]
 enum AssetSource<'a> {
-    /// Nowhere: the file is in memory, without a folder.
+    /// No files are allowed, because the file is in memory without a folder.
     Nowhere,
     /// In folders on disk.
     Disk(AssetSandbox),
@@ -45,25 +45,26 @@ enum AssetSource<'a> {
     Memory(&'a MemoryFolder, String),
 }
 
-/// The folders that referenced files may be in.
+/// The folders that may contain referenced files.
 ///
-/// Both paths are made canonical before they are compared, so that neither `..` nor symbolic links
-/// matter.
+/// Both paths are canonicalized before they are compared, so `..` and symbolic links make no
+/// difference.
 #[derive(Debug)]
 struct AssetSandbox {
-    /// The folder that relative paths start from.
+    /// The folder that paths are relative to.
     folder: PathBuf,
-    /// Canonical folders; every file must be below one of them.
+    /// Canonical folder paths; every file must be below one of them.
     roots: Vec<PathBuf>,
 }
 
 impl<'a> UriResolver<'a> {
-    /// A resolver for the assets of `file`, in its own folder or in those that the options name.
+    /// Creates a resolver for the assets of `file`, in its own folder or in folders named in the
+    /// options.
     ///
-    /// The file itself has already been read: its `length` counts against the limit.
+    /// The file itself has already been read; its `length` counts against the limit.
     ///
     /// # Errors
-    /// The folder of the file, or one that the options name, does not exist.
+    /// Fails if the folder of the file, or a folder named in the options, does not exist.
     pub fn new(file: &Path, length: usize, options: &'a ImportOptions) -> Result<Self, Diagnostic> {
         let parent = match file.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
@@ -74,17 +75,17 @@ impl<'a> UriResolver<'a> {
         Self::with_sandbox(Some((folder, root)), length, options)
     }
 
-    /// A resolver for a file in memory: its assets are below the root. Without a root, they may not
-    /// be files.
+    /// Creates a resolver for a file in memory, with assets below the root. Without a root, assets
+    /// cannot be files.
     ///
     /// # Errors
-    /// A folder that the options name does not exist.
+    /// Fails if a folder that the options name does not exist.
     pub fn in_memory(length: usize, options: &'a ImportOptions) -> Result<Self, Diagnostic> {
         let root = options.root.as_deref().map(canonical_folder).transpose()?;
         Self::with_sandbox(root.map(|root| (root.clone(), root)), length, options)
     }
 
-    /// A resolver for a file in an in-memory folder: its assets are in the same folder.
+    /// Creates a resolver for a file in an in-memory folder, with assets in the same folder.
     pub fn in_memory_folder(
         folder: &'a MemoryFolder,
         path: &str,
@@ -97,10 +98,10 @@ impl<'a> UriResolver<'a> {
         Self { source, limits, lenient: *lenient, bytes_read }
     }
 
-    /// A resolver for assets whose paths start from a folder and stay below a root.
+    /// Creates a resolver for assets whose paths are relative to a folder and stay below a root.
     ///
     /// # Errors
-    /// An allowed folder does not exist.
+    /// Fails if an allowed folder does not exist.
     fn with_sandbox(
         sandbox: Option<(PathBuf, PathBuf)>,
         length: usize,
@@ -116,10 +117,11 @@ impl<'a> UriResolver<'a> {
         Ok(Self { source, limits, lenient: *lenient, bytes_read: Cell::new(length as u64) })
     }
 
-    /// The bytes that a URI refers to; `pointer` is the location of the URI.
+    /// Reads the bytes that a URI refers to; `pointer` is the location of the URI.
     ///
     /// # Errors
-    /// The file does not exist, is outside the sandbox or too large; the data URI is malformed.
+    /// Fails if the file does not exist, is outside the sandbox or is too large, or if the data URI
+    /// is malformed.
     pub fn read_uri(&self, uri: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
         let bytes = match uri.split_once(':') {
             Some((scheme, data)) if scheme.eq_ignore_ascii_case("data") => {
@@ -140,19 +142,20 @@ impl<'a> UriResolver<'a> {
         Ok(bytes)
     }
 
-    /// Bytes of all files that have been read so far.
+    /// Returns the number of bytes in all files read so far.
     pub fn total_bytes(&self) -> u64 {
         self.bytes_read.get()
     }
 
-    /// The content of the file that a URI names: taken literally, else percent-decoded, else with
-    /// `\` read as `/`.
+    /// Reads the file that a URI refers to. The URI is tried literally, then percent-decoded, then
+    /// with each `\` replaced by `/`.
     ///
-    /// Exporters disagree about escaping, and some write Windows paths; the first existing
+    /// Exporters disagree about escaping, and some write Windows paths, so the first existing
     /// candidate is used. Each candidate is checked against the sandbox.
     ///
     /// # Errors
-    /// The path leaves the sandbox, has a scheme, no candidate exists, or the file is too large.
+    /// Fails if the path leaves the sandbox or has a scheme, no candidate exists, or the file is
+    /// too large.
     fn read_asset(&self, uri: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
         if uri.is_empty() {
             return Err(Diagnostic::invalid(pointer, "the URI is empty"));
@@ -174,10 +177,10 @@ impl<'a> UriResolver<'a> {
         })
     }
 
-    /// The content of the file at a relative path, or `None` if there is none.
+    /// Reads the file at a relative path. Returns `None` if it does not exist.
     ///
     /// # Errors
-    /// The path leaves the sandbox, or the file is too large or not a regular one.
+    /// Fails if the path leaves the sandbox, or the file is too large or not a regular file.
     fn read_candidate(
         &self,
         path: &str,
@@ -210,20 +213,19 @@ impl<'a> UriResolver<'a> {
 }
 
 impl AssetSandbox {
-    /// Whether a path is below one of the roots.
+    /// Returns whether a path is below one of the roots.
     fn contains_path(&self, path: &Path) -> bool {
         self.roots.iter().any(|root| path.starts_with(root))
     }
 
-    /// Joins a relative path to the folder, if its components stay below a root.
+    /// Joins a relative path to the folder if its components stay below a root.
     ///
-    /// This is the first of two checks, made before any access to the file system: a file that
-    /// contains `../../secret` learns nothing, not even whether that file exists.
-    /// [`check_path`](Self::check_path) is the second, on the canonical path, and catches symbolic
-    /// links.
+    /// This is the first of two checks, before any file system access: a file that refers to
+    /// `../../secret` cannot even learn whether that file exists. The second,
+    /// [`check_path`](Self::check_path), checks the canonical path and catches symbolic links.
     ///
-    /// With a single root the path never leaves it; with several, `..` must be able to cross from
-    /// one to another.
+    /// With a single root, the path never leaves it. With several, `..` must be able to lead from
+    /// one root to another.
     fn path_below_root(&self, name: &str, pointer: &str) -> Result<PathBuf, Diagnostic> {
         let outside =
             || Err(forbidden_path(pointer, &format!("{name:?} is outside the model's folder")));
@@ -244,8 +246,8 @@ impl AssetSandbox {
         if self.contains_path(&path) { Ok(path) } else { outside() }
     }
 
-    /// Checks that an existing canonical path is a regular file that no symbolic link has moved
-    /// outside.
+    /// Checks that an existing canonical path is a regular file inside the sandbox, even if it was
+    /// reached through symbolic links.
     fn check_path(&self, path: PathBuf, uri: &str, pointer: &str) -> Result<PathBuf, Diagnostic> {
         if !self.contains_path(&path) {
             return Err(forbidden_path(
@@ -260,25 +262,31 @@ impl AssetSandbox {
     }
 }
 
-/// Reads a whole regular file, but no more than the limit.
+/// Reads a whole regular file, up to the limit.
 ///
-/// The size is checked before reading and the read is limited as well: a file may grow in between,
-/// and special files report a size of 0. One byte more than the limit is read to detect the excess.
+/// The size is checked before reading, and the read itself is limited, because a file may grow in
+/// between and special files report a size of 0. To detect an excess, one byte more than the limit
+/// is read.
 ///
 /// # Errors
-/// The file does not exist, may not be read, is not a regular file, or is too large.
+/// Fails if the file does not exist, may not be read, is not a regular file, or is too large.
 pub fn read_file(path: &Path, limits: &Limits, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
     let to_diagnostic = |error: std::io::Error| unreadable_file(pointer, path, &error);
     let metadata = path.metadata().map_err(to_diagnostic)?;
     if !metadata.is_file() {
         let message =
             if metadata.is_dir() { "this is a folder" } else { "this is not a regular file" };
-        return Err(Diagnostic::error(codes::IO_ERROR, pointer, message.to_owned(), "give a file"));
+        return Err(Diagnostic::error(
+            codes::IO_ERROR,
+            pointer,
+            message.to_owned(),
+            "specify a regular file",
+        ));
     }
     let allowed = limits.file_bytes;
     let mut bytes = Vec::new();
     if metadata.len() <= allowed {
-        // One spare byte: `read_to_end` then detects the end without a second allocation.
+        // With one spare byte, `read_to_end` detects the end without a second allocation.
         bytes.reserve_exact(usize::try_from(metadata.len()).unwrap_or(0).saturating_add(1));
         let file = File::open(path).map_err(to_diagnostic)?;
         file.take(allowed.saturating_add(1)).read_to_end(&mut bytes).map_err(to_diagnostic)?;
@@ -291,24 +299,24 @@ pub fn read_file(path: &Path, limits: &Limits, pointer: &str) -> Result<Vec<u8>,
     Ok(bytes)
 }
 
-/// Canonical path of a folder in which the user allows files.
+/// Returns the canonical path of a folder in which the user allows files.
 fn canonical_allowed_folder(folder: &Path) -> Result<PathBuf, Diagnostic> {
     folder.canonicalize().map_err(|error| {
         let message = format!("cannot use the allowed folder {}: {error}", folder.display());
-        Diagnostic::error(codes::IO_ERROR, "", message, "give a folder that exists")
+        Diagnostic::error(codes::IO_ERROR, "", message, "specify an existing folder")
     })
 }
 
-/// Canonical path of a folder that must exist.
+/// Returns the canonical path of a folder that must exist.
 fn canonical_folder(folder: &Path) -> Result<PathBuf, Diagnostic> {
     folder.canonicalize().map_err(|error| unreadable_file("", folder, &error))
 }
 
-/// The error for a file that cannot be opened or read.
+/// Returns the error for a file that cannot be opened or read.
 ///
-/// The two common cases, a missing file and missing permissions, have specific messages and advice.
+/// The two common cases, a missing file and denied permission, have specific messages and advice.
 fn unreadable_file(pointer: &str, path: &Path, error: &std::io::Error) -> Diagnostic {
-    // An empty pointer means the glTF file, whose path precedes the message.
+    // An empty pointer means the glTF file itself, whose path precedes the message.
     let name = if pointer.is_empty() { "the file".to_owned() } else { path.display().to_string() };
     let (message, help) = match error.kind() {
         std::io::ErrorKind::NotFound => (format!("{name} does not exist"), "check the name"),
@@ -320,16 +328,16 @@ fn unreadable_file(pointer: &str, path: &Path, error: &std::io::Error) -> Diagno
     Diagnostic::error(codes::IO_ERROR, pointer, message, help)
 }
 
-/// The error for a missing file.
+/// Returns the error for a missing file.
 pub fn missing_file(pointer: &str, name: &str) -> Diagnostic {
     let message = format!("the file {name:?} does not exist");
     Diagnostic::error(codes::IO_ERROR, pointer, message, "put it next to the model")
 }
 
-/// Checks the size of a file that is in memory.
+/// Checks the size of a file in memory.
 ///
 /// # Errors
-/// It is larger than the limit.
+/// Fails if the file is larger than the limit.
 pub fn check_file_size(length: usize, limits: &Limits) -> Result<(), Diagnostic> {
     let (length, allowed) = (length as u64, limits.file_bytes);
     if length <= allowed {
@@ -343,14 +351,14 @@ pub fn check_file_size(length: usize, limits: &Limits) -> Result<(), Diagnostic>
     ))
 }
 
-/// The error for a path outside the sandbox.
+/// Returns the error for a path outside the sandbox.
 fn forbidden_path(pointer: &str, message: &str) -> Diagnostic {
     let help = "copy the file next to the model and refer to it by a relative path, or allow its \
                 folder with --allow-outside DIR";
     Diagnostic::error(codes::FORBIDDEN_PATH, pointer, message.to_owned(), help)
 }
 
-/// The scheme of a URI (RFC 3986 §3.1), if it has one.
+/// Returns the scheme of a URI (RFC 3986 §3.1), if any.
 fn uri_scheme(uri: &str) -> Option<&str> {
     let (scheme, _) = uri.split_once(':')?;
     let mut letters = scheme.chars();
@@ -359,12 +367,13 @@ fn uri_scheme(uri: &str) -> Option<&str> {
     (first && rest).then_some(scheme)
 }
 
-/// Base64 with or without padding, with stray bits in the last digit.
+/// Base64 with or without padding, which accepts stray bits in the last digit.
 const LENIENT_BASE64: GeneralPurposeConfig = GeneralPurposeConfig::new()
     .with_decode_allow_trailing_bits(true)
     .with_decode_padding_mode(DecodePaddingMode::Indifferent);
 
-/// The data of a data URI (RFC 2397) without its scheme; both base64 alphabets are read.
+/// Decodes the data of a data URI (RFC 2397) without its scheme. Both base64 alphabets are
+/// accepted.
 fn decode_data_uri(data: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
     let Some((kind, data)) = data.split_once(',') else {
         return Err(Diagnostic::invalid(pointer, "the data URI has no comma before its data"));

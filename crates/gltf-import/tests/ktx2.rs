@@ -1,12 +1,12 @@
 //! KTX2 images from real encoders, compared with the texels of the reference transcoder.
 //!
-//! The images of `ktx2/` are 7 x 5 texels: a gradient with a white corner. The encoder of Basis
-//! Universal 2.50 wrote them; the transcoder of the same project wrote the texels next to them, as
-//! RGBA32. Its output is specified exactly.
+//! The images in `ktx2/` have 7 x 5 texels: a gradient with a white corner. The Basis Universal
+//! 2.50 encoder wrote them, and the transcoder of the same project wrote the RGBA32 texels next to
+//! them. The transcoder's output is specified exactly.
 
 use import::{ImportOptions, decode_image, load_bytes};
 
-/// Name, file, texels.
+/// The name, file and texels of each image.
 const IMAGES: [(&str, &[u8], &[u8]); 4] = [
     ("etc1s", include_bytes!("ktx2/etc1s.ktx2"), include_bytes!("ktx2/etc1s.rgba")),
     (
@@ -19,7 +19,7 @@ const IMAGES: [(&str, &[u8], &[u8]); 4] = [
 ];
 
 #[test]
-fn images_have_the_texels_of_the_reference_transcoder() {
+fn images_match_the_reference_transcoder() {
     for (name, file, texels) in IMAGES {
         let image = decode_image(file, 35).expect(name);
         assert_eq!((image.width, image.height), (7, 5), "{name}");
@@ -32,7 +32,7 @@ fn images_have_the_texels_of_the_reference_transcoder() {
 #[test]
 fn every_truncation_is_an_error() {
     for (name, file, _) in IMAGES {
-        // The levels after the first are not read, and come before it.
+        // The levels after the first are stored before it, and are not read.
         for end in 0..file.len() {
             assert!(decode_image(&file[..end], 35).is_err(), "{name} cut at {end}");
         }
@@ -40,7 +40,7 @@ fn every_truncation_is_an_error() {
 }
 
 #[test]
-fn a_texture_of_the_extension_takes_precedence_over_its_fallback() {
+fn extension_textures_take_precedence_over_fallbacks() {
     let base64 = |bytes: &[u8]| {
         use base64::Engine as _;
         base64::engine::general_purpose::STANDARD.encode(bytes)

@@ -170,7 +170,7 @@ const IOR: NumberRange = NOT_NEGATIVE;
 /// A light of KHR_lights_punctual.
 ///
 /// `color` is linear RGB. `intensity` is in candela for point and spot lights, and in lux for
-/// directional ones; `range`, in meters, is a hint for culling.
+/// directional lights; `range`, in meters, is a hint for culling.
 static LIGHT: ObjectSchema = ObjectSchema {
     name: "light",
     members: &[

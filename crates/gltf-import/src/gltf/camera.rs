@@ -1,8 +1,8 @@
-//! Cameras: projections with validated parameters; an invalid camera is skipped with a warning.
+//! Cameras: projections with validated parameters. Invalid cameras are skipped with a warning.
 //!
-//! The rules of glTF 2.0 §3.10.3 are checked: 0 < yfov < π, 0 < znear < zfar for perspective
-//! cameras, and nonzero magnifications with 0 ≤ znear < zfar for orthographic ones. A perspective
-//! camera without `zfar` is infinite.
+//! The rules of glTF 2.0 §3.10.3 are checked: 0 < yfov < π and 0 < znear < zfar for perspective
+//! cameras, and nonzero magnifications and 0 ≤ znear < zfar for orthographic cameras. A perspective
+//! projection without `zfar` is infinite.
 
 use crate::warnings::ImportWarnings;
 use gltf::json::Root;
@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 
 /// Imports every camera of a file, and reports for each whether its parameters are valid.
 ///
-/// Invalid cameras stay in the list with a default projection, because nodes and animations refer
+/// Invalid cameras remain in the list with a default projection, because nodes and animations refer
 /// to cameras by index.
 pub(super) fn import_cameras(
     root: &Root,
@@ -33,9 +33,9 @@ pub(super) fn import_cameras(
     (lenses, usable)
 }
 
-/// Placeholder for the projection of an invalid camera.
+/// A placeholder for the projection of an invalid camera.
 ///
-/// It is never used for drawing: references to the camera are cleared.
+/// It is never used for drawing, because references to the camera are cleared.
 const DEFAULT_PROJECTION: CameraProjection =
     CameraProjection::Perspective { fov_y: PI / 4.0, aspect: None, near: 0.1, far: f64::INFINITY };
 
@@ -59,8 +59,7 @@ fn camera_projection(json: &Camera, pointer: &str) -> Result<CameraProjection, D
 
 /// Checks the parameters of a perspective camera.
 ///
-/// All comparisons are written so that NaN fails them. The depth has no upper limit: `zfar` may be
-/// infinite.
+/// All comparisons are written so that they fail for NaN. `zfar` may be infinite.
 fn perspective_projection(
     json: &Perspective,
     pointer: &str,
@@ -89,7 +88,8 @@ fn perspective_projection(
     }
 }
 
-/// Checks the parameters of an orthographic camera; negative magnifications are taken as positive.
+/// Checks the parameters of an orthographic camera. Negative magnifications are treated as
+/// positive.
 ///
 /// `xmag` and `ymag` are half the width and height of the view, in world units. Unlike with a
 /// perspective camera, the near plane may contain the camera's position.
@@ -123,7 +123,7 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    /// Reads the resulting projection, or the location and message of the error.
+    /// Returns the resulting projection, or the location and message of the error.
     fn read_camera(camera: serde_json::Value) -> Result<CameraProjection, (String, String)> {
         let camera = serde_json::from_value(camera).unwrap();
         camera_projection(&camera, "/cameras/0")
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_that_make_a_view() {
+    fn valid_parameters_are_accepted() {
         let camera = json!({"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.25}});
         let far = f64::INFINITY;
         let kind = CameraProjection::Perspective { fov_y: 0.5, aspect: None, near: 0.25, far };
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_that_make_none() {
+    fn invalid_parameters_are_rejected() {
         for (yfov, znear, zfar, aspect, message) in [
             (0.0, 1.0, 2.0, 1.0, "yfov is 0 but must be above 0 and below pi"),
             (4.0, 1.0, 2.0, 1.0, "yfov is 4 but must be above 0 and below pi"),

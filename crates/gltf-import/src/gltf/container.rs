@@ -1,6 +1,7 @@
-//! GLB container: locates the JSON and the binary chunk of a `.gltf` or `.glb` file.
+//! The GLB container: locates the JSON and the binary chunk of a `.gltf` or `.glb` file.
 //!
-//! The first bytes distinguish the two; the file's name is ignored. A binary file is
+//! The first bytes distinguish the two formats; the file name is ignored. A binary file has the
+//! layout
 //!
 //! ```text
 //!  0      4        8        12       16      20                 20+n
@@ -9,23 +10,23 @@
 //!  └──────┴────────┴────────┴────────┴───────┴───────────────────┴────
 //! ```
 //!
-//! with all numbers little-endian (glTF 2.0 §4.4). No length is used before it has been checked.
-//! Only the first chunk may be JSON and only the second BIN; later chunks are ignored, as are bytes
-//! after the declared end.
+//! with little-endian numbers (glTF 2.0 §4.4). No length is used before it has been checked. Only
+//! the first chunk may be JSON, and only the second may be BIN; later chunks are ignored, as are
+//! bytes after the declared end.
 
 use crate::warnings::ImportWarnings;
 use files::counted;
 use model::{Diagnostic, codes};
 use std::ops::Range;
 
-/// Byte ranges of the JSON and the binary chunk.
+/// The byte ranges of the JSON and the binary chunk.
 ///
 /// The JSON range excludes a byte order mark.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Container {
-    /// The JSON text, within the file.
+    /// The range of the JSON text in the file.
     pub(super) json: Range<usize>,
-    /// The content of the BIN chunk, which is buffer 0 if that has no URI.
+    /// The content of the BIN chunk, which is buffer 0 if that buffer has no URI.
     pub(super) binary: Option<Range<usize>>,
 }
 
@@ -33,14 +34,14 @@ pub(super) struct Container {
 const HEADER: usize = 12;
 /// Size of a chunk header in bytes: length and type.
 const CHUNK_HEADER: usize = 8;
-/// The advice for files that end too early, mostly because of interrupted downloads.
+/// The advice for truncated files, which are mostly the result of interrupted downloads.
 const TRUNCATED: &str = "the file is truncated: copy or export it again";
 
 impl Container {
-    /// Locates the JSON and the binary chunk, in text or GLB form.
+    /// Locates the JSON and the binary chunk in a text or GLB file.
     ///
-    /// A file in UTF-16, which some editors write, gets a separate error: it starts with a two-byte
-    /// byte order mark.
+    /// A UTF-16 file, which some editors write, starts with a two-byte byte order mark and gets a
+    /// separate error.
     ///
     /// # Errors
     /// Returns [`NOT_GLTF`](codes::NOT_GLTF) if the file is neither JSON nor a GLB, or its
@@ -55,20 +56,21 @@ impl Container {
         let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         match text.iter().find(|byte| !byte.is_ascii_whitespace()) {
             Some(b'{') => Ok(Self { json: bytes.len() - text.len()..bytes.len(), binary: None }),
-            None => Err(format_error("the file is empty", "give a .gltf or .glb file")),
+            None => Err(format_error("the file is empty", "use a .gltf or .glb file")),
             _ if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") => {
                 Err(format_error("the text is in UTF-16", "save it in UTF-8"))
             }
             _ => Err(format_error(
                 "this is not a glTF file: it starts neither with { nor with glTF",
-                "give a .gltf or .glb file",
+                "use a .gltf or .glb file",
             )),
         }
     }
 
     /// Locates the chunks of a GLB file.
     ///
-    /// Chunks after the second are not read: the specification reserves them for extensions.
+    /// Chunks after the second are not read, because the specification reserves them for
+    /// extensions.
     fn from_glb(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<Self, Diagnostic> {
         let end = check_glb_header(bytes, warnings)?;
         if end < bytes.len() {
@@ -88,7 +90,7 @@ impl Container {
     }
 }
 
-/// Checks version and length; returns the end of the file as declared.
+/// Checks the version and length, and returns the declared end of the file.
 ///
 /// # Errors
 /// Fails if the file is shorter than 12 bytes or than its declared length, or its version is not 2.
@@ -121,12 +123,12 @@ fn check_glb_header(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<usize
     Ok(length)
 }
 
-/// Type and byte range of a chunk.
+/// The type and byte range of a chunk.
 type GlbChunk<'a> = (&'a [u8; 4], Range<usize>);
 
-/// Iterator over the chunks of a GLB file.
+/// Iterates over the chunks of a GLB file.
 ///
-/// It is not an [`Iterator`], because each step may add a warning.
+/// This is not an [`Iterator`], because each step may add a warning.
 struct GlbChunks<'a> {
     /// The file, up to its declared end.
     bytes: &'a [u8],
@@ -137,8 +139,8 @@ struct GlbChunks<'a> {
 impl<'a> GlbChunks<'a> {
     /// Returns the next chunk, or `None` at the end.
     ///
-    /// In lenient mode, a chunk that is too long ends with the file, and an incomplete header is
-    /// ignored.
+    /// In lenient mode, a chunk that is too long ends at the end of the file, and an incomplete
+    /// header is ignored.
     fn next(&mut self, warnings: &mut ImportWarnings) -> Result<Option<GlbChunk<'a>>, Diagnostic> {
         let rest = &self.bytes[self.offset..];
         if rest.is_empty() {
@@ -171,7 +173,7 @@ fn read_u32(bytes: &[u8], at: usize) -> Option<usize> {
     usize::try_from(number).ok()
 }
 
-/// Returns the error for a damaged or foreign container, with advice.
+/// Returns the error for a damaged or unknown container, with advice.
 fn format_error(message: &str, help: &str) -> Diagnostic {
     Diagnostic::error(codes::NOT_GLTF, "", message.to_owned(), help)
 }
@@ -197,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_are_found() {
+    fn json_and_binary_chunk_are_located() {
         let find =
             |bytes: &[u8]| Container::from_bytes(bytes, &mut ImportWarnings::default()).unwrap();
         assert_eq!(find(b" {}"), Container { json: 0..3, binary: None });
@@ -209,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn lies_are_refused() {
+    fn invalid_headers_are_rejected() {
         assert_eq!(message(b""), "the file is empty");
         assert!(message(b"OBJ").starts_with("this is not a glTF file"));
         assert_eq!(message(b"glTF\x02"), "the file has only 5 bytes");
@@ -229,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn every_truncation_is_an_error_and_no_panic() {
+    fn every_truncation_is_an_error_without_a_panic() {
         let whole = glb(2, 36, &[(b"JSON", 4, b"{}  "), (b"BIN\0", 4, b"1234")]);
         for end in 0..whole.len() {
             let cut = Container::from_bytes(&whole[..end], &mut ImportWarnings::default());

@@ -1,9 +1,9 @@
 //! JSON parsing: from bytes to the `gltf` crate's JSON types, via `serde_json::Value`.
 //!
-//! On their own, the types reject valid files (an integer written as `1.0`, a scene without nodes,
-//! an animation channel without a target) and accept invalid ones (an index of 2³² becomes 0). Both
-//! are corrected in the value, before it is converted to the types. Nesting depth and number of
-//! values are limited before any value is built.
+//! On their own, these types reject valid files (an integer written as `1.0`, a scene without
+//! nodes, an animation channel without a target) and accept invalid files (an index of 2³² becomes
+//! 0). Both problems are fixed in the `Value` before it is converted to the types. The nesting
+//! depth and the number of values are limited before any value is built.
 //!
 //! ```text
 //!  bytes ─limits─► Value ─normalize─► Value ─┬─ transforms in f64
@@ -22,29 +22,28 @@ use serde_json::{Map, Number, Value};
 
 /// The parsed JSON of a file.
 ///
-/// Parsing is complete before any buffer is read: for a file that is not glTF only the JSON is
-/// parsed.
+/// Parsing is complete before any buffer is read, so files that are not glTF cost no more than
+/// parsing.
 #[derive(Debug)]
 pub(super) struct GltfDocument {
-    /// The file's content except for the transforms of the nodes; the indices in it have not been
-    /// checked.
+    /// The file's content except for the node transforms. Its indices have not been checked.
     pub(super) root: Root,
-    /// Local transforms of the nodes, finite. The `gltf` crate would round them to single
-    /// precision.
+    /// The local transforms of the nodes, with finite numbers. The `gltf` crate would round them to
+    /// single precision.
     pub(super) node_transforms: Vec<NodeTransform>,
-    /// Members that the JSON types do not have.
+    /// Members that the JSON types lack.
     pub(super) untyped: UntypedMembers,
 }
 
 impl GltfDocument {
-    /// Parses and normalizes the JSON; in lenient mode, members with wrong types are skipped.
+    /// Parses and normalizes the JSON. In lenient mode, members of the wrong type are skipped.
     ///
-    /// The steps depend on each other: untyped members are collected before channels without a
-    /// target node are dropped, because animation pointers are among them.
+    /// The order of the steps matters: untyped members are collected before channels without a
+    /// target node are dropped, because channels with animation pointers have no target node.
     ///
     /// # Errors
     /// Fails if the text is not JSON, exceeds a limit, has an unsupported version, or has a member
-    /// with a wrong type.
+    /// of the wrong type.
     pub(super) fn parse_json(
         text: &[u8],
         limits: &Limits,
@@ -64,16 +63,16 @@ impl GltfDocument {
     }
 }
 
-/// Counts nesting and values against the limits without building anything.
+/// Checks the nesting depth and the number of values against the limits, without building anything.
 ///
-/// Text outside strings is scanned for brackets and commas. This is exact for well-formed JSON, and
-/// for other text an upper bound is enough. `serde_json` itself always stops at a depth of 128.
+/// Text outside strings is scanned for brackets and commas. This is exact for well-formed JSON; for
+/// other text an upper bound is enough. `serde_json` itself always stops at a depth of 128.
 ///
 /// # Errors
 /// Returns [`LIMIT_EXCEEDED`](model::codes::LIMIT_EXCEEDED) for `json_depth` or `json_values`.
 ///
-/// An object counts as ten values, which is roughly its memory cost compared with a number. The
-/// time is linear in the text, and strings are skipped in blocks.
+/// An object counts as ten values, because it takes roughly ten times the memory of a number. The
+/// time is linear in the length of the text, and strings are skipped in blocks.
 pub fn check_json_limits(text: &[u8], limits: &Limits) -> Result<(), Diagnostic> {
     let (mut depth, mut values) = (0usize, 1usize);
     let mut at = 0;
@@ -113,11 +112,11 @@ pub fn check_json_limits(text: &[u8], limits: &Limits) -> Result<(), Diagnostic>
 
 /// Returns the position after the quote that ends the string containing `at`.
 ///
-/// A backslash skips the character after it, which may be a quote. An unterminated string ends with
-/// the text; the JSON parser then reports it.
+/// The character after a backslash is skipped, because it may be a quote. An unterminated string
+/// extends to the end of the text; the JSON parser reports it.
 fn end_of_string(text: &[u8], mut at: usize) -> usize {
     loop {
-        // Data URIs are megabytes without a quote, so whole blocks are skipped.
+        // Data URIs may have megabytes without a quote, so skip whole blocks.
         while let Some(block) = text.get(at..at + 32) {
             if block.iter().fold(false, |found, &b| found | (b == b'"') | (b == b'\\')) {
                 break;
@@ -135,11 +134,11 @@ fn end_of_string(text: &[u8], mut at: usize) -> usize {
 
 /// Checks `asset.version` and `asset.minVersion`; only glTF 2.x is read.
 ///
-/// A newer minor version is accepted, as the specification requires, unless `minVersion` says that
-/// the file needs it; in lenient mode that is only a warning.
+/// A newer minor version is accepted, as the specification requires, unless `minVersion` requires
+/// it; in lenient mode that is only a warning.
 ///
-/// This check runs before conversion to the types, because a glTF 1.0 file would otherwise fail
-/// with a message about some member.
+/// This check runs before the conversion to typed structs, because a glTF 1.0 file would otherwise
+/// fail with a message about an arbitrary member.
 fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<(), Diagnostic> {
     let asset = &value["asset"];
     let Some(version) = asset["version"].as_str() else {
@@ -148,7 +147,8 @@ fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<()
             "this looks like a scene in JSON; scenes are written in RON, in a file that ends in \
              .ron: Scene(models: [(path: \"model.glb\")])"
         } else {
-            "check that this is a glTF file; a glTF 2.0 file says \"asset\": {\"version\": \"2.0\"}"
+            "check that this is a glTF file; a glTF 2.0 file contains \
+             \"asset\": {\"version\": \"2.0\"}"
         };
         return Err(Diagnostic::error(
             codes::UNSUPPORTED_VERSION,
@@ -178,12 +178,12 @@ fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<()
 
 /// Members whose numbers may exceed 32 bits.
 ///
-/// Buffers may exceed 4 GiB; indices, which the `gltf` crate stores in 32 bits, may not.
+/// Buffers may exceed 4 GiB; indices must not, because the `gltf` crate stores them in 32 bits.
 const WIDE_MEMBERS: [&str; 3] = ["byteLength", "byteOffset", "count"];
 
 /// Converts numbers such as `1.0` to integers, and removes `extras`.
 ///
-/// `extras` hold application data. They may be large and of any shape, and nothing here uses them.
+/// `extras` contains application data, which may be large and of any type, and is not used here.
 fn normalize_value(value: &mut Value) {
     match value {
         Value::Array(items) => items.iter_mut().for_each(normalize_value),
@@ -193,7 +193,7 @@ fn normalize_value(value: &mut Value) {
     }
 }
 
-/// Normalizes the members of an object; names decide which integers may exceed 32 bits.
+/// Normalizes the members of an object. Their names determine which integers may exceed 32 bits.
 fn normalize_members(members: &mut Map<String, Value>) {
     members.remove("extras");
     for (key, value) in members {
@@ -206,10 +206,11 @@ fn normalize_members(members: &mut Map<String, Value>) {
     }
 }
 
-/// Converts an integral number to an integer if it fits, otherwise to floating point: as an index,
-/// the types then reject it instead of taking its lowest 32 bits.
+/// Converts an integral number to an integer if it fits, and otherwise to floating point. The types
+/// then reject it as an index instead of using its lowest 32 bits.
 ///
-/// `1.0` is a valid integer in JSON schema, and some exporters write all numbers with a fraction.
+/// `1.0` is a valid integer in JSON schema, and some exporters write all numbers with a fractional
+/// part.
 fn normalize_number(number: &Number, wide: bool) -> Number {
     let limit = if wide { u64::MAX } else { u64::from(u32::MAX) };
     match (number.as_u64(), number.as_f64()) {
@@ -222,16 +223,16 @@ fn normalize_number(number: &Number, wide: bool) -> Number {
     }
 }
 
-/// Adds an empty `nodes` to scenes without one: it is optional in the specification, but not in the
-/// type.
+/// Adds an empty `nodes` to scenes without it, because it is optional in the specification but not
+/// in the type.
 fn insert_missing_scene_nodes(value: &mut Value) {
     for scene in objects_in(value, "scenes") {
         scene.entry("nodes").or_insert_with(|| Value::Array(Vec::new()));
     }
 }
 
-/// Removes animation channels without a target node: they must be ignored (glTF 2.0 §3.11), or
-/// belong to KHR_animation_pointer.
+/// Removes animation channels without a target node. They must be ignored (glTF 2.0 §3.11), unless
+/// they use KHR_animation_pointer.
 fn drop_untargeted_channels(value: &mut Value) {
     for animation in objects_in(value, "animations") {
         if let Some(Value::Array(channels)) = animation.get_mut("channels") {
@@ -240,7 +241,7 @@ fn drop_untargeted_channels(value: &mut Value) {
     }
 }
 
-/// Returns the objects of an array at the top level of the document.
+/// Returns the objects in a top-level array of the document.
 fn objects_in<'a>(
     value: &'a mut Value,
     key: &str,
@@ -257,7 +258,7 @@ fn syntax_error(error: &serde_json::Error) -> Diagnostic {
 
 /// Returns the error for a member with the wrong type, with the JSON pointer to it.
 ///
-/// The `gltf` crate's phrase for an index is replaced by a plainer one.
+/// The `gltf` crate's phrase for an index is replaced by plainer wording.
 pub(super) fn type_error(pointer: &str, message: &str) -> Diagnostic {
     Diagnostic::invalid(pointer, message.replace("index into child of root", "an index"))
 }
@@ -276,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn valid_oddities_are_read() {
+    fn unusual_but_valid_files_are_read() {
         let document = parse(
             r#", "scene": 0.0, "scenes": [{}], "buffers": [{"byteLength": 12.0}],
                "animations": [{"samplers": [], "channels": [{"sampler": 0, "target": {"path": "pointer"}}]}]"#,
@@ -288,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn faults_have_a_pointer() {
+    fn errors_have_a_json_pointer() {
         for (members, pointer, message) in [
             (r#", "nodes": 3"#, "/nodes", "invalid type: integer `3`, expected a sequence"),
             (
@@ -309,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn versions() {
+    fn unsupported_versions_are_rejected() {
         let message = |asset: &str| {
             let text = format!("{{{asset}}}");
             let document = GltfDocument::parse_json(
@@ -332,7 +333,7 @@ mod tests {
     }
 
     #[test]
-    fn depth_and_size_are_bounded() {
+    fn depth_and_value_count_are_limited() {
         let deep = format!(r#", "extras": {}"#, "[".repeat(100_000));
         let diagnostic = parse(&deep).unwrap_err();
         assert_eq!(diagnostic.code, codes::LIMIT_EXCEEDED);

@@ -1,8 +1,8 @@
 //! Draco mesh compression (KHR_draco_mesh_compression): indices and attributes in one stream.
 //!
-//! The crate `draco-core` decodes the stream, within limits derived from the accessors. Its result
-//! is not trusted: counts are checked against the accessors, indices against the vertices. The
-//! accessors of a compressed primitive do not have bytes; [`DracoData`] supplies them.
+//! The `draco-core` crate decodes the stream, within limits derived from the accessors. Its result
+//! is not trusted: counts are checked against the accessors, and indices against the number of
+//! vertices. The accessors of a compressed primitive have no bytes; [`DracoData`] supplies them.
 //!
 //! ```text
 //!  primitive.attributes  POSITION: accessor 3      count and format
@@ -10,8 +10,9 @@
 //!  extension.bufferView  ──► stream ──decode──► bytes for accessor 3
 //! ```
 //!
-//! Attribute readers do not see the compression: [`DracoData::attach_data`] replaces the bytes of a
-//! resolved accessor. Without the feature `draco`, a compressed primitive counts as missing data.
+//! The compression is transparent to attribute readers: [`DracoData::attach_data`] replaces the
+//! bytes of a resolved accessor. Without the `draco` feature, a compressed primitive counts as
+//! missing data.
 
 use super::accessor::AccessorReader;
 use super::elements::{ResolvedAccessor, StridedBytes};
@@ -25,8 +26,8 @@ const EXTENSION: &str = "KHR_draco_mesh_compression";
 
 /// Decoded contents of a stream.
 ///
-/// The bytes have the component type of the accessor, so that the common conversion applies to
-/// them.
+/// The bytes have the component type of the accessor, so that they are converted like any other
+/// accessor's.
 #[derive(Debug, Default)]
 pub(super) struct DracoData {
     /// Vertex indices of triangles.
@@ -36,10 +37,10 @@ pub(super) struct DracoData {
 }
 
 impl DracoData {
-    /// Attaches the decoded bytes to an accessor, if the stream had data for it.
+    /// Attaches the decoded bytes to an accessor if the stream has data for it.
     ///
-    /// The stride is the element size: decoded elements are tightly packed. Matrices, whose columns
-    /// would need padding, do not occur among vertex attributes.
+    /// The stride is the element size, because decoded elements are tightly packed. Vertex
+    /// attributes are never matrices, whose columns would need padding.
     pub(super) fn attach_data<'a>(
         &'a self,
         elements: ResolvedAccessor<'a>,
@@ -49,7 +50,7 @@ impl DracoData {
         ResolvedAccessor { data: Some(StridedBytes { bytes, stride }), ..elements }
     }
 
-    /// Returns whether the stream had data for an accessor.
+    /// Returns whether the stream has data for an accessor.
     pub(super) fn has_accessor(&self, accessor: usize) -> bool {
         self.attributes.contains_key(&accessor)
     }
@@ -62,23 +63,24 @@ fn draco_extension(json: &Primitive) -> Option<&Value> {
 
 /// A compressed stream, with the counts that the accessors declare.
 ///
-/// Everything that the decoder needs is validated before this is built.
+/// Everything that the decoder needs is validated before this struct is built.
 #[cfg_attr(not(feature = "draco"), allow(dead_code, reason = "only the decoder reads the fields"))]
 struct DracoStream<'a> {
     source: &'a AccessorReader<'a>,
     bytes: &'a [u8],
-    /// For each accessor of the primitive, the id of the attribute in the stream.
+    /// The accessors of the primitive, each with the id of the attribute in the stream.
     attributes: Vec<(usize, u32)>,
     /// Number of vertices according to the accessors.
     vertices: usize,
-    /// Accessor of the indices, and the number of indices.
+    /// The accessor of the indices, and the number of indices.
     indices: Option<(usize, usize)>,
     /// JSON pointer to the extension.
     pointer: String,
 }
 
-/// Decodes the stream of a primitive: tangents only if they are needed, custom attributes only if
-/// they are `custom`. `pointer` is the location of the primitive. `None` if it is not compressed.
+/// Decodes the stream of a primitive at the location `pointer`. Tangents are decoded only if they
+/// are needed, and custom attributes only if they are in `custom`. Returns `None` if the primitive
+/// is not compressed.
 ///
 /// # Errors
 /// Fails if a member of the extension is missing, an accessor is invalid, the counts of the
@@ -122,10 +124,10 @@ pub(super) fn decode_draco(
     stream.decode_mesh().map(Some)
 }
 
-/// Returns the attributes to read: accessor and id in the stream.
+/// Returns the accessor and stream id of each attribute to read.
 ///
-/// Attributes without an id are not in the stream: they are uncompressed, or absent. Custom
-/// attributes other than `custom`, and unneeded tangents, are skipped, which saves decoding them.
+/// Attributes without an id are not in the stream: they are uncompressed or absent. Custom
+/// attributes other than `custom` and unneeded tangents are skipped to save decoding time.
 fn stream_attributes(
     json: &Primitive,
     ids: &Map<String, Value>,
@@ -158,7 +160,7 @@ fn stream_attributes(
 
 #[cfg(not(feature = "draco"))]
 impl DracoStream<'_> {
-    /// Built without the feature `draco`, every stream is data that cannot be read.
+    /// Rejects every stream as missing data, because the `draco` feature is disabled.
     fn decode_mesh(self) -> Result<DracoData, Diagnostic> {
         Err(Diagnostic::missing_data(&self.pointer, "the data is compressed with Draco"))
     }
@@ -176,8 +178,8 @@ mod decoder {
     impl DracoStream<'_> {
         /// Decodes the stream and checks its counts against the accessors.
         ///
-        /// The memory budget is charged first, with 16 bytes for each attribute of a vertex, and
-        /// the decoder's limits are set from the accessors: a stream cannot create more vertices
+        /// The memory budget is charged first, with 16 bytes per vertex and attribute. The
+        /// decoder's limits are set from the accessors, so a stream cannot create more vertices
         /// than they declare.
         ///
         /// # Errors
@@ -195,7 +197,7 @@ mod decoder {
                 .with_max_decoded_bytes(self.source.limits.array_bytes);
             let mut buffer = DecoderBuffer::new(self.bytes).with_limits(limits);
             MeshDecoder::new().decode(&mut buffer, &mut mesh).map_err(|error| {
-                let message = format!("the Draco stream is not valid: {}", error.message());
+                let message = format!("invalid Draco stream: {}", error.message());
                 Diagnostic::invalid(&self.pointer, message)
             })?;
             if mesh.num_points() != self.vertices {
@@ -214,10 +216,10 @@ mod decoder {
             Ok(DracoData { indices, attributes })
         }
 
-        /// Vertex indices, in the number that the accessor declares.
+        /// Returns as many vertex indices as the accessor declares.
         ///
-        /// A primitive may lack an accessor for indices and still be compressed with faces; their
-        /// indices are then used.
+        /// A primitive may lack an index accessor and still be compressed with faces, whose indices
+        /// are then used.
         fn decode_indices(&self, mesh: &Mesh) -> Result<Vec<u32>, Diagnostic> {
             let actual = 3 * mesh.num_faces();
             if let Some((accessor, count)) = self.indices
@@ -232,13 +234,13 @@ mod decoder {
             Ok(mesh.faces().iter().flatten().map(|&PointIndex(index)| index).collect())
         }
 
-        /// Elements of an attribute in the format of its accessor.
+        /// Returns the elements of an attribute in the format of its accessor.
         ///
         /// The bytes are little-endian, as in a buffer.
         ///
         /// # Errors
-        /// Fails if the stream has no attribute with this id, its components differ in number, or a
-        /// vertex has no value.
+        /// Fails if the stream has no attribute with this id, the number of components differs, or
+        /// a vertex has no value.
         fn decode_attribute(
             &self,
             mesh: &Mesh,
@@ -271,8 +273,8 @@ mod decoder {
 
     /// Returns the bytes of an attribute at a vertex.
     ///
-    /// Draco stores each distinct value once, and maps the vertices to values. All offsets are
-    /// checked: they come from the stream.
+    /// Draco stores each distinct value once and maps vertices to values. All offsets are checked,
+    /// because they come from the stream.
     fn attribute_value(attribute: &PointAttribute, vertex: usize) -> Option<&[u8]> {
         let vertex = PointIndex(u32::try_from(vertex).ok()?);
         let at = attribute.mapped_index(vertex).0 as usize;
@@ -281,11 +283,11 @@ mod decoder {
         attribute.buffer().data().get(start..)?.get(..size)
     }
 
-    /// Appends a value in the component type of the accessor, which is almost always the type it
-    /// already has.
+    /// Appends a value, converted to the component type of the accessor, which almost always
+    /// matches.
     ///
-    /// Numbers are converted by value with saturation, not rescaled: the decoder undoes
-    /// quantization.
+    /// Numbers are converted by value with saturation and not rescaled, because the decoder has
+    /// already dequantized them.
     fn append_converted(bytes: &mut Vec<u8>, value: &[u8], from: DataType, to: ComponentType) {
         let same = match to {
             ComponentType::I8 => from == DataType::Int8,
@@ -312,9 +314,10 @@ mod decoder {
         }
     }
 
-    /// Reads a little-endian number of any of Draco's types.
+    /// Reads a little-endian number of any Draco type.
     ///
-    /// Missing high bytes are zeros; types without a case are read as unsigned integers.
+    /// Missing high bytes are treated as zeros. Types not listed here are read as unsigned
+    /// integers.
     fn read_number(word: &[u8], kind: DataType) -> f64 {
         let mut bytes = [0; 8];
         for (to, &from) in bytes.iter_mut().zip(word) {
@@ -337,7 +340,7 @@ mod decoder {
         use super::*;
 
         #[test]
-        fn numbers_keep_their_value_in_another_type() {
+        fn numbers_are_converted_by_value() {
             let cases: [(&[u8], DataType, ComponentType, &[u8]); 6] = [
                 (&[1, 2], DataType::Uint16, ComponentType::U16, &[1, 2]),
                 (&[0xFF], DataType::Int8, ComponentType::I16, &[0xFF, 0xFF]),

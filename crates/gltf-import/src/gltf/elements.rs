@@ -1,26 +1,26 @@
-//! Accessor elements: conversion of bytes into arrays of floats, shorts or indices.
+//! Accessor elements: converts bytes to arrays of floats, shorts or indices.
 //!
-//! Tightly packed floats, by far the most common case, become one loop over words that the compiler
-//! turns into a copy; other types and strides are converted element by element, with the type
-//! chosen outside the loop.
+//! Tightly packed floats, by far the most common case, are converted in one loop over words that
+//! the compiler turns into a copy. Other types and strides are converted element by element, with
+//! the type selected outside the loop.
 
 use gltf::json::accessor::{ComponentType, Type};
 use std::ops::Range;
 
 /// The elements of an accessor, or a range of them, whose bytes are known to exist.
 ///
-/// All checks are made when it is built, so that conversion cannot fail.
+/// All checks are made on construction, so that conversion cannot fail.
 #[derive(Debug)]
 pub(super) struct ResolvedAccessor<'a> {
     /// Index of the accessor.
     pub(super) accessor: usize,
     /// The bytes; `None` for zeros.
     pub(super) data: Option<StridedBytes<'a>>,
-    /// Elements that replace some of them.
+    /// Sparse elements that replace some of these elements.
     pub(super) sparse: Option<SparseElements<'a>>,
-    /// The first element that is read.
+    /// The first element to read.
     pub(super) first: usize,
-    /// Number of elements that are read.
+    /// The number of elements to read.
     pub(super) count: usize,
     /// Type of the components, glTF's `componentType`.
     pub(super) component_type: ComponentType,
@@ -32,26 +32,26 @@ pub(super) struct ResolvedAccessor<'a> {
 
 /// Bytes of elements at a constant stride.
 ///
-/// Every element has at least its size, and only the last one may be shorter than the stride.
+/// Every element is complete, and only the last may be followed by fewer bytes than the stride.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StridedBytes<'a> {
-    /// The bytes, from the first element on.
+    /// The bytes, starting at the first element.
     pub(super) bytes: &'a [u8],
-    /// Distance between the starts of two elements in bytes; at least the size of one.
+    /// Distance between the starts of consecutive elements in bytes; at least the element size.
     pub(super) stride: usize,
 }
 
-/// Elements of a sparse accessor that replace others.
+/// Elements of a sparse accessor that replace other elements.
 #[derive(Debug)]
 pub(super) struct SparseElements<'a> {
     /// Indices of the replaced elements, each less than the number of elements.
     pub(super) indices: Vec<u32>,
-    /// Their new values.
+    /// The new values of these elements.
     pub(super) values: StridedBytes<'a>,
 }
 
 impl ResolvedAccessor<'_> {
-    /// Returns the elements of a range; elements that do not exist are skipped.
+    /// Returns the elements in a range. Elements that do not exist are skipped.
     pub(super) fn slice_range(mut self, range: Range<usize>) -> Self {
         let end = range.end.min(self.count);
         self.first += range.start.min(end);
@@ -60,10 +60,10 @@ impl ResolvedAccessor<'_> {
     }
 
     /// Returns the first `N` components of every element as floats. Normalized integers become
-    /// numbers in [0, 1] or [−1, 1] (glTF 2.0 §3.11), other integers are converted by value.
+    /// numbers in [0, 1] or [−1, 1] (glTF 2.0 §3.11); other integers are converted by value.
     ///
-    /// Signed integers have two codes for −1 (−128 and −127, say), hence the maximum with −1.
-    /// Unnormalized 32-bit integers above 2²⁴ are rounded.
+    /// Signed integers have two codes for −1 (for example −128 and −127), hence the maximum with
+    /// −1. Unnormalized 32-bit integers above 2²⁴ are rounded.
     pub(super) fn to_floats<const N: usize>(&self) -> Vec<[f32; N]> {
         use ComponentType::{F32, I8, I16, U8, U16, U32};
         match (self.component_type, self.normalized) {
@@ -80,10 +80,10 @@ impl ResolvedAccessor<'_> {
         }
     }
 
-    /// Returns the first `N` components of every element, from unsigned bytes or shorts; others
-    /// saturate.
+    /// Returns the first `N` components of every element, from unsigned bytes or shorts. Other
+    /// types saturate.
     ///
-    /// Joint indices have these types; the table of allowed formats has already rejected the
+    /// Joint indices have these types; the table of allowed formats has already rejected all
     /// others.
     pub(super) fn to_u16s<const N: usize>(&self) -> Vec<[u16; N]> {
         match self.component_type {
@@ -93,7 +93,7 @@ impl ResolvedAccessor<'_> {
         }
     }
 
-    /// Returns the elements as indices. They must be unsigned; others saturate.
+    /// Returns the elements as indices. They must be unsigned; other types saturate.
     pub(super) fn to_indices(&self) -> Vec<u32> {
         let words: Vec<[u32; 1]> = match self.component_type {
             ComponentType::U8 => self.convert_components(|x: u8| u32::from(x)),
@@ -106,9 +106,9 @@ impl ResolvedAccessor<'_> {
 
     /// Converts the first `N` components of every element; missing components are 0.
     ///
-    /// Elements without data are zeros. The case of tightly packed components is one loop without
-    /// bounds checks inside, which for floats is a copy. Sparse elements are written last, and
-    /// those outside the range are skipped.
+    /// Elements without data are zeros. Tightly packed components are converted in one loop without
+    /// bounds checks, which for floats is a copy. Sparse elements are written last; those outside
+    /// the range are skipped.
     fn convert_components<const N: usize, C: Component, T: Copy + Default>(
         &self,
         convert: impl Fn(C) -> T,
@@ -150,9 +150,9 @@ fn convert_element<const N: usize, C: Component, T>(
     }
 }
 
-/// A component type of accessors, stored little-endian.
+/// An accessor component type, stored little-endian.
 trait Component: Copy {
-    /// The number's bytes.
+    /// The bytes of a number.
     type Word: Copy;
     /// Returns the words in a slice of bytes; an incomplete last word is skipped.
     fn words(bytes: &[u8]) -> &[Self::Word];
@@ -160,7 +160,7 @@ trait Component: Copy {
     fn read(word: &Self::Word) -> Self;
 }
 
-/// Implements [`Component`] for number types with their `from_le_bytes`.
+/// Implements [`Component`] for number types through their `from_le_bytes`.
 macro_rules! component {
     ($($number:ty)*) => {$(
         impl Component for $number {
@@ -203,10 +203,9 @@ mod tests {
     }
 
     #[test]
-    fn every_component_type_has_its_value() {
+    fn every_component_type_is_converted() {
         use ComponentType::{F32, I8, I16, U8, U16, U32};
-        // The two bytes of each component: the smallest and the largest value of the type, or close
-        // to it.
+        // The smallest and largest value of each type, or a value close to it.
         let table: [(ComponentType, bool, &[u8], [f32; 2]); 10] = [
             (I8, false, &[0x80, 0x7F], [-128.0, 127.0]),
             (I8, true, &[0x80, 0x7F], [-1.0, 1.0]),
@@ -233,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn ranges_and_replaced_elements() {
+    fn ranges_and_sparse_elements_are_read() {
         let bytes: Vec<u8> = (0..10).collect();
         let values = StridedBytes { bytes: &[50, 51, 0, 60, 61], stride: 3 };
         let all = |range: Range<usize>| {
@@ -248,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn without_bytes_there_are_zeros() {
+    fn elements_without_bytes_are_zero() {
         let mut zeros = accessor_over_bytes(&[], 1, 3, ComponentType::U16, false);
         zeros.data = None;
         assert_eq!(zeros.to_indices(), [0; 3]);

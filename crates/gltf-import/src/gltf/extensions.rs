@@ -1,48 +1,48 @@
-//! Extension support: the extensions that are drawn, ignored or rejected.
+//! Extension support: lists the extensions that are drawn, ignored or rejected.
 //!
-//! To add a material extension (KHR_materials_…), follow "How to add" in ARCHITECTURE.md. Others
-//! are read in the module of their object (nodes in `scene_graph`). Then change the row in the
-//! table, which the program uses to report a file's extensions.
+//! To add a material extension (KHR_materials_…), follow "How to add" in ARCHITECTURE.md. Other
+//! extensions are read in the module of their object (for nodes, `scene_graph`). Then change the
+//! row in the table, which the program uses to report a file's extensions.
 
 use crate::warnings::ImportWarnings;
 use gltf::json::Root;
 use model::{Diagnostic, codes};
 use std::collections::BTreeSet;
 
-/// Support for an extension.
+/// The level of support for an extension.
 ///
-/// The texts complete warnings, and are shown to users.
+/// The strings complete warnings and are shown to users.
 enum ExtensionSupport {
     /// It is fully supported.
     Full,
     /// It does not affect the picture.
     Harmless,
-    /// It is drawn with the limitation given in the text.
+    /// It is drawn with the stated limitation.
     Partly(&'static str),
-    /// It is ignored; the text gives the consequence.
+    /// It is ignored, with the stated consequence.
     Without(&'static str),
-    /// Files that require it are rejected; the text gives the reason.
+    /// Files that require it are rejected for the stated reason.
     None(&'static str),
 }
 
 use ExtensionSupport::{Full, Harmless, None as Never, Partly, Without};
 
-/// Draco is an optional feature of this crate, on by default.
+/// Draco is an optional feature of this crate, enabled by default.
 const DRACO_SUPPORT: ExtensionSupport =
     if cfg!(feature = "draco") { Full } else { Never("Draco compression is not supported") };
 
-/// Basis Universal is an optional feature of this crate, on by default.
+/// Basis Universal is an optional feature of this crate, enabled by default.
 const BASISU_SUPPORT: ExtensionSupport =
     if cfg!(feature = "basisu") { Full } else { Never("KTX2 images are not supported") };
 
-/// WebP is an optional feature of this crate, on by default.
+/// WebP is an optional feature of this crate, enabled by default.
 const WEBP_SUPPORT: ExtensionSupport =
     if cfg!(feature = "webp") { Full } else { Never("WebP images are not supported") };
 
 /// All known extensions, sorted by name.
 ///
-/// An extension that is not listed is ignored without a warning if a file merely uses it, and
-/// rejected if a file requires it.
+/// An extension that is not listed is ignored without a warning if a file merely uses it; files
+/// that require it are rejected.
 const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
     ("CESIUM_primitive_outline", Partly("the outlines appear only in line drawings")),
     ("EXT_mesh_features", Harmless),
@@ -91,10 +91,10 @@ const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
     ("MSFT_texture_dds", Never("DDS images are not supported")),
 ];
 
-/// Checks `extensionsRequired`: unsupported ones are an error, or a warning in lenient mode. Warns
-/// of extensions that are ignored or partly supported.
+/// Checks `extensionsRequired`. Unsupported extensions are an error, or a warning in lenient mode.
+/// Also warns about extensions that are ignored or partly supported.
 ///
-/// Each extension is reported once, at its first mention.
+/// Each extension is reported once, where it is first listed.
 ///
 /// # Errors
 /// Returns [`UNSUPPORTED_REQUIRED_EXTENSION`](codes::UNSUPPORTED_REQUIRED_EXTENSION) with the
@@ -133,24 +133,24 @@ pub(super) fn check_extensions(
     Ok(())
 }
 
-/// Effect of an extension on the picture.
+/// The effect of an extension on the picture.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ExtensionUse {
     /// It is drawn.
     Drawn,
     /// It does not affect the picture.
     Harmless,
-    /// It is drawn with the limitation given in the text.
+    /// It is drawn with the stated limitation.
     Partly(&'static str),
-    /// It is ignored; the text gives the consequence.
+    /// It is ignored, with the stated consequence.
     Without(&'static str),
-    /// Files that require it are rejected; the text gives the reason.
+    /// Files that require it are rejected for the stated reason.
     Refused(&'static str),
     /// It is unknown; files that require it are rejected.
     Unknown,
 }
 
-/// Effect of the named extension.
+/// Returns the effect of the named extension.
 #[must_use]
 pub fn extension_use(name: &str) -> ExtensionUse {
     match find_support(name) {
@@ -163,7 +163,7 @@ pub fn extension_use(name: &str) -> ExtensionUse {
     }
 }
 
-/// Looks up an extension in the table; `None` if it is unknown.
+/// Looks up an extension in the table. Returns `None` if it is unknown.
 fn find_support(name: &str) -> Option<&'static ExtensionSupport> {
     KNOWN_EXTENSIONS.iter().find(|known| known.0 == name).map(|known| &known.1)
 }
@@ -173,7 +173,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_table_is_sorted_and_without_doubles() {
+    fn extension_table_is_sorted_without_duplicates() {
         assert!(KNOWN_EXTENSIONS.windows(2).all(|pair| pair[0].0 < pair[1].0));
     }
 }

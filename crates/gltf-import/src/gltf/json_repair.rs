@@ -1,8 +1,9 @@
 //! Lenient JSON deserialization: removes members of the wrong type so that the rest can be loaded.
 //!
-//! The typed structs are all or nothing: one mesh without primitives makes the whole document fail.
-//! So the offending member is removed. If it is mandatory, the item that contains it is replaced by
-//! an empty one, so that all others keep their indices. Then deserialization is tried again.
+//! Deserialization into typed structs is all or nothing: one mesh without primitives makes the
+//! whole document fail. So the offending member is removed and deserialization is tried again. If
+//! the member is mandatory, the item that contains it is replaced by an empty item, so that the
+//! indices of all other items stay the same.
 
 use super::document::type_error;
 use crate::warnings::ImportWarnings;
@@ -11,21 +12,21 @@ use model::Diagnostic;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
-/// Total bytes of JSON that may be deserialized again: ten repairs of a six-megabyte file, hundreds
-/// of a small one.
+/// Total bytes of JSON that may be deserialized again: enough for ten repairs of a six-megabyte
+/// file, or hundreds of a small file.
 const REPAIR_BYTE_BUDGET: usize = 64 << 20;
 
-/// Maximum number of repairs in one file, however small.
+/// Maximum number of repairs in a file of any size.
 const MAX_REPAIRS: usize = 500;
 
-/// Deserializes a document; in lenient mode, skips the parts that do not fit. `length` is the
-/// length of its text.
+/// Deserializes a document. In lenient mode, skips parts of the wrong type. `length` is the length
+/// of its text.
 ///
-/// In strict mode, the first mistake is the error. Each pass finds one mistake, so the cost is the
-/// number of mistakes times the length of the text; the budget limits it for hostile files.
+/// In strict mode, the first mistake is an error. Each pass finds one mistake, so the cost is the
+/// number of mistakes times the length of the text; the budget limits this for hostile files.
 ///
 /// # Errors
-/// Fails if a mistake cannot or must not be repaired, or the budget is spent.
+/// Fails if a mistake cannot or must not be repaired, or the budget is exhausted.
 pub(super) fn deserialize_document(
     value: &mut Value,
     length: usize,
@@ -44,16 +45,16 @@ pub(super) fn deserialize_document(
     }
 }
 
-/// Deserializes the value's text: the `gltf` crate has already compiled that code for its types,
-/// and the column of an error leads back to the value.
+/// Serializes the value and deserializes the text. The `gltf` crate has already compiled that code
+/// for its types, and the column of an error leads back to the value.
 ///
 /// # Errors
 /// Returns the first mistake.
 fn deserialize_root(value: &Value) -> Result<Root, Diagnostic> {
     let text = value.to_string();
     Root::from_str(&text).map_err(|error| {
-        // The text is well-formed, so only an array with too many items ends the parser early. It
-        // stops one byte into the first extra item.
+        // The text is well formed, so only an array with too many items stops the parser early, one
+        // byte into the first extra item.
         let place = if error.is_syntax() {
             Place::Within(error.column() - 1)
         } else {
@@ -74,18 +75,18 @@ fn deserialize_root(value: &Value) -> Result<Root, Diagnostic> {
     })
 }
 
-/// A value in a text, given by a byte offset.
+/// A value in serialized JSON, identified by a byte offset.
 enum Place {
-    /// The value that ends here, or the array or object that begins here.
+    /// The value that ends at this offset, or the array or object that begins there.
     At(usize),
-    /// The innermost value that extends to both sides of this offset.
+    /// The innermost value that contains this offset.
     Within(usize),
 }
 
-/// Searches the value whose text begins at `start` for a place.
+/// Searches a value, whose text begins at `start`, for a place.
 ///
-/// Returns the end of the value, or `None` if the value is or contains the place: `pointer` then
-/// leads to it.
+/// Returns the end of the value, or `None` if the value is or contains the place; `pointer` then
+/// points to it.
 fn end_unless_found(
     value: &Value,
     start: usize,
@@ -102,7 +103,7 @@ fn end_unless_found(
         Value::Array(items) => {
             for (index, item) in items.iter().enumerate() {
                 let _ = write!(pointer, "/{index}");
-                // A comma or the bracket follows each item.
+                // Each item is followed by a comma or the closing bracket.
                 end = end_unless_found(item, end, place, pointer)? + 1;
                 pointer.truncate(parent);
             }
@@ -124,11 +125,12 @@ fn end_unless_found(
     (offset <= start || offset > end).then_some(end)
 }
 
-/// Removes the member at a pointer, or empties the item that contains it; returns a description of
-/// the repair, `None` if none is possible.
+/// Removes the member at a pointer, or empties the item that contains it. Returns a description of
+/// the repair, or `None` if no repair is possible.
 ///
-/// The depth of the pointer decides: an error in a whole collection removes it, one in an item
-/// empties the item, and one below removes the member, or empties the item if that does not help.
+/// The repair depends on the depth of the pointer. An error in a whole collection removes it, and
+/// an error in an item empties the item. An error below an item removes the member, or empties the
+/// item if that does not help.
 fn repair_at(document: &mut Value, pointer: &str) -> Option<&'static str> {
     let steps: Vec<&str> = pointer.split('/').skip(1).collect();
     match *steps.as_slice() {
@@ -144,10 +146,10 @@ fn repair_at(document: &mut Value, pointer: &str) -> Option<&'static str> {
     }
 }
 
-/// Lists whose items are not referred to by index, so that one of them can be removed.
+/// Lists whose items are not referred to by index, so that a single item can be removed.
 const UNREFERENCED_LISTS: [&str; 4] = ["primitives", "channels", "children", "nodes"];
 
-/// Removes a member of an object or an item of a list; other arrays are removed as a whole.
+/// Removes a member of an object or an item of a list. Other arrays are removed as a whole.
 ///
 /// Items of other lists are referred to by index or position, as in `joints`, so the whole list is
 /// removed instead.
@@ -169,10 +171,10 @@ fn remove_member(document: &mut Value, pointer: &str) -> Option<&'static str> {
     }
 }
 
-/// Replaces an item of a top-level collection by an empty one.
+/// Replaces an item of a top-level collection by an empty item.
 ///
-/// The empty items are the smallest that deserialize; using one is an error that is reported at its
-/// use. `None` if the item is already empty, which ends the repair.
+/// Empty items have only the members needed to deserialize; references to them are reported as
+/// errors. Returns `None` if the item is already empty, which ends the repair.
 fn replace_with_empty(document: &mut Value, collection: &str, at: &str) -> Option<&'static str> {
     let nothing = match collection {
         "accessors" => json!({"componentType": 5126, "count": 0, "type": "SCALAR"}),
@@ -184,7 +186,7 @@ fn replace_with_empty(document: &mut Value, collection: &str, at: &str) -> Optio
         "meshes" => json!({"primitives": []}),
         "scenes" => json!({"nodes": []}),
         "skins" => json!({"joints": []}),
-        // Not a collection whose items are referred to by index: the whole member is removed.
+        // Items of this collection are not referred to by index, so remove the whole member.
         _ => {
             let members = document.as_object_mut()?;
             return members.remove(collection).map(|_| "all of it is skipped");
@@ -193,7 +195,7 @@ fn replace_with_empty(document: &mut Value, collection: &str, at: &str) -> Optio
     let slot = document.get_mut(collection)?.as_array_mut()?.get_mut(at.parse::<usize>().ok()?)?;
     let changes = *slot != nothing;
     *slot = nothing;
-    changes.then_some("an empty one replaces it")
+    changes.then_some("it is replaced by an empty item")
 }
 
 #[cfg(test)]
@@ -210,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_fit_is_left_out_and_the_rest_keeps_its_numbers() {
+    fn mistyped_members_are_skipped_and_indices_preserved() {
         let (root, messages) = deserialize_with_warnings(json!({
             "asset": {"version": "2.0"},
             "extensionsUsed": ["a", 7],
@@ -236,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn faults_have_the_pointer_and_the_words_of_serde_json() {
+    fn errors_have_a_pointer_and_the_serde_json_message() {
         for (document, pointer, message) in [
             (json!({"nodes": 3}), "/nodes", "invalid type: integer `3`, expected a sequence"),
             (json!({"nodes": {"x": [1]}}), "/nodes", "invalid type: map, expected a sequence"),
@@ -293,7 +295,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_repaired_is_an_error_after_finitely_many_steps() {
+    fn unrepairable_documents_fail_after_finitely_many_steps() {
         let many: Vec<Value> = (0..2000).map(|_| json!({"primitives": 1})).collect();
         for (document, location) in [
             (json!([]), ""),

@@ -1,8 +1,8 @@
-//! Punctual lights (KHR_lights_punctual) with validated parameters; an invalid light is skipped
-//! with a warning.
+//! Punctual lights (KHR_lights_punctual) with validated parameters. Invalid lights are skipped with
+//! a warning.
 //!
-//! The extension stores lights in the document's root, and each node refers to one. It defines the
-//! defaults: white, intensity 1, infinite range, cone angles 0 and π/4.
+//! The extension stores lights in the document root, and nodes refer to them. By default a light is
+//! white, with intensity 1, infinite range, and cone angles 0 and π/4.
 
 use crate::warnings::ImportWarnings;
 use gltf::json::Root;
@@ -15,8 +15,8 @@ const EXTENSION: &str = "KHR_lights_punctual";
 
 /// Reads all lights of a file and attaches them to nodes.
 ///
-/// An invalid light stays in the list as a black one, so that the indices of all others do not
-/// change, and no node refers to it.
+/// An invalid light remains in the list as a black light, so that the indices of other lights do
+/// not change, but no node refers to it.
 pub(super) fn import_lights(
     root: &Root,
     nodes: &mut [Node],
@@ -46,7 +46,7 @@ pub(super) fn import_lights(
 
 /// Sets the lights of nodes.
 ///
-/// A node without the extension is not changed; an index out of range is a warning.
+/// Nodes without the extension are not changed; an out-of-range index causes a warning.
 fn attach_lights(
     root: &Root,
     nodes: &mut [Node],
@@ -70,7 +70,7 @@ fn attach_lights(
     }
 }
 
-/// Reads and checks a light; numbers out of bounds are clamped with a warning.
+/// Reads and checks a light. Numbers out of range are clamped with a warning.
 ///
 /// # Errors
 /// Fails if the light is not an object or its type is unknown; without a type, its numbers have no
@@ -121,9 +121,9 @@ fn parse_light(
     Ok(light)
 }
 
-/// Reader of the numbers in a JSON object.
+/// Reads the numbers in a JSON object.
 ///
-/// It reads the light itself, and its `spot` object with a separate pointer.
+/// It is used for the light itself and, with a separate pointer, for its `spot` object.
 struct LightNumbers<'a, 'w> {
     json: &'a Map<String, Value>,
     /// JSON pointer to the object.
@@ -132,7 +132,7 @@ struct LightNumbers<'a, 'w> {
 }
 
 impl LightNumbers<'_, '_> {
-    /// Reads a number clamped to bounds; `default` if it is absent.
+    /// Reads a number and clamps it to bounds. Returns `default` if the member is absent.
     ///
     /// A member that is not a number is replaced by the default, with a warning.
     fn read_number(&mut self, member: &str, default: f32, [min, max]: [f32; 2]) -> f32 {
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn defaults_are_those_of_the_extension() {
+    fn defaults_match_the_extension() {
         let (sun, warnings) = parsed(&json!({"type": "directional", "name": "sun"}));
         let white = PunctualLight {
             name: Some("sun".to_owned()),
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn what_makes_no_sense_is_mended_or_left_out() {
+    fn invalid_values_are_corrected_or_skipped() {
         assert_eq!(parsed(&json!({"type": "laser"})).0, Err("/l/type".to_owned()));
         assert_eq!(parsed(&json!(7)).0, Err("/l".to_owned()));
         let (point, warnings) = parsed(&json!({"type": "point", "range": 0, "intensity": -1}));

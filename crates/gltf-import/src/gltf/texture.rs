@@ -1,8 +1,8 @@
-//! Textures: the image and the sampler of each.
+//! Textures: reads the image and sampler of each texture.
 //!
-//! glTF identifies filters and wrap modes by OpenGL constants, with magnification, minification and
-//! mipmap filter in two members; here each is an enum. Without a sampler, or without `minFilter`,
-//! textures repeat and are filtered trilinearly.
+//! glTF identifies filters and wrap modes by OpenGL constants, and combines the magnification,
+//! minification and mipmap filters in two members; here each is an enum. Without a sampler,
+//! textures repeat and are filtered trilinearly, which is also the default without `minFilter`.
 
 use crate::warnings::ImportWarnings;
 use gltf::json::Root;
@@ -10,14 +10,14 @@ use gltf::json::texture::{MagFilter, MinFilter, WrappingMode};
 use gltf::json::validation::Checked;
 use model::{Diagnostic, MipmapMode, Sampler, Texture, TextureFilter, WrapMode};
 
-/// Value of `Texture::source` in the JSON type if the file has none.
+/// The value of `Texture::source` in the JSON type if the file has no source.
 ///
-/// The `gltf` crate stores indices in 32 bits, and uses the largest as a marker.
+/// The `gltf` crate stores indices in 32 bits, and uses the largest value as a marker.
 const NO_SOURCE: usize = u32::MAX as usize;
 
-/// Reads all textures of a file. Errors in them are warnings.
+/// Reads all textures of a file. Errors in textures are only warnings.
 ///
-/// A sampler that does not exist is replaced by the default one, with a warning.
+/// A missing sampler is replaced by the default sampler, with a warning.
 pub(super) fn import_textures(root: &Root, warnings: &mut ImportWarnings) -> Vec<Texture> {
     let mut textures = Vec::with_capacity(root.textures.len());
     for (at, json) in root.textures.iter().enumerate() {
@@ -43,7 +43,7 @@ pub(super) fn import_textures(root: &Root, warnings: &mut ImportWarnings) -> Vec
 /// Returns the image of a texture. An image from a supported extension (KHR_texture_basisu,
 /// EXT_texture_webp) takes precedence over the fallback for other readers.
 ///
-/// An index out of range leaves the texture without an image, and the surface is drawn untextured.
+/// If the index is out of range, the texture has no image and the surface is drawn untextured.
 fn texture_image(root: &Root, at: usize, warnings: &mut ImportWarnings) -> Option<usize> {
     let json = &root.textures[at];
     let extensions = json.extensions.as_ref().map(|extensions| &extensions.others);
@@ -63,7 +63,7 @@ fn texture_image(root: &Root, at: usize, warnings: &mut ImportWarnings) -> Optio
     None
 }
 
-/// Converts the sampler; missing or unknown states take their defaults.
+/// Converts the sampler. Missing or unknown states take their defaults.
 ///
 /// ```text
 ///  minFilter                 min_filter   mipmap_mode
@@ -113,7 +113,7 @@ mod tests {
     use serde_json::json;
 
     #[test]
-    fn samplers_in_our_words() {
+    fn opengl_constants_are_converted() {
         let read = |json| convert_sampler(&serde_json::from_value(json).unwrap());
         assert_eq!(read(json!({})), Sampler::default());
         let wrong = json!({"magFilter": 1, "minFilter": 2, "wrapS": 3, "wrapT": 4});

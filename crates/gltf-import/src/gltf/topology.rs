@@ -1,4 +1,4 @@
-//! Primitive modes: expands strips, loops and fans to lists of lines and triangles.
+//! Primitive modes: expands strips, loops and fans to lists of lines or triangles.
 //!
 //! ```text
 //!  line strip      line loop       triangle strip      triangle fan
@@ -8,17 +8,18 @@
 //!  01 12 23        01 12 23 30     012 132 234 354     120 230
 //! ```
 //!
-//! Every second triangle of a strip is flipped, so that all have the same winding. The vertex
-//! orders follow glTF 2.0 §3.7.2.1.
+//! Every second triangle of a strip is flipped, so that all have the same winding. The vertex order
+//! follows glTF 2.0 §3.7.2.1.
 
 use gltf::json::mesh::Mode;
 use model::Topology;
 
-/// Expands a sequence of vertices to a list. Leftover vertices, too few for another item, are
+/// Expands a sequence of vertices to a list. Leftover vertices that do not form another item are
 /// dropped.
 ///
-/// Lists cost up to three times the indices of a strip, and leave a single case for all later
-/// steps. Degenerate triangles, which stitch strips together, are kept: they cover no pixel.
+/// Lists need up to three times as many indices as strips, but leave a single case for all later
+/// steps. Degenerate triangles, which stitch strips together, are retained, because they cover no
+/// pixels.
 pub(super) fn expand_to_list(mode: Mode, mut vertices: Vec<u32>) -> (Topology, Vec<u32>) {
     let topology = match mode {
         Mode::Points => Topology::Points,
@@ -38,12 +39,12 @@ pub(super) fn expand_to_list(mode: Mode, mut vertices: Vec<u32>) -> (Topology, V
     (topology, list)
 }
 
-/// Lines between consecutive vertices: n vertices give n − 1 lines.
+/// Returns the lines between consecutive vertices: n vertices give n − 1 lines.
 fn line_strip(vertices: &[u32]) -> Vec<u32> {
     vertices.array_windows().flat_map(|&[a, b]: &[u32; 2]| [a, b]).collect()
 }
 
-/// Returns a line strip that is closed by a line from the last vertex to the first.
+/// Returns the lines of a strip, closed by a line from the last vertex to the first.
 fn line_loop(vertices: &[u32]) -> Vec<u32> {
     let mut lines = line_strip(vertices);
     if let [first, .., last] = vertices {
@@ -52,7 +53,8 @@ fn line_loop(vertices: &[u32]) -> Vec<u32> {
     lines
 }
 
-/// Triangles of three consecutive vertices each; odd ones are flipped to preserve the winding.
+/// Returns the triangles of three consecutive vertices; every second triangle is flipped to
+/// preserve the winding.
 fn triangle_strip(vertices: &[u32]) -> Vec<u32> {
     let triangle = |(at, &[a, b, c]): (usize, &[u32; 3])| match at % 2 {
         0 => [a, b, c],
@@ -61,10 +63,10 @@ fn triangle_strip(vertices: &[u32]) -> Vec<u32> {
     vertices.array_windows().enumerate().flat_map(triangle).collect()
 }
 
-/// Triangles around the first vertex, each with two consecutive vertices of the rim.
+/// Returns the triangles around the first vertex, each with two consecutive vertices of the rim.
 ///
-/// The order `a b hub` follows the specification; a cyclic permutation would have the same winding,
-/// but would number its edges differently.
+/// The order `a b hub` follows the specification; a cyclic permutation would have the same winding
+/// but different edge numbers.
 fn triangle_fan(vertices: &[u32]) -> Vec<u32> {
     let Some((&hub, rim)) = vertices.split_first() else { return Vec::new() };
     rim.array_windows().flat_map(|&[a, b]: &[u32; 2]| [a, b, hub]).collect()
@@ -75,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_mode_of_five_vertices() {
+    fn every_mode_is_expanded() {
         let table: [(Mode, Topology, &[u32]); 7] = [
             (Mode::Points, Topology::Points, &[0, 1, 2, 3, 4]),
             (Mode::Lines, Topology::Lines, &[0, 1, 2, 3]),
@@ -95,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn too_few_vertices_make_nothing() {
+    fn too_few_vertices_give_no_items() {
         use Mode::{LineLoop, LineStrip, Lines, TriangleFan, TriangleStrip, Triangles};
         for mode in [Lines, LineLoop, LineStrip, Triangles, TriangleStrip, TriangleFan] {
             assert!(expand_to_list(mode, Vec::new()).1.is_empty(), "{mode:?}");

@@ -1,8 +1,8 @@
-//! JSON members that the `gltf` crate's types do not have, collected before deserialization.
+//! JSON members that the `gltf` crate's types lack, collected before deserialization.
 //!
-//! These are animation channels that give their target as a pointer (KHR_animation_pointer), and
-//! attributes of morph targets beyond position, normal and tangent: glTF 2.0 §3.7.2.2 also allows
-//! texture coordinates and colors.
+//! These are animation channels whose target is a JSON pointer (KHR_animation_pointer), and the
+//! texture coordinates and colors of morph targets, which glTF 2.0 §3.7.2.2 allows in addition to
+//! positions, normals and tangents.
 
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -12,26 +12,26 @@ use std::collections::BTreeMap;
 pub(super) struct UntypedMembers {
     /// Channels with pointers, in the order of the file.
     pub(super) pointer_channels: Vec<PointerChannel>,
-    /// For each mesh, primitive and target index, additional attributes by name with their
-    /// accessors.
+    /// The additional attributes of morph targets by mesh, primitive and target index: the
+    /// attribute names with their accessors.
     pub(super) extra_morph_attributes: BTreeMap<(usize, usize, usize), Vec<(String, usize)>>,
 }
 
-/// An animation channel that gives its target as a JSON pointer (KHR_animation_pointer).
+/// An animation channel whose target is a JSON pointer (KHR_animation_pointer).
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct PointerChannel {
     /// Index of the animation.
     pub(super) animation: usize,
-    /// Index of the channel in it.
+    /// Index of the channel in the animation.
     pub(super) channel: usize,
-    /// Index of the sampler in the animation; out of range if the file has none.
+    /// Index of the sampler in the animation; out of range if the file does not specify it.
     pub(super) sampler: usize,
-    /// JSON pointer to the property that changes.
+    /// JSON pointer to the animated property.
     pub(super) target: String,
 }
 
 impl UntypedMembers {
-    /// Collects the members from a document. Members of unexpected types are skipped:
+    /// Collects the members from a document. Members of unexpected types are skipped, because
     /// deserialization will reject them.
     pub(super) fn collect_from(document: &Value) -> Self {
         Self {
@@ -41,17 +41,18 @@ impl UntypedMembers {
     }
 }
 
-/// Items of an array member with their indices; none if it is absent.
+/// Iterates over the items of an array member with their indices; empty if the member is absent.
 fn indexed_items<'a>(json: &'a Value, key: &str) -> impl Iterator<Item = (usize, &'a Value)> {
     json.get(key).and_then(Value::as_array).into_iter().flatten().enumerate()
 }
 
-/// Returns the index in a JSON number; if it is absent, `usize::MAX`, which is always out of range.
+/// Returns the index in a JSON number. If it is absent, returns `usize::MAX`, which is always out
+/// of range.
 fn index_or_max(value: Option<&Value>) -> usize {
     value.and_then(Value::as_u64).and_then(|at| usize::try_from(at).ok()).unwrap_or(usize::MAX)
 }
 
-/// Animation channels whose target has the extension KHR_animation_pointer.
+/// Collects the animation channels whose target has the extension KHR_animation_pointer.
 fn collect_pointer_channels(document: &Value) -> Vec<PointerChannel> {
     let mut collected = Vec::new();
     for (animation, json) in indexed_items(document, "animations") {
@@ -66,7 +67,8 @@ fn collect_pointer_channels(document: &Value) -> Vec<PointerChannel> {
     collected
 }
 
-/// Texture coordinates and colors of morph targets, by mesh, primitive and target index.
+/// Collects the texture coordinates and colors of morph targets by mesh, primitive and target
+/// index.
 fn collect_morph_attributes(
     document: &Value,
 ) -> BTreeMap<(usize, usize, usize), Vec<(String, usize)>> {
@@ -94,7 +96,7 @@ mod tests {
     use serde_json::json;
 
     #[test]
-    fn pointers_and_morphs_are_noted() {
+    fn pointers_and_morph_attributes_are_collected() {
         let pointer = json!({"KHR_animation_pointer": {"pointer": "/nodes/0/scale"}});
         let untyped = UntypedMembers::collect_from(&json!({
             "animations": [{"channels": [

@@ -1,16 +1,17 @@
-//! JPEG frame headers: rejects chroma subsampling that the decoder does not expect.
+//! Checks JPEG frame headers, and rejects chroma subsampling that the decoder does not expect.
 //!
 //! ```text
 //!  FF C0..C2 │ length │ depth │ height │ width │ n │ n times: id, sampling factors, table
 //! ```
 //! Source: ITU-T T.81 (1992), §B.2.2.
 
-/// Rejects files in which a later component is sampled more finely than the first: the decoder
-/// sizes its buffers by the rows of the first and panics if another needs more. No camera or
-/// program is known to write such files.
+/// Rejects files in which a later component is sampled more finely than the first. The decoder
+/// sizes its buffers for the rows of the first component, and panics if another needs more. No
+/// camera or program is known to write such files.
 ///
-/// Everything that looks like a frame header is checked, anywhere in the file: entropy-coded data
-/// cannot contain the marker, and it is unknown here which one the decoder finds in a broken file.
+/// Everything that looks like a frame header is checked, anywhere in the file. Entropy-coded data
+/// cannot contain the marker, and it is not known which header the decoder will find in a broken
+/// file.
 pub(super) fn check_chroma_sampling(file: &[u8]) -> Result<(), String> {
     let headers = file.windows(2).enumerate().filter(|(_, mark)| is_frame_marker(mark));
     for (at, _) in headers {
@@ -33,12 +34,13 @@ pub(super) fn check_chroma_sampling(file: &[u8]) -> Result<(), String> {
     Ok(())
 }
 
-/// Start of frame: SOF0 (baseline), SOF1 (extended) or SOF2 (progressive).
+/// Returns whether a marker starts a frame: SOF0 (baseline), SOF1 (extended) or SOF2 (progressive).
 fn is_frame_marker(mark: &[u8]) -> bool {
     matches!(mark, [0xFF, 0xC0..=0xC2])
 }
 
-/// Components of a frame header (id, sampling factors, table), if its length matches their number.
+/// Returns the components of a frame header (id, sampling factors, table) if its length matches
+/// their number.
 ///
 /// `header` starts at the length, after the marker. Bytes that merely look like a marker rarely
 /// have a length that matches the number of components.
@@ -49,7 +51,7 @@ fn component_samplings(header: &[u8]) -> Option<&[[u8; 3]]> {
     (length == 8 + 3 * usize::from(count)).then_some(components)
 }
 
-/// Horizontal and vertical sampling factor.
+/// Returns the horizontal and vertical sampling factors.
 fn split_nibbles(byte: u8) -> [u8; 2] {
     [byte >> 4, byte & 15]
 }
@@ -66,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_component_must_be_the_finest_in_both_directions() {
+    fn first_component_must_have_the_finest_sampling() {
         for supported in [&[0x11][..], &[0x11; 3], &[0x22, 0x11, 0x11], &[0x21, 0x11, 0x11]] {
             assert_eq!(check_chroma_sampling(&frame_header(supported)), Ok(()), "{supported:x?}");
         }
@@ -77,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn headers_cut_off_or_of_another_length_say_nothing() {
+    fn truncated_or_mismatched_headers_are_ignored() {
         let whole = frame_header(&[0x11, 0x11, 0x22]);
         for end in 0..whole.len() {
             assert_eq!(check_chroma_sampling(&whole[..end]), Ok(()), "cut at {end}");

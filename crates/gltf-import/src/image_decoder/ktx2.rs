@@ -1,5 +1,5 @@
-//! KTX2 images (KHR_texture_basisu): decodes ETC1S and UASTC blocks of Basis Universal to 8-bit
-//! RGBA, and copies 8-bit RGB and RGBA.
+//! KTX2 images (KHR_texture_basisu): decodes Basis Universal ETC1S and UASTC blocks to 8-bit RGBA,
+//! and copies 8-bit RGB and RGBA.
 //!
 //! ```text
 //!  header ─► container ─┬─ BasisLZ ────────────► ETC1S blocks ─┐
@@ -7,7 +7,7 @@
 //!                       └─ Zstandard or plain ─► RGB or RGBA ──┘
 //! ```
 //! The container is read here, so that every size is checked before anything is allocated for it;
-//! the crate `basisu` decodes blocks. Only that crate's two RGBA decoders are called: its
+//! the `basisu` crate decodes blocks. Only that crate's two RGBA decoders are called. Its
 //! `Transcoder` has a dozen more targets, which would all be linked, and reads more kinds of input
 //! than glTF allows.
 
@@ -23,7 +23,7 @@ pub(super) use container::{MAGIC, size};
 /// Decodes the first mip level.
 ///
 /// # Errors
-/// A readable message: the container is broken or of an unsupported kind, or its data is broken.
+/// Returns a message if the container is broken or of an unsupported kind, or its data is broken.
 pub(super) fn decode(bytes: &[u8]) -> Result<model::Image, String> {
     let container = Ktx2File::read(bytes)?;
     let rgba = match container.encoding {
@@ -45,7 +45,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<model::Image, String> {
     Ok(image)
 }
 
-/// Decodes ETC1S blocks: indices into two codebooks that all blocks share, entropy coded (BasisLZ;
+/// Decodes ETC1S blocks: entropy-coded indices into two codebooks that all blocks share (BasisLZ;
 /// KTX 2.0 §5).
 fn decode_etc1s(container: &Ktx2File<'_>) -> Result<Vec<[u8; 4]>, String> {
     let Etc1sImage { codebooks, color, alpha } = container.etc1s_image()?;
@@ -70,8 +70,8 @@ fn decode_etc1s(container: &Ktx2File<'_>) -> Result<Vec<[u8; 4]>, String> {
     Ok(rgba)
 }
 
-/// Decodes UASTC blocks: 16 bytes for each 4 x 4 texels, row by row (Khronos data format
-/// specification §25).
+/// Decodes UASTC blocks: 16 bytes per 4 x 4 texels, row by row (Khronos data format specification
+/// §25).
 fn decode_uastc(container: &Ktx2File<'_>) -> Result<Vec<[u8; 4]>, String> {
     let data = container.level_data(16)?;
     let (width, height) = (container.width as usize, container.height as usize);
@@ -79,7 +79,7 @@ fn decode_uastc(container: &Ktx2File<'_>) -> Result<Vec<[u8; 4]>, String> {
     let mut rgba = vec![[0; 4]; width * height];
     for (number, block) in data.as_chunks().0.iter().enumerate() {
         let texels = unpack_uastc(block, false)
-            .ok_or_else(|| format!("the UASTC block {number} of the KTX2 image is not valid"))?;
+            .ok_or_else(|| format!("UASTC block {number} of the KTX2 image is invalid"))?;
         let (left, top) = (number % across * 4, number / across * 4);
         for (row, texels) in (top..height).zip(texels.as_chunks::<4>().0) {
             for (column, texel) in (left..width).zip(texels) {
@@ -90,8 +90,8 @@ fn decode_uastc(container: &Ktx2File<'_>) -> Result<Vec<[u8; 4]>, String> {
     Ok(rgba)
 }
 
-/// Flips an image that is stored from right to left, or from the bottom up, so that it begins at
-/// the upper left as in glTF.
+/// Flips an image that is stored from right to left or from the bottom up, so that it begins at the
+/// upper left, as in glTF.
 fn orient(image: &mut model::Image, [from_the_right, from_below]: [bool; 2]) {
     let width = (image.width as usize).max(1);
     if from_the_right {
@@ -116,7 +116,7 @@ mod tests {
     const RGBA: u32 = 43;
 
     #[test]
-    fn plain_texels_of_three_and_four_channels() {
+    fn uncompressed_rgb_and_rgba_texels_are_read() {
         let rgb = file_of(
             &HeaderFields { format: RGB, size: [2, 1], ..HeaderFields::default() },
             &[1, 2, 3, 4, 5, 6],
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn images_are_turned_upright() {
+    fn images_are_flipped_to_start_at_the_upper_left() {
         let texels: Vec<u8> = (0..24).collect();
         let [a, b, c, d, e, f] = [0, 4, 8, 12, 16, 20].map(|n| [n, n + 1, n + 2, n + 3]);
         for (orientation, expected) in [
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn every_truncation_is_an_error_and_no_panic() {
+    fn every_truncation_is_an_error_without_a_panic() {
         let fields = HeaderFields { format: RGBA, size: [2, 2], ..HeaderFields::default() };
         let bytes = file_of(&fields, &[7; 16]);
         assert!(decode(&bytes).is_ok());

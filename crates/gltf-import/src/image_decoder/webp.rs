@@ -1,4 +1,4 @@
-//! WebP: frames larger than the image are rejected before the decoder allocates for them.
+//! WebP decoding; frames larger than the image are rejected before the decoder allocates for them.
 //!
 //! ```text
 //!  RIFF length WEBP │ VP8X canvas │ VP8 frame       chunks: id, length, bytes, padded to even
@@ -11,23 +11,23 @@ use image_webp::WebPDecoder;
 use model::Image;
 use std::io::Cursor;
 
-/// Width and height from the header.
+/// Reads the width and height from the header.
 ///
 /// # Errors
-/// The container is invalid.
+/// Fails if the container is invalid.
 pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
     Ok(decoder(bytes)?.dimensions())
 }
 
-/// The message for a WebP that cannot be decoded.
+/// Returns the message for a WebP that cannot be decoded.
 fn problem(error: &image_webp::DecodingError) -> String {
     format!("the WebP is broken: {error}")
 }
 
-/// A WebP decoder whose memory is limited to 1 GiB.
+/// Returns a WebP decoder whose memory is limited to 1 GiB.
 ///
 /// # Errors
-/// The container is invalid.
+/// Fails if the container is invalid.
 fn decoder(bytes: &[u8]) -> Result<WebPDecoder<Cursor<&[u8]>>, String> {
     let mut decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(|error| problem(&error))?;
     decoder.set_memory_limit(1 << 30);
@@ -36,7 +36,7 @@ fn decoder(bytes: &[u8]) -> Result<WebPDecoder<Cursor<&[u8]>>, String> {
 
 /// Decodes the first frame of a lossy or lossless WebP.
 ///
-/// Without an alpha channel the decoder produces RGB, and alpha is added here.
+/// Without an alpha channel the decoder produces RGB, so alpha is added here.
 pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
     let mut decoder = decoder(bytes)?;
     let (width, height) = decoder.dimensions();
@@ -54,7 +54,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
 
 /// Checks that all lossy frames fit in an image of this size.
 ///
-/// A file of a few bytes may contain a frame that takes hundreds of megabytes; the decoder
+/// A file of a few bytes may contain a frame that takes hundreds of megabytes, and the decoder
 /// allocates before it compares the sizes.
 fn check_frame_sizes(file: &[u8], size: (u32, u32)) -> Result<(), String> {
     let chunks = file.get(12..).unwrap_or_default();
@@ -72,12 +72,12 @@ fn check_frame_sizes(file: &[u8], size: (u32, u32)) -> Result<(), String> {
     Ok(())
 }
 
-/// Checks one chunk; all except `VP8 ` are accepted.
+/// Checks one chunk. All chunks except `VP8 ` are accepted.
 ///
 /// The 14-bit width and height of a key frame follow its start code `9D 01 2A`.
 ///
 /// # Errors
-/// A message with both sizes.
+/// Returns a message with both sizes.
 fn check_frame_size(name: [u8; 4], bytes: &[u8], size: (u32, u32)) -> Result<(), String> {
     if &name != b"VP8 " {
         return Ok(());
@@ -85,7 +85,7 @@ fn check_frame_size(name: [u8; 4], bytes: &[u8], size: (u32, u32)) -> Result<(),
     let Some(&[_, _, _, 0x9D, 0x01, 0x2A, w0, w1, h0, h1]) = bytes.first_chunk() else {
         return Ok(());
     };
-    // The upper two bits are an upscaling hint, without effect on the decoded size.
+    // The upper two bits are an upscaling hint, which does not affect the decoded size.
     let side = |low, high| u32::from(u16::from_le_bytes([low, high]) & 0x3FFF);
     let (w, h) = (side(w0, w1), side(h0, h1));
     let (width, height) = size;
@@ -95,10 +95,10 @@ fn check_frame_size(name: [u8; 4], bytes: &[u8], size: (u32, u32)) -> Result<(),
     Err(format!("the WebP has a frame of {w} x {h} texels in an image of {width} x {height}"))
 }
 
-/// Iterator over RIFF chunks: their ids and data; the last one may be truncated.
+/// An iterator over RIFF chunks, with their ids and data. The last chunk may be truncated.
 ///
-/// Chunks are padded to an even length. The data of an `ANMF` chunk, a frame of an animation, has
-/// chunks inside.
+/// Chunks are padded to an even length. The data of an `ANMF` chunk, an animation frame, contains
+/// nested chunks.
 struct RiffChunks<'a>(&'a [u8]);
 
 impl<'a> Iterator for RiffChunks<'a> {
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn frames_larger_than_the_image_are_found_wherever_they_are() {
+    fn oversized_frames_are_found_in_every_chunk() {
         let (small, wide, high) = (frame(8, 4), frame(9, 4), frame(8, 5));
         let moving = |frame: &[u8]| chunk(b"ANMF", &[&[0; 16], frame].concat());
         let fits = |chunks: &[&[u8]]| {
@@ -145,6 +145,6 @@ mod tests {
         assert_eq!(fits(&[&odd, &small, &high]), too_large("8 x 5"));
         assert_eq!(fits(&[&moving(&small), &moving(&wide)]), too_large("9 x 4"));
         assert_eq!(fits(&[&small, b"VP8 \xFF\xFF\xFF\xFF\0\0\0\x9D\x01"]), Ok(()), "cut off");
-        assert_eq!(fits(&[&frame(0x4008, 0xC004)]), Ok(()), "with marks for enlarging");
+        assert_eq!(fits(&[&frame(0x4008, 0xC004)]), Ok(()), "with upscaling hints");
     }
 }

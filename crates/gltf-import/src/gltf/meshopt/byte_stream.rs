@@ -1,13 +1,13 @@
 //! Byte streams of the meshopt codecs: bounds-checked reading from both ends.
 //!
-//! Streams are untrusted: every read is checked, and each error is a separate variant, because the
-//! message is the only clue to the faulty encoder.
+//! Streams are untrusted, so every read is checked. Each error is a separate variant, because the
+//! message is the only clue to the bug in the encoder.
 
 /// The reason why a stream is invalid.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 pub(super) enum StreamError {
     /// The first byte does not match the codec.
-    #[error("the stream begins with {0:#04x}, an unknown version of its mode")]
+    #[error("the stream begins with {0:#04x}, an unknown version for its mode")]
     Header(u8),
     /// There are fewer bytes than the elements need.
     #[error("the stream ends too early")]
@@ -15,14 +15,14 @@ pub(super) enum StreamError {
     /// There are more bytes than the elements need.
     #[error("extra bytes at the end of the stream: {0}")]
     Long(usize),
-    /// An element refers to one that has not been decoded yet.
+    /// An element refers to another that has not been decoded yet.
     #[error("the stream refers to an edge or vertex before the first")]
     Unwritten,
     /// The delta mode of a channel is not known.
     #[error("a channel of the stream has the unknown mode {0:#04x}")]
     Channel(u8),
     /// The table of common vertex codes breaks its rules.
-    #[error("the corner table of the stream is not valid")]
+    #[error("the corner table of the stream is invalid")]
     Table,
     /// A variable-length integer has too many bytes.
     #[error("a number in the stream has more than five bytes")]
@@ -31,13 +31,13 @@ pub(super) enum StreamError {
 
 /// The bytes of a stream that have not been read.
 ///
-/// Reads from the front and from the back meet in the middle; [`ByteStream::expect_end`] requires
-/// that nothing is left between them.
+/// Reads from the front and the back meet in the middle; [`ByteStream::expect_end`] requires that
+/// nothing is left between them.
 #[derive(Clone, Debug)]
 pub(super) struct ByteStream<'a>(&'a [u8]);
 
 impl<'a> ByteStream<'a> {
-    /// Creates a stream of which nothing has been read.
+    /// Creates a stream from all of its bytes.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         Self(bytes)
     }
@@ -56,7 +56,7 @@ impl<'a> ByteStream<'a> {
         Ok(bytes)
     }
 
-    /// Returns the last `count` bytes: tables are stored at the end of a stream.
+    /// Returns the last `count` bytes, because tables are stored at the end of a stream.
     pub(super) fn take_back(&mut self, count: usize) -> Result<&'a [u8], StreamError> {
         let rest = self.0.len().checked_sub(count).ok_or(StreamError::Short)?;
         let (rest, bytes) = self.0.split_at(rest);
@@ -64,8 +64,8 @@ impl<'a> ByteStream<'a> {
         Ok(bytes)
     }
 
-    /// Reads a variable-length integer (LEB128): seven bits per byte, lowest first; the highest bit
-    /// of a byte means that another follows.
+    /// Reads a variable-length integer (LEB128): seven bits per byte, lowest first. The highest bit
+    /// of a byte is set if another byte follows.
     ///
     /// # Errors
     /// Returns [`StreamError::Number`] if the fifth byte announces a sixth, and
@@ -87,7 +87,7 @@ impl<'a> ByteStream<'a> {
         if self.0.is_empty() { Ok(()) } else { Err(StreamError::Long(self.0.len())) }
     }
 
-    /// Number of remaining bytes.
+    /// Returns the number of remaining bytes.
     pub(super) fn len(&self) -> usize {
         self.0.len()
     }
@@ -95,14 +95,14 @@ impl<'a> ByteStream<'a> {
 
 /// Decodes a zigzag-coded difference, whose sign is its lowest bit: 0, −1, 1, −2, 2, …
 ///
-/// A negative difference is returned as its two's complement, for a wrapping addition.
+/// A negative difference is returned as its two's complement, for wrapping addition.
 pub(super) fn decode_zigzag(number: u32) -> u32 {
     if number & 1 == 0 { number >> 1 } else { !(number >> 1) }
 }
 
-/// Appends an index of two or four bytes; two bytes hold its lower half.
+/// Appends an index in two or four bytes; two bytes hold its lower half.
 ///
-/// `stride` is 2 or 4. Indices of two bytes are less than 65536 in a valid stream.
+/// `stride` is 2 or 4. In a valid stream, two-byte indices are less than 65536.
 pub(super) fn push_index(indices: &mut Vec<u8>, index: u32, stride: usize) {
     indices.extend(&index.to_le_bytes()[..stride]);
 }
@@ -112,7 +112,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_of_seven_bits_a_byte() {
+    fn varints_have_seven_bits_per_byte() {
         for (bytes, number) in [
             (&[0x7F][..], Ok(0x7F)),
             (&[0x81, 0x04], Ok(0x201)),
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn signs_are_unfolded() {
+    fn zigzag_differences_are_decoded() {
         let signed: Vec<i32> = (0..5).map(|n| decode_zigzag(n).cast_signed()).collect();
         assert_eq!(signed, [0, -1, 1, -2, 2]);
         assert_eq!(decode_zigzag(u32::MAX).cast_signed(), i32::MIN);

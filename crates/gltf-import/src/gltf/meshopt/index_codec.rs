@@ -7,9 +7,9 @@
 //!               table, else from a byte of the data
 //! ```
 //!
-//! The third vertex (Y < 15, and each half of a table entry) is 0 for a new vertex, 1 to 12 for one
-//! of the vertex FIFO, 13 and 14 for the last explicit index −1 and +1, 15 for an explicit index: a
-//! zigzag-coded difference to the last one.
+//! The third vertex (Y < 15, and each half of a table entry) is 0 for a new vertex, 1 to 12 for a
+//! vertex in the vertex FIFO, 13 and 14 for the last explicit index −1 and +1, and 15 for an
+//! explicit index, which is a zigzag-coded difference from the last explicit index.
 
 use super::byte_stream::{ByteStream, StreamError, decode_zigzag, push_index};
 
@@ -35,7 +35,7 @@ pub(super) fn decode_triangles(
     if table.iter().any(is_wrong) || table[14..] != [0, 0] {
         return Err(StreamError::Table);
     }
-    // A triangle takes at least one byte: short streams are rejected before allocation.
+    // A triangle takes at least one byte, so reject short streams before allocation.
     let codes = data.take_front(count / 3)?;
     let mut triangles = TriangleDecoder {
         data,
@@ -54,15 +54,15 @@ pub(super) fn decode_triangles(
     Ok(indices)
 }
 
-/// State of the decoder.
+/// The decoder state.
 ///
 /// Encoder and decoder update both FIFOs in the same order, so that positions in them identify
 /// recent edges and vertices.
 struct TriangleDecoder<'a> {
     data: ByteStream<'a>,
-    /// The next index if vertices are used in order of their first appearance.
+    /// The next new index, because vertices are numbered in the order of their first use.
     next_index: u32,
-    /// The last explicitly stored index, the base of the next delta.
+    /// The last explicitly stored index, which is the base of the next delta.
     last_index: u32,
     /// The last sixteen edges.
     edge_fifo: RecentFifo<(u32, u32)>,
@@ -73,8 +73,8 @@ struct TriangleDecoder<'a> {
 impl TriangleDecoder<'_> {
     /// Decodes the triangle of one code byte.
     ///
-    /// The high half of the code distinguishes a shared edge from three vertices; see the figure of
-    /// the module.
+    /// The high half of the code distinguishes a shared edge from three vertices; see the figure in
+    /// the module documentation.
     fn decode_triangle(&mut self, code: u8, table: &[u8]) -> Result<[u32; 3], StreamError> {
         match (code >> 4, code & 15) {
             (15, 14) => {
@@ -95,8 +95,8 @@ impl TriangleDecoder<'_> {
         }
     }
 
-    /// Reads the byte that encodes the second and third vertex; zero restarts the numbering of new
-    /// vertices.
+    /// Reads the byte that encodes the second and third vertices. Zero restarts the numbering of
+    /// new vertices.
     fn read_corner_codes(&mut self) -> Result<u8, StreamError> {
         let corners = self.data.read_byte()?;
         if corners == 0 {
@@ -107,8 +107,8 @@ impl TriangleDecoder<'_> {
 
     /// Decodes a triangle on a recent edge.
     ///
-    /// Two edges are pushed, the ones that the next triangle can share: the third is the shared
-    /// one. A vertex from the FIFO is not pushed again.
+    /// The two edges that the next triangle can share are pushed; the third is already shared. A
+    /// vertex from the FIFO is not pushed again.
     fn decode_edge_triangle(&mut self, edge: u8, third: u8) -> Result<[u32; 3], StreamError> {
         let (a, b) = self.edge_fifo.nth_newest(edge)?;
         let c = match third {
@@ -126,10 +126,10 @@ impl TriangleDecoder<'_> {
         Ok([a, b, c])
     }
 
-    /// Decodes a triangle without a shared edge; the two halves of `corners` encode its second and
-    /// third vertex.
+    /// Decodes a triangle without a shared edge. The two halves of `corners` encode its second and
+    /// third vertices.
     ///
-    /// All three edges are pushed, in the opposite direction, as in a neighboring triangle.
+    /// All three edges are pushed in the opposite direction, as in a neighboring triangle.
     fn decode_free_triangle(&mut self, a: u32, corners: u8) -> Result<[u32; 3], StreamError> {
         let (second, third) = (corners >> 4, corners & 15);
         let b = self.decode_corner(second)?;
@@ -146,7 +146,7 @@ impl TriangleDecoder<'_> {
         Ok([a, b, c])
     }
 
-    /// Decodes a vertex: new, explicit, or one of the recent ones.
+    /// Decodes a vertex, which is new, explicit or recent.
     fn decode_corner(&mut self, from: u8) -> Result<u32, StreamError> {
         match from {
             0 => Ok(self.next_vertex()),
@@ -162,25 +162,26 @@ impl TriangleDecoder<'_> {
         fresh
     }
 
-    /// Returns the explicit index at a given difference from the last one.
+    /// Returns the explicit index at this difference from the last explicit index.
     fn advance_last(&mut self, difference: u32) -> u32 {
         self.last_index = self.last_index.wrapping_add(difference);
         self.last_index
     }
 
-    /// Reads an index stored as a zigzag-coded difference from the last explicit one.
+    /// Reads an index stored as a zigzag-coded difference from the last explicit index.
     fn read_explicit_index(&mut self) -> Result<u32, StreamError> {
         let number = self.data.read_varint()?;
         Ok(self.advance_last(decode_zigzag(number)))
     }
 }
 
-/// FIFO of the last sixteen items of a sequence.
+/// A FIFO of the last sixteen items in a sequence.
 ///
-/// A ring buffer: index `newest` is the last item, and older ones precede it, modulo 16.
+/// It is a ring buffer: `newest` is the index of the last item, and older items precede it, modulo
+/// 16.
 #[derive(Default)]
 struct RecentFifo<T> {
-    /// The items; `None` for those not yet written.
+    /// The items; `None` if not yet written.
     items: [Option<T>; 16],
     /// Index of the newest item.
     newest: usize,
@@ -207,7 +208,7 @@ impl<T: Copy> RecentFifo<T> {
 mod tests {
     use super::*;
 
-    /// A table as written by encoders, with one custom entry for two old vertices.
+    /// A table as written by encoders, with one custom entry for two recent vertices.
     const TABLE: [u8; 16] =
         [0x00, 0x76, 0x87, 0x56, 0x67, 0x78, 0xA9, 0x86, 0x65, 0x89, 0x68, 0x98, 0x01, 0x69, 0, 0];
 
@@ -222,20 +223,20 @@ mod tests {
     }
 
     #[test]
-    fn every_kind_of_code() {
+    fn every_code_is_decoded() {
         type Row<'a> = (&'a [u8], &'a [u8], &'a [[u8; 3]]);
         let table: [Row<'_>; 8] = [
             (&[0xF0], &[], &[[0, 1, 2]]),
-            // The newest edge is a c; then the second newest of the edges that follow.
+            // First the newest edge, a c; then the second newest of the edges after that.
             (&[0xF0, 0x00], &[], &[[0, 1, 2], [0, 2, 3]]),
             (&[0xF0, 0x10], &[], &[[0, 1, 2], [2, 1, 3]]),
-            // A vertex seen before: the one before the newest is 1.
+            // A recent vertex: 1 is the vertex before the newest.
             (&[0xF0, 0x01], &[], &[[0, 1, 2], [0, 2, 1]]),
-            // Up from the last explicit index, and down again.
+            // One above the last explicit index, then one below.
             (&[0xF0, 0x0F, 0x0E, 0x0D], &[20], &[[0, 1, 2], [0, 2, 10], [0, 10, 11], [0, 11, 10]]),
-            // From the table: the third corner is the newest vertex.
+            // From the table, with the newest vertex as third corner.
             (&[0xF0, 0xFC], &[], &[[0, 1, 2], [3, 4, 2]]),
-            // Everything explicit; and the numbering restarts.
+            // All vertices explicit, and the numbering restarts.
             (&[0xFF], &[0xFF, 14, 2, 1], &[[7, 8, 7]]),
             (&[0xF0, 0xFE], &[0], &[[0, 1, 2], [0, 1, 2]]),
         ];
@@ -245,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn invalid_streams_are_refused() {
+    fn invalid_streams_are_rejected() {
         assert_eq!(triangles(&[0x00], &[]), Err(StreamError::Unwritten));
         assert_eq!(triangles(&[0xF0, 0x09], &[]), Err(StreamError::Unwritten));
         assert_eq!(triangles(&[0xFF], &[0xFF, 14]), Err(StreamError::Short));

@@ -1,7 +1,8 @@
 //! meshopt mode INDICES: each index is the difference from one of two baselines.
 //!
-//! Line lists and strips alternate between distant vertices; each of two baselines follows one of
-//! them. A number has the baseline in its lowest bit and a zigzag-coded difference above it:
+//! Line lists and strips alternate between distant vertices, and each of the two baselines follows
+//! one of them. The lowest bit of a number selects the baseline; the other bits are a zigzag-coded
+//! difference:
 //!
 //! ```text
 //!  varint  d d d d d s b     b: baseline 0 or 1    s: sign    d: difference
@@ -11,7 +12,7 @@ use super::byte_stream::{ByteStream, StreamError, decode_zigzag, push_index};
 
 /// Decodes indices of `stride` bytes, which is 2 or 4.
 ///
-/// The last four bytes are padding, which lets other decoders read beyond an index.
+/// The last four bytes are padding, which lets other decoders read past the end of an index.
 ///
 /// # Errors
 /// Fails if the header is unknown, the stream ends too early, or bytes remain at its end.
@@ -26,7 +27,7 @@ pub(super) fn decode_index_sequence(
         other => return Err(StreamError::Header(other)),
     }
     stream.take_back(4)?;
-    // An index takes at least one byte: short streams are rejected before allocation.
+    // An index takes at least one byte, so reject short streams before allocation.
     if stream.len() < count {
         return Err(StreamError::Short);
     }
@@ -47,8 +48,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn two_sequences_in_one() {
-        // 3 and 5 up from 0 on base 0; 100 down from 0 on base 1; −1 on base 0.
+    fn two_baselines_are_decoded() {
+        // +3 and +5 from 0 on baseline 0; −100 from 0 on baseline 1; −1 on baseline 0.
         let stream = [0xD1, 6 << 1, 4 << 1, 0x8F, 0x03, 1 << 1, 0, 0, 0, 0];
         let last = |index: u32, stride: usize| index.to_le_bytes()[..stride].to_vec();
         for stride in [2, 4] {

@@ -1,5 +1,5 @@
-//! Streams of a real encoder: the box that glTF-Transform ships as a sample, 24 vertices and 12
-//! triangles.
+//! Streams from a real encoder: the sample box that ships with glTF-Transform, with 24 vertices and
+//! 12 triangles.
 
 use super::*;
 use gltf::json::buffer::View;
@@ -41,7 +41,7 @@ fn compressed_view(mode: &str, count: usize, stride: usize) -> CompressedView {
 }
 
 #[test]
-fn the_box_is_a_box() {
+fn the_sample_box_is_decoded() {
     let positions = compressed_view("ATTRIBUTES", 24, 8).decompress(&POSITIONS).unwrap();
     let positions: Vec<[u16; 3]> = positions
         .chunks(8)
@@ -65,7 +65,7 @@ fn the_box_is_a_box() {
         assert_eq!(
             cross.map(|x| 127 * x),
             normal.map(i64::from),
-            "the face looks along its normal"
+            "the face points along its normal"
         );
         area += 1;
     }
@@ -73,7 +73,7 @@ fn the_box_is_a_box() {
 }
 
 #[test]
-fn every_cut_is_refused() {
+fn truncated_streams_are_rejected() {
     for (stream, packed) in [
         (&NORMALS[..], compressed_view("ATTRIBUTES", 24, 4)),
         (&POSITIONS, compressed_view("ATTRIBUTES", 24, 8)),
@@ -95,7 +95,7 @@ fn every_cut_is_refused() {
 }
 
 #[test]
-fn changed_bytes_do_no_harm() {
+fn modified_bytes_do_not_panic() {
     let mut seed = 1u64;
     let mut random = || {
         seed ^= seed << 13;
@@ -112,8 +112,7 @@ fn changed_bytes_do_no_harm() {
                 let at = random() % changed.len();
                 changed[at] = random() as u8;
             }
-            // The first byte selects the version: version 1 reads the bytes of version 0 quite
-            // differently.
+            // The first byte selects the version, and version 1 interprets the bytes differently.
             for (mode, first) in
                 [("ATTRIBUTES", 0xA0), ("ATTRIBUTES", 0xA1), ("TRIANGLES", 0xE1), ("INDICES", 0xD1)]
             {
@@ -128,7 +127,7 @@ fn changed_bytes_do_no_harm() {
 }
 
 #[test]
-fn what_the_json_may_say() {
+fn extension_members_are_validated() {
     let good =
         json!({"buffer": 0, "byteLength": 9, "count": 6, "byteStride": 8, "mode": "ATTRIBUTES"});
     let plain: View = serde_json::from_value(json!({"buffer": 1, "byteLength": 48})).unwrap();

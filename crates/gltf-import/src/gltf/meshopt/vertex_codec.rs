@@ -1,34 +1,34 @@
-//! meshopt mode ATTRIBUTES: each byte of an element is stored as the difference to the same byte of
-//! the previous element.
+//! meshopt mode ATTRIBUTES: each byte of an element is stored as the difference from the same byte
+//! of the previous element.
 //!
 //! ```text
 //!  stream:  version │ block │ … │ padding │ element before the first │ channel modes (version 1)
 //!  block:   controls (version 1) │ all bytes 0 of its elements │ all bytes 1 │ …
-//!  bytes n: two bits a group │ group of 16 │ group of 16 │ …
+//!  bytes n: two bits per group │ group of 16 │ group of 16 │ …
 //! ```
 //!
 //! A group stores its differences with 0, 1, 2, 4 or 8 bits each. A difference of all ones is an
-//! escape: its value follows in a byte after the group. Version 1 adds channels of four bytes whose
+//! escape: its value follows in a byte after the group. Version 1 adds four-byte channels whose
 //! deltas are bytes, 16-bit words or 32-bit exclusive ors, and controls that store bytes
-//! uncompressed or not at all.
+//! uncompressed or omit them.
 //!
-//! The format is specified in KHR_meshopt_compression and EXT_meshopt_compression (version 0 of the
-//! attribute codec is EXT, version 1 is KHR). Storing by byte position instead of by element groups
+//! The format is specified in EXT_meshopt_compression (version 0 of the attribute codec) and
+//! KHR_meshopt_compression (version 1). Storing bytes by position instead of by element groups
 //! similar values: high bytes change rarely, so most of their groups take 0 bits per difference.
 
 use super::byte_stream::{ByteStream, StreamError};
 
 /// Number of elements in a group.
 ///
-/// It is fixed by the format; with four bits each, a group is one 64-bit word.
+/// The format fixes this number; with four bits per difference, a group is one 64-bit word.
 const BYTE_GROUP_SIZE: usize = 16;
 
 /// The maximum number of elements in a block.
 ///
-/// A block has at most 8192 bytes, so blocks of long elements hold fewer.
+/// A block has at most 8192 bytes, so blocks of long elements have fewer elements.
 const VERTEX_BLOCK_MAX_SIZE: usize = 256;
 
-/// Decodes elements of `stride` bytes: a multiple of four up to 256.
+/// Decodes elements of `stride` bytes, a multiple of four up to 256.
 ///
 /// Time and memory are linear in `count * stride`, which the caller has charged to the budget.
 ///
@@ -56,8 +56,8 @@ pub(super) fn decode_vertices(
     };
     let block_elements =
         (8192 / stride / BYTE_GROUP_SIZE * BYTE_GROUP_SIZE).min(VERTEX_BLOCK_MAX_SIZE);
-    // A block takes at least one byte for each channel: streams that are far too short are
-    // rejected before allocation.
+    // A block takes at least one byte per channel, so reject streams that are far too short before
+    // allocation.
     if stream.len() < count.div_ceil(block_elements).saturating_mul(stride / 4) {
         return Err(StreamError::Short);
     }
@@ -75,7 +75,7 @@ pub(super) fn decode_vertices(
 /// Decodes one block into `elements`; `before` is the preceding element.
 ///
 /// The deltas of four adjacent bytes are decoded together, because a channel combines them. Deltas
-/// accumulate: each element is decoded from the previous one.
+/// accumulate: each element is decoded from the previous element.
 ///
 /// # Errors
 /// Fails if the stream ends within the block.
@@ -110,11 +110,12 @@ fn decode_vertex_block(
     Ok(())
 }
 
-/// Reads the deltas of one byte of all elements of a block; `deltas` has space for whole groups.
+/// Reads the deltas of one byte position for all elements of a block; `deltas` has space for whole
+/// groups.
 ///
-/// `control` is the two-bit control of version 1: 0 and 1 choose between two sets of bit widths, 2
-/// means all zeros, 3 uncompressed bytes. Version 0 has no control and a separate set of widths.
-/// The header has two bits for each group, padded to whole bytes.
+/// `control` is the two-bit control of version 1: 0 and 1 select a set of bit widths, 2 means all
+/// zeros, and 3 means uncompressed bytes. Version 0 has no control and uses another set of widths.
+/// The header has two bits per group, padded to whole bytes.
 fn decode_byte_deltas(
     stream: &mut ByteStream<'_>,
     control: Option<u8>,
@@ -146,7 +147,7 @@ fn decode_byte_deltas(
 /// Unpacks a group of sixteen deltas of 0, 1, 2, 4 or 8 bits.
 ///
 /// With 1, 2 or 4 bits, the largest value is an escape: the delta is the next byte after the packed
-/// ones. With 8 bits every value is literal.
+/// deltas. With 8 bits, every value is literal.
 fn decode_byte_group(
     stream: &mut ByteStream<'_>,
     bits: usize,
@@ -160,7 +161,7 @@ fn decode_byte_group(
             let (mask, per_byte) = ((1u8 << bits) - 1, 8 / bits);
             for (at, delta) in group.iter_mut().enumerate() {
                 let slot = at % per_byte;
-                // Single bits begin at the low end of a byte, all others at the high end.
+                // Single bits start at the low end of a byte, all other widths at the high end.
                 let shift = if bits == 1 { slot } else { 8 - bits * (slot + 1) };
                 let value = packed[at / per_byte] >> shift & mask;
                 *delta = if value == mask { stream.read_byte()? } else { value };
@@ -170,24 +171,24 @@ fn decode_byte_group(
     Ok(())
 }
 
-/// Interpretation of a delta of four bytes.
+/// The interpretation of a four-byte delta.
 ///
-/// Version 0 has only bytes. 16-bit words suit quantized attributes, and exclusive ors suit floats,
-/// in which adjacent values share sign and exponent.
+/// Version 0 has only bytes. 16-bit words suit quantized attributes; exclusive ors suit floats,
+/// because adjacent values share their sign and exponent.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum DeltaChannel {
-    /// Four zigzag-coded differences of bytes.
+    /// Four zigzag-coded byte differences.
     Bytes8,
-    /// Two zigzag-coded differences of 16-bit words.
+    /// Two zigzag-coded 16-bit differences.
     Words16,
     /// The exclusive or of two 32-bit words, rotated left by this number of bits.
     Xor32(u32),
 }
 
 impl DeltaChannel {
-    /// Creates the channel that a mode byte declares.
+    /// Decodes the channel that a mode byte declares.
     ///
-    /// The low half is the kind, the high half the rotation of an exclusive or.
+    /// The low half is the kind; the high half is the rotation of an exclusive or.
     fn new(mode: u8) -> Result<Self, StreamError> {
         match (mode >> 4, mode & 15) {
             (0, 0) => Ok(Self::Bytes8),
@@ -230,12 +231,12 @@ impl DeltaChannel {
 mod tests {
     use super::*;
 
-    /// The example of the specification.
+    /// The example from the specification.
     const NIBBLES: [u8; 10] = [0x17, 0x5F, 0xF0, 0xBC, 0x77, 0xA9, 0x21, 0x00, 0x34, 0xB5];
     const DELTAS: [i8; 16] = [-1, -4, -3, 26, -91, 0, -6, 6, -4, -4, 5, -5, 1, -1, 0, 0];
 
     #[test]
-    fn a_group_of_each_width() {
+    fn groups_of_every_width_are_decoded() {
         let read = |bits: usize, bytes: &[u8]| {
             let (mut group, mut stream) = ([0; BYTE_GROUP_SIZE], ByteStream::new(bytes));
             decode_byte_group(&mut stream, bits, &mut group)
@@ -257,8 +258,8 @@ mod tests {
     }
 
     #[test]
-    fn version_0_adds_up_the_deltas_of_each_byte() {
-        // Byte 0 of 17 elements is the example and one more group of zeros; byte 1 increases by 1;
+    fn version_0_accumulates_byte_deltas() {
+        // In 17 elements, byte 0 is the example plus a group of zeros, byte 1 increases by 1, and
         // bytes 2 and 3 are constant.
         let mut stream = vec![0xA0, 0b0010];
         stream.extend(NIBBLES);
@@ -281,11 +282,11 @@ mod tests {
     }
 
     #[test]
-    fn version_1_has_controls_and_three_kinds_of_delta() {
+    fn version_1_decodes_controls_and_three_delta_kinds() {
         let bits = 0x3F80_0000u32 ^ 0x4000_0000;
         let rotated = bits.rotate_left(4).to_le_bytes();
-        // Three channels of two elements: bytes by groups of one bit and literally; words; bits
-        // turned by 4.
+        // Three channels of two elements: bytes in one-bit groups and uncompressed, words, and
+        // exclusive ors rotated by 4.
         let mut stream = vec![0xA1, 0b10_10_11_01, 0b10_10_11_11, 0xFF];
         stream.extend([0, 0b01, 0, 6]); // byte 0: one group of one bit: 6 → +3, then 0
         stream.extend([1, 4]); // byte 1: −1, +2
@@ -305,8 +306,8 @@ mod tests {
         assert_eq!(elements[12..20], [103, 101, 7, 8, 0x00, 0x0F, 1, 2]);
         assert_eq!(elements[20..], two);
         for end in 0..stream.len() {
-            // The channel modes are at the end: if the stream is cut elsewhere, other bytes take
-            // their role.
+            // The channel modes are at the end, so other bytes take their place if the stream is
+            // truncated.
             let cut = decode_vertices(&stream[..end], 2, 12).unwrap_err();
             let is_expected = matches!(cut, StreamError::Short | StreamError::Channel(_));
             assert!(is_expected, "cut at {end}: {cut}");
@@ -318,8 +319,8 @@ mod tests {
     }
 
     #[test]
-    fn blocks_go_on_where_the_last_one_ended() {
-        // 300 elements of 64 bytes: blocks of 128, 128 and 44, with every byte increasing by one.
+    fn blocks_continue_from_the_previous_element() {
+        // 300 elements of 64 bytes in blocks of 128, 128 and 44, with every byte increasing by one.
         let mut stream = vec![0xA1];
         for groups in [8usize, 8, 3] {
             stream.extend([0; 16]);

@@ -1,8 +1,8 @@
-//! meshopt filters: expand octahedral vectors, quaternions, exponential floats and YCoCg colors to
-//! full width.
+//! meshopt filters, which expand octahedral vectors, quaternions, exponential floats and YCoCg
+//! colors to full width.
 //!
-//! The specification leaves the result of out-of-range values open; here they become some number of
-//! the type, without a panic.
+//! The specification does not define the result for out-of-range values; here they become an
+//! arbitrary number of the type, without a panic.
 //!
 //! A filter is applied after decompression, and widens quantized values to the component type of
 //! the accessor:
@@ -50,7 +50,7 @@ impl MeshoptFilter {
 /// in the result.
 ///
 /// The octahedron |x| + |y| + |z| = 1 is unfolded into a square; `unit` is the value that
-/// represents 1 in x and y. The fourth component passes through.
+/// represents 1 in x and y. The fourth component is not changed.
 fn decode_octahedral([x, y, unit, fourth]: [i16; 4], full_scale: f32) -> [i16; 4] {
     let unit_length = f32::from(unit);
     let (x, y) = (f32::from(x) / unit_length, f32::from(y) / unit_length);
@@ -63,12 +63,11 @@ fn decode_octahedral([x, y, unit, fourth]: [i16; 4], full_scale: f32) -> [i16; 4
     [round_to_i16(x), round_to_i16(y), round_to_i16(z), fourth]
 }
 
-/// Decodes a rotation from its three smaller components, scaled by √2, and the index of the
-/// largest.
+/// Decodes a rotation from its three smaller components, scaled by √2, and the index of the largest
+/// component.
 ///
-/// The largest component follows from the unit length: √(1 − a² − b² − c²), and is positive,
-/// because q and −q are the same rotation. Its index is in the lowest two bits of the fourth
-/// number.
+/// The largest component follows from the unit length: √(1 − a² − b² − c²). It is positive, because
+/// q and −q are the same rotation. Its index is in the lowest two bits of the fourth number.
 fn decode_quaternion([a, b, c, scale]: [i16; 4]) -> [i16; 4] {
     let step = std::f32::consts::FRAC_1_SQRT_2 / f32::from(scale | 3);
     let [a, b, c] = [a, b, c].map(|x| f32::from(x) * step);
@@ -78,7 +77,7 @@ fn decode_quaternion([a, b, c, scale]: [i16; 4]) -> [i16; 4] {
     components
 }
 
-/// Decodes a float from an exponent of 8 bits and a mantissa of 24, both signed.
+/// Decodes a float from a signed 8-bit exponent and a signed 24-bit mantissa.
 ///
 /// The value is mantissa · 2^exponent. The power is composed from its bits in double precision,
 /// which covers all 256 exponents without rounding.
@@ -88,7 +87,8 @@ fn decode_exponential(number: i32) -> f32 {
     (power * f64::from(mantissa)) as f32
 }
 
-/// RGBA from YCoCg and alpha; the highest set bit in alpha gives the common bit depth of all four.
+/// Decodes RGBA from YCoCg and alpha. The highest set bit of alpha gives the bit depth of all four
+/// components.
 ///
 /// YCoCg decorrelates colors using only additions: R = Y + Co − Cg, G = Y + Cg, B = Y − Co − Cg.
 fn decode_color([y, co, cg, alpha]: [i32; 4], full_scale: f32) -> [u16; 4] {
@@ -103,10 +103,10 @@ fn decode_color([y, co, cg, alpha]: [i32; 4], full_scale: f32) -> [u16; 4] {
         .map(|x| (x as f32 * scale).round().min(full_scale) as u16)
 }
 
-/// Replaces each group of `N` numbers in a slice of bytes.
+/// Replaces each group of `N` numbers in a byte slice.
 ///
-/// Incomplete bytes at the end are left unchanged. Both arrays of `N` numbers have the same size in
-/// bytes.
+/// Incomplete groups at the end are left unchanged. Both arrays of `N` numbers have the same size
+/// in bytes.
 fn map_elements<const N: usize, A: Number, B: Number>(
     bytes: &mut [u8],
     filter: impl Fn([A; N]) -> [B; N],
@@ -121,7 +121,7 @@ fn map_elements<const N: usize, A: Number, B: Number>(
 
 /// A number as stored in a buffer, little-endian.
 trait Number: Copy {
-    /// Its size in bytes.
+    /// The size in bytes.
     const SIZE: usize;
     /// Decodes a number from the first bytes of a slice.
     fn read(bytes: &[u8]) -> Self;
@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn octahedral_vectors_are_unit_vectors() {
+    fn octahedral_vectors_have_unit_length() {
         const ONE: i16 = 32_767;
         for (stored, expected) in [
             ([0, 0, 511, 9], [0, 0, ONE, 9]),
@@ -167,7 +167,7 @@ mod tests {
             ([511, 511, 511, 9], [0, 0, -ONE, 9]),
             ([-511, 511, 511, 9], [0, 0, -ONE, 9]),
             ([ONE, 0, ONE, 0], [ONE, 0, 0, 0]),
-            // In the lower half: (−0.8, 0.4) unfolds to (−0.6, 0.2), and below is −0.2.
+            // In the lower half, (−0.8, 0.4) unfolds to (−0.6, 0.2), with z = −0.2.
             ([-800, 400, 1000, 0], [-29_639, 9_880, -9_880, 0]),
         ] {
             assert_eq!(filtered(MeshoptFilter::Octahedral, 8, &stored), expected, "{stored:?}");
@@ -178,9 +178,9 @@ mod tests {
     }
 
     #[test]
-    fn quaternions_get_their_largest_component_back() {
+    fn quaternions_recover_their_largest_component() {
         let half = 16_384;
-        // (½, ½, ½, ½) in eleven bits: 1/2 · √2 · 1023 = 723.4.
+        // (½, ½, ½, ½) with eleven bits: 1/2 · √2 · 1023 = 723.4.
         for largest in 0..4i16 {
             let stored = [723, 723, 723, 1020 | largest];
             let actual = filtered(MeshoptFilter::Quaternion, 8, &stored);
@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn exponents_are_exact() {
+    fn exponential_floats_are_exact() {
         for (mantissa, exponent, value) in [
             (0, 0, 0.0),
             (1, 0, 1.0),
@@ -213,9 +213,9 @@ mod tests {
     }
 
     #[test]
-    fn colors_of_all_widths() {
-        // Red, green, blue, white, and gray with seven bits: 127 is one, and alpha has six bits
-        // below the marker.
+    fn colors_of_every_width_are_decoded() {
+        // Red, green, blue, white and gray with seven bits: 127 represents 1, and alpha has six
+        // bits below the marker.
         for ([r, g, b], alpha) in [
             ([127, 0, 0], 0x7F),
             ([0, 127, 0], 0x7F),
@@ -246,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn arbitrary_bytes_do_not_panic() {
+    fn invalid_filter_input_does_not_panic() {
         let words = [0, 1, 2, 3, -1, -2, i16::MAX, i16::MIN];
         for (filter, stride) in [
             (MeshoptFilter::Octahedral, 4),

@@ -4,8 +4,8 @@
 //!  identifier │ header │ level index │ descriptor │ key/value data │ global data │ levels
 //!       12        68       24 each         offsets and lengths in the header and the index
 //! ```
-//! Source: Khronos KTX File Format Specification 2.0, §3; glTF allows one layer, one face and no
-//! depth (KHR_texture_basisu).
+//! Source: Khronos KTX File Format Specification 2.0, §3. glTF allows only 2D images with one layer
+//! and one face (KHR_texture_basisu).
 
 use super::zstandard;
 use std::borrow::Cow;
@@ -13,16 +13,16 @@ use std::borrow::Cow;
 /// The identifier at the beginning of a KTX2 file (KTX 2.0 §3.1).
 pub(in super::super) const MAGIC: [u8; 12] = *b"\xABKTX 20\xBB\r\n\x1A\n";
 
-/// Maximum number of texels in an image: `basisu` counts their bytes in 32 bits.
+/// Maximum number of texels in an image, because `basisu` counts their bytes in 32 bits.
 const MAX_TEXELS: u64 = 1 << 28;
 
-/// Maximum number of mip levels: an image of 2^31 texels per side has no more.
+/// Maximum number of mip levels, which an image of 2^31 texels per side has.
 const MAX_LEVELS: u32 = 32;
 
-/// Width and height of the first mip level, from the header (KTX 2.0 §3).
+/// Reads the width and height of the first mip level from the header (KTX 2.0 §3).
 ///
 /// # Errors
-/// A message: the header is truncated, or there are no texels or too many.
+/// Returns a message if the header is truncated, or there are no texels or too many.
 pub(in super::super) fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
     // One-dimensional textures have a height of 0.
     let (width, height) = (word(bytes, 20)?, word(bytes, 24)?.max(1));
@@ -39,9 +39,9 @@ pub(in super::super) fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
 /// The encoding of the texels.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum TexelEncoding {
-    /// Basis Universal's ETC1S, in codebooks and indices.
+    /// Basis Universal ETC1S: codebooks and indices.
     Etc1s,
-    /// Basis Universal's UASTC, blocks of 16 bytes.
+    /// Basis Universal UASTC: blocks of 16 bytes.
     Uastc,
     /// Three bytes per texel.
     Rgb8,
@@ -49,7 +49,7 @@ pub(super) enum TexelEncoding {
     Rgba8,
 }
 
-/// A KTX2 file whose parts are all inside it.
+/// A KTX2 file, with all parts verified to be inside it.
 pub(super) struct Ktx2File<'a> {
     /// Width in texels.
     pub(super) width: u32,
@@ -57,7 +57,7 @@ pub(super) struct Ktx2File<'a> {
     pub(super) height: u32,
     /// The encoding of the texels.
     pub(super) encoding: TexelEncoding,
-    /// Whether there is a second slice of ETC1S data, for alpha or for green.
+    /// Whether there is a second slice of ETC1S data, for alpha or green.
     has_second_slice: bool,
     /// Whether only red and green are stored, as gray and alpha.
     pub(super) has_red_and_green_only: bool,
@@ -65,29 +65,29 @@ pub(super) struct Ktx2File<'a> {
     pub(super) orientation: [bool; 2],
     /// Whether the level is compressed with Zstandard.
     is_zstandard: bool,
-    /// Number of mip levels according to the file.
+    /// Number of mip levels that the file declares.
     level_count: u32,
-    /// The bytes of the first, largest, level.
+    /// The bytes of the first (largest) level.
     level: &'a [u8],
     /// The supercompression global data.
     global_data: &'a [u8],
 }
 
-/// The slices of an ETC1S image, with the data to decode them.
+/// The slices of an ETC1S image, with the data needed to decode them.
 pub(super) struct Etc1sImage<'a> {
-    /// Shared by all images of the file.
+    /// The codebooks shared by all images in the file.
     pub(super) codebooks: Codebooks<'a>,
     /// The indices of the color blocks.
     pub(super) color: &'a [u8],
-    /// The indices of the blocks of the other slice.
+    /// The indices of the blocks in the other slice.
     pub(super) alpha: Option<&'a [u8]>,
 }
 
-/// Codebooks of ETC1S data, still compressed.
+/// The ETC1S codebooks, still compressed.
 pub(super) struct Codebooks<'a> {
     /// Counts and data of the endpoints and selectors.
     pub(super) palettes: [(u32, &'a [u8]); 2],
-    /// Huffman tables of the slices.
+    /// Huffman tables for the slices.
     pub(super) tables: &'a [u8],
 }
 
@@ -95,7 +95,7 @@ impl<'a> Ktx2File<'a> {
     /// Reads the header and finds the parts.
     ///
     /// # Errors
-    /// A message: a part is outside the file, or of a kind that glTF does not allow.
+    /// Returns a message if a part is outside the file, or of a kind that glTF does not allow.
     pub(super) fn read(bytes: &'a [u8]) -> Result<Self, String> {
         let (width, height) = size(bytes)?;
         check_shape(bytes)?;
@@ -138,15 +138,15 @@ impl<'a> Ktx2File<'a> {
         })
     }
 
-    /// Number of blocks of 4 x 4 texels, across and down.
+    /// Returns the number of 4 x 4 texel blocks across and down.
     pub(super) const fn block_counts(&self) -> [u32; 2] {
         [self.width.div_ceil(4), self.height.div_ceil(4)]
     }
 
-    /// The data of the level, decompressed: `unit` bytes per UASTC block or per texel.
+    /// Returns the decompressed data of the level: `unit` bytes per UASTC block or texel.
     ///
     /// # Errors
-    /// A message: the data is broken, or has another length.
+    /// Returns a message if the data is broken, or has another length.
     pub(super) fn level_data(&self, unit: usize) -> Result<Cow<'a, [u8]>, String> {
         let [columns, rows] = match self.encoding {
             TexelEncoding::Etc1s | TexelEncoding::Uastc => self.block_counts(),
@@ -163,7 +163,7 @@ impl<'a> Ktx2File<'a> {
         Err(format!("the first level of the KTX2 image has {found} bytes instead of {length}"))
     }
 
-    /// The parts of an ETC1S image (KTX 2.0 §5.1: BasisLZ global data).
+    /// Returns the parts of an ETC1S image (KTX 2.0 §5.1: BasisLZ global data).
     ///
     /// ```text
     ///  counts of endpoints, selectors │ lengths │ descriptions │ endpoints │ selectors │ tables
@@ -171,7 +171,7 @@ impl<'a> Ktx2File<'a> {
     /// ```
     ///
     /// # Errors
-    /// A message: a part is outside the data, or the image is a frame of a video.
+    /// Returns a message if a part is outside the data, or the image is a frame of a video.
     pub(super) fn etc1s_image(&self) -> Result<Etc1sImage<'a>, String> {
         const IS_P_FRAME: u32 = 2;
         let data = self.global_data;
@@ -202,12 +202,12 @@ impl<'a> Ktx2File<'a> {
     }
 }
 
-/// Channels of ETC1S slices and UASTC blocks that need special handling (Khronos data format
+/// Channel ids of ETC1S slices and UASTC blocks that need special handling (Khronos data format
 /// specification §5.6).
 const CHANNEL_ETC1S_GREEN: u8 = 4;
 const CHANNEL_UASTC_RED_GREEN: u8 = 5;
 
-/// Rejects volumes, arrays and cube maps, which glTF textures never are.
+/// Rejects volumes, arrays and cube maps, which glTF textures cannot be.
 fn check_shape(bytes: &[u8]) -> Result<(), String> {
     let [depth, layers, faces] = [word(bytes, 28)?, word(bytes, 32)?, word(bytes, 36)?];
     let (count, what) = match (depth, layers, faces) {
@@ -219,13 +219,13 @@ fn check_shape(bytes: &[u8]) -> Result<(), String> {
     Err(format!("the KTX2 image has {count} {what}; a glTF texture has one"))
 }
 
-/// The encoding, and the channel of each sample (for Basis Universal).
+/// Reads the encoding and, for Basis Universal, the channel of each sample.
 ///
-/// `format` is a Vulkan format number; 0 leaves it to the color model of the data format
-/// descriptor.
+/// `format` is a Vulkan format number; if it is 0, the color model of the data format descriptor
+/// applies.
 ///
 /// # Errors
-/// A message with the number of the format or of the color model.
+/// Returns a message with the number of the unsupported format or color model.
 fn read_encoding(format: u32, descriptor: &[u8]) -> Result<(TexelEncoding, Vec<u8>), String> {
     const HEADER_BYTES: usize = 28;
     let samples = descriptor.get(HEADER_BYTES..).unwrap_or_default().as_chunks::<16>().0;
@@ -251,8 +251,9 @@ fn read_encoding(format: u32, descriptor: &[u8]) -> Result<(TexelEncoding, Vec<u
     Ok((encoding, channels))
 }
 
-/// Whether rows run from right to left, and whether the bottom row is first: `KTXorientation` of
-/// the key/value data, usually `rd` or missing. A broken value counts as missing.
+/// Returns whether rows run from right to left, and whether the bottom row is first. This is
+/// `KTXorientation` in the key/value data, which is usually `rd` or missing. An invalid value
+/// counts as missing.
 fn read_orientation(mut entries: &[u8]) -> [bool; 2] {
     const KEY: &[u8] = b"KTXorientation\0";
     while let Some((length, rest)) = entries.split_first_chunk() {
@@ -266,19 +267,19 @@ fn read_orientation(mut entries: &[u8]) -> [bool; 2] {
     [false; 2]
 }
 
-/// A little-endian number of 32 bits.
+/// Reads a little-endian 32-bit number.
 fn word(bytes: &[u8], at: usize) -> Result<u32, String> {
     let word = bytes.get(at..).and_then(<[u8]>::first_chunk);
     word.map(|word| u32::from_le_bytes(*word))
         .ok_or_else(|| "the KTX2 image is truncated".to_owned())
 }
 
-/// A little-endian number of 64 bits.
+/// Reads a little-endian 64-bit number.
 fn long(bytes: &[u8], at: usize) -> Result<u64, String> {
     Ok(u64::from(word(bytes, at)?) | u64::from(word(bytes, at + 4)?) << 32)
 }
 
-/// Part of a slice of bytes.
+/// Returns a part of the bytes.
 fn part(bytes: &[u8], offset: u64, length: u64) -> Result<&[u8], String> {
     let part = || {
         let start = usize::try_from(offset).ok()?;
@@ -297,13 +298,13 @@ fn part(bytes: &[u8], offset: u64, length: u64) -> Result<&[u8], String> {
 pub(super) mod tests {
     use super::*;
 
-    /// Fields of a header; the defaults describe a plain texture.
+    /// Header fields; the defaults describe a plain texture.
     #[derive(Clone)]
     pub(in super::super) struct HeaderFields {
         pub(in super::super) format: u32,
         pub(in super::super) size: [u32; 2],
         pub(in super::super) orientation: &'static str,
-        /// Depth, layers, faces.
+        /// Depth, layers and faces.
         pub(in super::super) shape: [u32; 3],
         pub(in super::super) levels: u32,
         pub(in super::super) scheme: u32,
@@ -317,7 +318,7 @@ pub(super) mod tests {
         }
     }
 
-    /// A file with one level and no more descriptor than is read.
+    /// Returns a file with one level and only the parts of the descriptor that are read.
     pub(in super::super) fn file_of(fields: &HeaderFields, level: &[u8]) -> Vec<u8> {
         let entry = [b"KTXorientation\0", fields.orientation.as_bytes(), b"\0"].concat();
         let keys = 4 + entry.len().next_multiple_of(4) as u32;
@@ -336,7 +337,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn what_a_texture_cannot_be_is_refused_with_its_number() {
+    fn invalid_header_fields_are_rejected_with_their_values() {
         let usual = HeaderFields { color_model: 166, ..HeaderFields::default() };
         let refused = |fields: &HeaderFields, words: &str| {
             let message = Ktx2File::read(&file_of(fields, &[0; 16])).err().unwrap_or_default();
@@ -358,7 +359,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn levels_have_the_length_of_their_blocks() {
+    fn level_lengths_must_match_their_blocks() {
         let fields = HeaderFields { color_model: 166, size: [5, 3], ..HeaderFields::default() };
         let length = |level: &[u8]| {
             let file = file_of(&fields, level);
