@@ -1,8 +1,7 @@
-//! Meshes from memory: arrays of vertices and polygons become a [`Model`], like the arrays of
-//! files.
+//! Meshes from memory: converts arrays of vertices and polygons to a [`Model`].
 //!
-//! They are treated like PLY files: polygons are cut into triangles, missing normals are computed
-//! with the crease angle, and vertices are split between faces of different colors.
+//! They are treated like PLY files: polygons are triangulated, missing normals are computed with
+//! the crease angle, and vertices are split between faces of different colors.
 
 use super::ply::{self, Contents};
 use crate::load::{check_scene_limits, surface_without_area};
@@ -33,26 +32,27 @@ use model::{
 pub struct MeshArrays {
     /// The name, if it has one.
     pub name: Option<String>,
-    /// Positions of the vertices, all finite.
+    /// Positions of the vertices, which must all be finite.
     pub positions: Vec<[f32; 3]>,
     /// The number of corners of each polygon, at least 3.
     pub lengths: Vec<u32>,
-    /// Vertices of the corners of all polygons, counter-clockwise seen from outside.
+    /// Vertices of the corners of all polygons, counter-clockwise as seen from outside.
     pub corners: Vec<u32>,
-    /// Vertices at the ends of lines, two for each line. Without polygons and lines, the vertices
-    /// form a point cloud.
+    /// Vertices at the ends of lines, two per line. Without polygons and lines, the vertices form a
+    /// point cloud.
     pub line_ends: Vec<u32>,
-    /// Normals of the vertices, of any length; without them the crease angle is used.
+    /// Normals of the vertices, of any length. Without them, normals are computed with the crease
+    /// angle.
     pub normals: Option<Vec<[f32; 3]>>,
-    /// Texture coordinates of the vertices with (0, 0) at the upper left.
+    /// Texture coordinates of the vertices, with (0, 0) at the upper left.
     pub uvs: Option<Vec<[f32; 2]>>,
     /// Linear colors of the vertices.
     pub vertex_colors: Option<Vec<[f32; 4]>>,
-    /// Linear colors of the polygons, used if the vertices have none.
+    /// Linear colors of the polygons, used if the vertices have no colors.
     pub face_colors: Option<Vec<[f32; 4]>>,
     /// The texture image, which multiplies the base color; vertex and face colors are then ignored.
     pub image: Option<Image>,
-    /// The material; `None` for the default of formats without materials.
+    /// The material, or `None` for the default of formats without materials.
     pub material: Option<Material>,
 }
 
@@ -63,20 +63,20 @@ pub struct MeshNode {
     pub name: Option<String>,
     /// The index of the mesh.
     pub mesh: usize,
-    /// The transform from the mesh's coordinates to the model's.
+    /// The transform from mesh to model coordinates.
     pub to_model: Affine<ModelSpace, ModelSpace>,
 }
 
 impl Default for MeshNode {
-    /// Returns the first mesh, placed by its own coordinates.
+    /// Returns a node for the first mesh, without a transform.
     fn default() -> Self {
         Self { name: None, mesh: 0, to_model: Affine::IDENTITY }
     }
 }
 
-/// Makes a model from meshes in memory; `nodes` places them.
+/// Creates a model from meshes in memory, placed by `nodes`.
 ///
-/// Of the options, only the limits, up axis, unit and crease angle are used.
+/// Only the limits, up axis, unit and crease angle in the options are used.
 ///
 /// # Errors
 /// Fails if a limit is exceeded, arrays have different lengths, an index is out of range, or a
@@ -149,13 +149,13 @@ fn add_nodes(model: &mut Model, nodes: &[MeshNode]) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-/// Returns the error for arrays that do not fit together.
+/// Returns the error for inconsistent arrays.
 fn wrong_arrays(location: &str, message: String) -> Diagnostic {
     Diagnostic::error(codes::INVALID_DATA, location, message, "correct the arrays")
 }
 
 impl MeshArrays {
-    /// Checks lengths, indices and positions.
+    /// Checks the lengths, indices and positions.
     fn check_arrays(&self, location: &str) -> Result<(), Diagnostic> {
         let (vertices, faces) = (self.positions.len(), self.lengths.len());
         let lengths = [
@@ -205,7 +205,7 @@ impl MeshArrays {
         Ok(())
     }
 
-    /// Returns the material, with the texture at this index.
+    /// Returns the material with the texture at this index.
     fn to_material(&self, texture: Option<usize>) -> Material {
         let colors = self.vertex_colors.as_ref().or(self.face_colors.as_ref());
         let colors = colors.filter(|_| texture.is_none());
@@ -225,7 +225,7 @@ impl MeshArrays {
         material
     }
 
-    /// Returns the name, and the arrays in the form of a PLY file's.
+    /// Returns the name, and the arrays in the form of PLY contents.
     fn into_contents(self) -> (Option<String>, Contents) {
         let vertices = ply::Vertices {
             positions: self.positions,
@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn meshes_keep_their_order_and_have_materials_of_their_own() {
+    fn meshes_keep_their_order_and_have_separate_materials() {
         let image = Image { width: 1, height: 1, rgba: vec![[1, 2, 3, 255]] };
         let textured = MeshArrays { image: Some(image), uvs: Some(vec![[0.0; 2]; 4]), ..square() };
         let colored = MeshArrays { face_colors: Some(vec![[0.5; 4]; 2]), ..square() };
@@ -285,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cloud_of_points_and_lines() {
+    fn points_and_lines_are_built() {
         let cloud = MeshArrays { positions: vec![[0.0; 3]; 5], ..MeshArrays::default() };
         let lines = MeshArrays { line_ends: vec![0, 1], ..cloud.clone() };
         for (mesh, count) in [(cloud, 5), (lines, 1)] {
@@ -295,7 +295,7 @@ mod tests {
     }
 
     #[test]
-    fn arrays_that_do_not_fit_are_refused_with_their_place() {
+    fn inconsistent_arrays_are_rejected_with_a_location() {
         let nan = vec![[0.0; 3], [f32::NAN; 3], [0.0; 3], [0.0; 3]];
         let table = [
             (MeshArrays { corners: vec![0, 1, 4, 0, 2, 3], ..square() }, "/meshes/0/corners/2"),
@@ -312,7 +312,7 @@ mod tests {
     }
 
     #[test]
-    fn limits_hold() {
+    fn limits_are_enforced() {
         let mut options = ImportOptions::default();
         options.limits.array_bytes = 100;
         let refused = load_arrays("m", vec![square()], &[], &options).expect_err("too large");

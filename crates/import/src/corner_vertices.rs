@@ -1,15 +1,14 @@
 //! Splits vertices whose corners have different colors or texture coordinates.
 //!
-//! PLY and 3MF attach attributes to faces and to corners of faces; a primitive has them only at its
-//! vertices.
+//! PLY and 3MF attach attributes to faces and corners; a primitive has attributes only at vertices.
 
 /// Marks the end of a list.
 const NONE: u32 = u32::MAX;
-/// Maximum number of attributes to compare before a vertex is split again. A vertex with many
-/// different corners would otherwise take quadratic time.
+/// Maximum number of attributes to compare before a vertex is split again. Without this limit, a
+/// vertex with many different corners would take quadratic time.
 const MAX_COMPARISONS: usize = 32;
 
-/// Attributes of a corner other than its position.
+/// The attributes of a corner other than its position.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct CornerAttributes {
     /// Texture coordinates.
@@ -19,27 +18,27 @@ pub(super) struct CornerAttributes {
 }
 
 impl Default for CornerAttributes {
-    /// Returns the origin of the texture, and white.
+    /// Returns the texture origin and white.
     fn default() -> Self {
         Self { uv: [0.0; 2], color: [1.0; 4] }
     }
 }
 
-/// New vertices, one for each pair of an old vertex and different attributes.
+/// New vertices, one for each distinct pair of an old vertex and attributes.
 #[derive(Debug)]
 pub(super) struct CornerVertices {
-    /// The last new vertex of each old one.
+    /// The last new vertex of each old vertex.
     latest: Vec<u32>,
-    /// For each new vertex, the previous one made from the same old vertex.
+    /// For each new vertex, the previous new vertex of the same old vertex.
     before: Vec<u32>,
-    /// For each new vertex, the old one.
+    /// For each new vertex, the old vertex.
     pub(super) sources: Vec<u32>,
     /// For each new vertex, its attributes.
     pub(super) attributes: Vec<CornerAttributes>,
 }
 
 impl CornerVertices {
-    /// Creates an empty list for each of the old vertices.
+    /// Creates an empty list for each old vertex.
     pub(super) fn new(vertices: usize) -> Self {
         Self {
             latest: vec![NONE; vertices],
@@ -49,7 +48,7 @@ impl CornerVertices {
         }
     }
 
-    /// Returns the new vertex of a corner; `vertex` is less than the number of old ones.
+    /// Returns the new vertex of a corner. `vertex` must be less than the number of old vertices.
     pub(super) fn vertex_at(&mut self, vertex: u32, attributes: CornerAttributes) -> u32 {
         let latest = self.latest[vertex as usize];
         let mut candidate = latest;
@@ -70,7 +69,7 @@ impl CornerVertices {
         new
     }
 
-    /// Forgets all new vertices, in time proportional to their number.
+    /// Removes all new vertices, in time proportional to their number.
     pub(super) fn clear(&mut self) {
         for &source in &self.sources {
             self.latest[source as usize] = NONE;
@@ -80,7 +79,7 @@ impl CornerVertices {
         self.attributes.clear();
     }
 
-    /// Returns the values of old vertices at the new ones.
+    /// Returns the values of old vertices for the new vertices.
     pub(super) fn gather<T: Copy>(&self, values: &[T]) -> Vec<T> {
         self.sources.iter().map(|&source| values[source as usize]).collect()
     }
@@ -91,7 +90,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn equal_corners_share_a_vertex_and_others_do_not() {
+    fn only_identical_corners_share_a_vertex() {
         let mut vertices = CornerVertices::new(2);
         let white = CornerAttributes::default();
         let red = CornerAttributes { color: [1.0, 0.0, 0.0, 1.0], ..white };

@@ -1,5 +1,5 @@
-//! Model file formats, and their detection from the content; the name is used only if the content
-//! is ambiguous.
+//! Model file formats and their detection from the content. The name is used only if the content is
+//! ambiguous.
 
 use super::stl;
 use super::text::decode_text;
@@ -21,9 +21,9 @@ pub enum FileFormat {
     ThreeMf,
 }
 
-/// Number of bytes at the beginning of a file that are used to tell text formats apart.
+/// Number of bytes at the beginning of a file that are used to distinguish text formats.
 ///
-/// Comments before the first statement of an OBJ file are rarely longer.
+/// Comments before the first statement of an OBJ file are rarely longer than this.
 const PREFIX_BYTES: usize = 16 << 10;
 
 impl FileFormat {
@@ -42,7 +42,7 @@ impl FileFormat {
         }
     }
 
-    /// File extensions of the format, in lowercase and without the dot.
+    /// Returns the file extensions of the format, in lowercase and without the dot.
     #[must_use]
     pub const fn extensions(self) -> &'static [&'static str] {
         match self {
@@ -54,15 +54,15 @@ impl FileFormat {
         }
     }
 
-    /// Returns the format for a file's extension, regardless of case.
+    /// Returns the format for a file's extension, ignoring case.
     #[must_use]
     pub fn from_extension(path: &Path) -> Option<Self> {
         let extension = path.extension()?.to_str()?.to_ascii_lowercase();
         Self::ALL.into_iter().find(|format| format.extensions().contains(&extension.as_str()))
     }
 
-    /// Returns the format that the content of a file shows, or `None` if it does not clearly show
-    /// one.
+    /// Identifies the format from the content of a file. Returns `None` if the content is
+    /// ambiguous.
     ///
     /// The time does not depend on the length of the file.
     #[must_use]
@@ -87,13 +87,13 @@ impl FileFormat {
         }
     }
 
-    /// Returns whether content that looks like this format is certain, even in a file that is as
-    /// long as a binary STL file.
+    /// Returns whether content that looks like this format identifies it even if the file has the
+    /// length of a binary STL file.
     pub(super) fn precedes_binary_stl(self) -> bool {
         matches!(self, Self::Gltf | Self::ThreeMf | Self::Ply)
     }
 
-    /// Returns the format of a file, from its content or else from its name.
+    /// Returns the format of a file from its content, or else from its name.
     ///
     /// # Errors
     /// Returns [`UNKNOWN_FORMAT`](codes::UNKNOWN_FORMAT) if neither identifies the format.
@@ -122,11 +122,11 @@ fn begins_with_obj_statement(text: &[u8]) -> bool {
     is_statement && words.next().is_some() && !text.contains(&0)
 }
 
-/// The first bytes of files that only have the name of a model.
+/// The first bytes of files that have the name of a model but are something else.
 const MISLEADING: [&[u8]; 6] =
     [b"version https://git-lfs", b"<!DOCTYPE", b"<!doctype", b"<html", b"\x1f\x8b", b"\x89PNG"];
 
-/// Unsupported formats: their first bytes, name and remedy.
+/// Unsupported formats: first bytes, name and remedy.
 const FOREIGN_FORMATS: [(&[u8], &str, &str); 19] = [
     (b"version https://git-lfs", "a Git LFS pointer", "run `git lfs pull`"),
     (b"<!DOCTYPE", "a web page", "download the model again"),
@@ -159,7 +159,7 @@ fn scene_as_model() -> Diagnostic {
     Diagnostic::error(codes::UNKNOWN_FORMAT, "", "this is a scene, not a model", help)
 }
 
-/// Returns the error for a file whose format neither its content nor its name shows.
+/// Returns the error for a file that neither its content nor its name identifies.
 fn unknown_format(bytes: &[u8]) -> Diagnostic {
     let is_text = bytes.len() > 8
         && bytes.iter().take(512).all(|b| b.is_ascii_graphic() || b.is_ascii_whitespace());
@@ -173,11 +173,11 @@ fn unknown_format(bytes: &[u8]) -> Diagnostic {
     Diagnostic::error(codes::UNKNOWN_FORMAT, "", message, help)
 }
 
-/// The remedy for text that may be meant as a scene.
+/// The remedy for text that may be intended as a scene.
 const WRITE_A_SCENE: &str = "use a .gltf, .glb, .stl, .obj, .ply or .3mf file; scenes are written in \
                              RON, in a .ron file: `alberti scene init model.glb` writes one";
 
-/// The remedy for a file of an unknown format.
+/// The remedy for a file in an unknown format.
 const GIVE_A_MODEL: &str = "use a .gltf, .glb, .stl, .obj, .ply or .3mf file";
 
 #[cfg(test)]
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn content_decides() {
+    fn formats_are_detected_from_content() {
         let utf_16: Vec<u8> =
             "\u{FEFF}v 1 2 3\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
         let table: [(&[u8], Option<FileFormat>); 16] = [
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn the_name_decides_if_the_content_is_ambiguous() {
+    fn ambiguous_content_is_resolved_by_name() {
         let of = |name: &str, bytes: &[u8]| {
             FileFormat::recognize(Path::new(name), bytes).map_err(|error| error.sentence())
         };

@@ -4,22 +4,22 @@
 //! only to files below one folder, and everything a file can declare has a [limit](Limits). A
 //! [`Diagnostic`](model::Diagnostic) gives the location, the problem and the remedy.
 //!
-//! Faults in the geometry (positions, indices, the node hierarchy) are errors; faults in the
+//! Problems in the geometry (positions, indices, the node hierarchy) are errors. Problems in the
 //! appearance (materials, normals, images) are [warnings](model::Model::warnings), and the file is
-//! drawn without the broken parts. With [`ImportOptions::lenient`] most errors become warnings too,
-//! as long as something is left to load. The crate `gltf-check` lists every error instead of
-//! stopping at the first.
+//! drawn without the broken parts. With [`ImportOptions::lenient`] most errors also become
+//! warnings, as long as something remains to load. The `gltf-check` crate lists every error instead
+//! of stopping at the first.
 //!
-//! | option | error by default | with `lenient` |
+//! | problem | error by default | with `lenient` |
 //! | --- | --- | --- |
 //! | broken shape | yes | the primitive is skipped |
 //! | missing buffer file | yes | anything that uses it is skipped |
 //! | unknown required extension | yes | it is ignored |
-//! | unknown format, other version | yes | yes |
-//! | exceeded limit | yes | yes |
+//! | unknown format or version | yes | still an error |
+//! | exceeded limit | yes | still an error |
 //!
-//! glTF is read by the crate `gltf-import`, which contains the guards; `stl`, `obj`, `ply` and
-//! `threemf` read one format each, and the other modules support them.
+//! The `gltf-import` crate reads glTF and contains the safeguards. `stl`, `obj`, `ply` and
+//! `threemf` read one format each; the other modules support them.
 
 mod arrays;
 mod corner_vertices;
@@ -38,13 +38,13 @@ pub use file_format::FileFormat;
 pub use load::{import_model, load, load_bytes, load_from_memory};
 pub use obj::PhongMaterial;
 
-// Parameter and result types of the functions here.
+// Parameter and result types of the functions in this crate.
 pub use gltf_import::{
     ExtensionUse, ImageLoading, ImportError, ImportOptions, Limits, MemoryFolder, NameOrIndex,
     ScalarColors, UriResolver, decode_image, extension_use, percent_decode, percent_encode,
 };
 
-/// Compiles and runs the examples of the README.
+/// Compiles and runs the examples in the README.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct ReadmeExamples;

@@ -12,8 +12,8 @@ use std::path::Path;
 /// Loads a model. Its [format](FileFormat) is detected from the content; the name is used only if
 /// the content is ambiguous.
 ///
-/// Problems that leave something to draw do not stop it: they are in [`Model::warnings`]. A file
-/// without anything to draw loads too.
+/// Problems that leave something to draw do not stop loading; they are in [`Model::warnings`]. A
+/// file without anything to draw also loads.
 ///
 /// ```no_run
 /// use import::{ImportOptions, load};
@@ -27,9 +27,9 @@ use std::path::Path;
 /// ```
 ///
 /// # Errors
-/// Fails if the file, or one it refers to, cannot be read or is forbidden; has an unknown format or
-/// breaks its rules; requires an unsupported extension; exceeds a limit; or lacks the scene,
-/// variant or scalar attribute that the options ask for.
+/// Fails if the file or a referenced file cannot be read, is not allowed, has an unknown format,
+/// breaks the rules of its format or exceeds a limit. Also fails if it requires an unsupported
+/// extension or lacks the scene, variant or scalar attribute that the options select.
 pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
     let read = || read_file(path, &options.limits, "");
     let load_bytes = || {
@@ -46,10 +46,10 @@ pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> 
     loaded.map_err(|diagnostic| ImportError::new(path, diagnostic))
 }
 
-/// Loads a model from a file in memory, as [`load`] does; `name` replaces its path in messages.
+/// Loads a model from a file in memory, as [`load`] does. `name` replaces the path in messages.
 ///
-/// Without a [root](ImportOptions::root) the file must be self-contained: no other file is read.
-/// With a root, relative URIs are resolved against that folder.
+/// Without a [root](ImportOptions::root) no other files are read, so the file must be
+/// self-contained. With a root, relative URIs are resolved against that folder.
 ///
 /// # Errors
 /// Fails in the same cases as [`load`].
@@ -91,7 +91,7 @@ pub fn load_from_memory(
     import().map_err(|diagnostic| ImportError::new(path, diagnostic))
 }
 
-/// Imports a file whose bytes have been read; the file name in `path` becomes the model's name.
+/// Imports a file from its bytes. The file name in `path` becomes the model's name.
 ///
 /// # Errors
 /// Fails in the same cases as [`load`].
@@ -112,8 +112,8 @@ pub fn import_model(
     complete_model(import(path, bytes, resolver, options)?, path, format, options)
 }
 
-/// Completes a model from its reader, given the file's up axis and unit. The options override
-/// these, and the model is rotated so that y is up.
+/// Completes a model from a format reader, and rotates it so that y is up. The options override the
+/// file's up axis and unit.
 fn complete_model(
     mut model: Model,
     path: &Path,
@@ -138,7 +138,7 @@ fn complete_model(
     Ok(model)
 }
 
-/// Returns the note about a file whose name suggests another format than its content.
+/// Returns the note about a file whose name suggests a different format than its content.
 fn misleading_name(path: &Path, format: FileFormat) -> Option<Diagnostic> {
     let named = FileFormat::from_extension(path).filter(|named| *named != format)?;
     let message =
@@ -148,8 +148,7 @@ fn misleading_name(path: &Path, format: FileFormat) -> Option<Diagnostic> {
     Some(fault.with_severity(Severity::Info))
 }
 
-/// Returns the warning about a model in which no triangle has an area, so that there is nothing to
-/// see.
+/// Returns the warning about a model in which no triangle has an area, so that nothing is visible.
 pub(crate) fn surface_without_area(model: &Model) -> Option<Diagnostic> {
     let primitives = model.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let mut triangles = primitives

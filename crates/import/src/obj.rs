@@ -6,15 +6,15 @@
 //! ```
 //!
 //! Reads polygons with any number of corners, lines and points; positions, texture coordinates,
-//! normals and vertex colors; objects, groups, smoothing groups, materials and their textures.
-//! Free-form curves and surfaces, and unknown statements, are listed in a warning.
+//! normals and vertex colors; objects, groups and smoothing groups; materials and their textures.
+//! Free-form curves and surfaces and unknown statements are listed in a warning.
 //!
-//! A file without any element is a point cloud. Missing normals are computed from the smoothing
-//! groups if the file has some, otherwise with the crease angle. By convention y is up and the unit
-//! is unknown.
+//! A file without elements is a point cloud. Missing normals are computed from the smoothing groups
+//! if the file has any, and otherwise with the crease angle. By convention y is up and the unit is
+//! unknown.
 //!
-//! The crate `tobj` was not used: it cuts polygons into fans, which is wrong for concave ones,
-//! supports neither smoothing groups nor error locations, and does not read UTF-16.
+//! The `tobj` crate was not used, because it splits polygons into fans, which is wrong for concave
+//! polygons, supports neither smoothing groups nor error locations, and does not read UTF-16.
 
 mod elements;
 mod fault_counts;
@@ -43,13 +43,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use textures::TextureTable;
 
-/// Maximum number of material libraries; a file names one, or one for each object.
+/// Maximum number of material libraries. Files usually name one, or one per object.
 const MAX_LIBRARIES: usize = 1024;
-/// Maximum number of bytes in the arrays of a corner: references, triangle, vertex with attributes,
-/// and temporary data for computing normals.
+/// Maximum number of array bytes per corner: references, triangle, vertex with attributes, and
+/// temporary data for computing normals.
 const BYTES_PER_CORNER: u64 = 140;
 
-/// Imports an OBJ file whose bytes have been read.
+/// Imports an OBJ file from its bytes.
 pub(super) fn import_obj(
     _path: &Path,
     bytes: &[u8],
@@ -74,7 +74,7 @@ pub(super) fn import_obj(
     Ok(model)
 }
 
-/// Checks the memory for the elements against the limits.
+/// Checks the memory needed for the elements against the limits.
 fn check_sizes(file: &ObjFile<'_>, resolver: &UriResolver<'_>) -> Result<(), Diagnostic> {
     let limits = resolver.limits;
     let nodes = 2 * file.groups.len();
@@ -90,17 +90,17 @@ fn check_sizes(file: &ObjFile<'_>, resolver: &UriResolver<'_>) -> Result<(), Dia
     budget.charge_bytes("", corners + groups + materials, resolver.total_bytes())
 }
 
-/// A material library that could be read.
+/// A material library that has been read.
 struct Library {
-    /// Its name in the OBJ file.
+    /// The name in the OBJ file.
     name: String,
-    /// Its text in UTF-8.
+    /// The text in UTF-8.
     text: Vec<u8>,
 }
 
-/// Reads the material libraries. Each missing one causes a warning.
+/// Reads the material libraries. Each missing library causes a warning.
 ///
-/// `mtllib` takes one name, which may contain spaces, or several.
+/// `mtllib` has either one name, which may contain spaces, or several.
 fn read_libraries(
     statements: &[Token<'_>],
     resolver: &UriResolver<'_>,
@@ -145,8 +145,8 @@ fn read_library(name: String, resolver: &UriResolver<'_>) -> Result<Library, Dia
     Ok(Library { name, text })
 }
 
-/// Adds the materials of the primitives to the model, in the order in which elements first use
-/// them, and the images of their textures.
+/// Adds the materials of the primitives to the model, in the order of their first use, and the
+/// images of their textures.
 fn build_materials(
     model: &mut Model,
     names: &[&[u8]],
@@ -155,7 +155,7 @@ fn build_materials(
     options: &ImportOptions,
     warnings: &mut ImportWarnings,
 ) {
-    // The first library that defines a name is used, and the last definition in it.
+    // Use the last definition in the first library that defines the name.
     let mut defined: BTreeMap<&[u8], (usize, MtlMaterial<'_>)> = BTreeMap::new();
     for (at, library) in libraries.iter().enumerate() {
         for material in mtl::parse_mtl(&library.text, &shorten(&library.name), warnings) {
@@ -193,7 +193,7 @@ fn build_materials(
     textures.load_images(model, resolver, options, warnings);
 }
 
-/// Returns a name from a file as quoted in messages: only its beginning, if it is very long.
+/// Returns a name from a file as quoted in messages, truncated if it is very long.
 fn shorten(name: &str) -> String {
     const LENGTH: usize = 80;
     let mut short: String = name.chars().take(LENGTH).collect();
@@ -203,13 +203,14 @@ fn shorten(name: &str) -> String {
     short
 }
 
-/// Returns the folder of a path, with a slash at its end; empty if it has none, and for data URIs.
+/// Returns the folder of a path with a trailing slash, or an empty string for data URIs and paths
+/// without a folder.
 fn folder_of(path: &str) -> String {
     let path = if path.starts_with("data:") { "" } else { path };
     path.rfind(['/', '\\']).map_or_else(String::new, |slash| path[..=slash].to_owned())
 }
 
-/// A warning that lists undefined materials.
+/// Adds a warning that lists undefined materials.
 fn report_undefined(names: &[&[u8]], warnings: &mut ImportWarnings) {
     const NAMED: usize = 8;
     if names.is_empty() {
@@ -227,7 +228,7 @@ fn report_undefined(names: &[&[u8]], warnings: &mut ImportWarnings) {
     warnings.push_warning("", message);
 }
 
-/// A warning about surfaces with textures but without texture coordinates.
+/// Adds a warning about surfaces with textures but without texture coordinates.
 fn report_missing_uvs(model: &Model, warnings: &mut ImportWarnings) {
     let primitives = model.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let has_textures = |material: usize| model.materials[material].all_textures().next().is_some();

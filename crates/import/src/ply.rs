@@ -8,10 +8,10 @@
 //!                                      └─ others      skipped
 //! ```
 //!
-//! A file without faces and edges is a point cloud. Colors are sRGB for every type, and become
-//! linear. Texture coordinates begin at the lower left, and are flipped. A property without a
-//! meaning here, such as `quality`, can be shown as colors. Vertices are split between faces and
-//! corners that carry different attributes.
+//! A file without faces and edges is a point cloud. Colors of every type are sRGB and are converted
+//! to linear. Texture coordinates have their origin at the lower left, and are flipped. A property
+//! without a predefined meaning, such as `quality`, can be shown as colors. Vertices are split
+//! where faces or corners have different attributes.
 
 mod body;
 mod faces;
@@ -44,8 +44,7 @@ pub(super) struct Contents {
 }
 
 impl Contents {
-    /// Returns the material for untextured parts: it leaves the colors of vertices and faces
-    /// unchanged.
+    /// Returns the material for untextured parts, which leaves vertex and face colors unchanged.
     fn untextured_material(&self) -> Material {
         let plain = Material::plain();
         let Some(colors) = self.vertices.colors.as_ref().or(self.faces.colors.as_ref()) else {
@@ -56,7 +55,7 @@ impl Contents {
         Material { alpha_mode, ..Material::white() }
     }
 
-    /// Colors the vertices by their scalars; textures and the colors of the file are then ignored.
+    /// Colors the vertices by their scalars. Textures and the colors in the file are then ignored.
     fn color_by_scalars(&mut self, colors: &ScalarColors, warnings: &mut ImportWarnings) {
         let values = self.vertices.scalars.take().unwrap_or_default();
         let colored = colors.color_arrays(&[&values[..]], "element vertex", warnings);
@@ -65,7 +64,7 @@ impl Contents {
     }
 }
 
-/// Imports a PLY file whose bytes have been read.
+/// Imports a PLY file from its bytes.
 pub(super) fn import_ply(
     _path: &Path,
     bytes: &[u8],
@@ -105,8 +104,8 @@ pub(super) fn import_ply(
     Ok(model)
 }
 
-/// Reads all elements in order; those without meaning here are skipped. `scalar` is the property
-/// that is read as the scalar of each vertex.
+/// Reads all elements in order. Unknown elements are skipped. `scalar` is the property that is read
+/// as the scalar of each vertex.
 fn read_body(
     bytes: &[u8],
     header: &Header,
@@ -154,7 +153,7 @@ fn read_body(
     Ok(contents)
 }
 
-/// Reads the texture files that the header names, if there are texture coordinates for them.
+/// Reads the texture files that the header names if there are texture coordinates for them.
 fn read_textures<'a>(
     header: &Header,
     contents: &Contents,
@@ -171,10 +170,10 @@ fn read_textures<'a>(
     header.texture_files.iter().map(read).collect()
 }
 
-/// Adds a material for each texture to the model, or one without a texture.
+/// Adds a material for each texture to the model, or a single material without a texture.
 ///
-/// Colors of vertices and faces multiply the material's color. A surface whose texture exists shows
-/// only the texture's colors, as in the programs that write such files.
+/// Vertex and face colors multiply the material color. A surface whose texture exists shows only
+/// the texture colors, as in the programs that write such files.
 fn build_materials(
     model: &mut Model,
     textures: Vec<TextureImage<'_>>,

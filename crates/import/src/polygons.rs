@@ -1,4 +1,4 @@
-//! Polygons of formats without ready-made vertices: triangulation, welding, and missing normals.
+//! Polygon processing for mesh formats: triangulation, vertex welding and missing normals.
 
 mod crease_normals;
 mod orientation;

@@ -5,12 +5,12 @@
 //!         └─ ascii ──┘
 //! ```
 //!
-//! Both forms begin with `solid` in many files; the length tells them apart. By convention z points
-//! up and lengths are in millimeters. The normals in the file are not read: they are the flat face
-//! normals, and often 0 or wrong.
+//! In many files both forms begin with `solid`, so they are distinguished by the file length. By
+//! convention z points up and lengths are in millimeters. The normals in the file are not read,
+//! because they are flat face normals, and often 0 or wrong.
 //!
-//! Triangles without area are kept, because they close the surface; those with a corner that is not
-//! finite are skipped with a warning.
+//! Triangles without area are retained, because they close the surface. Triangles with a non-finite
+//! corner are skipped with a warning.
 
 mod ascii;
 mod binary;
@@ -30,13 +30,13 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-/// Imports an STL file whose bytes have been read.
+/// Imports an STL file from its bytes.
 ///
-/// Each solid with triangles becomes a node with a mesh. All have the same material; facet colors
-/// become vertex colors.
+/// Each solid with triangles becomes a node with a mesh. All meshes have the same material; facet
+/// colors become vertex colors.
 ///
 /// # Errors
-/// Fails if the file is truncated or breaks the rules of its form, or a limit is exceeded.
+/// Fails if the file is truncated or malformed, or a limit is exceeded.
 pub(super) fn import_stl(
     _path: &Path,
     bytes: &[u8],
@@ -56,7 +56,7 @@ pub(super) fn import_stl(
             let file = BinaryFile { header: *header, body: &mut body, body_bytes };
             binary::read_solid(file, &budget, &mut warnings).map(|solid| vec![solid])
         } else {
-            // A facet takes no more memory than the fewest characters in which it can be written.
+            // A facet takes at most twice the memory of its shortest possible text.
             budget.charge_bytes("", 2 * bytes.len() as u64, resolver.total_bytes())?;
             ascii::read_solids(&decode_text(bytes), limits, &mut warnings)
         }
@@ -69,8 +69,8 @@ pub(super) fn import_stl(
     Ok(model)
 }
 
-/// Imports a binary STL file of exactly the right length without holding all of it in memory;
-/// `None` for any other file, or one that cannot be opened.
+/// Imports a binary STL file of exactly the right length without holding all of it in memory.
+/// Returns `None` for any other file, or if the file cannot be opened.
 ///
 /// # Errors
 /// Fails if a limit is exceeded, or the file cannot be read to its end.
@@ -100,7 +100,7 @@ pub(super) fn import_binary_file(
     }))
 }
 
-/// Returns the model of some solids; those without triangles are skipped.
+/// Builds the model from solids. Solids without triangles are skipped.
 fn build_model(solids: Vec<Solid>, crease_degrees: f64) -> Model {
     let mut model = Model {
         materials: vec![Material::plain()],
@@ -112,7 +112,7 @@ fn build_model(solids: Vec<Solid>, crease_degrees: f64) -> Model {
         let name = solid.name.take().filter(|name| !name.is_empty());
         let primitive = solid.into_primitive(crease_degrees);
         if primitive.colors.is_some() {
-            // They multiply the color of the material.
+            // Vertex colors multiply the material color.
             model.materials[0].base_color = [1.0; 4];
         }
         let at = model.nodes.len();
@@ -123,15 +123,15 @@ fn build_model(solids: Vec<Solid>, crease_degrees: f64) -> Model {
     model
 }
 
-/// Number of bytes before the triangles of a binary file: a comment of 80, and the number of
+/// Number of bytes before the triangles of a binary file: an 80-byte comment and the number of
 /// triangles.
 const HEADER_BYTES: usize = 84;
-/// Number of bytes of a triangle in a binary file: normal, three corners, attribute.
+/// Number of bytes per triangle in a binary file: the normal, three corners and the attribute.
 const TRIANGLE_BYTES: usize = 50;
-/// Number of bytes that are searched for features that only one of the two forms has.
+/// Number of bytes that are searched for features of only one of the two forms.
 const PREFIX_BYTES: usize = 4 << 10;
 
-/// Returns whether the content of a file is certainly STL; `text` is its beginning as UTF-8.
+/// Returns whether the content of a file is certainly STL. `text` is its beginning as UTF-8.
 pub(super) fn is_stl(bytes: &[u8], text: &[u8]) -> bool {
     has_binary_length(bytes) || starts_with(text.trim_ascii_start(), b"solid") && has_facets(text)
 }
@@ -144,17 +144,18 @@ fn declared_triangles(bytes: &[u8]) -> Option<usize> {
 
 /// Returns whether the length of a file matches its declared number of triangles exactly.
 ///
-/// No text has such a length: four characters encode more than 500 million triangles.
+/// A text file cannot have such a length, because its four characters would encode more than 500
+/// million triangles.
 fn has_binary_length(bytes: &[u8]) -> bool {
     binary_length(bytes) == Some(bytes.len())
 }
 
-/// Returns the length of a binary file with this beginning, or `None` if it is too short to tell.
+/// Returns the length of a binary file that begins with these bytes, or `None` if they are too few.
 fn binary_length(bytes: &[u8]) -> Option<usize> {
     declared_triangles(bytes)?.checked_mul(TRIANGLE_BYTES)?.checked_add(HEADER_BYTES)
 }
 
-/// Returns whether a file whose length does not fit a binary file is text.
+/// Returns whether a file is text, given that its length does not match a binary file.
 fn is_text(bytes: &[u8]) -> bool {
     let text = decode_text(bytes.get(..PREFIX_BYTES).unwrap_or(bytes));
     let start = text.trim_ascii_start();
@@ -162,18 +163,18 @@ fn is_text(bytes: &[u8]) -> bool {
     begins && (has_facets(&text) || !text.contains(&0))
 }
 
-/// Returns whether a text has a facet or the end of a solid.
+/// Returns whether text contains a facet or the end of a solid.
 fn has_facets(text: &[u8]) -> bool {
     let mut rests = (0..text.len()).map(|at| &text[at..]);
     rests.any(|rest| starts_with(rest, b"facet") || starts_with(rest, b"endsolid"))
 }
 
-/// Returns whether a text starts with a word, in upper or lower case.
+/// Returns whether text starts with a word, ignoring case.
 fn starts_with(text: &[u8], word: &[u8]) -> bool {
     text.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
 }
 
-/// Returns the error for a file that ends too early; in lenient mode, the existing part is read.
+/// Returns the error for a file that ends too early. In lenient mode, the existing part is read.
 fn truncated(location: &str, message: String) -> Diagnostic {
     let help = "the file is truncated: copy or export it again";
     Diagnostic::error(codes::INVALID_DATA, location, message, help)

@@ -1,8 +1,8 @@
-//! Surfaces of mesh formats: triangles whose corners carry attributes become primitives, one for
-//! each material, with separate normals and vertices.
+//! Surfaces of mesh formats: converts triangles with corner attributes to primitives, one per
+//! material, each with its own normals and vertices.
 //!
 //! Missing normals are computed with the crease angle over all triangles of the surface, so that a
-//! border between two colors is not a crease.
+//! border between two colors does not become a crease.
 
 use super::corner_vertices::{CornerAttributes, CornerVertices};
 use super::polygons::{CreaseNormals, Smoothing, VertexWelder};
@@ -10,7 +10,7 @@ use gltf_import::normalize_normals;
 use model::{Primitive, Topology};
 use std::borrow::Cow;
 
-/// A surface as given by a file.
+/// A surface as stored in a file.
 pub(super) struct Surface<'a> {
     /// Positions of the vertices, all finite.
     pub(super) positions: &'a [[f32; 3]],
@@ -18,7 +18,7 @@ pub(super) struct Surface<'a> {
     pub(super) normals: Option<&'a [[f32; 3]]>,
     /// Vertices of the triangles, all in range.
     pub(super) triangles: Vec<[u32; 3]>,
-    /// Material of each triangle, less than `material_count`; empty if there is only one.
+    /// Material of each triangle, less than `material_count`; empty if there is only one material.
     pub(super) materials: Vec<u32>,
     /// The number of materials.
     pub(super) material_count: usize,
@@ -28,11 +28,11 @@ pub(super) struct Surface<'a> {
     pub(super) has_colors: bool,
 }
 
-/// Builds the primitives of a surface; `attributes_at` returns the attributes of a triangle's
-/// corner, if there are any.
+/// Builds the primitives of a surface. `attributes_at` returns the attributes of a triangle corner,
+/// if any.
 ///
-/// Each primitive's material is its index in the surface. The second result counts normals without
-/// a direction.
+/// The material of each primitive is an index into the surface's materials. The second result is
+/// the number of normals without a direction.
 pub(super) fn build_primitives(
     surface: Surface<'_>,
     crease_angle: f64,
@@ -98,7 +98,8 @@ fn surface_primitive(
     }
 }
 
-/// Normals by crease angle: positions and normals of the resulting vertices.
+/// Computes normals by crease angle, and returns the positions and normals of the resulting
+/// vertices.
 fn compute_normals(
     positions: &[[f32; 3]],
     triangles: &mut Vec<[u32; 3]>,
@@ -118,7 +119,7 @@ fn compute_normals(
     (welded, computed.normals)
 }
 
-/// Returns the triangles of each material that has any, both in order.
+/// Returns the triangles of each material that has any, with materials and triangles in order.
 fn triangles_by_material(surface: &Surface<'_>) -> Vec<(usize, Vec<u32>)> {
     let count = surface.triangles.len() as u32;
     if surface.materials.is_empty() {

@@ -1,4 +1,4 @@
-//! Text formats: encodings, lines and tokens, and decimal numbers.
+//! Support for text formats: encodings, lines and tokens, and decimal numbers.
 //!
 //! ```text
 //!  bytes ──decode_text──► UTF-8 ──TextScanner──► lines, tokens ──parse_f32──► numbers

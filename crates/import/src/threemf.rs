@@ -8,9 +8,9 @@
 //!                                                                        nodes, meshes
 //! ```
 //!
-//! Zip and XML are read by our own code, which supports only what 3MF needs: no encryption, no
-//! entities, no paths. It reads the core specification and the extensions for materials and
-//! production; `namespaces` lists the parts that are skipped.
+//! Our own code reads zip and XML, and supports only what 3MF needs, without encryption, custom
+//! entities or file paths. The core specification and the extensions for materials and production
+//! are supported; `namespaces` lists the extensions that are skipped.
 
 mod archive;
 mod assembly;
@@ -36,15 +36,15 @@ use properties::Palette;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The model parts of a package that are referenced, the main one first.
+/// The referenced model parts of a package, starting with the main part.
 #[derive(Debug, Default)]
 struct Parts {
     parts: Vec<ModelPart>,
-    /// The index of each part by the name of its entry.
+    /// The index of each part by entry name.
     by_name: BTreeMap<String, usize>,
 }
 
-/// Imports a 3MF file whose bytes have been read.
+/// Imports a 3MF file from its bytes.
 pub(super) fn import_threemf(
     _path: &Path,
     bytes: &[u8],
@@ -91,7 +91,7 @@ pub(super) fn import_threemf(
     Ok(model)
 }
 
-/// Reads the model part, and the parts it refers to, directly or indirectly.
+/// Reads the model part and the parts it refers to, directly or indirectly.
 fn read_parts(
     package: &Package<'_>,
     palette: &mut Palette,
@@ -123,7 +123,8 @@ fn read_parts(
             part.items.iter().chain(components)
         };
         for reference in references() {
-            // Components in the same part follow each other; a part is still read only once.
+            // Components in the same part are usually adjacent; a part is read only once in any
+            // case.
             if let Some(path) = &reference.path
                 && queue.last().is_none_or(|(last, _)| last != path)
             {
@@ -140,7 +141,7 @@ fn read_parts(
     Ok(parts)
 }
 
-/// Resolves the references between objects; the second result lists the built objects.
+/// Resolves the references between objects. The second result lists the built objects.
 fn assemble(
     package: &Package<'_>,
     parts: &Parts,
@@ -204,7 +205,7 @@ fn store_palette(
     store_images(model, images, options, warnings);
     let Model { materials, textures, image_infos, .. } = model;
     for material in materials {
-        // A texture without an image would be white; a material without a texture is white too.
+        // A material without a texture is white, like a texture without an image.
         let is_readable = |info: &TextureInfo| {
             let image = textures[info.texture].image.and_then(|image| image_infos.get(image));
             image.is_some_and(|image| image.header.is_some())

@@ -1,7 +1,6 @@
 //! Keyframe animations: channels that change nodes, morph weights, materials, lights and cameras.
 //!
-//! [`Model::apply_animation`](crate::Model::apply_animation) sets a model to the pose at a given
-//! time.
+//! [`Model::apply_animation`](crate::Model::apply_animation) poses a model at a given time.
 
 mod curve;
 pub mod object_model;
@@ -12,23 +11,23 @@ pub use object_model::ObjectProperty;
 
 use crate::UvTransformPart;
 
-/// A keyframe animation of the file.
+/// A keyframe animation.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Animation {
     /// The name in the file, if it has one.
     pub name: Option<String>,
-    /// Channels, applied in this order.
+    /// The channels, in the order in which they are applied.
     pub channels: Vec<AnimationChannel>,
-    /// Time of the last keyframe of any channel in seconds.
+    /// Time of the last keyframe of all channels in seconds.
     pub duration_seconds: f64,
 }
 
 /// An animation channel: a property and the curve it follows.
 #[derive(Clone, PartialEq, Debug)]
 pub struct AnimationChannel {
-    /// The property that changes.
+    /// The animated property.
     pub target: AnimationTarget,
-    /// Its value over time.
+    /// The value of the property over time.
     pub curve: AnimationCurve,
 }
 
@@ -53,7 +52,7 @@ pub enum AnimationTarget {
     MeshMorphWeights {
         /// Index of the mesh.
         mesh: usize,
-        /// Index of the morph target; `None` for all of them.
+        /// Index of the morph target, or `None` for all targets.
         target: Option<usize>,
     },
     /// A property of a material, light or camera (KHR_animation_pointer).
@@ -81,6 +80,6 @@ pub enum NodeProperty {
     Rotation,
     /// Scale, three numbers.
     Scale,
-    /// Weights of the morph targets, one number for each.
+    /// Morph target weights, one number per target.
     Weights,
 }

@@ -1,14 +1,14 @@
 //! Cameras of a file: perspective and orthographic projections (glTF 2.0 §3.10).
 
-/// A camera of the file: only its projection; the node that carries it provides the view.
+/// A camera, which consists only of a projection; the node it is attached to provides the view.
 ///
-/// A camera looks along its node's −z with +y up. If the file gives no aspect ratio, or one that
-/// differs from the picture's, the renderer decides how to fit the two.
+/// A camera looks along its node's −z with +y up. If the file has no aspect ratio, or one that
+/// differs from the picture's, the renderer decides how to fit the view to the picture.
 #[derive(Clone, Debug)]
 pub struct ModelCamera {
     /// The name in the file, if it has one.
     pub name: Option<String>,
-    /// The projection with its parameters, already validated.
+    /// The projection with its validated parameters.
     pub projection: CameraProjection,
 }
 
@@ -19,11 +19,11 @@ pub enum CameraProjection {
     Perspective {
         /// Vertical field of view in radians, in (0, π).
         fov_y: f64,
-        /// Aspect ratio (width over height), if the file fixes it.
+        /// Aspect ratio (width over height), if the file specifies it.
         aspect: Option<f64>,
         /// Distance of the near plane, > 0.
         near: f64,
-        /// Distance of the far plane, > `near`; infinite if the file does not give one.
+        /// Distance of the far plane, > `near`; infinite if the file does not specify it.
         far: f64,
     },
     /// Orthographic projection.

@@ -1,9 +1,9 @@
-//! Colormaps: colors for numbers, such as vertex temperatures and pixel depths.
+//! Colormaps, which map numbers such as vertex temperatures or pixel depths to colors.
 //!
 //! Viridis and Inferno are by van der Walt and Smith (2015, matplotlib), Turbo is by Mikhailov
-//! (2019, Google), the cool-warm map by Moreland (2009, *Diverging Color Maps for Scientific
-//! Visualization*). Of each published table of 256 colors, the control points are kept from which
-//! linear interpolation best reproduces the rest. No channel is off by more than 3 codes of 255 in
+//! (2019, Google), and the cool-warm map is by Moreland (2009, *Diverging Color Maps for Scientific
+//! Visualization*). From each published table of 256 colors, we store the control points from which
+//! linear interpolation best reproduces the rest. No channel is off by more than 3 of 255 codes in
 //! Turbo, or 1.5 in the other maps.
 
 /// A colormap: a color for each number from 0 to 1.
@@ -29,24 +29,24 @@ pub enum Colormap {
     CoolWarm,
 }
 
-/// A control point of a colormap; colors between two of them are interpolated.
+/// A control point of a colormap; colors between control points are interpolated.
 #[derive(Clone, Copy)]
 struct ControlPoint {
-    /// The index among 256 colors.
+    /// The index in a table of 256 colors.
     index: u8,
     /// The 8-bit sRGB codes of red, green and blue.
     codes: [u8; 3],
 }
 
 impl Colormap {
-    /// Returns the color of a number as fractions of the largest sRGB code, red, green and blue:
+    /// Returns the color of a number as red, green and blue in fractions of the maximum sRGB code:
     /// encoded, not linear.
     ///
     /// `t` is clamped to [0, 1]; NaN becomes 0.
     #[must_use]
     pub fn srgb_at(self, t: f32) -> [f32; 3] {
         let points = self.control_points();
-        // The comparison is false for NaN.
+        // For NaN the comparison is false.
         let index = if t > 0.0 { t.min(1.0) * 255.0 } else { 0.0 };
         let above = points.iter().position(|point| f32::from(point.index) >= index);
         let above = above.unwrap_or(points.len() - 1).max(1);
@@ -175,9 +175,10 @@ mod tests {
         Colormap::CoolWarm,
     ];
 
-    /// Published colors that are not control points: the index among 256, and the codes.
+    /// Compares published colors that are not control points; each has an index in the table of 256
+    /// colors, and its codes.
     #[test]
-    fn colors_between_control_points_are_close_to_the_published_ones() {
+    fn interpolated_colors_match_the_published_colors() {
         let table = [
             (Colormap::Viridis, 64, [59, 82, 139]),
             (Colormap::Viridis, 128, [33, 145, 140]),
@@ -199,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn control_points_cover_all_numbers_and_others_are_clamped() {
+    fn control_points_cover_the_range_and_numbers_are_clamped() {
         for colormap in ALL {
             let points = colormap.control_points();
             assert_eq!((points[0].index, points[points.len() - 1].index), (0, 255));
@@ -217,7 +218,7 @@ mod tests {
         }
     }
 
-    /// The perceptually uniform maps, and gray, get brighter throughout.
+    /// Checks that the perceptually uniform maps and gray get brighter throughout.
     #[test]
     fn sequential_maps_become_brighter() {
         for colormap in [Colormap::Viridis, Colormap::Inferno, Colormap::Grayscale] {

@@ -1,4 +1,4 @@
-//! Length units of files.
+//! Length units used in files.
 
 /// The unit of a file's coordinates.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
@@ -9,7 +9,8 @@ pub enum LengthUnit {
     Millimeter,
     /// 10 mm.
     Centimeter,
-    /// 1 m: the unit of glTF, and assumed for OBJ and PLY files, whose formats do not define one.
+    /// 1 m: the unit of glTF, also assumed for OBJ and PLY files, whose formats do not define a
+    /// unit.
     #[default]
     Meter,
     /// 25.4 mm.
@@ -19,7 +20,7 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
-    /// All units, the metric ones first.
+    /// All units, metric units first.
     pub const ALL: [Self; 6] =
         [Self::Micrometer, Self::Millimeter, Self::Centimeter, Self::Meter, Self::Inch, Self::Foot];
 

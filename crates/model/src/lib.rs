@@ -1,17 +1,17 @@
-//! Models: plain arrays with every index checked and every default applied.
+//! Models as plain arrays, with every index checked and every default applied.
 //!
-//! A [`Model`] is read from a file by the crate `import`, or built by a program. It is posed by
-//! [`Model::apply_animation`], and its vertices are deformed by [`Model::skin_primitive`]. Nothing
+//! The `import` crate reads a [`Model`] from a file, or a program builds it.
+//! [`Model::apply_animation`] poses it, and [`Model::skin_primitive`] deforms its vertices. Nothing
 //! here reads a file or decodes an image.
 //!
-//! | module | subject |
+//! | module | contents |
 //! | --- | --- |
 //! | `model`, `scene_graph`, `mesh` | meshes, their primitives and the nodes that show them |
-//! | `material`, `texture`, `light`, `camera` | the look of surfaces, the lights and the cameras |
+//! | `material`, `texture`, `light`, `camera` | surfaces, lights and cameras |
 //! | `animation`, `skinning` | keyframes, morph targets, skins |
 //! | `animation::object_model` | properties that animations may change, by JSON pointer |
 //! | `model_instance` | models placed in a world |
-//! | `diagnostic` | findings about a location in a file |
+//! | `diagnostic` | errors and warnings about a location in a file |
 
 mod animation;
 mod camera;
@@ -57,7 +57,7 @@ pub use texture::{
 pub use timings::Timings;
 pub use up_axis::UpAxis;
 
-/// Compiles and runs the examples of the README.
+/// Compiles and runs the examples in the README.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct ReadmeExamples;

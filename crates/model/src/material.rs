@@ -1,4 +1,4 @@
-//! Materials: metallic-roughness PBR with the KHR_materials extensions, as the file declares them.
+//! Materials: metallic-roughness PBR with the KHR_materials extensions, as declared in the file.
 
 mod extensions;
 mod texture_slot;
@@ -11,23 +11,23 @@ pub use extensions::{
 pub use texture_slot::TextureSlot;
 pub use uv_transform::{UvTransform, UvTransformPart};
 
-/// A surface material: glTF's metallic-roughness model (glTF 2.0 §3.9) and its extensions.
+/// A surface material: the glTF metallic-roughness model (glTF 2.0 §3.9) and its extensions.
 ///
-/// All factors are linear, not sRGB, and in the ranges given here. A texture multiplies the factor
-/// beside it; the comments name the channels that are used, and whether the texture is sRGB
+/// All factors are linear, not sRGB, and in the ranges stated here. A texture multiplies the factor
+/// of the same name. The comments state which channels are used and whether the texture is sRGB
 /// encoded.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Material {
     /// The name in the file, if it has one.
     pub name: Option<String>,
-    /// Base color factor, red, green, blue and alpha in [0, 1]; multiplies texture and vertex
+    /// Base color factor: red, green, blue and alpha in [0, 1]. Multiplies the texture and vertex
     /// color.
     pub base_color: [f32; 4],
-    /// Base color texture (sRGB, alpha linear).
+    /// Base color texture (sRGB with linear alpha).
     pub base_color_texture: Option<TextureInfo>,
     /// Metalness: 0 for dielectrics, 1 for metals.
     pub metallic: f32,
-    /// Perceptual roughness: 0 for mirrors, 1 for chalk; its square is the α of the GGX
+    /// Perceptual roughness: 0 for mirrors, 1 for chalk. Its square is the α of the GGX
     /// distribution.
     pub roughness: f32,
     /// Texture of metalness (blue) and roughness (green), linear.
@@ -36,15 +36,15 @@ pub struct Material {
     pub normal_texture: Option<NormalTexture>,
     /// Ambient occlusion map.
     pub occlusion_texture: Option<OcclusionTexture>,
-    /// Emitted radiance: color times strength of `emission`.
+    /// Emitted radiance: the color of `emission` times its strength.
     pub emissive: [f32; 3],
     /// Texture of the emitted light (sRGB).
     pub emissive_texture: Option<TextureInfo>,
     /// The factors of `emissive`, which animations change one at a time.
     pub emission: Emission,
-    /// Use of alpha: opaque, alpha test or blending.
+    /// How alpha is used: opaque, alpha test or blending.
     pub alpha_mode: AlphaMode,
-    /// Whether back faces are drawn too.
+    /// Whether back faces are also drawn.
     pub double_sided: bool,
     /// Whether the base color is shown without lighting (KHR_materials_unlit).
     pub unlit: bool,
@@ -66,7 +66,7 @@ impl Material {
     /// Returns whether transmitted light changes direction: refracted by the thickness of the
     /// surface (KHR_materials_volume, KHR_materials_dispersion) or scattered by its roughness.
     ///
-    /// Smooth thin sheets, and media with the index of refraction of air, do not deflect light.
+    /// Smooth thin sheets and media with the same index of refraction as air do not deflect light.
     #[must_use]
     pub fn bends_transmitted_light(&self) -> bool {
         let MaterialExtensions { ior, specular_glossiness, volume, .. } = &self.extensions;
@@ -76,8 +76,7 @@ impl Material {
         self.is_transmissive() && *ior > 1.0 && (is_rough || is_thick)
     }
 
-    /// Returns whether shading needs a tangent frame: for a normal map or for anisotropic
-    /// highlights.
+    /// Returns whether shading needs a tangent frame, for a normal map or anisotropic highlights.
     #[must_use]
     pub fn needs_tangents(&self) -> bool {
         let clearcoat = self.extensions.clearcoat.as_ref();
@@ -88,7 +87,8 @@ impl Material {
 }
 
 impl Default for Material {
-    /// Returns the default material (glTF 2.0 §3.9): white, opaque, metallic, rough, single-sided.
+    /// Returns the default material (glTF 2.0 §3.9): white, opaque, metallic, rough and
+    /// single-sided.
     fn default() -> Self {
         Self {
             name: None,
@@ -110,18 +110,18 @@ impl Default for Material {
     }
 }
 
-/// Emission color and strength.
+/// The color and strength of emission.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Emission {
     /// Red, green and blue, each in [0, 1].
     pub color: [f32; 3],
-    /// Multiplier of the color, at least 0 (KHR_materials_emissive_strength); the product is a
+    /// Multiplier of the color, at least 0 (KHR_materials_emissive_strength). The product is a
     /// luminance in candela per square meter.
     pub strength: f32,
 }
 
 impl Emission {
-    /// Color times strength.
+    /// Returns the color times the strength.
     #[must_use]
     pub fn scaled_color(self) -> [f32; 3] {
         self.color.map(|channel| channel * self.strength)
@@ -134,34 +134,34 @@ impl Default for Emission {
     }
 }
 
-/// A normal map: red, green and blue (linear) encode 2x − 1 of a vector in tangent space, with red
-/// along the tangent, green along the bitangent and blue along the normal.
+/// A normal map: linear red, green and blue store a vector in tangent space, decoded as 2x − 1,
+/// with red along the tangent, green along the bitangent and blue along the normal.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct NormalTexture {
     /// The texture.
     pub texture: TextureInfo,
-    /// Multiplies the first two components of the vector before it is normalized; any number.
+    /// Scale of the first two components of the vector before it is normalized; any number.
     pub scale: f32,
 }
 
-/// An ambient occlusion map: red (linear) is the fraction of ambient light that arrives.
+/// An ambient occlusion map: linear red is the fraction of ambient light that arrives.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct OcclusionTexture {
     /// The texture.
     pub texture: TextureInfo,
-    /// Strength in [0, 1]: the light is multiplied by 1 + strength · (red − 1).
+    /// Strength in [0, 1]; the light is multiplied by 1 + strength · (red − 1).
     pub strength: f32,
 }
 
-/// A reference to a texture, with the texture coordinates to use (glTF's `textureInfo`).
+/// A reference to a texture, with the texture coordinates to use (`textureInfo` in glTF).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct TextureInfo {
     /// Index of the texture in the model.
     pub texture: usize,
-    /// The set of texture coordinates, n of `TEXCOORD_n`.
+    /// The texture coordinate set, n in `TEXCOORD_n`.
     pub uv_set: usize,
     /// Texture transform: the first two rows of the matrix from the mesh's (u, v, 1) to the
-    /// texture's (u, v). The identity unless the file uses KHR_texture_transform.
+    /// texture's (u, v). This is the identity unless the file uses KHR_texture_transform.
     pub uv_matrix: [[f32; 3]; 2],
 }
 
@@ -170,7 +170,7 @@ impl TextureInfo {
     pub const IDENTITY_UV: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 }
 
-/// Use of alpha: opaque, alpha test or blending (glTF 2.0 §3.9.4).
+/// How alpha is used: opaque, alpha test or blending (glTF 2.0 §3.9.4).
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub enum AlphaMode {
     /// Alpha is ignored.
@@ -182,16 +182,15 @@ pub enum AlphaMode {
         /// The smallest alpha that is opaque.
         cutoff: f32,
     },
-    /// Alpha is the coverage with which the surface is blended over the background.
+    /// Alpha is the coverage for blending the surface over the background.
     Blend,
 }
 
 impl Material {
-    /// Returns the material of models in formats without materials: light gray, matte and
-    /// double-sided.
+    /// Returns the material for formats without materials: light gray, matte and double-sided.
     ///
-    /// The default of glTF is a metal, which mirrors its surroundings. Both sides are drawn because
-    /// many files in these formats have triangles of either winding.
+    /// The glTF default is a metal, which mirrors its surroundings. Both sides are drawn because
+    /// many files in these formats have triangles with inconsistent winding.
     #[must_use]
     pub fn plain() -> Self {
         Self {
@@ -203,7 +202,7 @@ impl Material {
         }
     }
 
-    /// Returns the material for surfaces colored by scalars: white, matte, shown from both sides.
+    /// Returns the material for surfaces colored by scalars: white, matte and double-sided.
     #[must_use]
     pub fn white() -> Self {
         Self { base_color: [1.0; 4], ..Self::plain() }

@@ -8,75 +8,75 @@ pub use edge_visibility::{EdgeList, EdgeVisibility, PrimitiveEdges};
 use raster::Clusters;
 use std::sync::OnceLock;
 
-/// A mesh: a named group of primitives that a node carries as a unit.
+/// A mesh: a named group of primitives that is attached to nodes as a unit.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
     /// The name in the file, if it has one.
     pub name: Option<String>,
     /// The primitives, each with one material.
     pub primitives: Vec<Primitive>,
-    /// Default weights of the morph targets, for nodes that do not have their own. Targets beyond
-    /// the list have weight 0.
+    /// Default morph target weights, for nodes without weights. Targets beyond the list have weight
+    /// 0.
     pub morph_weights: Vec<f32>,
 }
 
-/// A mesh primitive: vertex attributes, indices and a material; the unit of a draw call.
+/// A mesh primitive: vertex attributes, indices and a material. Each primitive is one draw call.
 ///
 /// Strips, loops and fans have been expanded to plain lists, with the winding that the
-/// specification defines. Every attribute that is present has one entry for each vertex, every
-/// index is less than the number of vertices, and every position is finite: the importer has
-/// dropped invalid items.
+/// specification defines. Every attribute that is present has one entry per vertex, every index is
+/// less than the number of vertices, and every position is finite, because the importer has dropped
+/// invalid items.
 #[derive(Clone, Debug, Default)]
 pub struct Primitive {
     /// Whether the indices form points, lines or triangles.
     pub topology: Topology,
-    /// Vertex indices: one for each point, two per line, three per triangle. The front face is the
-    /// one whose vertices run counter-clockwise.
+    /// Vertex indices: one per point, two per line, three per triangle. Vertices are in
+    /// counter-clockwise order as seen from the front.
     pub indices: Vec<u32>,
-    /// Positions in the mesh's coordinates.
+    /// Positions in mesh coordinates.
     pub positions: Vec<[f32; 3]>,
-    /// Unit normals; `None` if the file has none; faces are then shaded flat.
+    /// Unit normals, or `None` if the file has none; faces are then shaded flat.
     pub normals: Option<Vec<[f32; 3]>>,
     /// Unit tangents with the handedness of the bitangent, 1 or −1, in w.
     ///
     /// `None` if the file has none ([`mikktspace_tangents`](Self::mikktspace_tangents) generates
     /// them) or if no material of the primitive needs a tangent frame.
     pub tangents: Option<Vec<[f32; 4]>>,
-    /// Sets of texture coordinates with (0, 0) at the upper left of the image; `uvs[n]` is
+    /// Texture coordinate sets, with (0, 0) at the upper left of the image; `uvs[n]` is
     /// `TEXCOORD_n`.
     pub uvs: Vec<Vec<[f32; 2]>>,
-    /// Vertex colors, linear, with alpha (`COLOR_0`).
+    /// Linear vertex colors with alpha (`COLOR_0`).
     pub colors: Option<Vec<[f32; 4]>>,
-    /// Joint indices of the skin: sets of four for each vertex; entry n is `JOINTS_n`.
+    /// Joint indices into the skin, in sets of four per vertex; entry n is `JOINTS_n`.
     pub joint_indices: Vec<Vec<[u16; 4]>>,
-    /// Weights of those joints, in the same number of sets; entry n is `WEIGHTS_n`.
+    /// Joint weights, in the same number of sets; entry n is `WEIGHTS_n`.
     pub joint_weights: Vec<Vec<[f32; 4]>>,
-    /// Morph targets (blend shapes): deltas that are added to the vertices.
+    /// Morph targets (blend shapes): deltas to add to the vertices.
     pub morph_targets: Vec<MorphTarget>,
-    /// Index of the material in the model; `None` for the default material.
+    /// Index of the material in the model, or `None` for the default material.
     pub material: Option<usize>,
-    /// Replacement materials for `material` in variants of the model.
+    /// Materials that replace `material` in variants of the model.
     pub material_variants: Vec<VariantMaterial>,
-    /// Edges that the file marks for line drawings, if it does.
+    /// Edges that the file marks for line drawings, if any.
     pub edges: Option<Box<PrimitiveEdges>>,
-    /// Cache of data derived from the other fields; empty in a new primitive.
+    /// A cache of data derived from the other fields; empty in a new primitive.
     pub derived: DerivedData,
 }
 
 /// Lazily computed data derived from the other fields of a primitive.
 ///
-/// After changing those fields, reset this with [`DerivedData::default`]: the cache does not
-/// notice.
+/// After changing those fields, reset the cache with [`DerivedData::default`], because it does not
+/// detect changes.
 #[derive(Clone, Debug, Default)]
 pub struct DerivedData {
-    /// Clusters of the triangles, without and with normal cones.
+    /// Triangle clusters, without and with normal cones.
     clusters: [OnceLock<Clusters>; 2],
-    /// MikkTSpace tangents for the first requested set of texture coordinates; `None` inside if the
-    /// algorithm fails.
+    /// MikkTSpace tangents for the first requested texture coordinate set; the inner value is
+    /// `None` if the algorithm fails.
     pub(super) tangents: OnceLock<(usize, Option<Vec<[f32; 4]>>)>,
 }
 
-/// Material of a primitive in one variant of the model (KHR_materials_variants).
+/// The material of a primitive in one variant of the model (KHR_materials_variants).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct VariantMaterial {
     /// Index of the variant in the model.
@@ -85,26 +85,26 @@ pub struct VariantMaterial {
     pub material: usize,
 }
 
-/// A morph target (blend shape): deltas that are added to the vertices of a primitive, times a
-/// weight.
+/// A morph target (blend shape): deltas that are multiplied by a weight and added to the vertices
+/// of a primitive.
 ///
-/// Arrays that are present have one entry for each vertex.
+/// Arrays that are present have one entry per vertex.
 #[derive(Clone, Debug, Default)]
 pub struct MorphTarget {
-    /// Deltas of positions.
+    /// Position deltas.
     pub positions: Option<Vec<[f32; 3]>>,
-    /// Deltas of normals.
+    /// Normal deltas.
     pub normals: Option<Vec<[f32; 3]>>,
-    /// Deltas of tangents, without w.
+    /// Tangent deltas, without w.
     pub tangents: Option<Vec<[f32; 3]>>,
-    /// Deltas of texture coordinates by set; `None` for sets that do not change.
+    /// Texture coordinate deltas by set; `None` for sets that do not change.
     pub uvs: Vec<Option<Vec<[f32; 2]>>>,
-    /// Deltas of vertex colors.
+    /// Vertex color deltas.
     pub colors: Option<Vec<[f32; 4]>>,
 }
 
 impl Primitive {
-    /// Returns the bytes of all arrays.
+    /// Returns the size of all arrays in bytes.
     pub fn array_bytes(&self) -> usize {
         fn bytes<T>(array: &Option<Vec<T>>) -> usize {
             array.as_deref().map_or(0, size_of_val)
@@ -130,14 +130,14 @@ impl Primitive {
             + self.morph_targets.iter().map(of_target).sum::<usize>()
     }
 
-    /// Number of points, lines or triangles.
+    /// Returns the number of points, lines or triangles.
     #[must_use]
     pub fn item_count(&self) -> usize {
         self.indices.len() / self.topology.vertices_per_item()
     }
 
-    /// Clusters of the triangles for culling, computed once; with normal cones if back faces are
-    /// culled.
+    /// Returns the triangle clusters for culling, with normal cones if back faces are culled. They
+    /// are computed once.
     pub fn clusters(&self, cones: bool) -> &Clusters {
         let triangles = self.indices.as_chunks::<3>().0;
         self.derived.clusters[usize::from(cones)]
@@ -145,10 +145,10 @@ impl Primitive {
     }
 }
 
-/// Primitive topology: how indices are grouped.
+/// The primitive topology, which determines how indices are grouped.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Topology {
-    /// Points: each index is one.
+    /// Points: each index is a point.
     Points,
     /// Line list: every two indices form a line.
     Lines,
@@ -158,7 +158,7 @@ pub enum Topology {
 }
 
 impl Topology {
-    /// Number of indices for each point, line or triangle: 1, 2 or 3.
+    /// Returns the number of indices per point, line or triangle: 1, 2 or 3.
     #[must_use]
     pub const fn vertices_per_item(self) -> usize {
         match self {

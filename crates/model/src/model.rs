@@ -1,8 +1,8 @@
-//! The model: everything that was read from one file, as plain arrays with every index checked and
-//! every default applied.
+//! The model: the content of one file as plain arrays, with every index checked and every default
+//! applied.
 //!
-//! Positions stay in the coordinates of their mesh; the [scene graph](Node) places the meshes.
-//! Nothing after the importer reads the file again.
+//! Positions are in mesh coordinates; the [scene graph](Node) places the meshes. Nothing reads the
+//! file again after the import.
 
 use crate::{
     Animation, Diagnostic, Image, ImageInfo, LengthUnit, Material, Mesh, ModelCamera, Node,
@@ -12,16 +12,16 @@ use crate::{
 /// The meshes, materials, textures, scene graph and animations of one file.
 ///
 /// Vectors are indexed as in the file: material 3 of a glTF file is `materials[3]`. Indices in
-/// other fields are in range, so that no later stage needs to check them.
+/// other fields are in range, so later stages do not need to check them.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
-    /// The file's name without folder and extension, for messages.
+    /// The file name without folder and extension, for messages.
     pub name: String,
-    /// Unit of all lengths: declared in the file, given by the convention of its format, or set in
-    /// the reader's options. Coordinates stay as they are.
+    /// Unit of all lengths: declared in the file, by convention of its format, or set in the
+    /// options. Coordinates are not converted.
     pub length_unit: LengthUnit,
-    /// The axis that points up in the coordinates of the file. If that is not y, the root nodes
-    /// have been rotated, so that y points up in model space.
+    /// The axis that points up in the file's coordinates. If that is not y, the root nodes have
+    /// been rotated so that y points up in model space.
     pub up_axis: UpAxis,
     /// Meshes, indexed as in the file.
     pub meshes: Vec<Mesh>,
@@ -30,24 +30,24 @@ pub struct Model {
     /// Textures, indexed as in the file.
     pub textures: Vec<Texture>,
     /// Decoded images, indexed as in the file. `None` for images that no visible primitive uses,
-    /// which are not decoded, and for broken ones, which cause a warning.
+    /// which are not decoded, and for broken images, which cause a warning.
     ///
-    /// Shared: a clone of a model that is posed differently has the same images.
+    /// Images are shared between clones of a model, which may be posed differently.
     pub images: std::sync::Arc<[Option<Image>]>,
-    /// Nodes of the scene graph, indexed as in the file. They form a forest: the importer rejects
-    /// cycles.
+    /// Nodes of the scene graph, indexed as in the file. They form a forest, because the importer
+    /// rejects cycles.
     pub nodes: Vec<Node>,
-    /// Root nodes of the active scene, in the order of the file.
+    /// Root nodes of the active scene, in file order.
     pub roots: Vec<usize>,
     /// All scenes of the file.
     pub scenes: Vec<SceneRoots>,
-    /// The active scene: the requested one, otherwise the file's default scene, otherwise its
-    /// first. `None` if the file has no scenes; all root nodes are then visible.
+    /// The active scene: the requested scene, else the file's default scene, else its first scene.
+    /// `None` if the file has no scenes; all root nodes are then visible.
     pub active_scene: Option<usize>,
-    /// Skins, indexed as in the file; an invalid one has no joints, and no node refers to it.
+    /// Skins, indexed as in the file. An invalid skin has no joints, and no node refers to it.
     pub skins: Vec<Skin>,
-    /// Cameras, indexed as in the file; one with invalid parameters has a default projection
-    /// instead, and no node refers to it.
+    /// Cameras, indexed as in the file. A camera with invalid parameters has a default projection,
+    /// and no node refers to it.
     pub cameras: Vec<ModelCamera>,
     /// Punctual lights, indexed as in the file (KHR_lights_punctual).
     pub lights: Vec<PunctualLight>,
@@ -57,27 +57,26 @@ pub struct Model {
     pub uv_transforms: Vec<UvTransform>,
     /// Names of the material variants (KHR_materials_variants).
     pub variants: Vec<String>,
-    /// The active material variant; `None` for the default materials of the primitives.
+    /// The active material variant, or `None` for the default materials of the primitives.
     pub active_variant: Option<usize>,
-    /// Names of the scalar attributes of vertices that colors can show
-    /// (`scalars` of the options of `import`): `_TEMPERATURE` in glTF, `quality`
-    /// in PLY.
+    /// Names of the scalar vertex attributes that can be shown as colors (`scalars` in the `import`
+    /// options), such as `_TEMPERATURE` in glTF or `quality` in PLY.
     pub scalar_attributes: Vec<String>,
-    /// The scalar attribute shown as vertex colors; `None` for the colors of the file.
+    /// The scalar attribute shown as vertex colors, or `None` for the colors in the file.
     pub active_scalar_attribute: Option<usize>,
-    /// Names of the extensions the file uses, sorted.
+    /// Sorted names of the extensions that the file uses.
     pub extensions_used: Vec<String>,
-    /// Names of the extensions the file requires, sorted.
+    /// Sorted names of the extensions that the file requires.
     pub extensions_required: Vec<String>,
-    /// Name, URI and header of every image of the file, decoded or not.
+    /// Name, URI and header of every image in the file, decoded or not.
     pub image_infos: Vec<ImageInfo>,
-    /// Warnings of the importer: everything that was skipped, replaced or corrected, with its
-    /// location.
+    /// The importer's warnings about everything that was skipped, replaced or corrected, with
+    /// locations.
     pub warnings: Vec<Diagnostic>,
 }
 
 impl Model {
-    /// Returns the bytes of the arrays of all meshes and of the decoded images.
+    /// Returns the size of all mesh arrays and decoded images in bytes.
     #[must_use]
     pub fn array_bytes(&self) -> u64 {
         let meshes =

@@ -1,4 +1,4 @@
-//! Instances of models in the world: a shared model and its transform.
+//! Model instances in the world: a shared model with a transform.
 
 use crate::Model;
 use homog::{Affine, Model as ModelSpace, Point, World};
@@ -7,13 +7,13 @@ use std::sync::Arc;
 /// A model placed in the world.
 #[derive(Clone, Debug)]
 pub struct ModelInstance {
-    /// The model; all its instances share it.
+    /// The model, which all its instances share.
     pub model: Arc<Model>,
     /// The transform from model space to world space.
     pub model_to_world: Affine<ModelSpace, World>,
 }
 
-/// World positions of every vertex that a point, line or triangle of the models uses.
+/// Returns the world positions of all vertices that a point, line or triangle of the models uses.
 #[must_use]
 pub fn world_points(models: &[ModelInstance]) -> Vec<Point<World>> {
     let mut points = Vec::new();
@@ -23,7 +23,7 @@ pub fn world_points(models: &[ModelInstance]) -> Vec<Point<World>> {
     points
 }
 
-/// Names of the models, without repetition, joined by commas.
+/// Returns the names of the models without duplicates, separated by commas.
 #[must_use]
 pub fn model_names(models: &[ModelInstance]) -> String {
     let mut names: Vec<&str> = Vec::new();

@@ -1,13 +1,13 @@
-//! Vertex skinning and morph targets: the deformed vertices of a mesh in the current pose.
+//! Vertex skinning and morph targets: computes the deformed vertices of a mesh in the current pose.
 //!
-//! Morph targets are added first, in the mesh's coordinates (glTF 2.0 §3.7.2.2):
+//! Morph targets are added first, in mesh coordinates (glTF 2.0 §3.7.2.2):
 //!
 //! ```text
 //!  v' = v + Σ wᵢ · deltaᵢ
 //! ```
 //!
-//! A skinned vertex then follows the joints of the skin instead of the node that carries its mesh
-//! (§3.7.3.3). This is linear blend skinning: the joint matrices are blended, not the positions.
+//! A skinned vertex then follows the joints of the skin instead of the mesh's node (§3.7.3.3). This
+//! is linear blend skinning: joint matrices are blended, not positions.
 //!
 //! ```text
 //!  v" = Σ wᵢ · Jᵢ v'      Jᵢ = inverse bind matrixᵢ, then the joint's global transform
@@ -21,26 +21,26 @@ use glam::{DMat3, DMat4, DVec3, Vec3};
 use homog::{Affine, Model as ModelSpace};
 use std::borrow::Cow;
 
-/// Deformed vertices of a primitive: positions and normals after morphing and skinning.
+/// The deformed vertices of a primitive: positions and normals after morphing and skinning.
 ///
 /// Arrays are borrowed from the primitive if nothing deforms them.
 #[derive(Clone, Debug)]
 pub struct SkinnedPrimitive<'a> {
-    /// Positions, one for each vertex, finite.
+    /// Finite positions, one per vertex.
     pub positions: Cow<'a, [[f32; 3]]>,
     /// Unit normals, if the primitive has normals.
     pub normals: Option<Cow<'a, [[f32; 3]]>>,
-    /// From these positions to model space: the identity for a skinned primitive.
+    /// The transform from these positions to model space; the identity for a skinned primitive.
     pub to_model: Affine<ModelSpace, ModelSpace>,
 }
 
 impl Model {
-    /// Deforms the vertices of one of the instance's primitives: applies morph targets, then the
+    /// Deforms the vertices of one of the instance's primitives by applying morph targets, then the
     /// skin.
     ///
-    /// Without a skin the result is in the mesh's coordinates, and `to_model` is the instance's
-    /// transform. With a skin the joints place it in model space, and `to_model` is the identity. A
-    /// vertex whose joint weights are all zero follows the node like an unskinned one.
+    /// Without a skin the result is in mesh coordinates, and `to_model` is the instance's
+    /// transform. With a skin the result is in model space, and `to_model` is the identity. A
+    /// vertex whose joint weights are all zero follows the node, like an unskinned vertex.
     ///
     /// ```
     /// # use model::{Model, SkinnedPrimitive};
@@ -80,7 +80,8 @@ impl Model {
         }
     }
 
-    /// Deforms the tangents of one of the instance's primitives; `None` if the primitive has none.
+    /// Deforms the tangents of one of the instance's primitives. Returns `None` if the primitive
+    /// has no tangents.
     ///
     /// The tangents are in the coordinates of [`SkinnedPrimitive::to_model`]. They have unit
     /// length; w, the handedness of the bitangent, is unchanged. Unlike normals, tangents are
@@ -117,7 +118,7 @@ impl Model {
         Some(tangents)
     }
 
-    /// Vertex colors with the morph targets added, each channel clamped to [0, 1].
+    /// Returns the vertex colors with the morph targets added, each channel clamped to [0, 1].
     #[must_use]
     pub fn morph_colors<'a>(
         &self,
@@ -139,7 +140,7 @@ impl Model {
         Some(colors)
     }
 
-    /// Texture coordinates of set `set` (`TEXCOORD_n`) with the morph targets added.
+    /// Returns the texture coordinates of set `set` (`TEXCOORD_n`) with the morph targets added.
     #[must_use]
     pub fn morph_uvs<'a>(
         &self,
@@ -156,17 +157,17 @@ impl Model {
         Some(uvs)
     }
 
-    /// Returns the morph weights in effect at a node: its own, otherwise the mesh's.
+    /// Returns the morph weights in effect at a node: the node's, or else the mesh's.
     pub(super) fn morph_weights(&self, node: usize) -> &[f32] {
         let Some(node) = self.nodes.get(node) else { return &[] };
         let mesh = node.mesh.and_then(|mesh| self.meshes.get(mesh));
         node.morph_weights.as_deref().or(mesh.map(|mesh| &*mesh.morph_weights)).unwrap_or(&[])
     }
 
-    /// Joint matrices of a skin: for each joint, from the mesh's coordinates to the model's.
+    /// Computes the joint matrices of a skin, from mesh coordinates to model space.
     ///
-    /// A joint out of range counts as the identity. The matrices are computed once per primitive,
-    /// not per vertex.
+    /// The matrix of an out-of-range joint is the identity. The matrices are computed once per
+    /// primitive, not per vertex.
     fn joint_matrices(&self, skin: &Skin) -> Vec<DMat4> {
         let bone = |(&joint, bind): (&usize, &Affine<ModelSpace, ModelSpace>)| {
             self.nodes.get(joint).map_or(DMat4::IDENTITY, |node| bind.then(node.to_model).raw())
@@ -178,7 +179,7 @@ impl Model {
 /// Returns the morph targets whose weight is finite and not zero, each with its weight.
 ///
 /// Targets beyond the list of weights have weight 0. Most targets of a face rig are inactive, so
-/// skipping them accounts for most of the speed.
+/// skipping them saves most of the time.
 fn active_morph_targets<'a>(
     primitive: &'a Primitive,
     weights: &[f32],
@@ -187,10 +188,10 @@ fn active_morph_targets<'a>(
     targets.filter(|(_, weight)| *weight != 0.0 && weight.is_finite())
 }
 
-/// Positions and normals with the weighted deltas of the morph targets added.
+/// Adds the weighted deltas of the morph targets to positions and normals.
 ///
-/// Without an active target all arrays are borrowed. Morphed normals are normalized again;
-/// positions are summed target by target, in the order of the file.
+/// Without an active target, all arrays are borrowed. Morphed normals are normalized again.
+/// Positions are summed target by target, in file order.
 fn morph_vertices<'a>(primitive: &'a Primitive, weights: &[f32]) -> SkinnedPrimitive<'a> {
     let (mut positions, mut normals) =
         (Cow::Borrowed(&*primitive.positions), primitive.normals.as_deref().map(Cow::Borrowed));
@@ -208,9 +209,9 @@ fn morph_vertices<'a>(primitive: &'a Primitive, weights: &[f32]) -> SkinnedPrimi
     SkinnedPrimitive { positions, normals, to_model: Affine::IDENTITY }
 }
 
-/// Adds `weight` times the deltas of a morph target; a delta that is not finite changes nothing.
+/// Adds `weight` times the deltas of a morph target. Non-finite deltas are ignored.
 ///
-/// A sum beyond the range of single precision becomes the largest finite number.
+/// A sum that exceeds the range of single precision becomes the largest finite number.
 fn add_weighted_deltas<const N: usize>(values: &mut [[f32; N]], deltas: &[[f32; N]], weight: f32) {
     for (value, delta) in values.iter_mut().zip(deltas) {
         let sum: [f64; N] =
@@ -222,12 +223,13 @@ fn add_weighted_deltas<const N: usize>(values: &mut [[f32; N]], deltas: &[[f32; 
     }
 }
 
-/// Weighted mean of the joint matrices of a vertex; `None` if its weights are all zero.
+/// Computes the weighted mean of the joint matrices of a vertex. Returns `None` if all weights are
+/// zero.
 ///
 /// Dividing by the sum of the weights accepts files whose weights do not add up to 1.
 ///
-/// Negative weights are ignored. A mean that overflows counts as no weights at all, so a hostile
-/// file cannot produce positions that are not finite.
+/// Negative weights are ignored. If the mean overflows, the weights are treated as zero, so a
+/// hostile file cannot produce non-finite positions.
 fn blend_joint_matrices(
     joint_transforms: &[DMat4],
     primitive: &Primitive,
@@ -246,7 +248,7 @@ fn blend_joint_matrices(
     (total > 0.0 && mean.is_finite()).then_some(mean)
 }
 
-/// Transforms each vertex by its own matrix, and its normal by the inverse transpose.
+/// Transforms each vertex by its blended matrix, and its normal by the inverse transpose.
 ///
 /// The result is in model space, so `to_model` is the identity.
 fn skin_vertices<'a>(
@@ -274,26 +276,27 @@ fn to_f64(v: [f32; 3]) -> DVec3 {
     Vec3::from_array(v).as_dvec3()
 }
 
-/// Rounds to single precision; numbers out of range become the largest finite one.
+/// Rounds to single precision. Numbers out of range become the largest finite number.
 fn to_f32_saturating(v: DVec3) -> [f32; 3] {
     v.to_array().map(saturate_f32)
 }
 
-/// Rounds to single precision, clamped to the finite numbers; NaN becomes 0.
+/// Rounds to single precision, clamped to finite numbers. NaN becomes 0.
 fn saturate_f32(x: f64) -> f32 {
     const LARGEST: f64 = f32::MAX as f64;
     if x.is_nan() { 0.0 } else { x.clamp(-LARGEST, LARGEST) as f32 }
 }
 
-/// Returns the vector scaled to length 1; +z if it has no direction.
+/// Returns the vector scaled to length 1, or +z if it has no direction.
 fn unit_or_z(v: DVec3) -> [f32; 3] {
     to_f32_saturating(v.normalize_or(DVec3::Z))
 }
 
-/// Normal matrix: the inverse transpose up to a positive factor, as the matrix of cofactors.
+/// Returns the normal matrix: the inverse transpose up to a positive factor, computed as the
+/// cofactor matrix.
 ///
-/// Unlike the inverse it exists for singular matrices too. The sign preserves the outward side of
-/// normals when the map is a reflection.
+/// Unlike the inverse, it also exists for singular matrices. The sign keeps normals pointing
+/// outward if the map is a reflection.
 fn normal_matrix(map: &DMat4) -> DMat3 {
     let (x, y, z) = (map.x_axis.truncate(), map.y_axis.truncate(), map.z_axis.truncate());
     let mirror = if x.dot(y.cross(z)) < 0.0 { -1.0 } else { 1.0 };
@@ -314,7 +317,7 @@ mod tests {
         Affine::translation(Vector::new(x, y, z))
     }
 
-    /// Returns a mesh of three vertices on node 0, which is at x = 100; node 1 is its joint.
+    /// Returns a mesh with three vertices on node 0, which is at x = 100; node 1 is its joint.
     fn model_with_joint(
         primitive: Primitive,
         joint: Affine<ModelSpace, ModelSpace>,
@@ -355,12 +358,12 @@ mod tests {
     }
 
     #[test]
-    fn a_skinned_mesh_follows_its_joints_and_not_its_node() {
+    fn a_skinned_mesh_follows_its_joints_not_its_node() {
         let mut arm = triangle();
         arm.joint_indices = vec![vec![[1, 0, 0, 0], [0, 1, 0, 0], [0, 9, 0, 0]]];
         arm.joint_weights =
             vec![vec![[1.0, 0.0, 0.0, 0.0], [0.5, 0.5, 0.0, 0.0], [2.0, 1.0, 0.0, 0.0]]];
-        // The elbow is at y = 1 and has turned by a quarter turn about z: up becomes left.
+        // The elbow at y = 1 is rotated by a quarter turn about z, so up becomes left.
         let quarter = std::f64::consts::FRAC_1_SQRT_2;
         let turn = Affine::<ModelSpace, ModelSpace>::from_quaternion([0.0, 0.0, quarter, quarter]);
         let (mut model, instance) =
@@ -372,17 +375,20 @@ mod tests {
             |a: [f32; 3], b: [f32; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6);
         assert!(
             nearly_equal(posed.positions[0], [0.0, 0.0, 0.0]),
-            "it hangs on the node that is at rest"
+            "this vertex follows the node that is at rest"
         );
-        assert!(nearly_equal(posed.positions[1], [0.0, 1.0, 0.0]), "the elbow itself stays");
-        assert!(nearly_equal(posed.positions[2], [-1.0, 1.0, 0.0]), "weights count by their share");
+        assert!(
+            nearly_equal(posed.positions[1], [0.0, 1.0, 0.0]),
+            "the elbow itself does not move"
+        );
+        assert!(nearly_equal(posed.positions[2], [-1.0, 1.0, 0.0]), "weights count in proportion");
         let normals = posed.normals.unwrap();
         assert!(nearly_equal(normals[0], [1.0, 0.0, 0.0]));
         assert!(nearly_equal(normals[2], [0.0, 1.0, 0.0]));
     }
 
     #[test]
-    fn morph_targets_add_by_the_nodes_weights_or_else_the_meshs() {
+    fn morph_weights_come_from_the_node_or_the_mesh() {
         let mut primitive = triangle();
         let delta = |x: f32| Some(vec![[x, 0.0, 0.0]; 3]);
         primitive.morph_targets = vec![
@@ -403,11 +409,11 @@ mod tests {
     }
 
     #[test]
-    fn eight_joints_of_two_sets_count_by_their_weights() {
+    fn eight_joints_in_two_sets_are_blended() {
         let mut arm = triangle();
         arm.joint_indices = vec![vec![[0, 1, 0, 1]; 3], vec![[1, 1, 1, 0]; 3]];
-        // Joint 0 has moved by 3; joint 1 (the mesh's own node) is fixed. Their total weights are
-        // 0.75 and 0.25.
+        // Joint 0 has moved by 3; joint 1 (the mesh's node) has not. Their total weights are 0.75
+        // and 0.25.
         arm.joint_weights =
             vec![vec![[0.25, 0.125, 0.25, 0.0]; 3], vec![[0.0625, 0.0625, 0.0, 0.25]; 3]];
         let (mut model, instance) = model_with_joint(arm, translation_by(3.0, 1.0, 0.0));
@@ -417,7 +423,7 @@ mod tests {
     }
 
     #[test]
-    fn tangents_colours_and_texture_coordinates_follow() {
+    fn tangents_colors_and_texture_coordinates_are_deformed() {
         let mut primitive = triangle();
         primitive.tangents = Some(vec![[0.0, 1.0, 0.0, -1.0]; 3]);
         primitive.colors = Some(vec![[0.5, 0.5, 0.5, 1.0]; 3]);

@@ -1,8 +1,8 @@
-//! Textures: decoded images, and the samplers that define how they are wrapped and filtered.
+//! Textures: decoded images, and samplers that define how they are wrapped and filtered.
 //!
 //! Names and meanings of the sampler states follow glTF 2.0 §3.8.4, which takes them from OpenGL.
 
-/// A decoded image: 8 bits for each of red, green, blue and alpha, top row first, straight alpha.
+/// A decoded image: 8-bit red, green, blue and straight alpha, top row first.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Image {
     /// Width in texels, at least 1.
@@ -19,19 +19,19 @@ impl std::fmt::Debug for Image {
     }
 }
 
-/// Metadata of an image of the file, whether it was decoded or not.
+/// The metadata of an image in the file, decoded or not.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct ImageInfo {
     /// The name in the file, if it has one.
     pub name: Option<String>,
     /// The URI if the image is in a separate file; `data:` if it is embedded in the URI.
     pub uri: Option<String>,
-    /// Format and size from the first bytes of the image; `None` if they were not read or are
+    /// Format and size from the first bytes of the image, or `None` if they were not read or are
     /// invalid.
     pub header: Option<ImageHeader>,
 }
 
-/// Format and size of an encoded image, from its header.
+/// The format and size of an encoded image, from its header.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct ImageHeader {
     /// Name of the format: `png`, `jpeg`, `webp` or `ktx2`.
@@ -44,47 +44,47 @@ pub struct ImageHeader {
     pub bytes: usize,
 }
 
-/// A texture: an image and the sampler that reads it.
+/// A texture: an image and a sampler.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Texture {
-    /// Index of the image; `None` if the file refers to none, or to one that cannot be read.
+    /// Index of the image, or `None` if it is missing or cannot be read.
     pub image: Option<usize>,
     /// Wrapping and filtering.
     pub sampler: Sampler,
 }
 
-/// Sampler state: wrapping outside [0, 1], and filtering between texels and mip levels.
+/// The sampler state: wrapping outside [0, 1], and filtering between texels and mip levels.
 ///
-/// The default repeats and filters trilinearly, as in glTF. Its single `minFilter` covers two
-/// states here and in Vulkan: `LINEAR_MIPMAP_NEAREST` is a linear `min_filter` with the nearest mip
-/// level.
+/// The default repeats and filters trilinearly, as in glTF. The single `minFilter` in glTF
+/// corresponds to two states here and in Vulkan: `LINEAR_MIPMAP_NEAREST` is a linear `min_filter`
+/// with the nearest mip level.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Sampler {
-    /// Wrapping to the left and right of the image.
+    /// Wrap mode to the left and right of the image.
     pub wrap_u: WrapMode,
-    /// Wrapping above and below the image.
+    /// Wrap mode above and below the image.
     pub wrap_v: WrapMode,
-    /// Filter where the texture is magnified: a texel covers more than one pixel.
+    /// Filter for magnification, where a texel covers more than one pixel.
     pub mag_filter: TextureFilter,
-    /// Filter within one mip level where the texture is minified.
+    /// Filter within a mip level for minification.
     pub min_filter: TextureFilter,
-    /// Filter between mip levels where the texture is minified.
+    /// Filter between mip levels for minification.
     pub mipmap_mode: MipmapMode,
 }
 
-/// Wrapping of texture coordinates outside [0, 1].
+/// The wrap mode for texture coordinates outside [0, 1].
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum WrapMode {
     /// The image repeats.
     #[default]
     Repeat,
-    /// The image repeats, every second time mirrored.
+    /// The image repeats, with every second copy mirrored.
     MirroredRepeat,
-    /// The border texels continue.
+    /// The border texels are repeated.
     ClampToEdge,
 }
 
-/// Filter between texel centers.
+/// The filter between texel centers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum TextureFilter {
     /// The nearest texel.
@@ -96,14 +96,15 @@ pub enum TextureFilter {
 
 /// The mipmap mode of a sampler: how mip levels are filtered.
 ///
-/// Shading chooses the levels (`select_levels` in `shade/src/texture/addressing.rs`).
+/// Shading selects the levels (`select_levels` in `shade/src/texture/addressing.rs`).
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum MipmapMode {
-    /// No mipmapping: the full image only.
+    /// No mipmapping: only the full image.
     None,
     /// The nearest mip level.
     Nearest,
-    /// The two nearest mip levels, weighted; with a bilinear filter this is trilinear filtering.
+    /// The weighted mean of the two nearest mip levels; with a bilinear filter this is trilinear
+    /// filtering.
     #[default]
     Linear,
 }

@@ -1,13 +1,13 @@
-//! Stage timings: a stopwatch that is passed through loading and rendering.
+//! Stage timings: a stopwatch to pass through loading and rendering.
 
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Stage names, the total time of each, and how often it ran.
+/// Stage names with the total time and number of runs.
 type StageTimes = Vec<(&'static str, Duration, usize)>;
 
-/// A stopwatch for the stages of a run. Clones add to the same measurement; the default measures
-/// nothing.
+/// A stopwatch for processing stages. Clones add to the same measurement. The default does not
+/// measure anything.
 ///
 /// ```
 /// use model::Timings;
@@ -22,7 +22,7 @@ pub struct Timings {
 }
 
 impl Timings {
-    /// Creates a stopwatch that measures time.
+    /// Creates a stopwatch that measures.
     #[must_use]
     pub fn enabled() -> Self {
         Self { stage_times: Some(Arc::default()) }
@@ -42,13 +42,13 @@ impl Timings {
         result
     }
 
-    /// Stages with their total times, in the order in which they first ended.
+    /// Returns the stages with their total times, in the order in which they first ended.
     #[must_use]
     pub fn stages(&self) -> Vec<(&'static str, Duration)> {
         self.stage_times().into_iter().map(|(stage, time, _)| (stage, time)).collect()
     }
 
-    /// Number of times that a stage ran; 0 if nothing is measured.
+    /// Returns how often a stage ran, or 0 if nothing is measured.
     #[must_use]
     pub fn count(&self, stage: &str) -> usize {
         let times = self.stage_times();
@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_stage_that_comes_twice_is_one_entry_and_the_default_measures_nothing() {
+    fn repeated_stages_are_summed_and_the_default_measures_nothing() {
         let timings = Timings::enabled();
         assert_eq!(timings.measure("a", || 1), 1);
         timings.clone().measure("b", || ());

@@ -1,4 +1,4 @@
-//! Up axes of files, and the rotation that turns them to y.
+//! The up axis of a file, and the rotation that turns it to y.
 
 use crate::{Model, Node};
 use homog::{Affine, Model as ModelSpace, Point, Vector};
@@ -8,10 +8,10 @@ use homog::{Affine, Model as ModelSpace, Point, Vector};
 pub enum UpAxis {
     /// x, with y to the left and z to the front, as in COLLADA.
     X,
-    /// y, with x to the right and z to the front: glTF, and by convention OBJ and PLY.
+    /// y, with x to the right and z to the front, as in glTF and, by convention, OBJ and PLY.
     #[default]
     Y,
-    /// z, with x to the right and y to the back: 3MF, and by convention STL.
+    /// z, with x to the right and y to the back, as in 3MF and, by convention, STL.
     Z,
 }
 
@@ -26,7 +26,8 @@ impl UpAxis {
         }
     }
 
-    /// Returns the rotation to a system with y up: exact, because it only permutes coordinates.
+    /// Returns the rotation to a system with y up. It is exact, because it only permutes and
+    /// negates coordinates.
     fn to_y_up(self) -> Affine<ModelSpace, ModelSpace> {
         let [x, y, z] = match self {
             Self::X => [Vector::new(0.0, 1.0, 0.0), Vector::new(-1.0, 0.0, 0.0), Vector::Z],
@@ -38,10 +39,10 @@ impl UpAxis {
 }
 
 impl Model {
-    /// Gives every root node a parent that rotates the axis `up` of the file to y.
+    /// Adds a parent to every root node that rotates the file's `up` axis to y.
     ///
-    /// Parents are added instead of changing the roots, whose transforms animations may set. The
-    /// new nodes come last, so that all others keep their indices.
+    /// The roots themselves are not changed, because animations may set their transforms. The new
+    /// nodes come last, so that the indices of all other nodes stay the same.
     pub fn rotate_roots(&mut self, up: UpAxis) {
         self.up_axis = up;
         if up == UpAxis::Y {
@@ -73,7 +74,7 @@ mod tests {
     use crate::{Mesh, Primitive};
 
     #[test]
-    fn the_axis_points_up_and_the_rotation_is_exact() {
+    fn up_axes_are_rotated_to_y_exactly() {
         let corner = [1.0, 2.0, 3.0];
         for (up, expected) in
             [(UpAxis::X, [-2.0, 1.0, 3.0]), (UpAxis::Y, corner), (UpAxis::Z, [1.0, 3.0, -2.0])]
@@ -88,7 +89,7 @@ mod tests {
                 ..Model::default()
             };
             model.rotate_roots(up);
-            // Only the vertex that an index uses is a point of the scene.
+            // Only the vertex that an index refers to is a point of the scene.
             let points: Vec<_> = model.scene_points().iter().map(|p| p.raw().to_array()).collect();
             assert_eq!(points, [expected]);
             assert_eq!(model.up_axis, up);

@@ -1,11 +1,11 @@
 //! The alpha test: whether a fragment of a masked primitive is opaque (glTF 2.0 §3.9.4).
 //!
-//! The rasterizer runs it before depth is written, for eight fragments of one primitive at once:
-//! fragments that fail the test hide nothing.
+//! The rasterizer runs it before depth is written, for eight fragments of a primitive at once, so
+//! that fragments that fail the test hide nothing.
 //!
-//! Styles with one color for each fragment, such as normals and ids, apply it to blended primitives
-//! too: these have holes where textures and vertex colors make them less than half as opaque as
-//! their material.
+//! Styles with one color per fragment, such as normals and ids, also apply it to blended
+//! primitives, which have holes where textures and vertex colors make them less than half as opaque
+//! as their material.
 
 use super::attributes::{PrimitiveIndices, interpolate};
 use super::fragment_lanes::{FragmentLanes, FragmentPacket};
@@ -14,7 +14,7 @@ use super::{Draw, DrawList};
 use model::AlphaMode;
 use raster::{Fragment, Fragments, Kernel, LANES, SimdLevel};
 
-/// The kernel of the alpha test of eight fragments of one masked primitive.
+/// The kernel for the alpha test of eight fragments of a masked primitive.
 struct AlphaTestEight<'a> {
     draws: &'a DrawList<'a>,
     fragments: &'a Fragments<'a>,
@@ -33,8 +33,7 @@ impl Kernel for AlphaTestEight<'_> {
 }
 
 impl DrawList<'_> {
-    /// Computes the alpha test: whether a fragment of a masked primitive is opaque (glTF 2.0
-    /// §3.9.4).
+    /// Returns whether a fragment of a masked primitive passes the alpha test (glTF 2.0 §3.9.4).
     pub fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
         let (draw, _) = self.find_draw(fragment.id);
         let primitive = draw.primitive_indices(&[fragment.id], true);
@@ -42,10 +41,11 @@ impl DrawList<'_> {
         passes
     }
 
-    /// Computes the alpha test of eight fragments of one primitive, with vector instructions of
-    /// this level.
+    /// Runs the alpha test for eight fragments of a primitive, with vector instructions of this
+    /// level.
     ///
-    /// The rasterizer runs it before depth is written: fragments that fail the test hide nothing.
+    /// The rasterizer calls it before depth is written, so that fragments that fail the test hide
+    /// nothing.
     pub fn passes_alpha_test_eight(
         &self,
         fragments: &Fragments<'_>,
@@ -64,7 +64,7 @@ impl DrawList<'_> {
 }
 
 impl Draw<'_> {
-    /// Computes the alpha test at fragments; fragments of opaque materials all pass.
+    /// Runs the alpha test for fragments. Fragments of opaque materials always pass.
     #[inline(always)]
     fn passes_alpha_test<const N: usize>(
         &self,
@@ -74,7 +74,7 @@ impl Draw<'_> {
         let cutoff = match self.material.alpha_mode {
             AlphaMode::Opaque => return [true; N],
             AlphaMode::Mask { cutoff } => cutoff,
-            // A pane of faint glass is a surface; the empty part of a leaf's texture is not.
+            // Faint glass counts as a surface; the empty part of a leaf texture does not.
             AlphaMode::Blend => (0.5 * self.material.base_color[3]).max(f32::MIN_POSITIVE),
         };
         let alpha = self.sample_alpha(primitives, fragments);

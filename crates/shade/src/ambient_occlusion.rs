@@ -1,11 +1,11 @@
 //! Screen-space ambient occlusion (GTAO): the fraction of the light from all directions that
-//! arrives at a surface, judged from the occluders visible in the picture.
+//! arrives at a surface, estimated from the occluders visible in the picture.
 //!
 //! ```text
 //!          v  to the viewer
-//!    h1 ╲  │  ╱ h2          in each of some planes through v, slices, the horizon is the
+//!    h1 ╲  │  ╱ h2          in several planes through v (slices) the horizon is the
 //!        ╲ │ ╱              highest surface on either side within a radius; between the
-//!   ▟█▙▖  ╲│╱  ▗▟██▙        horizons light comes in (Jimenez and others, *Practical
+//!   ▟█▙▖  ╲│╱  ▗▟██▙        horizons light arrives (Jimenez and others, *Practical
 //!   ███████●████████        real-time strategies for accurate indirect occlusion*, 2016)
 //! ```
 //!
@@ -13,17 +13,18 @@
 //!
 //! ```text
 //!  depths ─► horizon search ─► denoise ─► visibility of each pixel ─► lookup by fragments
-//!            few slices, turned   4 × 4 mean         from the pixels on their own surface
+//!            few slices, rotated  4 × 4 mean         from the pixels on their own surface
 //!            from pixel to pixel  on one surface
 //! ```
 //!
 //! The slices of a pixel are rotated by a 4 × 4 pattern, and the mean over 4 × 4 pixels of one
-//! surface removes the pattern again: each pixel gets the horizons of sixteen times as many slices.
-//! The pattern is fixed to the picture, so that parts of it join seamlessly.
+//! surface removes the pattern again, so each pixel gets the horizons of sixteen times as many
+//! slices. The pattern is fixed to the whole picture, so that separately rendered parts join
+//! seamlessly.
 //!
-//! Fragments do not search horizons themselves. A fragment that does not cover the center of its
-//! pixel is next to the surface there, and would find itself below others: a dark dot. Instead it
-//! takes the visibility of the surrounding pixels that show its surface.
+//! Fragments do not search for horizons themselves. A fragment that does not cover the center of
+//! its pixel is next to the surface there, and would find itself below other surfaces and become a
+//! dark dot. Instead it uses the visibility of the surrounding pixels that show its surface.
 
 mod denoise;
 mod horizon_search;
@@ -36,11 +37,11 @@ use raster::{Kernel, LANES, SimdLevel, SurfaceDepth, for_each_parallel};
 use screen_space::PixelGrid;
 pub use screen_space::ScreenSpace;
 
-/// The distance from a fragment's plane, in radii, within which a pixel is taken to show its
-/// surface.
+/// The distance from a fragment's plane, in radii, within which a pixel counts as showing the
+/// fragment's surface.
 const SAME_SURFACE: f32 = 0.02;
-/// The weight of full visibility in a lookup; it matters only for fragments without a nearby pixel
-/// of their surface.
+/// The weight of full visibility in a lookup, which matters only for fragments without a nearby
+/// pixel of their surface.
 const OPEN_WEIGHT: f32 = 4.0;
 
 /// The ambient visibility of the pixels of a picture.
@@ -52,7 +53,7 @@ pub struct AmbientOcclusion {
     depths: PixelGrid,
     /// The fraction of the light from all directions that arrives at each pixel, 0 to 1.
     visibilities: PixelGrid,
-    /// The visibilities before denoising; their memory is reused for the next picture.
+    /// The visibilities before denoising, whose memory is reused for the next picture.
     noisy: PixelGrid,
 }
 
@@ -93,10 +94,10 @@ impl AmbientOcclusion {
         Self { space, depths, visibilities, noisy }
     }
 
-    /// Computes the ambient visibility of positions in the world with these unit normals, 0 to 1.
+    /// Computes the ambient visibility, 0 to 1, of positions in the world with these unit normals.
     ///
-    /// A mean over the nine pixels around each position, weighted by how close their surfaces are
-    /// to the plane of the fragment (a joint bilateral lookup).
+    /// This is a mean over the nine pixels around each position, weighted by how close their
+    /// surfaces are to the fragment's plane (a joint bilateral lookup).
     #[inline(always)]
     pub(super) fn visibility<const N: usize>(
         &self,
@@ -115,7 +116,7 @@ impl AmbientOcclusion {
             let y = Lanes::from_fn(|lane| (pixels[lane][1] + dy) as f32);
             let found = space.unproject_pixels([x, y], depths);
             let distances = (found - positions).dot(normals) * inv_distance;
-            // A tent over the pixels, times the similarity of the surfaces.
+            // The weight is a tent over the pixels, times the similarity of the surfaces.
             let tent = [4096.0, 2048.0, 1024.0][(dx.abs() + dy.abs()) as usize];
             let weight = tent / (1.0 + distances * distances);
             let weight = weight.select(&depths.is_above(0.0), Lanes::ZERO);
@@ -126,7 +127,7 @@ impl AmbientOcclusion {
     }
 }
 
-/// Computes the visibilities of eight pixels, for processors without wide kernels.
+/// Computes the visibilities of eight pixels one by one, for processors without wide kernels.
 #[inline(never)]
 fn search_one_by_one(
     space: &ScreenSpace,
@@ -145,7 +146,8 @@ fn search_one_by_one(
 /// Computes the ambient visibility of a surface with this albedo, including the light that its
 /// surroundings reflect to it: a fit to multiple bounces (Jimenez et al. 2016, eq. 10).
 ///
-/// Surroundings are assumed to have the same albedo: white corners are brighter than black ones.
+/// The surroundings are assumed to have the same albedo, so white corners are brighter than black
+/// corners.
 #[inline(always)]
 pub(super) fn add_bounces<const N: usize>(visibility: Lanes<N>, albedo: Rgb<N>) -> Rgb<N> {
     albedo.map(|albedo| {
@@ -161,7 +163,7 @@ mod tests {
     use super::*;
     use glam::{DMat4, DVec3, DVec4};
 
-    /// Returns a camera that looks down at the ground, from far away.
+    /// Returns a camera that looks down at the ground from far away.
     fn distant_view() -> DMat4 {
         let world_to_clip = DMat4::from_cols_array_2d(&[
             [1.681_992, -0.747_552, 1.824_367, -2.0 / 3.0],
@@ -179,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plane_is_open() {
+    fn a_plane_is_unoccluded() {
         let world_to_screen = distant_view();
         let plane = world_to_screen.inverse().transpose() * DVec4::Y;
         let nearest = (0..120).flat_map(|y| (0..160).map(move |x| [x, y])).map(|pixel| {
@@ -202,14 +204,14 @@ mod tests {
     }
 
     #[test]
-    fn one_pixel_at_a_time_has_the_bits_of_eight() {
+    fn single_pixels_match_eight_at_once_bit_for_bit() {
         let size = [24, 8];
         let across = DVec3::new(1.0, 0.0, -1.0).normalize() * 130.0;
         let eye = [1012.6047, 434.8936, 1018.6047, 1.0];
         let space = ScreenSpace::new(size, [0.5; 2], distant_view(), DVec3::ZERO, eye, across);
         let mut depths = PixelGrid::default();
         depths.reset(size);
-        // Rough ground, with a hole.
+        // Rough ground with a hole.
         let depth = |at: u32| 0.5 + 0.01 * ((at * 7 + at / 24 * 5) % 11) as f32;
         depths.fill_from((0..24 * 8).map(|at| if at % 17 == 3 { 0.0 } else { depth(at) }));
         let (space, pattern, depths) = (&space, &Pattern::new(), &depths);
@@ -218,19 +220,19 @@ mod tests {
             let eight: [f32; LANES] = HorizonSearch { space, pattern, depths, x, y }.run();
             let single = search_one_by_one(space, pattern, depths, [x, y]);
             for lane in 0..LANES {
-                // Background pixels are ignored by both.
+                // Both ignore background pixels.
                 if depths.at([(x + lane) as i32, y as i32], [0, 0]) > 0.0 {
                     assert_eq!(eight[lane].to_bits(), single[lane].to_bits(), "{x} + {lane}, {y}");
                     darkest = darkest.min(eight[lane]);
                 }
             }
         }
-        assert!(darkest < 0.9, "nothing occludes: {darkest}");
+        assert!(darkest < 0.9, "no occlusion: {darkest}");
     }
 
     #[test]
-    fn bounces_brighten_white_corners_and_not_black_ones() {
-        // The fit of the paper at visibility ½: a/8 + b/4 + c/2.
+    fn bounces_brighten_white_corners_but_not_black_ones() {
+        // The paper's fit at visibility ½: a/8 + b/4 + c/2.
         let half = Lanes::<1>::splat(0.5);
         for (albedo, expected) in [(0.0, 0.464), (0.5, 0.681), (0.8, 0.811)] {
             let fit = add_bounces(half, Rgb::splat([albedo; 3])).lane(0)[0];

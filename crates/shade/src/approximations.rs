@@ -1,15 +1,16 @@
-//! Elementary functions as polynomials, and rounding: accurate to about six digits, and usable in
-//! vector instructions, which `libm` does not offer.
+//! Polynomial approximations of elementary functions, and rounding. They are accurate to about six
+//! digits and, unlike `libm`, can be compiled to vector instructions.
 //!
-//! Logarithm and power split a number into exponent and mantissa, as IEEE 754 stores it; only the
-//! mantissa needs a polynomial. The cosine removes whole turns. All machines produce the same bits.
+//! The logarithm and the power split a number into exponent and mantissa, as stored in IEEE 754;
+//! only the mantissa needs a polynomial. The cosine removes whole turns. All machines produce the
+//! same bits.
 
 use std::f32::consts::LN_2;
 
-/// Computes the largest integer not above a number, which is clamped to ±4,194,303.
+/// Rounds a number, clamped to ±4,194,303, down to an integer.
 ///
-/// Adding 3 · 2²² leaves the nearest integer in the low bits of the sum. All of it becomes vector
-/// instructions; `as i32` would be converted lane by lane, with a test for NaN.
+/// Adding 3 · 2²² leaves the nearest integer in the low bits of the sum. All of this compiles to
+/// vector instructions; `as i32` would convert lane by lane, with a test for NaN.
 #[inline(always)]
 #[expect(clippy::manual_clamp, reason = "a bound in place of NaN, which `clamp` keeps")]
 pub(crate) fn floor_to_int(x: f32) -> i32 {
@@ -22,7 +23,7 @@ pub(crate) fn floor_to_int(x: f32) -> i32 {
 /// Computes the base-2 logarithm of a normal positive number, to about six digits.
 #[inline(always)]
 pub(crate) fn log2_approx(x: f32) -> f32 {
-    // log2(1 + t) / t between 0 and 1, fitted at the zeros of a Chebyshev polynomial.
+    // log2(1 + t) / t from 0 to 1, fitted at the zeros of a Chebyshev polynomial.
     const COEFFICIENTS: [f32; 7] = [
         1.442_693_2,
         -0.721_162_74,
@@ -44,8 +45,7 @@ pub(crate) fn log2_approx(x: f32) -> f32 {
     exponent as f32 + sum * t
 }
 
-/// Computes two to the power of a number from −126 to 127, to about six digits; numbers outside are
-/// clamped.
+/// Computes two to the power of a number, clamped to −126 to 127, to about six digits.
 #[inline(always)]
 #[expect(clippy::manual_clamp, reason = "a bound in place of NaN, which `clamp` keeps")]
 pub(crate) fn exp2_approx(power: f32) -> f32 {
@@ -64,8 +64,8 @@ pub(crate) fn exp2_approx(power: f32) -> f32 {
     sum * f32::from_bits((exponent as u32) << 23)
 }
 
-/// Computes the cosine of an angle in turns, up to a million of them; the error is at most 10⁻⁶
-/// plus the rounding of the angle.
+/// Computes the cosine of an angle of up to a million turns. The error is at most 10⁻⁶ plus the
+/// rounding error of the angle.
 #[inline(always)]
 #[expect(clippy::manual_clamp, reason = "a bound in place of NaN, which `clamp` keeps")]
 pub(crate) fn cosine_of_turns(turns: f32) -> f32 {
@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn logarithms_are_right_to_six_digits() {
+    fn logarithms_are_accurate_to_six_digits() {
         assert_eq!(log2_approx(1.0), 0.0);
         for step in 0..100_000 {
             let x = 1.0 + step as f32 * step as f32 * 0.01;
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn powers_of_two_are_right_to_six_digits() {
+    fn powers_of_two_are_accurate_to_six_digits() {
         assert_eq!(exp2_approx(-1e9), exp2_approx(-126.0));
         for step in -12_600..12_700 {
             let power = step as f32 * 0.01;
@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn cosines_are_right_to_six_digits() {
+    fn cosines_are_accurate_to_six_digits() {
         for step in -40_000..40_000 {
             let turns = step as f32 * 0.001;
             let exact = libm::cos(f64::from(turns) * 2.0 * std::f64::consts::PI);

@@ -1,15 +1,16 @@
-//! Vertex attributes: fetched for the vertices of fragments' primitives, and interpolated.
+//! Vertex attributes: fetches them for the vertices of the fragments' primitives and interpolates
+//! them.
 //!
-//! The rasterizer writes a visibility buffer: the primitive of each fragment, and the barycentric
+//! The rasterizer writes a visibility buffer: the primitive of each fragment and the barycentric
 //! weights of its vertices. Attributes are fetched only when a fragment is shaded, and only once
-//! for all lanes if these belong to one primitive.
+//! for all lanes if these belong to the same primitive.
 
 use super::lanes::Lanes;
 
 /// The vertex attributes that most draws need, in half a cache line.
 ///
-/// The position in the world, the unit normal there, and the texture coordinates that most textures
-/// use; they begin at [`POSITION`], [`NORMAL`] and [`UV`].
+/// These are the position and unit normal in the world, and the texture coordinates that most
+/// textures use. They begin at [`POSITION`], [`NORMAL`] and [`UV`].
 pub type Vertex = [f32; 8];
 
 /// The offset of the position in a [`Vertex`].
@@ -19,10 +20,10 @@ pub const NORMAL: usize = 3;
 /// The offset of the texture coordinates in a [`Vertex`].
 pub const UV: usize = 6;
 
-/// For each of three vertices, an attribute of `K` components in all lanes.
+/// An attribute with `K` components for each of three vertices, in all lanes.
 pub(super) type Attributes<const N: usize, const K: usize> = [[Lanes<N>; K]; 3];
 
-/// The indices of the vertices of some fragments' primitives.
+/// The vertex indices of some fragments' primitives.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum VertexIndices<const N: usize> {
     /// All fragments belong to one primitive.
@@ -41,7 +42,7 @@ pub(super) enum PrimitiveIndices<const N: usize> {
 }
 
 impl<const N: usize> PrimitiveIndices<N> {
-    /// Returns the vertices of each primitive, from a function of its index.
+    /// Returns the vertices of each primitive from a function of its index.
     #[inline(always)]
     pub(super) fn vertex_indices(
         &self,
@@ -61,7 +62,7 @@ impl<const N: usize> PrimitiveIndices<N> {
 }
 
 impl<const N: usize> VertexIndices<N> {
-    /// Fetches an attribute of `K` components for each vertex, which begin at `offset`.
+    /// Fetches an attribute with `K` components, starting at `offset`, for each vertex.
     #[inline(always)]
     pub(super) fn fetch_attributes<const M: usize, const K: usize>(
         &self,
@@ -79,7 +80,7 @@ impl<const N: usize> VertexIndices<N> {
                 }
             }
             Self::Each(vertices) => {
-                // A gather: lane by lane, because each vertex is in another cache line.
+                // A gather, lane by lane, because each vertex is in a different cache line.
                 for (lane, vertices) in vertices.iter().enumerate() {
                     for (attribute, &vertex) in attributes.iter_mut().zip(vertices) {
                         let value = &values[vertex];
@@ -94,9 +95,9 @@ impl<const N: usize> VertexIndices<N> {
     }
 }
 
-/// Interpolates an attribute: the sum over the vertices, each weighted by its barycentric weight.
+/// Interpolates an attribute: the sum over the vertices, weighted by the barycentric weights.
 ///
-/// With the derivatives of the weights it returns the derivative of the attribute.
+/// With the derivatives of the weights, it returns the derivative of the attribute.
 #[inline(always)]
 pub(super) fn interpolate<const N: usize, const K: usize>(
     [a, b, c]: &Attributes<N, K>,

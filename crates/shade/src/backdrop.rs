@@ -1,9 +1,9 @@
-//! The backdrop: a gradient or an image behind the models, by position in the whole picture.
+//! The backdrop: a gradient or an image behind the models, defined over the whole picture.
 //!
 //! ```text
 //!   0 ─────────────► 1     A position is (x, y) in fractions of the picture's width and height,
-//!   │   the whole          from its upper left corner. The color depends on nothing else, so that
-//!   ▼   picture            tiles that are rendered one by one fit together.
+//!   │   the whole          from the upper left corner. The color depends only on this, so that
+//!   ▼   picture            separately rendered tiles fit together.
 //!   1
 //! ```
 
@@ -26,7 +26,7 @@ pub enum Backdrop {
 }
 
 impl Backdrop {
-    /// Returns the color at a position in fractions of the picture: linear, multiplied by alpha.
+    /// Returns the linear premultiplied color at a position in fractions of the picture.
     #[must_use]
     pub fn color_at(&self, position: [f32; 2]) -> [f32; 4] {
         match self {
@@ -35,7 +35,7 @@ impl Backdrop {
         }
     }
 
-    /// Returns whether it is opaque everywhere.
+    /// Returns whether the backdrop is opaque everywhere.
     #[must_use]
     pub fn is_opaque(&self) -> bool {
         match self {
@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn gradients_run_through_their_colors_and_halfway_mix_their_codes() {
+    fn gradients_interpolate_between_srgb_codes() {
         let down = gradient(0.0, [300, 100]);
         for x in [0.0, 0.3, 1.0] {
             assert_eq!(codes(&down, x, 0.0), [0, 0, 0, 255]);
@@ -91,12 +91,12 @@ mod tests {
         let slanted = gradient(45.0, [300, 100]);
         assert_eq!(codes(&slanted, 0.0, 0.0), [0, 0, 0, 255]);
         assert_eq!(codes(&slanted, 1.0, 1.0), [255, 255, 255, 255]);
-        // Lines of one color are perpendicular to it in pixels: 100 to the right count as much as
+        // Lines of equal color are perpendicular to it in pixels: 100 pixels right count as much as
         // 100 down.
         assert_eq!(codes(&slanted, 1.0 / 3.0, 0.0), codes(&slanted, 0.0, 1.0));
     }
 
-    /// Four texels: red, green, blue, and half-transparent white.
+    /// Returns four texels: red, green, blue and half-transparent white.
     fn image() -> Image {
         let rgba = vec![[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [255, 255, 255, 128]];
         Image { width: 2, height: 2, rgba }
@@ -112,7 +112,7 @@ mod tests {
         assert_eq!(codes(&stretched, 0.0, 0.0), [255, 0, 0, 255]);
         assert_eq!(codes(&stretched, 0.25, 0.75), [0, 0, 255, 255]);
         assert_eq!(codes(&stretched, 1.0, 1.0), [255, 255, 255, 128]);
-        // For a square in a picture twice as wide, the upper and lower quarters are cropped.
+        // In a picture twice as wide as high, the upper and lower quarters of a square are cropped.
         let cropped = backdrop_image(ImageFit::Cover, [400, 200]);
         assert_eq!(cropped.color_at([0.0, 0.5]), stretched.color_at([0.0, 0.5]));
         assert_eq!(cropped.color_at([0.0, 0.0]), stretched.color_at([0.0, 0.25]));

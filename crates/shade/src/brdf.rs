@@ -1,4 +1,4 @@
-//! The BRDF of glTF materials: a base of diffuse and GGX specular reflection, with layers on top.
+//! The BRDF of glTF materials: a base with diffuse and GGX specular reflection, and layers on top.
 //!
 //! ```text
 //!  clearcoat          smooth dielectric of index 1.5     KHR_materials_clearcoat
@@ -10,8 +10,8 @@
 //!                     and blurred; tinted                _ior, _dispersion
 //! ```
 //!
-//! Each layer scales the ones below by the energy that it leaves: the clearcoat by its Fresnel
-//! reflectance, sheen by its directional albedo, the base specular by Fresnel.
+//! Each layer scales the layers below by the energy that it leaves: the clearcoat by its Fresnel
+//! reflectance, sheen by its directional albedo, and the base specular by Fresnel.
 //!
 //! | file | term |
 //! | --- | --- |

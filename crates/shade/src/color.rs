@@ -1,4 +1,4 @@
-//! Colors: linear light internally, sRGB at input and output (IEC 61966-2-1).
+//! Colors: linear light internally, sRGB for input and output (IEC 61966-2-1).
 //!
 //! ```text
 //!  textures, #rrggbb ──► linear light ──► shading ──► SrgbEncoder, Srgb16Encoder ──► picture
@@ -18,13 +18,13 @@ use crate::lanes::{Lanes, map_to_lanes};
 use raster::{Encode, F32x8, LANES};
 use std::sync::OnceLock;
 
-/// Computes the linear light of an sRGB value, both from 0 to 1: the electro-optical transfer
+/// Converts an sRGB value to linear light, both from 0 to 1, with the electro-optical transfer
 /// function.
 pub fn srgb_to_linear(srgb: f64) -> f64 {
     if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
 }
 
-/// Computes the linear light, 0 to 1, of each 8-bit sRGB value.
+/// Computes a table of the linear light, 0 to 1, of each 8-bit sRGB value.
 #[must_use]
 pub fn srgb_to_linear_table() -> &'static [f32; 256] {
     static TABLE: OnceLock<[f32; 256]> = OnceLock::new();
@@ -35,25 +35,25 @@ pub fn srgb_to_linear_table() -> &'static [f32; 256] {
 /// half of the linear light of code 1.
 const MIN_LIGHT_BITS: u32 = 0x3900_0000;
 
-/// Encodes linear light as the nearest 8-bit sRGB code, using a table of 2048 steps.
+/// Encodes linear light as the nearest 8-bit sRGB code, using a table with 2048 steps.
 ///
 /// ```text
 ///  entry = code << 16 | carry        encode(x) = (entry of x + lower 16 bits of x) >> 16
 /// ```
 ///
-/// A float's upper 16 bits, the exponent and seven bits of the mantissa, are one of 128 steps of
-/// each octave. Codes are farther apart than that, so a step contains at most one threshold between
-/// two codes. The upper half of its entry has the code at its beginning. The lower half has the
-/// number that carries into the upper half when the float's lower bits, from the threshold on, are
-/// added.
+/// A float's upper 16 bits, the exponent and seven bits of the mantissa, identify one of 128 steps
+/// in each octave. Codes are farther apart than that, so a step contains at most one threshold
+/// between two codes. The upper half of its table entry is the code at the beginning of the step.
+/// The lower half is chosen so that adding the float's lower bits carries into the upper half from
+/// the threshold on.
 #[derive(Debug)]
 pub struct SrgbEncoder {
-    /// For each step, from the smallest light to 1: the code, and the carry to the next.
+    /// The code and the carry to the next code, for each step from the smallest light to 1.
     step_table: Box<[u32; 2048]>,
 }
 
 impl SrgbEncoder {
-    /// Returns the encoder, shared by the whole program; its table is computed once.
+    /// Returns the encoder shared by the whole program, whose table is computed once.
     #[must_use]
     pub fn shared() -> &'static Self {
         static ENCODER: OnceLock<SrgbEncoder> = OnceLock::new();
@@ -73,25 +73,25 @@ impl SrgbEncoder {
         Self { step_table: Box::new(std::array::from_fn(entry)) }
     }
 
-    /// Computes the nearest 8-bit sRGB code; light beyond \[0, 1\] is clamped, NaN to 0.
+    /// Returns the nearest 8-bit sRGB code. Light outside \[0, 1\] is clamped, and NaN becomes 0.
     #[must_use]
     pub fn encode(&self, light: f32) -> u8 {
         self.encode_to_code(light) as u8
     }
 
-    /// Computes the code as a number; without branches, so that loops over it become vector
+    /// Returns the code as a number. There are no branches, so loops over this become vector
     /// instructions.
     #[inline(always)]
     fn encode_to_code(&self, light: f32) -> u32 {
         let least = f32::from_bits(MIN_LIGHT_BITS);
         let bits = if light > least { light.min(1.0) } else { least }.to_bits();
-        // Table lookup by exponent and seven bits of the mantissa, then one addition for the
+        // A table lookup by exponent and seven bits of the mantissa, then one addition for the
         // threshold.
         let step = self.step_table[((bits - MIN_LIGHT_BITS) >> 16 & 2047) as usize];
         (step + (bits & 0xffff)) >> 16
     }
 
-    /// Encodes pixels: sRGB with straight alpha, from linear light multiplied by alpha. Red is in
+    /// Encodes pixels as sRGB with straight alpha, from linear light multiplied by alpha. Red is in
     /// the lowest byte.
     #[inline(always)]
     fn encode_pixels<const N: usize>(&self, colors: &[Lanes<N>; 4]) -> [u32; N] {
@@ -119,7 +119,7 @@ impl SrgbEncoder {
         pixels
     }
 
-    /// Encodes a pixel: sRGB with straight alpha, from linear light multiplied by alpha.
+    /// Encodes a pixel as sRGB with straight alpha, from linear light multiplied by alpha.
     #[must_use]
     pub fn encode_pixel(&self, color: [f32; 4]) -> [u8; 4] {
         let [pixel] = self.encode_pixels(&color.map(Lanes::<1>::splat));
@@ -139,20 +139,20 @@ impl Encode<[u8; 4]> for &SrgbEncoder {
     }
 }
 
-/// Returns the smallest linear light whose nearest code is the index; the first entry is below all
-/// light.
+/// Returns for each code the smallest linear light for which it is the nearest code. The first
+/// entry is below all light.
 fn code_thresholds() -> [f32; 256] {
     let threshold = |code: usize| srgb_to_linear((code as f64 - 0.5) / 255.0) as f32;
     std::array::from_fn(|code| if code == 0 { f32::MIN } else { threshold(code) })
 }
 
-/// Parses the linear color of `#rgb` or `#rrggbb`. Returns `None` for any other text.
+/// Parses `#rgb` or `#rrggbb` as a linear color. Returns `None` for any other text.
 #[must_use]
 pub fn parse_hex_color(text: &str) -> Option<[f32; 3]> {
     Some(parse_hex_srgb(text)?.map(|code| srgb_to_linear_table()[usize::from(code)]))
 }
 
-/// Parses the 8-bit sRGB codes of `#rgb` or `#rrggbb`. Returns `None` for any other text.
+/// Parses `#rgb` or `#rrggbb` as 8-bit sRGB codes. Returns `None` for any other text.
 #[must_use]
 pub fn parse_hex_srgb(text: &str) -> Option<[u8; 3]> {
     let digits = text.strip_prefix('#').filter(|d| d.bytes().all(|b| b.is_ascii_hexdigit()))?;
@@ -171,7 +171,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_code_survives_decoding_and_encoding() {
+    fn every_code_survives_a_round_trip() {
         for code in 0..=255_u8 {
             let light = srgb_to_linear_table()[usize::from(code)];
             assert_eq!(SrgbEncoder::shared().encode(light), code);
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn codes_change_at_their_thresholds_and_nowhere_else() {
+    fn codes_change_only_at_their_thresholds() {
         let (encoder, thresholds) = (SrgbEncoder::shared(), code_thresholds());
         let expected = |light: f32| thresholds.partition_point(|&least| least <= light) - 1;
         let agrees = |bits: u32| {
@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn eight_pixels_at_once_are_those_encoded_one_by_one() {
+    fn eight_pixels_at_once_match_single_pixels() {
         let encoder = SrgbEncoder::shared();
         let alphas = [1.0, 0.5, 0.0, -1.0, f32::NAN, 2.0, 1e-30, 0.999];
         for light in [0.0, -0.5, 0.2, 0.499, 1.0, 7.0, f32::NAN, f32::INFINITY] {
@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn hex_colors_are_parsed_as_on_a_web_page() {
+    fn hex_colors_are_parsed_as_in_css() {
         assert_eq!(parse_hex_color("#fff"), Some([1.0; 3]));
         assert_eq!(parse_hex_color("#ff0000"), Some([1.0, 0.0, 0.0]));
         for wrong in ["", "#", "fff", "#ff", "#ffffg0", "#+12345", "#äöü"] {

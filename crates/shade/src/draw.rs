@@ -1,8 +1,8 @@
 //! Draw calls: the vertex and index arrays behind the primitive ids of a visibility buffer.
 //!
-//! The rasterizer identifies a triangle by an id and gives the weights of its vertices at a pixel.
-//! A draw holds everything else needed for shading, for a run of consecutive ids: one primitive (in
-//! glTF terms: part of a mesh with one material) of one instance.
+//! The rasterizer identifies a triangle by an id and provides the weights of its vertices at a
+//! pixel. A draw contains everything else that shading needs for a run of consecutive ids: one
+//! primitive (in glTF, part of a mesh with one material) of one instance.
 //!
 //! ```text
 //!   id        0 … 11        12 … 523        524 …
@@ -20,71 +20,70 @@ use super::texture::UvLanes;
 use model::{Material, Primitive, TextureInfo, Topology};
 use std::borrow::Cow;
 
-/// A draw call: one primitive of a mesh, in one instance.
+/// A draw call: one primitive of a mesh in one instance.
 ///
-/// Vertices are already transformed to the world, once per frame, because lights and environments
-/// are there; the rasterizer uses separate screen positions.
+/// Vertices have been transformed to world space once per frame, because lights and environments
+/// are in world space. The rasterizer uses separate screen positions.
 #[derive(Clone, Debug)]
 pub struct Draw<'a> {
-    /// The id of its first point, line or triangle; the others follow.
+    /// The id of the first point, line or triangle; the others follow.
     pub first_id: u32,
-    /// Its index among the primitives of the scene, counted once for each instance.
+    /// The index among the primitives of the scene, counting each instance.
     pub part_id: u32,
     /// The indices, and the attributes that are not in [`vertices`](Self::vertices).
     pub primitive: &'a Primitive,
-    /// The material of its whole surface.
+    /// The material of the whole surface.
     pub material: &'a Material,
     /// The textures of the material.
     pub textures: MaterialTextures<'a>,
-    /// The vertices in the world, by the indices of `primitive`; empty if no fragment of the draw
-    /// is shaded.
+    /// The vertices in the world, indexed as in `primitive`; empty if no fragment of the draw is
+    /// shaded.
     pub vertices: Vec<Vertex>,
-    /// The tangents for normal maps and anisotropy.
+    /// The tangents, for normal maps and anisotropy.
     pub tangents: Tangents,
-    /// Whether shading interpolates the vertices' normals; otherwise each triangle has a flat
-    /// normal.
+    /// Whether shading interpolates vertex normals; otherwise each triangle has a flat normal.
     pub is_smooth: bool,
     /// The index of the texture coordinate set in `vertices`, if it has any.
     pub uv_set: Option<usize>,
-    /// The vertex colors, linear, if there are any.
+    /// The linear vertex colors, if there are any.
     pub colors: Option<Cow<'a, [[f32; 4]]>>,
     /// The kind of surface.
     pub kind: DrawKind,
-    /// Whether the transform to the world mirrors, so that front faces are wound clockwise.
+    /// Whether the transform to the world is a reflection, so that front faces are wound clockwise.
     pub flips_winding: bool,
-    /// The scale from the mesh to the world; the mean over all directions if they differ.
+    /// The scale from the mesh to the world, or the mean over all directions if they differ.
     pub world_scale: f32,
 }
 
-/// The kind of surface that a draw is.
+/// The kind of surface that a draw call draws.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub enum DrawKind {
     /// A surface of a model.
     #[default]
     Surface,
-    /// The environment as a background, blurred as by a mirror with this roughness.
+    /// The environment as a background, blurred as in a mirror with this roughness.
     Environment(f32),
-    /// The backdrop, a gradient or an image; positions are fractions of the picture's width and
+    /// The backdrop, a gradient or an image. Positions are fractions of the picture's width and
     /// height.
     Backdrop,
-    /// The ground as a shadow catcher: it is transparent except for the shadows on it.
+    /// The ground as a shadow catcher, which is transparent except for the shadows on it.
     ShadowCatcher,
 }
 
-/// The tangents of a draw: unit vectors in the world in the direction of increasing u, and in w the
-/// handedness of the tangent frame, 1 or −1.
+/// The tangents of a draw: unit vectors in world space in the direction of increasing u, with the
+/// handedness of the tangent frame, 1 or −1, in w.
 #[derive(Clone, Debug, Default)]
 pub enum Tangents {
-    /// They are not needed.
+    /// No tangents are needed.
     #[default]
     None,
-    /// One for each vertex.
+    /// One tangent per vertex.
     PerVertex(Vec<[f32; 4]>),
-    /// One for each corner of each triangle, three after another.
+    /// Three tangents per triangle, one for each corner.
     PerCorner(Vec<[f32; 4]>),
 }
 
-/// All draws of a frame, in the order of their ids.
+/// All draws of a frame, ordered by id.
 #[derive(Clone, Debug, Default)]
 pub struct DrawList<'a> {
     /// The draws; the first begins at id 0.
@@ -92,7 +91,8 @@ pub struct DrawList<'a> {
 }
 
 impl<'a> DrawList<'a> {
-    /// Finds the draw that an id belongs to, and the first id of the next draw. A binary search.
+    /// Finds the draw that an id belongs to by binary search, and returns it with the first id of
+    /// the next draw.
     #[inline(always)]
     pub(crate) fn find_draw(&self, id: u32) -> (&Draw<'a>, u32) {
         // The last draw that begins at or before the id.
@@ -101,10 +101,10 @@ impl<'a> DrawList<'a> {
         (&self.draws[after - 1], end)
     }
 
-    /// Returns whether two triangles of a smooth draw share an edge, with the same vertices:
-    /// normals, colors and texture coordinates are then continuous across it.
+    /// Returns whether two triangles of a smooth draw share an edge with the same vertices, so that
+    /// normals, colors and texture coordinates are continuous across it.
     ///
-    /// Vertices that merely have equal positions, as at creases and at texture seams, are not the
+    /// Vertices that merely have equal positions, as at creases and texture seams, are not the
     /// same.
     pub(crate) fn is_continuous(&self, first_id: u32, second_id: u32) -> bool {
         let (draw, end) = self.find_draw(first_id);
@@ -125,8 +125,8 @@ impl<'a> DrawList<'a> {
 }
 
 impl Draw<'_> {
-    /// Returns the vertices of a point, line or triangle. A point or a line repeats its last
-    /// vertex, whose weight is then 0.
+    /// Returns the vertices of a point, line or triangle. Points and lines repeat their last vertex
+    /// with weight 0.
     #[inline(always)]
     fn primitive_vertices(&self, primitive: usize) -> [usize; 3] {
         let indices = &self.primitive.indices;
@@ -138,7 +138,7 @@ impl Draw<'_> {
         [0, 1, 2].map(|k: usize| indices[primitive * count + k.min(count - 1)] as usize)
     }
 
-    /// Returns the indices of the primitives with these ids, all from this draw.
+    /// Returns the indices of the primitives with these ids, which must all be from this draw.
     #[inline(always)]
     pub(super) fn primitive_indices<const N: usize>(
         &self,
@@ -168,7 +168,8 @@ impl Draw<'_> {
         )
     }
 
-    /// Interpolates the interpolated tangents, of any length; zero if the draw has none.
+    /// Returns the interpolated tangents, which may have any length, or zero if the draw has no
+    /// tangents.
     #[inline(always)]
     pub(super) fn interpolate_tangents<const N: usize>(
         &self,
@@ -203,7 +204,7 @@ impl Draw<'_> {
         } else {
             return UvLanes::ZERO;
         };
-        // The texture's transform (KHR_texture_transform).
+        // The texture transform (KHR_texture_transform).
         let [u, v] = interpolate(&attributes, &fragments.weights());
         let uv = map_to_lanes(&info.uv_matrix, |[a, b, c]| a * u + b * v + c);
         let dx = interpolate(&attributes, &fragments.weights_dx());
@@ -216,7 +217,7 @@ impl Draw<'_> {
     }
 }
 
-/// Transforms a derivative of texture coordinates, which the translation does not affect.
+/// Transforms a derivative of texture coordinates, which is not affected by translation.
 #[inline(always)]
 fn transform_uv_step<const N: usize>(
     uv_matrix: &[[f32; 3]; 2],

@@ -1,4 +1,4 @@
-//! Image-based lighting: an environment's irradiance and its prefiltered radiance.
+//! Image-based lighting: the irradiance and prefiltered radiance of an environment.
 //!
 //! ```text
 //!                     ┌─► irradiance    diffuse:  9 spherical harmonics per channel
@@ -9,12 +9,12 @@
 //! ```
 //!
 //! Diffuse light is the irradiance by direction (Ramamoorthi and Hanrahan 2001). Specular light is
-//! the first sum of the split-sum approximation (Karis, *Real shading in Unreal Engine 4*, 2013), a
-//! mip chain prefiltered for increasing roughness; the second sum is the directional albedo of the
-//! BRDF.
+//! the first sum of the split-sum approximation (Karis, *Real shading in Unreal Engine 4*, 2013),
+//! as a mip chain prefiltered for increasing roughness. The second sum is the directional albedo of
+//! the BRDF.
 //!
-//! Directions are mapped to a square by the octahedral map (Engelhardt and Dachsbacher 2008), with
-//! directions at the nodes of a grid: the borders fold onto themselves, so there is no seam.
+//! Directions are mapped to a square by the octahedral map (Engelhardt and Dachsbacher 2008) and
+//! sampled at the nodes of a grid. The borders fold onto themselves, so there is no seam.
 
 mod irradiance;
 mod octahedral_map;
@@ -28,10 +28,10 @@ use prefilter::{LEVEL_COUNT, PrefilteredLevels};
 use std::fmt;
 use std::sync::Arc;
 
-/// A radiance for each direction, a unit vector of the world.
+/// A function that returns the radiance for each direction, a unit vector in the world.
 type Radiance = dyn Fn([f32; 3]) -> [f32; 3] + Send + Sync;
 
-/// The source of an environment, for pictures in which it is itself visible.
+/// The source of an environment, for pictures in which the environment itself is visible.
 #[derive(Clone)]
 struct Source(Arc<Radiance>);
 
@@ -47,26 +47,25 @@ impl fmt::Debug for Source {
     }
 }
 
-/// Number of nodes along a side of the octahedral map: 256 texels for all directions, about 1°
-/// each.
+/// Number of nodes along a side of the octahedral map: 256 texels, about 1° each.
 const SIDE: usize = 257;
 
-/// Light from all directions: linear radiance, ready for diffuse and for specular lookups.
+/// Light from all directions: linear radiance, prepared for diffuse and specular lookups.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Environment {
-    /// Diffuse light, as nine spherical harmonics per channel.
+    /// The diffuse light as nine spherical harmonics per channel.
     irradiance: IrradianceHarmonics,
-    /// From mirrors to the roughest surfaces.
+    /// The specular light, from mirrors to the roughest surfaces.
     prefiltered: PrefilteredLevels,
-    /// The radiance shown in a background, finer than the map.
+    /// The radiance shown as a background, which is finer than the map.
     source: Option<Source>,
 }
 
 impl Environment {
-    /// Computes the environment with this radiance in each direction, a unit vector of the world.
+    /// Creates the environment with this radiance in each direction, a unit vector in the world.
     ///
     /// The function is called once for each of about 66,000 directions. Prefiltered levels are
-    /// computed when a surface first needs them.
+    /// computed when first needed by a surface.
     #[must_use]
     pub fn from_radiance(radiance: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
         let map = OctahedralMap::from_function(SIDE, radiance);
@@ -77,15 +76,15 @@ impl Environment {
         }
     }
 
-    /// Like [`from_radiance`](Self::from_radiance), but keeps the function: as a background the
-    /// environment is then as sharp as the picture.
+    /// Creates an environment as [`from_radiance`](Self::from_radiance) does, but keeps the
+    /// function, so that as a background the environment is as sharp as the picture.
     #[must_use]
     pub fn from_source(radiance: impl Fn([f32; 3]) -> [f32; 3] + Send + Sync + 'static) -> Self {
         let made = Self::from_radiance(&radiance);
         Self { source: Some(Source(Arc::new(radiance))), ..made }
     }
 
-    /// Returns the function it was made from, if it was kept.
+    /// Returns the function that the environment was created from, if it was kept.
     pub(super) fn source(&self) -> Option<&Radiance> {
         self.source.as_ref().map(|source| &*source.0)
     }
@@ -111,9 +110,9 @@ impl Environment {
     }
 
     /// Computes the radiance around directions of any nonzero length, prefiltered for a perceptual
-    /// roughness: trilinear between the two nearest levels.
+    /// roughness, with trilinear interpolation between the two nearest levels.
     ///
-    /// Level 0 is for mirrors, level 5 for roughness 1; the lookup is linear between levels.
+    /// Level 0 is for mirrors, and level 5 is for roughness 1.
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
     #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn prefiltered_radiance<const N: usize>(
@@ -121,7 +120,7 @@ impl Environment {
         directions: Vec3Lanes<N>,
         roughness: Lanes<N>,
     ) -> Rgb<N> {
-        // Levels are equal steps of the perceptual roughness.
+        // The levels are evenly spaced in perceptual roughness.
         let level = roughness.clamp(0.0, 1.0) * (LEVEL_COUNT - 1) as f32;
         let mut near_levels = [0; N];
         for (near, level) in near_levels.iter_mut().zip(&level.0) {
@@ -147,7 +146,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_white_environment_is_white_to_every_surface() {
+    fn a_white_environment_lights_every_surface_white() {
         let white = Environment::from_radiance(|_| [1.0; 3]);
         for n in [[0.0_f32, 0.0, 1.0], [0.6, -0.8, 0.0], [-0.48, 0.6, 0.64]] {
             let normals = Vec3Lanes::<1>::splat(n);
@@ -162,9 +161,9 @@ mod tests {
     }
 
     #[test]
-    fn a_bright_half_lights_the_half_that_faces_it() {
-        // The irradiance from a hemisphere of light is π for a normal at its pole, π (1 + cosθ) / 2
-        // otherwise.
+    fn a_bright_hemisphere_lights_the_surfaces_that_face_it() {
+        // The irradiance from a bright hemisphere is π for a normal at its pole, and π (1 + cosθ) /
+        // 2 otherwise.
         let half =
             Environment::from_radiance(|[_, y, _]| [if y > 0.0 { 1.0 } else { 0.0 }, 0.5, 0.0]);
         for cosine in [1.0_f32, 0.5, 0.0, -0.5, -1.0] {

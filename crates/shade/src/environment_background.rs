@@ -1,8 +1,8 @@
-//! The environment as a background: as sharp as the picture, without banding.
+//! The environment as a background, as sharp as the picture and without banding.
 //!
-//! A background that is not blurred evaluates the environment's source function at four positions
-//! of each pixel; the map that surfaces reflect is far coarser. If the picture has 8 bits per
-//! channel, an ordered dither (Bayer, *An optimum method for two-level rendition of continuous-tone
+//! A sharp background evaluates the environment's source function at four positions in each pixel,
+//! because the map that surfaces reflect is far coarser. If the picture has 8 bits per channel,
+//! ordered dithering (Bayer, *An optimum method for two-level rendition of continuous-tone
 //! pictures*, 1973) turns the steps of a smooth sky into an invisible pattern.
 
 use super::approximations::{exp2_approx, floor_to_int, log2_approx};
@@ -13,13 +13,15 @@ use super::surface_geometry::view_directions;
 use super::vector::normalize_or_zero;
 use super::{Draw, Shading};
 
-/// Sample positions in a pixel: fractions of it from its center, no two in the same row or column.
+/// Sample positions relative to the center of a pixel, in pixels, with no two in the same row or
+/// column.
 const SAMPLES: [[f32; 2]; 4] = [[-0.125, -0.375], [0.375, -0.125], [0.125, 0.375], [-0.375, 0.125]];
 
 impl Shading<'_> {
-    /// Computes the environment behind everything, blurred as by a mirror of the given roughness.
+    /// Computes the color of the environment behind everything, blurred as in a mirror with this
+    /// roughness.
     ///
-    /// The draw is a quad at the far plane: its positions are used only for the view direction, and
+    /// The draw is a quad at the far plane. Its positions are used only for the view direction, and
     /// its texture coordinates are pixel coordinates of the picture.
     #[inline(always)]
     pub(super) fn shade_environment_background<const N: usize>(
@@ -59,8 +61,8 @@ impl Shading<'_> {
         [r, g, b, Lanes::ONE]
     }
 
-    /// Computes the mean color of a pixel of the background, from a position in it and the steps to
-    /// the next pixels.
+    /// Computes the mean color of a background pixel from a position in it and the steps to the
+    /// next pixels.
     #[inline(never)]
     fn sharp_environment(&self, [position, right, down]: [[f32; 3]; 3]) -> [f32; 3] {
         let mut sum = [0.0; 3];
@@ -81,14 +83,13 @@ impl Shading<'_> {
     }
 }
 
-/// Computes a linear color, shifted by up to half a step of an 8-bit sRGB code depending on the
-/// pixel's position.
+/// Shifts a linear color by up to half an 8-bit sRGB code, depending on the pixel's position.
 #[inline(never)]
 fn dither(color: [f32; 3], pixel: [f32; 2]) -> [f32; 3] {
     let [x, y] = pixel.map(|coordinate| floor_to_int(coordinate) as u32);
     let offset = (bayer(x, y) as f32 + 0.5) / 64.0 - 0.5;
     color.map(|channel| {
-        // The derivative of the curve from codes to light (IEC 61966-2-1).
+        // The derivative of the sRGB decoding curve (IEC 61966-2-1).
         let slope = if channel <= 0.003_130_8 {
             1.0 / 12.92
         } else {
@@ -98,7 +99,7 @@ fn dither(color: [f32; 3], pixel: [f32; 2]) -> [f32; 3] {
     })
 }
 
-/// Returns the threshold at a position in Bayer's 8 × 8 matrix, from 0 to 63.
+/// Returns the threshold, from 0 to 63, at a position in Bayer's 8 × 8 matrix.
 const fn bayer(x: u32, y: u32) -> u32 {
     let (a, b) = (x ^ y, y);
     let mut threshold = 0;
@@ -116,7 +117,7 @@ mod tests {
     use crate::color::SrgbEncoder;
 
     #[test]
-    fn each_threshold_is_there_once() {
+    fn each_threshold_occurs_once() {
         let mut all: Vec<u32> = (0..64).map(|at| bayer(at % 8, at / 8)).collect();
         assert_eq!(all[..4], [0, 32, 8, 40]);
         all.sort_unstable();

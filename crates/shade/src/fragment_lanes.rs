@@ -1,22 +1,23 @@
-//! Fragment lanes: the barycentric weights of fragments that are shaded together, one or eight.
+//! Fragment lanes: the barycentric weights of one or eight fragments that are shaded together.
 //!
 //! Shading is generic over the number of lanes and needs only the weights of a fragment's vertices
-//! and their screen-space derivatives. The derivatives (`dFdx` and `dFdy` of GLSL) are exact, from
-//! the triangle's plane equations, not differences between neighboring fragments.
+//! and their screen-space derivatives. The derivatives (`dFdx` and `dFdy` in GLSL) are exact: they
+//! come from the triangle's plane equations, not from differences between neighboring fragments.
 
 use super::lanes::{Lanes, map_to_lanes};
 use raster::{Fragment, Fragments, LANES};
 
 /// The vertex weights of some fragments' primitives.
 ///
-/// Implemented for a single fragment, for packets of eight, and by shading styles for a fragment at
-/// a vertex. Weights and derivatives always refer to the whole triangle, even if it was clipped.
+/// This is implemented for single fragments, for packets of eight, and by shading styles for a
+/// fragment at a vertex. Weights and derivatives always refer to the whole triangle, even if it was
+/// clipped.
 pub(super) trait FragmentLanes<const N: usize> {
-    /// Computes the perspective-correct barycentric weights of the three vertices.
+    /// Returns the perspective-correct barycentric weights of the three vertices.
     fn weights(&self) -> [Lanes<N>; 3];
-    /// Their derivatives with respect to the pixel's column.
+    /// Returns the derivatives of the weights with respect to the pixel's column.
     fn weights_dx(&self) -> [Lanes<N>; 3];
-    /// Their derivatives with respect to the pixel's row, downward.
+    /// Returns the derivatives of the weights with respect to the pixel's row, downward.
     fn weights_dy(&self) -> [Lanes<N>; 3];
 }
 
@@ -34,8 +35,8 @@ impl FragmentLanes<1> for Fragment<'_> {
     }
 }
 
-/// Eight fragments with their weights. Both textures and normals need the derivatives, which are
-/// computed once.
+/// Eight fragments with their weights. The derivatives are computed once, because both textures and
+/// normals need them.
 #[derive(Debug)]
 pub(super) struct FragmentPacket {
     /// Perspective-correct barycentric weights.
@@ -47,10 +48,11 @@ pub(super) struct FragmentPacket {
 }
 
 impl FragmentPacket {
-    /// Creates the weights of eight fragments from the rasterizer.
+    /// Computes the weights of eight fragments from the rasterizer.
     #[inline(always)]
     pub(super) fn new(fragments: &Fragments<'_>) -> Self {
-        // One set of barycentrics, clipped triangles included; derivatives by the quotient rule.
+        // One set of barycentrics, even for clipped triangles, with derivatives by the quotient
+        // rule.
         let weights = fragments.weights();
         Self {
             weights: map_to_lanes(&weights.values, Lanes),

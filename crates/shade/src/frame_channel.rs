@@ -1,15 +1,15 @@
-//! Drawing of rasterizer frames into 8-bit or 16-bit pixels.
+//! Draws rasterizer frames into 8-bit or 16-bit pixels.
 
 use crate::color::{Srgb16Encoder, SrgbEncoder};
 use picture::Channel;
 use raster::{Frame, Surface};
 
-/// A pixel channel of a frame: `u8` or `u16`.
+/// A pixel channel type: `u8` or `u16`.
 pub trait FrameChannel: Channel {
     /// Draws a frame over `background` (linear, premultiplied by alpha) into pixels.
     ///
-    /// Like [`Frame::draw`], but compiled here once for each depth: callers that are generic over
-    /// channels and surfaces would each have copies of it.
+    /// This is like [`Frame::draw`], but compiled here once for each depth. Otherwise callers that
+    /// are generic over channels and surfaces would each have a copy.
     fn draw_frame(
         frame: &Frame,
         surface: &dyn Surface,

@@ -1,4 +1,5 @@
-//! Occlusion of level ground by the models on it: a contact shadow in light from all directions.
+//! Occlusion of horizontal ground by the models on it: a contact shadow in light from all
+//! directions.
 //!
 //! ```text
 //!          ▂▄▆▆▄▂  slab of a cell: from the lowest to the highest surface over it
@@ -9,7 +10,7 @@
 //! ```
 //!
 //! From every second cell of the ground, rays run along 16 azimuths over the slabs of the other
-//! cells. The directions hidden by these are marked in a bitmask of 64 sectors of equal
+//! cells. The directions that these hide are marked in a bitmask of 64 sectors of equal
 //! cosine-weighted solid angle (after Therrien, Levesque and Gilet, *Screen space indirect lighting
 //! with visibility bitmask*, 2023). Neighbors in a block of 2 × 2 have interleaved azimuths, and
 //! their mean removes the pattern again (interleaved sampling, Keller and Heidrich 2001). The space
@@ -18,7 +19,7 @@
 use super::approximations::floor_to_int;
 use raster::for_each_parallel;
 
-/// The space that models occupy over one cell of the ground, as heights above it.
+/// The space that models occupy over a ground cell, as heights above the ground.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct HeightSlab {
     /// The height of the lowest surface.
@@ -32,25 +33,25 @@ impl HeightSlab {
     pub const EMPTY: Self = Self { low: 0.0, high: 0.0 };
 }
 
-/// A grid of square cells on level ground, in rows along x, which follow each other along z.
+/// A grid of square cells on horizontal ground, with rows along x that follow each other along z.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct GroundGrid {
-    /// The smallest x and z in the world.
+    /// The minimum x and z in the world.
     pub corner: [f32; 2],
     /// The side of a cell.
     pub cell: f32,
-    /// Columns and rows.
+    /// The number of columns and rows.
     pub size: [usize; 2],
-    /// The width of the margin in which the shadow fades out, so that it has no edge.
+    /// The width of the margin in which the shadow fades out to avoid an edge.
     pub fade: f32,
 }
 
-/// The fraction of cosine-weighted light from the upper hemisphere that reaches level ground.
+/// The fraction of cosine-weighted light from the upper hemisphere that reaches horizontal ground.
 #[derive(Clone, Debug)]
 pub struct GroundOcclusion {
     /// The grid of the visibility, with cells of twice the side.
     grid: GroundGrid,
-    /// The visibility, 0 to 1, at the center of each of its cells.
+    /// The visibility, 0 to 1, at the center of each cell.
     visibility: Vec<f32>,
 }
 
@@ -58,12 +59,12 @@ pub struct GroundOcclusion {
 const AZIMUTHS: usize = 16;
 /// The side of a block of cells with different azimuths.
 const BLOCK: usize = 2;
-/// The number of cells along the side of a visibility cell, because visibility is smoother than the
+/// The number of ground cells along the side of a visibility cell; visibility is smoother than the
 /// occluders.
 const COARSENESS: usize = 2;
-/// The number of sectors of an azimuth.
+/// The number of sectors per azimuth.
 const SECTORS: f32 = 64.0;
-/// The growth of steps with distance: about the width of an azimuth's wedge there.
+/// The growth of the steps with distance, about the width of an azimuth's wedge at that distance.
 const STEP_GROWTH: f32 = 0.08;
 
 impl GroundOcclusion {
@@ -90,8 +91,8 @@ impl GroundOcclusion {
         Self { grid, visibility }
     }
 
-    /// Computes the visibility at a position in the world, bilinear between the cells; 1 outside
-    /// the grid.
+    /// Returns the visibility at a position in the world, interpolated bilinearly between cells, or
+    /// 1 outside the grid.
     #[inline(always)]
     pub(super) fn visibility_at(&self, [x, _, z]: [f32; 3]) -> f32 {
         let GroundGrid { corner, cell, .. } = self.grid;
@@ -107,7 +108,7 @@ impl GroundOcclusion {
         sum
     }
 
-    /// Returns the visibility of a cell; 1 outside the grid.
+    /// Returns the visibility of a cell, or 1 outside the grid.
     #[inline(always)]
     fn cell_at(&self, column: i32, row: i32) -> f32 {
         let [columns, rows] = self.grid.size;
@@ -119,13 +120,14 @@ impl GroundOcclusion {
 }
 
 impl GroundGrid {
-    /// Computes the grid of the visibility.
+    /// Returns the coarser grid for the visibility.
     fn coarsen(self) -> Self {
         let size = self.size.map(|count| count.div_ceil(COARSENESS));
         Self { cell: self.cell * COARSENESS as f32, size, ..self }
     }
 
-    /// 0 at the border of the grid and 1 beyond the margin, smooth at both.
+    /// Returns a weight that rises smoothly from 0 at the border of the grid to 1 at the inner edge
+    /// of the margin.
     fn fade_weight(&self, index: [usize; 2]) -> f32 {
         let mut weight = 1.0;
         for axis in 0..2 {
@@ -138,11 +140,11 @@ impl GroundGrid {
     }
 }
 
-/// The rays from the cells of a grid over its slabs.
+/// Casts the rays from the cells of a grid over its slabs.
 struct RayCaster<'a> {
     grid: GroundGrid,
     slabs: &'a [HeightSlab],
-    /// The first and last occupied column and row.
+    /// The first and last occupied columns and rows.
     occupied: [[f32; 2]; 2],
     /// The azimuths of all cells of a block, as unit vectors.
     azimuths: Vec<[f32; 2]>,
@@ -169,10 +171,10 @@ impl<'a> RayCaster<'a> {
     /// Computes the visibility from the center of a visibility cell, along the azimuths for its
     /// position in the block.
     fn visibility_at(&self, column: usize, row: usize) -> f32 {
-        // An order in which neighbors are far apart, as in ordered dithering.
+        // Neighbors are far apart in this order, as in ordered dithering.
         const ORDER: [usize; BLOCK * BLOCK] = [0, 2, 3, 1];
         let place = ORDER[row % BLOCK * BLOCK + column % BLOCK];
-        // The center, in slab cells from the center of the first.
+        // The center, in slab cells from the center of the first cell.
         let from = [column, row]
             .map(|index| (index * COARSENESS) as f32 + 0.5 * (COARSENESS as f32 - 1.0));
         let mut hidden = 0;
@@ -183,13 +185,14 @@ impl<'a> RayCaster<'a> {
         1.0 - hidden as f32 / (AZIMUTHS as f32 * SECTORS)
     }
 
-    /// Computes the sectors that slabs hide along an azimuth, the lowest in the lowest bit.
+    /// Computes the sectors that slabs hide along an azimuth, with the lowest sector in the lowest
+    /// bit.
     fn hidden_sectors(&self, from: [f32; 2], along: [f32; 2]) -> u64 {
         let Some([start, end]) = self.clip_ray(from, along) else { return 0 };
         let (mut hidden, mut near) = (0, start);
         while near < end {
             let step = (STEP_GROWTH * near).max(1.0);
-            // Steps begin at the border of the ray's first cell.
+            // Steps start at the border of the ray's first cell.
             let far = if near == 0.0 { 0.5 } else { near + step };
             let middle = if near == 0.0 { 0.0 } else { near + 0.5 * step };
             let [column, row] =
@@ -200,7 +203,7 @@ impl<'a> RayCaster<'a> {
         hidden
     }
 
-    /// Computes the distances in cells between which a ray passes over occupied cells.
+    /// Computes the range of distances, in cells, in which a ray passes over occupied cells.
     fn clip_ray(&self, from: [f32; 2], along: [f32; 2]) -> Option<[f32; 2]> {
         let [least, most] = self.occupied;
         let (mut start, mut end) = (0.0_f32, f32::INFINITY);
@@ -224,7 +227,7 @@ impl<'a> RayCaster<'a> {
         if high <= low {
             return 0;
         }
-        // From the far end of the lower face to the near end of the upper one.
+        // From the far end of the lower face to the near end of the upper face.
         let sector = |height: f32, distance: f32| {
             let distance = distance * self.grid.cell;
             let measure = height * height / (height * height + distance * distance);
@@ -234,12 +237,13 @@ impl<'a> RayCaster<'a> {
     }
 }
 
-/// Computes the lowest sectors, up to 64 of them.
+/// Returns a mask of the lowest sectors, up to 64.
 const fn sectors_below(count: u32) -> u64 {
     if count >= 64 { u64::MAX } else { (1 << count) - 1 }
 }
 
-/// Computes the mean over a block along one axis: of three cells, the outer ones with half weight.
+/// Averages over a block along one axis: the mean of three cells, with half weight for the outer
+/// cells.
 fn average_blocks(values: &[f32], [columns, rows]: [usize; 2], step: [usize; 2]) -> Vec<f32> {
     let at = |column: usize, row: usize| values[row * columns + column];
     let mean = |index: usize| {
@@ -264,12 +268,12 @@ mod tests {
             (0..192 * 192).map(|index| slab(center(index % 192), center(index / 192))).collect();
         let one = GroundOcclusion::compute(grid, &slabs, 1);
         let three = GroundOcclusion::compute(grid, &slabs, 3);
-        assert_eq!(one.visibility, three.visibility, "threads change nothing");
+        assert_eq!(one.visibility, three.visibility, "the number of threads makes no difference");
         one
     }
 
     #[test]
-    fn below_a_disc_the_form_factor_is_missing() {
+    fn a_disc_overhead_hides_its_form_factor() {
         for height in [0.2_f32, 0.5, 1.0, 2.0] {
             let disc = grid_of(4.0, |x, z| {
                 let is_over = x * x + z * z < 1.0;
@@ -280,7 +284,7 @@ mod tests {
                 }
             });
             for distance in [0.0_f32, 0.4, 0.8, 1.3, 2.0] {
-                // From a level patch to a parallel disc of radius 1 (Howell, B-13).
+                // From a horizontal patch to a parallel disc of radius 1 (Howell, B-13).
                 let (h2, a2) = (height * height, distance * distance);
                 let z = 1.0 + h2 + a2;
                 let expected = 1.0 - 0.5 * (1.0 - (z - 2.0) / (z * z - 4.0 * a2).sqrt());
@@ -294,7 +298,7 @@ mod tests {
     }
 
     #[test]
-    fn beside_a_ball_the_form_factor_is_missing() {
+    fn a_ball_hides_its_form_factor() {
         let (radius, height) = (0.5_f32, 0.8_f32);
         let ball = grid_of(3.0, |x, z| {
             let square = radius * radius - x * x - z * z;
@@ -304,7 +308,7 @@ mod tests {
             HeightSlab { low: height - square.sqrt(), high: height + square.sqrt() }
         });
         for distance in [0.0_f32, 0.3, 0.6, 1.0, 1.6] {
-            // The ball is entirely above the horizon: its solid angle times the cosine.
+            // The ball is entirely above the horizon, so this is its solid angle times the cosine.
             let far = (height * height + distance * distance).sqrt();
             let expected = 1.0 - height * radius * radius / (far * far * far);
             for (x, z) in [(distance, 0.0), (0.0, -distance), (0.6 * distance, 0.8 * distance)] {
@@ -313,16 +317,16 @@ mod tests {
             }
         }
         assert!(ball.visibility_at([2.999, 0.0, 0.0]) > 0.9999, "faded at the border");
-        assert_eq!(ball.visibility_at([30.0, 0.0, 0.0]), 1.0, "nothing beside the grid");
+        assert_eq!(ball.visibility_at([30.0, 0.0, 0.0]), 1.0, "no occlusion outside the grid");
     }
 
     #[test]
-    fn at_the_foot_of_a_long_wall_half_of_the_light_is_missing() {
+    fn a_long_wall_hides_half_of_the_light_at_its_foot() {
         let wall = grid_of(4.0, |x, _| {
             if x < -2.0 { HeightSlab { low: 0.0, high: 4.0 } } else { HeightSlab::EMPTY }
         });
         for distance in [0.3_f32, 0.6, 1.2] {
-            // ½ (1 − d / √(d² + h²)) for an infinite wall; this one ends after 4 units.
+            // ½ (1 − d / √(d² + h²)) for an infinite wall; this wall ends after 4 units.
             let expected = 1.0 - 0.5 * (1.0 - distance / (distance * distance + 16.0).sqrt());
             let actual = wall.visibility_at([distance - 2.0, 0.0, 0.0]);
             assert!((actual - expected).abs() < 0.05, "{distance}: {actual} {expected}");

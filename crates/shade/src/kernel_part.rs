@@ -1,16 +1,17 @@
-//! Parts of kernels: places where shading is split into functions, so that it compiles faster.
+//! Kernel parts: shading is split into functions at these points, so that it compiles faster.
 //!
-//! Everything that a kernel calls is inlined into it, and LLVM's compile time grows faster than the
-//! size of a function. A part is compiled separately, with the instructions of the kernel. It does
-//! not slow down rendering, because a part is called once for eight fragments.
+//! Everything that a kernel calls is inlined into it, and LLVM's compile time grows faster than
+//! linearly with the size of a function. A part is compiled separately, with the kernel's
+//! instruction set. This does not slow down rendering, because a part is called once for eight
+//! fragments.
 
-/// Runs one fragment's part of shading, not inlined.
+/// Runs a part of shading for one fragment, without inlining.
 #[inline(never)]
 pub(crate) fn run_scalar_part<R>(part: impl FnOnce() -> R) -> R {
     part()
 }
 
-/// Evaluates an expression of a kernel with `N` lanes in a separate function.
+/// Evaluates an expression in a kernel with `N` lanes as a separate function.
 macro_rules! kernel_part {
     ($lanes:expr, $part:expr) => {
         if const { $lanes == 1 } {

@@ -3,35 +3,37 @@
 //!
 //! ```text
 //!             lane   0    1    2    3    4    5    6    7
-//!  Lanes<8>        [ x    x    x    x    x    x    x    x ]     one number of each fragment
-//!  Vec3Lanes<8>    [ x … ] [ y … ] [ z … ]                      one vector of each fragment
-//!  Rgb<8>          [ r … ] [ g … ] [ b … ]                      one linear color of each fragment
+//!  Lanes<8>        [ x    x    x    x    x    x    x    x ]     one number per fragment
+//!  Vec3Lanes<8>    [ x … ] [ y … ] [ z … ]                      one vector per fragment
+//!  Rgb<8>          [ r … ] [ g … ] [ b … ]                      one linear color per fragment
 //! ```
 //!
-//! A BRDF term therefore reads like its formula. Schlick's Fresnel for all fragments and channels:
+//! A BRDF term therefore reads like its formula. This is Schlick's Fresnel for all fragments and
+//! channels:
 //!
 //! ```text
 //!  let schlick = pow5(1.0 - v_dot_h);                      // Lanes<N>
 //!  let fresnel = f0.map(|f0| f0.lerp(f90, schlick));       // Rgb<N>
 //! ```
 //!
-//! Shading is written once for any `N`: with one lane for the scalar path and with eight for the
-//! packets of the rasterizer. Each operator is a loop of constant length over the lanes. It is
-//! inlined into a kernel compiled for the processor's vector instructions, where it becomes one
-//! instruction. LLVM and browsers compile large functions slowly, so a kernel is split into parts
+//! Shading is written once for any `N`: one lane for the scalar path and eight for the rasterizer's
+//! packets. Each operator is a loop of constant length over the lanes. It is inlined into a kernel
+//! compiled for the processor's vector instructions, where it becomes one instruction. LLVM and
+//! browsers compile large functions slowly, so a kernel is split into parts
 //! ([`kernel_part`](crate::kernel_part)), and into more parts for WebAssembly and debug builds.
 //!
-//! The inner `[f32; N]` is what the rasterizer passes as `F32x8`; conversions cost nothing. Loops
-//! are over array iterators, not indices, which avoids bounds checks.
+//! The inner `[f32; N]` is the rasterizer's `F32x8`, so conversions are free. Loops use array
+//! iterators instead of indices, which avoids bounds checks.
 //!
-//! The bits of a lane depend neither on `N` nor on the instructions: every operator rounds like its
-//! scalar counterpart, nothing is fused or reassociated, and [`Lanes::lerp`] is `a + (b − a)·t` in
-//! this order. A rewritten formula must keep the order of its operations, or the goldens change.
+//! The bits of a lane depend neither on `N` nor on the instruction set: every operator rounds like
+//! its scalar counterpart, nothing is fused or reassociated, and [`Lanes::lerp`] is `a + (b − a)·t`
+//! in this order. When a formula is rewritten, the order of its operations must not change, or the
+//! goldens will.
 
 use std::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, MulAssign, Neg, Sub};
 
-/// The lanes for which a condition holds. Both branches of a condition are computed, and one is
-/// selected: lanes do not branch.
+/// The lanes for which a condition holds. Lanes do not branch: both branches are computed, and one
+/// is selected.
 pub(crate) type Mask<const N: usize> = [bool; N];
 
 /// One `f32` for each of `N` fragments.
@@ -48,7 +50,7 @@ impl<const N: usize> Lanes<N> {
         Self([value; N])
     }
 
-    /// Computes the lanes from a function of their index: for table lookups and `libm` functions,
+    /// Creates the lanes from a function of their index, for table lookups and `libm` functions,
     /// which have no vector counterpart.
     #[inline(always)]
     pub(crate) fn from_fn(mut lane: impl FnMut(usize) -> f32) -> Self {
@@ -68,8 +70,8 @@ impl<const N: usize> Lanes<N> {
         self
     }
 
-    /// Applies a function that costs more than a branch to each lane: it is evaluated once if all
-    /// lanes are equal, as they are without a texture.
+    /// Applies a function that costs more than a branch to each lane. It is evaluated only once if
+    /// all lanes are equal, as they are without a texture.
     #[inline(always)]
     pub(crate) fn map_expensive(self, function: impl Fn(f32) -> f32) -> Self {
         if self.0.iter().all(|lane| *lane == self.0[0]) {
@@ -78,7 +80,7 @@ impl<const N: usize> Lanes<N> {
         self.map(function)
     }
 
-    /// Computes the square roots; NaN for numbers below 0.
+    /// Computes the square roots, which are NaN for numbers below 0.
     #[inline(always)]
     pub(crate) fn sqrt(self) -> Self {
         self.map(f32::sqrt)
@@ -90,13 +92,13 @@ impl<const N: usize> Lanes<N> {
         self.map(f32::abs)
     }
 
-    /// Returns the smaller of each lane and a bound; the bound for NaN.
+    /// Returns the smaller of each lane and a bound. NaN becomes the bound.
     #[inline(always)]
     pub(crate) fn min(self, bound: f32) -> Self {
         self.map(|value| value.min(bound))
     }
 
-    /// Returns the larger of each lane and a bound; the bound for NaN.
+    /// Returns the larger of each lane and a bound. NaN becomes the bound.
     #[inline(always)]
     pub(crate) fn max(self, bound: f32) -> Self {
         self.map(|value| value.max(bound))
@@ -120,15 +122,16 @@ impl<const N: usize> Lanes<N> {
         self
     }
 
-    /// Computes each lane clamped to two bounds; NaN stays NaN.
+    /// Clamps each lane to two bounds. NaN stays NaN.
     #[inline(always)]
     pub(crate) fn clamp(self, least: f32, most: f32) -> Self {
         self.map(|value| value.clamp(least, most))
     }
 
-    /// Linear interpolation `a + (b − a)·t`: `self` at 0; `to` at 1, up to rounding.
+    /// Interpolates linearly, `a + (b − a)·t`: the result is `self` at 0 and, up to rounding, `to`
+    /// at 1.
     ///
-    /// Not `a·(1 − t) + b·t`, which is exact at both ends but needs one more multiplication.
+    /// The alternative `a·(1 − t) + b·t` is exact at both ends but needs one more multiplication.
     #[inline(always)]
     pub(crate) fn lerp(self, to: Self, t: Self) -> Self {
         self + (to - self) * t
@@ -181,8 +184,7 @@ impl<const N: usize> IndexMut<usize> for Lanes<N> {
     }
 }
 
-/// Implements an operator between lanes, and between lanes and one number for all of them, on
-/// either side.
+/// Implements an operator between lanes, and between lanes and a single number on either side.
 macro_rules! lane_operator {
     ($Operator:ident, $operate:ident, $symbol:tt) => {
         impl<const N: usize> $Operator for Lanes<N> {
@@ -257,10 +259,10 @@ where
     }
 }
 
-/// Lanes from each item of an array.
+/// Maps the items of an array to lanes.
 ///
-/// In kernels it replaces the `map` of arrays, which is too large to be inlined always, and is then
-/// a call to code without the kernel's vector instructions.
+/// In kernels this replaces the `map` of arrays, which is sometimes too large to be inlined, and is
+/// then a call to code without the kernel's vector instructions.
 #[inline(always)]
 pub(crate) fn map_to_lanes<T: Copy, const N: usize, const K: usize>(
     items: &[T; K],
@@ -273,7 +275,7 @@ pub(crate) fn map_to_lanes<T: Copy, const N: usize, const K: usize>(
     lanes
 }
 
-/// Declares a type of three numbers for each of `N` fragments, with the componentwise operations
+/// Declares a type with three numbers for each of `N` fragments, and the componentwise operations
 /// that vectors and colors share.
 macro_rules! three_components {
     ($(#[$doc:meta])* $Name:ident { $a:ident, $b:ident, $c:ident }) => {
@@ -289,13 +291,13 @@ macro_rules! three_components {
             pub(crate) const ZERO: Self =
                 Self { $a: Lanes::ZERO, $b: Lanes::ZERO, $c: Lanes::ZERO };
 
-            /// Returns three numbers, the same in all lanes.
+            /// Returns the same three numbers in all lanes.
             #[inline(always)]
             pub(crate) const fn splat([$a, $b, $c]: [f32; 3]) -> Self {
                 Self { $a: Lanes::splat($a), $b: Lanes::splat($b), $c: Lanes::splat($c) }
             }
 
-            /// Computes the components from a function that is called once for each lane.
+            /// Creates the components from a function that is called once per lane.
             #[inline(always)]
             pub(crate) fn from_fn(mut lane: impl FnMut(usize) -> [f32; 3]) -> Self {
                 let mut lanes = Self::ZERO;
@@ -314,7 +316,7 @@ macro_rules! three_components {
             /// Applies a function to each component.
             #[inline(always)]
             pub(crate) fn map(self, function: impl Fn(Lanes<N>) -> Lanes<N>) -> Self {
-                // A loop calls the function at a single place, where it is inlined.
+                // A loop calls the function in a single place, where it is inlined.
                 let mut components = [self.$a, self.$b, self.$c];
                 for component in &mut components {
                     *component = function(*component);
@@ -405,7 +407,7 @@ three_components! {
 }
 
 three_components! {
-    /// A linear color in each lane: light, or the fraction of it that a surface reflects, by
+    /// A linear color in each lane: light, or the fraction of light that a surface reflects, by
     /// channel.
     Rgb { r, g, b }
 }
@@ -435,7 +437,7 @@ impl<const N: usize> Vec3Lanes<N> {
 }
 
 impl<const N: usize> Rgb<N> {
-    /// 1 in all channels and lanes.
+    /// A value of 1 in all channels and lanes.
     pub(crate) const WHITE: Self = Self { r: Lanes::ONE, g: Lanes::ONE, b: Lanes::ONE };
 
     /// Returns the largest channel of each lane.
@@ -445,7 +447,7 @@ impl<const N: usize> Rgb<N> {
     }
 }
 
-/// Channel by channel: a reflectance times light, or times another reflectance.
+/// Multiplies channel by channel: a reflectance times light, or times another reflectance.
 impl<const N: usize> Mul for Rgb<N> {
     type Output = Self;
 
@@ -468,7 +470,7 @@ mod tests {
     }
 
     #[test]
-    fn operators_have_the_bits_of_their_scalar_counterparts() {
+    fn operators_match_scalar_operators_bit_for_bit() {
         let (a, b) = (Lanes(A), Lanes(B));
         let scalar =
             |operate: fn(f32, f32) -> f32| Lanes::from_fn(|lane| operate(A[lane], B[lane]));
@@ -483,7 +485,7 @@ mod tests {
     }
 
     #[test]
-    fn masks_select_lane_by_lane_and_nan_is_neither_below_nor_above() {
+    fn masks_select_lanes_and_nan_is_neither_below_nor_above() {
         let (a, b) = (Lanes(A), Lanes(B));
         assert_eq!(a.is_below(0.0), [false, true, false, false]);
         assert_eq!(a.is_above(0.0), [true, false, true, false]);
@@ -491,7 +493,7 @@ mod tests {
     }
 
     #[test]
-    fn vectors_have_the_products_of_single_vectors() {
+    fn vector_products_match_single_vectors() {
         let (a, b) = ([1.0, -2.0, 0.5], [0.3, 4.0, -1.0]);
         let (left, right) = (Vec3Lanes::<2>::splat(a), Vec3Lanes::splat(b));
         assert_eq!(left.dot(right), Lanes([crate::vector::dot(a, b); 2]));

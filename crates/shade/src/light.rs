@@ -1,4 +1,4 @@
-//! Punctual lights in photometric units, resolved to the world (KHR_lights_punctual).
+//! Punctual lights in world space, with photometric units (KHR_lights_punctual).
 //!
 //! ```text
 //!   Sun    E = lux                                            parallel light
@@ -11,14 +11,14 @@ use super::light_shadow::LightShadow;
 use super::shadow_map::Shadow;
 use super::shadow_receiver::ShadowReceiver;
 
-/// A light of the resolved scene. Colors are linear and already multiplied by the light's strength.
+/// A light in the resolved scene. Colors are linear and already multiplied by the light's strength.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Light {
-    /// A directional light: parallel light from very far away.
+    /// A directional light: parallel light from infinity.
     Sun {
         /// The unit direction toward the light.
         to_light: [f32; 3],
-        /// The illuminance of a surface that faces it, in lux.
+        /// The illuminance of a surface that faces the light, in lux.
         lux: [f32; 3],
         /// Its shadows, if it casts any.
         shadow: Option<Shadow>,
@@ -44,35 +44,35 @@ pub enum Light {
         candela: [f32; 3],
         /// The distance beyond which no light arrives; infinite for a light without a limit.
         range: f32,
-        /// The cosines of the inner cone's angle, within which the light has full strength, and of
-        /// the outer cone's, at which it ends.
+        /// The cosines of the inner cone angle, within which the light has full strength, and of
+        /// the outer cone angle, at which it ends.
         cosines: [f32; 2],
         /// Its shadows, if it casts any.
         shadow: Option<Shadow>,
     },
-    /// Ambient light: equal from all directions, reflected diffusely and without highlights.
+    /// Ambient light: uniform from all directions, and reflected diffusely, without highlights.
     Ambient {
         /// The illuminance of every surface, in lux.
         lux: [f32; 3],
     },
 }
 
-/// The light of one source at some fragments.
+/// The light from one source at some fragments.
 ///
-/// It is all that the BRDF sees of a light: not its kind or position, only a direction and an
+/// This is all that the BRDF knows about a light: not its kind or position, only a direction and an
 /// illuminance. Shadows reduce it, and so does sheen for the layers below.
 ///
-/// The cosine of Lambert's law is not in `lux`: each layer has different normals.
+/// `lux` does not include the cosine of Lambert's law, because each layer has different normals.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct IncidentLight<const N: usize> {
     /// The unit vectors toward the light.
     pub(super) to_light: Vec3Lanes<N>,
-    /// The illuminance of surfaces that face it, in lux.
+    /// The illuminance of surfaces that face the light, in lux.
     pub(super) lux: Rgb<N>,
 }
 
 impl Light {
-    /// Returns the illuminance of every surface, for an ambient light.
+    /// Returns the illuminance of every surface if this is an ambient light.
     pub(crate) const fn ambient_lux(&self) -> Option<[f32; 3]> {
         match self {
             Self::Ambient { lux } => Some(*lux),
@@ -80,7 +80,7 @@ impl Light {
         }
     }
 
-    /// Returns the shadows that the light casts, if it casts any.
+    /// Returns the shadows of the light, if it casts any.
     #[must_use]
     pub const fn shadow(&self) -> Option<Shadow> {
         match self {
@@ -91,8 +91,8 @@ impl Light {
         }
     }
 
-    /// Computes the light that arrives at positions in the world, ignoring shadows; none for
-    /// ambient light, which has no direction.
+    /// Computes the light that arrives at positions in the world, ignoring shadows. Returns `None`
+    /// for ambient light, which has no direction.
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
     #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn incident_at<const N: usize>(&self, positions: Vec3Lanes<N>) -> IncidentLight<N> {
@@ -104,7 +104,7 @@ impl Light {
                 light_from_point(position, positions, candela, range, |_| Lanes::ONE)
             }
             Self::Spot { position, axis, candela, range, cosines: [inner, outer], .. } => {
-                // Angular attenuation: the square of a linear ramp over the cosine.
+                // Angular attenuation is the square of a linear ramp over the cosine.
                 let slope = 1.0 / (inner - outer).max(0.001);
                 light_from_point(position, positions, candela, range, |to_light| {
                     let cosine = -Vec3Lanes::splat(axis).dot(to_light);
@@ -121,15 +121,17 @@ impl<const N: usize> IncidentLight<N> {
     /// Multiplies the light by its visibility in its shadow maps.
     #[inline(always)]
     pub(super) fn apply_shadow(&mut self, shadow: &LightShadow, receiver: &ShadowReceiver<N>) {
-        // No light arrives from behind, except where a normal map suggests it: no lookup is needed.
+        // Light from behind does not arrive, even where a normal map suggests it, so no lookup is
+        // needed.
         let is_facing = receiver.normals.dot(self.to_light).is_above(0.0);
         let visibility = shadow.visibility(receiver, is_facing);
         self.lux = self.lux * visibility;
     }
 }
 
-/// Computes the light from a point: inverse-square falloff with a smooth window to its range, 1 −
-/// (d / range)⁴ (KHR_lights_punctual). `attenuation` is the part that goes in a direction.
+/// Computes the light from a point: inverse-square falloff with a smooth window up to the range, 1
+/// − (d / range)⁴ (KHR_lights_punctual). `attenuation` is the fraction that is emitted in a
+/// direction.
 #[inline(always)]
 fn light_from_point<const N: usize>(
     position: [f32; 3],
@@ -138,17 +140,17 @@ fn light_from_point<const N: usize>(
     range: f32,
     attenuation: impl Fn(Vec3Lanes<N>) -> Lanes<N>,
 ) -> IncidentLight<N> {
-    // 0 for a light without a limit, whose window is then 1 everywhere.
+    // This is 0 for a light of infinite range, so its window is 1 everywhere.
     let inv_range = 1.0 / range;
     let to_light = Vec3Lanes::splat(position) - positions;
     let square = to_light.dot(to_light);
-    // At the light itself there is no direction, so no light.
+    // At the light itself there is no direction, and thus no light.
     let inv_distance = square.map(|square| if square > 0.0 { 1.0 / square.sqrt() } else { 0.0 });
     let to_light = to_light * inv_distance;
-    // Windowing function of the range, then the inverse-square law.
+    // The windowing function of the range, then the inverse-square law.
     let relative = square * inv_range * inv_range;
     let window = (1.0 - relative * relative).clamp(0.0, 1.0);
-    // E = I · window / d², times the spot's angular attenuation.
+    // E = I · window / d², times the angular attenuation of the spot light.
     let strength = window * inv_distance * inv_distance * attenuation(to_light);
     IncidentLight { to_light, lux: Rgb::splat(candela) * strength }
 }
@@ -162,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn points_weaken_with_the_square_of_the_distance_and_end_at_their_range() {
+    fn point_lights_follow_the_inverse_square_law_up_to_their_range() {
         let (position, candela) = ([0.0, 2.0, 0.0], [8.0, 0.0, 0.0]);
         let light = |range| Light::Point { position, candela, range, shadow: None };
         assert_eq!(lux_at(&light(f32::INFINITY), [0.0; 3]), 2.0);
@@ -175,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn spots_fall_off_between_their_two_angles() {
+    fn spot_lights_fall_off_between_their_two_angles() {
         let cosines = [0.8, 0.6];
         let (position, candela) = ([0.0; 3], [1.0; 3]);
         let axis = [0.0, 0.0, -1.0];

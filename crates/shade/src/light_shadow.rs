@@ -5,7 +5,7 @@ use super::shadow_cube::ShadowCube;
 use super::shadow_map::ShadowMap;
 use super::shadow_receiver::ShadowReceiver;
 
-/// The scene depths seen from a light, which shading uses to find shadows.
+/// The scene depths as seen from a light, which shading uses to find shadows.
 #[derive(Clone, Debug)]
 pub enum LightShadow {
     /// The map of a directional or spot light.
@@ -15,10 +15,10 @@ pub enum LightShadow {
 }
 
 impl LightShadow {
-    /// Computes the visibility of the light, 0 to 1, from the receivers in the `wanted` lanes; 0 in
-    /// the others.
+    /// Computes the visibility of the light, 0 to 1, from the receivers in the `wanted` lanes.
+    /// Other lanes are 0.
     ///
-    /// Outside the map, for instance outside the light's cone, nothing is in shadow.
+    /// Outside the map, for example outside the light's cone, nothing is in shadow.
     #[inline(always)]
     pub(super) fn visibility<const N: usize>(
         &self,
@@ -36,7 +36,7 @@ impl LightShadow {
         }
     }
 
-    /// Its maps, so that their memory can be reused.
+    /// Returns the maps, so that their memory can be reused.
     pub fn into_maps(self) -> impl Iterator<Item = ShadowMap> {
         let (map, faces) = match self {
             Self::Map(map) => (Some(*map), Default::default()),

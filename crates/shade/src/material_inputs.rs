@@ -8,7 +8,7 @@
 //!  normal     = (2 texture.rgb − 1) × (scale, scale, 1), in tangent space
 //! ```
 //!
-//! The BRDF does not see factors, slots or channels, only these parameters.
+//! The BRDF uses only these parameters, not factors, slots or channels.
 
 use super::Draw;
 use super::attributes::{VertexIndices, interpolate};
@@ -23,17 +23,17 @@ use model::{MaterialExtensions, TextureSlot};
 pub(super) struct MaterialInputs<const N: usize> {
     /// The base color; in specular-glossiness, the diffuse color.
     pub(super) base_color: Rgb<N>,
-    /// Alpha of the base color.
+    /// The alpha of the base color.
     pub(super) alpha: Lanes<N>,
-    /// 0 for dielectrics, 1 for metals.
+    /// The metalness: 0 for dielectrics, 1 for metals.
     pub(super) metallic: Lanes<N>,
     /// The perceptual roughness.
     pub(super) roughness: Lanes<N>,
-    /// The normal of the normal map in tangent space, of any length.
+    /// The normal from the normal map in tangent space, of any length.
     pub(super) tangent_normal: Vec3Lanes<N>,
-    /// Ambient occlusion: the fraction of light from all directions that arrives.
+    /// The ambient occlusion: the fraction of light from all directions that arrives.
     pub(super) occlusion: Lanes<N>,
-    /// The ambient visibility computed from the picture, in addition to the material's texture;
+    /// The ambient visibility computed from the picture, in addition to the material's texture, or
     /// `None` without screen-space ambient occlusion.
     pub(super) screen_visibility: Option<Lanes<N>>,
     /// The emitted radiance.
@@ -42,12 +42,12 @@ pub(super) struct MaterialInputs<const N: usize> {
     pub(super) layers: LayerInputs<N>,
 }
 
-/// The parameters of a material's extensions; parameters of absent extensions are never read.
+/// The parameters of a material's extensions. The parameters of absent extensions are never read.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LayerInputs<const N: usize> {
     /// The strength of the specular reflection of dielectrics.
     pub(super) specular: Lanes<N>,
-    /// The color of F0 for dielectrics; in specular-glossiness, F0 of all surfaces.
+    /// The color of F0 for dielectrics; in specular-glossiness, the F0 of all surfaces.
     pub(super) specular_color: Rgb<N>,
     /// The strength of the clearcoat.
     pub(super) clearcoat: Lanes<N>,
@@ -61,21 +61,21 @@ pub(super) struct LayerInputs<const N: usize> {
     pub(super) sheen_roughness: Lanes<N>,
     /// The fraction of light that is not reflected diffusely but transmitted.
     pub(super) transmission: Lanes<N>,
-    /// The thickness of the volume, in units of the mesh.
+    /// The thickness of the volume in mesh units.
     pub(super) thickness: Lanes<N>,
     /// The strength of the thin film.
     pub(super) iridescence: Lanes<N>,
     /// The thickness of the thin film in nanometers.
     pub(super) iridescence_thickness: Lanes<N>,
-    /// The direction of anisotropy in tangent space in x and y, its strength in z.
+    /// The direction of anisotropy in tangent space in x and y, and its strength in z.
     pub(super) anisotropy: Vec3Lanes<N>,
 }
 
 impl<const N: usize> MaterialInputs<N> {
-    /// Evaluates the inputs at fragments of a draw: vertex colors are interpolated, textures
-    /// filtered.
+    /// Evaluates the inputs at fragments of a draw by interpolating vertex colors and filtering
+    /// textures.
     ///
-    /// Alpha is read from textures only if the material blends. For an unlit draw only the base
+    /// Alpha is read from textures only if the material blends. For an unlit draw, only the base
     /// color is evaluated.
     #[inline(always)]
     pub(super) fn evaluate(
@@ -86,7 +86,7 @@ impl<const N: usize> MaterialInputs<N> {
         kernel_part!(N, Self::sample(draw, vertices, fragments))
     }
 
-    /// Like [`evaluate`](Self::evaluate), but inlined.
+    /// Evaluates the inputs like [`evaluate`](Self::evaluate), but inlined.
     #[inline(always)]
     pub(super) fn sample(
         draw: &Draw<'_>,
@@ -100,7 +100,7 @@ impl<const N: usize> MaterialInputs<N> {
             inputs.base_color = inputs.base_color * Rgb { r, g, b };
             inputs.alpha *= alpha;
         }
-        // Textures with one footprint are sampled together.
+        // Textures with the same footprint are sampled together.
         for group in draw.textures.groups() {
             let uvs = draw.texture_coordinates(vertices, fragments, &group[0].info);
             let texels = draw.textures.sample_group(group, &uvs);
@@ -112,7 +112,7 @@ impl<const N: usize> MaterialInputs<N> {
         inputs
     }
 
-    /// Computes the factors of the material, without textures.
+    /// Returns the factors of the material, without textures.
     #[inline(always)]
     fn from_factors(draw: &Draw<'_>) -> Self {
         let material = draw.material;
@@ -130,7 +130,7 @@ impl<const N: usize> MaterialInputs<N> {
         }
     }
 
-    /// Multiplies the parameter of a texture by its texels.
+    /// Multiplies the parameter for a texture by its texels.
     #[inline(always)]
     fn apply_texture(&mut self, draw: &Draw<'_>, slot: TextureSlot, texel: TexelLanes<N>) {
         let material = draw.material;
@@ -140,7 +140,7 @@ impl<const N: usize> MaterialInputs<N> {
                 self.alpha *= texel.alpha;
             }
             // glTF packs occlusion, roughness and metalness into red, green and blue, so that one
-            // image can hold all three.
+            // image can store all three.
             TextureSlot::MetallicRoughness => {
                 self.roughness *= texel.color.g;
                 self.metallic *= texel.color.b;
@@ -150,13 +150,13 @@ impl<const N: usize> MaterialInputs<N> {
                 self.tangent_normal = decode_tangent_normal(texel.color, scale);
             }
             TextureSlot::Occlusion => {
-                // lerp(1, red, strength), in the order of the specification.
+                // lerp(1, red, strength), in the order used by the specification.
                 let strength = material.occlusion_texture.map_or(1.0, |used| used.strength);
                 self.occlusion = 1.0 + strength * (texel.color.r - 1.0);
             }
             TextureSlot::Emissive => self.emitted = self.emitted * texel.color,
             TextureSlot::SpecularGlossiness => {
-                // Glossiness is in alpha, and the opposite of roughness.
+                // Glossiness is in alpha, and is 1 − roughness.
                 let workflow = material.extensions.specular_glossiness.as_deref();
                 let glossiness = workflow.map_or(1.0, |workflow| workflow.glossiness);
                 self.roughness = 1.0 - glossiness * texel.alpha;
@@ -168,7 +168,7 @@ impl<const N: usize> MaterialInputs<N> {
 }
 
 impl<const N: usize> LayerInputs<N> {
-    /// Computes the factors of the extensions, without textures; they are arbitrary for absent
+    /// Returns the factors of the extensions, without textures. They are arbitrary for absent
     /// extensions.
     #[inline(always)]
     fn from_factors(extensions: &MaterialExtensions) -> Self {
@@ -196,7 +196,7 @@ impl<const N: usize> LayerInputs<N> {
         }
     }
 
-    /// Multiplies the parameter of an extension's texture by its texels.
+    /// Multiplies the parameter for an extension's texture by its texels.
     #[inline(always)]
     fn apply_texture(
         &mut self,
@@ -228,7 +228,7 @@ impl<const N: usize> LayerInputs<N> {
                 self.iridescence_thickness = film.thickness_minimum + range * g;
             }
             TextureSlot::Anisotropy => {
-                // A direction in red and green, −1 to 1, and a strength in blue.
+                // A direction in red and green, from −1 to 1, and a strength in blue.
                 self.anisotropy.x = 2.0 * r - 1.0;
                 self.anisotropy.y = 2.0 * g - 1.0;
                 self.anisotropy.z *= b;
@@ -238,8 +238,7 @@ impl<const N: usize> LayerInputs<N> {
     }
 }
 
-/// Decodes the tangent-space normal that a normal map stores, with x and y scaled (glTF 2.0
-/// §3.9.3).
+/// Decodes the tangent-space normal in a normal map, with x and y scaled (glTF 2.0 §3.9.3).
 #[inline(always)]
 fn decode_tangent_normal<const N: usize>(texel: Rgb<N>, scale: f32) -> Vec3Lanes<N> {
     Vec3Lanes {

@@ -1,9 +1,9 @@
 //! The textures of a material, grouped by footprint.
 //!
-//! Textures of the same size, with the same sampler and coordinates, are read at the same texels.
-//! They are sampled as a group: footprint, mip levels and texel indices are computed once for all
-//! of them. glTF's packed textures, such as occlusion, roughness and metalness in one image, are
-//! also fetched once.
+//! Textures with the same size, sampler and coordinates are read at the same texels. They are
+//! sampled as a group: the footprint, mip levels and texel indices are computed once for the group.
+//! Packed glTF textures, such as occlusion, roughness and metalness in one image, are also fetched
+//! only once.
 
 use super::MipChain;
 use super::texture::{TexelLanes, UvLanes};
@@ -15,32 +15,32 @@ const MAX_GROUP: usize = 4;
 /// A texture of a material.
 #[derive(Clone, Copy, Debug)]
 pub struct MaterialTexture<'a> {
-    /// The parameter that it multiplies.
+    /// The parameter that the texture multiplies.
     pub slot: TextureSlot,
-    /// The coordinates at which it is sampled.
+    /// The coordinates at which the texture is sampled.
     pub info: TextureInfo,
-    /// Its texels.
+    /// The texels.
     pub mip_chain: &'a MipChain<'a>,
-    /// Whether shading reads its alpha.
+    /// Whether shading reads alpha.
     needs_alpha: bool,
-    /// Whether it is in the same group as the previous texture.
+    /// Whether the texture is in the same group as the previous texture.
     joins_previous: bool,
-    /// Whether it also has the same texels as the previous texture.
+    /// Whether the texture also has the same texels as the previous texture.
     repeats_previous: bool,
 }
 
 /// The textures of a material.
 #[derive(Clone, Debug, Default)]
 pub struct MaterialTextures<'a> {
-    /// Group after group.
+    /// The textures, group by group.
     textures: Vec<MaterialTexture<'a>>,
     /// The maximum number of taps along the longer axis of a footprint.
     pub(super) anisotropy: u32,
 }
 
 impl<'a> MaterialTextures<'a> {
-    /// Creates the textures of a material for which `mip_chain` returns texels. For an unlit
-    /// material only the base color is used.
+    /// Collects the textures of a material for which `mip_chain` returns texels. For an unlit
+    /// material, only the base color is used.
     ///
     /// `anisotropy` is the maximum number of texels read along the longer axis of a pixel's
     /// footprint.
@@ -61,12 +61,13 @@ impl<'a> MaterialTextures<'a> {
             })
         };
         let mut rest: Vec<_> = material.visible_textures().filter_map(texture).collect();
-        // Slots that share an image are adjacent, so that a repeat directly follows its original.
+        // Slots that share an image are adjacent, so that a repeated image directly follows its
+        // original.
         rest.sort_by_key(|texture| (texture.info.texture, texture.slot));
         let mut textures: Vec<MaterialTexture<'a>> = Vec::with_capacity(rest.len());
         while let Some(&first) = rest.first() {
             let start = textures.len();
-            // Moves the textures that share the first one's footprint, as one group.
+            // Move the textures that share the footprint of the first texture, as one group.
             rest.retain(|texture| {
                 let is_taken =
                     first.has_same_footprint(texture) && textures.len() < start + MAX_GROUP;
@@ -83,13 +84,13 @@ impl<'a> MaterialTextures<'a> {
         Self { textures, anisotropy }
     }
 
-    /// Returns the groups of textures that are read at the same texels, none of them empty.
+    /// Returns the groups of textures that are read at the same texels. No group is empty.
     #[inline(always)]
     pub(super) fn groups(&self) -> impl Iterator<Item = &[MaterialTexture<'a>]> {
         self.textures.chunk_by(|_, next| next.joins_previous)
     }
 
-    /// Samples the textures of one group at its coordinates: see [`MipChain::sample`].
+    /// Samples the textures of one group at its coordinates; see [`MipChain::sample`].
     ///
     /// The result has one entry for each texture of the group, in order; other entries are zero.
     #[inline(always)]
@@ -99,7 +100,7 @@ impl<'a> MaterialTextures<'a> {
         uvs: &UvLanes<N>,
     ) -> [TexelLanes<N>; MAX_GROUP] {
         let mut texels = [TexelLanes::ZERO; MAX_GROUP];
-        // One footprint for the group, and its texel indices for each tap.
+        // The group shares one footprint, and the texel indices for each tap.
         let addressing = group[0].mip_chain.addressing();
         let footprint = addressing.footprint(uvs, self.anisotropy);
         for index in 0..footprint.max_tap_count() {
@@ -125,8 +126,8 @@ impl<'a> MaterialTextures<'a> {
 }
 
 impl MaterialTexture<'_> {
-    /// Returns whether the sampled texels of this texture include everything that another one in
-    /// the group needs.
+    /// Returns whether the sampled texels of this texture include everything that another texture
+    /// in the group needs.
     fn covers_texels_of(&self, other: &Self) -> bool {
         std::ptr::eq(self.mip_chain, other.mip_chain) && (self.needs_alpha || !other.needs_alpha)
     }
@@ -144,8 +145,8 @@ const fn is_base_color_slot(slot: TextureSlot) -> bool {
     matches!(slot, TextureSlot::BaseColor | TextureSlot::Diffuse)
 }
 
-/// Returns whether the alpha of a texture is a separate parameter, apart from the base color's
-/// alpha.
+/// Returns whether the alpha of a texture is a separate parameter, other than the alpha of the base
+/// color.
 const fn slot_reads_alpha(slot: TextureSlot) -> bool {
     matches!(
         slot,
@@ -161,7 +162,7 @@ mod tests {
     use model::{Image, NormalTexture, OcclusionTexture, Sampler};
 
     #[test]
-    fn a_group_has_the_bits_of_textures_sampled_alone() {
+    fn a_group_matches_separately_sampled_textures_bit_for_bit() {
         let info =
             |texture| TextureInfo { texture, uv_set: 0, uv_matrix: TextureInfo::IDENTITY_UV };
         let material = Material {
@@ -172,7 +173,7 @@ mod tests {
             emissive_texture: Some(info(3)),
             ..Material::default()
         };
-        // The last has another size, and forms a separate group.
+        // The last texture has a different size, and forms a separate group.
         let image = |side: u32, factor: u32| {
             let texel = |n: u32| [n * factor, n * 31, n * 101, n * 59].map(|code| code as u8);
             Image { width: side, height: side, rgba: (0..side * side).map(texel).collect() }

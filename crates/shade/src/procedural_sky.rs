@@ -1,7 +1,7 @@
 //! A procedural clear sky: the Preetham model of daylight.
 //!
-//! Preetham, Shirley and Smits, *A practical analytic model for daylight*, 1999. Luminance and
-//! chromaticity by direction are the zenith's values times a ratio of Perez's distribution:
+//! Preetham, Shirley and Smits, *A practical analytic model for daylight*, 1999. The luminance and
+//! chromaticity in each direction are the zenith values times a ratio of Perez's distribution:
 //!
 //! ```text
 //!  Y(θ, γ) = Y_zenith · F(θ, γ) / F(0, θ_sun)        θ  angle to the zenith
@@ -13,13 +13,13 @@ use super::color::{XYZ_TO_SRGB, multiply_matrix};
 use super::vector::{dot, normalize};
 use std::f32::consts::PI;
 
-/// A clear sky without the disk of the sun, over gray ground. Its unit is 10 kcd/m².
+/// A clear sky over gray ground, without the disk of the sun. The unit is 10 kcd/m².
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct PreethamSky {
     /// The unit direction to the sun, which is above the horizon.
     to_sun: [f32; 3],
-    /// Luminance Y and chromaticities x, y of the zenith, divided by the value of the distribution
-    /// there.
+    /// The luminance Y and chromaticities x and y at the zenith, divided by the value of the
+    /// distribution there.
     zenith: [f32; 3],
     /// The color below the horizon.
     ground: [f32; 3],
@@ -28,8 +28,8 @@ pub struct PreethamSky {
 /// The haziness of the air: 2 is very clear, 10 is mist.
 const TURBIDITY: f32 = 2.5;
 
-/// The coefficients A to E of Perez's distribution, for Y, x and y; each a factor of the turbidity
-/// and a constant (Preetham et al., appendix 2).
+/// The coefficients A to E of Perez's distribution for Y, x and y, each as a factor of the
+/// turbidity and a constant (Preetham et al., appendix 2).
 const PEREZ: [[[f32; 2]; 5]; 3] = [
     [[0.1787, -1.4630], [-0.3554, 0.4275], [-0.0227, 5.3251], [0.1206, -2.5771], [-0.0670, 0.3703]],
     [
@@ -48,8 +48,8 @@ const PEREZ: [[[f32; 2]; 5]; 3] = [
     ],
 ];
 
-/// The chromaticities x and y at the zenith: polynomials, cubic in the sun's angle from the zenith
-/// and quadratic in the turbidity.
+/// The chromaticities x and y at the zenith, as polynomials that are cubic in the sun's angle from
+/// the zenith and quadratic in the turbidity.
 const ZENITH: [[[f32; 4]; 3]; 2] = [
     [
         [0.001_66, -0.003_75, 0.002_09, 0.0],
@@ -64,13 +64,13 @@ const ZENITH: [[[f32; 4]; 3]; 2] = [
 ];
 
 impl PreethamSky {
-    /// Creates the sky with the sun in a direction, a unit vector in the world with y up; a sun
-    /// below the horizon is raised to it.
+    /// Creates the sky with the sun in a direction, a unit vector in the world with y up. A sun
+    /// below the horizon is raised to the horizon.
     #[must_use]
     pub fn new([x, y, z]: [f32; 3]) -> Self {
         let to_sun = normalize([x, y.max(0.02), z]);
         let sun_angle = libm::acosf(to_sun[1].clamp(-1.0, 1.0));
-        // Luminance and chromaticities at the zenith.
+        // The luminance and chromaticities at the zenith.
         let chi = (4.0 / 9.0 - TURBIDITY / 120.0) * (PI - 2.0 * sun_angle);
         let luminance =
             (4.0453 * TURBIDITY - 4.9710) * libm::tanf(chi) - 0.2155 * TURBIDITY + 2.4192;
@@ -83,7 +83,7 @@ impl PreethamSky {
         for (component, zenith) in sky.zenith.iter_mut().enumerate() {
             *zenith /= perez_distribution(component, 1.0, sun_angle);
         }
-        // The ground: a mean of the horizon, darker and grayer.
+        // The ground is a mean of the horizon, darkened and desaturated.
         let horizon = [[1.0, 0.05, 0.0], [-0.5, 0.05, 0.85], [-0.5, 0.05, -0.85]]
             .map(|direction| sky.radiance(direction));
         let mean =
@@ -93,10 +93,10 @@ impl PreethamSky {
         sky
     }
 
-    /// Computes the radiance from a direction, a unit vector, in linear sRGB.
+    /// Returns the radiance from a direction, a unit vector, in linear sRGB.
     #[must_use]
     pub fn radiance(&self, direction: [f32; 3]) -> [f32; 3] {
-        // Clamped, because the distribution diverges at the horizon.
+        // Clamp, because the distribution diverges at the horizon.
         let cosine = direction[1].max(0.01);
         let gamma = libm::acosf(dot(direction, self.to_sun).clamp(-1.0, 1.0));
         let [luminance, x, y] =
@@ -111,19 +111,19 @@ impl PreethamSky {
     }
 }
 
-/// Perez's distribution for a component (Y, x or y), from the cosine to the zenith and the angle to
-/// the sun in radians.
+/// Computes Perez's distribution for a component (Y, x or y), from the cosine to the zenith and the
+/// angle to the sun in radians.
 ///
-/// Perez, Seals and Michalsky 1993: five coefficients, linear in the turbidity.
+/// Perez, Seals and Michalsky 1993, with five coefficients that are linear in the turbidity.
 fn perez_distribution(component: usize, cosine: f32, gamma: f32) -> f32 {
-    // A: gradient near the horizon, B: its width, C and D: the glow around the sun, E: backscatter.
+    // A: gradient near the horizon; B: its width; C and D: glow around the sun; E: backscatter.
     let [a, b, c, d, e] = PEREZ[component].map(|[factor, constant]| factor * TURBIDITY + constant);
     let sun_cosine = libm::cosf(gamma);
     let horizon = 1.0 + a * libm::expf(b / cosine);
     horizon * (1.0 + c * libm::expf(d * gamma) + e * sun_cosine * sun_cosine)
 }
 
-/// Hermite interpolation from 0 at `from` to 1 at `to`, as in GLSL.
+/// Interpolates from 0 at `from` to 1 at `to` with a Hermite polynomial, as in GLSL.
 pub(super) fn smoothstep(from: f32, to: f32, x: f32) -> f32 {
     let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)

@@ -9,7 +9,7 @@
 //!
 //! The rasterizer requests the colors of eight fragments at once from [`Shading`]. If these belong
 //! to several draws, they are shaded for one draw after another, and each lane takes the color for
-//! its draw. Shading comes after visibility: its cost does not grow with the number of hidden
+//! its draw. Shading runs after visibility, so its cost does not grow with the number of hidden
 //! triangles.
 
 use super::ambient_occlusion::AmbientOcclusion;
@@ -32,33 +32,35 @@ use raster::{
     F32x8, Fragment, Fragments, Kernel, LANES, SimdLevel, Surface, TranslucentColors, shade_each,
 };
 
-/// The draws, lights and settings that the fragments of a frame are shaded with.
+/// The draws, lights and settings for shading the fragments of a frame.
 #[derive(Debug)]
 pub struct Shading<'a> {
-    /// The backdrop behind everything, if there is one.
+    /// The backdrop behind everything, if any.
     pub backdrop: Option<&'a Backdrop>,
     /// The draw calls of the frame.
     pub draws: &'a DrawList<'a>,
-    /// The lights, in the world.
+    /// The lights in the world.
     pub lights: &'a [Light],
-    /// The shadow maps of the first lights, in order; `None` for a light without shadows.
+    /// The shadow maps of the first lights in order, with `None` for lights without shadows.
     pub shadows: &'a [Option<LightShadow>],
-    /// The occlusion of the ground by the models, if there is ground that shows shadows.
+    /// The occlusion of the ground by the models, if there is a ground that shows shadows.
     pub ground_occlusion: Option<&'a GroundOcclusion>,
     /// Screen-space ambient occlusion, if it is enabled.
     pub occlusion: Option<&'a AmbientOcclusion>,
-    /// The picture of the surfaces behind refracting and rough glass. Without it such glass is
+    /// The picture of the surfaces behind refracting and rough glass. Without it, such glass is
     /// drawn like a smooth thin sheet.
     pub transmission_framebuffer: Option<&'a TransmissionFramebuffer>,
-    /// The environment for image-based lighting, if there is one.
+    /// The environment for image-based lighting, if any.
     pub environment: Option<&'a Environment>,
-    /// Exposure and tone curve.
+    /// The exposure and tone curve.
     pub tone_mapper: ToneMapper,
-    /// The viewer: the eye, or in parallel projection the direction toward it, a point at infinity.
+    /// The viewer: the eye or, in parallel projection, the direction toward it as a point at
+    /// infinity.
     pub viewer: HPoint<World>,
-    /// Whether the picture has 8 bits per channel, in which a sky shows steps: they are dithered.
+    /// Whether the picture has 8 bits per channel, so that a smooth sky must be dithered to hide
+    /// steps.
     pub has_eight_bits: bool,
-    /// The vector instructions used to shade eight fragments at once.
+    /// The vector instructions for shading eight fragments at once.
     pub simd_level: SimdLevel,
 }
 
@@ -110,7 +112,7 @@ impl Surface for Shading<'_> {
 pub(super) struct DrawSelection<'a> {
     /// The draw of the selected lanes.
     pub(super) draw: &'a Draw<'a>,
-    /// The ids of the fragments' primitives; lanes of other draws repeat the first fragment's id,
+    /// The ids of the fragments' primitives. Lanes of other draws repeat the first fragment's id,
     /// and their results are ignored.
     pub(super) ids: [u32; LANES],
     /// The lanes of this draw.
@@ -118,8 +120,8 @@ pub(super) struct DrawSelection<'a> {
 }
 
 impl<'d> DrawList<'d> {
-    /// Calls `shade` with each draw that eight fragments belong to, the indices of their primitives
-    /// and the lanes of the draw; usually there is only one.
+    /// Calls `shade` for each draw that eight fragments belong to, with the indices of their
+    /// primitives and the lanes of the draw. Usually there is only one draw.
     #[inline(always)]
     pub(super) fn for_each_draw(
         &self,
@@ -137,9 +139,10 @@ impl<'d> DrawList<'d> {
         }
     }
 
-    /// Selects the draw of one lane, with all lanes that belong to the same draw.
+    /// Selects the draw of one lane, and all lanes that belong to the same draw.
     ///
-    /// Material, textures and flags are then uniform over the lanes, and need no select per lane.
+    /// The material, textures and flags are then uniform over the lanes, so they do not need to be
+    /// selected per lane.
     #[inline(always)]
     pub(super) fn select_draw_lanes(
         &self,
@@ -160,7 +163,7 @@ impl<'d> DrawList<'d> {
     }
 }
 
-/// The kernel that shades eight fragments: one function for each SIMD level, with all of shading
+/// The kernel that shades eight fragments, with one function per SIMD level and all of shading
 /// inlined.
 struct ShadeEight<'a> {
     shading: &'a Shading<'a>,
@@ -198,14 +201,15 @@ impl Kernel for ShadeEight<'_> {
     }
 }
 
-/// Shaded fragments: color premultiplied by alpha, alpha, and the transmittance of each channel.
+/// Shaded fragments: the color premultiplied by alpha, alpha, and the transmittance of each
+/// channel.
 struct ShadedLanes<const N: usize> {
     color: [Lanes<N>; 4],
     transmittance: [Lanes<N>; 3],
 }
 
 impl<const N: usize> ShadedLanes<N> {
-    /// Computes a color that lets through 1 − alpha in each channel: the "over" operator.
+    /// Returns a color that lets through 1 − alpha in each channel (the "over" operator).
     #[inline(always)]
     fn over(color: [Lanes<N>; 4]) -> Self {
         Self { color, transmittance: [1.0 - color[3]; 3] }
@@ -214,7 +218,7 @@ impl<const N: usize> ShadedLanes<N> {
 
 /// The light that a surface sends to the viewer.
 struct SurfaceLight<const N: usize> {
-    /// Emitted, reflected and refracted radiance.
+    /// The emitted, reflected and refracted radiance.
     radiance: Rgb<N>,
     /// The share of light that passes through from behind, if the material transmits any.
     transmission: Option<TransmittedShare<N>>,
@@ -224,7 +228,7 @@ struct SurfaceLight<const N: usize> {
 }
 
 impl Shading<'_> {
-    /// Shades one fragment by itself, with the same bits as among eight.
+    /// Shades a single fragment, with the same bits as in a packet of eight.
     #[inline(never)]
     fn shade_one(&self, fragment: &Fragment<'_>) -> ShadedLanes<1> {
         let (draw, _) = self.draws.find_draw(fragment.id);
@@ -255,10 +259,10 @@ impl Shading<'_> {
         })
     }
 
-    /// Computes the colors of a model's surfaces: emitted and reflected light, tone mapped.
+    /// Computes the colors of a model's surfaces: tone mapped emitted and reflected light.
     ///
-    /// Unlit materials, lines and points show only emission and base color. Alpha is coverage if
-    /// the material blends, and 1 otherwise; the transmitted part is subtracted from it, so that
+    /// Unlit materials, lines and points show only emission and base color. Alpha is the coverage
+    /// if the material blends, and 1 otherwise. The transmitted part is subtracted from it, so that
     /// blending lets the background through.
     #[inline(always)]
     fn shade_surface<const N: usize>(
@@ -267,18 +271,18 @@ impl Shading<'_> {
         primitives: &PrimitiveIndices<N>,
         fragments: &impl FragmentLanes<N>,
     ) -> ShadedLanes<N> {
-        // Material: factors times textures.
+        // The material: factors times textures.
         let vertices = draw.vertex_indices(primitives);
         let mut inputs = MaterialInputs::evaluate(draw, &vertices, fragments);
-        // Rendering equation: emitted, reflected and transmitted radiance.
+        // The rendering equation: emitted, reflected and transmitted radiance.
         let SurfaceLight { radiance, transmission, behind } = if draw.is_lit() {
             self.light_surface(draw, primitives, fragments, &mut inputs)
         } else {
             let radiance = inputs.emitted + inputs.base_color;
             SurfaceLight { radiance, transmission: None, behind: None }
         };
-        // Display: exposure and tone curve, then premultiplied alpha. Unlit colors already are
-        // display colors (KHR_materials_unlit): they are only exposed.
+        // Display: exposure and tone curve, then premultiplied alpha. Unlit colors are already
+        // display colors (KHR_materials_unlit), so they are only exposed.
         let mut color = if draw.is_lit() {
             self.tone_mapper.map_colors(radiance)
         } else {
@@ -296,7 +300,7 @@ impl Shading<'_> {
         let Some(share) = transmission else {
             return ShadedLanes::over([r, g, b, coverage]);
         };
-        // The background shines through, in addition to the light that the surface itself sends.
+        // The background shines through, in addition to the light from the surface itself.
         let mut alpha = coverage * (1.0 - share.gray());
         let mut transmittance = share.channel_transmittances(coverage, alpha);
         if let Some((_, alpha_behind)) = behind {
@@ -313,8 +317,8 @@ impl Shading<'_> {
         self.transmission_framebuffer.filter(|_| draw.material.bends_transmitted_light())
     }
 
-    /// Computes the backdrop at fragments whose positions are fractions of the picture; not tone
-    /// mapped.
+    /// Computes the backdrop, without tone mapping, at fragments whose positions are fractions of
+    /// the picture.
     #[inline(always)]
     fn shade_backdrop<const N: usize>(
         &self,
@@ -335,11 +339,10 @@ impl Shading<'_> {
         colors
     }
 
-    /// Reflects lights and environment with the layered BRDF of a draw, and refracts the light from
-    /// behind; ambient occlusion darkens `inputs`.
+    /// Computes the reflection of lights and environment with the layered BRDF of a draw, and the
+    /// refraction of light from behind. Ambient occlusion darkens `inputs`.
     ///
-    /// Geometry is computed with smooth normals; the BRDF applies normal maps to a copy, layer by
-    /// layer.
+    /// The geometry has smooth normals; the BRDF applies normal maps to a copy, layer by layer.
     #[inline(always)]
     fn light_surface<const N: usize>(
         &self,
@@ -354,15 +357,15 @@ impl Shading<'_> {
                 kernel_part!(N, occlusion.visibility(geometry.positions, geometry.normals));
             inputs.screen_visibility = Some(visibility);
         }
-        // Tangent frame for normal maps and anisotropy.
+        // The tangent frame for normal maps and anisotropy.
         let tangents = draw.interpolate_tangents(primitives, &fragments.weights());
-        // Offset positions for shadow maps, if there are any.
+        // The offset positions for shadow maps, if there are any.
         let mut receiver = None;
         if !self.shadows.is_empty() {
             let vertices = draw.vertex_indices(primitives);
             receiver = Some(ShadowReceiver::from_geometry(draw, &vertices, fragments, &geometry));
         }
-        // Direct light, then image-based lighting.
+        // Direct light first, then image-based lighting.
         let mut brdf = kernel_part!(N, LayeredBrdf::new(draw, inputs, geometry, &tangents));
         kernel_part!(N, brdf.add_lights(self.lights, self.shadows, receiver.as_ref()));
         if let Some(environment) = self.environment {
@@ -372,11 +375,12 @@ impl Shading<'_> {
         if let Some(framebuffer) = self.framebuffer_behind(draw) {
             behind = kernel_part!(N, brdf.add_light_behind(draw, framebuffer));
         }
-        // The BRDF is large: it is not returned, which would copy it.
+        // The BRDF is large, so do not return it, which would copy it.
         SurfaceLight { radiance: brdf.finish(), transmission: brdf.transmission, behind }
     }
 
-    /// Positions, views and smooth normals at fragments; normal maps are not yet applied.
+    /// Computes positions, view directions and smooth normals at fragments, before normal maps are
+    /// applied.
     #[inline(always)]
     pub(super) fn surface_geometry<const N: usize>(
         &self,
@@ -387,7 +391,7 @@ impl Shading<'_> {
         kernel_part!(N, self.find_geometry(draw, primitives, fragments))
     }
 
-    /// Like [`surface_geometry`](Self::surface_geometry), but inlined.
+    /// Computes the same as [`surface_geometry`](Self::surface_geometry), but inlined.
     #[inline(always)]
     pub(super) fn find_geometry<const N: usize>(
         &self,
@@ -400,12 +404,12 @@ impl Shading<'_> {
         let positions: Vec3Lanes<N> = interpolate(&vertex_positions, &fragments.weights()).into();
         let views = view_directions(positions, self.viewer_position());
         let is_double_sided = draw.material.double_sided;
-        // Backs of single-sided surfaces have been culled: all that arrive here are fronts.
+        // Back faces of single-sided surfaces have been culled, so only front faces remain.
         let mut face_normals = Vec3Lanes::ZERO;
         if is_double_sided || !draw.is_smooth {
             face_normals = draw.face_normals(&vertex_positions);
         }
-        // Phong interpolation of normals, flipped to the visible side.
+        // Interpolated normals (Phong), flipped to the visible side.
         let (mut normals, normal_variation) =
             draw.interpolate_normals(&vertices, fragments, face_normals);
         let mut is_back_facing = [false; N];
@@ -424,7 +428,7 @@ impl Shading<'_> {
 }
 
 impl Draw<'_> {
-    /// Returns whether lights illuminate the draw: unlit materials, lines and points show their
+    /// Returns whether lights illuminate the draw. Unlit materials, lines and points show their
     /// color unchanged.
     pub fn is_lit(&self) -> bool {
         !self.material.unlit && self.primitive.topology == Topology::Triangles

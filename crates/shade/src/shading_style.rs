@@ -1,9 +1,9 @@
 //! Shading styles: clay, matcap, toon and x-ray surfaces, and false colors for normals, depth,
 //! texture coordinates and part ids.
 //!
-//! Styles use the same normals, weights and lights as shaded pictures; only the last step, from
-//! these to a color, differs. False colors are decoded so that the sRGB code in the picture is the
-//! number, as long as a pixel has the color of a single sample.
+//! Styles use the same normals, weights and lights as shaded pictures; only the last step, which
+//! turns these into a color, differs. False colors are decoded so that the sRGB code in the picture
+//! is the number, as long as a pixel has the color of a single sample.
 
 mod false_colors;
 
@@ -24,45 +24,45 @@ use std::f32::consts::FRAC_1_PI;
 /// The look of surfaces that are not shaded by their material.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum ShadingStyle {
-    /// Gouraud shading: diffuse light at the vertices of each triangle, interpolated, times the
-    /// base color (Gouraud 1971).
+    /// Gouraud shading: diffuse light computed at the vertices of each triangle and interpolated,
+    /// times the base color (Gouraud 1971).
     Gouraud,
-    /// Matte clay in the light of the scene.
+    /// Matte clay under the scene's lights.
     Clay,
-    /// Matcap: the color of a glazed clay ball where it has the surface's orientation to the
+    /// Matcap: the color of a glazed clay ball at the point with the same orientation to the
     /// viewer.
     Matcap,
     /// The normal in the world: red, green and blue are (n + 1) / 2.
     Normals,
-    /// Depth along the view axis: 1 at `near`, falling linearly to 0.1 at `far`; or colors, from
-    /// the last of a colormap at `near` to its first at `far`.
+    /// Depth along the view axis: grays from 1 at `near`, falling linearly to 0.1 at `far`, or
+    /// colors from the last of a colormap at `near` to the first at `far`.
     Depth {
-        /// The depth shown as white, or as the last color.
+        /// The depth shown as white or the last color.
         near: f32,
-        /// The depth shown as the darkest gray, or as the first color.
+        /// The depth shown as the darkest gray or the first color.
         far: f32,
-        /// The colors; `None` for grays.
+        /// The colors, or `None` for grays.
         colormap: Option<Colormap>,
     },
-    /// A checkerboard of 8 × 8 squares per unit of texture coordinates; red increases with u, green
-    /// with v.
+    /// A checkerboard with 8 × 8 squares per unit of texture coordinates; red increases with u, and
+    /// green with v.
     UvChecker,
     /// A color for each part.
     Ids,
     /// Toon (cel) shading: the base color in three steps of light.
     Toon,
-    /// Translucent, denser where a surface is closer to parallel with the line of sight.
+    /// X-ray: translucent, and denser where a surface is closer to parallel with the line of sight.
     XRay,
 }
 
-/// Surfaces in a style, for the rasterizer.
+/// Shades surfaces in a style, for the rasterizer.
 #[derive(Debug)]
 pub struct StyledShading<'a> {
     /// The shading whose draws, lights and environment are used.
     pub shading: &'a Shading<'a>,
     /// The look of the surfaces.
     pub style: ShadingStyle,
-    /// The rows of the rotation from the world to view space: right, up, backward.
+    /// The rows of the rotation from world to view space: right, up and backward.
     pub world_to_view: [[f32; 3]; 3],
     /// The position of the eye in the world.
     pub eye_position: [f32; 3],
@@ -70,9 +70,9 @@ pub struct StyledShading<'a> {
 
 /// The diffuse albedo of clay.
 const CLAY_ALBEDO: [f32; 3] = [0.58, 0.52, 0.46];
-/// The steps of toon light: the maximum luminance of each, and its brightness.
+/// The steps of toon light, each with its maximum luminance and its brightness.
 const TOON_TONES: [(f32, f32); 3] = [(0.18, 0.3), (0.55, 0.62), (f32::INFINITY, 1.0)];
-/// The color of x-ray surfaces where they are densest.
+/// The color of x-ray surfaces at their densest.
 const XRAY_COLOR: [f32; 3] = [0.03, 0.22, 0.5];
 
 /// A fragment at one vertex of a triangle, for shading per vertex.
@@ -108,8 +108,8 @@ impl Surface for StyledShading<'_> {
         self.shading.alpha_test_eight(fragments)
     }
 
-    // Not inlined into the loops over eight fragments, of which there is one for each kind of
-    // pixel: shading a fragment in a style takes far longer than the call.
+    // Not inlined into the loops over eight fragments, one for each kind of pixel, because shading
+    // a fragment in a style takes far longer than the call.
     #[inline(never)]
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
         let (draw, _) = self.shading.draws.find_draw(fragment.id);
@@ -129,7 +129,7 @@ impl Surface for StyledShading<'_> {
     }
 
     fn is_continuous(&self, first_id: u32, second_id: u32) -> bool {
-        // A step of toon light may fall between two triangles of one surface.
+        // A step of toon light may occur between two triangles of one surface.
         self.style != ShadingStyle::Toon && self.shading.is_continuous(first_id, second_id)
     }
 
@@ -149,8 +149,8 @@ impl Surface for StyledShading<'_> {
 }
 
 impl ShadingStyle {
-    /// Returns whether the style uses textures of the material, or its alpha. These styles are
-    /// shaded fragment by fragment.
+    /// Returns whether the style uses the material's textures or alpha. These styles are shaded one
+    /// fragment at a time.
     const fn needs_material(self) -> bool {
         matches!(self, Self::Gouraud | Self::Toon | Self::XRay)
     }
@@ -185,15 +185,15 @@ impl Kernel for StyleEight<'_> {
 }
 
 impl StyledShading<'_> {
-    /// Returns whether a draw has the style; the background does not, nor, except in false colors,
-    /// do lines and points.
+    /// Returns whether the style applies to a draw. It does not apply to the background or, except
+    /// for false colors, to lines and points.
     fn is_styled(&self, draw: &Draw<'_>) -> bool {
         let is_surface = draw.primitive.topology == model::Topology::Triangles;
         let is_false_color = matches!(self.style, ShadingStyle::Depth { .. } | ShadingStyle::Ids);
         draw.kind == DrawKind::Surface && (is_surface || is_false_color)
     }
 
-    /// Returns the colors of the parts that eight fragments belong to: nothing is interpolated.
+    /// Returns the colors of the parts that eight fragments belong to, without interpolation.
     fn part_colors(&self, fragments: &Fragments<'_>) -> [F32x8; 4] {
         let mut colors = [[1.0; LANES]; 4];
         let (mut last, mut color) = (None, [0.0; 3]);
@@ -247,10 +247,10 @@ impl StyledShading<'_> {
         })
     }
 
-    /// Computes the radiance of white Lambert surfaces under the lights, without shadows, and the
-    /// environment.
+    /// Computes the radiance of white Lambert surfaces under the lights and the environment,
+    /// without shadows.
     ///
-    /// Σ E n·l / π over the lights, plus irradiance over π of the environment.
+    /// This is Σ E n·l / π over the lights, plus the environment's irradiance over π.
     #[inline(always)]
     fn diffuse_light<const N: usize>(&self, geometry: &SurfaceGeometry<N>) -> Rgb<N> {
         let mut sum = Rgb::ZERO;
@@ -266,9 +266,9 @@ impl StyledShading<'_> {
         sum
     }
 
-    /// Computes the color of a material in some diffuse light, exposed and tone mapped,
-    /// premultiplied by the alpha of materials that blend. Unlit colors already are display colors:
-    /// they are only exposed, and the light is ignored.
+    /// Computes the exposed and tone mapped color of a material in some diffuse light,
+    /// premultiplied by alpha if the material blends. Unlit colors are already display colors: they
+    /// are only exposed, and the light is ignored.
     fn material_color(
         &self,
         draw: &Draw<'_>,
@@ -290,7 +290,7 @@ impl StyledShading<'_> {
         [r, g, b, alpha]
     }
 
-    /// Light per vertex, interpolated; the base color per fragment.
+    /// Interpolates light computed per vertex, with the base color per fragment.
     fn shade_gouraud(&self, draw: &Draw<'_>, fragment: &Fragment<'_>) -> [f32; 4] {
         let primitive = draw.primitive_indices(&[fragment.id], true);
         let mut light = [0.0; 3];
@@ -306,30 +306,30 @@ impl StyledShading<'_> {
         self.material_color(draw, fragment, light)
     }
 
-    /// Computes the base color in steps of light according to its luminance.
+    /// Computes the base color in steps of light.
     ///
-    /// The luminance of the diffuse light is quantized to three tones; the base color keeps its
-    /// hue.
+    /// The luminance of the diffuse light is quantized to three tones, and the hue of the base
+    /// color is preserved.
     fn shade_toon(
         &self,
         draw: &Draw<'_>,
         fragment: &Fragment<'_>,
         geometry: &SurfaceGeometry<1>,
     ) -> [f32; 4] {
-        // The darkest tone whose limit is above the luminance.
+        // The darkest tone with a limit above the luminance.
         let light = luminance(self.diffuse_light(geometry))[0];
         let tone = TOON_TONES.iter().find(|(up_to, _)| light < *up_to);
         let brightness = tone.map_or(1.0, |(_, brightness)| *brightness);
         self.material_color(draw, fragment, [brightness; 3])
     }
 
-    /// Returns the matcap at the normal in a frame whose z points to the viewer of this pixel: in
-    /// perspective a sphere looks the same everywhere in the picture.
+    /// Returns the matcap color at the normal, in a frame whose z points to the viewer of this
+    /// pixel, so that in perspective a sphere looks the same everywhere in the picture.
     #[inline(always)]
     fn matcap_color<const N: usize>(&self, geometry: &SurfaceGeometry<N>) -> Rgb<N> {
         let SurfaceGeometry { normals, views, .. } = *geometry;
         let right = Vec3Lanes::splat(self.world_to_view[1]).cross(views);
-        // Zero if the view is vertical.
+        // This is zero if the view is vertical.
         let inv_length =
             right.dot(right).map(|square| if square > 0.0 { 1.0 / square.sqrt() } else { 0.0 });
         let right = right * inv_length;
@@ -348,12 +348,12 @@ impl StyledShading<'_> {
         -backwards.dot(geometry.positions - Vec3Lanes::splat(self.eye_position))
     }
 
-    /// Computes a translucent surface, whose alpha grows with the cube of 1 − |n·v|.
+    /// Computes the color of a translucent surface whose alpha grows with the cube of 1 − |n·v|.
     fn shade_xray(&self, fragment: &Fragment<'_>, geometry: &SurfaceGeometry<1>) -> [f32; 4] {
         if !self.passes_alpha_test(fragment) {
             return [0.0; 4];
         }
-        // Backs of single-sided surfaces are also drawn here, and their normals point away.
+        // Back faces of single-sided surfaces are also drawn here, and their normals point away.
         let n_dot_v = dot(geometry.normals.lane(0), geometry.views.lane(0)).abs();
         let along = 1.0 - n_dot_v.min(1.0);
         let alpha = 0.07 + 0.73 * along * along * along;
@@ -362,7 +362,7 @@ impl StyledShading<'_> {
     }
 }
 
-/// Colors with alpha 1.
+/// Returns colors with alpha 1.
 #[inline(always)]
 fn opaque_color<const N: usize>(Rgb { r, g, b }: Rgb<N>) -> [Lanes<N>; 4] {
     [r, g, b, Lanes::ONE]

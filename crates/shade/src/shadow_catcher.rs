@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Composited over a picture of white ground, black with this alpha makes the ground as dark as the
-//! lights would. Colored lights are summed over their channels: a shadow has no color.
+//! lights would. Colored lights are summed over their channels, so shadows have no color.
 
 use super::attributes::PrimitiveIndices;
 use super::fragment_lanes::FragmentLanes;
@@ -20,7 +20,8 @@ use std::f32::consts::PI;
 const UP: [f32; 3] = [0.0, 1.0, 0.0];
 
 impl Shading<'_> {
-    /// Black, with the alpha that makes white matte ground below it as dark as its shadows do.
+    /// Returns black with the alpha that makes white matte ground below it as dark as the shadows
+    /// would.
     #[inline(always)]
     pub(super) fn shade_shadow_catcher<const N: usize>(
         &self,
@@ -36,12 +37,12 @@ impl Shading<'_> {
         if let Some(occlusion) = self.occlusion {
             visibility = occlusion.visibility(positions, normals);
         }
-        // Both detect nearby objects; only one of them is used.
+        // Both detect nearby objects, so only one is used.
         if let Some(occlusion) = self.ground_occlusion {
             let contact = Lanes::from_fn(|lane| occlusion.visibility_at(positions.lane(lane)));
             visibility = visibility.min_lanes(contact);
         }
-        // The illuminance with and without shadows, as sums of the three channels. Occlusion
+        // The illuminance with and without shadows, summed over the three channels. Occlusion
         // affects only light from all directions.
         let mut unshadowed = Lanes::splat(self.total_ambient_lux());
         let mut shadowed = unshadowed * visibility;
@@ -49,20 +50,20 @@ impl Shading<'_> {
             let mut incident = light.incident_at(positions);
             let n_dot_l = normals.dot(incident.to_light).max(0.0);
             unshadowed += channel_sum(incident.lux) * n_dot_l;
-            // Percentage-closer filtered visibility of the light.
+            // The percentage-closer filtered visibility of the light.
             if let Some(Some(shadow)) = self.shadows.get(index) {
                 incident.apply_shadow(shadow, &receiver);
             }
             shadowed += channel_sum(incident.lux) * n_dot_l;
         }
-        // If there is no light, this is NaN, and there is no shadow either.
+        // Without any light this is NaN, and there is no shadow.
         let alpha = (1.0 - shadowed / unshadowed)
             .map(|alpha| if alpha > 0.0 { alpha.min(1.0) } else { 0.0 });
         [Lanes::ZERO, Lanes::ZERO, Lanes::ZERO, alpha]
     }
 
-    /// Computes the illuminance of the ground from ambient lights and environment, summed over the
-    /// channels.
+    /// Computes the illuminance of the ground from ambient lights and the environment, summed over
+    /// the channels.
     fn total_ambient_lux(&self) -> f32 {
         let mut lux = 0.0;
         for [r, g, b] in self.lights.iter().filter_map(Light::ambient_lux) {
@@ -76,7 +77,7 @@ impl Shading<'_> {
     }
 }
 
-/// Red, green and blue added up.
+/// Returns the sum of red, green and blue.
 #[inline(always)]
 fn channel_sum<const N: usize>(color: Rgb<N>) -> Lanes<N> {
     color.r + color.g + color.b

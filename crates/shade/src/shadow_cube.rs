@@ -1,20 +1,20 @@
-//! Cube shadow maps: the shadows of a point light, from six maps of 90° each.
+//! Cube shadow maps: the shadows of a point light in six maps of 90° each.
 //!
 //! ```text
-//!        ┌────┐              a receiver is looked up in the face of its longest coordinate;
+//!        ┌────┐              a receiver is looked up in the face of its largest coordinate;
 //!        │ +y │              ╲ │ ╱   the filter's disc is perpendicular to the direction
-//!   ┌────┼────┼────┬────┐     ╲│╱    from the light, whichever the face
+//!   ┌────┼────┼────┬────┐     ╲│╱    from the light on every face
 //!   │ −x │ +z │ +x │ −z │   ───●───
 //!   └────┼────┼────┴────┘     ╱│╲
-//!        │ −y │              ╱ │ ╲   faces overlap by the greatest radius of the disc
+//!        │ −y │              ╱ │ ╲   faces overlap by the maximum radius of the disc
 //!        └────┘
 //! ```
 //!
-//! A disc of texels would be an ellipse of directions, with another shape beyond the border of a
-//! face. The disc is therefore defined in directions, in a frame that varies continuously with
+//! A disc of texels would be an ellipse of directions, with a different shape beyond the border of
+//! a face. The disc is therefore defined in directions, in a frame that varies continuously with
 //! them, and is projected onto the face. Distances are measured along the direction of the
-//! receiver, not along the face's axis. Both make the two sides of a border agree. Depth planes,
-//! biases and the growth of the penumbra work as in [`ShadowMap`].
+//! receiver, not along the axis of the face. Both ensure that the two sides of a border agree.
+//! Depth planes, biases and the growth of the penumbra work as in [`ShadowMap`].
 
 use super::lanes::Vec3Lanes;
 use super::shadow_map::{ShadowMap, VOGEL_DISC};
@@ -25,11 +25,11 @@ use super::vector::{dot, subtract};
 pub struct ShadowCube {
     /// The position of the light in the world.
     pub position: [f32; 3],
-    /// The maps along +x, −x, +y, −y, +z and −z; `None` where nothing casts a shadow.
+    /// The maps along +x, −x, +y, −y, +z and −z, with `None` where nothing casts a shadow.
     ///
-    /// Each must extend beyond its 90° by the disc of [`MAX_PENUMBRA`](Self::MAX_PENUMBRA).
+    /// Each map must extend beyond its 90° by the disc of [`MAX_PENUMBRA`](Self::MAX_PENUMBRA).
     pub faces: [Option<ShadowMap>; 6],
-    /// The tangent of half the angle that the light subtends; 0 for sharp borders.
+    /// The tangent of half the angle that the light subtends, or 0 for sharp borders.
     pub spread: f32,
     /// A distance from the light, greater than 0, within which nothing casts a shadow.
     pub nearest: f32,
@@ -37,9 +37,9 @@ pub struct ShadowCube {
     pub texel: f32,
 }
 
-/// A disc of directions around a receiver's, projected onto a face.
+/// A disc of directions around a receiver's direction, projected onto a face.
 ///
-/// Texel coordinates are homogeneous, (x·w, y·w, w): offsets on the disc are linear in them.
+/// Texel coordinates are homogeneous, (x·w, y·w, w), so they are linear in offsets on the disc.
 struct ProjectedDisc {
     center: [f32; 3],
     along: [f32; 3],
@@ -58,7 +58,7 @@ impl ProjectedDisc {
         }
     }
 
-    /// Computes the texel coordinates x and y, and w, of a position on the disc.
+    /// Computes the texel coordinates x and y of a position on the disc, and its w.
     #[inline(always)]
     fn texel_at(&self, [dx, dy]: [f32; 2]) -> ([f32; 2], f32) {
         let [x, y, w] =
@@ -68,10 +68,10 @@ impl ProjectedDisc {
 }
 
 impl ShadowCube {
-    /// The maximum radius of a penumbra, seen from the light, at distance 1.
+    /// The maximum radius of a penumbra at distance 1, as seen from the light.
     ///
-    /// A wider one is clamped: otherwise the filter positions would be too far apart in it, and
-    /// faces would have to overlap by more.
+    /// Wider penumbras are clamped, because the filter positions would be too far apart, and faces
+    /// would have to overlap by more.
     pub const MAX_PENUMBRA: f32 = 1.0 / 16.0;
 
     /// Computes the visibility of the light, 0 to 1, from a position in the world with this unit
@@ -91,14 +91,14 @@ impl ShadowCube {
         }
         let distance = dot(from_light, from_light).sqrt();
         let disc = ProjectedDisc::new(map, from_light.map(|c| c / distance));
-        // Blocker search, within the penumbra of the nearest possible caster.
+        // Blocker search within the penumbra of the nearest possible caster.
         let search_radius = (self.spread * (distance / self.nearest - 1.0))
             .clamp(1.5 * self.texel, Self::MAX_PENUMBRA);
         let (mut nearness_sum, mut blockers) = (0.0, 0.0);
         for offset in VOGEL_DISC.iter().step_by(2) {
             let (texel, w) = disc.texel_at(offset.map(|c| c * search_radius));
             if let Some(depth) = map.find_blocker(&receiver, texel) {
-                // 1 over the distance along the receiver's direction, up to a factor.
+                // 1 / distance along the receiver's direction, up to a factor.
                 nearness_sum += map.nearness(depth) * w;
                 blockers += 1.0;
             }
@@ -106,7 +106,7 @@ impl ShadowCube {
         if blockers == 0.0 {
             return map.filter_bilinear(&planes)[0];
         }
-        // Penumbra of the mean blocker, by similar triangles (PCSS, Fernando 2005).
+        // The penumbra of the mean blocker, by similar triangles (PCSS, Fernando 2005).
         let receiver_nearness = map.nearness(receiver.depth) * disc.center[2];
         let ratio = nearness_sum / (blockers * receiver_nearness.max(1e-12));
         let radius = (self.spread * (ratio - 1.0)).min(Self::MAX_PENUMBRA);
@@ -123,7 +123,8 @@ impl ShadowCube {
     }
 }
 
-/// Returns the face that a direction from the light meets, given by its longest coordinate.
+/// Returns the face that a direction from the light intersects, which depends on its largest
+/// coordinate.
 #[inline(always)]
 fn face_index([x, y, z]: [f32; 3]) -> usize {
     let (axis, along) = match [x.abs(), y.abs(), z.abs()] {
@@ -137,7 +138,7 @@ fn face_index([x, y, z]: [f32; 3]) -> usize {
 /// Returns two unit vectors perpendicular to a unit vector and to each other (Frisvad, *Building an
 /// orthonormal basis from a 3D unit vector without normalization*, 2012).
 ///
-/// They vary continuously except at +y, straight above the light, where shadows are least visible.
+/// They vary continuously except at +y, directly above the light, where shadows are least visible.
 #[inline(always)]
 fn perpendicular_frame([x, y, z]: [f32; 3]) -> [[f32; 3]; 2] {
     if y > 0.999_999 {
@@ -171,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn the_longest_coordinate_selects_the_face() {
+    fn the_largest_coordinate_selects_the_face() {
         let directions = [
             [3.0, -1.0, 2.0],
             [-3.0, -1.0, 2.0],

@@ -4,23 +4,23 @@
 //!      light ── depth ──►   texel: depth and slope of the nearest triangle's plane
 //!        ╲        ▟▛  caster
 //!         ╲      ▟▛
-//!   ───────●────▟▛──── receiver: its own plane, by the normal
+//!   ───────●────▟▛──── receiver: its own plane, from the normal
 //! ```
 //!
-//! A texel holds the plane of the nearest surface and not only its depth, and the receiver is a
-//! plane too. They are compared both at the texel's center and at the receiver's position, and the
+//! A texel stores the plane of the nearest surface, not only its depth, and the receiver is also a
+//! plane. They are compared both at the texel's center and at the receiver's position, and the
 //! texel casts a shadow only if both comparisons agree. A surface then never shadows itself (no
-//! acne), even in grazing light, with a bias of a hundredth of a texel and no gap where one object
-//! rests on another (no peter-panning).
+//! acne), even in grazing light, with a bias of only a hundredth of a texel and no gap where one
+//! object rests on another (no peter-panning).
 //!
 //! The penumbra grows with the distance of the caster (Fernando, *Percentage-closer soft shadows*,
-//! 2005): a search for blockers gives its radius, and a percentage-closer filter with that radius
-//! the shadow. Both use a fixed pattern of positions, so that pictures have no noise and always the
-//! same bytes.
+//! 2005): a blocker search gives its radius, and a percentage-closer filter with that radius gives
+//! the shadow. Both use a fixed pattern of positions, so that pictures have no noise and are always
+//! identical.
 //!
 //! Percentage-closer filtering (Reeves, Salesin and Cook, *Rendering antialiased shadows with depth
-//! maps*, 1987) averages the results of depth comparisons, not depths: a mean depth would not be
-//! the depth of any surface. Here planes are compared, and the average is over a disc.
+//! maps*, 1987) averages the results of depth comparisons, not depths, because a mean depth would
+//! not be the depth of any surface. Here planes are compared, and the average is over a disc.
 
 mod blocker_search;
 mod nearest_depths;
@@ -35,54 +35,56 @@ use nearest_depths::NearestDepths;
 use raster::SurfaceDepth;
 pub(super) use receiver_planes::ReceiverPlane;
 
-/// The shadows of a light.
+/// The shadow settings of a light.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Shadow {
     /// The number of texels along the longer side of the shadow map.
     pub resolution: u32,
-    /// The angular diameter of the light, seen from the receiver, in radians; 0 for sharp borders.
+    /// The angular diameter of the light in radians, as seen from the receiver, or 0 for sharp
+    /// borders.
     pub softness: f32,
 }
 
-/// The maximum radius in texels of blocker search and filter.
+/// The maximum radius of the blocker search and the filter in texels.
 ///
-/// A wider penumbra is clamped: otherwise the 48 filter positions would be too far apart in it.
+/// Wider penumbras are clamped, because the 48 filter positions would be too far apart.
 const MAX_FILTER_RADIUS: f32 = 63.0;
-/// The bias per unit of slope, in depth per texel: vertices are snapped to a grid of 1/256 texel.
+/// The bias per unit of slope, in depth per texel, because vertices are snapped to a grid of 1/256
+/// texel.
 const SLOPE_BIAS: f32 = 1.0 / 96.0;
 /// The transform from the world to the texels of a shadow map.
 #[derive(Clone, Copy, Debug, Default)]
 struct WorldToShadowMap {
-    /// The position that others are relative to, for precision: the middle of the scene.
+    /// The center of the scene, which positions are relative to for precision.
     origin: [f32; 3],
     /// The rows of the matrix from positions to (x·w, y·w, depth·w, w), with x and y in texels.
     rows: [[f32; 4]; 4],
-    /// The first three rows of the matrix of planes, the inverse transpose.
+    /// The first three rows of the matrix for planes, the inverse transpose.
     plane_rows: [[f32; 4]; 3],
 }
 
-/// The scene depths seen from a light.
+/// The scene depths as seen from a light.
 ///
-/// Larger depth is nearer to the light, as in the rasterizer that draws the map.
+/// Larger depths are nearer to the light, as in the rasterizer that draws the map.
 #[derive(Clone, Debug, Default)]
 pub struct ShadowMap {
-    /// Number of texels per row, and number of rows.
+    /// The number of texels per row, and the number of rows.
     size: [u32; 2],
     world_to_map: WorldToShadowMap,
-    /// The depth at infinite distance in perspective, relative to which depth is a multiple of 1/w;
-    /// `None` in parallel light.
+    /// The depth at infinite distance in perspective, relative to which depth is a multiple of 1/w,
+    /// or `None` in parallel light.
     depth_at_infinity: Option<f32>,
-    /// The radius of the penumbra in texels: per difference of depth in parallel light, otherwise
+    /// The radius of the penumbra in texels, per depth difference in parallel light, and otherwise
     /// per difference of distances divided by the nearer distance.
     penumbra_scale: f32,
-    /// The nearest surface of each texel, rows from the top.
+    /// The nearest surface at each texel, in rows from the top.
     pub texels: Vec<SurfaceDepth>,
     /// The nearest depths around each block of texels.
     nearest_depths: NearestDepths,
 }
 
 impl ShadowMap {
-    /// Clears the map for a light, and sets its transform.
+    /// Clears the map for a light and sets its transform.
     ///
     /// `world_to_map` maps to texels and depth, 1 at the near plane; `origin` is a position near
     /// the scene.
@@ -101,45 +103,46 @@ impl ShadowMap {
         self.texels.resize(size[0] as usize * size[1] as usize, SurfaceDepth::EMPTY);
     }
 
-    /// Computes the nearest depths of blocks of texels, once these are set: soft shadows then skip
-    /// the blocker search if there are none.
+    /// Computes the nearest depths of blocks of texels, once the texels are set. Soft shadows then
+    /// skip the blocker search if there are no blockers.
     pub fn find_nearest_depths(&mut self) {
         self.nearest_depths.find(&self.texels, self.size);
     }
 
     /// Sets the softness of the shadows.
     ///
-    /// `scale` is the radius of the penumbra in texels: in parallel light per difference of depth,
-    /// in perspective per difference of distances divided by the nearer one. `depth_at_infinity` is
-    /// `None` in parallel light.
+    /// `scale` is the radius of the penumbra in texels, per depth difference in parallel light, and
+    /// in perspective per difference of distances divided by the nearer distance.
+    /// `depth_at_infinity` is `None` in parallel light.
     pub fn set_penumbra(&mut self, scale: f64, depth_at_infinity: Option<f64>) {
         self.penumbra_scale = scale as f32;
         self.depth_at_infinity = depth_at_infinity.map(|depth| depth as f32);
     }
 
-    /// Texel coordinates of a direction from the eye of a perspective map: x·w, y·w and w.
+    /// Computes the homogeneous texel coordinates of a direction from the eye of a perspective map:
+    /// x·w, y·w and w.
     ///
-    /// Linear in the direction; w is positive ahead.
+    /// They are linear in the direction, and w is positive in front.
     #[inline(always)]
     pub(super) fn project_direction(&self, direction: [f32; 3]) -> [f32; 3] {
         let rows = &self.world_to_map.rows;
         [0, 1, 3].map(|k: usize| dot([rows[k][0], rows[k][1], rows[k][2]], direction))
     }
 
-    /// Computes a number proportional to 1 / distance along the axis of a perspective map, from a
-    /// depth; 1 in parallel light.
+    /// Converts a depth to a number proportional to 1 / distance along the axis of a perspective
+    /// map. Returns 1 in parallel light.
     #[inline(always)]
     pub(super) fn nearness(&self, depth: f32) -> f32 {
         self.depth_at_infinity.map_or(1.0, |infinity| (depth - infinity).max(0.0))
     }
 
-    /// Finds the depth of the surface that blocks light from the receiver's plane at a position of
+    /// Finds the depth of the surface that blocks light from the receiver's plane at a position on
     /// the map.
     ///
-    /// The planes of texel and receiver are compared twice: at the center of the texel, where the
-    /// depth was sampled, and at the position itself. The caster must be above the receiver at
-    /// both. Two facets of one surface that meet within the texel cross there, and one comparison
-    /// fails.
+    /// The planes of the texel and the receiver are compared twice: at the center of the texel,
+    /// where the depth was sampled, and at the position itself. The caster must be above the
+    /// receiver at both. If two facets of one surface meet within the texel, their planes cross
+    /// there, and one comparison fails.
     #[inline(always)]
     pub(super) fn find_blocker(&self, receiver: &ReceiverPlane, [x, y]: [f32; 2]) -> Option<f32> {
         let [column, row] = [x, y].map(floor_to_int);
@@ -152,8 +155,8 @@ impl ShadowMap {
         (at_center > bias && here > bias).then_some(texel.depth)
     }
 
-    /// Returns the index of the texel in a column and row; beyond the last texel if outside the
-    /// map.
+    /// Returns the index of the texel at a column and row, or an index beyond the last texel if
+    /// outside the map.
     #[inline(always)]
     fn texel_index(&self, column: i32, row: i32) -> usize {
         let [width, height] = self.size;
@@ -171,8 +174,8 @@ mod tests {
     use crate::lanes::Vec3Lanes;
     use crate::shadow_receiver::ShadowReceiver;
 
-    /// Returns a map of 100 × 100 texels of side 0.01 seen from above: x points right, y is depth,
-    /// z points down. To the left of x = 0.6 there is a caster at a height.
+    /// Returns a map with 100 × 100 texels of side 0.01, seen from above: x points right, y is
+    /// depth, and z points down. Left of x = 0.6 there is a caster at this height.
     pub(super) fn map(height: f32, spread: f64) -> ShadowMap {
         let mut map = ShadowMap::default();
         let world_to_map = DMat4::from_cols(
@@ -199,7 +202,7 @@ mod tests {
         map.visibility::<1>(&ShadowReceiver { positions, normals }, [true])[0]
     }
 
-    /// Receivers all over the map, at one height, with varying tilt.
+    /// Returns receivers all over the map at one height, with varying tilt.
     fn scattered_receiver(step: usize, y: f32) -> ([f32; 3], [f32; 3]) {
         let [x, z] = [step * 37 % 1000, step * 91 % 1000].map(|c| c as f32 * 0.001);
         let tilt = (step % 7) as f32 * 0.1;
@@ -207,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn eight_receivers_have_the_visibility_of_each() {
+    fn eight_receivers_match_single_receivers() {
         let mut map = map(0.5, 30.0);
         map.find_nearest_depths();
         for first in (0..2000).step_by(8) {
@@ -223,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn nearest_depths_change_little() {
+    fn nearest_depths_hardly_change_the_result() {
         for (height, spread) in [(0.5, 30.0), (0.9, 200.0), (0.2, 5.0)] {
             let searched = map(height, spread);
             let mut bounded = searched.clone();
@@ -232,35 +235,35 @@ mod tests {
                 let (position, normal) = scattered_receiver(step, 0.1);
                 let expected = visibility(&searched, position, normal);
                 let actual = visibility(&bounded, position, normal);
-                // The search is narrower if they are known, and finds more.
+                // If the depths are known, the search is narrower and finds more.
                 assert!((actual - expected).abs() < 0.25, "{position:?} {actual} {expected}");
             }
         }
     }
 
     #[test]
-    fn what_is_above_shades_and_what_is_below_does_not() {
+    fn only_casters_above_the_receiver_cast_shadows() {
         let map = map(0.5, 0.0);
         for (x, y, expected) in
             [(0.2, 0.1, 0.0), (0.2, 0.499, 0.0), (0.2, 0.501, 1.0), (0.7, 0.1, 1.0)]
         {
             assert_eq!(visibility(&map, [x, y, 0.5], UP), expected, "{x} {y}");
         }
-        assert_eq!(visibility(&map, [-0.1, 0.1, 0.5], UP), 1.0, "no shadow beside the map");
+        assert_eq!(visibility(&map, [-0.1, 0.1, 0.5], UP), 1.0, "no shadow outside the map");
         assert!((visibility(&map, [0.6, 0.1, 0.5], UP) - 0.5).abs() < 0.01, "half at the border");
     }
 
     #[test]
     fn penumbras_grow_with_the_distance_of_the_caster() {
-        // 40 texels per unit of depth: at 0.5 below the caster the penumbra is 40 texels wide, at
-        // 0.05 it is 4.
+        // With 40 texels per unit of depth, the penumbra is 40 texels wide at 0.5 below the caster,
+        // and 4 at 0.05.
         let map = map(0.5, 40.0);
         for y in [0.0_f32, 0.25, 0.45] {
             let radius = (0.5 - y) * 0.4;
             let at = |part: f32| visibility(&map, [0.6 + part * radius, y, 0.5], UP);
             assert!((at(0.0) - 0.5).abs() < 0.06, "{y} {}", at(0.0));
             assert_eq!((at(-1.3), at(1.3)), (0.0, 1.0), "{y}");
-            // The fraction of a disc beyond a straight border at half of its radius: 0.8045.
+            // The fraction of a disc on one side of a straight border at half the radius: 0.8045.
             assert!((at(0.5) - 0.8045).abs() < 0.06, "{y} {}", at(0.5));
         }
     }
@@ -273,7 +276,7 @@ mod tests {
                 let x = (at % 100) as f32 + 0.5;
                 *texel = SurfaceDepth { depth: slope * (x - 50.0), dx: slope, dy: 0.0 };
             }
-            // Depth grows by `slope` per texel: the plane is y = 100 slope (x − 0.5).
+            // Depth grows by `slope` per texel, so the plane is y = 100 slope (x − 0.5).
             let length = (1.0 + 1e4 * slope * slope).sqrt();
             let normal = [-100.0 * slope / length, 1.0 / length, 0.0];
             for step in 0..500 {

@@ -8,7 +8,7 @@
 //!   ░░░░░░░░░░░░░░░░░░░░░░░   floor
 //! ```
 //!
-//! Matte surfaces receive its irradiance, which is smooth. Metals reflect its contrast: narrow
+//! Matte surfaces receive the studio's smooth irradiance. Metals reflect its contrast: narrow
 //! strips that are far brighter than the walls, and a floor that is far darker.
 
 use super::procedural_sky::smoothstep;
@@ -16,15 +16,15 @@ use super::vector::{cross, dot, normalize};
 
 /// A softbox: a rectangle of light with smooth borders, one unit away.
 struct Softbox {
-    /// The direction of its center, y up, of any length.
+    /// The direction of the center, y up, of any length.
     direction: [f32; 3],
-    /// Half its width and half its height.
+    /// Half the width and half the height.
     half_size: [f32; 2],
     /// The radiance of the rectangle.
     radiance: f32,
 }
 
-/// Key light, strips to the left and right, back light and a strip overhead.
+/// The key light, strips to the left and right, the back light and a strip overhead.
 const SOFTBOXES: [Softbox; 5] = [
     Softbox { direction: [-0.70, 0.36, 0.62], half_size: [0.46, 0.48], radiance: 1.62 },
     Softbox { direction: [-0.93, 0.10, -0.35], half_size: [0.16, 0.80], radiance: 1.62 },
@@ -32,14 +32,15 @@ const SOFTBOXES: [Softbox; 5] = [
     Softbox { direction: [0.35, 0.36, -0.87], half_size: [0.80, 0.22], radiance: 1.62 },
     Softbox { direction: [0.0, 1.0, 0.05], half_size: [0.65, 0.16], radiance: 1.5 },
 ];
-/// The fractions of a softbox's half width and half height over which its border fades.
+/// The fractions of a softbox's half width and half height over which the border fades.
 const SOFTBOX_FADE: [f32; 2] = [0.25, 0.15];
 
-/// Computes the radiance of a photographer's studio from a direction, a unit vector with y up.
+/// Computes the radiance from a direction in a photo studio; the direction is a unit vector with y
+/// up.
 ///
 /// A matte white surface, whose radiance is the irradiance over π, reaches at most 1.04, and 0.21
-/// facing the floor. No direction is brighter than 2.17, so that a mirror at the strength of bare
-/// models, 0.45, does not clip.
+/// facing the floor. No direction is brighter than 2.17, so a mirror does not clip at 0.45, the
+/// strength used for bare models.
 #[must_use]
 pub fn studio_radiance(direction: [f32; 3]) -> [f32; 3] {
     let height = direction[1];
@@ -54,7 +55,7 @@ pub fn studio_radiance(direction: [f32; 3]) -> [f32; 3] {
 }
 
 impl Softbox {
-    /// Computes the fraction of a direction that the rectangle fills, from 0 to 1.
+    /// Computes how much of a direction the rectangle fills, from 0 to 1.
     fn coverage(&self, direction: [f32; 3]) -> f32 {
         let center = normalize(self.direction);
         let across = normalize(cross([0.0, 1.0, 0.0], center));
@@ -63,7 +64,7 @@ impl Softbox {
         if ahead <= 1e-3 {
             return 0.0;
         }
-        // The point of the rectangle's plane in this direction.
+        // The point on the rectangle's plane in this direction.
         let place = [dot(direction, across) / ahead, dot(direction, along) / ahead];
         [0, 1].iter().fold(1.0, |coverage, &k: &usize| {
             let (half, fade) = (self.half_size[k], SOFTBOX_FADE[k]);
@@ -87,8 +88,8 @@ mod tests {
         })
     }
 
-    /// Computes the radiance of matte white with this normal: the integral over its hemisphere,
-    /// over π.
+    /// Computes the radiance of a matte white surface with this normal: the integral over its
+    /// hemisphere, divided by π.
     fn matte_white(normal: [f32; 3]) -> f32 {
         let count = 40_000;
         let light = |d: [f32; 3]| studio_radiance(d)[1] * dot(d, normal).max(0.0);
@@ -96,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn the_integral_over_each_hemisphere_is_the_one_that_lights_are_calibrated_by() {
+    fn hemisphere_integrals_match_the_calibrated_values() {
         for (normal, expected) in [
             ([0.0, 1.0, 0.0], 1.01),
             ([0.0, -1.0, 0.0], 0.21),
@@ -113,14 +114,14 @@ mod tests {
     }
 
     #[test]
-    fn a_mirror_sees_contrast() {
+    fn a_mirror_reflects_contrast() {
         let radiances = || sphere(5000).map(|direction| studio_radiance(direction)[0]);
         let (least, most) = radiances()
             .fold((f32::MAX, 0.0), |(least, most): (f32, f32), radiance| {
                 (least.min(radiance), most.max(radiance))
             });
         assert!(most > 15.0 * least && most < 2.2, "{least} {most}");
-        // The floor begins at the horizon.
+        // The floor starts at the horizon.
         assert!(studio_radiance([0.0, 0.1, 1.0])[0] > 1.8 * studio_radiance([0.0, -0.1, 1.0])[0]);
     }
 }

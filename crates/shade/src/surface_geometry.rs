@@ -3,15 +3,15 @@
 //! ```text
 //!        v   n           v  unit vector to the viewer
 //!         ╲ │            n  shading normal on the visible side: interpolated from the
-//!          ╲│               vertices (Phong 1975), or that of the triangle
+//!          ╲│               vertices (Phong 1975), or the triangle's normal
 //!   ────────●──────      ●  position in the world
 //! ```
 //!
 //! Normals in the file may be missing (triangles are then flat), cancel out between vertices (the
-//! face normal is then used), or point away from the viewer.
+//! face normal is then used) or point away from the viewer.
 //!
-//! Whether a face is back-facing depends on its triangle's normal. The interpolated normal may
-//! correctly lean away from the viewer near the silhouette of a body.
+//! Whether a face is a back face depends on its triangle's normal. Near a silhouette, the
+//! interpolated normal may legitimately point away from the viewer.
 
 mod normal_mapping;
 
@@ -26,9 +26,9 @@ use normal_mapping::apply_normal_map;
 
 /// The surfaces at some fragments, relative to the viewer.
 ///
-/// All vectors are in the world. The geometry with smooth normals is used for shadows, ambient
-/// occlusion and a clearcoat without a normal map; the one with mapped normals for the rest of the
-/// BRDF.
+/// All vectors are in world space. The geometry with smooth normals is used for shadows, ambient
+/// occlusion and a clearcoat without a normal map; the geometry with mapped normals is used for the
+/// rest of the BRDF.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SurfaceGeometry<const N: usize> {
     /// The positions in the world.
@@ -37,7 +37,7 @@ pub(super) struct SurfaceGeometry<const N: usize> {
     pub(super) views: Vec3Lanes<N>,
     /// The unit shading normals on the visible side.
     pub(super) normals: Vec3Lanes<N>,
-    /// Whether the visible side is the back.
+    /// Whether the visible side is the back face.
     is_back_facing: Mask<N>,
     /// n·v, not below 0.
     pub(super) n_dot_v: Lanes<N>,
@@ -46,7 +46,7 @@ pub(super) struct SurfaceGeometry<const N: usize> {
 }
 
 impl<const N: usize> SurfaceGeometry<N> {
-    /// Surfaces with unit normals that are already on the visible side.
+    /// Creates surfaces with unit normals that are already on the visible side.
     #[inline(always)]
     pub(super) fn new(
         positions: Vec3Lanes<N>,
@@ -59,7 +59,7 @@ impl<const N: usize> SurfaceGeometry<N> {
         Self { positions, views, normals, is_back_facing, n_dot_v, normal_variation }
     }
 
-    /// Computes the surfaces with the normals of a normal map. On a back face the whole frame of
+    /// Returns the surfaces with the normals of a normal map. On a back face, the whole frame of
     /// tangent, bitangent and normal is flipped.
     #[inline(always)]
     pub(super) fn with_tangent_normal(
@@ -76,7 +76,7 @@ impl<const N: usize> SurfaceGeometry<N> {
 }
 
 impl Draw<'_> {
-    /// Returns the positions of each fragment's vertices in the world.
+    /// Returns the world positions of each fragment's vertices.
     #[inline(always)]
     pub(super) fn vertex_positions<const N: usize>(
         &self,
@@ -85,7 +85,7 @@ impl Draw<'_> {
         vertices.fetch_attributes(&self.vertices, POSITION)
     }
 
-    /// Interpolates the positions of fragments in the world.
+    /// Interpolates the world positions of fragments.
     #[inline(always)]
     pub(super) fn interpolate_positions<const N: usize>(
         &self,
@@ -95,8 +95,8 @@ impl Draw<'_> {
         interpolate(&self.vertex_positions(vertices), &fragments.weights()).into()
     }
 
-    /// Interpolates the unit normals on the front side, and how much they vary from pixel to pixel;
-    /// for a flat draw, the constant normals of the triangles.
+    /// Interpolates the unit normals on the front side, and computes how much they vary from pixel
+    /// to pixel. For a flat draw, returns the constant normals of the triangles.
     #[inline(always)]
     pub(super) fn interpolate_normals<const N: usize>(
         &self,
@@ -109,8 +109,8 @@ impl Draw<'_> {
         if self.is_smooth {
             let attributes = vertices.fetch_attributes::<_, 3>(&self.vertices, NORMAL);
             normals = interpolate(&attributes, &fragments.weights()).into();
-            // The lengths shrink where normals diverge; the derivatives belong to the unnormalized
-            // vectors.
+            // The lengths shrink where normals diverge; the derivatives are those of the
+            // unnormalized vectors.
             let squares = normals.dot(normals);
             let steps = [
                 interpolate(&attributes, &fragments.weights_dx()).into(),
@@ -147,14 +147,14 @@ impl Draw<'_> {
         }
     }
 
-    /// Computes the normals of triangles with these vertices, on their front side; their length is
+    /// Computes the normals of triangles with these vertices on their front side, with a length of
     /// twice the area.
     #[inline(always)]
     pub(super) fn face_normals<const N: usize>(
         &self,
         positions: &Attributes<N, 3>,
     ) -> Vec3Lanes<N> {
-        // Cross product of two edges, right-handed for counterclockwise front faces.
+        // The cross product of two edges, right-handed for counter-clockwise front faces.
         let [a, b, c] = *positions;
         let (a, b, c) = (Vec3Lanes::from(a), Vec3Lanes::from(b), Vec3Lanes::from(c));
         let sign = if self.flips_winding { -1.0 } else { 1.0 };
@@ -162,28 +162,28 @@ impl Draw<'_> {
     }
 }
 
-/// Normalizes vectors, given their squared lengths; returns whether all have a direction: none is
-/// too short or too long.
+/// Normalizes vectors, given their squared lengths. Returns whether all have a direction, that is,
+/// none is too short or too long.
 #[inline(always)]
 fn normalize_vectors<const N: usize>(vectors: &mut Vec3Lanes<N>, squares: Lanes<N>) -> bool {
     let lengths = squares.sqrt();
     *vectors = *vectors * (1.0 / lengths);
     let mut have_directions = true;
-    // Not `all`, which would branch at each lane.
+    // Do not use `all`, which would branch at each lane.
     for length in lengths.0 {
         have_directions &= length > 0.0 && length < f32::INFINITY;
     }
     have_directions
 }
 
-/// Computes the angle in radians between unit normals and the normals at the next pixels, at most
-/// 1.
+/// Computes the angle in radians, at most 1, between unit normals and the normals at the next
+/// pixels.
 ///
-/// `squares` are the squared lengths of the interpolated normals, `steps` their derivatives by
-/// column and row: a unit vector turns by the component of a step that is perpendicular to it.
+/// `squares` are the squared lengths of the interpolated normals, and `steps` their derivatives by
+/// column and row. A unit vector turns by the component of a step that is perpendicular to it.
 ///
-/// It increases roughness in the BRDF (geometric specular antialiasing): without it a distant
-/// curved surface would sparkle.
+/// The angle increases roughness in the BRDF (geometric specular antialiasing); without this, a
+/// distant curved surface would sparkle.
 #[inline(always)]
 fn normal_variation<const N: usize>(
     normals: Vec3Lanes<N>,
@@ -197,12 +197,12 @@ fn normal_variation<const N: usize>(
         perpendicular = perpendicular.max_lanes(step.dot(step) - along * along);
     }
     let angles = (perpendicular / squares).sqrt();
-    // NaN, from a normal without direction, also becomes 1.
+    // NaN, from a normal without a direction, also becomes 1.
     angles.map(|angle| if angle < 1.0 { angle } else { 1.0 })
 }
 
-/// Computes the unit vectors from positions to the viewer, a homogeneous point: an eye, or at
-/// infinity the direction of a parallel projection. Zero at the eye itself.
+/// Computes the unit vectors from positions to the viewer, a homogeneous point: the eye or, at
+/// infinity, the direction of a parallel projection. The vector is zero at the eye itself.
 #[inline(always)]
 pub(super) fn view_directions<const N: usize>(
     positions: Vec3Lanes<N>,
@@ -215,7 +215,7 @@ pub(super) fn view_directions<const N: usize>(
     directions * inv_length
 }
 
-/// Finds the faces whose back is visible, from the normals of the triangles.
+/// Finds visible back faces from the normals of the triangles.
 #[inline(always)]
 pub(super) fn find_back_faces<const N: usize>(
     face_normals: Vec3Lanes<N>,

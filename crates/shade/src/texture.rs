@@ -6,7 +6,7 @@
 //!   d/dx d/dy  the texture  it      texels        lerp          straight alpha
 //! ```
 //!
-//! If a pixel covers many texels, the mip level is read in which it covers about one, so that the
+//! If a pixel covers many texels, the mip level in which it covers about one is read, so that the
 //! texture neither shimmers nor costs more than a few fetches.
 
 mod addressing;
@@ -23,14 +23,14 @@ use super::lanes::{Lanes, Rgb};
 pub(super) struct UvLanes<const N: usize> {
     /// u and v, 0 to 1 over the image from its upper left corner.
     pub(super) uv: [Lanes<N>; 2],
-    /// Their derivatives with respect to the pixel's column.
+    /// The derivatives with respect to the pixel's column.
     pub(super) dx: [Lanes<N>; 2],
-    /// Their derivatives with respect to the pixel's row, downward.
+    /// The derivatives with respect to the pixel's row, downward.
     pub(super) dy: [Lanes<N>; 2],
 }
 
 impl<const N: usize> UvLanes<N> {
-    /// One point of the texture everywhere: the coordinates for a mesh without any.
+    /// A single point of the texture everywhere, for meshes without texture coordinates.
     pub(super) const ZERO: Self =
         Self { uv: [Lanes::ZERO; 2], dx: [Lanes::ZERO; 2], dy: [Lanes::ZERO; 2] };
 }
@@ -38,16 +38,16 @@ impl<const N: usize> UvLanes<N> {
 /// Filtered texels at some fragments: linear color with straight alpha.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct TexelLanes<const N: usize> {
-    /// Linear color, not multiplied by alpha.
+    /// The linear color, not multiplied by alpha.
     pub(super) color: Rgb<N>,
-    /// Alpha; 1 if it was not requested.
+    /// Alpha, or 1 if it was not requested.
     pub(super) alpha: Lanes<N>,
 }
 
 impl<const N: usize> TexelLanes<N> {
     pub(super) const ZERO: Self = Self { color: Rgb::ZERO, alpha: Lanes::ZERO };
 
-    /// Linear interpolation of all four channels.
+    /// Interpolates all four channels linearly.
     #[inline(always)]
     fn lerp(self, to: Self, t: Lanes<N>) -> Self {
         Self {
@@ -69,12 +69,12 @@ mod tests {
         Image { width: size, height: size, rgba: (0..size * size).map(texel).collect() }
     }
 
-    /// Computes one fragment, with alpha.
+    /// Samples one fragment, with alpha.
     fn sample(chain: &MipChain<'_>, uvs: [[f32; 2]; 3]) -> [f32; 4] {
         lane(&chain.sample(&uv_lanes(uvs), true, 1), 0)
     }
 
-    /// Coordinates and derivatives of one fragment.
+    /// Returns the coordinates and derivatives of one fragment.
     fn uv_lanes(uvs: [[f32; 2]; 3]) -> UvLanes<1> {
         let [uv, dx, dy] = uvs.map(|uv| uv.map(Lanes::splat));
         UvLanes { uv, dx, dy }
@@ -86,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn a_checker_from_afar_is_gray_in_linear_light() {
+    fn a_distant_checkerboard_is_gray_in_linear_light() {
         let image = checker(16);
         let chain = MipChain::new(&image, Sampler::default(), TexelEncoding::Srgb);
         let uvs = [[0.4, 0.4], [1.0, 0.0], [0.0, 1.0]];
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn linear_filtering_passes_through_texel_centers_and_halves_between() {
+    fn linear_filtering_interpolates_between_texel_centers() {
         let image = Image { width: 2, height: 1, rgba: vec![[0, 0, 0, 0], [255; 4]] };
         let sampler = Sampler { wrap_u: WrapMode::ClampToEdge, ..Sampler::default() };
         let chain = MipChain::new(&image, sampler, TexelEncoding::Srgb);
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn coordinates_that_are_not_finite_read_some_texel() {
+    fn non_finite_coordinates_read_some_texel() {
         let image = checker(4);
         let chain = MipChain::new(&image, Sampler::default(), TexelEncoding::Srgb);
         for u in [f32::NAN, f32::INFINITY, f32::MAX] {
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn eight_samples_at_once_have_the_bits_of_one_by_one() {
+    fn eight_samples_at_once_match_single_samples_bit_for_bit() {
         let texel = |n: u32| [n * 7, n * 31, n * 101, n * 59].map(|code| code as u8);
         let rgba = (0..24 * 16).map(texel).collect();
         let image = Image { width: 24, height: 16, rgba };
@@ -132,7 +132,8 @@ mod tests {
         }
     }
 
-    /// Pixel sizes from a thirtieth of a texel to the whole image, mixed within each eight.
+    /// Tests pixel sizes from a thirtieth of a texel to the whole image, mixed within each group of
+    /// eight.
     fn eight_are_as_one_by_one(chain: &MipChain<'_>) {
         for round in 0..20 {
             let mut uvs = UvLanes::<8>::ZERO;

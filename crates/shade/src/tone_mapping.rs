@@ -2,7 +2,7 @@
 //! ACES, AgX).
 //!
 //! ```text
-//!  display │        ______ Neutral, ACES, AgX: fade towards white
+//!  display │        ______ Neutral, ACES, AgX: fade toward white
 //!        1 │      ╱──────── None: clipped
 //!          │    ╱
 //!          │  ╱                       light = radiance · 2^EV
@@ -10,27 +10,27 @@
 //! ```
 //!
 //! Each fragment is tone mapped separately, before the samples of a pixel are averaged. Edges
-//! against bright light stay smooth and backgrounds keep their colors. A transparent picture
-//! composited over a color equals the opaque one over that color.
+//! against bright light stay smooth, and backgrounds keep their colors. A transparent picture
+//! composited over a color equals the opaque picture with that background.
 //!
-//! All three curves take linear sRGB and return linear sRGB: encoding to the picture's codes comes
-//! later. The input is unbounded above, and the output is at most 1.
+//! All three curves convert linear sRGB to linear sRGB; the codes of the picture are encoded later.
+//! The input has no upper bound, and the output is at most 1.
 
 use super::approximations::{exp2_approx, log2_approx};
 use super::color::multiply_matrix;
 use super::lanes::{Lanes, Rgb};
 use crate::kernel_part::kernel_part;
 
-/// The curve that brings light beyond 1 into the range of a display.
+/// The curve that compresses light above 1 into the range of a display.
 ///
-/// The choice is a matter of look: Neutral keeps base colors, ACES adds contrast, AgX fades
-/// saturated highlights to white.
+/// The choice depends on the desired look: Neutral preserves base colors, ACES adds contrast, and
+/// AgX fades saturated highlights to white.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum ToneMapping {
-    /// No curve: light beyond 1 is clipped.
+    /// No curve: light above 1 is clipped.
     #[default]
     None,
-    /// Khronos PBR Neutral: colors below 0.8 are unchanged, highlights fade to white (Khronos
+    /// Khronos PBR Neutral: colors below 0.8 are unchanged, and highlights fade to white (Khronos
     /// 2024).
     Neutral,
     /// The fit of the ACES reference transforms by Hill (2016).
@@ -39,10 +39,10 @@ pub enum ToneMapping {
     AgX,
 }
 
-/// Exposure and tone curve.
+/// The exposure and the tone curve.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ToneMapper {
-    /// The factor of light: 2 to the power of the exposure value.
+    /// The factor for light: 2 to the power of the exposure value.
     pub exposure: f32,
     /// The curve.
     pub curve: ToneMapping,
@@ -61,7 +61,7 @@ impl ToneMapper {
         Self { exposure: libm::exp2(exposure_ev) as f32, curve }
     }
 
-    /// Maps linear light to linear display colors. Without a curve they may be above 1.
+    /// Maps linear light to linear display colors, which may be above 1 if there is no curve.
     ///
     /// Exposure is applied first. Negative light, which filtering may produce, becomes 0 under a
     /// curve.
@@ -89,15 +89,15 @@ impl ToneMapper {
     }
 }
 
-/// Khronos PBR Neutral tone mapper, as specified.
+/// Applies the Khronos PBR Neutral tone mapper, as specified.
 ///
 /// ```text
-///  color' = color − offset            offset = 0.04 where the least channel is above 0.08
+///  color' = color − offset            offset = 0.04 if the smallest channel is above 0.08
 ///  peak'  = 1 − d² / (peak + d − s)   s = 0.8 − 0.04, d = 1 − s, for peaks above s
 ///  result = mix(color' · peak' / peak, peak', 1 − 1 / (0.15 (peak − peak') + 1))
 /// ```
 ///
-/// Below the start of compression the curve is the identity minus the offset.
+/// Below the start of compression, the curve is the identity minus the offset.
 #[inline(always)]
 fn khronos_neutral<const N: usize>(light: Rgb<N>) -> Rgb<N> {
     /// The start of highlight compression: 0.8 minus the reflectance of dielectrics.
@@ -108,7 +108,7 @@ fn khronos_neutral<const N: usize>(light: Rgb<N>) -> Rgb<N> {
     let is_dark = least.is_below(0.08);
     let offset = (least - 6.25 * least * least).select(&is_dark, Lanes::splat(0.04));
     let color = light.map(|channel| channel - offset);
-    // Compress the peak hyperbolically, and fade to white.
+    // Compress the peak hyperbolically and fade to white.
     let peak = color.max_channel();
     let headroom = 1.0 - START;
     let compressed = 1.0 - headroom * headroom / (peak + headroom - START);
@@ -121,7 +121,7 @@ fn khronos_neutral<const N: usize>(light: Rgb<N>) -> Rgb<N> {
     })
 }
 
-/// sRGB to the primaries of the ACES fit, including the saturation of its reference rendering
+/// From sRGB to the primaries of the ACES fit, including the saturation of its reference rendering
 /// transform.
 const SRGB_TO_ACES: [[f32; 3]; 3] =
     [[0.59719, 0.35458, 0.04823], [0.07600, 0.90834, 0.01566], [0.02840, 0.13383, 0.83777]];
@@ -129,16 +129,16 @@ const SRGB_TO_ACES: [[f32; 3]; 3] =
 const ACES_TO_SRGB: [[f32; 3]; 3] =
     [[1.60475, -0.53108, -0.07367], [-0.10208, 1.10813, -0.00605], [-0.00327, -0.07276, 1.07602]];
 
-/// ACES filmic tone mapping: reference rendering and output transform, fitted by a rational
-/// function between two matrices (Hill 2016).
+/// Applies ACES filmic tone mapping: the reference rendering and output transforms, fitted by a
+/// rational function between two matrices (Hill 2016).
 ///
-/// Both matrices combine the change of primaries and of saturation; each channel is a quotient of
-/// quadratics.
+/// Both matrices combine a change of primaries with a change of saturation; each channel is a
+/// quotient of quadratics.
 #[inline(always)]
 fn aces_filmic<const N: usize>(Rgb { r, g, b }: Rgb<N>) -> Rgb<N> {
     let [r, g, b] = multiply_matrix(&SRGB_TO_ACES, [r, g, b]);
     let mapped = Rgb { r, g, b }.map(|x| {
-        // Clamped, because the squares of very bright light would be infinite, and their quotient
+        // Clamp, because the squares of very bright light would be infinite, and their quotient
         // NaN.
         let x = x.min(1e9);
         let numerator = x * (x + 0.024_578_6) - 0.000_090_537;
@@ -148,36 +148,36 @@ fn aces_filmic<const N: usize>(Rgb { r, g, b }: Rgb<N>) -> Rgb<N> {
     Rgb { r, g, b }.map(|channel| channel.clamp(0.0, 1.0))
 }
 
-/// sRGB to AgX's inset primaries.
+/// From sRGB to the inset primaries of AgX.
 const SRGB_TO_AGX: [[f32; 3]; 3] = [
     [0.842_479_1, 0.078_433_6, 0.079_223_8],
     [0.042_328_3, 0.878_468_6, 0.079_166_1],
     [0.042_375_7, 0.078_433_6, 0.879_143],
 ];
-/// AgX's inset primaries back to sRGB.
+/// From the inset primaries of AgX back to sRGB.
 const AGX_TO_SRGB: [[f32; 3]; 3] = [
     [1.196_879, -0.098_020_9, -0.099_029_7],
     [-0.052_896_9, 1.151_903_1, -0.098_961_2],
     [-0.052_971_6, -0.098_043_5, 1.151_073_7],
 ];
 
-/// AgX tone mapping: a sigmoid over the logarithm of light in inset primaries (Sobotka 2022),
+/// Applies AgX tone mapping: a sigmoid of the logarithm of light in inset primaries (Sobotka 2022),
 /// fitted by a polynomial (Wrensch 2023).
 ///
-/// 16.5 stops are mapped to [0, 1]. Channels mix through the inset, so saturated bright light fades
-/// to white naturally.
+/// 16.5 stops are mapped to [0, 1]. The inset mixes channels, so saturated bright light naturally
+/// fades to white.
 #[inline(always)]
 fn agx_tone_map<const N: usize>(Rgb { r, g, b }: Rgb<N>) -> Rgb<N> {
     let [r, g, b] = multiply_matrix(&SRGB_TO_AGX, [r, g, b]);
     let mapped = Rgb { r, g, b }.map(agx_sigmoid);
     let [r, g, b] = multiply_matrix(&AGX_TO_SRGB, [mapped.r, mapped.g, mapped.b]);
-    // The curve yields codes for a display with gamma 2.2; a picture needs linear light.
+    // The curve yields codes for a display with gamma 2.2, but a picture needs linear light.
     Rgb { r, g, b }.map(|code| {
         code.clamp(0.0, 1.0).max(f32::MIN_POSITIVE).map(|code| exp2_approx(2.2 * log2_approx(code)))
     })
 }
 
-/// Computes the AgX curve from light to codes: a polynomial of the logarithm.
+/// Computes the AgX curve from light to codes, a polynomial of the logarithm.
 #[inline(always)]
 fn agx_sigmoid<const N: usize>(light: Lanes<N>) -> Lanes<N> {
     /// The range of light in stops.
@@ -188,7 +188,7 @@ fn agx_sigmoid<const N: usize>(light: Lanes<N>) -> Lanes<N> {
     let x = (stops - MIN_EV) / (MAX_EV - MIN_EV);
     let square = x * x;
     let fourth = square * square;
-    // The sigmoid, a polynomial of degree six.
+    // The sigmoid is a polynomial of degree six.
     15.5 * fourth * square - 40.14 * fourth * x + 31.96 * fourth - 6.868 * square * x
         + 0.4298 * square
         + 0.1191 * x
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn neutral_keeps_colors_but_for_the_reflection_of_dielectrics() {
+    fn neutral_preserves_colors_except_for_dielectric_reflection() {
         for light in [[0.5, 0.3, 0.2], [0.7, 0.7, 0.7], [0.2, 0.09, 0.5]] {
             let actual = tone_mapped(ToneMapping::Neutral, light);
             assert!((0..3).all(|k| (actual[k] - (light[k] - 0.04)).abs() < 1e-6), "{actual:?}");
@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn curves_rise_and_stay_in_range() {
+    fn curves_increase_and_stay_in_range() {
         for curve in [ToneMapping::Neutral, ToneMapping::Aces, ToneMapping::AgX] {
             assert!(tone_mapped(curve, [0.0; 3]).iter().all(|c| *c < 0.01), "{curve:?}");
             let mut last = 0.0;

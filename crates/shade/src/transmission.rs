@@ -6,15 +6,15 @@
 //!              glass      tint = base color · attenuation color ^ (thickness / distance)
 //! ```
 //!
-//! Smooth thin sheets let light pass straight through: any number of them is blended over the
+//! Smooth thin sheets let light pass straight through, and any number of them is blended over the
 //! objects behind. If thickness refracts the light or roughness scatters it, a surface shows the
-//! [`TransmissionFramebuffer`] instead, and hides the objects behind it: opaque surfaces are
-//! visible through it, other glass and blended surfaces are not.
+//! [`TransmissionFramebuffer`] instead and hides the objects behind it. Opaque surfaces are visible
+//! through it; other glass and blended surfaces are not.
 //!
-//! Red, green and blue have separate transmittances. A fragment still has a single alpha, above all
+//! Red, green and blue have separate transmittances. A fragment still has a single alpha, mainly
 //! for transparent backgrounds: the alpha of a gray with the luminance of the tint. A transparent
-//! picture of tinted glass therefore shows that gray when it is composited over something; objects
-//! drawn together with the glass are tinted.
+//! picture of tinted glass therefore shows that gray when it is composited over another picture,
+//! but objects drawn together with the glass are tinted.
 
 mod framebuffer;
 mod mip_levels;
@@ -27,17 +27,17 @@ use super::lanes::{Lanes, Rgb, map_to_lanes};
 use super::material_inputs::MaterialInputs;
 use model::MaterialExtensions;
 
-/// The light that passes through the surface of a draw, regardless of its origin.
+/// The share of light that passes through the surface of a draw, regardless of the light's origin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TransmittedShare<const N: usize> {
-    /// The fraction that neither the interface nor the material blocks.
+    /// The fraction of light that neither the interface nor the material blocks.
     fraction: Lanes<N>,
     /// The color of white light after passing through.
     tint: Rgb<N>,
 }
 
 impl<const N: usize> TransmittedShare<N> {
-    /// Creates the share of a surface that lets through this fraction of the light, tinted by the
+    /// Creates the share for a surface that lets through this fraction of the light, tinted by the
     /// material.
     #[inline(always)]
     pub(super) fn new(draw: &Draw<'_>, inputs: &MaterialInputs<N>, fraction: Lanes<N>) -> Self {
@@ -45,13 +45,13 @@ impl<const N: usize> TransmittedShare<N> {
         Self { fraction, tint }
     }
 
-    /// Computes the factors of light from behind, by channel.
+    /// Returns the factors for light from behind, by channel.
     #[inline(always)]
     pub(super) fn color(&self) -> Rgb<N> {
         self.tint * self.fraction
     }
 
-    /// Computes the factor of white light from behind: the luminance of the tint.
+    /// Returns the factor for white light from behind, which is the luminance of the tint.
     #[inline(always)]
     pub(super) fn gray(&self) -> Lanes<N> {
         (self.fraction * luminance(self.tint)).clamp(0.0, 1.0)
@@ -66,11 +66,11 @@ impl<const N: usize> TransmittedShare<N> {
         alpha: Lanes<N>,
     ) -> [Lanes<N>; 3] {
         let mut transmittance = [1.0 - alpha; 3];
-        // Undo the gray of alpha, then tint each channel.
+        // Undo the gray in alpha, then tint each channel.
         let white = (coverage - alpha) / luminance(self.tint);
         for lane in 0..N {
             let [r, g, b] = self.tint.lane(lane);
-            // Alpha already describes a gray tint; a black one leaves nothing to undo.
+            // Alpha already describes a gray tint, and a black tint leaves nothing to undo.
             if white[lane].is_finite() && (r != g || g != b) {
                 for (channel, tint) in transmittance.iter_mut().zip([r, g, b]) {
                     channel[lane] = (1.0 - coverage[lane] + white[lane] * tint).clamp(0.0, 1.0);
@@ -85,8 +85,8 @@ impl<const N: usize> TransmittedShare<N> {
 ///
 /// `world_scale` is the scale from the mesh, whose units the thickness uses, to the world.
 ///
-/// Beer-Lambert: transmittance over a length d is attenuation color ^ (d / attenuation distance),
-/// so that white light has the attenuation color after one attenuation distance.
+/// By the Beer-Lambert law, the transmittance over a length d is attenuation color ^ (d /
+/// attenuation distance), so white light has the attenuation color after one attenuation distance.
 #[inline(always)]
 fn transmission_tint<const N: usize>(
     extensions: &MaterialExtensions,

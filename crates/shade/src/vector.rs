@@ -1,8 +1,9 @@
-//! Vectors of three `f32`, for computations on a single position or direction.
+//! Vectors of three `f32`, for computations with a single position or direction.
 //!
-//! A vector without length has no direction, and each function handles it differently:
-//! [`normalize`] expects none, [`normalize_or_zero`] returns zero, [`try_normalize`] returns
-//! `None`. All three divide by the length; multiplying by its inverse would give other bits.
+//! A vector of zero length has no direction, and each function handles it differently:
+//! [`normalize`] does not expect it, [`normalize_or_zero`] returns zero, and [`try_normalize`]
+//! returns `None`. All three divide by the length; multiplying by the inverse would give different
+//! bits.
 
 /// Computes the dot product.
 #[inline(always)]
@@ -16,25 +17,25 @@ pub(crate) fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// a − b.
+/// Computes a − b.
 #[inline(always)]
 pub(crate) fn subtract(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-/// Computes the unit vector of a vector with nonzero length; NaN for zero length.
+/// Normalizes a vector of nonzero length. The result is NaN for zero length.
 pub(crate) fn normalize(vector: [f32; 3]) -> [f32; 3] {
     let length = dot(vector, vector).sqrt();
     vector.map(|c| c / length)
 }
 
-/// Computes the unit vector, or zero for a vector of length 0.
+/// Normalizes a vector, or returns zero for a vector of length 0.
 pub(crate) fn normalize_or_zero(vector: [f32; 3]) -> [f32; 3] {
     let length = dot(vector, vector).sqrt();
     if length > 0.0 { vector.map(|c| c / length) } else { [0.0; 3] }
 }
 
-/// Computes the unit vector. Returns `None` for a vector too short or too long to have a direction.
+/// Normalizes a vector. Returns `None` if it is too short or too long to have a direction.
 pub(crate) fn try_normalize(vector: [f32; 3]) -> Option<[f32; 3]> {
     let length = dot(vector, vector).sqrt();
     (length > 0.0 && length.is_finite()).then(|| vector.map(|c| c / length))
@@ -45,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_vector_without_length_is_answered_as_each_name_says() {
+    fn zero_vectors_are_handled_as_each_name_says() {
         assert!(normalize([0.0; 3]).iter().all(|c| c.is_nan()));
         assert_eq!(normalize_or_zero([0.0; 3]), [0.0; 3]);
         assert_eq!(try_normalize([0.0; 3]), None);

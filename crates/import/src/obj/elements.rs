@@ -1,15 +1,15 @@
-//! Elements of an OBJ file: points, lines and polygons as lists of vertex references, with their
-//! state.
+//! Elements of an OBJ file: points, lines and polygons as lists of vertex references with state.
 
 use model::Topology;
 
 /// Marks missing texture coordinates or a missing normal of a corner.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// A corner of an element: indices of its position, texture coordinates and normal, starting at 0.
+/// A corner of an element: the indices of its position, texture coordinates and normal, starting at
+/// 0.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Corner {
-    /// Index of the position; may be out of range until the whole file has been read.
+    /// Index of the position, which may be out of range until the whole file has been read.
     pub(super) position: u32,
     /// Index of the texture coordinates, or [`NONE`].
     pub(super) uv: u32,
@@ -22,19 +22,19 @@ pub(super) struct Corner {
 pub(super) struct ElementState {
     /// Points, lines or polygons.
     pub(super) topology: Topology,
-    /// The object and group, an index of [`ObjFile::groups`](super::parser::ObjFile::groups).
+    /// The object and group, as an index into [`ObjFile::groups`](super::parser::ObjFile::groups).
     pub(super) group: u32,
-    /// The material, an index of
+    /// The material, as an index into
     /// [`ObjFile::material_names`](super::parser::ObjFile::material_names).
     pub(super) material: Option<u32>,
-    /// The smoothing group; 0 for none.
+    /// The smoothing group, or 0 for none.
     pub(super) smoothing: u32,
 }
 
 /// Consecutive elements with the same state.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ElementRun {
-    /// Index of the first element; the run ends where the next one begins.
+    /// Index of the first element; the run ends where the next run begins.
     pub(super) first: usize,
     /// The state of these elements.
     pub(super) state: ElementState,
@@ -45,14 +45,14 @@ pub(super) struct ElementRun {
 pub(super) struct Elements {
     /// The corners of all elements, one element after another.
     pub(super) corners: Vec<Corner>,
-    /// For each element, the end of its corners.
+    /// The end of each element's corners.
     pub(super) ends: Vec<u32>,
     /// Runs of elements with the same state.
     pub(super) runs: Vec<ElementRun>,
 }
 
 impl Elements {
-    /// Makes an element from the corners pushed since the last one.
+    /// Creates an element from the corners pushed since the last element.
     pub(super) fn finish_element(&mut self, state: ElementState) {
         if self.runs.last().is_none_or(|run| run.state != state) {
             self.runs.push(ElementRun { first: self.ends.len(), state });
@@ -60,7 +60,7 @@ impl Elements {
         self.ends.push(self.corners.len() as u32);
     }
 
-    /// Returns the corners of an element, as a range.
+    /// Returns the range of an element's corners.
     pub(super) fn corner_range(&self, element: usize) -> std::ops::Range<usize> {
         let start = element.checked_sub(1).map_or(0, |before| self.ends[before]);
         start as usize..self.ends[element] as usize

@@ -1,4 +1,4 @@
-//! Counts of errors that do not affect the shape of a model: each kind is reported once, with the
+//! Counts errors that do not affect the shape of a model. Each kind is reported once, with the
 //! location of the first.
 
 use super::elements::NONE;
@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// Maximum number of different statements that warnings name.
 const MAX_NAMED_STATEMENTS: usize = 16;
 
-/// Number of occurrences of each kind of error.
+/// The number of occurrences of each kind of error.
 #[derive(Default)]
 pub(super) struct FaultCounts<'a> {
     /// Elements with too few vertices.
@@ -22,11 +22,11 @@ pub(super) struct FaultCounts<'a> {
     pub(super) broken_uvs: Occurrences,
     /// Statements that are not read, by name.
     statements: BTreeMap<&'a [u8], Occurrences>,
-    /// Statements beyond [`MAX_NAMED_STATEMENTS`].
+    /// Other statements, beyond [`MAX_NAMED_STATEMENTS`].
     further_statements: Occurrences,
 }
 
-/// Number of occurrences and offset of the first; 0 if it has no location.
+/// The number of occurrences, and the offset of the first, or 0 if it has no location.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Occurrences {
     count: usize,
@@ -42,7 +42,7 @@ impl Occurrences {
         self.count += 1;
     }
 
-    /// Counts an attribute that does not exist, and returns the index for a missing one.
+    /// Counts an attribute that does not exist, and returns the index for missing attributes.
     pub(super) fn count_none(&mut self, offset: usize) -> u32 {
         self.count_at(offset);
         NONE
@@ -59,7 +59,7 @@ impl<'a> FaultCounts<'a> {
         }
     }
 
-    /// One warning for each kind, in the order of the file.
+    /// Adds one warning for each kind, in file order.
     pub(super) fn report(&self, lines: &mut LineCounter<'_>, warnings: &mut ImportWarnings) {
         let kinds = [
             (

@@ -1,25 +1,26 @@
-//! Converts materials of MTL libraries to metallic-roughness shading.
+//! Converts materials from MTL libraries to metallic-roughness materials.
 //!
 //! | MTL | material |
 //! | --- | --- |
-//! | `Kd`, `Ke` | base color and emission, sRGB decoded; an emission above 1 has a strength |
+//! | `Kd`, `Ke` | base color and emission, sRGB decoded; an emission above 1 is scaled and gets a
+//! strength |
 //! | `Ns` | α² = 2 / (Ns + 2) |
-//! | `Ks` | reflectance at normal incidence 0.08 Ks; none for 0 |
-//! | `Kd` below 0.04, `Ks` not | a metal of the color `Ks` |
-//! | `illum` 0, 1 | unlit; matte without reflections |
+//! | `Ks` | reflectance 0.08 Ks at normal incidence; none for 0 |
+//! | `Kd` below 0.04, `Ks` above | a metal with the color `Ks` |
+//! | `illum` 0, 1 | 0: unlit; 1: matte without reflections |
 //! | `d`, else 1 − `Tr` | alpha |
 //! | `Ni` | index of refraction, for the reflectance of metallic-roughness materials |
-//! | `Pr`, `Pm`, `Ps`, `Pc`, `Pcr`, `aniso`, `anisor` | used as they are, without `Ns`, `Ks` |
+//! | `Pr`, `Pm`, `Ps`, `Pc`, `Pcr`, `aniso`, `anisor` | used unchanged, instead of `Ns` and `Ks` |
 //!
 //! Black `Kd` and `Ke` become white if a texture multiplies them.
 //!
-//! Files do not specify how colors are encoded. They are picked on screens and were shown
-//! unconverted by the programs of their time, so they are sRGB.
+//! Files do not specify how colors are encoded. Users picked them on screens, and the programs of
+//! the time displayed them without conversion, so they are sRGB.
 //!
-//! `Ns` is the exponent of Blinn's distribution of half vectors. Beckmann's and GGX's distributions
+//! `Ns` is the exponent of Blinn's distribution of half vectors. The Beckmann and GGX distributions
 //! with α² = 2 / (Ns + 2) approximate it (B. Walter et al., *Microfacet Models for Refraction
 //! through Rough Surfaces*, 2007, §5.2); the roughness is √α. The reflectance follows Blender,
-//! whose exporter writes `Ks` 0.5 for the 4 % of most dielectrics.
+//! whose exporter writes `Ks` 0.5 for the 4% reflectance of most dielectrics.
 
 use super::mtl::MtlMaterial;
 use super::phong::{PhongMaterial, color_beside_texture, double_sided_matte, linear_color};
@@ -28,7 +29,7 @@ use super::textures::TextureTable;
 use gltf_import::ImportWarnings;
 use model::{AlphaMode, Anisotropy, Clearcoat, Emission, Material, NormalTexture, Sheen};
 
-/// Converts a material of a library. The textures it needs are added to the table.
+/// Converts a material from a library. The textures it needs are added to the table.
 pub(super) fn to_material<'a>(
     mtl: &MtlMaterial<'a>,
     textures: &mut TextureTable<'a>,
@@ -53,7 +54,7 @@ pub(super) fn to_material<'a>(
     material
 }
 
-/// Sets the emission; a color above 1 becomes one of at most 1 with a strength.
+/// Sets the emission. A color above 1 becomes a color of at most 1 with a strength.
 fn set_emission(material: &mut Material, mtl: &MtlMaterial<'_>) {
     let color = color_beside_texture(mtl.emission, mtl.has_texture("map_Ke"), [0.0; 3]);
     let strength = color.into_iter().fold(1.0, f32::max);
@@ -62,8 +63,7 @@ fn set_emission(material: &mut Material, mtl: &MtlMaterial<'_>) {
     material.emissive = material.emission.scaled_color();
 }
 
-/// Applies the keys of metallic-roughness materials. A texture multiplies a factor of 1 if none is
-/// given.
+/// Applies the keys of metallic-roughness materials. With a texture, a missing factor is 1.
 fn set_metallic_roughness(material: &mut Material, mtl: &MtlMaterial<'_>) {
     let factor = |key: &str, map: &str, default: f32| {
         mtl.unit_number(key).unwrap_or(if mtl.has_texture(map) { 1.0 } else { default })
@@ -94,7 +94,7 @@ fn set_layers(material: &mut Material, mtl: &MtlMaterial<'_>) {
     }
 }
 
-/// Enables blending for translucent materials, and warns of invisible ones.
+/// Enables blending for translucent materials, and warns about invisible materials.
 fn set_alpha_mode(material: &mut Material, mtl: &MtlMaterial<'_>, warnings: &mut ImportWarnings) {
     let name = String::from_utf8_lossy(mtl.name);
     if material.base_color[3] == 0.0 {
@@ -128,12 +128,12 @@ fn set_textures<'a>(
 }
 
 impl MtlMaterial<'_> {
-    /// Returns the number of a keyword.
+    /// Returns the number for a keyword.
     fn number(&self, key: &str) -> Option<f32> {
         self.numbers.get(key).copied()
     }
 
-    /// Returns the number of a keyword, clamped to [0, 1].
+    /// Returns the number for a keyword, clamped to [0, 1].
     fn unit_number(&self, key: &str) -> Option<f32> {
         self.number(key).map(|number| number.clamp(0.0, 1.0))
     }

@@ -1,4 +1,4 @@
-//! Parser of material libraries (MTL).
+//! A parser for material libraries (MTL).
 //!
 //! Sources: Alias|Wavefront, *MTL material format*, Advanced Visualizer manual; for `Pr`, `Pm`,
 //! `Ps`, `Pc`, `Pcr`, `aniso`, `anisor` and `norm`: *Extending Wavefront MTL for Physically-Based
@@ -9,7 +9,7 @@ use crate::text::{LineCounter, Token, parse_f32};
 use gltf_import::ImportWarnings;
 use std::collections::BTreeMap;
 
-/// A material as described in the library; `None` for anything it does not specify.
+/// A material as described in the library, with `None` for anything it does not specify.
 #[derive(Clone, Debug, Default)]
 pub(super) struct MtlMaterial<'a> {
     /// The name after `newmtl`.
@@ -20,13 +20,13 @@ pub(super) struct MtlMaterial<'a> {
     pub(super) specular: Option<[f32; 3]>,
     /// Emitted light, `Ke`.
     pub(super) emission: Option<[f32; 3]>,
-    /// Single numbers by keyword: `Ns`, `Ni`, `d`, `Tr`, `illum`, `Pr` …; only the supported ones.
+    /// Single numbers by supported keyword: `Ns`, `Ni`, `d`, `Tr`, `illum`, `Pr` ….
     pub(super) numbers: BTreeMap<&'static str, f32>,
-    /// Textures by keyword, with one spelling for each.
+    /// Textures by normalized keyword.
     pub(super) textures: BTreeMap<&'static str, MtlTexture<'a>>,
 }
 
-/// A texture statement: a file, and options before it.
+/// A texture statement: options, followed by a file name.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct MtlTexture<'a> {
     /// Name of the file.
@@ -35,7 +35,7 @@ pub(super) struct MtlTexture<'a> {
     pub(super) offset: [f32; 2],
     /// Scale of the texture coordinates, `-s u v`.
     pub(super) scale: [f32; 2],
-    /// Whether it does not repeat, `-clamp on`.
+    /// Whether the texture does not repeat, `-clamp on`.
     pub(super) is_clamped: bool,
     /// Strength of a bump or normal map, `-bm`.
     pub(super) bump: f32,
@@ -47,7 +47,8 @@ pub(super) struct MtlTexture<'a> {
 const NUMBERS: [&str; 12] =
     ["Ns", "Ni", "d", "Tr", "illum", "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor"];
 
-/// Keywords for textures, each with its normalized spelling. Those with an empty one are not read.
+/// Keywords for textures with their normalized spelling, which is empty for keywords that are not
+/// read.
 const TEXTURES: [(&str, &str); 23] = [
     ("map_kd", "map_Kd"),
     ("map_d", "map_d"),
@@ -74,7 +75,8 @@ const TEXTURES: [(&str, &str); 23] = [
     ("decal", ""),
 ];
 
-/// Statements without effect here: the scene sets the ambient light, and the renderer the filters.
+/// Statements without effect, because the scene sets the ambient light and the renderer the
+/// filters.
 const IGNORED: [&str; 5] = ["Ka", "map_Ka", "map_aat", "sharpness", "Tf"];
 
 /// Parses a material library; `name` precedes the locations of warnings.
@@ -102,11 +104,11 @@ pub(super) fn parse_mtl<'a>(
     parser.materials
 }
 
-/// The parser with the statements skipped so far.
+/// The parser, with the statements skipped so far.
 struct MtlParser<'a> {
     reader: StatementReader<'a>,
     materials: Vec<MtlMaterial<'a>>,
-    /// Statements and options that are not read: how often, and the offset of the first.
+    /// Statements and options that are not read, with their number and the offset of the first.
     unread: BTreeMap<String, (usize, usize)>,
 }
 
@@ -114,7 +116,7 @@ struct MtlParser<'a> {
 const MAX_NAMED_STATEMENTS: usize = 32;
 
 impl<'a> MtlParser<'a> {
-    /// Reads one statement. Statements before the first `newmtl` belong to no material.
+    /// Reads one statement. Statements before the first `newmtl` do not belong to any material.
     fn read_statement(&mut self, keyword: Token<'a>) {
         if keyword.is_keyword("newmtl") {
             let name = self.reader.rest_of_line().bytes;
@@ -143,7 +145,7 @@ impl<'a> MtlParser<'a> {
         self.unread.entry(what).or_insert((0, offset)).0 += 1;
     }
 
-    /// `Kd r g b`, or `Kd r` for gray. Spectral curves and CIE XYZ are not read.
+    /// Reads `Kd r g b`, or `Kd r` for gray. Spectral curves and CIE XYZ are not supported.
     fn read_color(&mut self, keyword: Token<'a>, set: impl FnOnce(&mut MtlMaterial<'a>, [f32; 3])) {
         let numbers = self.read_numbers::<3>();
         let color = match numbers.as_slice() {
@@ -163,7 +165,7 @@ impl<'a> MtlParser<'a> {
         }
     }
 
-    /// A statement of one number; `d` may have the option `-halo`, which is not read.
+    /// Reads a statement with one number. The option `-halo` of `d` is not supported.
     fn read_number(&mut self, keyword: Token<'a>, name: &'static str) {
         let mut argument = self.reader.next_argument();
         if argument.is_some_and(|token| token.is_keyword("-halo")) {
@@ -199,7 +201,7 @@ impl<'a> MtlParser<'a> {
         numbers
     }
 
-    /// `map_Kd -s 2 2 file name.png`: options, with the rest of the line as file name.
+    /// Reads `map_Kd -s 2 2 file name.png`: options, then the file name in the rest of the line.
     fn read_texture(&mut self, keyword: Token<'a>, name: &'static str) {
         let mut texture = MtlTexture {
             file: keyword,
@@ -215,7 +217,7 @@ impl<'a> MtlParser<'a> {
             let before = self.reader;
             self.reader = ahead;
             if !self.read_option(option, &mut texture) {
-                // A file whose name begins with a minus sign.
+                // A file name that begins with a minus sign.
                 self.reader = before;
                 break;
             }
@@ -231,7 +233,7 @@ impl<'a> MtlParser<'a> {
         }
     }
 
-    /// Reads the arguments of a texture option; `false` if there is no such option.
+    /// Reads the arguments of a texture option. Returns `false` if there is no such option.
     fn read_option(&mut self, option: Token<'a>, texture: &mut MtlTexture<'a>) -> bool {
         let is = |name: &str| option.is_keyword(name);
         if is("-o") || is("-s") || is("-t") {

@@ -1,4 +1,4 @@
-//! Parser of OBJ files: statements become vertex data, elements and names.
+//! A parser for OBJ files, which converts statements to vertex data, elements and names.
 //!
 //! Source: Alias|Wavefront, *Object Files (.obj)*, Appendix B1 of the Advanced Visualizer manual;
 //! vertex colors are an extension by ZBrush and MeshLab.
@@ -12,17 +12,17 @@ use gltf_import::ImportWarnings;
 use model::{Diagnostic, Topology, codes};
 use std::collections::BTreeMap;
 
-/// Statements that do not affect the picture of a polygon mesh.
+/// Statements that do not affect how a polygon mesh is drawn.
 const IGNORED: [&[u8]; 6] =
     [b"lod", b"shadow_obj", b"trace_obj", b"c_interp", b"d_interp", b"bevel"];
 
 /// The content of an OBJ file. Names are slices of its text.
 #[derive(Debug, Default)]
 pub(super) struct ObjFile<'a> {
-    /// Positions; not finite if the statement is broken.
+    /// Positions, not finite if the statement is broken.
     pub(super) positions: Vec<[f32; 3]>,
-    /// Vertex colors as in the file, NaN for missing components; shorter than `positions` if the
-    /// last ones have none.
+    /// Vertex colors as stored in the file, with NaN for missing components. Shorter than
+    /// `positions` if the last vertices have no colors.
     pub(super) colors: Vec<[f32; 4]>,
     /// Texture coordinates, with v pointing up.
     pub(super) uvs: Vec<[f32; 2]>,
@@ -36,18 +36,18 @@ pub(super) struct ObjFile<'a> {
     pub(super) material_names: Vec<&'a [u8]>,
     /// Material libraries.
     pub(super) libraries: Vec<Token<'a>>,
-    /// Vertices that are not three finite numbers: index and offset.
+    /// Vertices that are not three finite numbers, as index and offset.
     pub(super) broken_positions: Vec<(u32, usize)>,
     /// Whether the file has smoothing groups.
     pub(super) has_smoothing: bool,
 }
 
-/// Names of the object and the group of elements; empty for none.
+/// The object and group names of elements, or empty if there are none.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
 pub(super) struct GroupName<'a> {
     /// The object, from `o`.
     pub(super) object: &'a [u8],
-    /// The groups, from `g`: several form one name.
+    /// The groups, from `g`; several groups form one name.
     pub(super) group: &'a [u8],
 }
 
@@ -70,31 +70,31 @@ pub(super) fn parse_obj<'a>(
     parser.finish()
 }
 
-/// The parser with the state at the current statement.
+/// The parser, with the state at the current statement.
 struct ObjParser<'a, 'w> {
     reader: StatementReader<'a>,
     lines: LineCounter<'a>,
     warnings: &'w mut ImportWarnings,
     file: ObjFile<'a>,
-    /// Object and group of the next element.
+    /// The object and group of the next element.
     name: GroupName<'a>,
-    /// Its index, once an element has needed it.
+    /// The index of the name, once an element has used it.
     group: Option<u32>,
-    /// Material of the next element.
+    /// The material of the next element.
     material: Option<u32>,
-    /// Smoothing group of the next element.
+    /// The smoothing group of the next element.
     smoothing: u32,
     group_indices: BTreeMap<GroupName<'a>, u32>,
     material_indices: BTreeMap<&'a [u8], u32>,
-    /// Whether there has been an element, broken or not.
+    /// Whether there has been an element, even a broken one.
     has_elements: bool,
-    /// References to vertices that are not yet defined: element, offset and index.
+    /// References to vertices that are not yet defined, as element, offset and index.
     forward: Vec<(usize, usize, u32)>,
     faults: FaultCounts<'a>,
 }
 
 impl<'a, 'w> ObjParser<'a, 'w> {
-    /// Creates a parser at the beginning of a text.
+    /// Creates a parser at the beginning of the text.
     fn new(text: &'a [u8], warnings: &'w mut ImportWarnings) -> Self {
         Self {
             reader: StatementReader::new(text),
@@ -138,8 +138,8 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         Ok(())
     }
 
-    /// Reads at most `N` numeric arguments, and returns how many there were; missing or broken ones
-    /// are NaN.
+    /// Reads at most `N` numeric arguments, and returns how many there were. Missing or broken
+    /// arguments are NaN.
     #[inline]
     fn read_numbers<const N: usize>(&mut self) -> ([f32; N], usize) {
         let (mut numbers, mut count) = ([f32::NAN; N], 0);
@@ -152,9 +152,9 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         (numbers, count)
     }
 
-    /// `v x y z`, with a weight, or with a color of three or four components.
+    /// Reads `v x y z`, followed by a weight or by a color with three or four components.
     ///
-    /// The weight is for rational curves and does not affect points.
+    /// The weight applies to rational curves and does not affect points.
     fn read_position(&mut self, offset: usize) {
         let (numbers, count) = self.read_numbers::<7>();
         let [x, y, z, r, g, b, a] = numbers;
@@ -169,7 +169,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         }
     }
 
-    /// `vt u v w`; v is 0 if it is missing, w is for 3D textures.
+    /// Reads `vt u v w`. A missing v is 0; w is for 3D textures.
     fn read_uv(&mut self, offset: usize) {
         let ([u, v], count) = self.read_numbers::<2>();
         let uv = [u, if count < 2 { 0.0 } else { v }];
@@ -186,7 +186,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         self.group = None;
     }
 
-    /// `usemtl name`; without a name it selects the default material.
+    /// Reads `usemtl name`. Without a name it selects the default material.
     fn set_material(&mut self) {
         let name = self.reader.rest_of_line().bytes;
         self.material = (!name.is_empty()).then(|| {
@@ -198,7 +198,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         });
     }
 
-    /// `s 1`, `s off` or `s 0`.
+    /// Reads `s 1`, `s off` or `s 0`.
     fn set_smoothing(&mut self) {
         self.file.has_smoothing = true;
         let group = self.reader.next_argument().map(|token| match token.bytes {
@@ -221,7 +221,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         ElementState { topology, group, material: self.material, smoothing: self.smoothing }
     }
 
-    /// `f`, `l` or `p`: an element made of vertex references.
+    /// Reads `f`, `l` or `p`: an element made of vertex references.
     fn read_element(&mut self, offset: usize, topology: Topology) -> Result<(), Diagnostic> {
         self.has_elements = true;
         let start = self.file.elements.corners.len();
@@ -248,7 +248,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         Ok(())
     }
 
-    /// Reports an element that cannot be read; an error unless in lenient mode.
+    /// Reports an element that cannot be read, which is an error except in lenient mode.
     fn leave_out(&mut self, offset: usize, message: String) -> Result<(), Diagnostic> {
         let location = self.lines.locate(offset);
         let help = "export the file again, or load it with --lenient";
@@ -256,7 +256,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         self.warnings.downgrade_if_lenient(fault, "the element is skipped")
     }
 
-    /// Reads a reference to a vertex: `p`, `p/t`, `p//n` or `p/t/n`.
+    /// Reads a vertex reference: `p`, `p/t`, `p//n` or `p/t/n`.
     #[inline]
     fn read_corner(&mut self, token: Token<'a>) -> Result<Corner, String> {
         let mut rest = token.bytes;
@@ -301,7 +301,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         for (element, offset, index) in std::mem::take(&mut self.forward) {
             if index as usize >= count {
                 self.leave_out(offset, missing_vertex(&(u64::from(index) + 1).to_string(), count))?;
-                // Marked for the builder, which skips such elements.
+                // Mark the element for the builder, which skips it.
                 let start = self.file.elements.corner_range(element).start;
                 self.file.elements.corners[start].position = NONE;
             }
@@ -314,7 +314,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         Ok(self.file)
     }
 
-    /// Makes a point of every vertex: a file without elements is a point cloud.
+    /// Creates a point for every vertex, because a file without elements is a point cloud.
     fn make_points(&mut self) {
         let is_finite = |position: &[f32; 3]| position.iter().all(|x| x.is_finite());
         for at in 0..self.file.positions.len() {
@@ -342,8 +342,8 @@ impl<'a, 'w> ObjParser<'a, 'w> {
     }
 }
 
-/// Takes an integer with an optional sign from the beginning of the bytes; `None` if there is none
-/// or it has more than 18 digits.
+/// Consumes an integer with an optional sign at the beginning of the bytes. Returns `None` if it is
+/// missing or has more than 18 digits.
 #[inline]
 fn take_integer(rest: &mut &[u8]) -> Option<i64> {
     let is_negative = rest.first() == Some(&b'-');
@@ -363,8 +363,9 @@ fn take_integer(rest: &mut &[u8]) -> Option<i64> {
     Some(if is_negative { -value } else { value })
 }
 
-/// Converts a reference (from 1, or from −1 for the last of `count`) to an index from 0. `None` if
-/// there can be no such item; one that is not less than `count` may be defined later.
+/// Converts a reference (from 1, or from −1 for the last of `count`) to an index from 0. Returns
+/// `None` if there can be no such item. An item whose index is `count` or more may be defined
+/// later.
 #[inline]
 fn resolve_index(reference: i64, count: usize) -> Option<u32> {
     let index = if reference > 0 { reference - 1 } else { count as i64 + reference };
@@ -375,14 +376,14 @@ fn resolve_index(reference: i64, count: usize) -> Option<u32> {
 /// Returns the message for a reference to a vertex that does not exist.
 fn missing_vertex(reference: &str, count: usize) -> String {
     match (reference, count) {
-        ("0", _) => "there is no vertex 0: the first one is 1".to_owned(),
+        ("0", _) => "there is no vertex 0: the first vertex is 1".to_owned(),
         (_, 0) => format!("there is no vertex {reference}: there are none before this line"),
         (_, 1) => format!("there is no vertex {reference}: there is only one before this line"),
         _ => format!("there is no vertex {reference}: there are {count} before this line"),
     }
 }
 
-/// Returns the message for a word that is not a reference.
+/// Returns the message for a word that is not a vertex reference.
 fn not_a_reference(token: Token<'_>) -> String {
     let word: String = token.to_text().chars().take(32).collect();
     format!("{word:?} is not a reference to a vertex such as 1, 1/2, 1//3 or 1/2/3")

@@ -1,4 +1,4 @@
-//! Parts: the elements of an OBJ file, cut into points, lines and triangles and sorted by group,
+//! Parts: the elements of an OBJ file, split into points, lines and triangles and sorted by group,
 //! material and attributes. Each part becomes a primitive.
 
 use super::elements::{Corner, ElementState, NONE};
@@ -9,15 +9,15 @@ use gltf_import::ImportWarnings;
 use model::{Diagnostic, Topology, codes};
 use std::collections::BTreeMap;
 
-/// Smoothing groups from here on belong to single polygons.
+/// Smoothing groups from this number on belong to single polygons.
 pub(super) const FLAT_GROUP: u32 = 1 << 31;
 
 /// Attributes shared by all items of a part.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) struct PartKey {
-    /// The object and group, an index of the file's groups.
+    /// The object and group, as an index into the file's groups.
     pub(super) group: u32,
-    /// The material, an index of the file's material names.
+    /// The material, as an index into the file's material names.
     pub(super) material: Option<u32>,
     /// Number of indices per item: 1 for points, 2 for lines, 3 for triangles.
     pub(super) corners_per_item: usize,
@@ -39,7 +39,7 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// Points, lines or triangles.
+    /// Returns whether the items are points, lines or triangles.
     pub(super) const fn topology(&self) -> Topology {
         match self.key.corners_per_item {
             1 => Topology::Points,
@@ -49,7 +49,7 @@ impl Part {
     }
 }
 
-/// Cuts and sorts the elements of a file; parts are in the order of their first elements.
+/// Splits and sorts the elements of a file. Parts are in the order of their first elements.
 ///
 /// # Errors
 /// Fails if an element has a vertex that is not three finite numbers. In lenient mode it is
@@ -70,7 +70,7 @@ pub(super) fn split_elements(
                 None => {}
                 Some(None) => continue,
                 Some(Some(offset)) => {
-                    // Counting lines takes time, so only the first has a location.
+                    // Counting lines takes time, so only the first error has a location.
                     if broken == 0 {
                         let fault = broken_vertex(&LineCounter::new(text).locate(offset));
                         warnings.downgrade_if_lenient(fault, "the element is skipped")?;
@@ -87,7 +87,7 @@ pub(super) fn split_elements(
                 _ => cutter.part_of(state, has_uvs, has_normals),
             };
             latest = Some((attributes, part));
-            // A polygon that is not smooth forms its own group, however it is cut.
+            // A polygon that is not smooth forms its own group, however it is triangulated.
             let smoothing = match state.smoothing {
                 0 => FLAT_GROUP | element as u32,
                 group => group,
@@ -104,8 +104,8 @@ pub(super) fn split_elements(
     }
     if cutter.fans > 0 {
         let message = format!(
-            "{} polygons cross themselves or have too many corners: they are filled as fans, which may \
-             overlap",
+            "{} polygons intersect themselves or have too many corners; they are filled as fans, which \
+             may overlap",
             cutter.fans
         );
         warnings.push_warning("", message);
@@ -113,14 +113,14 @@ pub(super) fn split_elements(
     Ok(cutter.parts)
 }
 
-/// Returns the error for an element with a vertex that has no position.
+/// Returns the error for an element with a vertex that has no valid position.
 fn broken_vertex(location: &str) -> Diagnostic {
     let message = "an element uses this vertex, which does not have three finite coordinates";
     let help = "export the file again, or load it with --lenient";
     Diagnostic::error(codes::INVALID_DATA, location, message, help)
 }
 
-/// The parts so far, and the state of the cutting.
+/// The parts so far, and the state of the triangulation.
 struct ElementCutter<'a> {
     file: &'a ObjFile<'a>,
     parts: Vec<Part>,
@@ -128,14 +128,14 @@ struct ElementCutter<'a> {
     triangulator: Triangulator,
     /// Corners of the current polygon.
     polygon: Vec<[f32; 3]>,
-    /// Its triangles.
+    /// Triangles of the current polygon.
     triangles: Vec<[u32; 3]>,
-    /// Number of polygons that were cut into fans.
+    /// Number of polygons that were split into fans.
     fans: usize,
 }
 
 impl<'a> ElementCutter<'a> {
-    /// No parts.
+    /// Creates an empty list of parts.
     fn new(file: &'a ObjFile<'a>) -> Self {
         Self {
             file,
@@ -148,7 +148,7 @@ impl<'a> ElementCutter<'a> {
         }
     }
 
-    /// Returns the part for an element; a new one if it is the first.
+    /// Returns the part for an element, adding it if necessary.
     fn part_of(&mut self, state: ElementState, has_uvs: bool, has_normals: bool) -> usize {
         let ElementState { group, material, topology, .. } = state;
         let corners_per_item = topology.vertices_per_item();
@@ -161,8 +161,8 @@ impl<'a> ElementCutter<'a> {
         })
     }
 
-    /// Returns whether an element has a vertex without a position, with the offset of its statement
-    /// unless it has already been reported.
+    /// Returns whether an element has a vertex without a valid position, with the offset of the
+    /// vertex statement unless it has already been reported.
     fn find_broken_vertex(&self, corners: &[Corner]) -> Option<Option<usize>> {
         if corners.iter().any(|corner| corner.position as usize >= self.file.positions.len()) {
             return Some(None);

@@ -1,17 +1,17 @@
-//! Converts Phong materials of MTL libraries to metallic-roughness materials.
+//! Converts Phong materials from MTL libraries to metallic-roughness materials.
 
 use gltf_import::linear_from_srgb;
 use model::{AlphaMode, Material, Specular};
 
-/// Diffuse color, sRGB encoded, if a library gives none.
+/// The diffuse color, sRGB encoded, if a library does not specify it.
 const PLAIN_COLOR: [f32; 3] = [0.8; 3];
-/// The largest diffuse color of a metal, and the smallest specular one.
+/// The maximum diffuse color of a metal, and its minimum specular color.
 const METAL_THRESHOLD: f32 = 0.04;
 
-/// The Phong shading keys of an MTL library; `None` for missing ones.
+/// The Phong shading keys of an MTL library, with `None` for missing keys.
 ///
 /// Colors are sRGB encoded, from 0 to 1. The OBJ importer reads them from a library; other programs
-/// may have them as numbers.
+/// may set them directly.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct PhongMaterial {
     /// `Kd`, the diffuse color.
@@ -31,8 +31,7 @@ pub struct PhongMaterial {
 }
 
 impl PhongMaterial {
-    /// Returns the double-sided metallic-roughness material that looks similar, without its
-    /// textures.
+    /// Returns a double-sided metallic-roughness material that looks similar, without textures.
     #[must_use]
     pub fn to_material(&self) -> Material {
         let mut material = Material { base_color: self.base_color(), ..double_sided_matte() };
@@ -50,9 +49,9 @@ impl PhongMaterial {
         [r, g, b, self.alpha()]
     }
 
-    /// Alpha, from `d` or else `Tr`.
+    /// Returns alpha from `d` or else `Tr`.
     ///
-    /// By itself, `Tr 1` would make everything invisible: programs that write it mean the opposite.
+    /// By itself, `Tr 1` would make everything invisible; programs that write it mean the opposite.
     pub(super) fn alpha(&self) -> f32 {
         let transparency = self.transparency.map(|transparency| transparency.clamp(0.0, 1.0));
         match (self.dissolve, transparency) {
@@ -62,12 +61,12 @@ impl PhongMaterial {
         }
     }
 
-    /// Returns whether only `Tr 1` gives the opacity.
+    /// Returns whether `Tr 1` alone specifies the opacity.
     pub(super) fn is_invisible_by_transparency(&self) -> bool {
         self.dissolve.is_none() && self.transparency.is_some_and(|transparency| transparency >= 1.0)
     }
 
-    /// Sets roughness and reflectance, and the color of a metal.
+    /// Sets the roughness and reflectance, and the color of a metal.
     pub(super) fn set_reflection(&self, material: &mut Material) {
         material.unlit = self.illumination == Some(0.0);
         let is_matte = self.illumination == Some(1.0);
@@ -94,13 +93,13 @@ impl PhongMaterial {
     }
 }
 
-/// Returns a purely diffuse material, seen from both sides.
+/// Returns a purely diffuse material that is visible from both sides.
 pub(super) fn double_sided_matte() -> Material {
     Material { double_sided: true, metallic: 0.0, roughness: 1.0, ..Material::plain() }
 }
 
-/// Returns a color multiplied by a texture: white if it is black or missing, because the texture
-/// would otherwise be invisible.
+/// Adjusts a color that a texture multiplies: a black or missing color becomes white, because the
+/// texture would otherwise be invisible.
 pub(super) fn color_beside_texture(
     color: Option<[f32; 3]>,
     has_texture: bool,
@@ -113,7 +112,7 @@ pub(super) fn color_beside_texture(
     }
 }
 
-/// Converts an sRGB color to linear light; numbers outside [0, 1] are clamped.
+/// Converts an sRGB color to linear light. Numbers outside [0, 1] are clamped.
 pub(super) fn linear_color(color: [f32; 3]) -> [f32; 3] {
     color.map(|channel| linear_from_srgb(channel.clamp(0.0, 1.0)))
 }

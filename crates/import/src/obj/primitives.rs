@@ -1,4 +1,5 @@
-//! Primitives of an OBJ file: missing normals are computed, and identical corners share a vertex.
+//! Builds the primitives of an OBJ file: computes missing normals, and shares vertices between
+//! identical corners.
 
 use super::elements::{Corner, NONE};
 use super::parser::ObjFile;
@@ -10,11 +11,11 @@ use gltf_import::linear_from_srgb;
 use gltf_import::normalize_normals;
 use model::{Diagnostic, Primitive, Topology};
 
-/// A primitive with the group it belongs to.
+/// A primitive, with the group it belongs to.
 pub(super) struct GroupPrimitive {
     /// Index of the group in the file.
     pub(super) group: u32,
-    /// The primitive; its material is an index of the file's material names.
+    /// The primitive; its material is an index into the file's material names.
     pub(super) primitive: Primitive,
 }
 
@@ -63,17 +64,17 @@ fn is_computed(part: &Part) -> bool {
 }
 
 /// Computes all missing normals over the whole file, so that a border between two groups or
-/// materials is not a crease.
+/// materials does not become a crease.
 ///
-/// They are appended to the file's normals; the result has an index for each corner of those parts,
-/// one part after another.
+/// They are appended to the file's normals. The result has a normal index for each corner of the
+/// parts with missing normals, one part after another.
 fn compute_normals(file: &mut ObjFile<'_>, parts: &[Part], crease_angle: f64) -> Vec<u32> {
     let parts = || parts.iter().filter(|part| is_computed(part));
     let count: usize = parts().map(|part| part.corners.len()).sum();
     if count == 0 {
         return Vec::new();
     }
-    // Positions that are not finite have equal bits too, but no triangle uses them.
+    // Non-finite positions may also have equal bits, but no triangle uses them.
     let mut welder = VertexWelder::with_capacity(file.positions.len());
     let welded = welder.weld_all(&file.positions);
     let mut triangles: Vec<[u32; 3]> = Vec::with_capacity(count / 3);
@@ -92,9 +93,9 @@ fn compute_normals(file: &mut ObjFile<'_>, parts: &[Part], crease_angle: f64) ->
     computed.triangles.into_flattened().into_iter().map(|vertex| first + vertex).collect()
 }
 
-/// Vertex colors in linear light; empty if the file has none, otherwise one for each position.
+/// Returns the vertex colors in linear light: one per position, or none if the file has none.
 ///
-/// They are sRGB encoded, from 0 to 1, or to 255 if any is above 1.
+/// In the file they are sRGB encoded, from 0 to 1, or to 255 if any is above 1.
 fn linear_colors(file: &ObjFile<'_>, warnings: &mut ImportWarnings) -> Vec<[f32; 4]> {
     if file.colors.is_empty() {
         return Vec::new();
@@ -115,8 +116,8 @@ fn linear_colors(file: &ObjFile<'_>, warnings: &mut ImportWarnings) -> Vec<[f32;
     colors
 }
 
-/// Builds the primitive of a part; `normals` has the normal of each corner, if normals are
-/// computed.
+/// Builds the primitive of a part. If normals are computed, `normals` has the normal of each
+/// corner.
 fn build_primitive(
     file: &ObjFile<'_>,
     colors: &[[f32; 4]],

@@ -1,13 +1,13 @@
-//! Meshes and nodes of an OBJ file: one of each for every object and group.
+//! Meshes and nodes of an OBJ file: one mesh and one node per object and group.
 
 use super::parser::GroupName;
 use super::primitives::GroupPrimitive;
 use model::{Mesh, Model, Node};
 use std::collections::BTreeMap;
 
-/// Adds the meshes of the groups to a model, with their nodes.
+/// Adds the groups' meshes and nodes to a model.
 ///
-/// A group of an object is a child of the object's node; groups without object, and objects, are
+/// The groups of an object are children of its node; objects, and groups without an object, are
 /// roots.
 pub(super) fn build_scene(
     model: &mut Model,
@@ -20,7 +20,7 @@ pub(super) fn build_scene(
     }
     let mut objects = BTreeMap::new();
     for (group, mesh) in groups.iter().zip(meshes) {
-        // Groups whose elements are all broken.
+        // Skip groups whose elements are all broken.
         if mesh.primitives.is_empty() {
             continue;
         }
@@ -41,13 +41,13 @@ pub(super) fn build_scene(
     }
 }
 
-/// Returns a mesh without primitives, named after its group, or else its object.
+/// Returns a mesh without primitives, named after its group or else its object.
 fn group_mesh(names: &GroupName<'_>) -> Mesh {
     let name = if names.group.is_empty() { names.object } else { names.group };
     Mesh { name: to_name(name), ..Mesh::default() }
 }
 
-/// Appends a node below a parent, or as a root, and returns its index.
+/// Appends a node as a child of a parent or as a root, and returns its index.
 fn push_node(model: &mut Model, name: Option<String>, parent: Option<usize>) -> usize {
     let node = model.nodes.len();
     model.nodes.push(Node { name, parent, ..Node::default() });
@@ -58,7 +58,7 @@ fn push_node(model: &mut Model, name: Option<String>, parent: Option<usize>) -> 
     node
 }
 
-/// Returns a name as text, in UTF-8 or else ISO 8859-1, or `None` for an empty one.
+/// Decodes a name from UTF-8, or else from ISO 8859-1. Returns `None` for an empty name.
 pub(super) fn to_name(bytes: &[u8]) -> Option<String> {
     let latin_1 = || bytes.iter().map(|&byte| char::from(byte)).collect();
     (!bytes.is_empty()).then(|| str::from_utf8(bytes).map_or_else(|_| latin_1(), str::to_owned))

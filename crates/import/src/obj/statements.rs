@@ -1,9 +1,9 @@
-//! Statements of OBJ and MTL files: a keyword and its arguments, on one line or on several joined
-//! by backslashes.
+//! Statements of OBJ and MTL files: a keyword and its arguments, on one line or several lines
+//! joined by backslashes.
 
 use crate::text::Token;
 
-/// Reads one statement after another. It stays on the line of a statement until the next one is
+/// Reads one statement after another. The position stays in a statement until the next statement is
 /// requested.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StatementReader<'a> {
@@ -14,7 +14,7 @@ pub(super) struct StatementReader<'a> {
 }
 
 impl<'a> StatementReader<'a> {
-    /// Creates a reader at the beginning of a text.
+    /// Creates a reader at the beginning of the text.
     pub(super) const fn new(text: &'a [u8]) -> Self {
         Self { text, at: 0 }
     }
@@ -36,7 +36,7 @@ impl<'a> StatementReader<'a> {
         None
     }
 
-    /// Returns the next argument of the current statement, or `None` at its end.
+    /// Returns the next argument of the current statement, or `None` at the end of the statement.
     #[inline]
     pub(super) fn next_argument(&mut self) -> Option<Token<'a>> {
         let (text, mut start) = (self.text, self.at);
@@ -59,7 +59,7 @@ impl<'a> StatementReader<'a> {
         while text.get(end).is_some_and(|byte| *byte > b' ') {
             end += 1;
         }
-        // `7\` at the end of a line: the number, and the continuation.
+        // `7\` at the end of a line is a number followed by a continuation.
         if text[end - 1] == b'\\' && end - start > 1 && self.continuation_length(end - 1) > 0 {
             end -= 1;
         }
@@ -67,8 +67,8 @@ impl<'a> StatementReader<'a> {
         Some(Token { bytes: &text[start..end], offset: start })
     }
 
-    /// Returns the rest of the line, for names, which may contain spaces; without surrounding white
-    /// space.
+    /// Returns the rest of the line without surrounding white space, for names, which may contain
+    /// spaces.
     pub(super) fn rest_of_line(&mut self) -> Token<'a> {
         let rest = self.text.get(self.at..).unwrap_or_default();
         let length = line_length(rest);
@@ -77,7 +77,7 @@ impl<'a> StatementReader<'a> {
         line.trim()
     }
 
-    /// Goes to the end of the statement. A comment ends with its line: `# C:\` does not continue.
+    /// Skips to the end of the statement. A comment ends with its line: `# C:\` does not continue.
     fn skip_line(&mut self) {
         loop {
             let rest = self.text.get(self.at..).unwrap_or_default();
@@ -94,7 +94,8 @@ impl<'a> StatementReader<'a> {
         }
     }
 
-    /// Length of a backslash and the line end after it; 0 if none follows.
+    /// Returns the length of a backslash and the line end after it, or 0 if there is no such
+    /// sequence.
     fn continuation_length(&self, at: usize) -> usize {
         match self.text.get(at + 1..) {
             Some([b'\r', b'\n', ..]) => 3,
@@ -104,7 +105,7 @@ impl<'a> StatementReader<'a> {
     }
 }
 
-/// Bytes before the next line end.
+/// Returns the bytes before the next line end.
 fn line_length(rest: &[u8]) -> usize {
     rest.iter().position(|byte| matches!(byte, b'\n' | b'\r')).unwrap_or(rest.len())
 }
@@ -113,7 +114,7 @@ fn line_length(rest: &[u8]) -> usize {
 mod tests {
     use super::*;
 
-    /// Returns the statements, each as words.
+    /// Returns the statements, each as a list of words.
     fn statements(text: &str) -> Vec<Vec<String>> {
         let mut reader = StatementReader::new(text.as_bytes());
         let mut all = Vec::new();
@@ -128,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_comments_and_continuations() {
+    fn comments_and_continuations_are_handled() {
         for (text, expected) in [
             ("", vec![]),
             ("\n  \r\n# f 1\n", vec![]),
@@ -137,7 +138,7 @@ mod tests {
                 vec![vec!["v", "1", "2"], vec!["f", "3", "4"], vec!["end"]],
             ),
             ("f 1 \\\n 2\\\r\n3\nv", vec![vec!["f", "1", "2", "3"], vec!["v"]]),
-            // In the middle of a line, at the end of the file, and in a comment.
+            // Backslashes in the middle of a line, at the end of the file, and in a comment.
             ("g a\\b\nf 1 \\", vec![vec!["g", "a\\b"], vec!["f", "1", "\\"]]),
             ("# C:\\\nv 1", vec![vec!["v", "1"]]),
             ("\\\n\\\nv \\\n", vec![vec!["v"]]),
@@ -147,12 +148,12 @@ mod tests {
     }
 
     #[test]
-    fn names_are_the_rest_of_the_line_and_the_rest_is_skipped_otherwise() {
+    fn names_extend_to_the_end_of_the_line() {
         let mut reader = StatementReader::new(b"g  two words \r\nf 1 2 \\\n3\ng");
         assert_eq!(reader.next_statement().unwrap().bytes, b"g");
         assert_eq!(reader.rest_of_line().bytes, b"two words");
         assert_eq!(reader.next_statement().unwrap().offset, 15);
-        assert_eq!(reader.next_statement().unwrap().bytes, b"g", "the joined line is skipped too");
+        assert_eq!(reader.next_statement().unwrap().bytes, b"g", "the joined line is also skipped");
         assert_eq!(reader.rest_of_line().bytes, b"");
         assert_eq!(reader.next_statement(), None);
     }

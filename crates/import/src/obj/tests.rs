@@ -1,4 +1,4 @@
-//! Files as written by hand and by programs, read through the public interface.
+//! Tests of files written by hand and by programs, read through the public interface.
 
 mod materials;
 mod shapes;
@@ -18,18 +18,18 @@ fn read_leniently(text: &str) -> Model {
     load_bytes("test.obj", text.as_bytes(), &options).unwrap()
 }
 
-/// Returns the primitives of a model, in order.
+/// Returns the primitives of a model in order.
 fn primitives(model: &Model) -> Vec<&Primitive> {
     model.meshes.iter().flat_map(|mesh| &mesh.primitives).collect()
 }
 
-/// Number of triangles.
+/// Returns the number of triangles.
 fn triangle_count(model: &Model) -> usize {
     let is_surface = |primitive: &&&Primitive| primitive.topology == Topology::Triangles;
     primitives(model).iter().filter(is_surface).map(|primitive| primitive.item_count()).sum()
 }
 
-/// Warnings as text, one per line.
+/// Returns the warnings as text, one per line.
 fn warnings(model: &Model) -> String {
     model.warnings.iter().map(|warning| format!("{}\n", warning.sentence())).collect()
 }

@@ -1,5 +1,5 @@
-//! Textures of MTL libraries: the image files that the materials need, and images combined from
-//! several files, because a material here has one texture where MTL has two.
+//! Textures of MTL libraries: the image files that materials need, and images combined from several
+//! files, because a material here has a single texture where MTL has two.
 
 use super::mtl::MtlTexture;
 use super::shorten;
@@ -15,49 +15,48 @@ use std::sync::Arc;
 /// Maximum number of image files.
 const MAX_IMAGES: usize = 4096;
 
-/// Images and textures needed by the materials so far.
+/// The images and textures needed by the materials so far.
 #[derive(Debug, Default)]
 pub(super) struct TextureTable<'a> {
-    /// Folder of the current library, with a slash at its end; empty for the OBJ file's folder.
+    /// The folder of the current library with a trailing slash, or empty for the OBJ file's folder.
     pub(super) folder: String,
-    /// Images: files, and combinations of several.
+    /// The images: files, and combinations of files.
     images: Vec<ImageSource<'a>>,
     files: BTreeMap<(String, &'a [u8]), usize>,
     textures: Vec<Texture>,
     texture_indices: BTreeMap<(usize, bool), usize>,
-    /// Images that may turn out to be height maps.
+    /// Images that may be height maps.
     bump_maps: BTreeSet<usize>,
 }
 
 /// The source of an image.
 #[derive(Clone, Debug)]
 enum ImageSource<'a> {
-    /// A file, given by folder and name.
+    /// A file, identified by folder and name.
     File { folder: String, name: &'a [u8] },
     /// Color from one image, opacity from another.
     Opacity { color: Option<usize>, opacity: usize, channel: Option<u8> },
-    /// Roughness as green, metalness as blue; white if missing.
+    /// Roughness in green and metalness in blue, white if missing.
     MetallicRoughness { roughness: Option<usize>, metallic: Option<usize> },
 }
 
 impl<'a> TextureTable<'a> {
-    /// Returns the texture of a file.
+    /// Returns the texture for a file.
     pub(super) fn use_file(&mut self, mtl: &MtlTexture<'a>) -> TextureInfo {
         let image = self.file_image(mtl);
         self.texture_of(image, mtl)
     }
 
-    /// Returns the texture of a bump map, which is used only if it is a normal map.
+    /// Returns the texture for a bump map, which is used only if it is a normal map.
     pub(super) fn use_bump_map(&mut self, mtl: &MtlTexture<'a>) -> TextureInfo {
         let image = self.file_image(mtl);
         self.bump_maps.insert(image);
         self.texture_of(image, mtl)
     }
 
-    /// Returns the texture of color and opacity; the options of the color texture are used, if
-    /// there is one.
+    /// Returns the texture for color and opacity. The options of the color texture take precedence.
     ///
-    /// A file that is both is used as it is, with its own alpha.
+    /// A file that is used for both is not changed, and supplies its own alpha.
     pub(super) fn base_color(
         &mut self,
         color: Option<&MtlTexture<'a>>,
@@ -81,8 +80,8 @@ impl<'a> TextureTable<'a> {
         Some(self.texture_of(image, options))
     }
 
-    /// Returns the texture of roughness and metalness; the options of the roughness texture are
-    /// used, if there is one.
+    /// Returns the texture for roughness and metalness. The options of the roughness texture take
+    /// precedence.
     pub(super) fn metallic_roughness(
         &mut self,
         roughness: Option<&MtlTexture<'a>>,
@@ -95,7 +94,7 @@ impl<'a> TextureTable<'a> {
         Some(self.texture_of(image, options))
     }
 
-    /// Index of a file's image.
+    /// Returns the index of a file's image.
     fn file_image(&mut self, mtl: &MtlTexture<'a>) -> usize {
         let key = (self.folder.clone(), mtl.file.bytes);
         if let Some(image) = self.files.get(&key) {
@@ -114,7 +113,7 @@ impl<'a> TextureTable<'a> {
 
     /// Returns a reference to an image with the options of a statement.
     ///
-    /// With v up, coordinates are scaled and then translated; here v points down.
+    /// In MTL, where v points up, coordinates are scaled and then translated; here v points down.
     fn texture_of(&mut self, image: usize, mtl: &MtlTexture<'a>) -> TextureInfo {
         let textures = &mut self.textures;
         let texture = *self.texture_indices.entry((image, mtl.is_clamped)).or_insert_with(|| {
@@ -130,7 +129,7 @@ impl<'a> TextureTable<'a> {
         TextureInfo { texture, uv_set: 0, uv_matrix }
     }
 
-    /// Reads and decodes the files, combines images, and adds all of them to the model.
+    /// Reads and decodes the files, combines images, and adds all images to the model.
     pub(super) fn load_images(
         self,
         model: &mut Model,
@@ -139,7 +138,7 @@ impl<'a> TextureTable<'a> {
         warnings: &mut ImportWarnings,
     ) {
         let Self { images, textures, bump_maps, .. } = self;
-        // Files come first, in a separate order.
+        // Files come first, with separate indices.
         let mut file_indices = vec![None; images.len()];
         let mut files = Vec::new();
         for (image, source) in images.iter().enumerate() {
@@ -161,7 +160,7 @@ impl<'a> TextureTable<'a> {
     }
 }
 
-/// Combines images, and brings all of them into the order of the table.
+/// Combines images, and arranges all images in the order of the table.
 fn combine_all(
     model: &mut Model,
     images: &[ImageSource<'_>],
@@ -205,8 +204,8 @@ fn combine_all(
     model.images = Arc::from(all);
 }
 
-/// Reads the file of an image: below the library's folder, else below the OBJ file's folder, else
-/// next to it by its file name only, because many libraries contain paths of the computer they were
+/// Reads an image file: below the library's folder, else below the OBJ file's folder, else next to
+/// the OBJ file by file name only, because many libraries contain paths from the computer they were
 /// made on.
 fn read_image<'a>(
     folder: &str,
@@ -223,7 +222,7 @@ fn read_image<'a>(
         let found = if folder.is_empty() { None } else { again(&name).ok() };
         let found = found.or_else(|| {
             let bytes = if last == name { None } else { again(last).ok() }?;
-            let message = format!("it is not where the library says: {last:?} is read instead");
+            let message = format!("not found at the path in the library; {last:?} is read instead");
             warnings.push_warning(&location, message);
             Some(bytes)
         });
@@ -233,7 +232,7 @@ fn read_image<'a>(
     TextureImage { name, location, bytes: Some(bytes.map(Cow::Owned)) }
 }
 
-/// Returns an image beyond the maximum number.
+/// Returns the placeholder for an image beyond the maximum number.
 fn unread_image<'a>(name: &[u8]) -> TextureImage<'a> {
     let name = String::from_utf8_lossy(name).into_owned();
     let location = format!("texture {}", shorten(&name));
@@ -242,13 +241,13 @@ fn unread_image<'a>(name: &[u8]) -> TextureImage<'a> {
     TextureImage { name, location, bytes: Some(bytes) }
 }
 
-/// Limit on the number of texels in combined images.
+/// The limit on the number of texels in combined images.
 struct TexelLimit {
     left: u64,
 }
 
 impl TexelLimit {
-    /// Returns whether an image of this size may be made.
+    /// Returns whether an image of this size may be created.
     fn allows(&mut self, image: &Image) -> bool {
         let left = self.left.checked_sub(u64::from(image.width) * u64::from(image.height));
         self.left = left.unwrap_or(0);
@@ -256,8 +255,8 @@ impl TexelLimit {
     }
 }
 
-/// Combines an image of the size of `like`; each texel is made from its own and the other image's
-/// texel at the same position.
+/// Combines two images into an image of the size of `like`. Each texel is computed from the two
+/// texels at the same position.
 fn combine_images(
     like: &Image,
     other: Option<&Image>,
@@ -277,10 +276,10 @@ fn combine_images(
     Image { width, height, rgba }
 }
 
-/// Returns the opacity of a texel: its alpha if the image has any, else its luminance, or the
-/// channel named by `-imfchan`.
+/// Returns the opacity of a texel: the channel named by `-imfchan`, or its alpha if the image has
+/// any, or else its luminance.
 fn opacity([r, g, b, a]: [u8; 4], channel: Option<u8>, has_alpha: bool) -> u8 {
-    // Rec. 709 in 256ths.
+    // Rec. 709 weights in 256ths.
     let luminance = (54 * u32::from(r) + 183 * u32::from(g) + 19 * u32::from(b)) / 256;
     match channel.map(|channel| channel.to_ascii_lowercase()) {
         Some(b'r') => r,
@@ -292,9 +291,9 @@ fn opacity([r, g, b, a]: [u8; 4], channel: Option<u8>, has_alpha: bool) -> u8 {
     }
 }
 
-/// Removes gray bump maps: heights need a scale, which no library gives.
+/// Removes gray bump maps, because heights need a scale, which libraries do not specify.
 ///
-/// A colored one is a normal map, which many programs store under this name.
+/// A colored bump map is a normal map, which many programs store under this name.
 fn remove_height_maps(
     model: &mut Model,
     bump_maps: &BTreeSet<usize>,

@@ -1,30 +1,31 @@
-//! Shares vertices within a primitive: corners with the same position, texture coordinates and
-//! normal use one vertex.
+//! Shares vertices within a primitive between corners with the same position, texture coordinates
+//! and normal.
 
 use super::elements::{Corner, NONE};
 
-/// Maximum number of vertices at one position that are compared before another is made. A position
-/// with more would take quadratic time; further corners share less, which only costs memory.
+/// Maximum number of vertices to compare at one position before a new vertex is added. Without this
+/// limit, a position with many vertices would take quadratic time; with it, such corners share
+/// fewer vertices, which costs only memory.
 const MAX_COMPARISONS: usize = 32;
 
-/// The vertices of one primitive after another, in the order in which corners first need them.
+/// Collects the vertices of one primitive at a time, in the order of their first use.
 #[derive(Debug)]
 pub(super) struct VertexSharing {
     /// The last vertex at each position.
     latest: Vec<u32>,
-    /// For each vertex, the previous one at the same position.
+    /// For each vertex, the previous vertex at the same position.
     before: Vec<u32>,
     /// The corner that each vertex represents.
     pub(super) corners: Vec<Corner>,
 }
 
 impl VertexSharing {
-    /// No vertex at any of the positions.
+    /// Creates a table without any vertices.
     pub(super) fn new(positions: usize) -> Self {
         Self { latest: vec![NONE; positions], before: Vec::new(), corners: Vec::new() }
     }
 
-    /// Returns the vertex of a corner, whose position is in range.
+    /// Returns the vertex of a corner. The position must be in range.
     #[inline]
     pub(super) fn vertex_at(&mut self, corner: Corner) -> u32 {
         let latest = self.latest[corner.position as usize];
@@ -45,7 +46,7 @@ impl VertexSharing {
         new
     }
 
-    /// Forgets all vertices, in time proportional to their number.
+    /// Removes all vertices, in time proportional to their number.
     pub(super) fn clear(&mut self) {
         for corner in &self.corners {
             self.latest[corner.position as usize] = NONE;
@@ -60,7 +61,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn equal_corners_share_a_vertex() {
+    fn identical_corners_share_a_vertex() {
         let mut sharing = VertexSharing::new(3);
         let corner = |position, uv, normal| Corner { position, uv, normal };
         let corners =
@@ -72,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn a_position_with_very_many_vertices_takes_linear_time() {
+    fn a_position_with_many_vertices_takes_linear_time() {
         let mut sharing = VertexSharing::new(1);
         for uv in 0..300_000 {
             sharing.vertex_at(Corner { position: 0, uv, normal: NONE });

@@ -1,6 +1,6 @@
-//! The body of a PLY file: a sequence of numbers, as text or in binary.
+//! The body of a PLY file: a sequence of numbers in text or binary form.
 //!
-//! Every number is read as `f64`, which represents each value of each type exactly.
+//! Every number is read as `f64`, which represents every value of every type exactly.
 
 use super::header::{Encoding, PlyElement, ScalarType};
 use crate::text::{LineCounter, TextScanner, Token, parse_f64};
@@ -14,25 +14,24 @@ pub(super) struct Body<'a> {
     /// Offset of the next number.
     at: usize,
     encoding: Encoding,
-    /// Continues from one error to the next.
+    /// Counts lines incrementally from one message to the next.
     lines: RefCell<LineCounter<'a>>,
-    /// Whether each record of a text begins a line; the rest of a line is then ignored.
+    /// Whether each record of a text body starts a new line; the rest of a line is then ignored.
     has_lines: bool,
-    /// The location of the first record with more numbers than the header declares, and how many
-    /// there are.
+    /// The location of the first record with more numbers than the header declares, and the number
+    /// of such records.
     longer: Option<(String, usize)>,
 }
 
 impl<'a> Body<'a> {
-    /// Creates the body that begins at an offset of the file.
+    /// Creates a reader for the body that begins at an offset of the file.
     pub(super) fn new(bytes: &'a [u8], at: usize, encoding: Encoding) -> Self {
         let lines = RefCell::new(LineCounter::new(bytes));
         let at = at.min(bytes.len());
         Self { bytes, at, encoding, lines, has_lines: false, longer: None }
     }
 
-    /// Creates the body of a file with this many records: if a text has the same number of lines,
-    /// each line is a record.
+    /// Treats each line as a record if the body is text with at least `count` lines.
     pub(super) fn with_records(mut self, count: u64) -> Self {
         if self.encoding == Encoding::Ascii {
             let lines = self.bytes[self.at..].split(|byte| *byte == b'\n' || *byte == b'\r');
@@ -42,7 +41,7 @@ impl<'a> Body<'a> {
         self
     }
 
-    /// Ends a record: skips the rest of its line, as other readers do.
+    /// Ends a record by skipping the rest of its line, as other readers do.
     pub(super) fn end_record(&mut self) {
         if !self.has_lines {
             return;
@@ -51,7 +50,7 @@ impl<'a> Body<'a> {
         let end = rest.iter().position(|byte| *byte == b'\n' || *byte == b'\r');
         let end = end.unwrap_or(rest.len());
         let mut words = rest[..end].split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
-        // A word that is not a number is an error, as everywhere.
+        // A word that is not a number is an error, as elsewhere.
         if words.clone().any(|word| parse_f64(word).is_none()) {
             return;
         }
@@ -80,7 +79,7 @@ impl<'a> Body<'a> {
         Some((place, message))
     }
 
-    /// Returns the maximum number of records that the file can hold from here, for reserving
+    /// Returns the maximum number of records that the rest of the file can contain, for reserving
     /// memory.
     pub(super) fn plausible_records(&self, element: &PlyElement) -> usize {
         let left = self.bytes.len() - self.at;
@@ -88,10 +87,10 @@ impl<'a> Body<'a> {
         usize::try_from(element.count).unwrap_or(usize::MAX).min(possible)
     }
 
-    /// Returns the next number.
+    /// Reads the next number.
     ///
     /// # Errors
-    /// Fails if the file ends, or the next word is not a number.
+    /// Fails if the file ends or the next word is not a number.
     pub(super) fn next_number(&mut self, scalar: ScalarType) -> Result<f64, Diagnostic> {
         if self.encoding == Encoding::Ascii {
             return self.next_decimal();
@@ -109,10 +108,11 @@ impl<'a> Body<'a> {
         Ok(to_number(u64::from_le_bytes(value), scalar))
     }
 
-    /// Returns the length of a list, checked against the remaining bytes.
+    /// Reads the length of a list, and checks it against the remaining bytes.
     ///
     /// # Errors
-    /// Fails if the length is negative, not an integer, or more than the rest of the file can hold.
+    /// Fails if the length is negative, not an integer, or more than the rest of the file can
+    /// contain.
     pub(super) fn next_list_length(
         &mut self,
         length: ScalarType,
@@ -120,7 +120,7 @@ impl<'a> Body<'a> {
     ) -> Result<usize, Diagnostic> {
         let number = self.next_number(length)?;
         let least = if self.encoding == Encoding::Ascii { 2 } else { value.size() };
-        // The last number of a text needs no separator.
+        // The last number of a text body needs no separator.
         let possible = (self.bytes.len() - self.at + 1) / least;
         if number >= 0.0 && number <= possible as f64 && number.fract() == 0.0 {
             return Ok(number as usize);
@@ -169,7 +169,7 @@ impl<'a> Body<'a> {
         Ok(())
     }
 
-    /// Returns the next number of a text, after any white space.
+    /// Reads the next number of a text body, after any white space.
     fn next_decimal(&mut self) -> Result<f64, Diagnostic> {
         let mut scanner = TextScanner::new(&self.bytes[self.at..]);
         let Some(Token { bytes: token, offset }) = scanner.next_token() else {
@@ -196,7 +196,7 @@ impl<'a> Body<'a> {
         Diagnostic::invalid(&self.location(), message)
     }
 
-    /// Returns the current location: line and column of a text, otherwise the byte.
+    /// Returns the current location: line and column in text, or the byte offset in binary.
     pub(super) fn location(&self) -> String {
         if self.encoding != Encoding::Ascii {
             return format!("byte {}", self.at);
@@ -205,7 +205,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// Returns the number stored in the lowest bytes of a word.
+/// Converts the lowest bytes of a word to a number.
 fn to_number(word: u64, scalar: ScalarType) -> f64 {
     match scalar {
         ScalarType::I8 => f64::from(word as i8),
@@ -224,7 +224,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_of_every_type_are_read_in_both_orders_of_bytes() {
+    fn every_number_type_is_read_in_both_byte_orders() {
         let table: [(ScalarType, f64, &[u8]); 8] = [
             (ScalarType::I8, -2.0, &[0xFE]),
             (ScalarType::U8, 254.0, &[0xFE]),
@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn lengths_of_lists_are_bounded_by_the_file() {
+    fn list_lengths_are_bounded_by_the_file() {
         let mut body = Body::new(&[255, 255, 255, 127, 0], 0, Encoding::LittleEndian);
         let message = body.next_list_length(ScalarType::I32, ScalarType::U8).unwrap_err();
         assert!(message.sentence().starts_with("byte 4: a list of 2147483647 numbers begins here"));
@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fault_of_a_text_has_line_and_column() {
+    fn text_errors_have_a_line_and_column() {
         let mut body = Body::new(b"1\r\n2  x", 0, Encoding::Ascii);
         body.skip_numbers(2, ScalarType::U8).unwrap();
         let message = body.next_number(ScalarType::U8).unwrap_err().sentence();

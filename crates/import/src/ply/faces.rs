@@ -1,4 +1,4 @@
-//! The faces of a PLY file: polygons, triangle strips, and the attributes of faces and corners.
+//! The faces of a PLY file: polygons, triangle strips, and face and corner attributes.
 
 use super::body::Body;
 use super::header::{PlyElement, PlyProperty};
@@ -11,19 +11,19 @@ use model::Diagnostic;
 pub(crate) struct Faces {
     /// The number of corners of each face.
     pub(crate) lengths: Vec<u32>,
-    /// Vertices of all corners, less than the declared number of vertices.
+    /// Vertices of all corners, all less than the declared number of vertices.
     pub(crate) corners: Vec<u32>,
     /// Texture coordinates of all corners, with (0, 0) at the upper left.
     pub(crate) uvs: Option<Vec<[f32; 2]>>,
     /// The linear color of each face.
     pub(crate) colors: Option<Vec<[f32; 4]>>,
-    /// The index of each face's texture among the file's textures.
+    /// The texture of each face, as an index into the file's textures.
     pub(crate) textures: Option<Vec<u32>>,
-    /// Faces with fewer than three corners, which are skipped.
+    /// The number of faces with fewer than three corners, which are skipped.
     pub(crate) without_area: usize,
 }
 
-/// The meaning of a property of a face.
+/// The meaning of a face property.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum FaceProperty {
     Corners,
@@ -45,7 +45,7 @@ impl FaceProperty {
     }
 }
 
-/// One face as it is being read.
+/// A face that is being read.
 #[derive(Default)]
 struct FaceRecord {
     corners: Vec<u32>,
@@ -58,7 +58,7 @@ struct FaceRecord {
 ///
 /// # Errors
 /// Fails if an index has no vertex, or the file ends before the last face. In lenient mode the face
-/// or the rest is skipped.
+/// or the rest of the faces is skipped.
 pub(super) fn read_faces(
     body: &mut Body<'_>,
     element: &PlyElement,
@@ -104,7 +104,7 @@ pub(super) fn read_faces(
 }
 
 impl FaceRecord {
-    /// Reads a face; an error inside the result concerns only this face.
+    /// Reads a face. An inner error concerns only this face.
     ///
     /// # Errors
     /// Fails if nothing after the error can be read.
@@ -159,7 +159,7 @@ pub(super) fn no_such_vertex(body: &Body<'_>, vertex: f64, vertices: u64) -> Dia
 }
 
 impl Faces {
-    /// Adds a face, if it has at least three corners.
+    /// Adds a face if it has at least three corners.
     fn push_face(&mut self, record: &FaceRecord) {
         let count = record.corners.len();
         if count < 3 {
@@ -185,9 +185,9 @@ impl Faces {
     }
 }
 
-/// Reads triangle strips: lists of vertices in which −1 begins a new strip.
+/// Reads triangle strips: lists of vertices in which −1 starts a new strip.
 ///
-/// Every second triangle of a strip is reversed, so that all face the same way.
+/// Every second triangle of a strip is reversed, so that all face the same side.
 ///
 /// # Errors
 /// Fails in the same cases as [`read_faces`].
@@ -238,7 +238,7 @@ pub(super) fn read_strips(
     Ok(faces)
 }
 
-/// Reads edges, as pairs of vertices.
+/// Reads edges as pairs of vertices.
 ///
 /// # Errors
 /// Fails in the same cases as [`read_faces`].

@@ -13,18 +13,18 @@
 //!
 //! Lines end with `\n`, `\r\n` or `\r`. After `end_header` exactly one line end is consumed,
 //! because a binary body may begin with byte 10 or 13. A bare `\r` ends that line only if it also
-//! ends the first one.
+//! ends the first line.
 
 use model::{Diagnostic, codes};
 
 /// The encoding of the values in the body.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Encoding {
-    /// As decimal numbers.
+    /// Decimal numbers.
     Ascii,
-    /// In binary, least significant byte first.
+    /// Binary, least significant byte first.
     LittleEndian,
-    /// In binary, most significant byte first.
+    /// Binary, most significant byte first.
     BigEndian,
 }
 
@@ -42,7 +42,7 @@ pub(super) enum ScalarType {
 }
 
 impl ScalarType {
-    /// Returns the type for a name, in the old convention (`uchar`) or the new one (`uint8`).
+    /// Returns the type for an old (`uchar`) or new (`uint8`) type name.
     fn from_name(name: &str) -> Option<Self> {
         Some(match name {
             "char" | "int8" => Self::I8,
@@ -57,7 +57,7 @@ impl ScalarType {
         })
     }
 
-    /// Size in bytes of a value in a binary body.
+    /// Returns the size in bytes of a value in a binary body.
     pub(super) const fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -67,7 +67,8 @@ impl ScalarType {
         }
     }
 
-    /// Returns the value that represents 1 in stored colors: the largest of an integer type.
+    /// Returns the value that represents 1 in stored colors: the maximum of an integer type, read
+    /// as unsigned, or 1 for floats.
     pub(super) const fn color_scale(self) -> f32 {
         match self {
             Self::I8 | Self::U8 => u8::MAX as f32,
@@ -78,21 +79,21 @@ impl ScalarType {
     }
 }
 
-/// A property of an element: one number, or a list of them.
+/// A property of an element: a number or a list of numbers.
 #[derive(Clone, Debug)]
 pub(super) struct PlyProperty {
     /// The name.
     pub(super) name: String,
-    /// The type of the length that precedes a list; `None` for a single number.
+    /// The type of the length that precedes a list, or `None` for a single number.
     pub(super) list_length: Option<ScalarType>,
-    /// The type of the number or numbers.
+    /// The type of the numbers.
     pub(super) scalar: ScalarType,
 }
 
-/// A kind of record, with its number of records in the body.
+/// A kind of record, and the number of these records in the body.
 #[derive(Clone, Debug)]
 pub(super) struct PlyElement {
-    /// The name: `vertex`, `face`, `edge`, `tristrips` or any other.
+    /// The name: `vertex`, `face`, `edge`, `tristrips` or any other name.
     pub(super) name: String,
     /// The declared number of records, not yet verified.
     pub(super) count: u64,
@@ -101,7 +102,8 @@ pub(super) struct PlyElement {
 }
 
 impl PlyElement {
-    /// Returns the minimum number of bytes of a record in the body; 0 only without properties.
+    /// Returns the minimum size of a record in bytes, which is 0 only for elements without
+    /// properties.
     pub(super) fn min_record_bytes(&self, encoding: Encoding) -> usize {
         let bytes = |property: &PlyProperty| match encoding {
             // A digit and a separator.
@@ -117,12 +119,12 @@ impl PlyElement {
 pub(super) struct Header {
     /// The encoding of the body.
     pub(super) encoding: Encoding,
-    /// The elements in the order of the body.
+    /// The elements in body order.
     pub(super) elements: Vec<PlyElement>,
-    /// Names of texture files from `comment TextureFile NAME`.
+    /// The names of texture files from `comment TextureFile NAME`.
     pub(super) texture_files: Vec<String>,
-    /// The first lines that begin with an unknown word, with their numbers: comments without the
-    /// keyword.
+    /// The first lines that begin with an unknown word, with their line numbers: comments without
+    /// the keyword.
     pub(super) stray_lines: Vec<(usize, String)>,
     /// The offset of the body.
     pub(super) body: usize,
@@ -132,7 +134,7 @@ impl Header {
     /// Reads the header of a file.
     ///
     /// # Errors
-    /// Fails if a line does not follow the format, or there is no `end_header`.
+    /// Fails if a line is malformed or `end_header` is missing.
     pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, Diagnostic> {
         let mut lines = Lines::new(bytes);
         let mut header = Self {
@@ -186,7 +188,7 @@ impl Header {
         Err(Diagnostic::invalid(&location, "the file ends before `end_header`"))
     }
 
-    /// Takes a line that begins with an unknown word as a comment.
+    /// Treats a line that begins with an unknown word as a comment.
     ///
     /// # Errors
     /// Fails if the word is almost a keyword of the format, or there are too many such lines.
@@ -204,22 +206,22 @@ impl Header {
     }
 }
 
-/// The maximum number of header lines that are taken as comments.
+/// The maximum number of unknown header lines that are treated as comments.
 const MAX_STRAY_LINES: usize = 16;
 
-/// Returns whether a word could be a misspelled keyword of the format, so that its line matters.
+/// Returns whether a word could be a misspelled keyword, so that its line matters.
 fn is_misspelled(word: &str) -> bool {
     let words = ["comment", "element", "end_header", "format", "obj_info", "property"];
     let word = word.to_ascii_lowercase();
     words.iter().any(|known| strsim::levenshtein(known, &word) <= 2)
 }
 
-/// Returns the first characters of a text, for quoting in a message.
+/// Returns the first characters of a string, for quoting in a message.
 fn shorten(text: &str) -> String {
     text.chars().take(32).collect()
 }
 
-/// Returns the name of a texture in a MeshLab comment, without surrounding spaces.
+/// Returns the texture name in a MeshLab comment, without surrounding spaces.
 fn texture_file(line: &str) -> Option<String> {
     let rest = line.trim_start().strip_prefix("comment")?.trim_start();
     let name = rest.get(.."texturefile".len())?;
@@ -281,7 +283,7 @@ fn parse_property<'a>(
     Ok(PlyProperty { name, list_length, scalar })
 }
 
-/// The lines of a header.
+/// Reads the lines of a header.
 struct Lines<'a> {
     bytes: &'a [u8],
     /// Offset of the next line.
@@ -299,7 +301,7 @@ impl<'a> Lines<'a> {
         Self { bytes, at: 0, number: 0, ends_with_cr }
     }
 
-    /// Returns the next line without its end, or `None` at the end of the file.
+    /// Returns the next line without its line end, or `None` at the end of the file.
     fn next_line(&mut self) -> Option<&'a [u8]> {
         let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
         self.number += 1;
@@ -319,19 +321,19 @@ mod tests {
     }
 
     #[test]
-    fn the_body_begins_after_one_end_of_a_line() {
+    fn the_body_begins_after_one_line_end() {
         for (end, body) in [("\n", "\n1"), ("\r\n", "\n1"), ("\r", "\n1"), ("\n", "\r\n")] {
             let text = ["ply", "format ascii 1.0", "end_header", body].join(end);
             let header = parse(&text).unwrap();
             assert_eq!(&text[header.body..], body, "{text:?}");
         }
-        // Only the last line ends as on Windows.
+        // Only the last line has a Windows line end.
         let text = "ply\nformat binary_big_endian 1.0\nend_header\r\n\n";
         assert_eq!(parse(text).unwrap().body, text.len() - 1);
     }
 
     #[test]
-    fn names_of_types_are_old_or_new_and_textures_are_in_comments() {
+    fn old_and_new_type_names_and_texture_comments_are_read() {
         let header = parse(
             "ply\nformat ascii 1.0\ncomment TextureFile  a b.png \nelement face 2 \n\
              property list uint8 int32 vertex_index\nproperty ushort x\nend_header\n",
@@ -345,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn a_broken_header_is_an_error_with_its_line() {
+    fn header_errors_have_a_line_number() {
         let table = [
             ("ply\nelement vertex 1\n", "line 2: the file ends before `end_header`"),
             ("ply\nend_header\n", "line 2: the header has no `format` line"),

@@ -1,4 +1,4 @@
-//! The primitives of a PLY file: triangles of each texture, lines and points.
+//! The primitives of a PLY file: triangles by texture, lines, and points.
 
 use super::Contents;
 use super::faces::Faces;
@@ -12,7 +12,7 @@ use gltf_import::ImportOptions;
 use gltf_import::ImportWarnings;
 use model::{Model, Primitive, Topology};
 
-/// Maximum number of bytes in the arrays of the primitives.
+/// Returns the maximum number of bytes in the arrays of the primitives.
 pub(crate) fn array_bytes(contents: &Contents) -> u64 {
     let Contents { vertices, faces, strips, edges } = contents;
     let vertex =
@@ -31,7 +31,7 @@ struct Triangles {
     faces: Vec<u32>,
 }
 
-/// Builds the primitives; items with positions that are not finite are skipped.
+/// Builds the primitives. Items with non-finite positions are skipped.
 pub(crate) fn build_primitives(
     contents: Contents,
     model: &Model,
@@ -86,7 +86,7 @@ pub(crate) fn build_primitives(
 }
 
 impl Faces {
-    /// Adds the triangles of strips, which have only corners.
+    /// Adds the triangles of strips, which have no face attributes.
     fn append_strips(&mut self, strips: Self) {
         let Self { lengths, corners, .. } = strips;
         if let Some(uvs) = &mut self.uvs {
@@ -103,7 +103,7 @@ impl Faces {
     }
 }
 
-/// Cuts the faces into triangles; faces with an unusable vertex are skipped.
+/// Triangulates the faces. Faces with an unusable vertex are skipped.
 fn triangulate_faces(
     faces: &Faces,
     positions: &[[f32; 3]],
@@ -135,20 +135,18 @@ fn triangulate_faces(
         warnings.push_warning("element face", message);
     }
     if fans > 0 {
-        let message = counted(
-            fans,
-            "polygon crosses itself: it is triangulated as a fan",
-            "polygons cross themselves: they are triangulated as fans",
+        let message = format!(
+            "{fans} polygons intersect themselves; they are triangulated as far as possible"
         );
         warnings.push_warning("element face", message);
     }
     triangles
 }
 
-/// Builds the triangles of each texture.
+/// Builds the triangles for each texture.
 ///
-/// Texture coordinates of corners override texture coordinates of vertices, and vertex colors
-/// override face colors. A textured surface has no other colors.
+/// Texture coordinates of corners override those of vertices, and vertex colors override face
+/// colors. A textured surface has no other colors.
 fn build_surface(
     faces: &Faces,
     triangles: &Triangles,

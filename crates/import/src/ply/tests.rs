@@ -1,4 +1,4 @@
-//! Handmade PLY files: the models read from them, and the messages about broken ones.
+//! Tests of handwritten PLY files: the resulting models, and the messages about broken files.
 
 use crate::load_bytes;
 use gltf_import::linear_from_srgb;
@@ -19,7 +19,7 @@ fn load_leniently(bytes: &[u8]) -> Model {
         .unwrap()
 }
 
-/// Positions of the corners of all triangles.
+/// Returns the positions of all triangle corners.
 fn corners(model: &Model) -> Vec<[[f32; 3]; 3]> {
     let primitives = model.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let of = |p: &model::Primitive| {
@@ -36,7 +36,7 @@ const HEADER: &str = "element vertex 4\nproperty short flags\nproperty float z\n
                       property list int short words\nproperty uchar mark\nelement face 1\n\
                       property list uint8 uint16 vertex_index\nend_header\n";
 
-/// Returns the square with properties in an unusual order, and an element without meaning.
+/// Returns a binary file of the square with properties in an unusual order and an unknown element.
 fn binary_square(is_big: bool) -> Vec<u8> {
     let name = if is_big { "binary_big_endian" } else { "binary_little_endian" };
     let mut file = format!("ply\nformat {name} 1.0\n{HEADER}").into_bytes();
@@ -63,7 +63,7 @@ fn binary_square(is_big: bool) -> Vec<u8> {
 }
 
 #[test]
-fn all_encodings_are_read_alike() {
+fn all_encodings_give_the_same_model() {
     let vertices = "7 0 0 0 0\n7 0 2 1 5 0\n7 0 2 2 5 5 2 7 0 0 3 1 2 3 2";
     let text = format!("ply\nformat ascii 1.0\n{HEADER}{vertices}\n0 1\n\n2 1 1 9\n4 0 1 2 3");
     let windows = text.replace('\n', "\r\n");
@@ -81,7 +81,7 @@ fn all_encodings_are_read_alike() {
     }
 }
 
-/// Returns a text with vertices at (0,0,0), (1,0,0), (0,1,0), with additional properties.
+/// Returns a text file with vertices at (0,0,0), (1,0,0) and (0,1,0) and additional properties.
 fn triangle(properties: &str, values: [&str; 3], rest: &str, faces: &str) -> String {
     let [a, b, c] = values;
     format!(
@@ -113,7 +113,7 @@ fn colors_of_every_type_are_srgb() {
 }
 
 #[test]
-fn alpha_blends_and_none_at_all_is_opaque() {
+fn alpha_blends_unless_it_is_zero_everywhere() {
     let rgba = ["red", "green", "blue", "alpha"].map(|c| format!("property uchar {c}\n")).concat();
     let of = |alpha: [u8; 3]| {
         let values = alpha.map(|alpha| format!("1 2 3 {alpha}"));
@@ -131,7 +131,7 @@ fn alpha_blends_and_none_at_all_is_opaque() {
 }
 
 #[test]
-fn colors_of_faces_split_the_vertices() {
+fn face_colors_split_vertices() {
     let faces = "element face 2\nproperty list uchar int vertex_indices\nproperty uchar red\n\
                  property uchar green\nproperty uchar blue\n";
     let model = load(triangle("", [""; 3], faces, "3 0 1 2 255 0 0\n3 2 1 0 0 0 255").as_bytes());
@@ -143,7 +143,7 @@ fn colors_of_faces_split_the_vertices() {
 }
 
 #[test]
-fn points_lines_and_strips() {
+fn points_lines_and_strips_are_read() {
     let cloud = load(triangle("", [""; 3], "", "").as_bytes());
     assert_eq!(cloud.meshes[0].primitives[0].topology, Topology::Points);
     assert_eq!(cloud.meshes[0].primitives[0].indices, [0, 1, 2]);
@@ -166,7 +166,7 @@ fn items_that_are_not_finite_are_skipped() {
 }
 
 #[test]
-fn faults_have_a_place_and_lenient_reading_goes_on() {
+fn errors_have_a_location_and_lenient_reading_continues() {
     let bad_index = triangle("", [""; 3], &FACE.replace("face 1", "face 2"), "3 0 1 3\n3 0 1 2");
     let message = fault(bad_index.as_bytes());
     assert!(
@@ -185,7 +185,7 @@ fn faults_have_a_place_and_lenient_reading_goes_on() {
 }
 
 #[test]
-fn declared_counts_are_not_believed() {
+fn declared_counts_are_not_trusted() {
     for (encoding, count) in [("ascii", u64::MAX), ("binary_little_endian", 1 << 60)] {
         for element in ["vertex", "face", "tristrips", "edge", "other"] {
             let file = format!(
@@ -195,13 +195,13 @@ fn declared_counts_are_not_believed() {
             assert!(fault(file.as_bytes()).contains("the file ends"), "{file}");
         }
     }
-    // Without properties a record takes no bytes.
+    // A record without properties takes no bytes.
     let file = format!("ply\nformat ascii 1.0\nelement a {}\nend_header\n", u64::MAX);
     assert!(load(file.as_bytes()).meshes[0].primitives.is_empty());
 }
 
 #[test]
-fn what_other_readers_accept_is_read_with_a_warning() {
+fn files_that_other_readers_accept_are_read_with_warnings() {
     let text = b"ply\nformat ascii 1.0\nCreated by somebody\nelement vertex 4\nproperty float x\n\
         property float y\nproperty float z\nelement face 2\n\
         property list uchar int vertex_indices\nend_header\n\
@@ -216,7 +216,7 @@ fn what_other_readers_accept_is_read_with_a_warning() {
     assert_eq!(warnings.len(), 2, "{warnings:?}");
     assert!(warnings[0].starts_with("line 3: `Created by somebody` is not a line of a PLY header"));
     assert!(warnings[1].contains("2 records from here on have more numbers"), "{warnings:?}");
-    // Records that share a line are read as before.
+    // Several records may still share a line.
     let joined = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
         property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\
         0 0 0 1 0 0 1 1 0 3 0 1 2\n";
@@ -224,8 +224,8 @@ fn what_other_readers_accept_is_read_with_a_warning() {
     assert_eq!((corners(&model).len(), model.warnings.len()), (1, 0));
 }
 
-/// Three triangles side by side; all vertices of a triangle have the same `quality`; the last
-/// triangle's is not a number.
+/// Three adjacent triangles. All vertices of a triangle have the same `quality`, which is NaN for
+/// the last triangle.
 const QUALITIES: &str = "ply\nformat ascii 1.0\nelement vertex 9\nproperty float x\n\
     property float y\nproperty float z\nproperty double quality\nproperty uchar red\n\
     property uchar green\nproperty uchar blue\nproperty short flags\nelement face 3\n\
@@ -257,12 +257,12 @@ fn a_scalar_property_replaces_colors() {
     let warnings: Vec<String> = model.warnings.iter().map(Diagnostic::sentence).collect();
     let expected = "element vertex: 3 of 9 values of `quality` are not finite; they are drawn gray";
     assert_eq!(warnings, [expected]);
-    // Without the option, the file's colors are used.
+    // Without the option, the colors in the file are used.
     assert_eq!(load(QUALITIES.as_bytes()).active_scalar_attribute, None);
 }
 
 #[test]
-fn a_missing_scalar_property_is_an_error_that_lists_the_others() {
+fn a_missing_scalar_property_is_an_error_with_a_list() {
     let fault = |name: &str, file: &str, attribute: &str| {
         let scalars = ScalarColors { attribute: attribute.to_owned(), ..ScalarColors::default() };
         let options = ImportOptions { scalars: Some(scalars), ..ImportOptions::default() };

@@ -15,10 +15,10 @@ const SPLAT_COLOR: usize = 12;
 /// The spherical harmonic of degree 0: 1 / (2 √π).
 const SH_DEGREE_0: f32 = 0.282_094_8;
 
-/// Attributes of the vertices; arrays that are present have an entry for each.
+/// The vertex attributes. Arrays that are present have one entry per vertex.
 #[derive(Default, Debug)]
 pub(crate) struct Vertices {
-    /// Positions, as in the file: they may be infinite or NaN.
+    /// Positions as stored in the file; they may be infinite or NaN.
     pub(crate) positions: Vec<[f32; 3]>,
     /// Normals of any length.
     pub(crate) normals: Option<Vec<[f32; 3]>>,
@@ -34,12 +34,12 @@ pub(crate) struct Vertices {
 struct VertexRow {
     /// The known properties, by their [index](row_place).
     values: [f32; 16],
-    /// The property to show as colors; NaN without one.
+    /// The value of the property to show as colors, or NaN if there is none.
     scalar: f64,
 }
 
-/// Returns the index of a property in a row: x y z, nx ny nz, s t, red green blue alpha, f_dc_0 to
-/// f_dc_2.
+/// Returns the index of a property in a row, which has the order x y z, nx ny nz, s t, red green
+/// blue alpha, f_dc_0 to f_dc_2.
 fn row_place(name: &str) -> usize {
     match name {
         "x" => 0,
@@ -68,7 +68,8 @@ pub(super) fn color_channel(name: &str) -> Option<usize> {
     }
 }
 
-/// Names of the numeric vertex properties without a meaning here, each once, in alphabetical order.
+/// Returns the names of the numeric vertex properties without a predefined meaning, in alphabetical
+/// order and without duplicates.
 pub(super) fn scalar_attributes(header: &Header) -> Vec<String> {
     let elements = header.elements.iter().filter(|element| element.name == "vertex");
     let properties = elements.flat_map(|element| &element.properties);
@@ -129,7 +130,8 @@ pub(super) fn read_vertices(
     Ok(vertices)
 }
 
-/// Reads a record; `places` has an entry for each property, `scalar` is the index of a property.
+/// Reads a record. `places` has an entry for each property, and `scalar` is the index of a
+/// property.
 fn read_row(
     body: &mut Body<'_>,
     properties: &[PlyProperty],
@@ -156,7 +158,7 @@ fn read_row(
 }
 
 impl Vertices {
-    /// Adds a vertex; its color is not yet decoded.
+    /// Adds a vertex. Its color is not yet decoded.
     fn push_row(&mut self, VertexRow { values: row, scalar }: &VertexRow, is_splat: bool) {
         self.positions.push([row[0], row[1], row[2]]);
         if let Some(scalars) = &mut self.scalars {
@@ -178,7 +180,7 @@ impl Vertices {
         }
     }
 
-    /// Decodes the colors, which are still values from the file.
+    /// Decodes the colors, which are still raw values from the file.
     fn finish_colors(&mut self, properties: &[PlyProperty], warnings: &mut ImportWarnings) {
         if let Some(colors) = &mut self.colors {
             linearize_colors(colors, properties, warnings, "element vertex");
@@ -186,10 +188,10 @@ impl Vertices {
     }
 }
 
-/// Decodes colors from file values: sRGB as bytes, other integers, or fractions.
+/// Decodes sRGB colors from raw values: bytes, other integers, or floats.
 ///
-/// Fractions above 1 are taken as values up to 255, which some programs write. Alpha is 1 if the
-/// file has none, or if it is 0 everywhere.
+/// If floats exceed 1, all are treated as values up to 255, which some programs write. Alpha is 1
+/// if the file has no alpha or if it is 0 everywhere.
 pub(super) fn linearize_colors(
     colors: &mut [[f32; 4]],
     properties: &[PlyProperty],
@@ -218,7 +220,7 @@ pub(super) fn linearize_colors(
     let table = linear_table();
     for color in colors {
         for channel in &mut color[..3] {
-            // A cast maps NaN to 0.
+            // The cast maps NaN to 0.
             *channel = match scalar {
                 ScalarType::U8 => table[usize::from(*channel as u8)],
                 _ => linear_from_srgb(clamp_to_unit(*channel / scales[0])),
@@ -228,7 +230,7 @@ pub(super) fn linearize_colors(
     }
 }
 
-/// Returns the nearest number in [0, 1]; 0 for NaN.
+/// Returns the nearest number in [0, 1], or 0 for NaN.
 fn clamp_to_unit(value: f32) -> f32 {
     if value > 0.0 { value.min(1.0) } else { 0.0 }
 }

@@ -1,54 +1,56 @@
-//! Vertex normals by crease angle or smoothing group, for triangles over welded positions.
+//! Vertex normals by crease angle or smoothing group, for triangles with welded positions.
 //!
 //! The normal of a corner is the sum of the normals of all triangles around the vertex that can be
-//! reached from the corner's triangle across smooth edges. Each normal is weighted by its angle
-//! there (Thürmer and Wüthrich 1998), so the sum does not depend on how flat faces are cut into
-//! triangles. A vertex with several such groups is split.
+//! reached from the corner's triangle across smooth edges. Each normal is weighted by the
+//! triangle's angle at the vertex (Thürmer and Wüthrich 1998), so the sum does not depend on how
+//! flat faces are triangulated. A vertex with several such groups is split.
 //!
-//! An edge is smooth if exactly two triangles share it and their [`Smoothing`] allows it:
+//! An edge is smooth if exactly two triangles share it and their [`Smoothing`] allows it;
 //! boundaries, non-manifold edges and edges of triangles without area are creases. If all triangles
 //! around a vertex are within half the crease angle of their mean, they form one group, regardless
-//! of their edges: most vertices of fine meshes need no edge search.
+//! of their edges. So most vertices of fine meshes do not need an edge search.
 
 use glam::{DVec3, Vec3};
 
-/// Condition for smoothing the edge between two triangles.
+/// The condition for smoothing the edge between two triangles.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Smoothing<'a> {
-    /// The normals of the triangles enclose at most this angle, in degrees.
+    /// The angle between the triangle normals is at most this many degrees.
     CreaseAngle(f64),
-    /// The triangles are in the same smoothing group other than 0: the group of each triangle.
+    /// Both triangles are in the same smoothing group other than 0; contains the group of each
+    /// triangle.
     Groups(&'a [u32]),
 }
 
-/// Normals of triangles, and the vertices split for them.
+/// Vertex normals, and the vertices that were split for them.
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct CreaseNormals {
-    /// Vertices of the triangles. Those beyond the given positions are new; every other vertex
-    /// is still used where it was.
+    /// Vertices of the triangles. Indices beyond the given positions are new vertices; all other
+    /// vertices remain in use.
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// For each new vertex, in order, the vertex it is a copy of.
+    /// For each new vertex in order, the vertex it is a copy of.
     pub(crate) copies: Vec<u32>,
-    /// Unit normals of all vertices, the given and the new.
+    /// Unit normals of all vertices, original and new.
     pub(crate) normals: Vec<[f32; 3]>,
 }
 
-/// Tolerance by which cosines may be below the crease angle's.
+/// The tolerance by which cosines may be below the cosine of the crease angle.
 ///
-/// Coordinates are rounded: all edges of a twelve-sided prism, whose normals are 30° apart, should
-/// be treated alike.
+/// It allows for rounded coordinates, so that all edges of a twelve-sided prism, whose normals are
+/// 30° apart, are treated alike.
 const COSINE_TOLERANCE: f32 = 1e-5;
 
-/// Maximum deviation in degrees from the mean at a vertex; beyond it, triangles are grouped by
-/// their edges.
+/// Maximum deviation in degrees from the mean normal at a vertex. Beyond it, triangles are grouped
+/// by their edges.
 const MAX_SMOOTH_DEGREES: f64 = 45.0;
 
 impl CreaseNormals {
     /// Computes the normals of triangles in which equal positions share a vertex.
     ///
     /// The result depends only on the arguments. The time is linear in the number of triangles,
-    /// apart from a factor logarithmic in the largest number of triangles at one vertex. Indices
-    /// must be valid for the positions, and there must be fewer than 2³² vertices after splitting.
+    /// apart from a factor that is logarithmic in the maximum number of triangles at a vertex.
+    /// Indices must be valid for the positions, and there must be fewer than 2³² vertices after
+    /// splitting.
     pub(crate) fn compute(
         positions: &[[f32; 3]],
         triangles: Vec<[u32; 3]>,
@@ -74,7 +76,8 @@ impl CreaseNormals {
         result
     }
 
-    /// Assigns a normal to each group of corners of a vertex; all but the first get a new vertex.
+    /// Assigns a normal to each group of corners at a vertex. All groups but the first get a new
+    /// vertex.
     fn assign_normals(
         &mut self,
         vertex: u32,
@@ -107,9 +110,9 @@ impl CreaseNormals {
     }
 }
 
-/// Normals of the vertices around which the surface hardly bends.
+/// The normals of vertices around which the surface is nearly flat.
 struct SmoothVertices {
-    /// The unit normals of all vertices; final for smooth ones.
+    /// The unit normals of all vertices, final only for smooth vertices.
     normals: Vec<[f32; 3]>,
     /// Whether each vertex is smooth.
     is_smooth: Vec<bool>,
@@ -118,9 +121,9 @@ struct SmoothVertices {
 }
 
 impl SmoothVertices {
-    /// Finds the vertices whose triangles are all within half the crease angle of the sum of their
-    /// weighted normals, and within 45°: no two of them enclose more than the crease angle, and
-    /// none is a fin. With smoothing groups there are none.
+    /// Finds the vertices whose triangles are all within half the crease angle, and within 45°, of
+    /// the sum of their weighted normals. No two of these triangles differ by more than the crease
+    /// angle, and none is a fin. With smoothing groups, no vertex qualifies.
     fn find(
         vertices: usize,
         triangles: &[[u32; 3]],
@@ -159,7 +162,7 @@ impl SmoothVertices {
     }
 }
 
-/// Returns the direction of a vector; +z if it has none.
+/// Returns the direction of a vector, or +z if it has none.
 fn unit_or_z(sum: Vec3) -> Vec3 {
     sum.try_normalize().unwrap_or(Vec3::Z)
 }
@@ -167,17 +170,17 @@ fn unit_or_z(sum: Vec3) -> Vec3 {
 /// The normal and angles of a triangle.
 #[derive(Clone, Copy, Debug)]
 struct Face {
-    /// Unit normal; zero if the triangle has no area.
+    /// The unit normal, or zero if the triangle has no area.
     normal: Vec3,
-    /// Angles at the first two corners in radians; all three add up to π.
+    /// The angles at the first two corners in radians; all three add up to π.
     angles: [f32; 2],
 }
 
 impl Face {
-    /// Normal and angles of the triangle with these corners.
+    /// Computes the normal and angles of the triangle with these corners.
     ///
-    /// Computed in double precision: single would lose small triangles far from the origin, and
-    /// large ones would overflow.
+    /// This uses double precision, because single precision would lose small triangles far from the
+    /// origin and overflow for large triangles.
     fn new(positions: &[[f32; 3]], corners: [u32; 3]) -> Self {
         let [a, b, c] = corners.map(|at| DVec3::from(positions[at as usize].map(f64::from)));
         let (ab, bc, ca) = (b - a, c - b, a - c);
@@ -193,14 +196,14 @@ impl Face {
         Self { normal, angles: [arc_cosine(at_a), arc_cosine(at_b)] }
     }
 
-    /// Returns the normal, scaled to the angle at corner 0, 1 or 2.
+    /// Returns the normal weighted by the angle at corner 0, 1 or 2.
     fn weighted_normal(&self, corner: usize) -> Vec3 {
         let [a, b] = self.angles;
         self.normal * [a, b, (std::f32::consts::PI - a - b).max(0.0)][corner]
     }
 }
 
-/// Returns the angle of a cosine in radians, to within 7 · 10⁻⁵ (Abramowitz and Stegun 4.4.45):
+/// Returns the arc cosine in radians to within 7 · 10⁻⁵ (Abramowitz and Stegun 4.4.45), which is
 /// accurate enough for weights.
 fn arc_cosine(cosine: f32) -> f32 {
     let x = cosine.abs().min(1.0);
@@ -209,16 +212,16 @@ fn arc_cosine(cosine: f32) -> f32 {
     if cosine < 0.0 { std::f32::consts::PI - angle } else { angle }
 }
 
-/// The corners at each vertex: corner 3 t + k is the k-th of triangle t.
+/// The corners at each vertex. Corner 3 t + k is the k-th corner of triangle t.
 struct CornersByVertex {
-    /// For each vertex, the end of its corners in the list; initially their beginning.
+    /// For each vertex, the end of its corners in the list; initially the beginning.
     ends: Vec<u32>,
-    /// The corners, by vertex and then in the order of the triangles.
+    /// The corners, sorted by vertex and then by triangle.
     corners: Vec<u32>,
 }
 
 impl CornersByVertex {
-    /// Sorts the corners by vertex, by counting.
+    /// Sorts the corners by vertex with a counting sort.
     fn new(vertices: usize, triangles: &[[u32; 3]]) -> Self {
         let mut ends = vec![0u32; vertices + 1];
         let all = triangles.as_flattened();
@@ -228,7 +231,7 @@ impl CornersByVertex {
             sum += *end;
             *end = sum;
         }
-        // Each beginning moves to its end as the corners are filled in.
+        // Each beginning advances to the end as the corners are filled in.
         let mut corners = vec![0u32; all.len()];
         for (corner, &vertex) in all.iter().enumerate() {
             let slot = &mut ends[vertex as usize];
@@ -245,18 +248,18 @@ impl CornersByVertex {
     }
 }
 
-/// The part of the rule for smooth edges that depends on the two triangles.
+/// The part of the smooth edge rule that depends on the two triangles.
 struct SmoothEdges<'a> {
     /// The triangles.
     faces: &'a [Face],
-    /// The smallest cosine between the normals of two triangles; `None` for groups.
+    /// The minimum cosine between the normals of two triangles, or `None` for groups.
     cosine: Option<f32>,
-    /// Smoothing groups of the triangles.
+    /// The smoothing groups of the triangles.
     groups: &'a [u32],
 }
 
 impl<'a> SmoothEdges<'a> {
-    /// Creates the rule for a smoothing of some triangles.
+    /// Creates the rule for triangles with a given smoothing.
     fn new(smoothing: Smoothing<'a>, faces: &'a [Face]) -> Self {
         match smoothing {
             Smoothing::CreaseAngle(degrees) => {
@@ -267,7 +270,7 @@ impl<'a> SmoothEdges<'a> {
         }
     }
 
-    /// Returns whether the common edge of two triangles with area is smooth.
+    /// Returns whether the shared edge of two triangles with area is smooth.
     fn joins(&self, one: u32, other: u32) -> bool {
         let (one, other) = (one as usize, other as usize);
         if let Some(least) = self.cosine {
@@ -283,12 +286,12 @@ impl<'a> SmoothEdges<'a> {
     }
 }
 
-/// Groups the corners around one vertex; its buffers are reused for each vertex.
+/// Groups the corners around one vertex. The buffers are reused for each vertex.
 #[derive(Default)]
 struct VertexFans {
-    /// For each corner at the vertex, the first corner of its group, as indices into the corners.
+    /// For each corner at the vertex, the index of the first corner of its group.
     roots: Vec<u32>,
-    /// Edges from the vertex: the vertex at the other end, and a corner whose triangle has the
+    /// The edges at the vertex: the vertex at the other end, and a corner whose triangle has the
     /// edge.
     edges: Vec<(u32, u32)>,
     /// For the first corner of each group, the sum of weighted normals, and the group's vertex.
@@ -296,10 +299,10 @@ struct VertexFans {
 }
 
 impl VertexFans {
-    /// Groups the corners at a vertex that smooth edges connect.
+    /// Groups the corners at a vertex that are connected by smooth edges.
     ///
-    /// Every triangle has two edges at the vertex; after sorting by their other ends, equal edges
-    /// are adjacent. Triangles without area have no edges, and join the first group.
+    /// Every triangle has two edges at the vertex; sorting them by their other ends makes equal
+    /// edges adjacent. Triangles without area have no edges and join the first group.
     fn group_corners(&mut self, triangles: &[[u32; 3]], corners: &[u32], smooth: &SmoothEdges<'_>) {
         self.roots.clear();
         self.roots.extend(0..corners.len() as u32);
@@ -331,7 +334,7 @@ impl VertexFans {
         }
     }
 
-    /// Finds the first corner of a group, halving the path to it on the way.
+    /// Finds the first corner of a group, with path halving.
     fn find_root(&mut self, mut at: u32) -> u32 {
         while self.roots[at as usize] != at {
             let next = self.roots[at as usize];
@@ -374,7 +377,7 @@ mod tests {
         {
             let (positions, triangles) = bent_strip(2, turn);
             let result = crease(&positions, triangles, limit);
-            assert_eq!(result.copies.len(), copies, "{turn} of {limit}");
+            assert_eq!(result.copies.len(), copies, "{turn} with limit {limit}");
             assert_eq!(result.normals.len(), positions.len() + copies);
         }
     }
@@ -383,7 +386,7 @@ mod tests {
     fn smooth_normals_are_the_mean_of_the_faces() {
         let (positions, triangles) = bent_strip(2, 20.0);
         let result = crease(&positions, triangles, 30.0);
-        // The first face looks along −y; at the bend both faces have angles of 90° in all.
+        // The first face points along −y. At the bend, the angles of each face add up to 90°.
         let turned = |degrees: f64| {
             let angle = degrees.to_radians();
             Vec3::new(libm::sin(angle) as f32, -libm::cos(angle) as f32, 0.0)
@@ -411,7 +414,7 @@ mod tests {
             let [a, b, c] = now.map(|at| flat.normals[at as usize]);
             assert!(a == b && b == c && a.iter().filter(|x| x.abs() == 1.0).count() == 1, "{a:?}");
         }
-        // Weighted by angle, the three faces count equally, however they are cut.
+        // Weighted by angle, the three faces count equally, however they are triangulated.
         let round = crease(&positions, triangles, 180.0);
         for (position, normal) in positions.iter().zip(&round.normals) {
             let outward = (Vec3::from(*position) - 0.5).normalize();
@@ -423,14 +426,14 @@ mod tests {
     fn non_manifold_edges_are_creases() {
         let (mut positions, mut triangles) = bent_strip(2, 0.0);
         assert_eq!(crease(&positions, triangles.clone(), 180.0).copies.len(), 0);
-        // A third face at the edge between the two rectangles.
+        // Add a third face at the edge between the two rectangles.
         positions.push([1.0, 1.0, 0.0]);
         triangles.push([2, 3, 6]);
         assert_eq!(crease(&positions, triangles, 180.0).copies.len(), 4);
     }
 
     #[test]
-    fn triangles_without_area_change_nothing() {
+    fn triangles_without_area_do_not_affect_normals() {
         let (positions, mut triangles) = bent_strip(2, 20.0);
         let normals = crease(&positions, triangles.clone(), 30.0).normals;
         triangles.insert(0, [2, 2, 3]);
@@ -449,13 +452,13 @@ mod tests {
         };
         assert_eq!(copies(&[1, 1, 1, 1]), 0);
         assert_eq!(copies(&[1, 1, 2, 2]), 2);
-        // Group 0 is flat: every corner has its own vertex.
+        // Group 0 is flat, so every corner has its own vertex.
         assert_eq!(copies(&[0, 0, 0, 0]), 12 - 6);
         assert_eq!(copies(&[]), 12 - 6);
     }
 
     #[test]
-    fn sizes_at_the_ends_of_the_range_have_normals() {
+    fn very_small_and_large_triangles_have_normals() {
         for size in [1e-40, 1e-30, 1e30, 3e38] {
             let positions = [[0.0, 0.0, 0.0], [size, 0.0, 0.0], [0.0, size, 0.0]];
             let result = crease(&positions, vec![[0, 1, 2]], 30.0);
@@ -464,7 +467,7 @@ mod tests {
     }
 
     #[test]
-    fn a_vertex_with_very_many_triangles_takes_no_longer() {
+    fn a_vertex_with_many_triangles_is_not_slow() {
         let count = 100_000u32;
         let rim = (0..count).map(|at| [at as f32, (at % 2) as f32 * 1e6, 1.0]);
         let positions: Vec<[f32; 3]> = std::iter::once([0.0; 3]).chain(rim).collect();
@@ -474,7 +477,7 @@ mod tests {
     }
 
     #[test]
-    fn arc_cosines() {
+    fn arc_cosines_are_accurate() {
         for step in -1000..=1000 {
             let cosine = step as f32 / 1000.0;
             let error = f64::from(arc_cosine(cosine)) - libm::acos(f64::from(cosine));

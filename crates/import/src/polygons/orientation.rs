@@ -1,17 +1,18 @@
-//! Orientation of three points in a plane, exact for single-precision coordinates.
+//! The orientation of three points in a plane, exact for single-precision coordinates.
 //!
 //! Source: J. R. Shewchuk, *Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
 //! Predicates*, 1997: the error bound of the filter (`ccwerrboundA`), TWO-SUM and GROW-EXPANSION.
 
-/// Relative error of the rounded determinant: (3 + 16 ε) ε with ε = 2⁻⁵³.
+/// The relative error of the rounded determinant: (3 + 16 ε) ε with ε = 2⁻⁵³.
 const ERROR_BOUND: f64 = (3.0 + 16.0 * EPSILON) * EPSILON;
 /// Half the distance from 1 to the next number.
 const EPSILON: f64 = f64::EPSILON / 2.0;
 
-/// Twice the signed area of the triangle a, b, c, with the exact sign: positive if it runs
-/// counter-clockwise, 0 if the points are collinear.
+/// Returns twice the signed area of the triangle a, b, c, with the exact sign: positive for
+/// counter-clockwise order, 0 if the points are collinear.
 ///
-/// The coordinates must be finite values of `f32`: the product of two of them is exact in `f64`.
+/// The coordinates must be finite `f32` values, because the product of two such values is exact in
+/// `f64`.
 pub(super) fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     let left = (a[0] - c[0]) * (b[1] - c[1]);
     let right = (a[1] - c[1]) * (b[0] - c[0]);
@@ -22,11 +23,11 @@ pub(super) fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     exact_orient2d(a, b, c)
 }
 
-/// Returns the largest component of the exact determinant: it has the sign of the whole.
+/// Returns the largest component of the exact determinant, which has the sign of the determinant.
 fn exact_orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     let products =
         [a[0] * b[1], -(a[1] * b[0]), b[0] * c[1], -(b[1] * c[0]), c[0] * a[1], -(c[1] * a[0])];
-    // A sum without rounding: components that do not overlap, smallest first.
+    // An exact sum as nonoverlapping components, smallest first.
     let mut expansion = [0.0; 6];
     for (length, product) in products.into_iter().enumerate() {
         let mut sum = product;
@@ -51,8 +52,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn signs_are_those_of_integers() {
-        // Coordinates that are multiples of a power of two, far from the origin: i128 is exact.
+    fn signs_match_integer_arithmetic() {
+        // Coordinates are multiples of a power of two, far from the origin, so i128 is exact.
         let mut state = 12345_u64;
         let mut next = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
@@ -73,14 +74,14 @@ mod tests {
     }
 
     #[test]
-    fn one_unit_in_the_last_place_decides() {
-        // On the line y = x, from very small to very large; then the last point is moved by one
+    fn one_unit_in_the_last_place_changes_the_sign() {
+        // Points on the line y = x, from very small to very large, with the last point moved by one
         // bit.
         let on = |x: f32| [f64::from(x), f64::from(x)];
         let (a, b, c) = (on(1e-30), on(3.0), on(2e30));
         assert_eq!(orient2d(a, b, c), 0.0);
         let above = [f64::from(1e-30_f32), f64::from(1e-30_f32.next_up())];
         assert!(orient2d(above, c, b) != 0.0);
-        assert!(orient2d(above, b, c) > 0.0, "left of the way from b to c");
+        assert!(orient2d(above, b, c) > 0.0, "left of the line from b to c");
     }
 }

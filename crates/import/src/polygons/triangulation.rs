@@ -1,55 +1,57 @@
-//! Triangulation of polygons in space by ear cutting.
+//! Triangulation of polygons in space by ear clipping.
 //!
-//! A polygon of n corners becomes n − 2 triangles that use its corners. It is projected along its
-//! normal's largest axis (Newell's method), where exact predicates decide. It may be concave or
-//! slightly bent, and may have collinear and repeated corners and holes joined by bridges. Polygons
-//! that cross themselves have no triangulation: once no ear is left, the rest becomes a fan.
+//! A polygon with n corners becomes n − 2 triangles that use its corners. It is projected along the
+//! largest axis of its normal (Newell's method) and then triangulated with exact predicates. It may
+//! be concave or slightly nonplanar, and may have collinear or repeated corners, and holes joined
+//! by bridges. Self-intersecting polygons have no triangulation; once no ear is left, the rest
+//! becomes a fan.
 //!
-//! Source: G. H. Meisters, *Polygons Have Ears*, 1975; the normal by I. E. Sutherland, R. F.
+//! Sources: G. H. Meisters, *Polygons Have Ears*, 1975; for the normal, I. E. Sutherland, R. F.
 //! Sproull, R. A. Schumacker, *A Characterization of Ten Hidden-Surface Algorithms*, 1974, who
-//! thank M. Newell.
+//! credit M. Newell.
 
 use super::orientation::orient2d;
 
-/// Maximum number of point-in-triangle tests for all polygons of a file: about a tenth of a second.
+/// Maximum number of point-in-triangle tests for all polygons of a file, which take about a tenth
+/// of a second.
 ///
 /// An ear is tested only against the reflex corners within its range along the polygon's longer
-/// side, so that ordinary polygons, even large ones, take a few tests per corner. Contrived
-/// polygons can take n² tests.
+/// axis, so that even large ordinary polygons take only a few tests per corner. Contrived polygons
+/// can take n² tests.
 const MAX_POINT_TESTS: u64 = 1 << 24;
 
-/// The cost of examining a corner, whether or not it is an ear, in tests.
+/// The cost of examining a corner, in tests, whether or not it is an ear.
 const TESTS_PER_STEP: u64 = 4;
 
-/// The outcome of cutting a polygon into triangles.
+/// The outcome of triangulating a polygon.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum PolygonKind {
-    /// The triangles have the winding of the polygon and cover it, each part as often as the
-    /// polygon winds around it. Some may have no area, where corners coincide or are collinear.
+    /// The triangles have the polygon's winding, and cover each part of the polygon as often as it
+    /// winds around that part. Where corners coincide or are collinear, triangles may have no area.
     Simple,
-    /// The polygon has no area: a fan of triangles without area.
+    /// The polygon has no area, and becomes a fan of triangles without area.
     Flat,
-    /// The polygon crosses itself, or is too intricate for the test limit: at least part of it is a
-    /// fan.
+    /// The polygon intersects itself or is too complex for the test limit, so at least part of it
+    /// is a fan.
     Fan,
 }
 
-/// Cuts polygons into triangles; its buffers are reused for each polygon.
+/// Triangulates polygons. The buffers are reused for each polygon.
 #[derive(Debug)]
 pub(crate) struct Triangulator {
-    /// The corners in the plane, counter-clockwise.
+    /// The corners in the plane, in counter-clockwise order.
     points: Vec<[f64; 2]>,
-    /// The remaining corner before each.
+    /// The remaining corner before each corner.
     previous: Vec<u32>,
-    /// The remaining corner after each.
+    /// The remaining corner after each corner.
     next: Vec<u32>,
-    /// Whether a corner remains and is reflex or collinear.
+    /// Whether each corner remains and is reflex or collinear.
     is_reflex: Vec<bool>,
     /// The axis of the plane along which the polygon is longer.
     long_axis: usize,
-    /// Corners that were reflex at the beginning, with their points, sorted along that axis.
+    /// The initially reflex corners with their points, sorted along that axis.
     reflex_in_order: Vec<([f64; 2], u32)>,
-    /// The remaining tests for this file; see [`MAX_POINT_TESTS`].
+    /// The remaining number of tests for this file; see [`MAX_POINT_TESTS`].
     tests_left: u64,
 }
 
@@ -69,10 +71,10 @@ impl Default for Triangulator {
 }
 
 impl Triangulator {
-    /// Appends the triangles of a polygon, as indices of its corners from 0, with its winding.
+    /// Appends the triangles of a polygon, with the polygon's winding, as corner indices from 0.
     ///
-    /// A polygon of n corners always has n − 2 triangles, or none if n is less than 3. Positions
-    /// must be finite.
+    /// A polygon with n corners always gives n − 2 triangles, or none if n is less than 3.
+    /// Positions must be finite.
     pub(crate) fn triangulate(
         &mut self,
         corners: &[[f32; 3]],
@@ -95,8 +97,8 @@ impl Triangulator {
         self.cut_ears(triangles)
     }
 
-    /// Projects the corners along the largest axis of the normal, so that they run
-    /// counter-clockwise; `false` if there is no normal.
+    /// Projects the corners along the largest axis of the normal, in counter-clockwise order.
+    /// Returns `false` if there is no normal.
     fn project(&mut self, corners: &[[f32; 3]]) -> bool {
         let normal = newell_normal(corners);
         let axis = (0..3).fold(
@@ -117,10 +119,10 @@ impl Triangulator {
         true
     }
 
-    /// Returns whether the fan around the first corner is a triangulation: seen from it, the other
-    /// corners follow each other counter-clockwise within half a turn.
+    /// Returns whether the fan around the first corner is a triangulation, that is, the other
+    /// corners are in counter-clockwise order around it, within half a turn.
     ///
-    /// This holds for all convex polygons, which are the vast majority.
+    /// This is true for all convex polygons, which are the vast majority.
     fn is_visible_from_first(&self) -> bool {
         let [first, second, rest @ ..] = self.points.as_slice() else { return false };
         let mut before = second;
@@ -131,7 +133,7 @@ impl Triangulator {
         })
     }
 
-    /// Builds the ring of corners, and the list of reflex ones.
+    /// Builds the ring of corners and the list of reflex corners.
     fn link_corners(&mut self) {
         let count = self.points.len() as u32;
         self.previous.clear();
@@ -151,7 +153,7 @@ impl Triangulator {
         reflex_in_order.sort_by(|(a, _), (b, _)| a[*axis].total_cmp(&b[*axis]));
     }
 
-    /// Cuts ears until one triangle is left. If there is no ear, a collinear corner is cut; if
+    /// Clips ears until one triangle is left. If there is no ear, a collinear corner is clipped; if
     /// there is none either, the rest becomes a fan.
     fn cut_ears(&mut self, triangles: &mut Vec<[u32; 3]>) -> PolygonKind {
         let (mut at, mut remaining, mut since_cut) = (0_u32, self.points.len(), 0_usize);
@@ -167,7 +169,7 @@ impl Triangulator {
             if is_flat || (turn > 0.0 && self.is_ear(at)) {
                 triangles.push(self.cut(at));
                 (remaining, since_cut) = (remaining - 1, 0);
-                // Advances two steps, so that a row of ears does not become a fan of slivers.
+                // Advance two steps, so that a row of ears does not become a fan of slivers.
                 at = self.next[at as usize];
             } else {
                 since_cut += 1;
@@ -186,7 +188,7 @@ impl Triangulator {
         self.previous[after as usize] = before;
         self.is_reflex[at as usize] = false;
         for neighbor in [before, after] {
-            // A convex corner stays convex; in a polygon that crosses itself nothing is certain.
+            // A convex corner stays convex, except perhaps in a self-intersecting polygon.
             if self.is_reflex[neighbor as usize] {
                 self.is_reflex[neighbor as usize] = self.turn_at(neighbor) <= 0.0;
             }
@@ -194,30 +196,32 @@ impl Triangulator {
         [before, at, after]
     }
 
-    /// Twice the area of the triangle at a remaining corner: positive if it is convex.
+    /// Returns twice the area of the triangle at a remaining corner, which is positive if the
+    /// corner is convex.
     fn turn_at(&self, at: u32) -> f64 {
         let [a, b, c] = self.ear_triangle(at);
         orient2d(a, b, c)
     }
 
-    /// Returns the triangle that would be removed by cutting a corner.
+    /// Returns the triangle that clipping a corner would remove.
     fn ear_triangle(&self, at: u32) -> [[f64; 2]; 3] {
         let around = [self.previous[at as usize], at, self.next[at as usize]];
         around.map(|corner| self.points[corner as usize])
     }
 
-    /// Returns whether the edge to a collinear corner doubles back on itself, or has no length.
+    /// Returns whether the edge to a collinear corner doubles back on itself or has no length.
     fn is_spike(&self, at: u32) -> bool {
         let [a, b, c] = self.ear_triangle(at);
         let is_between = |k: usize| a[k].min(c[k]) <= b[k] && b[k] <= a[k].max(c[k]);
         b == a || b == c || !is_between(0) || !is_between(1)
     }
 
-    /// Returns whether no other corner is in the triangle at a convex corner, including its edges.
+    /// Returns whether the triangle at a convex corner, including its edges, contains no other
+    /// corner.
     ///
-    /// Corners at the same position as one of the triangle's are ignored: they are the ends of
-    /// bridges to holes. Only reflex corners need a test: of the corners in the triangle, the one
-    /// farthest from the edge to be cut is reflex.
+    /// Corners at the same position as a corner of the triangle are ignored, because they are the
+    /// ends of bridges to holes. Only reflex corners need a test: of the corners in the triangle,
+    /// the one farthest from the edge to be clipped is reflex.
     fn is_ear(&mut self, at: u32) -> bool {
         let [a, b, c] = self.ear_triangle(at);
         let [low, high] = [f64::min, f64::max].map(|f| [0, 1].map(|k| f(f(a[k], b[k]), c[k])));
@@ -249,7 +253,7 @@ impl Triangulator {
     }
 }
 
-/// Returns the axis along which points spread farther.
+/// Returns the axis along which the points extend farther.
 fn long_axis(points: &[[f64; 2]]) -> usize {
     let extent = |axis: usize| {
         let values = || points.iter().map(|point| point[axis]);
@@ -258,7 +262,7 @@ fn long_axis(points: &[[f64; 2]]) -> usize {
     usize::from(extent(1) > extent(0))
 }
 
-/// Appends the triangles between the first corner and each edge that does not touch it.
+/// Appends the triangles between the first corner and each edge not adjacent to it.
 fn push_fan(corners: impl IntoIterator<Item = u32>, triangles: &mut Vec<[u32; 3]>) {
     let mut corners = corners.into_iter();
     let (Some(first), Some(mut before)) = (corners.next(), corners.next()) else { return };
@@ -268,11 +272,13 @@ fn push_fan(corners: impl IntoIterator<Item = u32>, triangles: &mut Vec<[u32; 3]
     }
 }
 
-/// Returns the sum of the cross products of a polygon's edges: twice its area, along its normal.
+/// Returns the sum of the cross products of a polygon's edges: its normal, scaled to twice its
+/// area.
 fn newell_normal(corners: &[[f32; 3]]) -> [f64; 3] {
     let mut normal = [0.0; 3];
     let Some(origin) = corners.first().map(|at| at.map(f64::from)) else { return normal };
-    // Relative to the first corner, so that a small polygon far away keeps its digits.
+    // Coordinates are relative to the first corner, so that a small distant polygon loses no
+    // precision.
     let from_origin = |at: &[f32; 3]| -> [f64; 3] {
         std::array::from_fn(|axis| f64::from(at[axis]) - origin[axis])
     };

@@ -1,33 +1,34 @@
-//! Vertex welding: equal positions become one vertex.
+//! Vertex welding: merges equal positions into one vertex.
 
 use std::collections::BTreeMap;
 
-/// Finds equal positions, with an open-addressing hash table.
+/// Finds equal positions with an open-addressing hash table.
 ///
-/// Positions are equal if their bits are, after −0 has become 0; positions that are merely close
-/// are not welded. Vertices are numbered in the order in which they first appear.
+/// Positions are equal if their bits are equal, after −0 has been replaced by 0; positions that are
+/// merely close are not welded. Vertices are numbered in order of first appearance.
 #[derive(Debug, Default)]
 pub(crate) struct VertexWelder {
     /// Positions of the vertices.
     positions: Vec<[f32; 3]>,
-    /// Vertices by hash, or [`EMPTY`]; their number is a power of two, and at most half are used.
+    /// The slots: vertices by hash, or [`EMPTY`]. Their number is a power of two, and at most half
+    /// are used.
     slots: Vec<u32>,
-    /// Vertices whose nearby slots were all full.
+    /// Vertices for which all probed slots were full.
     crowded: BTreeMap<[u32; 3], u32>,
 }
 
 /// A slot without a vertex.
 const EMPTY: u32 = u32::MAX;
-/// Number of slots probed before the search tree is used: a file made for collisions is slower by a
-/// logarithm, not quadratic.
+/// Number of slots to probe before the search tree is used. It makes files with contrived
+/// collisions slower by a logarithmic factor instead of quadratic.
 const PROBES: usize = 32;
-/// Number of positions whose slots are read ahead of their use.
+/// Number of positions whose slots are read ahead of use.
 const BATCH: usize = 192;
 /// Number of slots in the smallest table.
 const LEAST_SLOTS: usize = 64;
 
 impl VertexWelder {
-    /// Creates a welder that holds this number of vertices before it has to grow.
+    /// Creates a welder with space for this number of vertices before it has to grow.
     pub(crate) fn with_capacity(vertices: usize) -> Self {
         let slots = (2 * vertices).next_power_of_two().max(LEAST_SLOTS);
         Self {
@@ -37,11 +38,11 @@ impl VertexWelder {
         }
     }
 
-    /// Returns the vertices at some positions; new positions get new vertices. There must be fewer
-    /// than 2³² − 1 vertices.
+    /// Returns the vertices at some positions, adding new vertices for new positions. There must be
+    /// fewer than 2³² − 1 vertices.
     ///
-    /// Slots and vertices of a batch are read before they are needed: most of the time is spent
-    /// waiting for memory, and independent reads wait together.
+    /// The slots and vertices of a batch are read before they are needed, because most of the time
+    /// is memory latency, and independent reads overlap.
     pub(crate) fn weld_all(&mut self, positions: &[[f32; 3]]) -> Vec<u32> {
         let mut vertices = Vec::with_capacity(positions.len());
         let mut hashes = [0; BATCH];
@@ -57,13 +58,14 @@ impl VertexWelder {
         vertices
     }
 
-    /// Returns the vertex at one position.
+    /// Returns the vertex at a position, adding it if necessary.
     #[cfg(test)]
     fn weld(&mut self, position: [f32; 3]) -> u32 {
         self.weld_hashed(position, hash_bits(canonical(position).map(f32::to_bits)))
     }
 
-    /// Reads the first slot of each hash, then the vertices there; the result has no meaning.
+    /// Reads the first slot of each hash, then the vertices in these slots, to load them into the
+    /// cache. The result has no meaning.
     #[inline]
     fn read_ahead(&self, hashes: &[usize]) -> u32 {
         let mask = self.slots.len().wrapping_sub(1);
@@ -103,7 +105,7 @@ impl VertexWelder {
         vertex
     }
 
-    /// Returns the positions of the vertices, in the order of their numbers.
+    /// Returns the positions of the vertices in order.
     pub(crate) fn into_positions(self) -> Vec<[f32; 3]> {
         self.positions
     }
@@ -135,13 +137,13 @@ impl VertexWelder {
     }
 }
 
-/// Returns the position with 0 for −0: the addition leaves everything else unchanged.
+/// Replaces −0 by 0 in a position; the addition leaves all other values unchanged.
 #[inline]
 fn canonical(position: [f32; 3]) -> [f32; 3] {
     position.map(|x| x + 0.0)
 }
 
-/// Returns a hash of three words: multiplications by odd constants, which mix the upper bits well.
+/// Hashes three words by multiplication with odd constants, which mixes the upper bits well.
 #[inline]
 fn hash_bits([x, y, z]: [u32; 3]) -> usize {
     let pair = u64::from(x) | u64::from(y) << 32;
@@ -155,7 +157,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn equal_bits_are_one_vertex_and_minus_zero_is_zero() {
+    fn equal_positions_and_signed_zeros_are_welded() {
         let mut welder = VertexWelder::default();
         let next = f32::from_bits(1f32.to_bits() + 1);
         let places = [[0.0, 1.0, -0.0], [-0.0, 1.0, 0.0], [0.0, next, 0.0], [0.0, 1.0, 0.0]];
@@ -166,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn tables_grow_and_keep_their_vertices() {
+    fn growing_tables_keep_their_vertices() {
         let place = |at: u32| [at as f32, (at % 7) as f32, -(at as f32)];
         let mut welder = VertexWelder::with_capacity(1);
         for round in 0..2 {
@@ -178,8 +180,8 @@ mod tests {
     }
 
     #[test]
-    fn collisions_are_not_quadratic() {
-        // z is chosen so that the sum before the last multiplication is the same for all.
+    fn collisions_do_not_take_quadratic_time() {
+        // z is chosen so that the sum before the last multiplication is the same for all positions.
         let colliding = |x: u32| {
             let pair = u64::from(x);
             let mixed = (pair ^ pair >> 29).wrapping_mul(0x9E37_79B9_7F4A_7C15);

@@ -1,4 +1,4 @@
-//! ASCII STL: solids made of facets, in keywords and decimal numbers.
+//! ASCII STL: solids made of facets, written as keywords and decimal numbers.
 //!
 //! ```text
 //!  solid NAME
@@ -12,7 +12,7 @@
 //!  endsolid NAME
 //! ```
 //!
-//! Keywords may be in upper or lower case, separated by white space of any kind.
+//! Keywords may be in upper or lower case, separated by any white space.
 
 use super::solid::Solid;
 use super::truncated;
@@ -21,7 +21,7 @@ use gltf_import::ImportWarnings;
 use gltf_import::Limits;
 use model::{Diagnostic, codes};
 
-/// Reads the solids of a text.
+/// Reads the solids in a text file.
 ///
 /// # Errors
 /// Fails if the text has unexpected words or facets that are not triangles, or ends within a facet;
@@ -56,23 +56,23 @@ pub(super) fn read_solids(
     Ok(reader.solids)
 }
 
-/// Reader of the statements of a text.
+/// Reads the statements of a text file.
 struct SolidReader<'a, 'w> {
     text: &'a [u8],
     scanner: TextScanner<'a>,
     lines: LineCounter<'a>,
     limits: &'a Limits,
     warnings: &'w mut ImportWarnings,
-    /// Completed solids, except for those without triangles.
+    /// The completed solids, except for those without triangles.
     solids: Vec<Solid>,
-    /// The solid that is being read.
+    /// The solid being read.
     current: Solid,
-    /// Whether its end has not been read yet.
+    /// Whether the end of this solid has not been read yet.
     is_open: bool,
 }
 
 impl<'a> SolidReader<'a, '_> {
-    /// Reads the statement that a keyword begins: a facet, or the beginning or end of a solid.
+    /// Reads the statement that starts with a keyword: a facet, or the beginning or end of a solid.
     fn read_statement(&mut self, keyword: Token<'a>) -> Result<(), Diagnostic> {
         if keyword.is_keyword("facet") {
             return self.read_facet(keyword);
@@ -92,7 +92,8 @@ impl<'a> SolidReader<'a, '_> {
         Err(self.unexpected(keyword, "facet"))
     }
 
-    /// Reads the rest of a line, up to a facet if there is one: some files have no line ends.
+    /// Reads the rest of a line, up to a facet if there is one, because some files have no line
+    /// ends.
     fn read_name(&mut self) -> String {
         let mut rest = self.scanner.clone();
         let Some(line) = rest.next_line() else { return String::new() };
@@ -113,7 +114,8 @@ impl<'a> SolidReader<'a, '_> {
 
     /// Reads a facet from its normal to its end, and adds its triangle.
     ///
-    /// After an error the rest of the facet is skipped, up to the next facet or the end of a solid.
+    /// After an error, the rest of the facet is skipped, up to the next facet or the end of a
+    /// solid.
     fn read_facet(&mut self, keyword: Token<'a>) -> Result<(), Diagnostic> {
         if let Some(corners) = self.read_usual_corners() {
             let lines = &mut self.lines;
@@ -129,8 +131,8 @@ impl<'a> SolidReader<'a, '_> {
         Ok(())
     }
 
-    /// Reads the corners of a facet in the usual form, in lowercase. Returns `None` for any other
-    /// form, and then nothing has been consumed.
+    /// Reads the corners of a facet in the usual lowercase form. Returns `None`, without consuming
+    /// anything, for any other form.
     fn read_usual_corners(&mut self) -> Option<[[f32; 3]; 3]> {
         let mut scanner = self.scanner.clone();
         let skip = |scanner: &mut TextScanner<'a>, tokens: &[&[u8]]| {
@@ -157,7 +159,7 @@ impl<'a> SolidReader<'a, '_> {
     fn read_corners(&mut self) -> Result<[[f32; 3]; 3], Diagnostic> {
         let mut token = self.require("normal")?;
         if token.is_keyword("normal") {
-            // A normal with fewer numbers does not consume the loop.
+            // A normal with too few numbers does not consume the loop.
             for _ in 0..4 {
                 token = self.require("outer")?;
                 if token.is_keyword("outer") {
@@ -181,7 +183,7 @@ impl<'a> SolidReader<'a, '_> {
         Ok(corners)
     }
 
-    /// Returns the next token; `wanted` describes the expected one.
+    /// Returns the next token; `wanted` describes the expected token.
     fn require(&mut self, wanted: &str) -> Result<Token<'a>, Diagnostic> {
         self.scanner.next_token().ok_or_else(|| {
             let location = self.lines.locate(self.text.len());
@@ -200,7 +202,7 @@ impl<'a> SolidReader<'a, '_> {
         if token.is_keyword(wanted) { Ok(()) } else { Err(self.unexpected(token, wanted)) }
     }
 
-    /// Skips the tokens up to the next facet, or beginning or end of a solid.
+    /// Skips tokens up to the next facet or the beginning or end of a solid.
     fn skip_facet(&mut self) {
         loop {
             let before = self.scanner.clone();
@@ -212,7 +214,7 @@ impl<'a> SolidReader<'a, '_> {
         }
     }
 
-    /// Adds the current solid to the completed ones, unless it is empty.
+    /// Adds the current solid to the completed solids, unless it is empty.
     fn finish_solid(&mut self) -> Result<(), Diagnostic> {
         let solid = std::mem::take(&mut self.current);
         solid.warn_of_omissions(self.warnings);

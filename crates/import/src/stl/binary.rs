@@ -1,4 +1,4 @@
-//! Binary STL: 84 bytes, then 50 for each triangle, all numbers little-endian.
+//! Binary STL: an 84-byte header, then 50 bytes per triangle, with little-endian numbers.
 //!
 //! ```text
 //!  0          80       84        96        108       120       132     134
@@ -16,27 +16,27 @@ use gltf_import::MemoryBudget;
 use model::{Diagnostic, codes};
 use std::io::Read;
 
-/// Maximum number of bytes in the arrays for a triangle: while normals are computed, without shared
-/// vertices.
+/// Maximum number of array bytes per triangle, which occurs while normals are computed without
+/// shared vertices.
 const ARRAY_BYTES: u64 = 140;
 
-/// Number of bytes of triangles that are read at a time: 1,024 triangles.
+/// Number of bytes to read at a time: 1,024 triangles.
 const CHUNK_BYTES: usize = 1024 * TRIANGLE_BYTES;
 
-/// A binary file from which the header has been read.
+/// A binary file whose header has been read.
 pub(super) struct BinaryFile<'a> {
-    /// The header: a comment and the number of triangles.
+    /// The header, which contains a comment and the number of triangles.
     pub(super) header: [u8; HEADER_BYTES],
-    /// The bytes after it.
+    /// The bytes after the header.
     pub(super) body: &'a mut dyn Read,
-    /// The number of those bytes.
+    /// The number of bytes after the header.
     pub(super) body_bytes: usize,
 }
 
 /// Reads a binary file.
 ///
-/// The header gives the number of triangles, limited by the available bytes. Programs that cannot
-/// seek back to write it leave 0; then all triangles are read.
+/// The header declares the number of triangles, which is limited by the available bytes. Programs
+/// that cannot seek back to write it leave 0; all triangles are then read.
 ///
 /// # Errors
 /// Fails if the file is too short for its triangles, too large for the budget, or cannot be read to
@@ -73,7 +73,7 @@ pub(super) fn read_solid(
     Ok(solid)
 }
 
-/// Returns the corners of a triangle: nine numbers after its normal.
+/// Returns the corners of a triangle, the nine numbers after its normal.
 fn corners(facet: &[u8; TRIANGLE_BYTES]) -> [[f32; 3]; 3] {
     let words = facet[12..48].as_chunks::<4>().0;
     std::array::from_fn(|corner| {
@@ -81,14 +81,15 @@ fn corners(facet: &[u8; TRIANGLE_BYTES]) -> [[f32; 3]; 3] {
     })
 }
 
-/// Returns the error for a file that ends, or fails, while it is read.
+/// Returns the error for a file that ends or fails while it is read.
 fn unreadable_body(triangle: usize, error: &std::io::Error) -> Diagnostic {
     let location = format!("byte {}", HEADER_BYTES + triangle * TRIANGLE_BYTES);
     let message = format!("cannot read the rest of the file: {error}");
     Diagnostic::error(codes::IO_ERROR, &location, message, "copy or export it again")
 }
 
-/// Returns the number of triangles to read: the header's, compared with the length of the file.
+/// Returns the number of triangles to read: the number in the header, compared with the file
+/// length.
 fn count_triangles(
     header: &[u8; HEADER_BYTES],
     length: usize,
@@ -116,7 +117,7 @@ fn count_triangles(
     Ok(declared)
 }
 
-/// Returns the error for a file that is too short to be binary, and is not text either.
+/// Returns the error for a file that is not text and too short to be binary.
 pub(super) fn no_stl(bytes: &[u8]) -> Diagnostic {
     let message = match bytes.len() {
         0 => "the file is empty".to_owned(),
@@ -124,5 +125,5 @@ pub(super) fn no_stl(bytes: &[u8]) -> Diagnostic {
             format!("this is not an STL file: it has {length} bytes and does not begin with solid")
         }
     };
-    Diagnostic::error(codes::INVALID_DATA, "", message, "give an STL file, or export it again")
+    Diagnostic::error(codes::INVALID_DATA, "", message, "use an STL file, or export it again")
 }

@@ -1,34 +1,34 @@
-//! Colors of facets: the two conventions for the 16 bits after each triangle of a binary file.
+//! Facet colors: the two conventions for the 16 bits after each triangle of a binary file.
 //!
 //! | program | bits 0–4, 5–9, 10–14 | bit 15 |
 //! | --- | --- | --- |
 //! | VisCAM, SolidView | blue, green, red | 1: the facet has this color |
 //! | Materialise Magics | red, green, blue | 0: the facet has this color; 1: the header's color |
 //!
-//! A file follows the second convention if its header has `COLOR=` and four bytes. Other programs
-//! write 0 in all facets.
+//! A file follows the second convention if its header contains `COLOR=` and four bytes. Other
+//! programs write 0 in all facets.
 
 use gltf_import::linear_from_srgb;
 use model::{Material, Primitive};
 use std::collections::BTreeMap;
 
-/// Code for facets without an individual color.
+/// The code for facets without an individual color.
 const DEFAULT_CODE: u16 = 1 << 15;
 
-/// Colors of the facets of a binary file.
+/// The facet colors of a binary file.
 #[derive(Debug, Default)]
 pub(super) struct FacetColors {
-    /// The color in the header, sRGB encoded, if the file follows Magics' convention.
+    /// The color in the header, sRGB encoded, if the file follows the Magics convention.
     header: Option<[u8; 3]>,
-    /// For each triangle its color, with red in the upper bits, or [`DEFAULT_CODE`]; triangles
-    /// after the last colored one are not listed.
+    /// The color of each triangle, with red in the upper bits, or [`DEFAULT_CODE`]. Triangles after
+    /// the last colored triangle are not listed.
     codes: Vec<u16>,
     /// Whether any facet has bits other than 0.
     has_attributes: bool,
 }
 
 impl FacetColors {
-    /// Returns the convention of a file, from the 80 bytes at its beginning.
+    /// Detects the convention of a file from its first 80 bytes.
     pub(super) fn from_header(header: &[u8]) -> Self {
         let key = b"COLOR=";
         let at = header.windows(key.len()).position(|window| window == key);
@@ -37,7 +37,7 @@ impl FacetColors {
         Self { header, ..Self::default() }
     }
 
-    /// Records the attribute of a triangle, the next one that is kept.
+    /// Records the attribute of the next triangle that is not skipped.
     #[inline]
     pub(super) fn record(&mut self, triangle: usize, attribute: u16) {
         if attribute == 0 && self.header.is_none() {
@@ -55,11 +55,11 @@ impl FacetColors {
         }
     }
 
-    /// Gives the vertices of a primitive the colors of their triangles; vertices of differently
-    /// colored triangles are split. Without colors nothing happens.
+    /// Sets the vertex colors of a primitive to the colors of its triangles. Vertices between
+    /// triangles of different colors are split. Without colors, the primitive is unchanged.
     ///
-    /// Some programs write a header with a color and 0 in all facets, which would be black: those
-    /// facets get the color of the header.
+    /// Some programs write a color in the header and 0 in all facets, which would be black. Those
+    /// facets get the color in the header.
     pub(super) fn apply_to(mut self, primitive: &mut Primitive) {
         if !self.has_attributes {
             self.codes.clear();
@@ -72,7 +72,7 @@ impl FacetColors {
         primitive.colors = Some(codes.into_iter().map(|code| self.linear_color(code)).collect());
     }
 
-    /// Returns the linear color of a code, with alpha.
+    /// Returns the linear color for a code, with alpha.
     fn linear_color(&self, code: u16) -> [f32; 4] {
         let encoded = match self.header {
             _ if code != DEFAULT_CODE => {
@@ -86,7 +86,7 @@ impl FacetColors {
     }
 }
 
-/// Splits vertices of triangles with differing codes; returns the code of each vertex.
+/// Splits vertices between triangles with different codes, and returns the code of each vertex.
 fn split_vertices(primitive: &mut Primitive, codes: &[u16]) -> Vec<u16> {
     let Primitive { indices, positions, normals, .. } = primitive;
     let mut of_vertex: Vec<Option<u16>> = vec![None; positions.len()];

@@ -1,4 +1,4 @@
-//! Solids: the triangles of one surface, over welded vertices.
+//! Solids: the triangles of one surface with welded vertices.
 
 use super::facet_color::FacetColors;
 use crate::polygons::{CreaseNormals, Smoothing, VertexWelder};
@@ -6,30 +6,30 @@ use files::counted;
 use gltf_import::ImportWarnings;
 use model::Primitive;
 
-/// The maximum number of triangles that wait for their vertices.
+/// The maximum number of pending triangles, whose vertices have not been welded.
 const WAITING_TRIANGLES: usize = 64;
 
-/// A solid of an STL file as it is being read.
+/// A solid of an STL file that is being read.
 #[derive(Debug, Default)]
 pub(super) struct Solid {
     /// The name after `solid`, if the file is text.
     pub(super) name: Option<String>,
-    /// Vertices of the triangles, except for those that wait.
+    /// Vertices of the triangles, except for pending triangles.
     triangles: Vec<[u32; 3]>,
-    /// Corners of the last triangles, which are welded together.
+    /// Corners of the pending triangles, which are welded as a batch.
     waiting: Vec<[f32; 3]>,
     /// The vertices.
     welder: VertexWelder,
-    /// Colors of the triangles, if the file has some.
+    /// Colors of the triangles, if the file has any.
     pub(super) colors: FacetColors,
-    /// Number of triangles that were skipped because a corner is not finite.
+    /// The number of triangles that were skipped because a corner is not finite.
     omitted: usize,
-    /// Location of the first of them.
+    /// The location of the first skipped triangle.
     first_omitted: Option<String>,
 }
 
 impl Solid {
-    /// Creates a solid with room for a number of triangles. A closed surface has half as many
+    /// Creates a solid with space for a number of triangles. A closed surface has half as many
     /// vertices.
     pub(super) fn with_capacity(triangles: usize) -> Self {
         Self {
@@ -39,7 +39,7 @@ impl Solid {
         }
     }
 
-    /// Adds a triangle; returns false, and skips it, if a corner is not finite.
+    /// Adds a triangle. If a corner is not finite, skips it and returns false.
     ///
     /// `locate` returns the location of the triangle for the warning.
     #[inline]
@@ -66,14 +66,14 @@ impl Solid {
         self.triangles.len() + self.waiting.len() / 3
     }
 
-    /// Assigns vertices to the corners that wait.
+    /// Assigns vertices to the pending corners.
     fn weld_waiting(&mut self) {
         let vertices = self.welder.weld_all(&self.waiting);
         self.triangles.extend(vertices.as_chunks::<3>().0);
         self.waiting.clear();
     }
 
-    /// Warns of skipped triangles.
+    /// Warns about skipped triangles.
     pub(super) fn warn_of_omissions(&self, warnings: &mut ImportWarnings) {
         if let Some(location) = &self.first_omitted {
             let triangles = counted(self.omitted, "triangle", "triangles");
@@ -82,7 +82,7 @@ impl Solid {
         }
     }
 
-    /// Returns the primitive, with normals by crease angle and vertices split between colors.
+    /// Builds the primitive, with normals by crease angle and vertices split between colors.
     pub(super) fn into_primitive(mut self, crease_degrees: f64) -> Primitive {
         self.weld_waiting();
         let mut positions = self.welder.into_positions();

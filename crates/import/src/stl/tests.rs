@@ -1,11 +1,11 @@
-//! STL files of every form, intact and broken, and the models made from them.
+//! Tests of STL files in every form, valid and broken, and the resulting models.
 
 use super::*;
 use crate::load_bytes;
 use gltf_import::ImportOptions;
 use model::{Model, Severity};
 
-/// Returns a binary file of these triangles, each with its attribute.
+/// Returns a binary file with these triangles and their attributes.
 fn binary(header: &[u8], triangles: &[([[f32; 3]; 3], u16)]) -> Vec<u8> {
     let mut file = header.to_vec();
     file.resize(80, b' ');
@@ -24,7 +24,7 @@ const SQUARE: [[[f32; 3]; 3]; 2] = [
     [[-0.0, 0.0, 0.0], [1.0, 1.0, -0.0], [0.0, 1.0, 0.0]],
 ];
 
-/// Returns the square as text, with these line ends.
+/// Returns the square as text with these line ends.
 fn ascii(end: &str) -> String {
     let facet = |corners: [[f32; 3]; 3]| {
         let vertex = |[x, y, z]: [f32; 3]| format!("vertex {x:e} {y} {z:.3}{end}");
@@ -52,13 +52,13 @@ fn assert_square(model: &Model) {
     assert_eq!(primitive.positions, [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
     assert_eq!(primitive.normals.as_deref(), Some(&[[0.0, 0.0, 1.0]; 4][..]));
     assert_eq!((model.length_unit, model.up_axis), (LengthUnit::Millimeter, UpAxis::Z));
-    // It is on the ground, on the far side of the x axis.
+    // The square is on the ground, behind the x axis.
     let bounds = model.bounds().unwrap();
     assert_eq!((bounds.min().into(), bounds.max().into()), ([0.0, 0.0, -1.0], [1.0, 0.0, 0.0]));
 }
 
 #[test]
-fn binary_files_whatever_their_header_says() {
+fn binary_files_are_read_with_any_header() {
     let facets = SQUARE.map(|corners| (corners, 0));
     for header in [&b""[..], b"made by a program", b"solid part", b"solid facet normal endsolid"] {
         assert_square(&read(&binary(header, &facets)));
@@ -66,7 +66,7 @@ fn binary_files_whatever_their_header_says() {
 }
 
 #[test]
-fn text_with_every_kind_of_line_end_and_encoding() {
+fn text_is_read_with_every_line_end_and_encoding() {
     for end in ["\n", "\r\n", "\r", " ", "\t\n\n"] {
         let text = ascii(end);
         let model = read(text.as_bytes());
@@ -81,7 +81,7 @@ fn text_with_every_kind_of_line_end_and_encoding() {
 }
 
 #[test]
-fn several_solids_are_several_nodes() {
+fn each_solid_becomes_a_node() {
     let text = format!("{0}\nsolid empty\nendsolid\n{0}", ascii("\n"));
     let model = read(text.as_bytes());
     assert_eq!((model.meshes.len(), model.nodes.len(), model.roots.len()), (2, 4, 2));
@@ -90,7 +90,7 @@ fn several_solids_are_several_nodes() {
 }
 
 #[test]
-fn normals_need_not_be_numbers() {
+fn normals_need_not_be_valid() {
     for normal in ["nan nan nan", "-1.#IND 0 0", "", "0 0", "a b c"] {
         let text = ascii("\n").replace("normal 0 0 1", &format!("normal {normal}"));
         assert_square(&read(text.as_bytes()));
@@ -98,7 +98,7 @@ fn normals_need_not_be_numbers() {
 }
 
 #[test]
-fn corners_at_no_finite_place_are_left_out() {
+fn triangles_with_non_finite_corners_are_skipped() {
     let mut facets = SQUARE.map(|corners| (corners, 0)).to_vec();
     facets.insert(1, ([[f32::NAN, 0.0, 0.0], [0.0; 3], [1.0; 3]], 0));
     let model = read(&binary(b"", &facets));
@@ -114,7 +114,7 @@ fn corners_at_no_finite_place_are_left_out() {
 }
 
 #[test]
-fn triangles_without_area_are_kept() {
+fn triangles_without_area_are_retained() {
     let mut facets = SQUARE.map(|corners| (corners, 0)).to_vec();
     facets.insert(0, ([[0.0; 3]; 3], 0));
     facets.push(([[0.0; 3], [0.5, 0.0, 0.0], [1.0, 0.0, 0.0]], 0));
@@ -124,7 +124,7 @@ fn triangles_without_area_are_kept() {
 }
 
 #[test]
-fn a_surface_without_area_is_a_warning() {
+fn a_surface_without_area_causes_a_warning() {
     let line = [[0.0; 3], [0.5, 0.0, 0.0], [1.0, 0.0, 0.0]];
     let model = read(&binary(b"", &[(line, 0)]));
     let told: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();
@@ -136,7 +136,7 @@ fn a_surface_without_area_is_a_warning() {
 }
 
 #[test]
-fn a_triangle_far_away_is_a_triangle() {
+fn a_distant_triangle_is_read() {
     let far = SQUARE[0].map(|corner| corner.map(|x| x * 1e30));
     let model = read(&binary(b"", &[(far, 0)]));
     assert_eq!(model.bounds().unwrap().max().raw().x, f64::from(1e30_f32));
@@ -144,7 +144,7 @@ fn a_triangle_far_away_is_a_triangle() {
 }
 
 #[test]
-fn files_that_are_cut_off_say_so_and_are_read_leniently() {
+fn truncated_files_are_errors_or_read_leniently() {
     let file = binary(b"solid", &SQUARE.map(|corners| (corners, 0)));
     let text = ascii("\n");
     for (bytes, message) in [
@@ -168,7 +168,7 @@ fn files_that_are_cut_off_say_so_and_are_read_leniently() {
 }
 
 #[test]
-fn numbers_of_triangles_that_are_wrong() {
+fn wrong_triangle_counts_are_reported() {
     let file = binary(b"", &SQUARE.map(|corners| (corners, 0)));
     let mut uncounted = file.clone();
     uncounted[80] = 0;
@@ -183,7 +183,7 @@ fn numbers_of_triangles_that_are_wrong() {
 }
 
 #[test]
-fn words_of_no_form_have_a_line_and_a_column() {
+fn unexpected_words_are_reported_with_a_location() {
     for (from, to, message) in [
         (
             "vertex 1e0",
@@ -236,7 +236,7 @@ fn colors(header: &[u8], attributes: [u16; 2]) -> Option<[[f32; 4]; 2]> {
 }
 
 #[test]
-fn colors_of_both_conventions() {
+fn both_color_conventions_are_read() {
     let plain = Material::plain().base_color;
     let (red, blue) = ([1.0, 0.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]);
     assert_eq!(colors(b"", [0, 0]), None);
@@ -248,11 +248,11 @@ fn colors_of_both_conventions() {
     assert_eq!(colors(magics, [31, 31 << 10]), Some([red, blue]));
     assert_eq!(colors(magics, [0x8000, 0xFFFF]), Some([green, green]));
     assert_eq!(colors(magics, [0, 31]), Some([[0.0, 0.0, 0.0, 1.0], red]));
-    assert_eq!(colors(magics, [0, 0]), Some([green, green]), "no colors but that of the header");
+    assert_eq!(colors(magics, [0, 0]), Some([green, green]), "only the header color");
 }
 
 #[test]
-fn sixty_five_thousand_solids() {
+fn many_solids_are_read() {
     let text = ascii(" ").repeat(65_537).replace("endsolid the part", "endsolid the part\n");
     let model = read(text.as_bytes());
     assert_eq!(model.meshes.len(), 65_537);
@@ -263,7 +263,7 @@ fn sixty_five_thousand_solids() {
 }
 
 #[test]
-fn options_replace_axis_unit_and_crease_angle() {
+fn options_override_axis_unit_and_crease_angle() {
     let options = ImportOptions {
         up: Some(UpAxis::Y),
         length_unit: Some(LengthUnit::Inch),
@@ -283,7 +283,7 @@ fn options_replace_axis_unit_and_crease_angle() {
 }
 
 #[test]
-fn names_that_lie_are_noted() {
+fn wrong_extensions_are_reported() {
     let file = binary(b"", &SQUARE.map(|corners| (corners, 0)));
     let model = load_bytes("part.glb", &file, &ImportOptions::default()).unwrap();
     assert_eq!(model.warnings[0].severity, Severity::Info);

@@ -1,35 +1,35 @@
-//! Decimal numbers: correctly rounded, and fast for numbers with few digits.
+//! Decimal number parsing: correctly rounded, and fast for numbers with few digits.
 //!
-//! An integer of at most 2⁵³ times a power of ten of at most 10²² is one exact number times or
-//! divided by another (Clinger 1990): there is a single rounding, as IEEE 754 requires. The
-//! standard library parses all others.
+//! An integer of at most 2⁵³ and a power of ten of at most 10²² are both exact, so their product or
+//! quotient has a single rounding, as IEEE 754 requires (Clinger 1990). The standard library parses
+//! all other numbers.
 
-/// Powers of ten that doubles hold exactly.
+/// Powers of ten that doubles represent exactly.
 const POWERS_OF_TEN: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
     1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
 ];
 
-/// Parses the double nearest to a decimal number. Returns `None` if the token is not a number.
+/// Parses a decimal number as the nearest double. Returns `None` if the token is not a number.
 ///
-/// Accepts `1`, `-.5`, `+2.`, `1e-3`, `1.5D+2` (Fortran), `nan`, `inf`, and the spellings of the
-/// last two by the runtime of Microsoft's compiler: `1.#QNAN`, `-1.#IND`, `1.#INF`.
+/// Accepts `1`, `-.5`, `+2.`, `1e-3`, `1.5D+2` (Fortran), `nan`, `inf`, and the Microsoft C
+/// runtime's spellings of the last two: `1.#QNAN`, `-1.#IND`, `1.#INF`.
 #[inline]
 pub(crate) fn parse_f64(token: &[u8]) -> Option<f64> {
     fast_decimal(token).or_else(|| slow_decimal(token))
 }
 
-/// Parses the float nearest to a decimal number, as for [`parse_f64`].
+/// Parses a decimal number as the nearest float; accepts the same input as [`parse_f64`].
 ///
-/// A double halfway between two floats may itself be the result of rounding; then the digits
-/// decide.
+/// A double halfway between two floats may itself be the result of rounding; the digits are then
+/// parsed again.
 #[inline]
 pub(crate) fn parse_f32(token: &[u8]) -> Option<f32> {
     let value = parse_f64(token)?;
     round_to_f32(value).or_else(|| standard_form(token).parse().ok())
 }
 
-/// Parses an integer with an optional sign. Returns `None` if the token is not an integer, or does
+/// Parses an integer with an optional sign. Returns `None` if the token is not an integer or does
 /// not fit in 64 bits.
 #[inline]
 pub(crate) fn parse_integer(token: &[u8]) -> Option<i64> {
@@ -51,8 +51,9 @@ pub(crate) fn parse_integer(token: &[u8]) -> Option<i64> {
     Some(if is_negative { -value } else { value })
 }
 
-/// Returns the float at the beginning of a text and the length of its token, in one pass, or `None`
-/// unless it has few digits and a small exponent, and is followed by white space.
+/// Parses the float at the beginning of a text, and returns it with the length of its token, in one
+/// pass. Returns `None` unless it has few digits and a small exponent and is followed by white
+/// space.
 #[inline]
 pub(super) fn simple_decimal(text: &[u8]) -> Option<(f32, usize)> {
     let (value, length) = scan_decimal(text)?;
@@ -69,15 +70,15 @@ fn round_to_f32(value: f64) -> Option<f32> {
     (!(is_halfway || is_subnormal) || !value.is_finite()).then_some(value as f32)
 }
 
-/// Returns a number with few digits and a small exponent, by one exact operation, or `None` for any
-/// other token.
+/// Parses a number with few digits and a small exponent by one exact operation. Returns `None` for
+/// any other token.
 #[inline]
 fn fast_decimal(token: &[u8]) -> Option<f64> {
     scan_decimal(token).filter(|(_, length)| *length == token.len()).map(|(value, _)| value)
 }
 
-/// Returns the number at the beginning of a text and its length, by one exact operation, or `None`
-/// if it has too many digits or too large an exponent for that.
+/// Parses the number at the beginning of a text by one exact operation, and returns it with its
+/// length. Returns `None` if it has too many digits or too large an exponent for this.
 #[inline]
 fn scan_decimal(text: &[u8]) -> Option<(f64, usize)> {
     let digit_at = |at: usize| text.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|d| *d <= 9);
@@ -108,7 +109,7 @@ fn scan_decimal(text: &[u8]) -> Option<(f64, usize)> {
         let sign = text.get(at).copied();
         at += usize::from(matches!(sign, Some(b'-' | b'+')));
         let (start, mut exponent) = (at, 0);
-        // A fourth digit remains, and no token ends there.
+        // A fourth digit remains, so no token ends here.
         while let Some(digit) = digit_at(at).filter(|_| at < start + 3) {
             exponent = 10 * exponent + i32::from(digit);
             at += 1;
@@ -123,7 +124,7 @@ fn scan_decimal(text: &[u8]) -> Option<(f64, usize)> {
     Some((if is_negative { -magnitude } else { magnitude }, at))
 }
 
-/// Any number, parsed by the standard library; then the words for NaN and infinity.
+/// Parses any number with the standard library, then tries the words for NaN and infinity.
 #[cold]
 fn slow_decimal(token: &[u8]) -> Option<f64> {
     if let Ok(value) = standard_form(token).parse() {
@@ -139,7 +140,7 @@ fn slow_decimal(token: &[u8]) -> Option<f64> {
     (begins_with(b"1.#") || begins_with(b"nan")).then_some(f64::NAN)
 }
 
-/// Returns the number in the standard library's form: with `e` for the exponent.
+/// Returns the number in the standard library's form, with `e` for the exponent.
 fn standard_form(token: &[u8]) -> String {
     let letter = |byte: &u8| if matches!(byte, b'd' | b'D') { 'e' } else { char::from(*byte) };
     token.iter().map(letter).collect()
@@ -150,7 +151,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_those_of_the_standard_library() {
+    fn numbers_match_the_standard_library() {
         for text in [
             "0",
             "-0",
@@ -189,14 +190,14 @@ mod tests {
             let expected = (expected.to_bits(), text.len());
             assert!(simple.is_none_or(|(x, length)| (x.to_bits(), length) == expected), "{text}");
         }
-        // Halfway between two floats as a double, but not in its digits: 1 + 2⁻²⁴ + 2⁻⁶⁰.
+        // Halfway between two floats when rounded to a double, but not exactly: 1 + 2⁻²⁴ + 2⁻⁶⁰.
         let text = "1.000000059604644776258";
         assert_eq!((text.parse::<f64>().unwrap() as f32).to_bits(), 1f32.to_bits());
         assert_eq!(parse_f32(text.as_bytes()).unwrap().to_bits(), 1f32.to_bits() + 1);
     }
 
     #[test]
-    fn floats_of_every_size_survive_printing() {
+    fn printed_floats_are_parsed_exactly() {
         let mut bits = 1u32;
         for _ in 0..20_000 {
             bits = bits.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -210,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn other_writings() {
+    fn other_spellings_are_accepted() {
         assert_eq!(parse_f64(b"1.5D+2"), Some(150.0));
         assert!(parse_f64(b"-1.#IND").unwrap().is_nan());
         assert!(parse_f64(b"nan(ind)").unwrap().is_nan());
@@ -222,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn integers() {
+    fn integers_are_parsed() {
         assert_eq!(parse_integer(b"-17"), Some(-17));
         assert_eq!(parse_integer(b"+9223372036854775807"), Some(i64::MAX));
         for wrong in ["", "-", "1.0", "9223372036854775808", "1_000"] {

@@ -1,11 +1,12 @@
-//! Encodings: byte order marks are removed, and UTF-16 becomes UTF-8.
+//! Text encodings: removes byte order marks, and converts UTF-16 to UTF-8.
 
 use std::borrow::Cow;
 
-/// Decodes the text of a file in UTF-8, without a byte order mark.
+/// Returns the text of a file in UTF-8, without a byte order mark.
 ///
 /// UTF-16 is recognized by its byte order mark, and invalid characters become U+FFFD. Bytes without
-/// such a mark stay as they are: names may be in any encoding, keywords and numbers are ASCII.
+/// such a mark are not changed, because names may be in any encoding, and keywords and numbers are
+/// ASCII.
 pub(crate) fn decode_text(bytes: &[u8]) -> Cow<'_, [u8]> {
     match bytes {
         [0xEF, 0xBB, 0xBF, text @ ..] => Cow::Borrowed(text),
@@ -15,7 +16,7 @@ pub(crate) fn decode_text(bytes: &[u8]) -> Cow<'_, [u8]> {
     }
 }
 
-/// Converts UTF-16 in the given byte order; an odd last byte is dropped.
+/// Converts UTF-16 in the given byte order. An odd last byte is dropped.
 fn utf_8_from_utf_16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Vec<u8> {
     let mut text = Vec::with_capacity(bytes.len() / 2);
     let units = bytes.as_chunks::<2>().0.iter().map(|&pair| unit(pair));
@@ -31,7 +32,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn marks_decide() {
+    fn encodings_are_detected_by_byte_order_mark() {
         let units = "\u{FEFF}v ä𝄞".encode_utf16();
         let little: Vec<u8> = units.clone().flat_map(u16::to_le_bytes).collect();
         let big: Vec<u8> = units.flat_map(u16::to_be_bytes).collect();

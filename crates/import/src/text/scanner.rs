@@ -1,11 +1,12 @@
-//! Lines and tokens of a text by byte offset, with lines and columns for messages.
+//! Scans the lines and tokens of a text by byte offset, and locates offsets by line and column for
+//! messages.
 
 use super::decimal::simple_decimal;
 
-/// Reader of the lines or tokens of a text.
+/// Reads the lines or tokens of a text.
 ///
-/// Lines end with LF, CR or both. Every byte up to and including the space, except for line ends,
-/// is white space: some exporters write tabs, form feeds and NUL.
+/// Lines end with LF, CR or both. Every byte up to and including the space character, except for
+/// line ends, is white space, because some exporters write tabs, form feeds and NUL.
 #[derive(Clone, Debug)]
 pub(crate) struct TextScanner<'a> {
     text: &'a [u8],
@@ -22,22 +23,23 @@ pub(crate) struct Token<'a> {
 }
 
 impl<'a> TextScanner<'a> {
-    /// Creates a scanner at the beginning of a text in UTF-8.
+    /// Creates a scanner at the beginning of a UTF-8 text.
     pub(crate) const fn new(text: &'a [u8]) -> Self {
         Self { text, at: 0 }
     }
 
-    /// Returns a scanner in the middle of a text.
+    /// Creates a scanner that starts at an offset in a text.
     pub(crate) const fn starting_at(text: &'a [u8], offset: usize) -> Self {
         Self { text, at: offset }
     }
 
-    /// Offset of the next byte.
+    /// Returns the offset of the next byte.
     pub(crate) const fn offset(&self) -> usize {
         self.at
     }
 
-    /// Returns the rest of the current line, without its end, or `None` at the end of the text.
+    /// Returns the rest of the current line, without its line end, or `None` at the end of the
+    /// text.
     ///
     /// A carriage return followed by a line feed is one line end.
     pub(crate) fn next_line(&mut self) -> Option<Token<'a>> {
@@ -50,7 +52,7 @@ impl<'a> TextScanner<'a> {
         Some(Token { bytes: &rest[..length], offset })
     }
 
-    /// Skips a token if it is next, with this exact spelling; otherwise does nothing.
+    /// Skips the next token if it has exactly this spelling; otherwise does nothing.
     #[inline]
     pub(crate) fn skip_token(&mut self, token: &[u8]) -> bool {
         let start = self.skip_space();
@@ -62,8 +64,8 @@ impl<'a> TextScanner<'a> {
         is_next
     }
 
-    /// Reads a number in the usual form, faster than as a token. Returns `None` for any other
-    /// token, which is not consumed.
+    /// Reads a number in the usual form, which is faster than reading a token. Returns `None`,
+    /// without consuming anything, for any other token.
     #[inline]
     pub(crate) fn next_simple_number(&mut self) -> Option<f32> {
         let start = self.skip_space();
@@ -72,7 +74,7 @@ impl<'a> TextScanner<'a> {
         Some(number)
     }
 
-    /// Returns the offset of the next byte that is not white space.
+    /// Skips white space, and returns the offset of the next byte.
     #[inline]
     fn skip_space(&self) -> usize {
         let mut start = self.at;
@@ -82,7 +84,7 @@ impl<'a> TextScanner<'a> {
         start
     }
 
-    /// Returns the next token, on this line or a later one, or `None` at the end of the text.
+    /// Returns the next token on this line or a later line, or `None` at the end of the text.
     #[inline]
     pub(crate) fn next_token(&mut self) -> Option<Token<'a>> {
         let (text, mut start) = (self.text, self.at);
@@ -99,7 +101,7 @@ impl<'a> TextScanner<'a> {
 }
 
 impl<'a> Token<'a> {
-    /// Returns the tokens of a line, with their offsets in the whole text.
+    /// Returns the tokens of a line with their offsets in the whole text.
     pub(crate) fn tokens(self) -> impl Iterator<Item = Token<'a>> + Clone {
         let mut scanner = TextScanner::new(self.bytes);
         std::iter::from_fn(move || {
@@ -120,15 +122,15 @@ impl<'a> Token<'a> {
         self.bytes.eq_ignore_ascii_case(keyword.as_bytes())
     }
 
-    /// Returns the piece as text; bytes that are not UTF-8 become U+FFFD.
+    /// Returns the piece as text. Bytes that are not UTF-8 become U+FFFD.
     pub(crate) fn to_text(self) -> String {
         String::from_utf8_lossy(self.bytes).into_owned()
     }
 }
 
-/// Counter of lines up to an offset, for the locations of messages.
+/// Counts lines up to an offset, for the locations of messages.
 ///
-/// It continues from the last offset, so that many messages in text order take a single pass.
+/// Counting continues from the last offset, so many messages in text order take a single pass.
 #[derive(Debug)]
 pub(crate) struct LineCounter<'a> {
     text: &'a [u8],
@@ -143,7 +145,8 @@ impl<'a> LineCounter<'a> {
         Self { text, at: 0, line: 1, line_start: 0 }
     }
 
-    /// Returns the location of an offset: `line 12, column 5`. Both count from 1, columns in bytes.
+    /// Returns the location of an offset as `line 12, column 5`. Both count from 1, columns in
+    /// bytes.
     pub(crate) fn locate(&mut self, offset: usize) -> String {
         if offset < self.at {
             *self = Self::new(self.text);
@@ -169,7 +172,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_end_three_ways() {
+    fn every_line_end_is_recognized() {
         let text = b"a b\r\n\rc \xE4\n\nd";
         let mut scanner = TextScanner::new(text);
         let lines: Vec<&[u8]> =
@@ -194,7 +197,7 @@ mod tests {
             ("four", "line 4, column 2"),
         ];
         assert_eq!(found, expected.map(|(word, place)| (word.to_owned(), place.to_owned())));
-        assert_eq!(counter.locate(4), "line 1, column 5", "backwards");
+        assert_eq!(counter.locate(4), "line 1, column 5", "backward");
         let line = TextScanner::new(b"  a  bc ").next_line().unwrap();
         let offsets: Vec<usize> = line.tokens().map(|token| token.offset).collect();
         assert_eq!((offsets, line.trim().bytes), (vec![2, 5], &b"a  bc"[..]));

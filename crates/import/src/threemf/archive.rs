@@ -1,39 +1,39 @@
 //! Zip archives (APPNOTE 6.3.10): the central directory, and stored or deflated entries.
 //!
-//! Supports only what 3MF needs: no encryption, no other compression, no multi-volume archives.
-//! Nothing is written anywhere: an entry's name is compared with other names and is never a path.
-//! Decompressed data is bounded twice, by the size that the directory declares and by the memory
-//! budget. So no archive exceeds its limits, regardless of its entries.
+//! Supports only what 3MF needs, without encryption, other compression methods or multi-volume
+//! archives. Nothing is written to disk: entry names are compared with other names and never used
+//! as paths. Decompressed data is limited both by the size that the directory declares and by the
+//! memory budget, so no archive can exceed the limits.
 
 use fdeflate::Decompressor;
 use gltf_import::MemoryBudget;
 use model::{Diagnostic, codes};
 use std::borrow::Cow;
 
-/// The maximum number of entries in an archive; 3MF packages for the largest print beds have a few
+/// The maximum number of entries in an archive. 3MF packages for the largest print beds have a few
 /// hundred.
 const MAX_ENTRIES: u64 = 65_536;
-/// Number of bytes before the data of a local entry, without its name and extra field.
+/// Size of a local entry header without the name and extra field.
 const LOCAL_HEADER: usize = 30;
-/// Size of a central directory record without name, extra field and comment.
+/// Size of a central directory record without the name, extra field and comment.
 const DIRECTORY_RECORD: usize = 46;
-/// Size of the end record without its comment.
+/// Size of the end record without the comment.
 const END_RECORD: usize = 22;
 
 /// An entry of the central directory.
 #[derive(Debug)]
 pub(super) struct Entry {
-    /// The name with `/` between folders, otherwise as in the archive.
+    /// The name as stored in the archive, but with `/` between folders.
     pub(super) name: String,
-    /// Whether a password protects it.
+    /// Whether the entry is protected by a password.
     is_encrypted: bool,
-    /// 0 for stored, 8 for deflated.
+    /// The compression method: 0 for stored, 8 for deflated.
     method: u16,
     /// Checksum of the content.
     crc: u32,
-    /// Bytes in the archive.
+    /// Number of bytes in the archive.
     compressed: u64,
-    /// Bytes of the content.
+    /// Number of bytes of the content.
     size: u64,
     /// Offset of the local header.
     offset: u64,
@@ -43,7 +43,7 @@ pub(super) struct Entry {
 #[derive(Debug)]
 pub(super) struct Archive<'a> {
     bytes: &'a [u8],
-    /// The entries in the order of the directory, without folders.
+    /// The entries in directory order, without folders.
     pub(super) entries: Vec<Entry>,
 }
 
@@ -75,7 +75,7 @@ impl<'a> Archive<'a> {
         Ok(Self { bytes, entries })
     }
 
-    /// Size of the whole archive in bytes.
+    /// Returns the size of the whole archive in bytes.
     pub(super) const fn byte_count(&self) -> u64 {
         self.bytes.len() as u64
     }
@@ -83,8 +83,8 @@ impl<'a> Archive<'a> {
     /// Reads the content of an entry.
     ///
     /// # Errors
-    /// Fails if the entry is encrypted, compressed by another method, broken, or larger than the
-    /// budget.
+    /// Fails if the entry is encrypted, broken, larger than the budget, or uses an unsupported
+    /// compression method.
     pub(super) fn read_entry(
         &self,
         entry: &Entry,
@@ -135,9 +135,9 @@ impl<'a> Archive<'a> {
 
 /// Decompresses deflated data (RFC 1951) of known size.
 ///
-/// The decoder is the one for PNG images. It expects a zlib frame (RFC 1950) around the data: two
-/// bytes before, and after it a checksum, which it is set to ignore because the archive has its
-/// own.
+/// This uses the decoder for PNG images. It expects a zlib frame (RFC 1950) around the data: two
+/// bytes before it and a checksum after it, which is ignored because the archive has its own
+/// checksum.
 fn inflate(data: &[u8], size: usize) -> Result<Vec<u8>, String> {
     // One byte of deflated data expands to at most 1,032 bytes.
     if size / 1032 > data.len() {
@@ -167,9 +167,9 @@ fn inflate(data: &[u8], size: usize) -> Result<Vec<u8>, String> {
     }
 }
 
-/// Offset of the central directory, and its number of entries.
+/// Returns the offset of the central directory and its number of entries.
 ///
-/// The search for the end record runs backward, because a comment may follow it.
+/// The end record is searched for backward, because a comment may follow it.
 fn find_directory(bytes: &[u8]) -> Option<(usize, u64)> {
     let last = bytes.len().checked_sub(END_RECORD)?;
     let first = last.saturating_sub(usize::from(u16::MAX));
@@ -179,7 +179,7 @@ fn find_directory(bytes: &[u8]) -> Option<(usize, u64)> {
     if count != u32::from(u16::MAX) && offset != u32::MAX {
         return Some((offset as usize, u64::from(count)));
     }
-    // Zip64 has a separate record, and a locator for it before this one.
+    // Zip64 has a separate end record, with a locator just before this one.
     let locator = bytes.get(end.checked_sub(20)?..end)?;
     if !locator.starts_with(b"PK\x06\x07") {
         return Some((offset as usize, u64::from(count)));
@@ -191,7 +191,8 @@ fn find_directory(bytes: &[u8]) -> Option<(usize, u64)> {
     Some((usize::try_from(read_u64(record, 48)?).ok()?, read_u64(record, 32)?))
 }
 
-/// Reads the central directory record at an offset, and the offset of the next one.
+/// Reads the central directory record at an offset, and returns it with the offset of the next
+/// record.
 fn read_entry(bytes: &[u8], at: usize) -> Option<(Entry, usize)> {
     let record = bytes.get(at..)?;
     if !record.starts_with(b"PK\x01\x02") {
@@ -217,7 +218,7 @@ fn read_entry(bytes: &[u8], at: usize) -> Option<(Entry, usize)> {
     Some((entry, at + extra_at + extra_length + comment_length))
 }
 
-/// Fields of 32 bits; a field with all bits set has its value in the extra field numbered 1.
+/// Reads 32-bit fields. If all bits of a field are set, its value is in the extra field numbered 1.
 fn zip64_fields(fields: [u32; 3], mut extra: &[u8]) -> Option<[u64; 3]> {
     let mut wide: &[u8] = &[];
     while let (Some(id), Some(length)) = (read_u16(extra, 0), read_u16(extra, 2)) {

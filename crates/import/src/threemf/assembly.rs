@@ -1,7 +1,7 @@
-//! Assembly of 3MF: items and components become nodes, each of which may show an object's mesh.
+//! 3MF assembly: converts items and components to nodes, each of which may show an object's mesh.
 //!
 //! Components share objects, so the number of nodes can grow exponentially with the size of the
-//! file. It is computed, and compared with the limits, before any node is made.
+//! file. It is computed and compared with the limits before any node is created.
 
 use super::model_part::ObjectReference;
 use super::package::Package;
@@ -15,12 +15,12 @@ use std::collections::BTreeMap;
 /// The object index of a removed placement.
 const REMOVED: usize = usize::MAX;
 
-/// An object at a position.
+/// An object with its transform.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placement {
     /// Index of the object.
     object: usize,
-    /// The transform from its coordinates to the surrounding ones.
+    /// The transform from the object's coordinates to the parent's.
     transform: Affine<ModelSpace, ModelSpace>,
 }
 
@@ -28,7 +28,7 @@ pub(super) struct Placement {
 #[derive(Debug, Default)]
 pub(super) struct Assembly {
     objects: Vec<AssemblyObject>,
-    /// For each part, its objects by id.
+    /// The objects of each part, by id.
     by_id: Vec<BTreeMap<u32, u32>>,
     /// The number of references to objects that are not shown.
     hidden: usize,
@@ -40,18 +40,18 @@ struct AssemblyObject {
     name: Option<String>,
     location: String,
     is_shown: bool,
-    /// Index of its mesh in the model, if it has one.
+    /// Index of the object's mesh in the model, if it has one.
     mesh: Option<usize>,
     components: Vec<Placement>,
-    /// Whether its components have been counted, or are being counted.
+    /// Whether the object's components have been counted or are being counted.
     progress: Progress,
-    /// Number of nodes of the object and everything below it.
+    /// Number of nodes for the object and everything below it.
     nodes: u64,
-    /// Number of levels in the tree of its nodes.
+    /// Number of levels in the object's node tree.
     depth: usize,
 }
 
-/// The state of an object while components are counted.
+/// The counting state of an object.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 enum Progress {
     #[default]
@@ -61,8 +61,8 @@ enum Progress {
 }
 
 impl Assembly {
-    /// Adds an object and returns its index. Of two with the same part and id, references use the
-    /// first.
+    /// Adds an object and returns its index. If two objects have the same part and id, references
+    /// use the first.
     pub(super) fn push_object(&mut self, part: usize, object: &super::object::Object) -> usize {
         let at = self.objects.len();
         if self.by_id.len() <= part {
@@ -78,7 +78,8 @@ impl Assembly {
         at
     }
 
-    /// Resolves the references in a part to objects; those that are not shown are skipped.
+    /// Resolves the references in a part to objects. References to objects that are not shown are
+    /// skipped.
     ///
     /// # Errors
     /// Fails if there is no such object. In lenient mode the reference is skipped.
@@ -120,12 +121,12 @@ impl Assembly {
         self.objects[object].mesh = Some(mesh);
     }
 
-    /// Returns whether an object is built, after [`Self::count_nodes`].
+    /// Returns whether an object is built; valid after [`Self::count_nodes`].
     pub(super) fn is_built(&self, object: usize) -> bool {
         self.objects[object].progress == Progress::Counted
     }
 
-    /// Returns all shown objects that are not components, for files that build nothing.
+    /// Returns all shown objects that are not components, for files with an empty build section.
     pub(super) fn top_objects(&self) -> Vec<Placement> {
         let mut is_top: Vec<bool> = self.objects.iter().map(|object| object.is_shown).collect();
         for component in self.objects.iter().flat_map(|object| &object.components) {
@@ -135,11 +136,11 @@ impl Assembly {
         tops.map(|object| Placement { object, transform: Affine::IDENTITY }).collect()
     }
 
-    /// Counts the nodes that the items will have, before any of them is made.
+    /// Counts the nodes that the items will have, before any node is created.
     ///
     /// # Errors
-    /// Fails if an object contains itself (in lenient mode it is skipped there), or there are more
-    /// nodes or deeper levels than the limits allow.
+    /// Fails if an object contains itself (in lenient mode, that reference is skipped), or there
+    /// are more nodes or levels than the limits allow.
     pub(super) fn count_nodes(
         &mut self,
         items: &[Placement],
@@ -172,7 +173,7 @@ impl Assembly {
         package.charge_bytes("", nodes * size_of::<Node>() as u64)
     }
 
-    /// Counts the nodes of an object and of its components, without recursion.
+    /// Counts the nodes of an object and its components, without recursion.
     fn count_object(
         &mut self,
         object: usize,
@@ -208,7 +209,7 @@ impl Assembly {
         Ok(())
     }
 
-    /// Finishes the counts of an object whose components have been counted.
+    /// Completes the counts of an object whose components have been counted.
     fn finish_count(&mut self, at: usize) {
         self.objects[at].components.retain(|component| component.object != REMOVED);
         let components = self.objects[at].components.iter();
@@ -222,11 +223,11 @@ impl Assembly {
         object.progress = Progress::Counted;
     }
 
-    /// Creates the nodes of the items; several get a common root.
+    /// Creates the nodes of the items. Several items get a common root.
     ///
     /// # Errors
-    /// Fails if a product of transforms overflows. In lenient mode the node is placed at its
-    /// parent.
+    /// Fails if a product of transforms overflows. In lenient mode the node gets its parent's
+    /// transform.
     pub(super) fn build_nodes(
         &self,
         items: &[Placement],

@@ -1,4 +1,4 @@
-//! A model part of 3MF: objects, the property groups they refer to, and the items to build.
+//! A 3MF model part: objects, the property groups they refer to, and the items to build.
 
 use super::namespaces::{Namespaces, Support};
 use super::object::{Object, ObjectContent};
@@ -11,17 +11,17 @@ use gltf_import::ImportWarnings;
 use homog::{Affine, Model as ModelSpace};
 use model::{Diagnostic, LengthUnit, Material};
 
-/// Memory for an object in addition to its mesh and components; tags are shorter.
+/// Memory for an object in addition to its mesh and components; its tags may be shorter.
 const OBJECT_BYTES: u64 = 256;
 
 /// A reference to an object: an item to build, or a component of an object.
 #[derive(Debug)]
 pub(super) struct ObjectReference {
-    /// The part that holds the object, if it is another one (production extension).
+    /// The part that contains the object, if it is a different part (production extension).
     pub(super) path: Option<String>,
     /// The id of the object in its part.
     pub(super) id: u32,
-    /// The transform from the object's coordinates to the coordinates of the reference.
+    /// The transform from object coordinates to the coordinates of the reference.
     pub(super) transform: Affine<ModelSpace, ModelSpace>,
     /// Location of the reference, for messages.
     pub(super) location: String,
@@ -30,9 +30,9 @@ pub(super) struct ObjectReference {
 /// The content of a model part.
 #[derive(Debug, Default)]
 pub(super) struct ModelPart {
-    /// The unit of its lengths.
+    /// The unit of lengths in the part.
     pub(super) unit: LengthUnit,
-    /// Its objects in order.
+    /// The objects in order.
     pub(super) objects: Vec<Object>,
     /// The build items.
     pub(super) items: Vec<ObjectReference>,
@@ -40,7 +40,7 @@ pub(super) struct ModelPart {
     pub(super) properties: PartProperties,
 }
 
-/// Reads a model part.
+/// The reader of a model part.
 pub(super) struct PartReader<'a, 'w> {
     pub(super) xml: XmlReader<'a>,
     pub(super) namespaces: Namespaces<'a>,
@@ -48,12 +48,12 @@ pub(super) struct PartReader<'a, 'w> {
     package: &'w Package<'w>,
     pub(super) palette: &'w mut Palette,
     pub(super) warnings: &'w mut ImportWarnings,
-    /// Subjects of the warnings given so far, so that each is given once.
+    /// The subjects of the warnings so far, so that each is reported once.
     said: Vec<&'static str>,
 }
 
 impl<'a, 'w> PartReader<'a, 'w> {
-    /// Creates a reader of the part with a name.
+    /// Creates a reader for the part with this name.
     pub(super) fn new(
         text: &'a [u8],
         name: &'a str,
@@ -116,7 +116,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
         Ok(())
     }
 
-    /// Returns whether the namespace of an element is read; warns if it is skipped.
+    /// Returns whether the namespace of an element is read, and warns if the element is skipped.
     pub(super) fn is_read(&mut self, element: &Element<'_>) -> bool {
         if self.namespaces.is_read(element) {
             return true;
@@ -128,7 +128,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
         false
     }
 
-    /// Adds a warning at an element, unless there already is one on the same subject.
+    /// Adds a warning at an element, unless there already is a warning on the same subject.
     pub(super) fn say_once(&mut self, element: &Element<'_>, subject: &'static str, message: &str) {
         if !self.said.contains(&subject) {
             self.said.push(subject);
@@ -159,7 +159,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
         Ok(())
     }
 
-    /// Reads a group of properties; any other resource is skipped.
+    /// Reads a property group. Any other resource is skipped.
     fn read_group(
         &mut self,
         start: &Element<'_>,
@@ -217,7 +217,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
         Ok(())
     }
 
-    /// Reads metalness and roughness of the entries of a list.
+    /// Reads the metalness and roughness of each entry in a list.
     fn read_metallic(&mut self) -> Result<Vec<[f32; 2]>, Diagnostic> {
         let depth = self.xml.depth();
         let mut entries = Vec::new();
@@ -297,8 +297,8 @@ impl<'a, 'w> PartReader<'a, 'w> {
     }
 }
 
-/// Parses a transform of twelve numbers, the rows of a 4×3 matrix that is applied to row vectors:
-/// the rows are the images of the axes, and the last is the translation.
+/// Parses a transform of twelve numbers: the rows of a 4×3 matrix for row vectors. The first three
+/// rows are the images of the axes, and the last row is the translation.
 fn parse_transform(text: &[u8]) -> Option<Affine<ModelSpace, ModelSpace>> {
     let mut scanner = TextScanner::new(text);
     let mut rows = [[0.0; 3]; 4];
@@ -319,7 +319,7 @@ mod tests {
     fn transforms_are_rows_of_a_matrix() {
         let map = parse_transform(b"0 1 0  -1 0 0  0 0 2  10 20 30").unwrap();
         let image = map.transform_point([1.0, 2.0, 3.0].into());
-        // x maps to y, y to −x, z to 2 z; then the last row is added.
+        // x maps to y, y to −x, and z to 2 z; then the last row is added.
         assert_eq!(image.raw().to_array(), [10.0 - 2.0, 20.0 + 1.0, 30.0 + 6.0]);
         for wrong in
             ["1 0 0 0 1 0 0 0 1 0 0", "1 0 0 0 1 0 0 0 1 0 0 0 0", "1 0 0 0 1 0 0 0 1 0 0 nan"]

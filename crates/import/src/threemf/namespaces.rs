@@ -1,4 +1,4 @@
-//! Namespaces of 3MF: the core specification, its extensions, and the support for each.
+//! 3MF namespaces: the core specification, its extensions, and the level of support for each.
 
 use super::xml::Element;
 use gltf_import::ImportWarnings;
@@ -13,7 +13,7 @@ pub(super) enum Support {
     Ignored,
     /// Its elements are skipped, with a warning.
     LeftOut,
-    /// Without its elements nothing can be shown as intended.
+    /// Without its elements the content cannot be shown as intended.
     Refused,
 }
 
@@ -40,18 +40,18 @@ pub(super) struct Namespaces<'a> {
 }
 
 impl<'a> Namespaces<'a> {
-    /// Returns the namespaces that the root element of a part declares.
+    /// Reads the namespaces that the root element of a part declares.
     pub(super) fn from_root(root: &Element<'a>) -> Self {
         let declared = root.attributes().filter_map(|(prefix, local, uri)| match (prefix, local) {
             (b"xmlns", prefix) => Some((prefix, uri)),
             (b"", b"xmlns") => Some((&b""[..], uri)),
             _ => None,
         });
-        // A part has a handful; more would make each lookup slow.
+        // A part has only a few; more would make each lookup slow.
         Self { prefixes: declared.take(64).collect() }
     }
 
-    /// Returns the name of a prefix's namespace in messages, and its level of support; an
+    /// Returns the name of a prefix's namespace for messages, and its level of support. An
     /// undeclared prefix counts as read.
     pub(super) fn support_of(&self, prefix: &[u8]) -> (&'static str, Support) {
         let Some(uri) = self.prefixes.iter().find(|(p, _)| *p == prefix).map(|(_, uri)| *uri)
@@ -63,16 +63,16 @@ impl<'a> Namespaces<'a> {
         known.map_or(("", Support::Ignored), |&(_, name, support)| (name, support))
     }
 
-    /// Returns whether elements of a prefix are read.
+    /// Returns whether elements with a prefix are read.
     pub(super) fn is_read(&self, element: &Element<'_>) -> bool {
-        // Most elements have no prefix, and all elements are checked here.
+        // This is a fast path: every element is checked here, and most have no prefix.
         element.prefix().is_empty() || self.support_of(element.prefix()).1 == Support::Read
     }
 
     /// Checks the extensions that a part requires.
     ///
     /// # Errors
-    /// Fails if an extension is unknown, or encrypts the content. In lenient mode it is ignored.
+    /// Fails if an extension is unknown or encrypts the content. In lenient mode it is ignored.
     pub(super) fn check_required(
         &self,
         root: &Element<'_>,

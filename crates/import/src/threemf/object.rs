@@ -1,4 +1,4 @@
-//! Objects of 3MF: a mesh, or components that refer to other objects; and the mesh as primitives.
+//! 3MF objects: reads meshes and components, and converts meshes to primitives.
 
 use super::model_part::{ObjectReference, PartReader};
 use super::properties::{Palette, PartProperties, Property};
@@ -11,19 +11,19 @@ use gltf_import::ImportWarnings;
 use model::{Diagnostic, Mesh, Primitive};
 use std::collections::BTreeMap;
 
-/// Marks a property that a triangle does not name.
+/// Marks a property that a triangle does not specify.
 const NONE: u32 = u32::MAX;
 
 /// An object.
 #[derive(Debug)]
 pub(super) struct Object {
-    /// The id in its part.
+    /// The id within the part.
     pub(super) id: u32,
     /// The name, if it has one.
     pub(super) name: Option<String>,
-    /// Whether it is part of the printed object, rather than a support or a slicer helper.
+    /// Whether the object is part of the print, rather than a support or a slicer helper.
     pub(super) is_shown: bool,
-    /// The default property group, for triangles that name none.
+    /// The default property group, for triangles that do not specify one.
     pub(super) group: Option<u32>,
     /// The index of the default property.
     pub(super) property: Option<u32>,
@@ -45,11 +45,11 @@ pub(super) struct ObjectContent {
 pub(super) struct ObjectMesh {
     positions: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
-    /// The properties of each triangle; empty if none names any.
+    /// The properties of each triangle; empty if no triangle specifies any.
     properties: Vec<TriangleProperties>,
 }
 
-/// The properties that a triangle names: a group, and an index for each corner.
+/// The properties that a triangle specifies: a group, and an index for each corner.
 #[derive(Clone, Copy, Debug)]
 struct TriangleProperties {
     group: u32,
@@ -79,7 +79,8 @@ impl PartReader<'_, '_> {
         Ok(mesh)
     }
 
-    /// Reads the vertices. In lenient mode a vertex without finite coordinates keeps its index.
+    /// Reads the vertices. In lenient mode, a vertex without finite coordinates still takes an
+    /// index.
     fn read_vertices(&mut self, mesh: &mut ObjectMesh) -> Result<(), Diagnostic> {
         let depth = self.xml.depth();
         while let Some(vertex) = self.xml.next_child(depth)? {
@@ -103,7 +104,7 @@ impl PartReader<'_, '_> {
         Ok(())
     }
 
-    /// Reads the triangles. In lenient mode those without vertices are skipped.
+    /// Reads the triangles. In lenient mode, triangles with missing vertices are skipped.
     fn read_triangles(&mut self, mesh: &mut ObjectMesh) -> Result<(), Diagnostic> {
         let depth = self.xml.depth();
         while let Some(element) = self.xml.next_child(depth)? {
@@ -139,7 +140,8 @@ impl PartReader<'_, '_> {
         Ok(())
     }
 
-    /// Vertices and properties of a triangle; [`NONE`] for any it does not name.
+    /// Returns the vertices and properties of a triangle, with [`NONE`] for any it does not
+    /// specify.
     fn parse_triangle(&mut self, element: &Element<'_>) -> ([u32; 3], TriangleProperties) {
         let (mut corners, mut properties) = ([NONE; 3], TriangleProperties::NONE);
         for (_, name, value) in element.attributes() {
@@ -171,14 +173,14 @@ fn is_finite(position: &[f32; 3]) -> bool {
 }
 
 impl ObjectMesh {
-    /// Maximum number of bytes in the primitives of the mesh.
+    /// Returns the maximum number of bytes in the primitives of the mesh.
     pub(super) fn array_bytes(&self) -> u64 {
         let (vertices, triangles) = (self.positions.len() as u64, self.triangles.len() as u64);
         let corner = if self.properties.is_empty() { 0 } else { 3 * 80 };
         vertices * 24 + triangles * (24 + corner)
     }
 
-    /// Returns the mesh as primitives, one for each material.
+    /// Converts the mesh to primitives, one per material.
     pub(super) fn into_mesh(
         self,
         object: &Object,
@@ -235,22 +237,22 @@ impl ObjectMesh {
 
 /// The properties of the triangles of an object.
 struct PropertyLookup<'a> {
-    /// The properties of each triangle; empty if none names any.
+    /// The properties of each triangle; empty if no triangle specifies any.
     properties: &'a [TriangleProperties],
-    /// The properties of the object, for triangles that name none.
+    /// The properties of the object, for triangles that do not specify any.
     default: TriangleProperties,
     part: &'a PartProperties,
 }
 
-/// Summary of the properties of an object's triangles.
+/// A summary of the properties of an object's triangles.
 struct PropertySummary {
-    /// The materials of the model that they use, in order of first use.
+    /// The materials that the triangles use, in order of first use.
     numbers: Vec<u32>,
-    /// For each triangle, its entry in that list; empty if there is only one.
+    /// The index of each triangle's material in that list; empty if there is only one material.
     materials: Vec<u32>,
     has_uvs: bool,
     has_colors: bool,
-    /// The number of triangles that name a property that does not exist.
+    /// The number of triangles that specify a missing property.
     missing: usize,
 }
 
@@ -258,13 +260,13 @@ impl PropertyLookup<'_> {
     /// Returns the property of a corner, if it has one.
     ///
     /// # Errors
-    /// Fails if the property is named but does not exist.
+    /// Fails if the property is specified but does not exist.
     fn property_at(&self, triangle: usize, corner: usize) -> Result<Option<Property>, ()> {
         let named = self.properties.get(triangle).unwrap_or(&self.default);
         let [group, default_group] = [named.group, self.default.group];
         let group = if group == NONE { default_group } else { group };
-        // A corner without an index uses the first corner's; a triangle without any uses the
-        // object's.
+        // A corner without an index uses the first corner's index; a triangle without properties
+        // uses the object's.
         let indices = [named.indices[corner], named.indices[0], self.default.indices[0]];
         let index = indices.into_iter().find(|&index| index != NONE);
         let Some(index) = index.filter(|_| group != NONE) else { return Ok(None) };
@@ -277,7 +279,7 @@ impl PropertyLookup<'_> {
         let (mut numbers, mut number_of) = (Vec::new(), BTreeMap::new());
         let (mut has_uvs, mut has_colors, mut missing) = (false, false, 0);
         let mut materials = Vec::new();
-        // If no triangle names properties, all are like the first.
+        // If no triangle specifies properties, all are like the first.
         let distinct = if self.properties.is_empty() { triangles.min(1) } else { triangles };
         for triangle in 0..distinct {
             let mut first = None;

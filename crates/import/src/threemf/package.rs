@@ -12,14 +12,14 @@ use model::{Diagnostic, codes};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// The end of the relationship type for the model; the part before it depends on the year.
+/// The end of the relationship type for the model; the part before it contains the year.
 const MODEL_RELATIONSHIP: &str = "/3dmodel";
 
 /// The parts of a 3MF file.
 #[derive(Debug)]
 pub(super) struct Package<'a> {
     archive: Archive<'a>,
-    /// Entries of the archive by their lowercase names, because OPC ignores case.
+    /// Archive entries by lowercase name, because OPC ignores case.
     parts: BTreeMap<String, usize>,
     budget: MemoryBudget<'a>,
 }
@@ -28,8 +28,8 @@ impl<'a> Package<'a> {
     /// Opens the package in an archive.
     ///
     /// # Errors
-    /// Fails if the archive is broken, or two parts have the same name. In lenient mode the first
-    /// is used.
+    /// Fails if the archive is broken or two parts have the same name. In lenient mode, the first
+    /// of the two is used.
     pub(super) fn from_bytes(
         bytes: &'a [u8],
         limits: &'a Limits,
@@ -62,7 +62,7 @@ impl<'a> Package<'a> {
         self.find_part(name).map(|entry| entry.name.as_str())
     }
 
-    /// Reads the content of a part; `location` is where the file refers to it.
+    /// Reads the content of a part. `location` is where the file refers to it.
     ///
     /// # Errors
     /// Fails if there is no such part, or it cannot be read.
@@ -79,7 +79,7 @@ impl<'a> Package<'a> {
         self.archive.read_entry(entry, &self.budget)
     }
 
-    /// Counts memory for data derived from the file, in addition to its parts.
+    /// Charges memory for data derived from the file, in addition to its parts.
     ///
     /// # Errors
     /// Fails if a limit is exceeded.
@@ -88,7 +88,7 @@ impl<'a> Package<'a> {
     }
 
     /// Returns the name of the model part: the target of the package's relationship, or else the
-    /// only part with the name of a model.
+    /// only part with a model file name.
     ///
     /// # Errors
     /// Fails if there is no model part: the archive is not 3MF.
@@ -117,7 +117,7 @@ impl<'a> Package<'a> {
     }
 }
 
-/// Returns whether a name stays within the archive: relative and without `..`.
+/// Returns whether a name is relative and without `..`, so that it stays within the archive.
 fn is_part_name(name: &str) -> bool {
     !name.starts_with('/') && !name.contains([':', '\0']) && name.split('/').all(|s| s != "..")
 }

@@ -1,15 +1,15 @@
-//! Properties of 3MF: the colors and materials that triangles refer to by group and index.
+//! 3MF properties: the colors and materials that triangles refer to by group and index.
 //!
 //! ```text
-//!  basematerials         a material for each base, in its display color
+//!  basematerials         a material for each base, with its display color
 //!  colorgroup            colors of corners
 //!  texture2dgroup        texture coordinates of corners
 //!  compositematerials    the mean of base colors, weighted by their proportions
 //!  multiproperties       layers: the last texture, or the mixture of colors
 //! ```
 //!
-//! Groups are resolved when they are read, because each may refer only to earlier ones: a triangle
-//! then needs a single lookup. Colors are sRGB in the file and linear here.
+//! Groups are resolved when they are read, because each may refer only to earlier groups; a
+//! triangle then needs a single lookup. Colors are sRGB in the file and linear here.
 
 use super::xml::Element;
 use crate::text::{TextScanner, parse_f32, parse_integer};
@@ -17,8 +17,7 @@ use gltf_import::linear_table;
 use model::{AlphaMode, Material, Sampler, Texture, TextureFilter, TextureInfo, WrapMode};
 use std::collections::BTreeMap;
 
-/// The maximum number of layers in multiproperties; each entry of a group is mixed from all of
-/// them.
+/// The maximum number of layers in multiproperties. Each entry of a group is mixed from all layers.
 const MAX_LAYERS: usize = 64;
 
 /// The property at a corner of a triangle.
@@ -32,7 +31,7 @@ pub(super) struct Property {
     pub(super) uv: [f32; 2],
 }
 
-/// The kind of a group, as needed by groups that refer to it.
+/// The kind of a group, for groups that refer to it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum GroupKind {
     Base,
@@ -63,18 +62,18 @@ pub(super) struct PartProperties {
     metallic_of: BTreeMap<u32, u32>,
 }
 
-/// Materials and textures of all parts.
+/// The materials and textures of all parts.
 #[derive(Debug, Default)]
 pub(super) struct Palette {
     pub(super) materials: Vec<Material>,
     pub(super) textures: Vec<Texture>,
-    /// The images of textures: the part name, and where the file first mentions it.
+    /// The texture images: the part name, and the location of its first reference.
     pub(super) images: Vec<(String, String)>,
     /// The index of each image, by part name.
     image_of: BTreeMap<String, usize>,
-    /// The material of surfaces without properties, if there are any.
+    /// The material for surfaces without properties, if there are any.
     plain: Option<u32>,
-    /// The material of colored corners: opaque, and blended.
+    /// The materials for colored corners: opaque and blended.
     colored: [Option<u32>; 2],
 }
 
@@ -93,7 +92,7 @@ impl Palette {
         })
     }
 
-    /// Returns the material of surfaces without properties.
+    /// Returns the material for surfaces without properties.
     pub(super) fn plain_material(&mut self) -> u32 {
         let material = self.plain.unwrap_or_else(|| self.push_material(Material::plain()));
         *self.plain.insert(material)
@@ -105,7 +104,7 @@ impl Palette {
         material.is_some_and(|material| material.base_color_texture.is_some())
     }
 
-    /// Returns the material that shows the colors of corners.
+    /// Returns the material that shows corner colors.
     fn colored_material(&mut self, is_blended: bool) -> u32 {
         if let Some(material) = self.colored[usize::from(is_blended)] {
             return material;
@@ -124,13 +123,13 @@ impl Palette {
     }
 }
 
-/// Returns the material of surfaces colored by corners or by a texture.
+/// Returns the material for surfaces colored by corners or a texture.
 fn white() -> Material {
     Material { base_color: [1.0; 4], ..Material::plain() }
 }
 
 /// Parses `#RRGGBB` or `#RRGGBBAA`. An alpha of 0 is read as 1, which is what programs that write
-/// it mean (nobody prints invisible parts).
+/// it intend, because invisible parts are never printed.
 pub(super) fn parse_color(text: &[u8]) -> Option<[f32; 4]> {
     let digits = text.strip_prefix(b"#")?;
     if !matches!(digits.len(), 6 | 8) {
@@ -148,12 +147,12 @@ pub(super) fn parse_color(text: &[u8]) -> Option<[f32; 4]> {
     Some([linear(0), linear(1), linear(2), f32::from(rgba[3]) / 255.0])
 }
 
-/// Parses the id that an attribute holds.
+/// Parses the id in an attribute.
 pub(super) fn parse_id(element: &Element<'_>, name: &str) -> Option<u32> {
     parse_integer(element.attribute(name)?).and_then(|id| id.try_into().ok())
 }
 
-/// Parses the number that an attribute holds, if it is finite.
+/// Parses the number in an attribute, if it is finite.
 pub(super) fn parse_number(element: &Element<'_>, name: &str) -> Option<f32> {
     element.attribute(name).and_then(parse_f32).filter(|number| number.is_finite())
 }
@@ -169,7 +168,7 @@ fn parse_indices(text: &[u8]) -> Option<Vec<u32>> {
     parse_list(text, |token| parse_integer(token)?.try_into().ok())
 }
 
-/// A group that is being read, with the content of its start tag.
+/// A group that is being read, with the data from its start tag.
 #[derive(Debug)]
 pub(super) enum OpenGroup {
     Base { metallic: Option<u32> },
@@ -185,12 +184,12 @@ pub(super) enum OpenGroup {
 pub(super) struct Layer {
     /// The group.
     id: u32,
-    /// Whether it multiplies the layers below instead of covering them.
+    /// Whether the layer multiplies the layers below instead of covering them.
     multiplies: bool,
 }
 
 impl PartProperties {
-    /// Returns the group of an id.
+    /// Returns the group with an id.
     pub(super) fn group(&self, id: u32) -> Option<&PropertyGroup> {
         self.group_of.get(&id).and_then(|&at| self.groups.get(at as usize))
     }
@@ -228,7 +227,8 @@ impl PartProperties {
         self.textures.insert(id, material);
     }
 
-    /// Returns the group that a start tag begins; an error message if its references are invalid.
+    /// Opens the group that a start tag begins. Returns an error message if its references are
+    /// invalid.
     pub(super) fn open_group(
         &self,
         element: &Element<'_>,
@@ -245,7 +245,7 @@ impl PartProperties {
                 let id = parse_id(element, "texid").ok_or("the group has no texid")?;
                 let texture = self.textures.get(&id);
                 let texture =
-                    texture.ok_or_else(|| format!("there is no texture {id} before it"))?;
+                    texture.ok_or_else(|| format!("there is no texture {id} before this group"))?;
                 OpenGroup::Texture { material: *texture }
             }
             "compositematerials" => {
@@ -282,7 +282,7 @@ impl PartProperties {
         }))
     }
 
-    /// Adds the group, whose entries have been read.
+    /// Adds a group whose entries have been read.
     pub(super) fn close_group(&mut self, id: u32, kind: GroupKind, entries: Vec<Property>) {
         self.group_of.entry(id).or_insert(self.groups.len() as u32);
         self.groups.push(PropertyGroup { kind, entries });
@@ -294,7 +294,7 @@ impl PartProperties {
         self.metallic.push(entries);
     }
 
-    /// Computes the mixture of the properties named by an entry of multiproperties.
+    /// Mixes the properties that an entry of multiproperties refers to.
     fn blend_layers(&self, layers: &[Layer], indices: &[u32], palette: &mut Palette) -> Property {
         let mut mixed: Option<Property> = None;
         let mut color = [1.0; 4];
@@ -311,7 +311,7 @@ impl PartProperties {
             } else if layer.multiplies {
                 color = std::array::from_fn(|c| color[c] * own[c]);
             } else {
-                // Over the layers below; over a texture, to the extent that a factor can.
+                // Blend over the layers below; over a texture, as far as a factor allows.
                 let below = color;
                 color = std::array::from_fn(|c| below[c] + (own[c] - below[c]) * own[3]);
                 color[3] = own[3] + below[3] * (1.0 - own[3]);
@@ -331,7 +331,7 @@ impl PartProperties {
 }
 
 impl OpenGroup {
-    /// Returns the kind of the group, or `None` for anything other than a property group.
+    /// Returns the kind of the group, or `None` if it is not a property group.
     pub(super) const fn kind(&self) -> Option<GroupKind> {
         Some(match self {
             Self::Base { .. } => GroupKind::Base,
@@ -343,7 +343,7 @@ impl OpenGroup {
         })
     }
 
-    /// Reads the property of a child element; `at` is its index. `None` if it is malformed.
+    /// Reads the property in a child element; `at` is its index. Returns `None` if it is malformed.
     pub(super) fn read_entry(
         &self,
         element: &Element<'_>,

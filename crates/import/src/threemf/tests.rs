@@ -1,10 +1,11 @@
-//! Handmade 3MF files: the models read from them, and the messages about broken and hostile ones.
+//! Tests of handwritten 3MF files: the resulting models, and the messages about broken and hostile
+//! files.
 
 use crate::load_bytes;
 use gltf_import::{ImportError, ImportOptions, Limits};
 use model::{AlphaMode, LengthUnit, Model, UpAxis};
 
-/// Returns a zip archive of stored (method 0) or deflated (8) entries.
+/// Returns a zip archive with stored (method 0) or deflated (8) entries.
 fn zip(entries: &[(&str, &[u8])], method: u16) -> Vec<u8> {
     let (mut file, mut directory) = (Vec::new(), Vec::new());
     for (name, content) in entries {
@@ -38,14 +39,14 @@ fn zip(entries: &[(&str, &[u8])], method: u16) -> Vec<u8> {
 const RELATIONSHIPS: &[u8] = br#"<Relationships><Relationship Target="/3D/3dmodel.model" Id="r"
     Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>"#;
 
-/// The namespace declarations of a model.
+/// The namespace declarations for a model.
 const XMLNS: &str = r#"xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
     xmlns:m="http://schemas.microsoft.com/3dmanufacturing/material/2015/02"
     xmlns:p="http://schemas.microsoft.com/3dmanufacturing/production/2015/06"
     xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02"
     xmlns:x="http://example.com/unheard-of""#;
 
-/// Returns an object of one triangle with the corners 0, (x, 0, 0), (0, 1, 0).
+/// Returns an object with one triangle, with corners at the origin, (x, 0, 0) and (0, 1, 0).
 fn object(id: u32, x: u32, attributes: &str, triangle: &str) -> String {
     format!(
         r#"<object id="{id}" {attributes}><mesh><vertices><vertex x="0" y="0" z="0"/>
@@ -54,7 +55,7 @@ fn object(id: u32, x: u32, attributes: &str, triangle: &str) -> String {
     )
 }
 
-/// Returns a model with resources and build items.
+/// Returns the XML of a model with resources and build items.
 fn model_text(attributes: &str, resources: &str, build: &str) -> String {
     format!(
         "<?xml version=\"1.0\"?><model {XMLNS} {attributes}><resources>{resources}</resources>\
@@ -62,7 +63,7 @@ fn model_text(attributes: &str, resources: &str, build: &str) -> String {
     )
 }
 
-/// Returns a package of a model.
+/// Returns a package with a model.
 fn package(attributes: &str, resources: &str, build: &str) -> Vec<u8> {
     let model = model_text(attributes, resources, build);
     zip(&[("_rels/.rels", RELATIONSHIPS), ("3D/3dmodel.model", model.as_bytes())], 8)
@@ -95,7 +96,7 @@ fn bounds(bytes: &[u8]) -> [[f64; 3]; 2] {
 const ITEM: &str = r#"<item objectid="1"/>"#;
 
 #[test]
-fn units_and_the_up_axis_are_those_of_the_file() {
+fn units_and_up_axis_come_from_the_file() {
     for (attributes, unit) in [
         ("", LengthUnit::Millimeter),
         (r#"unit="inch""#, LengthUnit::Inch),
@@ -108,18 +109,18 @@ fn units_and_the_up_axis_are_those_of_the_file() {
 }
 
 #[test]
-fn items_and_components_are_placed_by_row_vectors() {
-    // Turned by 90° about z and moved; then the item moves it again.
+fn transforms_apply_to_row_vectors() {
+    // The component is rotated by 90° about z and moved; the item then transforms it again.
     let components = r#"<object id="2"><components>
         <component objectid="1" transform="0 1 0 -1 0 0 0 0 1 10 0 0"/></components></object>"#;
     let item = r#"<item objectid="2" transform="2 0 0 0 2 0 0 0 2 0 0 5"/>"#;
     let file = package("", &(object(1, 3, "", "") + components), item);
-    // (0,0,0), (3,0,0), (0,1,0) → (10,0,0), (10,3,0), (9,0,0) → doubled, 5 higher.
+    // (0,0,0), (3,0,0), (0,1,0) → (10,0,0), (10,3,0), (9,0,0) → doubled and raised by 5.
     assert_eq!(bounds(&file), [[18.0, 0.0, 5.0], [20.0, 6.0, 5.0]]);
 }
 
 #[test]
-fn parts_of_the_production_extension_are_found() {
+fn production_extension_parts_are_found() {
     let other = model_text("", &object(1, 7, "", ""), "");
     let item = r#"<item objectid="1" p:path="/3D/Objects/other%201.model" p:UUID="u"/>"#;
     let main = model_text(r#"requiredextensions="p""#, &object(1, 1, "", ""), item);
@@ -139,7 +140,7 @@ fn parts_of_the_production_extension_are_found() {
 }
 
 #[test]
-fn supports_and_helpers_are_left_out_and_counted() {
+fn supports_and_helpers_are_skipped_and_counted() {
     let resources = object(1, 1, "", "")
         + &object(2, 9, r#"type="support""#, "")
         + &object(3, 9, r#"type="other""#, "");
@@ -172,7 +173,7 @@ fn base_materials_have_their_display_color() {
 }
 
 #[test]
-fn corners_have_the_colors_of_their_properties() {
+fn corner_colors_come_from_properties() {
     let group = r##"<m:colorgroup id="5"><m:color color="#FF0000"/><m:color color="#00FF00FF"/>
         <m:color color="#0000FF"/></m:colorgroup>"##;
     let (red, green, blue) = ([1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]);
@@ -193,7 +194,7 @@ fn corners_have_the_colors_of_their_properties() {
 }
 
 #[test]
-fn mixed_materials_and_layers_have_the_mean_of_their_colors() {
+fn mixed_materials_and_layers_have_mean_colors() {
     let groups = r##"<basematerials id="5"><base name="a" displaycolor="#FF0000"/>
         <base name="b" displaycolor="#0000FF"/></basematerials>
         <m:compositematerials id="6" matid="5" matindices="0 1"><m:composite values="1 3"/>
@@ -211,7 +212,7 @@ fn mixed_materials_and_layers_have_the_mean_of_their_colors() {
 }
 
 #[test]
-fn textures_are_entries_of_the_archive_and_turned_over() {
+fn textures_come_from_the_archive_and_are_flipped() {
     let mut image = Vec::new();
     let mut encoder = png::Encoder::new(&mut image, 1, 1);
     encoder.set_color(png::ColorType::Rgb);
@@ -234,14 +235,14 @@ fn textures_are_entries_of_the_archive_and_turned_over() {
     let primitive = &model.meshes[0].primitives[0];
     let uv_at = |corner: usize| primitive.uvs[0][primitive.indices[corner] as usize];
     assert_eq!([uv_at(0), uv_at(1)], [[0.0, 1.0], [1.0, 0.75]]);
-    // Without the image the surface is plain, and a warning says why.
+    // Without the image the surface is plain, and a warning gives the reason.
     let model = load(&zip(&entries[..2], 8)).unwrap();
     assert!(messages(&model)[0].contains("the archive has no entry"), "{:?}", messages(&model));
     assert!(model.materials.iter().all(|material| material.base_color_texture.is_none()));
 }
 
 #[test]
-fn extensions_are_named() {
+fn extensions_are_reported_by_name() {
     let lattice = object(1, 1, "", "").replace("</mesh>", "<b:beamlattice radius=\"1\"/></mesh>");
     let model = load(&package(r#"requiredextensions="b""#, &lattice, ITEM)).unwrap();
     let said = messages(&model);
@@ -256,7 +257,7 @@ fn extensions_are_named() {
 }
 
 #[test]
-fn nothing_to_build_shows_all_objects_that_are_no_components() {
+fn an_empty_build_section_shows_all_top_objects() {
     let components =
         r#"<object id="2"><components><component objectid="1"/></components></object>"#;
     let model = load(&package("", &(object(1, 1, "", "") + components), "")).unwrap();
@@ -265,7 +266,7 @@ fn nothing_to_build_shows_all_objects_that_are_no_components() {
 }
 
 #[test]
-fn faults_of_the_model_have_a_place() {
+fn model_errors_have_a_location() {
     let broken =
         |from: &str, to: &str| fault(&package("", &object(1, 1, "", "").replace(from, to), ITEM));
     for (from, to, expected) in [
@@ -287,7 +288,7 @@ fn faults_of_the_model_have_a_place() {
 }
 
 #[test]
-fn components_in_a_circle_are_refused() {
+fn component_cycles_are_rejected() {
     let object = |id: u32, other: u32| {
         format!(
             "<object id=\"{id}\"><components><component objectid=\"{other}\"/></components></object>"
@@ -299,7 +300,7 @@ fn components_in_a_circle_are_refused() {
 }
 
 #[test]
-fn exponential_assemblies_are_refused_before_they_are_built() {
+fn exponential_assemblies_are_rejected_before_building() {
     let mut resources = object(1, 1, "", "");
     for id in 2..60 {
         let component = format!("<component objectid=\"{}\"/>", id - 1);
@@ -310,7 +311,7 @@ fn exponential_assemblies_are_refused_before_they_are_built() {
     let file = package("", &resources, r#"<item objectid="59"/>"#);
     let message = fault(&file);
     assert!(message.contains("more than the limit of 1000000"), "{message}");
-    // Fewer nodes, but more than such a small file may have.
+    // Fewer nodes, but still more than such a small file may have.
     let message = fault(&package("", &resources, r#"<item objectid="18"/>"#));
     assert!(message.contains("array_growth"), "{message}");
     let mut deep = object(1, 1, "", "");
@@ -325,7 +326,7 @@ fn exponential_assemblies_are_refused_before_they_are_built() {
 }
 
 #[test]
-fn bombs_are_refused_by_size_and_by_ratio() {
+fn bombs_are_rejected_by_size_and_ratio() {
     let zeros = "\0".repeat(40 << 20);
     let file = package("", &zeros, "");
     assert!(file.len() < 1 << 20);
@@ -339,7 +340,7 @@ fn bombs_are_refused_by_size_and_by_ratio() {
 }
 
 #[test]
-fn short_tags_that_take_memory_are_counted() {
+fn memory_of_short_tags_is_charged() {
     let limits = Limits { array_growth: 1, ..Limits::default() };
     let options = ImportOptions { limits, ..ImportOptions::default() };
     let many = |tag: &str| tag.repeat(150_000);
@@ -359,8 +360,8 @@ fn short_tags_that_take_memory_are_counted() {
 }
 
 #[test]
-fn a_great_many_objects_are_read() {
-    // An id and a number of items beyond 16 bits.
+fn many_objects_are_read() {
+    // Ids and item counts exceed 16 bits.
     let count = 65_537;
     let ids = || 1..=count;
     let resources: String = ids().map(|id| object(id, id, "", "")).collect();
@@ -383,7 +384,7 @@ fn broken_archives_are_errors() {
     assert!(patched(directory + 8, 1).contains("the entry of the archive is encrypted"));
     assert!(patched(directory + 10, 14).contains("the unsupported compression method 14"));
     assert!(patched(directory + 16, 0).contains("checksum"));
-    assert!(patched(directory + 27, 1).contains("too many for"), "a size of 16 MiB and more");
+    assert!(patched(directory + 27, 1).contains("too many for"), "a size of at least 16 MiB");
     assert!(patched(directory + 24, 0xFF).contains("size"));
     assert!(patched(directory, b'X').contains("the directory of the zip archive is broken"));
     assert!(patched(directory + 44, 0xFF).contains("truncated"));

@@ -1,8 +1,9 @@
-//! A parser for the subset of XML that 3MF uses: elements with attributes, in one pass and without
-//! allocation.
+//! A parser for the subset of XML that 3MF uses: reads elements with attributes in one pass and
+//! without allocation.
 //!
-//! Only the five predefined entities and numeric references are known, and a document type
-//! declaration is an error, as OPC requires: nothing can expand. Text between elements is skipped.
+//! Only the five predefined entities and numeric references are supported, and a document type
+//! declaration is an error, as OPC requires, so nothing can expand. Text between elements is
+//! skipped.
 
 use crate::text::LineCounter;
 use model::Diagnostic;
@@ -27,11 +28,11 @@ pub(super) struct XmlReader<'a> {
     at: usize,
     /// Names of the open elements.
     open: Vec<&'a [u8]>,
-    /// Whether the last element was empty: it ends next, although there is no end tag.
+    /// Whether the last element was empty, so that it ends next, without an end tag.
     closes_next: bool,
     /// The name of the document, which precedes every location.
     document: &'a str,
-    /// Continues from one location to the next, because every object has one.
+    /// Counts lines incrementally, because every object has a location.
     lines: RefCell<LineCounter<'a>>,
 }
 
@@ -42,22 +43,22 @@ enum Tag<'a> {
 }
 
 impl<'a> XmlReader<'a> {
-    /// Creates a reader at the beginning of a text in UTF-8; `document` is its name in messages.
+    /// Creates a reader at the beginning of a UTF-8 text; `document` is its name in messages.
     pub(super) const fn new(text: &'a [u8], document: &'a str) -> Self {
         let lines = RefCell::new(LineCounter::new(text));
         Self { text, at: 0, open: Vec::new(), closes_next: false, document, lines }
     }
 
-    /// Returns the number of open elements: the depth of the last returned element.
+    /// Returns the number of open elements, which is the depth of the last returned element.
     pub(super) const fn depth(&self) -> usize {
         self.open.len()
     }
 
-    /// Returns the next child of the open element at a depth, 0 for the document; the rest of the
-    /// previous child is skipped. `None` at the end of the element.
+    /// Returns the next child of the open element at a depth (0 for the document), skipping the
+    /// rest of the previous child. Returns `None` at the end of the element.
     ///
     /// # Errors
-    /// Fails if the text is not XML, or has a document type declaration.
+    /// Fails if the text is not XML or has a document type declaration.
     pub(super) fn next_child(&mut self, depth: usize) -> Result<Option<Element<'a>>, Diagnostic> {
         loop {
             match self.next_tag()? {
@@ -100,7 +101,7 @@ impl<'a> XmlReader<'a> {
             };
             let inner = &rest[skipped.min(rest.len())..];
             let Some(length) = inner.windows(end.len()).position(|window| window == end) else {
-                return Err(self.fault(self.at, "this part of the text has no end"));
+                return Err(self.fault(self.at, "this part of the text is not closed"));
             };
             self.at += skipped + length + end.len();
         }
@@ -120,7 +121,7 @@ impl<'a> XmlReader<'a> {
     /// Parses a start tag or an empty-element tag.
     fn start_tag(&mut self, rest: &'a [u8]) -> Result<Tag<'a>, Diagnostic> {
         let Some(length) = tag_length(rest) else {
-            return Err(self.fault(self.at, "the tag has no end"));
+            return Err(self.fault(self.at, "the tag is not closed"));
         };
         let inner = &rest[1..length];
         let (inner, is_empty) = match inner {
@@ -147,19 +148,19 @@ impl<'a> XmlReader<'a> {
         Diagnostic::invalid(&self.location(offset), message)
     }
 
-    /// Document name, line and column of an offset.
+    /// Returns the document name, line and column of an offset.
     #[inline(never)]
     pub(super) fn location(&self, offset: usize) -> String {
         format!("{}: {}", self.document, self.lines.borrow_mut().locate(offset))
     }
 
-    /// Document name, line and column of an element.
+    /// Returns the document name, line and column of an element.
     pub(super) fn location_of(&self, element: &Element<'_>) -> String {
         self.location(element.offset)
     }
 }
 
-/// Returns the offset of the `>` that ends a tag: one that is not inside quotation marks.
+/// Returns the offset of the `>` that ends a tag, ignoring any inside quotation marks.
 fn tag_length(rest: &[u8]) -> Option<usize> {
     let mut quote = 0;
     rest.iter().position(|&byte| {
@@ -174,17 +175,17 @@ fn tag_length(rest: &[u8]) -> Option<usize> {
 }
 
 impl<'a> Element<'a> {
-    /// Returns the prefix of the name, empty if it has none.
+    /// Returns the prefix of the name, or an empty string if there is none.
     pub(super) fn prefix(&self) -> &'a [u8] {
         split_name(self.name).0
     }
 
-    /// Returns the name without its prefix; empty if it is not text.
+    /// Returns the name without its prefix, or an empty string if it is not UTF-8.
     pub(super) fn local_name(&self) -> &'a str {
         std::str::from_utf8(split_name(self.name).1).unwrap_or("")
     }
 
-    /// Returns the attributes in order: prefix and local name, and the raw value.
+    /// Returns the attributes in order: the prefix, the local name and the raw value.
     pub(super) fn attributes(&self) -> Attributes<'a> {
         Attributes { rest: self.attributes }
     }
@@ -212,7 +213,7 @@ fn split_name(name: &[u8]) -> (&[u8], &[u8]) {
     }
 }
 
-/// The attributes of a tag; ends at the first that is malformed.
+/// The attributes of a tag; iteration ends at the first malformed attribute.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Attributes<'a> {
     rest: &'a [u8],
@@ -232,7 +233,7 @@ impl<'a> Iterator for Attributes<'a> {
     }
 }
 
-/// Text with its character references resolved; unknown ones are kept.
+/// Returns text with its character references resolved. Unknown references are not changed.
 pub(super) fn unescape(value: &[u8]) -> Cow<'_, str> {
     let text = String::from_utf8_lossy(value);
     if !text.contains('&') {
@@ -260,7 +261,7 @@ pub(super) fn unescape(value: &[u8]) -> Cow<'_, str> {
     Cow::Owned(resolved)
 }
 
-/// Returns the character of a reference without `&` and `;`.
+/// Returns the character for a reference without `&` and `;`.
 fn referenced_character(name: &str) -> Option<char> {
     match name {
         "lt" => Some('<'),
@@ -300,19 +301,19 @@ mod tests {
     }
 
     #[test]
-    fn children_are_listed_and_what_is_in_them_skipped() {
+    fn children_are_listed_and_their_content_skipped() {
         let text = "<?xml version='1.0'?><!-- <x> --><a><b><c/><c>1</c></b> text\
                     <![CDATA[<d>]]><m:e x=\"a > b\" /><f></f></a>\n";
         assert_eq!(children(text).unwrap(), ["b", "e", "f"]);
     }
 
     #[test]
-    fn malformed_xml_is_an_error_with_its_location() {
+    fn malformed_xml_is_an_error_with_a_location() {
         let table = [
             ("<a><b>\n</a>", "a.xml: line 2, column 1: this is not the end of the innermost"),
-            ("<a><b", "a.xml: line 1, column 4: the tag has no end"),
+            ("<a><b", "a.xml: line 1, column 4: the tag is not closed"),
             ("<a>", "a.xml: line 1, column 4: the text ends within an element"),
-            ("<a><!-- ", "a.xml: line 1, column 4: this part of the text has no end"),
+            ("<a><!-- ", "a.xml: line 1, column 4: this part of the text is not closed"),
             ("<!DOCTYPE a [<!ENTITY b 'bb'>]><a/>", "a.xml: line 1, column 1: document type"),
             ("<a>< b/></a>", "a.xml: line 1, column 4: the tag has no name"),
             ("<a></a></a>", "a.xml: line 1, column 8: this is not the end of the innermost"),
@@ -324,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn attributes_are_found_by_their_local_name() {
+    fn attributes_are_found_by_local_name() {
         let text = br#"<a x = '1 ' p:y="&lt;&#65;&#x42;&amp;&no;&" z=3>"#;
         let element = XmlReader::new(text, "").next_child(0).unwrap().unwrap();
         assert_eq!(element.attribute("x"), Some(&b"1"[..]));

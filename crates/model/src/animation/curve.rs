@@ -19,29 +19,29 @@
 //! Values are constant before the first keyframe and after the last. Sines and arccosines come from
 //! `libm`, so that all machines compute identical bits.
 
-/// A keyframe curve (glTF's animation sampler). All numbers are finite.
+/// A keyframe curve (a glTF animation sampler). All numbers are finite.
 #[derive(Clone, PartialEq, Debug)]
 pub struct AnimationCurve {
     /// Interpolation between keyframes.
     pub interpolation: Interpolation,
-    /// Times of the keyframes in seconds, strictly increasing; at least one.
+    /// Keyframe times in seconds, strictly increasing; at least one.
     pub times: Vec<f32>,
-    /// `components` numbers for each keyframe. Cubic splines have three times as many: in-tangent,
-    /// value, out-tangent.
+    /// `components` numbers per keyframe. Cubic splines have three times as many: in-tangent, value
+    /// and out-tangent.
     pub values: Vec<f32>,
     /// Number of components of one value.
     pub components: usize,
 }
 
-/// Interpolation between two keyframes.
+/// The interpolation between two keyframes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Interpolation {
     /// The value of the earlier keyframe.
     Step,
     /// Linear interpolation.
     Linear,
-    /// Spherical linear interpolation of quaternions, along the shorter arc. Files also call it
-    /// LINEAR.
+    /// Spherical linear interpolation of quaternions along the shorter arc, also called LINEAR in
+    /// files.
     Spherical,
     /// Cubic Hermite spline.
     CubicSpline,
@@ -50,10 +50,10 @@ pub enum Interpolation {
 impl AnimationCurve {
     /// Returns the value at a time in seconds.
     ///
-    /// A rotation is a quaternion of any nonzero length. Halfway between two opposite rotations,
+    /// A rotation is a quaternion of any nonzero length. Halfway between two opposite quaternions,
     /// which have no shorter arc, it is 0.
     ///
-    /// The keyframe is found by binary search, in O(log n). A time at or after the last keyframe
+    /// The keyframe is found by binary search in O(log n). A time at or after the last keyframe
     /// gives the last value.
     #[must_use]
     pub fn sample(&self, seconds: f64) -> Vec<f64> {
@@ -82,7 +82,7 @@ impl AnimationCurve {
         }
     }
 
-    /// Returns the value at a keyframe, without its tangents.
+    /// Returns the value at a keyframe without its tangents.
     fn key_value(&self, key: usize) -> Vec<f64> {
         match self.interpolation {
             Interpolation::CubicSpline => self.stored_row(3 * key + 1),
@@ -97,18 +97,18 @@ impl AnimationCurve {
     }
 }
 
-/// Sum of the rows, each times its weight; as many components as the shortest row has.
+/// Computes the weighted sum of the rows, with as many components as the shortest row.
 ///
-/// Terms are added in order, so that the rounding is the same on all machines.
+/// Terms are added in order, so that rounding is the same on all machines.
 fn weighted_sum(rows: &[(f64, Vec<f64>)]) -> Vec<f64> {
     let width = rows.iter().map(|(_, row)| row.len()).min().unwrap_or(0);
     (0..width).map(|at| rows.iter().map(|(weight, row)| weight * row[at]).sum()).collect()
 }
 
-/// Spherical linear interpolation along the shorter arc (Shoemake 1985), at `t` in [0, 1].
+/// Interpolates spherically along the shorter arc (Shoemake 1985), at `t` in [0, 1].
 ///
-/// Both quaternions are normalized first, because files round them. If the dot product is negative,
-/// the second is negated: the same rotation, reached by the shorter arc.
+/// Both quaternions are normalized first, because files contain rounded values. If the dot product
+/// is negative, the second is negated, which is the same rotation along the shorter arc.
 fn slerp(from: &[f64], to: &[f64], t: f64) -> Vec<f64> {
     let unit = |q: &[f64]| {
         let length = libm::sqrt(q.iter().map(|x| x * x).sum());
@@ -119,8 +119,8 @@ fn slerp(from: &[f64], to: &[f64], t: f64) -> Vec<f64> {
     let sign = if cosine < 0.0 { -1.0 } else { 1.0 };
     let angle = libm::acos(cosine.abs().min(1.0));
     let sine = libm::sin(angle);
-    // Nearly equal rotations: linear interpolation is as accurate, and avoids dividing by almost
-    // zero.
+    // For nearly equal rotations, linear interpolation is as accurate, and avoids dividing by
+    // almost zero.
     let (first, second) = if sine < 1e-6 {
         (1.0 - t, t)
     } else {
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_and_lines_stand_still_outside() {
+    fn values_are_constant_outside_the_keyframes() {
         let [times, values] = [&[1.0, 2.0, 4.0], &[10.0, 20.0, 0.0]];
         for (seconds, step, line) in [
             (-1.0, 10.0, 10.0),
@@ -174,8 +174,8 @@ mod tests {
     }
 
     #[test]
-    fn splines_are_the_cubics_they_were_made_of() {
-        // x³ at 1 and 3 has slopes 3 and 27; the outer tangents are never read.
+    fn splines_reproduce_cubic_polynomials() {
+        // x³ has slopes 3 and 27 at 1 and 3; the outer tangents are never read.
         let keys = [99.0, 1.0, 3.0, 27.0, 27.0, 99.0];
         let spline = curve(Interpolation::CubicSpline, &[1.0, 3.0], &keys, 1);
         for x in [1.0, 1.25, 2.0, 2.75, 3.0] {
@@ -186,11 +186,10 @@ mod tests {
     }
 
     #[test]
-    fn rotations_turn_at_constant_speed_on_the_shorter_way() {
+    fn rotations_have_constant_speed_along_the_shorter_arc() {
         let (c, s) = (FRAC_1_SQRT_2 as f32, FRAC_1_SQRT_2 as f32);
         for sign in [1.0, -1.0] {
-            // From the identity to a quarter turn about y, given as one quaternion and as its
-            // negative.
+            // From the identity to a quarter turn about y, as a quaternion and its negative.
             let values = [0.0, 0.0, 0.0, 1.0, 0.0, sign * s, 0.0, sign * c];
             let rotation = curve(Interpolation::Spherical, &[0.0, 2.0], &values, 4);
             let expected = [0.0, libm::sin(FRAC_PI_8), 0.0, libm::cos(FRAC_PI_8)];

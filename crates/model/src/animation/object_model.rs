@@ -1,9 +1,9 @@
 //! Animatable properties of materials, lights and cameras, by their JSON pointers (glTF Object
 //! Model).
 //!
-//! KHR_animation_pointer names its targets with these pointers. The same tables tell the importer
-//! the location and bounds of each number in the KHR_materials extensions, so that each property is
-//! declared once:
+//! KHR_animation_pointer identifies its targets with these pointers. The importer uses the same
+//! tables for the location and bounds of each number in the KHR_materials extensions, so each
+//! property is declared only once:
 //!
 //! ```text
 //!  row("extensions/KHR_materials_sheen/sheenColorFactor", 3, UNIT_RANGE, |m| …)
@@ -11,14 +11,14 @@
 //!                                                 components  bounds
 //! ```
 //!
-//! A value set by an animation is clamped to the bounds, and dependent fields are updated. To add a
+//! Values set by an animation are clamped to the bounds, and dependent fields are updated. To add a
 //! property, add a row.
 
 use crate::{AlphaMode, CameraProjection, LightKind, Material, PunctualLight};
 use std::f32::consts::FRAC_PI_2;
 use std::f64::consts::PI;
 
-/// An animatable property of a material, light or camera: an index into the table of its numbers.
+/// An animatable property of a material, light or camera, as an index into a property table.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ObjectProperty {
     /// A property of a material.
@@ -29,20 +29,21 @@ pub enum ObjectProperty {
     Camera(usize),
 }
 
-/// A row of a property table: pointer, number of components, bounds and access to the numbers.
+/// A row of a property table: the pointer, number of components, bounds, and access to the numbers.
 #[derive(Debug)]
 pub struct PropertyRow<T> {
     /// JSON pointer into the object, without the leading slash.
     pub path: &'static str,
     /// Number of components.
     pub component_count: usize,
-    /// The smallest and largest allowed values.
+    /// The minimum and maximum allowed values.
     pub bounds: [f32; 2],
-    /// Access to the numbers; `None` if the object lacks the extension or texture they belong to.
+    /// Access to the numbers, or `None` if the object lacks the extension or texture they belong
+    /// to.
     pub numbers_mut: fn(&mut T) -> Option<&mut [f32]>,
 }
 
-/// Makes a row of a property table; the arguments are in the order of the figure above.
+/// Creates a row of a property table, with the arguments in the order of the figure above.
 const fn property_row<T>(
     path: &'static str,
     width: usize,
@@ -52,23 +53,24 @@ const fn property_row<T>(
     PropertyRow { path, component_count: width, bounds, numbers_mut: numbers }
 }
 
-/// Bounds of factors and colors: [0, 1].
+/// Bounds for factors and colors: [0, 1].
 const UNIT_RANGE: [f32; 2] = [0.0, 1.0];
-/// Bounds of intensities, thicknesses and the like: at least 0, finite.
+/// Bounds for intensities, thicknesses and similar numbers: finite and at least 0.
 const NON_NEGATIVE: [f32; 2] = [0.0, f32::MAX];
-/// Any finite number: scales and angles.
+/// Bounds for scales and angles: any finite number.
 const UNBOUNDED: [f32; 2] = [f32::MIN, f32::MAX];
-/// A larger strength is a mistake, and products with it would overflow.
+/// Bounds for the emissive strength. A larger strength would be a mistake, and products with it
+/// could overflow.
 const EMISSIVE_STRENGTH_RANGE: [f32; 2] = [0.0, 1e6];
-/// Zero itself is excluded; the smallest normal number replaces it.
+/// Bounds that exclude zero, which the smallest normal number replaces.
 const STRICTLY_POSITIVE: [f32; 2] = [f32::MIN_POSITIVE, f32::MAX];
 
-/// Access to a property of one component, as a slice of length 1.
+/// Returns access to a single number as a slice of length 1.
 fn single_number(number: &mut f32) -> Option<&mut [f32]> {
     Some(std::slice::from_mut(number))
 }
 
-/// Animatable properties of materials.
+/// The animatable properties of materials.
 #[rustfmt::skip]
 pub static MATERIAL_PROPERTIES: [PropertyRow<Material>; 30] = [
     property_row("pbrMetallicRoughness/baseColorFactor", 4, UNIT_RANGE, |m| Some(&mut m.base_color)),
@@ -106,7 +108,7 @@ pub static MATERIAL_PROPERTIES: [PropertyRow<Material>; 30] = [
     property_row("extensions/KHR_materials_anisotropy/anisotropyRotation", 1, UNBOUNDED, |m| single_number(&mut m.extensions.anisotropy.as_mut()?.rotation)),
 ];
 
-/// Animatable properties of lights.
+/// The animatable properties of lights.
 #[rustfmt::skip]
 pub static LIGHT_PROPERTIES: [PropertyRow<PunctualLight>; 5] = [
     property_row("color", 3, UNIT_RANGE, |light| Some(&mut light.color)),
@@ -125,7 +127,8 @@ pub static LIGHT_PROPERTIES: [PropertyRow<PunctualLight>; 5] = [
     }),
 ];
 
-/// Animatable properties of cameras, one number each; the first four are for perspective cameras.
+/// The animatable properties of cameras, with one number each. The first four are for perspective
+/// cameras.
 const CAMERA_PROPERTIES: [&str; 8] = [
     "perspective/yfov",
     "perspective/aspectRatio",
@@ -138,25 +141,26 @@ const CAMERA_PROPERTIES: [&str; 8] = [
 ];
 
 impl ObjectProperty {
-    /// Returns the property of a material at a JSON pointer (without the leading slash) into it.
+    /// Returns the material property at a JSON pointer into the material, without the leading
+    /// slash.
     #[must_use]
     pub fn for_material(path: &str) -> Option<Self> {
         MATERIAL_PROPERTIES.iter().position(|row| row.path == path).map(Self::Material)
     }
 
-    /// Returns the property of a light at a JSON pointer (without the leading slash) into it.
+    /// Returns the light property at a JSON pointer into the light, without the leading slash.
     #[must_use]
     pub fn for_light(path: &str) -> Option<Self> {
         LIGHT_PROPERTIES.iter().position(|row| row.path == path).map(Self::Light)
     }
 
-    /// Returns the property of a camera at a JSON pointer (without the leading slash) into it.
+    /// Returns the camera property at a JSON pointer into the camera, without the leading slash.
     #[must_use]
     pub fn for_camera(path: &str) -> Option<Self> {
         CAMERA_PROPERTIES.iter().position(|row| *row == path).map(Self::Camera)
     }
 
-    /// JSON pointer to this property of the material, light or camera with an index.
+    /// Returns the JSON pointer to this property of the material, light or camera at an index.
     #[must_use]
     pub fn json_pointer(self, of: usize) -> String {
         let (list, path) = match self {
@@ -172,7 +176,7 @@ impl ObjectProperty {
         format!("/{list}/{of}/{}", path.unwrap_or_default())
     }
 
-    /// Number of components.
+    /// Returns the number of components.
     #[must_use]
     pub fn component_count(self) -> usize {
         match self {
@@ -189,11 +193,11 @@ impl ObjectProperty {
 
 /// Sets the numbers of a property, each clamped to its bounds.
 ///
-/// `None` if the object lacks the property. Values that are not finite or of another length change
-/// nothing.
+/// Returns `None` if the object lacks the property. Values that are not finite or have the wrong
+/// length are ignored.
 ///
-/// Clamping keeps materials valid for every animation; a cubic spline overshoots its keyframes even
-/// in a valid file.
+/// Clamping keeps materials valid for every animation; even in a valid file, a cubic spline may
+/// overshoot its keyframes.
 fn set_clamped<T>(
     table: &[PropertyRow<T>],
     row_index: usize,
@@ -217,7 +221,7 @@ impl Material {
         self.update_derived();
     }
 
-    /// Recomputes dependent fields: emitted radiance, valid indices of refraction, and the
+    /// Recomputes dependent fields: the emitted radiance, a valid index of refraction, and the
     /// metallic-roughness approximation of specular-glossiness.
     pub fn update_derived(&mut self) {
         self.emissive = self.emission.scaled_color();
@@ -238,10 +242,10 @@ impl PunctualLight {
         self.order_cone_angles();
     }
 
-    /// Restores the invariant inner < outer of a spot light's cone angles.
+    /// Restores the invariant inner < outer for the cone angles of a spot light.
     ///
-    /// Shading divides by the difference of their cosines. Both corrections are far below the
-    /// resolution of a picture.
+    /// Shading divides by the difference of their cosines. Both corrections are far too small to be
+    /// visible.
     pub fn order_cone_angles(&mut self) {
         if let LightKind::Spot { inner_cone_angle: inner, outer_cone_angle: outer, .. } =
             &mut self.kind
@@ -253,9 +257,9 @@ impl PunctualLight {
 }
 
 impl CameraProjection {
-    /// Sets a number, unless the projection would become invalid.
+    /// Sets a number unless the projection would become invalid.
     ///
-    /// The change is made on a copy and validated as a whole, because validity involves two
+    /// The change is made in a copy and validated as a whole, because validity involves two
     /// numbers: near must remain less than far.
     pub fn set_property(&mut self, row_index: usize, value: f64) {
         let mut changed = *self;
@@ -277,7 +281,7 @@ impl CameraProjection {
         }
     }
 
-    /// Returns whether the property belongs to this type of projection.
+    /// Returns whether this type of projection has the property.
     pub fn has_property(&self, field: ObjectProperty) -> bool {
         match (self, field) {
             (Self::Perspective { .. }, ObjectProperty::Camera(row_index)) => row_index < 4,
@@ -309,7 +313,7 @@ mod tests {
     use crate::Volume;
 
     #[test]
-    fn every_row_has_as_many_numbers_as_it_says() {
+    fn every_row_has_its_declared_number_of_components() {
         let mut material = Material::default();
         let extensions = &mut material.extensions;
         extensions.specular = Some(Box::default());
@@ -340,7 +344,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_stay_within_their_bounds_and_in_step() {
+    fn numbers_stay_within_bounds_and_consistent() {
         let mut material = Material::default();
         let field = |path| match ObjectProperty::for_material(path) {
             Some(ObjectProperty::Material(row_index)) => row_index,
@@ -361,7 +365,7 @@ mod tests {
     }
 
     #[test]
-    fn a_camera_stays_one() {
+    fn cameras_stay_valid() {
         let mut lens =
             CameraProjection::Perspective { fov_y: 1.0, aspect: None, near: 1.0, far: 2.0 };
         lens.set_property(0, 0.5);

@@ -13,10 +13,9 @@ use homog::Affine;
 impl Model {
     /// Sets the model to the pose of an animation at a time in seconds.
     ///
-    /// Everything that the animation does not change stays as it is, and so do nodes whose
-    /// transforms would overflow. An index that is out of range changes nothing. Times outside the
-    /// animation give its first or last pose; to loop, take the remainder by
-    /// [`Animation::duration_seconds`].
+    /// Anything that the animation does not target is unchanged, as are nodes whose transforms
+    /// would overflow. An out-of-range index is ignored. Times outside the animation give its first
+    /// or last pose; to loop, pass the time modulo [`Animation::duration_seconds`].
     ///
     /// ```
     /// # let mut model = model::Model::default();
@@ -38,8 +37,8 @@ impl Model {
 
     /// Sets the target of a channel to a value.
     ///
-    /// Indices out of range are ignored, because programs can compose models too. A weight of a
-    /// node without weights starts from the weights of its mesh.
+    /// Indices out of range are ignored, because programs can also build models. If a node has no
+    /// weights, they start from the weights of its mesh.
     fn apply_channel(&mut self, target: AnimationTarget, value: &[f64]) {
         match target {
             AnimationTarget::Node { node, property } => {
@@ -107,11 +106,11 @@ impl Model {
 
     /// Recomputes all local and global transforms, parents first.
     ///
-    /// A local transform that is invalid or would overflow falls back to the previous one, then to
-    /// the identity.
+    /// A local transform that is invalid or would overflow falls back to the previous transform,
+    /// then to the identity.
     ///
-    /// The time is linear in the number of nodes. The traversal has its own stack, so the depth of
-    /// the hierarchy does not matter.
+    /// The time is linear in the number of nodes. The traversal uses an explicit stack, so the
+    /// hierarchy may have any depth.
     fn update_node_transforms(&mut self) {
         let mut stack: Vec<usize> =
             (0..self.nodes.len()).filter(|&index| self.nodes[index].parent.is_none()).collect();
@@ -130,7 +129,7 @@ impl Model {
     }
 }
 
-/// Sets one weight, or all of them.
+/// Sets one weight or all weights.
 ///
 /// The list grows with zeros if the target is beyond its end.
 fn set_morph_weights(weights: &mut Vec<f32>, target: Option<usize>, value: &[f64]) {
@@ -146,7 +145,7 @@ fn set_morph_weights(weights: &mut Vec<f32>, target: Option<usize>, value: &[f64
     }
 }
 
-/// Sets translation, rotation or scale; a value of another length changes nothing.
+/// Sets the translation, rotation or scale. A value of the wrong length is ignored.
 fn set_trs_property(trs: &mut Trs, property: NodeProperty, value: &[f64]) {
     match (property, value) {
         (NodeProperty::Translation, &[x, y, z]) => trs.translation = [x, y, z],
@@ -164,14 +163,14 @@ mod tests {
         UvTransformPart,
     };
 
-    /// From one value at 0 s to another at 1 s.
+    /// Returns a curve from one value at 0 s to another at 1 s.
     fn linear_curve(values: &[f32], width: usize) -> AnimationCurve {
         let (interpolation, times) = (Interpolation::Linear, vec![0.0, 1.0]);
         AnimationCurve { interpolation, times, values: values.to_vec(), components: width }
     }
 
     #[test]
-    fn a_pose_moves_nodes_and_what_hangs_on_them() {
+    fn a_pose_moves_nodes_and_their_descendants() {
         let node = |parent: Option<usize>, children: &[usize], trs: Trs| Node {
             to_parent: trs.to_affine().unwrap(),
             trs: Some(trs),
@@ -209,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn pointers_change_materials_weights_and_textures() {
+    fn pointers_animate_materials_weights_and_textures() {
         let info = TextureInfo { texture: 0, uv_set: 0, uv_matrix: TextureInfo::IDENTITY_UV };
         let material = Material { emissive_texture: Some(info), ..Material::default() };
         let slot = TextureSlot::Emissive;

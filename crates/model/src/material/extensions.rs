@@ -1,13 +1,14 @@
 //! KHR_materials extensions: clearcoat, sheen, transmission, volume, iridescence, anisotropy and
 //! more.
 //!
-//! One record for each extension, absent if the file does not use it. Names, units and texture
-//! channels follow the extensions' specifications. Factors are linear; a texture multiplies the
-//! factor beside it. Records are boxed because most materials have none.
+//! Each extension has one record, which is absent if the file does not use the extension. Names,
+//! units and texture channels follow the extensions' specifications. Factors are linear, and a
+//! texture multiplies the factor of the same name. Records are boxed because most materials have
+//! none.
 
 use crate::{NormalTexture, TextureInfo};
 
-/// Parameters of the KHR_materials extensions of one material.
+/// The parameters of a material's KHR_materials extensions.
 #[derive(Clone, PartialEq, Debug)]
 pub struct MaterialExtensions {
     /// Index of refraction: 0 (reflects everything) or at least 1. Default: 1.5
@@ -21,7 +22,7 @@ pub struct MaterialExtensions {
     pub specular_glossiness: Option<Box<SpecularGlossiness>>,
     /// Clear layer on top of the surface.
     pub clearcoat: Option<Box<Clearcoat>>,
-    /// Retroreflective fibers of cloth.
+    /// Retroreflective cloth fibers.
     pub sheen: Option<Box<Sheen>>,
     /// Light that passes through the surface.
     pub transmission: Option<Box<Transmission>>,
@@ -34,7 +35,7 @@ pub struct MaterialExtensions {
 }
 
 impl Default for MaterialExtensions {
-    /// No extension: an index of refraction of 1.5, and no dispersion.
+    /// Returns the parameters without extensions: an index of refraction of 1.5, and no dispersion.
     fn default() -> Self {
         Self {
             ior: 1.5,
@@ -51,30 +52,31 @@ impl Default for MaterialExtensions {
     }
 }
 
-/// Strength and color of the specular reflection of dielectrics (KHR_materials_specular).
+/// The strength and color of the specular reflection of dielectrics (KHR_materials_specular).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Specular {
     /// Strength in [0, 1]. Default: 1.
     pub factor: f32,
     /// Texture of the strength (alpha).
     pub texture: Option<TextureInfo>,
-    /// Color of the reflection at normal incidence (F0), at least 0; may exceed 1. Default: 1.
+    /// Color of the reflection at normal incidence (F0), at least 0 and possibly above 1. Default:
+    /// 1.
     pub color: [f32; 3],
     /// Texture of the color (sRGB).
     pub color_texture: Option<TextureInfo>,
 }
 
-/// Specular-glossiness workflow (KHR_materials_pbrSpecularGlossiness).
+/// The specular-glossiness workflow (KHR_materials_pbrSpecularGlossiness).
 ///
-/// Its diffuse factor and texture are stored as the material's base color, with metalness 0 and
-/// roughness 1 − glossiness. Shading that ignores this record gives a fair approximation.
+/// The diffuse factor and texture are stored as the material's base color, with metalness 0 and
+/// roughness 1 − glossiness. Shading that ignores this record is a reasonable approximation.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct SpecularGlossiness {
-    /// Reflectance at normal incidence (F0), each in [0, 1]. Default: 1.
+    /// Reflectance at normal incidence (F0), with each channel in [0, 1]. Default: 1.
     pub specular: [f32; 3],
     /// 1 − roughness: 1 for mirrors, 0 for chalk. Default: 1.
     pub glossiness: f32,
-    /// Texture of both: F0 in red, green and blue (sRGB), glossiness in alpha (linear).
+    /// Texture of both: F0 in red, green and blue (sRGB), and glossiness in alpha (linear).
     pub texture: Option<TextureInfo>,
 }
 
@@ -93,10 +95,10 @@ pub struct Clearcoat {
     pub normal_texture: Option<NormalTexture>,
 }
 
-/// Retroreflective fibers of cloth, visible at grazing angles (KHR_materials_sheen).
+/// Retroreflective cloth fibers, visible at grazing angles (KHR_materials_sheen).
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Sheen {
-    /// Each in [0, 1]. Default: 0, which disables the layer.
+    /// Color, with each channel in [0, 1]. Default: 0, which disables the layer.
     pub color: [f32; 3],
     /// Texture of the color (sRGB).
     pub color_texture: Option<TextureInfo>,
@@ -108,10 +110,10 @@ pub struct Sheen {
 
 /// Light that passes through the surface, tinted by the base color (KHR_materials_transmission).
 ///
-/// Roughness scatters it; the thickness of [`Volume`] refracts it by the index of refraction.
+/// Roughness scatters the light. With the thickness of [`Volume`], it is refracted.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Transmission {
-    /// Fraction of the light that is not reflected and is transmitted, in [0, 1]. Default: 0.
+    /// Fraction of the unreflected light that is transmitted, in [0, 1]. Default: 0.
     pub factor: f32,
     /// Texture of the fraction (red).
     pub texture: Option<TextureInfo>,
@@ -120,14 +122,14 @@ pub struct Transmission {
 /// An absorbing medium behind the surface (KHR_materials_volume).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Volume {
-    /// Thickness below the surface in the mesh's units, at least 0; 0 for a thin sheet. Default: 0.
+    /// Thickness below the surface in mesh units, at least 0; 0 for a thin sheet. Default: 0.
     pub thickness: f32,
     /// Texture of the thickness (green).
     pub thickness_texture: Option<TextureInfo>,
     /// Distance in world units after which white light has become `attenuation_color`; above 0.
     /// Default: infinite.
     pub attenuation_distance: f32,
-    /// Each in [0, 1]. Default: 1.
+    /// Color of white light after that distance, with each channel in [0, 1]. Default: 1.
     pub attenuation_color: [f32; 3],
 }
 
@@ -152,12 +154,12 @@ pub struct Iridescence {
 /// Anisotropic roughness (KHR_materials_anisotropy).
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Anisotropy {
-    /// In [0, 1]; 0 for round highlights. Default: 0.
+    /// Strength in [0, 1]; 0 for round highlights. Default: 0.
     pub strength: f32,
     /// Direction of the stretched highlights in radians, counter-clockwise from the tangent.
     /// Default: 0.
     pub rotation: f32,
-    /// Texture: red and green are 2x − 1 of a direction that is rotated by `rotation`, blue
+    /// Texture: red and green store a direction, decoded as 2x − 1 and rotated by `rotation`; blue
     /// multiplies the strength.
     pub texture: Option<TextureInfo>,
 }

@@ -1,10 +1,10 @@
-//! Texture slots: every property of a material that can have a texture.
+//! Texture slots: the material properties that can have a texture.
 
 use crate::{Material, TextureInfo};
 
-/// A property of a material that can have a texture.
+/// A material property that can have a texture.
 ///
-/// Channels are listed with the fields of [`Material`] and its extensions.
+/// The channels are documented with the fields of [`Material`] and its extensions.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum TextureSlot {
     /// Base color.
@@ -51,7 +51,7 @@ impl TextureSlot {
     /// Every slot with its location in a glTF material: a JSON pointer without the leading slash.
     ///
     /// To add a KHR_materials extension, see "How to add" in ARCHITECTURE.md.
-    /// KHR_animation_pointer uses these pointers for texture transforms as well.
+    /// KHR_animation_pointer also uses these pointers for texture transforms.
     pub const PATHS: [(Self, &'static str); 19] = [
         (Self::BaseColor, "pbrMetallicRoughness/baseColorTexture"),
         (Self::MetallicRoughness, "pbrMetallicRoughness/metallicRoughnessTexture"),
@@ -80,7 +80,7 @@ impl TextureSlot {
         (Self::Anisotropy, "extensions/KHR_materials_anisotropy/anisotropyTexture"),
     ];
 
-    /// Returns whether red, green and blue of the texture are sRGB encoded; alpha never is.
+    /// Returns whether red, green and blue of the texture are sRGB encoded. Alpha never is.
     #[must_use]
     pub const fn is_srgb(self) -> bool {
         matches!(
@@ -109,8 +109,8 @@ impl Material {
         slots.filter_map(move |slot| Some((slot, *copy.texture_mut(slot)?)))
     }
 
-    /// Textures that affect the image, each with its slot: only their images are decoded. An unlit
-    /// material shows only its base color.
+    /// Returns the textures that affect the picture, each with its slot; only their images are
+    /// decoded. An unlit material shows only its base color.
     pub fn visible_textures(&self) -> impl Iterator<Item = (TextureSlot, TextureInfo)> {
         let unlit = self.unlit;
         self.all_textures().filter(move |(slot, _)| match slot {
@@ -119,9 +119,9 @@ impl Material {
         })
     }
 
-    /// Returns the texture in a slot, for changes.
+    /// Returns mutable access to the texture in a slot.
     ///
-    /// `None` if the slot is empty or its extension is absent.
+    /// Returns `None` if the slot is empty or its extension is absent.
     pub fn texture_mut(&mut self, slot: TextureSlot) -> Option<&mut TextureInfo> {
         let extensions = &mut self.extensions;
         // The specular-glossiness workflow stores its diffuse texture as the base color texture.
@@ -164,7 +164,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn slots_stand_in_the_order_of_their_table() {
+    fn slots_are_in_table_order() {
         assert!(TextureSlot::PATHS.windows(2).all(|pair| pair[0].0 < pair[1].0));
         assert_eq!(TextureSlot::Normal.json_path(), "normalTexture");
     }

@@ -2,7 +2,7 @@
 
 use crate::{TextureInfo, TextureSlot};
 
-/// Transform of the texture in one slot of a material: scale, then rotate, then translate.
+/// The transform of the texture in one material slot: scale, then rotate, then translate.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct UvTransform {
     /// Index of the material.
@@ -11,7 +11,7 @@ pub struct UvTransform {
     pub slot: TextureSlot,
     /// Translation.
     pub offset: [f32; 2],
-    /// Rotation in radians, counter-clockwise in an image whose v points down.
+    /// Rotation in radians, counter-clockwise in an image in which v points down.
     pub rotation: f32,
     /// Scale factors.
     pub scale: [f32; 2],
@@ -29,8 +29,8 @@ pub enum UvTransformPart {
 }
 
 impl UvTransform {
-    /// Returns the composed transform, for [`TextureInfo::uv_matrix`]; the identity if a number is
-    /// not finite.
+    /// Returns the composed transform for [`TextureInfo::uv_matrix`], or the identity if a number
+    /// is not finite.
     #[must_use]
     pub fn to_matrix(&self) -> [[f32; 3]; 2] {
         let ([u, v], [width, height]) = (self.offset, self.scale);
@@ -44,7 +44,7 @@ impl UvTransform {
         }
     }
 
-    /// Sets a property; a value with the wrong number of components changes nothing.
+    /// Sets a property. A value with the wrong number of components is ignored.
     pub fn set_part(&mut self, part: UvTransformPart, value: &[f64]) {
         match (part, value) {
             (UvTransformPart::Offset, &[u, v]) => self.offset = [u as f32, v as f32],
@@ -60,7 +60,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_turns_about_the_origin_and_then_moves() {
+    fn rotation_about_the_origin_precedes_translation() {
         let mut transform = UvTransform {
             material: 0,
             slot: TextureSlot::Normal,

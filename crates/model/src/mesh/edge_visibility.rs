@@ -3,40 +3,40 @@
 //!
 //! If a file does not mark edges, drawings find feature edges from the shape.
 
-/// Marked edges of the triangles of a primitive.
+/// The marked triangle edges of a primitive.
 ///
-/// The two sources add up: an edge is drawn if `visibility` or an entry of `lines` says so.
+/// An edge is drawn if either `visibility` or an entry of `lines` marks it.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct PrimitiveEdges {
-    /// For each triangle of [`Primitive::indices`](crate::Primitive::indices) the visibility of its
-    /// edges 0–1, 1–2 and 2–0. `None` if the file marks edges by `lines` only.
+    /// For each triangle of [`Primitive::indices`](crate::Primitive::indices), the visibility of
+    /// its edges 0–1, 1–2 and 2–0. `None` if the file marks edges only by `lines`.
     pub visibility: Option<Vec<[EdgeVisibility; 3]>>,
     /// Edges that are always drawn, as pairs of vertices: outlines and line strings.
     pub lines: Vec<EdgeList>,
-    /// Material of the edges; `None` for the primitive's material.
+    /// Material of the edges, or `None` for the primitive's material.
     pub material: Option<usize>,
 }
 
-/// Always visible edges with one material.
+/// Edges with one material that are always visible.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct EdgeList {
-    /// Two vertex indices for each edge.
+    /// Two vertex indices per edge.
     pub vertex_pairs: Vec<[u32; 2]>,
-    /// The material; `None` for [`PrimitiveEdges::material`].
+    /// The material, or `None` for [`PrimitiveEdges::material`].
     pub material: Option<usize>,
 }
 
-/// Condition under which an edge is drawn, from the least visible to the most.
+/// The condition under which an edge is drawn, in order of increasing visibility.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
 pub enum EdgeVisibility {
     /// Never.
     #[default]
     Hidden,
-    /// If it separates a front face from a back face.
+    /// If the edge separates a front face from a back face.
     Silhouette,
     /// Always.
     Hard,
-    /// Always; another triangle has the same edge as [`Hard`](Self::Hard).
+    /// Always; another triangle marks the same edge as [`Hard`](Self::Hard).
     RepeatedHard,
 }
 

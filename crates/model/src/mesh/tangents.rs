@@ -1,12 +1,13 @@
-//! Tangent generation by MikkTSpace, as glTF 2.0 §3.7.2.1 requires for primitives without tangents.
+//! Tangent generation with MikkTSpace, as required by glTF 2.0 §3.7.2.1 for primitives without
+//! tangents.
 //!
-//! Tangents belong to triangle corners, not to shared vertices: two triangles that share a vertex
-//! may need two tangents there, at a seam of the texture or where it is mirrored. So there is one
-//! tangent for each index.
+//! Tangents are per triangle corner, not per shared vertex: two triangles that share a vertex may
+//! need different tangents there, at a seam or where the texture is mirrored. So there is one
+//! tangent per index.
 //!
 //! Source: M. S. Mikkelsen, *Simulation of Wrinkled Surfaces Revisited*, 2008, implemented by the
-//! crate `bevy_mikktspace`, which works in single precision. Its one arccosine comes from `libm`
-//! here, so that all machines compute identical bits.
+//! `bevy_mikktspace` crate, which works in single precision. We supply its arccosine from `libm`,
+//! so that all machines compute identical bits.
 
 use crate::{Primitive, Topology};
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
@@ -18,10 +19,10 @@ impl Primitive {
     /// Returns unit tangents for the tangent frame of a normal map, one for each of the
     /// [`indices`](Self::indices), with the handedness of the bitangent (1 or −1) in w.
     ///
-    /// `uv_set` is the set of texture coordinates that the normal map uses. Flat normals replace
-    /// missing ones. `None` for points and lines, if there is no such set, and for shapes that the
-    /// algorithm rejects. The result for the first requested set is cached with the primitive, so
-    /// that all frames of an animation share it.
+    /// `uv_set` is the texture coordinate set that the normal map uses. Flat normals replace
+    /// missing normals. Returns `None` for points and lines, for a missing set, and for shapes that
+    /// the algorithm rejects. The result for the first requested set is cached with the primitive,
+    /// so that all frames of an animation share it.
     #[must_use]
     pub fn mikktspace_tangents(&self, uv_set: usize) -> Option<Cow<'_, [[f32; 4]]>> {
         let (cached_set, cached) =
@@ -32,29 +33,29 @@ impl Primitive {
         self.run_mikktspace(uv_set).map(Cow::Owned)
     }
 
-    /// Runs the algorithm; a panic inside it counts as failure.
+    /// Runs the algorithm. A panic inside it counts as a failure.
     ///
-    /// Triangles whose texture coordinates are degenerate keep the x axis as tangent.
+    /// Triangles with degenerate texture coordinates have the x axis as tangent.
     fn run_mikktspace(&self, uv_set: usize) -> Option<Vec<[f32; 4]>> {
         let uvs = self.uvs.get(uv_set).filter(|_| self.topology == Topology::Triangles)?;
-        // Default for triangles whose texture coordinates are degenerate.
+        // The default for triangles with degenerate texture coordinates.
         let tangents = vec![[1.0, 0.0, 0.0, 1.0]; self.indices.len()];
         let mut input = MikktspaceInput { primitive: self, uvs, tangents };
-        // The crate assumes well-formed geometry, which an untrusted file need not have.
+        // The crate assumes well-formed geometry, which an untrusted file may not have.
         let done = catch_unwind(AssertUnwindSafe(|| generate_tangents(&mut input).is_ok()));
         done.unwrap_or(false).then_some(input.tangents)
     }
 }
 
-/// Adapter that presents a primitive to `bevy_mikktspace` and collects its tangents.
+/// An adapter that presents a primitive to `bevy_mikktspace` and collects its tangents.
 ///
-/// The algorithm calls back for each corner of each face.
+/// The algorithm calls it for each corner of each face.
 struct MikktspaceInput<'a> {
     /// The triangles, whose indices are valid.
     primitive: &'a Primitive,
-    /// Texture coordinates of the normal map, one for each vertex.
+    /// Texture coordinates for the normal map, one per vertex.
     uvs: &'a [[f32; 2]],
-    /// Tangents so far, one for each index.
+    /// The tangents so far, one per index.
     tangents: Vec<[f32; 4]>,
 }
 
@@ -64,7 +65,7 @@ impl MikktspaceInput<'_> {
         self.primitive.indices[3 * face + corner] as usize
     }
 
-    /// Geometric normal of a triangle; +z for a degenerate one.
+    /// Returns the geometric normal of a triangle, or +z if it is degenerate.
     fn face_normal(&self, face: usize) -> [f32; 3] {
         let corner = |k| self.primitive.positions[self.vertex_index(face, k)].map(f64::from);
         let [a, b, c] = [0, 1, 2].map(|k| DVec3::from(corner(k)));
@@ -90,8 +91,8 @@ impl Geometry<PortableMath> for MikktspaceInput<'_> {
         self.primitive.normals.as_ref().map_or_else(|| self.face_normal(face), |all| all[vertex])
     }
 
-    /// In MikkTSpace v points up, in glTF down. With v negated, bitangents point up in the image,
-    /// as normal maps expect.
+    /// Returns the texture coordinates with v negated, because v points up in MikkTSpace and down
+    /// in glTF. Bitangents then point up in the image, as normal maps expect.
     fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
         let [u, v] = self.uvs[self.vertex_index(face, corner)];
         [u, -v]
@@ -104,7 +105,7 @@ impl Geometry<PortableMath> for MikktspaceInput<'_> {
     }
 }
 
-/// Square root and arccosine with identical bits on all machines.
+/// A square root and arccosine with identical bits on all machines.
 struct PortableMath;
 
 impl Ops for PortableMath {
@@ -135,11 +136,11 @@ mod tests {
     }
 
     #[test]
-    fn tangents_follow_u_and_bitangents_go_up_in_the_image() {
+    fn tangents_follow_u_and_bitangents_point_up_in_the_image() {
         // cross(normal, tangent) · w must point in the direction in which v decreases (glTF 2.0
         // §3.7.2.1, §3.9.3).
         for (uvs, tangent) in [
-            // The image as it is: u increases along x, v decreases along y.
+            // Unchanged: u increases along x, v decreases along y.
             ([[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]], [1.0, 0.0, 0.0, 1.0]),
             // Mirrored: u decreases along x.
             ([[1.0, 1.0], [0.0, 1.0], [0.0, 0.0], [1.0, 0.0]], [-1.0, 0.0, 0.0, -1.0]),
@@ -160,13 +161,13 @@ mod tests {
             assert_eq!(
                 flat.mikktspace_tangents(0).unwrap(),
                 tangents,
-                "flat normals are the same here"
+                "flat normals give the same result here"
             );
         }
     }
 
     #[test]
-    fn tangents_are_kept_and_each_set_of_coordinates_has_its_own() {
+    fn tangents_are_cached_and_differ_by_coordinate_set() {
         let [along_x, along_y] = [
             [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]],
             [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]],
@@ -182,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn shapes_without_directions_do_no_harm() {
+    fn degenerate_shapes_do_not_panic() {
         let one_point = textured_square([[0.5; 2]; 4]);
         assert_eq!(one_point.mikktspace_tangents(0).map(|tangents| tangents.len()), Some(6));
         assert_eq!(one_point.mikktspace_tangents(1), None);

@@ -1,4 +1,4 @@
-//! Contents of the active scene: primitives, points and bounding boxes, after skinning and
+//! The contents of the active scene: primitives, points and bounding boxes, after skinning and
 //! morphing.
 
 use crate::{MeshInstance, Model, Primitive, SceneRoots, SkinnedPrimitive};
@@ -6,12 +6,12 @@ use glam::{DVec3, Vec3};
 use homog::{Bounds, Model as ModelSpace, Point};
 
 impl Model {
-    /// Returns the primitives of the active scene, once for every instance of their mesh.
+    /// Returns the primitives of the active scene, once per instance of their mesh.
     pub fn scene_primitives(&self) -> impl Iterator<Item = (MeshInstance, &Primitive)> {
         self.primitives_below(&self.roots)
     }
 
-    /// Primitives of the meshes at the given nodes and their descendants.
+    /// Returns the primitives of the meshes at the given nodes and their descendants.
     fn primitives_below(
         &self,
         roots: &[usize],
@@ -23,10 +23,11 @@ impl Model {
         })
     }
 
-    /// Positions of all vertices that a visible point, line or triangle uses, in the current pose.
+    /// Returns the positions of all vertices that a visible point, line or triangle uses, in the
+    /// current pose.
     ///
-    /// A large model has millions of them; [`for_each_scene_point`](Self::for_each_scene_point)
-    /// needs no memory.
+    /// A large model has millions of these; [`for_each_scene_point`](Self::for_each_scene_point)
+    /// does not need memory for them.
     #[must_use]
     pub fn scene_points(&self) -> Vec<Point<ModelSpace>> {
         let mut points = Vec::new();
@@ -43,7 +44,8 @@ impl Model {
     /// Calls `visit` with the deformed position of every used vertex of the given nodes and their
     /// descendants.
     ///
-    /// Vertices that no index uses are skipped: some files have stray ones far from the shape.
+    /// Vertices that no index uses are skipped, because some files have stray vertices far from the
+    /// shape.
     fn for_each_point_below(&self, roots: &[usize], mut visit: impl FnMut(Point<ModelSpace>)) {
         for (instance, primitive) in self.primitives_below(roots) {
             let SkinnedPrimitive { positions, to_model, .. } =
@@ -56,7 +58,8 @@ impl Model {
         }
     }
 
-    /// Axis-aligned bounding box of the active scene in model space; `None` if nothing is visible.
+    /// Returns the axis-aligned bounding box of the active scene in model space, or `None` if
+    /// nothing is visible.
     ///
     /// Every visible vertex is skinned and transformed, so the box is tight in the current pose.
     /// The time is linear in the number of vertices of all instances.
@@ -65,11 +68,11 @@ impl Model {
         self.bounds_below(&self.roots)
     }
 
-    /// Axis-aligned bounding box of a scene of the file in the current pose; `None` if it shows
-    /// nothing.
+    /// Returns the axis-aligned bounding box of a scene of the file in the current pose, or `None`
+    /// if the scene shows nothing.
     ///
-    /// Unlike [`bounds`](Self::bounds) this works for scenes that are not active. Their root
-    /// indices have not been checked, so those out of range are skipped.
+    /// Unlike [`bounds`](Self::bounds), this works for scenes that are not active. Their root
+    /// indices have not been checked, so indices out of range are skipped.
     #[must_use]
     pub fn scene_bounds(&self, scene: &SceneRoots) -> Option<Bounds<ModelSpace>> {
         let exists = |node: &usize| *node < self.nodes.len();
@@ -77,7 +80,7 @@ impl Model {
         self.bounds_below(&roots)
     }
 
-    /// Bounding box of the given nodes and their descendants.
+    /// Returns the bounding box of the given nodes and their descendants.
     fn bounds_below(&self, roots: &[usize]) -> Option<Bounds<ModelSpace>> {
         let mut extent: Option<[DVec3; 2]> = None;
         self.for_each_point_below(roots, |point| {
@@ -88,9 +91,9 @@ impl Model {
     }
 }
 
-/// For each vertex of a primitive, whether any index refers to it.
+/// Returns for each vertex of a primitive whether any index refers to it.
 ///
-/// Every index is less than the number of vertices; the importer has checked this.
+/// Every index must be less than the number of vertices, which the importer checks.
 fn used_vertices(primitive: &Primitive) -> Vec<bool> {
     let mut used = vec![false; primitive.positions.len()];
     for &index in &primitive.indices {

@@ -1,23 +1,24 @@
-//! Mesh instances: traversal of the active scene's nodes with their global transforms.
+//! Mesh instances: traverses the nodes of the active scene with their global transforms.
 
 use crate::Model;
 use homog::{Affine, Model as ModelSpace};
 
-/// A node of the active scene with its global transform: one occurrence of its mesh, camera or
-/// light.
+/// A node of the active scene with its global transform: one instance of its mesh, camera or light.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshInstance {
     /// Index of the node in [`Model::nodes`].
     pub node: usize,
-    /// From the node's coordinates to the model's; for an instanced mesh, from the instance's.
+    /// The transform from node coordinates (for an instanced mesh, instance coordinates) to model
+    /// space.
     pub node_to_model: Affine<ModelSpace, ModelSpace>,
 }
 
 impl Model {
-    /// Returns all nodes of the active scene, parents before their children, otherwise in the order
-    /// of the file.
+    /// Returns all nodes of the active scene, parents before their children, and otherwise in file
+    /// order.
     ///
-    /// The traversal has its own stack, so a deep hierarchy cannot overflow the thread's.
+    /// The traversal uses an explicit stack, so a deep hierarchy cannot overflow the thread's
+    /// stack.
     #[must_use]
     pub fn node_instances(&self) -> Vec<MeshInstance> {
         self.instances_below(&self.roots)
@@ -25,7 +26,7 @@ impl Model {
 
     /// Returns the given nodes and all their descendants.
     ///
-    /// Roots and children are pushed in reverse, so that they are popped in the order of the file.
+    /// Roots and children are pushed in reverse, so that they are popped in file order.
     pub(super) fn instances_below(&self, roots: &[usize]) -> Vec<MeshInstance> {
         let mut instances = Vec::new();
         let mut stack: Vec<MeshInstance> =
@@ -40,13 +41,13 @@ impl Model {
         instances
     }
 
-    /// Nodes of the active scene that have a mesh, once for each instance of the mesh
+    /// Returns the nodes of the active scene that have a mesh, once per instance of the mesh
     /// (EXT_mesh_gpu_instancing).
     pub fn mesh_instances(&self) -> impl Iterator<Item = MeshInstance> {
         self.mesh_instances_below(&self.roots)
     }
 
-    /// Mesh instances among the given nodes and their descendants.
+    /// Returns the mesh instances among the given nodes and their descendants.
     ///
     /// An instanced mesh with an empty list of transforms is not drawn.
     pub(super) fn mesh_instances_below(
@@ -66,7 +67,7 @@ impl Model {
         })
     }
 
-    /// Returns the node with its local transform concatenated to its parent's global transform.
+    /// Returns the node with its local transform followed by its parent's global transform.
     fn child_instance(&self, node: usize, parent: Affine<ModelSpace, ModelSpace>) -> MeshInstance {
         MeshInstance { node, node_to_model: self.nodes[node].to_parent.then(parent) }
     }

@@ -9,7 +9,7 @@ use homog::{Affine, Model as ModelSpace, Vector};
 pub struct Trs {
     /// Translation along x, y and z.
     pub translation: [f64; 3],
-    /// Rotation as a quaternion x, y, z, w; it need not be normalized.
+    /// Rotation as a quaternion x, y, z, w, which need not be normalized.
     pub rotation: [f64; 4],
     /// Scale factors along x, y and z.
     pub scale: [f64; 3],

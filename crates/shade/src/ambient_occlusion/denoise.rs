@@ -1,17 +1,18 @@
-//! The denoise pass: the mean over the 4 × 4 pattern of the horizon search, on one surface.
+//! The denoising pass: averages over the 4 × 4 pattern of the horizon search, on one surface.
 
 use super::horizon_search::depth_slopes;
 use super::screen_space::{PixelGrid, ScreenSpace};
 use crate::lanes::Lanes;
 use raster::{Kernel, LANES};
 
-/// The weights of a pixel and its neighbors along an axis: a centered box of four pixels, so that
-/// each rotation of the pattern has the same weight.
+/// The weights of a pixel and its neighbors along an axis: a centered box of four pixels, which
+/// gives each rotation of the pattern the same weight.
 const BOX: [f32; 5] = [0.5, 1.0, 1.0, 1.0, 0.5];
-/// The distance from the plane of the surface, in radii, at which a neighbor has no weight.
+/// The distance from the plane of the surface, in radii, at which the weight of a neighbor reaches
+/// zero.
 const SURFACE_DISTANCE: f32 = 0.1;
 
-/// The kernel that denoises the visibilities of eight pixels from (x, y) to the right.
+/// The kernel that denoises the visibilities of eight pixels, starting at (x, y) and going right.
 pub(super) struct DenoiseEight<'a> {
     pub(super) space: &'a ScreenSpace,
     pub(super) depths: &'a PixelGrid,
@@ -23,8 +24,8 @@ pub(super) struct DenoiseEight<'a> {
 impl Kernel for DenoiseEight<'_> {
     type Output = [f32; LANES];
 
-    /// Computes a bilateral filter: the neighbors are weighted by their distance from the plane of
-    /// the pixel's surface, on which depth is linear.
+    /// Applies a bilateral filter: neighbors are weighted by their distance from the plane of the
+    /// pixel's surface, on which depth is linear.
     #[inline(always)]
     fn run(self) -> [f32; LANES] {
         let at = [self.x, self.y];
@@ -51,8 +52,8 @@ impl Kernel for DenoiseEight<'_> {
 }
 
 impl DenoiseEight<'_> {
-    /// Computes the change of depth, toward the viewer, over the distance at which a neighbor has
-    /// no weight.
+    /// Computes the change of depth, toward the viewer, over the distance at which the weight of a
+    /// neighbor reaches zero.
     #[inline(always)]
     fn depth_distances(&self, depths: Lanes<LANES>) -> Lanes<LANES> {
         let space = self.space;

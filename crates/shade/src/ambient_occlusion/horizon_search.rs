@@ -1,4 +1,4 @@
-//! The horizon search: the visible arcs around the surfaces of eight pixels, or of one.
+//! The horizon search: computes the visible arcs around the surfaces of one or eight pixels.
 
 use super::screen_space::{PixelGrid, ScreenSpace};
 use crate::approximations::floor_to_int;
@@ -6,7 +6,7 @@ use crate::kernel_part::kernel_part;
 use crate::lanes::{Lanes, Vec3Lanes};
 use raster::{Kernel, LANES};
 
-/// Number of planes through the view direction in which horizons are searched at each pixel.
+/// Number of planes through the view direction in which to search for horizons at each pixel.
 const SLICE_COUNT: usize = 4;
 /// Number of steps to either side of a slice.
 const STEP_COUNT: usize = 6;
@@ -17,13 +17,13 @@ const SURFACE_TOLERANCE: f32 = 0.002;
 const LEAST_WEIGHT: f32 = 1e-3;
 /// The side of the pattern that rotates the slices.
 const PATTERN_SIDE: usize = 4;
-/// The order of the rotations in the pattern: neighbors differ greatly (a Bayer matrix).
+/// The order of the rotations in the pattern, a Bayer matrix, in which neighbors differ greatly.
 const TURNS: [[u8; PATTERN_SIDE]; PATTERN_SIDE] =
     [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
 
 /// The pattern that rotates slices and shifts steps from pixel to pixel.
 ///
-/// Rows repeat after four, and so do columns: eight pixels are two periods.
+/// Rows and columns repeat after four, so eight pixels are two periods.
 pub(super) struct Pattern {
     /// The screen directions of the slices, x and y, for each row of the pattern.
     directions: [[[[f32; LANES]; 2]; SLICE_COUNT]; PATTERN_SIDE],
@@ -44,15 +44,15 @@ impl Pattern {
                 direction[0][lane] = libm::cos(angle) as f32;
                 direction[1][lane] = libm::sin(angle) as f32;
             }
-            // In another order than the rotations, so that no direction has only long steps.
+            // In a different order than the rotations, so that no direction has only long steps.
             step_offsets[row][lane] = ((u32::from(turn) * 5 + 8) % 16) as f32 / 16.0 + 1.0 / 32.0;
         }
         Self { directions, step_offsets }
     }
 }
 
-/// The kernel that computes the visibilities of pixels from (x, y) to the right: eight, where x is
-/// a multiple of eight, or one.
+/// The kernel that computes the visibilities of pixels, starting at (x, y) and going right: either
+/// eight, where x is a multiple of eight, or one.
 pub(super) struct HorizonSearch<'a, const N: usize> {
     pub(super) space: &'a ScreenSpace,
     pub(super) pattern: &'a Pattern,
@@ -63,11 +63,11 @@ pub(super) struct HorizonSearch<'a, const N: usize> {
 
 /// The surfaces of some pixels.
 struct Surfaces<const N: usize> {
-    /// Column and row.
+    /// Columns and rows.
     pixels: [Lanes<N>; 2],
     /// Positions relative to the origin.
     positions: Vec3Lanes<N>,
-    /// The depths there.
+    /// The depths at the pixels.
     depths: Lanes<N>,
     /// Unit normals, toward the viewer.
     normals: Vec3Lanes<N>,
@@ -81,20 +81,21 @@ struct Surfaces<const N: usize> {
 struct Slice<const N: usize> {
     /// The screen direction: x and y.
     direction: [Lanes<N>; 2],
-    /// The length of the normal's projection into the slice: the slice's weight.
+    /// The length of the normal's projection into the slice, which is the weight of the slice.
     weight: Lanes<N>,
     /// The cosine of the angle from the view to the projected normal.
     cosine: Lanes<N>,
-    /// Its sine, positive if the normal leans along the direction.
+    /// The sine of this angle, positive if the normal leans along the screen direction.
     sine: Lanes<N>,
     /// The unit normal of the slice.
     slice_normal: Vec3Lanes<N>,
-    /// A vector on the surface that leads one unit out of the slice.
+    /// A vector on the surface that points one unit out of the slice.
     out_of_slice: Vec3Lanes<N>,
 }
 
 impl<const N: usize> Slice<N> {
-    /// Computes the cosines from the view down to the surface itself, ahead and behind.
+    /// Computes the cosines of the angles from the view down to the surface itself, ahead and
+    /// behind.
     #[inline(always)]
     fn surface_horizons(&self) -> [Lanes<N>; 2] {
         [-self.sine, self.sine]
@@ -127,17 +128,18 @@ impl<const N: usize> Kernel for HorizonSearch<'_, N> {
             let slice = self.project_normals(&surfaces, index);
             let [ahead, behind] = kernel_part!(N, self.find_horizons(&surfaces, &slice));
             visible += slice.weight * slice.visible_arc([ahead, behind]);
-            // Computed with the same expression, so that an unoccluded surface is exactly open.
+            // The same expression is used here, so that the visibility of an unoccluded surface is
+            // exactly 1.
             open += slice.weight * slice.visible_arc(slice.surface_horizons());
         }
         let visibility = (visible / open).max(0.0).min(1.0);
-        // This also covers surfaces seen edge-on, about which nothing is known.
+        // This also covers surfaces seen edge-on, whose visibility is unknown.
         visibility.select(&open.is_above(0.0), Lanes::ONE).0
     }
 }
 
 impl<const N: usize> HorizonSearch<'_, N> {
-    /// Returns the part of the pattern for the pixels.
+    /// Returns the pattern values for the pixels.
     #[inline(always)]
     fn lanes_of(&self, pattern: &[f32; LANES]) -> Lanes<N> {
         let start = self.x % LANES;
@@ -146,14 +148,14 @@ impl<const N: usize> HorizonSearch<'_, N> {
         lanes
     }
 
-    /// Finds the surfaces at the pixels, from the depth buffer.
+    /// Reconstructs the surfaces at the pixels from the depth buffer.
     #[inline(always)]
     fn find_surfaces(&self, depths: Lanes<N>) -> Surfaces<N> {
         let space = self.space;
         let columns = Lanes::from_fn(|lane| (self.x + lane) as f32);
         let pixels = [columns, Lanes::splat(self.y as f32)];
         let positions = space.unproject_pixels(pixels, depths);
-        // The surface's plane, from the neighboring pixel that continues it best.
+        // The surface's plane, from the neighboring pixels that continue it best.
         let [dx, dy] = depth_slopes(self.depths, [self.x, self.y], depths);
         let right = space.unproject_pixels([pixels[0] + 1.0, pixels[1]], depths + dx) - positions;
         let down = space.unproject_pixels([pixels[0], pixels[1] + 1.0], depths + dy) - positions;
@@ -167,7 +169,7 @@ impl<const N: usize> HorizonSearch<'_, N> {
         Surfaces { pixels, positions, depths, normals, views, radii }
     }
 
-    /// Projects the normals into a slice: its weight, and the tilt of the surface in it.
+    /// Projects the normals into a slice, which gives its weight and the tilt of the surface in it.
     #[inline(always)]
     fn project_normals(&self, surfaces: &Surfaces<N>, index: usize) -> Slice<N> {
         let Surfaces { pixels, positions, depths, normals, views, radii } = surfaces;
@@ -180,7 +182,7 @@ impl<const N: usize> HorizonSearch<'_, N> {
         let across = along - *views * along.dot(*views);
         let across = across * (1.0 / across.dot(across).sqrt());
         let slice_normal = across.cross(*views);
-        // The projected normal: its length weights the slice, its angle tilts the arc.
+        // The length of the projected normal weights the slice, and its angle tilts the arc.
         let lean = normals.dot(slice_normal);
         let projected = *normals - slice_normal * lean;
         let weight = projected.dot(projected).sqrt();
@@ -191,11 +193,11 @@ impl<const N: usize> HorizonSearch<'_, N> {
         Slice { direction, weight, cosine, sine, slice_normal, out_of_slice }
     }
 
-    /// Finds the cosines from the view down to the horizons, ahead and behind.
+    /// Finds the cosines of the angles from the view down to the horizons, ahead and behind.
     ///
-    /// Each surface takes the light between its height and the height of earlier ones, reduced with
-    /// distance: occlusion falls off with the square of the distance. If a surface faces the
-    /// viewer, the light below a height is proportional to the height's square.
+    /// Each surface blocks the light between its height and the height of earlier surfaces.
+    /// Occlusion falls off with the square of the distance. If a surface faces the viewer, the
+    /// light below a height is proportional to the square of the height.
     #[inline(always)]
     fn find_horizons(&self, surfaces: &Surfaces<N>, slice: &Slice<N>) -> [Lanes<N>; 2] {
         let inv_radius = 1.0 / self.space.radius();
@@ -213,8 +215,8 @@ impl<const N: usize> HorizonSearch<'_, N> {
                 let height = found.dot(surfaces.views) / squared.sqrt() - surface_horizons[side];
                 let light = height.max(0.0) * height;
                 let radii = squared * (inv_radius * inv_radius);
-                // Surfaces that are missing or too far away take no light: they count as lower than
-                // the highest.
+                // Surfaces that are missing or too far away do not block light: they count as lower
+                // than the highest surface.
                 let is_near = radii.is_below(1.0);
                 let light = light.select(&depths.is_above(0.0), Lanes::ZERO);
                 let light = light.select(&is_near, Lanes::ZERO);
@@ -243,13 +245,13 @@ impl<const N: usize> HorizonSearch<'_, N> {
         let columns = Lanes::from_fn(|lane| x[lane] as f32);
         let rows = Lanes::from_fn(|lane| y[lane] as f32);
         let found = self.space.unproject_pixels([columns, rows], depths) - surfaces.positions;
-        // The pixel's center is not exactly in the slice. It is moved into it along the surface, so
-        // that points on the surface stay on it.
+        // The pixel's center is not exactly in the slice. Move it there along the surface, so that
+        // points on the surface stay on it.
         (found - slice.out_of_slice * found.dot(slice.slice_normal), depths)
     }
 }
 
-/// Returns the pixels that contain coordinates; coordinates outside the picture move to the margin.
+/// Returns the pixels that contain coordinates. Coordinates outside the picture move to the margin.
 #[inline(always)]
 fn containing_pixels<const N: usize>(coordinates: Lanes<N>, side: u32) -> [i32; N] {
     let mut pixels = [0; N];
@@ -260,10 +262,11 @@ fn containing_pixels<const N: usize>(coordinates: Lanes<N>, side: u32) -> [i32; 
     pixels
 }
 
-/// Computes the change of depth per pixel to the right and down, on the surface of each pixel.
+/// Computes the change of depth per pixel to the right and down on the surface of each pixel.
 ///
-/// Depth is linear on a plane: of the two neighbors, the one collinear with the next beyond it is
-/// used. At a silhouette that is the neighbor on the surface, and at a crease one of the two faces.
+/// Depth is linear on a plane, so of the two neighbors, the one that is more nearly collinear with
+/// the pixel beyond it is used. At a silhouette this is the neighbor on the same surface, and at a
+/// crease it is on one of the two faces.
 #[inline(always)]
 pub(super) fn depth_slopes<const N: usize>(
     grid: &PixelGrid,
@@ -296,15 +299,15 @@ fn integrate_arc<const N: usize>(horizon: Lanes<N>, cosine: Lanes<N>, sine: Lane
     let horizon = horizon.max(-1.0).min(1.0);
     let angle = arc_cosines(horizon);
     let horizon_sine = (1.0 - horizon * horizon).sqrt();
-    // The cosine of 2h − n, from the cosines of h and n.
+    // The cosine of 2h − n from the cosines of h and n.
     let double_cosine = 2.0 * horizon * horizon - 1.0;
     let double_sine = 2.0 * horizon * horizon_sine;
     let difference = double_cosine * cosine + double_sine * sine;
     0.25 * (cosine - difference + 2.0 * angle * sine)
 }
 
-/// Arc cosines of numbers from −1 to 1, with an error of at most 7 · 10⁻⁵ (Abramowitz and Stegun
-/// 1964, 4.4.45).
+/// Computes the arc cosines of numbers from −1 to 1, with an error of at most 7 · 10⁻⁵ (Abramowitz
+/// and Stegun 1964, 4.4.45).
 #[inline(always)]
 fn arc_cosines<const N: usize>(cosines: Lanes<N>) -> Lanes<N> {
     let x = cosines.abs();

@@ -1,4 +1,4 @@
-//! The mapping between a depth buffer and the world, and grids of pixels with a margin.
+//! The mapping between a depth buffer and the world, and pixel grids with a margin.
 
 use crate::approximations::floor_to_int;
 use crate::lanes::{Lanes, Vec3Lanes};
@@ -15,13 +15,13 @@ pub struct ScreenSpace {
     size: [u32; 2],
     /// The position in each pixel at which depth was sampled, from the upper left corner.
     sample_offset: [f32; 2],
-    /// The position that others are relative to.
+    /// The origin that positions are relative to.
     origin: [f32; 3],
     /// The rows of the matrix from relative positions to (x·w, y·w, depth·w, w) on the screen.
     world_to_screen: [[f32; 4]; 4],
-    /// The rows of its inverse.
+    /// The rows of the inverse matrix.
     screen_to_world: [[f32; 4]; 4],
-    /// The viewer, relative and homogeneous.
+    /// The viewer as a homogeneous relative position.
     viewer: [f32; 4],
     /// A vector perpendicular to the view, whose length is the radius.
     radius_across_view: [f32; 3],
@@ -30,8 +30,8 @@ pub struct ScreenSpace {
 }
 
 impl ScreenSpace {
-    /// Creates the mapping for a picture of this size, whose depths are at `sample_offset` in each
-    /// pixel.
+    /// Creates the mapping for a picture of this size, whose depths were sampled at `sample_offset`
+    /// in each pixel.
     ///
     /// `world_to_screen` maps the world to pixels and depth. `origin` is a position near the
     /// surfaces. `viewer` is the eye or, in parallel projection, the direction to it.
@@ -73,7 +73,7 @@ impl ScreenSpace {
         self.radius
     }
 
-    /// Positions in the world relative to the origin.
+    /// Returns positions in the world relative to the origin.
     #[inline(always)]
     pub(super) fn to_relative<const N: usize>(&self, positions: Vec3Lanes<N>) -> Vec3Lanes<N> {
         positions - Vec3Lanes::splat(self.origin)
@@ -87,7 +87,7 @@ impl ScreenSpace {
         to_viewer * (1.0 / to_viewer.dot(to_viewer).sqrt())
     }
 
-    /// Positions on the screen, with their depths: in pixels from the upper left corner.
+    /// Returns positions on the screen, in pixels from the upper left corner, with their depths.
     #[inline(always)]
     pub(super) fn project<const N: usize>(&self, positions: Vec3Lanes<N>) -> Vec3Lanes<N> {
         let Vec3Lanes { x, y, z } = positions;
@@ -100,7 +100,7 @@ impl ScreenSpace {
         } * inv_w
     }
 
-    /// Computes the relative positions of screen positions with a depth.
+    /// Computes the relative positions in the world of screen positions with depths.
     #[inline(always)]
     pub(super) fn unproject<const N: usize>(
         &self,
@@ -116,7 +116,7 @@ impl ScreenSpace {
         } * inv_w
     }
 
-    /// Computes the relative positions of the surfaces visible at pixels, given their columns, rows
+    /// Computes the relative positions of the surfaces visible at pixels, given the columns, rows
     /// and depths.
     #[inline(always)]
     pub(super) fn unproject_pixels<const N: usize>(
@@ -128,8 +128,8 @@ impl ScreenSpace {
         self.unproject([columns + x, rows + y], depths)
     }
 
-    /// Returns the columns and rows of the pixels that show positions; outside the picture or
-    /// behind the eye, a pixel of the margin.
+    /// Returns the columns and rows of the pixels that show positions. For positions outside the
+    /// picture or behind the eye, returns a pixel in the margin.
     #[inline(always)]
     pub(super) fn pixels_at<const N: usize>(&self, positions: Vec3Lanes<N>) -> [[i32; 2]; N] {
         let projected = self.project(positions);
@@ -137,14 +137,14 @@ impl ScreenSpace {
         let [width, height] = self.size.map(|side| side as f32);
         for (lane, pixel) in pixels.iter_mut().enumerate() {
             let [x, y, depth] = projected.lane(lane);
-            // `&` instead of `&&`: all conditions are evaluated, without branches.
+            // `&` instead of `&&` evaluates all conditions, without branches.
             let is_inside = (x >= 0.0) & (x < width) & (y >= 0.0) & (y < height) & (depth > 0.0);
             *pixel = [x, y].map(|c| if is_inside { floor_to_int(c) } else { -2 });
         }
         pixels
     }
 
-    /// Computes the radius in pixels at some positions, at most the diagonal of the picture.
+    /// Computes the radius in pixels at some positions, limited to the diagonal of the picture.
     #[inline(always)]
     pub(super) fn radius_in_pixels<const N: usize>(
         &self,
@@ -158,7 +158,7 @@ impl ScreenSpace {
     }
 }
 
-/// Computes a row of an affine or projective matrix times positions.
+/// Multiplies a row of an affine or projective matrix by positions.
 #[inline(always)]
 fn transform_row<T>(row: &[f32; 4], [x, y, z]: [T; 3]) -> T
 where
@@ -167,23 +167,24 @@ where
     x * row[0] + y * row[1] + z * row[2] + row[3]
 }
 
-/// A number for each pixel of a picture, with a margin of zeros around it, so that pixels outside
-/// its border are read without a test.
+/// A number for each pixel of a picture, surrounded by a margin of zeros, so that pixels outside
+/// the picture can be read without a test.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PixelGrid {
     /// Width and height of the picture.
     size: [usize; 2],
-    /// Number of values in a row, including its margins; a multiple of eight.
+    /// Number of values in a row including the margins, a multiple of eight.
     stride: usize,
-    /// Rows from the top, beginning with the margin.
+    /// Rows from the top, starting with the margin.
     values: Vec<f32>,
 }
 
-/// The width of the margin in pixels on each side: the reach of denoising beyond the border.
+/// The width of the margin in pixels on each side, which is how far denoising reaches beyond the
+/// border.
 const MARGIN: usize = LANES;
 
 impl PixelGrid {
-    /// Resets to zeros for a picture of this size.
+    /// Resets the grid to zeros for a picture of this size.
     pub(super) fn reset(&mut self, size: [u32; 2]) {
         self.size = size.map(|side| side as usize);
         let [width, height] = self.size;
@@ -203,16 +204,16 @@ impl PixelGrid {
         }
     }
 
-    /// Returns the rows of the picture with their indices, each extended to a multiple of eight
-    /// pixels.
+    /// Returns the rows of the picture with their indices. Each row is extended to a multiple of
+    /// eight pixels.
     pub(super) fn rows_mut(&mut self) -> impl ExactSizeIterator<Item = (usize, &mut [f32])> + Send {
         let width = self.stride - 2 * MARGIN;
         let rows = self.values.chunks_exact_mut(self.stride).skip(MARGIN).take(self.size[1]);
         rows.map(move |row| &mut row[MARGIN..MARGIN + width]).enumerate()
     }
 
-    /// Returns the value of the pixel at an offset from another, which is in the picture or up to
-    /// two pixels outside it.
+    /// Returns the value of the pixel at an offset from another pixel, which is in the picture or
+    /// up to two pixels outside it.
     #[inline(always)]
     pub(super) fn at(&self, [x, y]: [i32; 2], [dx, dy]: [i32; 2]) -> f32 {
         let (column, row) = ((x + dx) as isize, (y + dy) as isize);
@@ -220,7 +221,8 @@ impl PixelGrid {
             [((row + MARGIN as isize) * self.stride as isize + column + MARGIN as isize) as usize]
     }
 
-    /// Returns the values of pixels to the right of one, moved by an offset of at most eight.
+    /// Returns the values of a run of pixels to the right, starting at an offset of at most eight
+    /// from a pixel.
     #[inline(always)]
     pub(super) fn lanes_at<const N: usize>(
         &self,

@@ -1,9 +1,9 @@
-//! Linear gradients, interpolated in sRGB as on web pages (CSS Images 3, §3.1).
+//! Linear gradients, interpolated in sRGB as in CSS (CSS Images 3, §3.1).
 //!
 //! ```text
-//!   ┌───────────┐     The gradient line runs through the center at an angle. Colors are
-//!   │╲ color 0  │     constant across it; the first and the last are reached where their
-//!   │ ╲         │     lines touch the corners of the picture.
+//!   ┌───────────┐     The gradient line passes through the center at an angle. Colors are
+//!   │╲ color 0  │     constant across it; the first and last are reached where their lines
+//!   │ ╲         │     of constant color touch the corners of the picture.
 //!   │  ╲ ──►    │
 //!   │   ╲color 1│
 //!   └───────────┘
@@ -11,28 +11,30 @@
 
 use crate::color::srgb_to_linear;
 
-/// Number of steps in the table. Interpolated linearly, they are finer than 16 bits can resolve.
+/// Number of steps in the table. With linear interpolation, these are finer than 16 bits can
+/// resolve.
 const TABLE_STEPS: usize = 1024;
 
 /// A linear gradient through equally spaced colors.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Gradient {
-    /// Linear colors at equal distances along the gradient line, from its beginning to its end.
+    /// Linear colors at equal distances along the gradient line, from start to end.
     table: Vec<[f32; 3]>,
-    /// The fractions of the gradient line that the width and the height of the picture cover.
+    /// The fractions of the gradient line covered by a step across and a step down the whole
+    /// picture.
     axis: [f32; 2],
 }
 
 impl Gradient {
-    /// Creates the gradient through at least one color, given in sRGB codes, in a picture of this
+    /// Creates a gradient through one or more colors, given as sRGB codes, for a picture of this
     /// size.
     ///
-    /// At an angle of 0 radians it runs down, at π/2 to the right.
+    /// The gradient runs down at an angle of 0 radians, and to the right at a quarter turn.
     #[must_use]
     pub fn new(colors: &[[u8; 3]], angle: f64, [width, height]: [u32; 2]) -> Self {
         let (sine, cosine) = (libm::sin(angle), libm::cos(angle));
         let (across, down) = (f64::from(width) * sine, f64::from(height) * cosine);
-        // From corner to corner: CSS's length of the gradient line.
+        // The length of the gradient line from corner to corner, as in CSS.
         let length = across.abs() + down.abs();
         let axis = [across / length, down / length].map(|component| component as f32);
         let last = colors.len().saturating_sub(1);
@@ -49,7 +51,7 @@ impl Gradient {
         Self { table: (0..=TABLE_STEPS).map(mixed).collect(), axis }
     }
 
-    /// Returns the color at a position in fractions of the picture: linear, opaque.
+    /// Returns the linear, opaque color at a position in fractions of the picture.
     pub(super) fn color_at(&self, [x, y]: [f32; 2]) -> [f32; 4] {
         let [across, down] = self.axis;
         let along = (0.5 + (x - 0.5) * across + (y - 0.5) * down).clamp(0.0, 1.0);
@@ -61,7 +63,7 @@ impl Gradient {
         [r, g, b, 1.0]
     }
 
-    /// Computes the color at its center: linear, opaque.
+    /// Returns the linear, opaque color at the center.
     #[must_use]
     pub fn center_color(&self) -> [f32; 4] {
         self.color_at([0.5, 0.5])

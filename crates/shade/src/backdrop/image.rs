@@ -3,29 +3,29 @@
 use crate::color::srgb_to_linear_table;
 use model::Image;
 
-/// The way in which an image fills a picture with another aspect ratio.
+/// How an image is fitted to a picture with a different aspect ratio.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ImageFit {
     /// Stretched to the picture's width and height.
     Stretch,
     /// Large enough to cover the whole picture; two sides are cropped.
     Cover,
-    /// Large enough to be just completely visible; the background fills the rest.
+    /// As large as possible while completely visible; the background fills the rest.
     Contain,
 }
 
 /// An image behind the models, over a background color.
 #[derive(Clone, PartialEq)]
 pub struct BackdropImage {
-    /// Columns and rows of the texels.
+    /// The numbers of texel columns and rows.
     size: [usize; 2],
-    /// Linear, multiplied by alpha; 65,535 is 1. Rows from the top.
+    /// Linear premultiplied texels, in rows from the top; 65,535 represents 1.
     texels: Vec<[u16; 4]>,
     /// The upper left corner, in fractions of the picture's width and height.
     upper_left: [f32; 2],
-    /// Width and height, in the same fractions.
+    /// The width and height, in the same fractions.
     extent: [f32; 2],
-    /// The color around and behind the image: linear, multiplied by alpha.
+    /// The linear premultiplied color around and behind the image.
     background: [f32; 4],
 }
 
@@ -36,24 +36,24 @@ impl std::fmt::Debug for BackdropImage {
 }
 
 impl BackdropImage {
-    /// Creates an image over a background (linear, multiplied by alpha) in a picture of this size.
+    /// Creates an image over a linear premultiplied background color in a picture of this size.
     ///
-    /// An image much larger than its displayed size is downsampled first, so that no texel is
-    /// skipped.
+    /// An image that is much larger than its displayed size is downsampled first, so that no texel
+    /// is skipped.
     #[must_use]
     pub fn new(image: &Image, fit: ImageFit, picture: [u32; 2], background: [f32; 4]) -> Self {
         let image_size = [image.width, image.height].map(f64::from);
         let picture_size = picture.map(f64::from);
         let factors = [picture_size[0] / image_size[0], picture_size[1] / image_size[1]];
         let (least, most) = (factors[0].min(factors[1]), factors[0].max(factors[1]));
-        // The scale from the image's pixels to the picture's, by axis.
+        // The scale from image pixels to picture pixels, by axis.
         let scale = match fit {
             ImageFit::Stretch => factors,
             ImageFit::Cover => [most; 2],
             ImageFit::Contain => [least; 2],
         };
         let extent = [0, 1].map(|k| (image_size[k] * scale[k] / picture_size[k]) as f32);
-        // Centered.
+        // The image is centered.
         let upper_left = extent.map(|side| 0.5 * (1.0 - side));
         let shrink = scale.map(|scale| (1.0 / scale).clamp(1.0, f64::from(u32::MAX)) as usize);
         let (size, texels) = box_downsample(image, shrink);
@@ -67,7 +67,7 @@ impl BackdropImage {
             || (covers && self.texels.iter().all(|texel| texel[3] == u16::MAX))
     }
 
-    /// Returns the color at a position in fractions of the picture: linear, multiplied by alpha.
+    /// Returns the linear premultiplied color at a position in fractions of the picture.
     pub(super) fn color_at(&self, position: [f32; 2]) -> [f32; 4] {
         let image_position = [0, 1].map(|k| (position[k] - self.upper_left[k]) / self.extent[k]);
         if !image_position.iter().all(|coordinate| (0.0..=1.0).contains(coordinate)) {
@@ -78,7 +78,7 @@ impl BackdropImage {
         [0, 1, 2, 3].map(|k| over[k] + self.background[k] * (1.0 - over[3]))
     }
 
-    /// Bilinear interpolation at a position in fractions of the image, clamped at its borders.
+    /// Interpolates bilinearly at a position in fractions of the image, clamped at the borders.
     fn sample_bilinear(&self, image_position: [f32; 2]) -> [f32; 4] {
         let [column, row] = [0, 1].map(|k| {
             let last = self.size[k] - 1;
@@ -97,8 +97,8 @@ impl BackdropImage {
     }
 }
 
-/// Downsamples an image with a box filter over blocks of the given columns and rows, in linear
-/// light with premultiplied alpha. Returns the size and the texels.
+/// Downsamples an image in linear light with premultiplied alpha, with a box filter over blocks of
+/// this many columns and rows. Returns the size and the texels.
 fn box_downsample(image: &Image, [columns, rows]: [usize; 2]) -> ([usize; 2], Vec<[u16; 4]>) {
     let (width, height) = (image.width as usize, image.height as usize);
     let linear = srgb_to_linear_table();

@@ -6,11 +6,11 @@
 //!  V = ½ / (n·l Λ(v) + n·v Λ(l)),  Λ(w)² = (αt t·w)² + (αb b·w)² + (n·w)²  Heitz 2014
 //! ```
 //!
-//! α along the bitangent comes from the roughness; along the tangent it grows to 1 with the square
-//! of the strength.
+//! The α along the bitangent comes from the roughness; along the tangent it grows to 1 with the
+//! square of the strength.
 //!
-//! α along the tangent is αt = α + (1 − α) · strength², as KHR_materials_anisotropy defines it.
-//! With strength 0 both formulas reduce to isotropic GGX.
+//! The α along the tangent is αt = α + (1 − α) · strength², as defined by KHR_materials_anisotropy.
+//! With strength 0, both formulas reduce to isotropic GGX.
 
 use super::microfacet::ShadingAngles;
 use crate::lanes::{Lanes, Vec3Lanes};
@@ -20,22 +20,22 @@ use std::f32::consts::FRAC_1_PI;
 
 /// The anisotropy frame at some fragments, and the α along its tangent.
 ///
-/// Tangent, bitangent and normal are orthonormal if the mesh has tangents.
+/// The tangent, bitangent and normal are orthonormal if the mesh has tangents.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Anisotropy<const N: usize> {
-    /// Unit vectors along which highlights are stretched; 0 if the surface has no tangent.
+    /// Unit vectors along which highlights are stretched, or 0 if the surface has no tangent.
     tangents: Vec3Lanes<N>,
-    /// Unit vectors perpendicular to tangent and normal.
+    /// Unit vectors perpendicular to the tangent and the normal.
     bitangents: Vec3Lanes<N>,
-    /// The α of GGX along the tangents, not below the α of the roughness.
+    /// The GGX α along the tangents, not less than the α of the roughness.
     tangent_alpha: Lanes<N>,
-    /// The strength of the anisotropy, from 0 to 1; 0 if the surface has no tangent.
+    /// The strength of the anisotropy, from 0 to 1, or 0 if the surface has no tangent.
     strength: Lanes<N>,
 }
 
 impl<const N: usize> Anisotropy<N> {
     /// Creates the frame of a surface with these tangents, rotated by the material's angle in
-    /// radians and by the direction of its texture.
+    /// radians and by the direction in its texture.
     #[inline(always)]
     pub(super) fn new(
         inputs: &MaterialInputs<N>,
@@ -45,14 +45,14 @@ impl<const N: usize> Anisotropy<N> {
         alpha: Lanes<N>,
     ) -> Self {
         let n = geometry.normals;
-        // Gram-Schmidt: the tangent, made perpendicular to the normal of the normal map.
+        // Gram-Schmidt: make the tangent perpendicular to the normal from the normal map.
         let t = tangents.vectors - n * n.dot(tangents.vectors);
         let inv_length =
             t.dot(t).map(|square| if square > 1e-12 { 1.0 / square.sqrt() } else { 0.0 });
         let t = t * inv_length;
-        // The bitangent, with the handedness that the tangent's w stores.
+        // The bitangent, with the handedness stored in the tangent's w.
         let b = n.cross(t) * tangents.handedness();
-        // The direction in the tangent plane: texture, then rotation.
+        // The direction in the tangent plane: the texture, then the rotation.
         let (sin, cos) = (libm::sinf(rotation), libm::cosf(rotation));
         let Vec3Lanes { x, y, z: strength } = inputs.layers.anisotropy;
         let length = (x * x + y * y).sqrt().max(1e-6);
@@ -68,9 +68,9 @@ impl<const N: usize> Anisotropy<N> {
 
     /// Computes the bent normals for environment reflections, for a perceptual roughness.
     ///
-    /// A stretched lobe mirrors a fan of directions, and the prefiltered environment has only round
-    /// lobes. So the normal is bent toward the plane of the bitangent and the view, in which the
-    /// lobe is narrow: `n' ∝ mix((b × v) × b, n, (1 − strength (1 − roughness))⁴)`
+    /// A stretched lobe reflects a fan of directions, but the prefiltered environment has only
+    /// round lobes. So the normal is bent toward the plane of the bitangent and the view, in which
+    /// the lobe is narrow: `n' ∝ mix((b × v) × b, n, (1 − strength (1 − roughness))⁴)`
     /// (KHR_materials_anisotropy, after Revie 2012).
     #[inline(always)]
     pub(super) fn bent_normals(
@@ -124,7 +124,7 @@ impl<const N: usize> Anisotropy<N> {
 mod tests {
     use super::*;
 
-    /// Returns a frame whose lobe is stretched along x, with this strength.
+    /// Returns a frame whose lobe is stretched along x with this strength.
     fn frame(strength: f32) -> Anisotropy<1> {
         Anisotropy {
             tangents: Vec3Lanes::splat([1.0, 0.0, 0.0]),
@@ -134,7 +134,7 @@ mod tests {
         }
     }
 
-    /// Computes the bent normal of z, seen from the side, for a perceptual roughness.
+    /// Returns the bent normal for the normal z, seen from the side, for a perceptual roughness.
     fn bent_normal(strength: f32, roughness: f32) -> [f32; 3] {
         let normal = Vec3Lanes::splat([0.0, 0.0, 1.0]);
         let view = Vec3Lanes::splat([0.6, 0.48, 0.64]);
@@ -142,19 +142,19 @@ mod tests {
     }
 
     #[test]
-    fn the_environment_is_mirrored_at_bent_normals() {
-        // Fully bent: the view without its component along the bitangent, normalized.
+    fn environment_reflections_use_bent_normals() {
+        // Fully bent, this is the normalized view without its component along the bitangent.
         let [x, y, z] = bent_normal(1.0, 0.0);
         let length = (0.6_f32 * 0.6 + 0.64 * 0.64).sqrt();
         assert!((x - 0.6 / length).abs() < 1e-6 && y.abs() < 1e-6, "{x} {y} {z}");
         assert!((z - 0.64 / length).abs() < 1e-6, "{z}");
-        // In between, always toward the view along x, and less for rougher surfaces.
+        // In between, the normal bends toward the view along x, and less for rougher surfaces.
         assert!(bent_normal(0.5, 0.2)[0] > bent_normal(0.5, 0.6)[0]);
         assert!(bent_normal(0.5, 0.2)[0] > bent_normal(0.3, 0.2)[0]);
     }
 
     #[test]
-    fn without_anisotropy_or_smoothness_nothing_bends() {
+    fn normals_do_not_bend_without_anisotropy_or_smoothness() {
         for (strength, roughness) in [(0.0, 0.0), (0.0, 0.7), (1.0, 1.0)] {
             let [x, y, z] = bent_normal(strength, roughness);
             assert!(x.abs() < 1e-6 && y.abs() < 1e-6 && (z - 1.0).abs() < 1e-6, "{strength}");

@@ -6,14 +6,14 @@
 //!  base       = mix(dielectric, metal, metallic)
 //! ```
 //!
-//! Specular reflection is multiplied by the energy compensation of
-//! [`directional_albedo`](super::directional_albedo), for the energy that a single bounce loses.
-//! Under light from all directions, diffuse reflection is the energy left by the specular albedo,
-//! just as F leaves it under light from one direction.
+//! Specular reflection is multiplied by the energy compensation in
+//! [`directional_albedo`](super::directional_albedo), for the energy that a single bounce loses. In
+//! light from all directions, the specular albedo determines the energy left for diffuse
+//! reflection, just as F does in light from one direction.
 //!
-//! The dielectric's F0 is ((n − 1) / (n + 1))² for its index of refraction n, 0.04 for the default
-//! 1.5; the metal's is the base color. For both, F is Schlick's approximation of Fresnel's
-//! equations.
+//! The F0 of a dielectric is ((n − 1) / (n + 1))² for the index of refraction n, or 0.04 for the
+//! default of 1.5; the F0 of a metal is the base color. For both, F is Schlick's approximation of
+//! Fresnel's equations.
 
 use super::anisotropy::Anisotropy;
 use super::directional_albedo::{DirectionalAlbedo, energy_compensation};
@@ -31,21 +31,21 @@ use std::f32::consts::FRAC_1_PI;
 /// The parameters of the base BRDF at some fragments, resolved from the material.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BaseBrdf<const N: usize> {
-    /// The diffuse albedo, before subtracting the Fresnel reflection.
+    /// The diffuse albedo before subtracting the Fresnel reflection.
     pub(super) diffuse: Rgb<N>,
-    /// The specular reflectance at normal incidence, mixed from dielectric and metal.
+    /// The specular reflectance at normal incidence, a mix of dielectric and metal.
     f0: Rgb<N>,
     /// The specular reflectance at grazing angles.
     f90: Lanes<N>,
-    /// F0 of the dielectric interface over the diffuse part; for colors, the largest channel.
+    /// The F0 of the dielectric interface over the diffuse part; for a color, the largest channel.
     dielectric_f0: Lanes<N>,
-    /// F90 of the dielectric interface over the diffuse part.
+    /// The F90 of the dielectric interface over the diffuse part.
     dielectric_f90: Lanes<N>,
-    /// The perceptual roughness, widened by the curvature within a pixel.
+    /// The perceptual roughness, increased by the curvature within a pixel.
     pub(super) roughness: Lanes<N>,
-    /// The α of GGX.
+    /// The GGX α.
     pub(super) alpha: Lanes<N>,
-    /// The factor of specular reflection for multiple scattering.
+    /// The factor for specular reflection that accounts for multiple scattering.
     energy_compensation: Rgb<N>,
     /// The fraction of a white environment that is reflected specularly.
     pub(super) specular_albedo: Rgb<N>,
@@ -54,10 +54,9 @@ pub(super) struct BaseBrdf<const N: usize> {
 }
 
 impl<const N: usize> BaseBrdf<N> {
-    /// Resolves the BRDF of a material, in the material's workflow (metallic-roughness or
-    /// specular-glossiness).
+    /// Resolves the BRDF of a material in its workflow (metallic-roughness or specular-glossiness).
     ///
-    /// In this order: roughness and α, F0 and F90 of the workflow, the thin film over F0, then
+    /// The order is roughness and α, F0 and F90 of the workflow, the thin film over F0, then
     /// everything that depends on the directional albedo.
     #[inline(always)]
     pub(super) fn new(
@@ -90,43 +89,44 @@ impl<const N: usize> BaseBrdf<N> {
         if let Some(film) = &extensions.iridescence {
             brdf.apply_thin_film(film.ior, inputs, geometry);
         }
-        // Split-sum table lookup, Karis 2013.
+        // Split-sum table lookup (Karis 2013).
         let albedo = DirectionalAlbedo::lookup(brdf.roughness, geometry.n_dot_v);
         brdf.apply_directional_albedo(&albedo);
         brdf
     }
 
-    /// The metallic-roughness workflow: mixes dielectric and metal by metalness
+    /// Sets the metallic-roughness workflow: a mix of dielectric and metal by metalness
     /// (KHR_materials_ior, KHR_materials_specular).
     ///
-    /// F0 and F90 are mixed, not two BRDFs: one lobe instead of two. F is exactly the mix of the
-    /// two, because Schlick's approximation is linear in F0 and F90.
+    /// F0 and F90 are mixed instead of two BRDFs, which gives one lobe instead of two. F is exactly
+    /// the mix of both, because Schlick's approximation is linear in F0 and F90.
     #[inline(always)]
     fn set_metallic_roughness(
         &mut self,
         extensions: &MaterialExtensions,
         inputs: &MaterialInputs<N>,
     ) {
-        // Dielectric: F0 of its index of refraction, tinted and weakened by KHR_materials_specular.
+        // Dielectric: the F0 of its index of refraction, tinted and attenuated by
+        // KHR_materials_specular.
         let LayerInputs { specular, specular_color, .. } = inputs.layers;
         let metallic = inputs.metallic;
         let base_color = inputs.base_color;
-        // Fresnel reflectance at normal incidence of an index of refraction, against air.
+        // The Fresnel reflectance at normal incidence for an index of refraction against air.
         let root = (extensions.ior - 1.0) / (extensions.ior + 1.0);
         let ior_f0 = root * root;
         let dielectric_f0 = specular_color.map(|color| (ior_f0 * color).min(1.0) * specular);
         self.dielectric_f0 = dielectric_f0.max_channel().max(0.0);
         self.dielectric_f90 = specular;
-        // Metals have no diffuse part, and the base color is their F0.
+        // Metals have no diffuse part, and their F0 is the base color.
         self.diffuse = base_color * (1.0 - metallic);
         self.f0 = dielectric_f0.zip(base_color, |dielectric, base| dielectric.lerp(base, metallic));
         self.f90 = specular.lerp(Lanes::ONE, metallic);
     }
 
-    /// The specular-glossiness workflow: F0 is given as a color, and diffuse is the energy left by
-    /// its largest channel (KHR_materials_pbrSpecularGlossiness).
+    /// Sets the specular-glossiness workflow: F0 is specified as a color, and the diffuse part is
+    /// the energy left by its largest channel (KHR_materials_pbrSpecularGlossiness).
     ///
-    /// Glossiness is 1 − roughness; the workflow has no metalness and no index of refraction.
+    /// Glossiness is 1 − roughness. The workflow has no metalness or index of refraction.
     #[inline(always)]
     fn set_specular_glossiness(&mut self, inputs: &MaterialInputs<N>) {
         let specular = inputs.layers.specular_color;
@@ -139,8 +139,8 @@ impl<const N: usize> BaseBrdf<N> {
     /// Replaces a fraction of F0 by the F0 of a thin film over the interface
     /// (KHR_materials_iridescence).
     ///
-    /// The Fresnel reflectance of a film varies with the angle in a special way: the F0 found here
-    /// makes Schlick's approximation yield the film's reflectance at this view.
+    /// The Fresnel reflectance of a film varies with the angle in a different way, so this F0 makes
+    /// Schlick's approximation yield the film's reflectance for the current view.
     #[inline(always)]
     fn apply_thin_film(
         &mut self,
@@ -149,7 +149,7 @@ impl<const N: usize> BaseBrdf<N> {
         geometry: &SurfaceGeometry<N>,
     ) {
         let LayerInputs { iridescence, iridescence_thickness, .. } = inputs.layers;
-        // Thin-film interference, Belcour and Barla 2017.
+        // Thin-film interference (Belcour and Barla 2017).
         let film_f0 = thin_film_f0(self.f0, film_ior, iridescence_thickness, geometry.n_dot_v);
         self.f0 = self.f0.zip(film_f0, |bare, film| bare.lerp(film, iridescence));
         // The film also covers the dielectric part of a surface: where the film reflects more, less
@@ -162,7 +162,8 @@ impl<const N: usize> BaseBrdf<N> {
     /// Makes diffuse reflection translucent, and returns the share of the light behind the surface
     /// that is visible through it (KHR_materials_transmission).
     ///
-    /// Light passes only if the surface is dielectric, and only the part that Fresnel lets in.
+    /// Light passes only through dielectric surfaces, and only the part that Fresnel reflection
+    /// leaves.
     #[inline(always)]
     pub(super) fn transmit_diffuse(
         &mut self,
@@ -176,16 +177,17 @@ impl<const N: usize> BaseBrdf<N> {
         TransmittedShare::new(draw, inputs, fraction)
     }
 
-    /// Derives energy compensation, specular albedo and diffuse transmittance from the split sum.
+    /// Derives the energy compensation, specular albedo and diffuse transmittance from the split
+    /// sum.
     #[inline(always)]
     fn apply_directional_albedo(&mut self, albedo: &DirectionalAlbedo<N>) {
         let DirectionalAlbedo { f0_scale: a, f90_scale: b } = *albedo;
         // The specular albedo of the interface takes its energy from the diffuse part.
         let dielectric_albedo = (self.dielectric_f0 * a + self.dielectric_f90 * b)
             * energy_compensation(self.dielectric_f0, a + b);
-        // 1 − E: the diffuse part under light from all directions.
+        // 1 − E, for the diffuse part in light from all directions.
         self.diffuse_transmittance = 1.0 - dielectric_albedo;
-        // Multiple-scattering energy compensation, Turquin 2019.
+        // Multiple-scattering energy compensation (Turquin 2019).
         self.energy_compensation = self.f0.map(|f0| energy_compensation(f0, a + b));
         self.specular_albedo = self.f0.map(|f0| f0 * a + self.f90 * b) * self.energy_compensation;
     }
@@ -211,13 +213,13 @@ impl<const N: usize> BaseBrdf<N> {
             Some(anisotropy) => anisotropy.ggx_lobe(&angles, self.alpha, views, light.to_light),
             None => angles.ggx_lobe(self.alpha),
         };
-        // Schlick Fresnel, for the mixed surface and for the interface over the diffuse part.
+        // Schlick Fresnel for the mixed surface and for the interface over the diffuse part.
         let schlick = pow5(1.0 - angles.v_dot_h);
         let fresnel = self.f0.map(|f0| f0.lerp(self.f90, schlick));
         let dielectric_fresnel = self.dielectric_f0.lerp(self.dielectric_f90, schlick);
-        // Lambert, with the energy that Fresnel leaves.
+        // Lambert, scaled by the energy that Fresnel leaves.
         let diffuse = angles.n_dot_l * FRAC_1_PI * (1.0 - dielectric_fresnel);
-        // F · D V n·l, with the energy that a single bounce loses.
+        // F · D V n·l, compensated for the energy that a single bounce loses.
         let specular = fresnel * self.energy_compensation * lobe;
         *radiance += light.lux * (self.diffuse * diffuse + specular);
     }

@@ -1,11 +1,11 @@
-//! Clearcoat: a smooth dielectric layer over all others (KHR_materials_clearcoat).
+//! Clearcoat: a smooth dielectric layer over all other layers (KHR_materials_clearcoat).
 //!
 //! ```text
 //!  result = mix(below, GGX lobe, clearcoat · F(n·v))      F with F0 = 0.04, of index 1.5
 //! ```
 //!
-//! The layer attenuates everything below by its Fresnel reflectance for the view only, as the
-//! extension specifies it; refraction by the layer is not followed.
+//! The layer attenuates everything below by its Fresnel reflectance for the view direction only, as
+//! the extension specifies. Refraction by the layer is ignored.
 
 use super::microfacet::{ShadingAngles, pow5, roughness_to_alpha};
 use crate::environment::Environment;
@@ -14,7 +14,7 @@ use crate::light::IncidentLight;
 use crate::material_inputs::LayerInputs;
 use crate::surface_geometry::SurfaceGeometry;
 
-/// F0 for an index of refraction of 1.5.
+/// The F0 for an index of refraction of 1.5.
 ///
 /// ((1.5 − 1) / (1.5 + 1))² = 0.04, fixed by the extension.
 const CLEARCOAT_F0: f32 = 0.04;
@@ -24,11 +24,11 @@ const CLEARCOAT_F0: f32 = 0.04;
 /// Its lobe is always isotropic GGX, with a separate normal map.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clearcoat<const N: usize> {
-    /// The surface with the clearcoat's own normals.
+    /// The surface with the clearcoat's normals.
     geometry: SurfaceGeometry<N>,
-    /// The perceptual roughness, widened by the curvature within a pixel.
+    /// The perceptual roughness, increased by the curvature within a pixel.
     roughness: Lanes<N>,
-    /// The α of GGX.
+    /// The GGX α.
     alpha: Lanes<N>,
     /// The fraction of light that the layer reflects: its strength times Fresnel.
     reflectance: Lanes<N>,
@@ -37,12 +37,12 @@ pub(super) struct Clearcoat<const N: usize> {
 }
 
 impl<const N: usize> Clearcoat<N> {
-    /// Creates the layer over a surface; `geometry` has the clearcoat's own normals.
+    /// Creates the layer over a surface. `geometry` has the clearcoat's normals.
     #[inline(always)]
     pub(super) fn new(layers: &LayerInputs<N>, geometry: SurfaceGeometry<N>) -> Self {
-        // Geometric specular antialiasing, as for the base.
+        // Geometric specular antialiasing, as in the base.
         let roughness = (layers.clearcoat_roughness + geometry.normal_variation).clamp(0.0, 1.0);
-        // Schlick Fresnel of the view.
+        // Schlick Fresnel for the view direction.
         let fresnel = CLEARCOAT_F0 + (1.0 - CLEARCOAT_F0) * pow5(1.0 - geometry.n_dot_v);
         Self {
             geometry,
@@ -55,7 +55,7 @@ impl<const N: usize> Clearcoat<N> {
 
     /// Adds the GGX reflection of light from one direction.
     ///
-    /// Without Fresnel: the layer's reflectance depends on the view, and is applied once in
+    /// This excludes Fresnel: the layer's reflectance depends on the view, and is applied once in
     /// [`composite_over`](Self::composite_over).
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
     #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
@@ -67,8 +67,8 @@ impl<const N: usize> Clearcoat<N> {
 
     /// Adds the prefiltered radiance of the environment in the mirror direction.
     ///
-    /// Split sum with a Fresnel factor instead of the directional albedo: the layer is usually
-    /// smooth, and then both agree.
+    /// This is the split sum with a Fresnel factor instead of the directional albedo; for a smooth
+    /// layer, which is the usual case, both agree.
     #[inline(always)]
     pub(super) fn add_environment(&mut self, environment: &Environment) {
         let SurfaceGeometry { normals, views, .. } = self.geometry;

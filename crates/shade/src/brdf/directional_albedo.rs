@@ -1,8 +1,8 @@
 //! The directional albedo of the GGX microfacet BRDF: the second sum of the split-sum
 //! approximation, and energy compensation.
 //!
-//! The fraction of the light from a uniform white environment that a rough surface reflects to the
-//! viewer, by roughness and viewing angle:
+//! The directional albedo is the fraction of the light from a uniform white environment that a
+//! rough surface reflects to the viewer, by roughness and viewing angle:
 //!
 //! ```text
 //!  E(F0, F90) = F0 · A + F90 · B        A = ∫ (1 − (1 − v·h)⁵) D V cosθ dω
@@ -12,8 +12,8 @@
 //! `A` and `B` are the scale and bias of Karis (*Real shading in Unreal Engine 4*, 2013), often
 //! stored as a DFG or BRDF integration texture. They have three uses here: the weight of an
 //! environment's prefiltered radiance, the light left for the layers below, and the energy that the
-//! single-bounce model loses. If everything were reflected, `A + B` would be 1; the rest, up to six
-//! tenths, is multiple scattering between facets. A factor restores it (Turquin, *Practical
+//! single-bounce model loses. If everything were reflected, `A + B` would be 1; the rest, up to
+//! 60%, is multiple scattering between facets. A factor restores this energy (Turquin, *Practical
 //! multiple scattering compensation for microfacet models*, 2019), so that rough metals are not too
 //! dark:
 //!
@@ -29,7 +29,7 @@ use table::TABLE;
 
 /// `A` and `B` of the split sum at some fragments.
 ///
-/// `A + B` is the albedo of a white mirror with this roughness.
+/// `A + B` is the albedo of a white metal with this roughness.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DirectionalAlbedo<const N: usize> {
     /// `A`, the factor of F0.
@@ -39,19 +39,20 @@ pub(super) struct DirectionalAlbedo<const N: usize> {
 }
 
 impl<const N: usize> DirectionalAlbedo<N> {
-    /// Bilinear lookup at a perceptual roughness and a cosine n·v, both from 0 to 1.
+    /// Looks up a perceptual roughness and a cosine n·v, both from 0 to 1, with bilinear
+    /// interpolation.
     ///
-    /// The table's columns are equal steps of the square root of the cosine, its rows the midpoints
-    /// of sixteenths of the roughness. Beyond the first and last rows the value is clamped, as in
-    /// the textures of other renderers. (Rows at the ends, which would be exact, push three of the
-    /// reference pictures beyond their limits.)
+    /// The table's columns are equal steps of the square root of the cosine, and its rows are the
+    /// midpoints of sixteenths of the roughness. Beyond the first and last rows the value is
+    /// clamped, as in the textures of other renderers. (Rows at the ends, which would be exact,
+    /// push three of the reference pictures beyond their limits.)
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
     #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn lookup(roughness: Lanes<N>, n_dot_v: Lanes<N>) -> Self {
         let (rows, s) = locate_entries(roughness * 16.0 - 0.5);
         let (columns, t) = locate_entries(n_dot_v.sqrt() * 15.0);
         // Gather `A` and `B` of the four entries around each lane: upper left and right, then
-        // lower. One index and one bounds check for the quad of each lane.
+        // lower. Each lane's quad takes one index and one bounds check.
         let mut entries = [[Lanes::ZERO; 2]; 4];
         for lane in 0..N {
             let quad = &QUADS[(rows[lane] * 15 + columns[lane]) as usize & 255];
@@ -73,8 +74,8 @@ impl<const N: usize> DirectionalAlbedo<N> {
     }
 }
 
-/// The four entries around each position of the table, side by side: upper left and right, then
-/// lower. The table has 15 × 15 of them, padded so that any byte is a valid index.
+/// The four entries around each position of the table: upper left and right, then lower. There are
+/// 15 × 15 such quads, padded so that any byte is a valid index.
 static QUADS: [[[f32; 2]; 4]; 256] = quads();
 
 const fn quads() -> [[[f32; 2]; 4]; 256] {
@@ -89,10 +90,10 @@ const fn quads() -> [[[f32; 2]; 4]; 256] {
     quads
 }
 
-/// Splits positions in a table of 16 entries into the preceding entry and the fraction to the next;
-/// positions beyond the ends are clamped.
+/// Splits positions in a table of 16 entries into the preceding entry and the fraction to the next
+/// entry. Positions beyond the ends are clamped.
 ///
-/// The preceding entry is at most 14, so that the next one exists.
+/// The preceding entry is at most 14, so that the next entry exists.
 #[inline(always)]
 pub(super) fn locate_entries<const N: usize>(positions: Lanes<N>) -> ([i32; N], Lanes<N>) {
     let positions = positions.clamp(0.0, 15.0);
@@ -104,11 +105,13 @@ pub(super) fn locate_entries<const N: usize>(positions: Lanes<N>) -> ([i32; N], 
     (entries, fractions)
 }
 
-/// Energy compensation: the factor that restores the loss of single scattering, for a surface with
-/// the normal reflectance `f0`, whose albedo as a white mirror is `white_albedo` = `A + B`.
+/// Computes the energy compensation, a factor that restores the loss of single scattering, for a
+/// surface with the normal reflectance `f0`, whose albedo as a white metal would be `white_albedo`
+/// = `A + B`.
 ///
-/// For F0 = 1 the factor makes the albedo exactly 1 (white furnace test); for F0 = 0 it is 1. Kulla
-/// and Conty (2017) add a lobe for the lost energy; Turquin's factor scales the existing lobe.
+/// For F0 = 1, the factor makes the albedo exactly 1 (white furnace test); for F0 = 0, it is 1.
+/// Kulla and Conty (2017) add a lobe for the lost energy; Turquin's factor scales the existing
+/// lobe.
 #[inline(always)]
 pub(super) fn energy_compensation<const N: usize>(
     f0: Lanes<N>,
@@ -122,7 +125,7 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// `A` and `B`, integrated over half vectors importance sampled from the GGX distribution
+    /// Integrates `A` and `B` over half vectors importance sampled from the GGX distribution
     /// (Walter et al. 2007), which eliminates D from the sum.
     fn integrate_albedo(roughness: f64, cosine: f64) -> [f64; 2] {
         let square = {
@@ -155,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn the_table_holds_the_integrals() {
+    fn the_table_contains_the_integrals() {
         for row in (0..16).step_by(3) {
             for column in (1..16).step_by(2) {
                 let root = column as f64 / 15.0;
@@ -170,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_reflects_more_than_arrives() {
+    fn reflected_energy_does_not_exceed_incoming_energy() {
         for (row, column) in (0..16).flat_map(|row| (0..16).map(move |column| (row, column))) {
             let [a, b] = TABLE[row][column];
             assert!(a >= 0.0 && b >= 0.0 && a + b <= 1.0 && a + b > 0.3);

@@ -1,15 +1,15 @@
-//! The layered BRDF: all light that the surfaces of a draw reflect to the viewer, layer over layer.
+//! The layered BRDF: all light that the surfaces of a draw reflect to the viewer, layer by layer.
 //!
 //! ```text
-//!            direct light   environment     the order in which light is passed down
+//!            direct light   environment     the order in which light passes down
 //!                 │              │
-//!  clearcoat   ───┼──────────────┼───       reflects its part of all of it, composited last
-//!  sheen       ───┼──────────────┼───       adds its lobe, scales what goes on by its base scale
+//!  clearcoat   ───┼──────────────┼───       reflects part of all light, composited last
+//!  sheen       ───┼──────────────┼───       adds its lobe, scales the rest by its base scale
 //!  base        ───▼──────────────▼───       GGX specular and Lambert diffuse
 //! ```
 //!
 //! Each layer is attenuated by the layers above with a scalar per fragment (albedo scaling), so
-//! that layers take light from each other without adding any.
+//! that layers take light from each other without creating any.
 
 use super::anisotropy::Anisotropy;
 use super::base::BaseBrdf;
@@ -29,35 +29,36 @@ use std::f32::consts::FRAC_1_PI;
 
 /// The BRDF of the surfaces at some fragments, and the radiance that it has reflected so far.
 ///
-/// It is created once for a fragment; then lights are added one by one, the environment last, and
-/// [`finish`](Self::finish) puts the clearcoat over the sum.
+/// It is created once per fragment. Then lights are added one by one, with the environment last,
+/// and [`finish`](Self::finish) composites the clearcoat over the sum.
 ///
-/// Layers that the material does not have are `None` and cost a branch for all lanes together.
+/// Layers that the material does not have are `None`, and cost a single branch for all lanes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LayeredBrdf<'a, const N: usize> {
     /// The parameters of the material.
     inputs: &'a MaterialInputs<N>,
-    /// The surface with the normals of the normal map.
+    /// The surface with the normals from the normal map.
     geometry: SurfaceGeometry<N>,
     /// Lambert diffuse and GGX specular, dielectric or metal.
     base: BaseBrdf<N>,
     /// The Charlie lobe of KHR_materials_sheen.
     sheen: Option<Sheen<N>>,
-    /// The frame along which the base's GGX lobe is stretched.
+    /// The frame along which the GGX lobe of the base is stretched.
     anisotropy: Option<Anisotropy<N>>,
     /// The GGX lobe of KHR_materials_clearcoat, composited last.
     clearcoat: Option<Clearcoat<N>>,
     /// The share of light from behind that is visible through the surface.
     pub(crate) transmission: Option<TransmittedShare<N>>,
-    /// The light sent to the viewer from below the clearcoat: first emitted, then reflected light.
+    /// The light toward the viewer from below the clearcoat: initially emitted light, to which
+    /// reflected light is added.
     radiance: Rgb<N>,
 }
 
 impl<'a, const N: usize> LayeredBrdf<'a, N> {
-    /// Creates the BRDF of a draw's material on surfaces with these smooth normals; at first they
-    /// only emit.
+    /// Creates the BRDF of a draw's material on surfaces with these smooth normals. Initially they
+    /// only emit light.
     ///
-    /// The normal map bends base, sheen and anisotropy; shadows and ambient occlusion keep the
+    /// The normal map affects the base, sheen and anisotropy; shadows and ambient occlusion use the
     /// smooth normals.
     #[inline(always)]
     pub(crate) fn new(
@@ -69,7 +70,8 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         let material = draw.material;
         let extensions = &material.extensions;
         let has_tangents = !matches!(draw.tangents, Tangents::None);
-        // The clearcoat has a separate normal map; without one it stays smooth over a bumpy base.
+        // The clearcoat has a separate normal map; without it, the layer stays smooth over a bumpy
+        // base.
         let clearcoat = extensions.clearcoat.as_deref().map(|clearcoat| {
             let mut geometry = smooth;
             if clearcoat.normal_texture.is_some() && has_tangents {
@@ -94,13 +96,13 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         Self { inputs, geometry, base, sheen, anisotropy, clearcoat, transmission, radiance }
     }
 
-    /// Adds the light of a scene's lights, reduced in shadow.
+    /// Adds the light from a scene's lights, reduced in shadow.
     ///
-    /// `shadows` holds the shadow maps of the first lights, in order; `receiver` is present if
+    /// `shadows` contains the shadow maps of the first lights in order; `receiver` is present if
     /// there are any.
     ///
-    /// Lights have no size, so each is one evaluation of the BRDF. The sum is in the order of the
-    /// scene's lights, which determines its bits.
+    /// Lights have no size, so each takes one evaluation of the BRDF. They are summed in scene
+    /// order, which determines the bits of the result.
     #[inline(always)]
     pub(crate) fn add_lights(
         &mut self,
@@ -118,7 +120,7 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
             if let (Some(Some(shadow)), Some(receiver)) = (shadows.get(index), receiver) {
                 incident.apply_shadow(shadow, receiver);
             }
-            // From the top layer down; sheen takes its share of the light before the base.
+            // From the top layer down: sheen takes its share of the light before the base.
             if let Some(clearcoat) = &mut self.clearcoat {
                 clearcoat.add_direct_light(&incident);
             }
@@ -128,36 +130,36 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
             let anisotropy = self.anisotropy.as_ref();
             self.base.add_direct_light(&self.geometry, &incident, anisotropy, &mut self.radiance);
         }
-        // Ambient light: a uniform environment without a specular part, E / π from all directions.
+        // Ambient light is a uniform environment without a specular part, E / π from all
+        // directions.
         if ambient != [0.0; 3] {
             self.add_diffuse(Rgb::splat(ambient.map(|lux| lux * FRAC_1_PI)));
         }
     }
 
-    /// Adds the light of the environment: its irradiance reflected diffusely, its prefiltered
-    /// radiance specularly.
+    /// Adds the light from the environment: its irradiance reflected diffusely, and its prefiltered
+    /// radiance reflected specularly.
     ///
-    /// The split-sum approximation: `Σ L · BRDF` becomes `prefiltered L(r, roughness)` times the
-    /// specular albedo `F0 · A + F90 · B`. It is exact for a uniform environment; otherwise it is
-    /// as good as the light around the mirror direction is representative.
+    /// In the split-sum approximation, `Σ L · BRDF` becomes `prefiltered L(r, roughness)` times the
+    /// specular albedo `F0 · A + F90 · B`. It is exact for a uniform environment; otherwise its
+    /// accuracy depends on how representative the light around the mirror direction is.
     ///
-    /// Ambient occlusion multiplies the diffuse part directly, and the specular part by a fit that
-    /// depends on the viewing angle.
+    /// The diffuse part is multiplied by the ambient occlusion, and the specular part by a fit of
+    /// it that depends on the viewing angle.
     #[inline(always)]
     pub(crate) fn add_environment(&mut self, environment: &Environment) {
         let SurfaceGeometry { normals, views, n_dot_v, .. } = self.geometry;
         // Diffuse image-based lighting.
         self.add_diffuse(environment.irradiance_over_pi(normals));
-        // Specular image-based lighting: the first sum from the environment, the second in the
-        // albedo.
-        // Split-sum approximation, Karis 2013.
+        // Specular image-based lighting: the first sum is from the environment, the second is in
+        // the albedo. Split-sum approximation (Karis 2013).
         let roughness = self.base.roughness;
         let mirrors = match &self.anisotropy {
             Some(frame) => frame.bent_normals(normals, views, roughness),
             None => normals,
         };
         let light = environment.specular_radiance(mirrors, views, roughness);
-        // Specular occlusion from ambient occlusion, Lagarde and de Rousiers 2014: at grazing
+        // Specular occlusion from ambient occlusion (Lagarde and de Rousiers 2014): at grazing
         // angles the mirror direction is less occluded than the hemisphere.
         let mut visibility = self.inputs.occlusion;
         if let Some(on_screen) = self.inputs.screen_visibility {
@@ -165,7 +167,7 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         }
         let sum = n_dot_v + visibility;
         let occlusion = (sum * sum - 1.0 + visibility).clamp(0.0, 1.0);
-        // Albedo scaling of sheen, then the split sum's product.
+        // Albedo scaling by sheen, then the product of the split sum.
         let scale = self.base_scale() * occlusion;
         self.radiance += light * (self.base.specular_albedo * scale);
         if let Some(clearcoat) = &mut self.clearcoat {
@@ -173,16 +175,17 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         }
     }
 
-    /// Adds diffuse light from all directions, given as the radiance of a white Lambert surface.
+    /// Adds diffuse light from all directions, specified as the radiance of a white Lambert
+    /// surface.
     ///
-    /// Sheen is separate: it reflects light from all directions by its albedo.
+    /// Sheen is separate, and reflects light from all directions by its albedo.
     #[inline(always)]
     fn add_diffuse(&mut self, white: Rgb<N>) {
         let MaterialInputs { occlusion, screen_visibility, .. } = *self.inputs;
         // Lambert, below the specular interface and below sheen.
         let reflectance = self.base.diffuse * self.base.diffuse_transmittance * self.base_scale();
-        // Screen-space occlusion comes from geometry: the light that it removes may be reflected
-        // back from there.
+        // Screen-space occlusion comes from geometry, which may reflect some of the light that it
+        // blocks.
         let mut light = white * occlusion;
         if let Some(visibility) = screen_visibility {
             light = light * add_bounces(visibility, reflectance);
@@ -194,7 +197,8 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
     }
 
     /// Adds the light from behind that is visible through refracting or rough glass. Returns the
-    /// part to add after tone mapping: background and backdrop, and the alpha behind the surface.
+    /// part to add after tone mapping: the background and backdrop, and the alpha behind the
+    /// surface.
     #[inline(always)]
     pub(crate) fn add_light_behind(
         &mut self,
@@ -211,7 +215,7 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         Some((display, light.alpha))
     }
 
-    /// Computes the fraction of light from all directions that sheen leaves for the base.
+    /// Returns the fraction of light from all directions that sheen leaves for the base.
     #[inline(always)]
     fn base_scale(&self) -> Lanes<N> {
         match &self.sheen {
@@ -220,7 +224,7 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         }
     }
 
-    /// Computes the radiance of all layers, the clearcoat over the rest.
+    /// Returns the radiance of all layers, with the clearcoat over the rest.
     #[inline(always)]
     pub(crate) fn finish(&self) -> Rgb<N> {
         match &self.clearcoat {

@@ -1,8 +1,8 @@
 //! The microfacet BRDF: GGX distribution, Smith height-correlated visibility, Schlick Fresnel
 //! (glTF 2.0, Appendix B).
 //!
-//! With unit vectors l to the light, v to the viewer, n the normal, h halfway between l and v, and
-//! α the square of the perceptual roughness:
+//! Let l be the unit vector to the light, v the unit vector to the viewer, n the normal, h halfway
+//! between l and v, and α the square of the perceptual roughness. Then
 //!
 //! ```text
 //!  D = α² / (π · ((n·h)² (α² − 1) + 1)²)          GGX: Trowbridge, Reitz 1975; Walter et al. 2007
@@ -11,25 +11,25 @@
 //!  F = F0 + (F90 − F0)(1 − v·h)⁵                  Schlick 1994
 //! ```
 //!
-//! `V` is Smith's masking-shadowing `G₂` over the `4 n·l n·v` of the Cook-Torrance denominator.
+//! `V` is Smith's masking-shadowing `G₂` divided by the Cook-Torrance denominator `4 n·l n·v`.
 //!
-//! All directions are in the world, on the visible side of the surface; cosines below 0 are clamped
-//! to 0. Lobes are `D · V · n·l`: without Fresnel, which differs between base and clearcoat, and
-//! with the cosine of Lambert's law for the light.
+//! All directions are in world space, on the visible side of the surface; cosines below 0 are
+//! clamped to 0. Lobes are `D · V · n·l`: they exclude Fresnel, which differs between base and
+//! clearcoat, and include the cosine of Lambert's law for the light.
 
 use crate::lanes::{Lanes, Vec3Lanes};
 use std::f32::consts::FRAC_1_PI;
 use std::ops::Mul;
 
-/// The minimum perceptual roughness: below it the highlight of a light without size would have no
-/// size either.
+/// The minimum perceptual roughness. Below it, the highlight of a light without size would be
+/// infinitely small.
 ///
-/// The GGX peak 1 / (π α²) is then about 78,000: well within `f32`.
+/// The GGX peak 1 / (π α²) is then about 78,000, well within `f32`.
 pub(super) const MIN_ROUGHNESS: f32 = 0.045;
 
 /// The cosines between normal, view, light and half vector that BRDF terms depend on.
 ///
-/// They are computed once per light and shared by all terms with one normal.
+/// They are computed once per light and shared by all terms with the same normal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShadingAngles<const N: usize> {
     /// n·l, not below 0.
@@ -40,18 +40,18 @@ pub(super) struct ShadingAngles<const N: usize> {
     pub(super) n_dot_h: Lanes<N>,
     /// v·h, not below 0.
     pub(super) v_dot_h: Lanes<N>,
-    /// 1 − (n·h)², without cancellation if it is small: the squared length of n × h.
+    /// 1 − (n·h)², computed as the squared length of n × h to avoid cancellation for small values.
     pub(super) sin_squared_h: Lanes<N>,
 }
 
 impl<const N: usize> ShadingAngles<N> {
-    /// Creates the angles between unit vectors: the normal, the direction to the viewer, the
+    /// Computes the angles between unit vectors: the normal, the direction to the viewer and the
     /// direction to the light.
     ///
-    /// The half vector is the normal of the microfacets that mirror l to v.
+    /// The half vector is the normal of the microfacets that reflect l to v.
     #[inline(always)]
     pub(super) fn new(n: Vec3Lanes<N>, v: Vec3Lanes<N>, l: Vec3Lanes<N>) -> Self {
-        // The half vector; zero instead of NaN if light and view are opposite.
+        // The half vector is zero instead of NaN if light and view are opposite.
         let sum = l + v;
         let h = sum * (1.0 / sum.dot(sum).max(1e-12).sqrt());
         let n_cross_h = n.cross(h);
@@ -74,26 +74,27 @@ impl<const N: usize> ShadingAngles<N> {
         // specification loses all digits in the highlight of a smooth surface.
         let width = (self.sin_squared_h + self.n_dot_h * self.n_dot_h * alpha_squared).max(1e-9);
         let distribution = FRAC_1_PI * alpha_squared / (width * width);
-        // Smith height-correlated visibility, Heitz 2014.
+        // Smith height-correlated visibility (Heitz 2014).
         let one_minus = 1.0 - alpha_squared;
-        // cosθ √(1 + α² tan²θ), the root in Smith's Λ of GGX.
+        // cosθ √(1 + α² tan²θ), the root in Smith's Λ for GGX.
         let lambda = |cosine: Lanes<N>| (alpha_squared + one_minus * cosine * cosine).sqrt();
         let masking = self.n_dot_l * lambda(self.n_dot_v) + self.n_dot_v * lambda(self.n_dot_l);
-        // V = G₂ / (4 n·l n·v), bounded if both directions graze the surface.
+        // V = G₂ / (4 n·l n·v), bounded if both directions are at grazing angles.
         distribution * (0.5 * self.n_dot_l) / masking.max(1e-6)
     }
 }
 
-/// x⁵, the weight of F90 in Schlick's Fresnel approximation, at x = 1 − cosine.
+/// Computes x⁵, the weight of F90 in Schlick's Fresnel approximation for x = 1 − cosine.
 ///
-/// Three multiplications, in the same order for every lane and every level of instructions.
+/// This takes three multiplications, in the same order for every lane and instruction set.
 #[inline(always)]
 pub(super) fn pow5<T: Copy + Mul<Output = T>>(x: T) -> T {
     let square = x * x;
     square * square * x
 }
 
-/// GGX α for a perceptual roughness: its square, bounded from below by [`MIN_ROUGHNESS`].
+/// Returns the GGX α for a perceptual roughness, which is its square, bounded from below by
+/// [`MIN_ROUGHNESS`].
 ///
 /// Squaring makes equal steps of the parameter look equal (Burley 2012; glTF 2.0, Appendix B).
 #[inline(always)]
@@ -106,13 +107,13 @@ pub(super) fn roughness_to_alpha<const N: usize>(roughness: Lanes<N>) -> Lanes<N
 mod tests {
     use super::*;
 
-    /// Computes the lobe of one light.
+    /// Returns the lobe for one light.
     fn ggx_lobe(n: [f32; 3], v: [f32; 3], l: [f32; 3], alpha: f32) -> f32 {
         let [n, v, l] = [n, v, l].map(Vec3Lanes::<1>::splat);
         ShadingAngles::new(n, v, l).ggx_lobe(Lanes([alpha]))[0]
     }
 
-    /// Computes the formulas as written in the specification, in double precision.
+    /// Evaluates the formulas in double precision, as written in the specification.
     fn specified_lobe(n: [f64; 3], v: [f64; 3], l: [f64; 3], alpha: f64) -> f64 {
         let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         let unit = |a: [f64; 3]| a.map(|c| c / dot(a, a).sqrt());
@@ -129,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn lobes_are_those_of_the_specification() {
+    fn lobes_match_the_specification() {
         let unit = |x: f64, y: f64| [x, y, (1.0 - x * x - y * y).sqrt()];
         for alpha in [0.002_025, 0.01, 0.1, 0.5, 1.0] {
             for step in 0..60 {
@@ -148,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn lobes_are_finite_where_vectors_are_opposite_or_perpendicular() {
+    fn lobes_are_finite_for_opposite_or_perpendicular_vectors() {
         let n = [0.0, 0.0, 1.0];
         for (v, l) in [(n, [0.0, 0.0, -1.0]), ([1.0, 0.0, 0.0], [1.0, 0.0, 0.0]), (n, n)] {
             for alpha in [roughness_to_alpha(Lanes([0.0]))[0], 1.0] {

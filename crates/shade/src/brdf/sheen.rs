@@ -1,16 +1,16 @@
-//! Sheen: the retroreflective fibers of cloth, with the Charlie distribution (KHR_materials_sheen).
+//! Sheen: retroreflective cloth fibers with the Charlie distribution (KHR_materials_sheen).
 //!
 //! Estevez and Kulla, *Production friendly microfacet sheen BRDF*, 2017:
 //!
 //! ```text
-//!  D = (2 + 1/α) sinθₕ^(1/α) / 2π          distribution of the fibers' normals
-//!  G = 1 / (1 + Λ(n·v) + Λ(n·l))           shadowing, Λ a fit by the authors
+//!  D = (2 + 1/α) sinθₕ^(1/α) / 2π          distribution of the fiber normals
+//!  G = 1 / (1 + Λ(n·v) + Λ(n·l))           shadowing, with a fit for Λ by the authors
 //!  sheen = color · D · G / (4 n·l n·v)
 //! ```
 //!
-//! Sheen takes its energy from the layers below: they are scaled by `1 − max(color) · E`, where `E`
-//! is the directional albedo of white sheen, the integral of the lobe over the hemisphere (albedo
-//! scaling, as in the extension).
+//! Sheen takes its energy from the layers below, which are scaled by `1 − max(color) · E`, where
+//! `E` is the directional albedo of white sheen: the integral of the lobe over the hemisphere
+//! (albedo scaling, as in the extension).
 
 mod table;
 
@@ -28,21 +28,21 @@ const MIN_SHEEN_ROUGHNESS: f32 = 0.07;
 
 /// The sheen layer at some fragments.
 ///
-/// It keeps the sum of base and sheen below the incoming energy.
+/// It keeps the sum of base and sheen within the incoming energy.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sheen<const N: usize> {
     /// The reflectance of the fibers, by channel.
     color: Rgb<N>,
     /// The perceptual roughness, not below [`MIN_SHEEN_ROUGHNESS`]; α is its square.
     roughness: Lanes<N>,
-    /// The largest channel of the color: the layers below are dimmed equally in all channels.
+    /// The largest channel of the color; the layers below are attenuated equally in all channels.
     max_color: Lanes<N>,
     /// The directional albedo of white sheen toward the viewer.
     albedo: Lanes<N>,
 }
 
 impl<const N: usize> Sheen<N> {
-    /// Creates the layer that a material's inputs describe, seen by a viewer.
+    /// Creates the layer described by a material's inputs, as seen by a viewer.
     #[inline(always)]
     pub(super) fn new(layers: &LayerInputs<N>, geometry: &SurfaceGeometry<N>) -> Self {
         let roughness = layers.sheen_roughness.clamp(MIN_SHEEN_ROUGHNESS, 1.0);
@@ -54,8 +54,8 @@ impl<const N: usize> Sheen<N> {
         }
     }
 
-    /// Adds the sheen from light from one direction, and reduces the light to the part that passes
-    /// to the layers below.
+    /// Adds the sheen in light from one direction, and reduces the light to the part that passes to
+    /// the layers below.
     #[inline(always)]
     pub(super) fn add_direct_light(
         &self,
@@ -66,21 +66,21 @@ impl<const N: usize> Sheen<N> {
         let SurfaceGeometry { normals, views, .. } = *geometry;
         let angles = ShadingAngles::new(normals, views, light.to_light);
         *radiance += light.lux * self.color * charlie_lobe(self.roughness, &angles);
-        // Albedo scaling, by the larger of the albedos of view and light: the BRDF stays
+        // Albedo scaling uses the larger of the albedos for view and light, so that the BRDF stays
         // reciprocal.
         let light_albedo = sheen_albedo(angles.n_dot_l, self.roughness);
         let base_scale = 1.0 - self.max_color * self.albedo.max_lanes(light_albedo);
-        // The base sees only what sheen leaves.
+        // The base receives only the light that sheen leaves.
         light.lux = light.lux * base_scale;
     }
 
-    /// Computes the fraction of light from all directions that is left for the layers below.
+    /// Returns the fraction of light from all directions that is left for the layers below.
     #[inline(always)]
     pub(super) fn base_scale(&self) -> Lanes<N> {
         1.0 - self.max_color * self.albedo
     }
 
-    /// Computes the fraction of light from all directions that the layer reflects.
+    /// Returns the fraction of light from all directions that the layer reflects.
     #[inline(always)]
     pub(super) fn reflectance(&self) -> Rgb<N> {
         self.color * self.albedo
@@ -90,7 +90,7 @@ impl<const N: usize> Sheen<N> {
 /// Computes the Charlie lobe of white sheen, times the cosine of the light: `D · V · n·l`.
 ///
 /// The distribution of Estevez and Kulla 2017 has its maximum at grazing half vectors: fibers are
-/// perpendicular to the surface, and light up at silhouettes.
+/// perpendicular to the surface and light up at silhouettes.
 #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
 #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
 fn charlie_lobe<const N: usize>(roughness: Lanes<N>, angles: &ShadingAngles<N>) -> Lanes<N> {
@@ -101,7 +101,7 @@ fn charlie_lobe<const N: usize>(roughness: Lanes<N>, angles: &ShadingAngles<N>) 
     let exponent = 0.5 * inv_alpha;
     let sine_power = Lanes::from_fn(|lane| libm::powf(sine_squared[lane], exponent[lane]));
     let distribution = (2.0 + inv_alpha) * sine_power * (0.5 * FRAC_1_PI);
-    // Visibility, bounded if view and light graze the surface.
+    // Visibility, bounded if view and light are at grazing angles.
     let alpha = 1.0 / inv_alpha;
     let lambda =
         |cosine: Lanes<N>| Lanes::from_fn(|lane| charlie_lambda(cosine[lane], alpha[lane]));
@@ -110,11 +110,11 @@ fn charlie_lobe<const N: usize>(roughness: Lanes<N>, angles: &ShadingAngles<N>) 
     distribution * visibility * n_dot_l
 }
 
-/// Smith's Λ of the Charlie distribution: the fit of Estevez and Kulla 2017, table 1.
+/// Computes Smith's Λ for the Charlie distribution with the fit of Estevez and Kulla 2017, table 1.
 ///
-/// The fit has two branches, whose exponents are point-symmetric about the cosine 0.5.
+/// The fit has two branches, whose exponents are point-symmetric about a cosine of 0.5.
 fn charlie_lambda(cosine: f32, alpha: f32) -> f32 {
-    // Coefficients of smooth and rough fibers, interpolated by (1 − α)².
+    // Coefficients for smooth and rough fibers, interpolated by (1 − α)².
     let weight = (1.0 - alpha) * (1.0 - alpha);
     let mix = |rough: f32, smooth: f32| rough + (smooth - rough) * weight;
     let [a, b, c] = [mix(21.5473, 25.3245), mix(3.82987, 3.32435), mix(0.198_23, 0.168_01)];
@@ -124,17 +124,17 @@ fn charlie_lambda(cosine: f32, alpha: f32) -> f32 {
     libm::expf(exponent)
 }
 
-/// Computes the directional albedo of white sheen: the integral of the lobe over the hemisphere, at
-/// most 1. Bilinear in the table.
+/// Looks up the directional albedo of white sheen, the integral of the lobe over the hemisphere,
+/// with bilinear interpolation in the table. It is at most 1.
 ///
-/// Sixteen roughnesses by sixteen square roots of cosines; the root puts more entries near grazing
-/// angles.
+/// The table has sixteen roughnesses by sixteen square roots of cosines; the root puts more entries
+/// near grazing angles.
 #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
 #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
 fn sheen_albedo<const N: usize>(cosine: Lanes<N>, roughness: Lanes<N>) -> Lanes<N> {
     let (rows, s) = locate_entries(roughness * 15.0);
     let (columns, t) = locate_entries(cosine.sqrt() * 15.0);
-    // A gather of four entries for each lane.
+    // Gather four entries for each lane.
     Lanes::from_fn(|lane| {
         let (row, column) = (rows[lane] as usize, columns[lane] as usize);
         let across = |row: &[f32; 16]| row[column] + (row[column + 1] - row[column]) * t[lane];
@@ -150,7 +150,7 @@ mod tests {
     use std::f32::consts::PI;
 
     #[test]
-    fn the_table_holds_the_integrals_of_the_lobe() {
+    fn the_table_contains_the_integrals_of_the_lobe() {
         let n = Vec3Lanes::<1>::splat([0.0, 0.0, 1.0]);
         for roughness in [0.2, 0.37, 0.6, 1.0].map(|roughness| Lanes([roughness])) {
             for degrees in [5.0_f32, 40.0, 80.0] {

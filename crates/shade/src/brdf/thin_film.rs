@@ -1,8 +1,8 @@
 //! Thin-film interference: iridescence, as on soap bubbles and oil (KHR_materials_iridescence).
 //!
 //! Belcour and Barla, *A practical extension to microfacet theory for the modeling of varying
-//! iridescence*, 2017. Light is reflected by the top of the film and, after one, two, … passes, by
-//! the surface below. The parts interfere with a phase that grows with the path through the film:
+//! iridescence*, 2017. Light is reflected by the top of the film and, after one or more passes, by
+//! the surface below. The parts interfere with a phase that grows with the path length in the film:
 //!
 //! ```text
 //!   ╲   ╱   ╱   ╱      R = R₀ + Σ Cₘ · cos(m · phase)      air
@@ -13,7 +13,7 @@
 //! ```
 //!
 //! The sum over the spectrum is computed in Fourier space, where the sensitivity curves of the eye
-//! are Gaussians. The result is returned as the F0 that leads to it under Schlick's approximation.
+//! are Gaussians. The result is returned as the F0 that yields it in Schlick's approximation.
 
 use super::microfacet::pow5;
 use crate::approximations::{cosine_of_turns, exp2_approx};
@@ -21,13 +21,14 @@ use crate::color::{XYZ_TO_SRGB, multiply_matrix};
 use crate::lanes::{Lanes, Rgb};
 use std::f32::consts::{LOG2_E, PI};
 
-/// Computes the F0 of surfaces under a thin film, at the cosines of the view.
+/// Computes the F0 of surfaces under a thin film at the given view cosines.
 ///
-/// `f0` is the surface's F0 without the film, `ior` the film's index of refraction, `thickness` in
-/// nanometers. As the thickness approaches 0, the film's index approaches 1, as in air.
+/// `f0` is the surface's F0 without the film, `ior` is the film's index of refraction, and
+/// `thickness` is in nanometers. As the thickness approaches 0, the film's index approaches 1, as
+/// in air.
 ///
-/// Each channel of F0 gives the index of refraction of the base, so a colored metal interferes by
-/// channel. The cost is two harmonics with four Gaussians and cosines each.
+/// Each channel of F0 gives an index of refraction for the base, so interference on a colored metal
+/// is computed per channel. The cost is two harmonics with four Gaussians and cosines each.
 #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
 #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
 pub(super) fn thin_film_f0<const N: usize>(
@@ -45,7 +46,7 @@ pub(super) fn thin_film_f0<const N: usize>(
     // First interface, air to film.
     let r12 = schlick_fresnel(normal_reflectance(ior, Lanes::ONE), cosine);
     let t121 = 1.0 - r12;
-    // Second interface, film to base: the base's index of refraction from its F0.
+    // Second interface, film to base, with the base's index of refraction from its F0.
     let base_ior = f0.map(|f0| {
         let root = (f0 + 1e-4).clamp(0.0, 0.9999).sqrt();
         (1.0 + root) / (1.0 - root)
@@ -56,7 +57,7 @@ pub(super) fn thin_film_f0<const N: usize>(
     let rs = r23.zip(r123, |r23, r123| t121 * t121 * r23 / (1.0 - r123));
     let root = r123.map(Lanes::sqrt);
     let first = rs.map(|rs| rs - t121) * root;
-    // Half a wave is lost when light is reflected by a denser medium: in turns.
+    // Reflection by a denser medium shifts the phase by half a wave; phases are in turns.
     let half = Lanes::splat(0.5);
     let shifts = base_ior.map(|base| Lanes::ONE.select(&(base - ior).is_below(0.0), half));
     // Airy summation in Fourier space: each harmonic times the eye's response to its optical path
@@ -65,34 +66,35 @@ pub(super) fn thin_film_f0<const N: usize>(
     let once = spectral_sensitivity(path, shifts);
     let twice = spectral_sensitivity(2.0 * path, shifts * 2.0);
     let reflectance = rs.map(|rs| r12 + rs) + (first * once + first * root * twice) * 2.0;
-    // The F0 from which Schlick's approximation gives this reflectance at the cosine.
+    // The F0 for which Schlick's approximation gives this reflectance at the cosine.
     let schlick = pow5(1.0 - cosine).clamp(0.0, 0.9999);
     reflectance.map(|total| ((total.clamp(0.0, 1.0) - schlick) / (1.0 - schlick)).clamp(0.0, 1.0))
 }
 
-/// Fresnel reflectance at normal incidence between media with these indices of refraction.
+/// Computes the Fresnel reflectance at normal incidence between media with these indices of
+/// refraction.
 ///
-/// ((a − b) / (a + b))², for media that do not absorb.
+/// This is ((a − b) / (a + b))², for non-absorbing media.
 #[inline(always)]
 fn normal_reflectance<const N: usize>(a: Lanes<N>, b: Lanes<N>) -> Lanes<N> {
     let root = (a - b) / (a + b);
     root * root
 }
 
-/// Schlick's approximation with F90 = 1.
+/// Evaluates Schlick's approximation with F90 = 1.
 ///
-/// Schlick 1994, for an interface that reflects everything at grazing angles.
+/// Schlick 1994, for an interface that reflects all light at grazing angles.
 #[inline(always)]
 fn schlick_fresnel<const N: usize>(f0: Lanes<N>, cosine: Lanes<N>) -> Lanes<N> {
     f0 + (1.0 - f0) * pow5(1.0 - cosine)
 }
 
-/// Computes the response of the eye to waves with an optical path difference in nanometers, in
-/// linear sRGB: the Fourier transform of the CIE 1931 curves, fitted by Gaussians (Belcour and
-/// Barla 2017).
+/// Computes the response of the eye, in linear sRGB, to waves with an optical path difference in
+/// nanometers. This is the Fourier transform of the CIE 1931 curves, fitted by Gaussians (Belcour
+/// and Barla 2017).
 ///
-/// XYZ are weighted with separate phase shifts, in turns, one per channel of the base, then
-/// converted to sRGB.
+/// XYZ are weighted with separate phase shifts in turns, one per channel of the base, and converted
+/// to sRGB.
 #[inline(always)]
 fn spectral_sensitivity<const N: usize>(path: Lanes<N>, shifts: Rgb<N>) -> Rgb<N> {
     // In waves per meter of wave number; the phase is 2π times this.
@@ -115,13 +117,13 @@ fn spectral_sensitivity<const N: usize>(path: Lanes<N>, shifts: Rgb<N>) -> Rgb<N
 mod tests {
     use super::*;
 
-    /// Computes the F0 of one surface.
+    /// Returns the F0 of one surface.
     fn film_f0(f0: [f32; 3], ior: f32, thickness: f32, cosine: f32) -> [f32; 3] {
         thin_film_f0(Rgb::<1>::splat(f0), ior, Lanes([thickness]), Lanes([cosine])).lane(0)
     }
 
     #[test]
-    fn without_thickness_f0_is_that_of_the_base_and_no_film_creates_light() {
+    fn vanishing_films_keep_the_base_f0_and_films_create_no_light() {
         for f0 in [0.02, 0.04, 0.3, 0.9] {
             let bare = film_f0([f0; 3], 1.3, 0.0, 0.8);
             assert!(bare.iter().all(|actual| (actual - f0).abs() < 0.03), "{f0} {bare:?}");

@@ -10,7 +10,7 @@ pub(crate) const XYZ_TO_SRGB: [[f32; 3]; 3] = [
     [0.055_643_4, -0.204_025_9, 1.057_225_2],
 ];
 
-/// Computes a matrix of rows times a color: one color, or the lanes of several.
+/// Multiplies a matrix, given as rows, by one color or by the lanes of several colors.
 #[inline(always)]
 pub(crate) fn multiply_matrix<T>(matrix: &[[f32; 3]; 3], [x, y, z]: [T; 3]) -> [T; 3]
 where

@@ -1,16 +1,16 @@
-//! Linear light to 16-bit sRGB: the nearest of 65,536 codes, exactly.
+//! Converts linear light to 16-bit sRGB: exactly the nearest of 65,536 codes.
 //!
 //! The thresholds between codes are in a table. A float's exponent and the first seven bits of its
-//! mantissa are one of 128 steps of each octave, and a second table holds the code at the beginning
-//! of each step: at most about 180 thresholds are left for a binary search.
+//! mantissa identify one of 128 steps in each octave, and a second table has the code at the
+//! beginning of each step. At most about 180 thresholds are left for a binary search.
 
 use super::srgb_to_linear;
 use raster::Encode;
 use std::sync::OnceLock;
 
-/// The bits of 2⁻²¹, below the threshold of the first code, which is 2⁻²⁰·⁷ of light.
+/// The bits of 2⁻²¹, which is below the threshold of the first code, 2⁻²⁰·⁷ in linear light.
 const MIN_LIGHT_BITS: u32 = (127 - 21) << 23;
-/// The number of steps from there to 1, 128 for each octave.
+/// The number of steps from there to 1, with 128 per octave.
 const STEP_COUNT: usize = 21 * 128 + 1;
 
 /// Encodes linear light as the nearest 16-bit sRGB code.
@@ -18,12 +18,12 @@ const STEP_COUNT: usize = 21 * 128 + 1;
 pub struct Srgb16Encoder {
     /// For each code except the first, the smallest linear light for which it is the nearest code.
     thresholds: Box<[f32]>,
-    /// For each step, the code at its beginning.
+    /// For each step, the code at the beginning of the step.
     step_codes: Box<[u16]>,
 }
 
 impl Srgb16Encoder {
-    /// Returns the encoder, shared by the whole program; its tables are computed once.
+    /// Returns the encoder shared by the whole program, whose tables are computed once.
     #[must_use]
     pub fn shared() -> &'static Self {
         static ENCODER: OnceLock<Srgb16Encoder> = OnceLock::new();
@@ -42,7 +42,7 @@ impl Srgb16Encoder {
         Self { thresholds, step_codes }
     }
 
-    /// Computes the nearest 16-bit sRGB code; light beyond \[0, 1\] is clamped, NaN to 0.
+    /// Returns the nearest 16-bit sRGB code. Light outside \[0, 1\] is clamped, and NaN becomes 0.
     #[must_use]
     pub fn encode(&self, light: f32) -> u16 {
         let least = f32::from_bits(MIN_LIGHT_BITS);
@@ -58,7 +58,7 @@ impl Srgb16Encoder {
 
 impl Encode<[u16; 4]> for &Srgb16Encoder {
     fn encode_pixel(&self, [r, g, b, alpha]: [f32; 4]) -> [u16; 4] {
-        // As in the 8-bit encoder: transparent if alpha is NaN or not above 0.
+        // As in the 8-bit encoder, the pixel is transparent if alpha is NaN or not above 0.
         if alpha.is_nan() || alpha <= 0.0 {
             return [0; 4];
         }
@@ -74,7 +74,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_code_survives_decoding_and_encoding() {
+    fn every_code_survives_a_round_trip() {
         let encoder = Srgb16Encoder::shared();
         for code in 0..=65_535_u16 {
             let light = srgb_to_linear(f64::from(code) / 65_535.0) as f32;
@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn codes_change_at_their_thresholds_and_nowhere_else() {
+    fn codes_change_only_at_their_thresholds() {
         let encoder = Srgb16Encoder::shared();
         for (code, &least) in (1..=65_535).zip(&encoder.thresholds) {
             let below = f32::from_bits(least.to_bits() - 1);
@@ -93,13 +93,13 @@ mod tests {
     }
 
     #[test]
-    fn eight_bits_are_the_nearest_of_sixteen() {
+    fn eight_bit_codes_are_nearest_to_sixteen_bit_codes() {
         let (deep, flat) = (Srgb16Encoder::shared(), SrgbEncoder::shared());
         for step in 0..=100_000 {
             let light = step as f32 / 100_000.0;
             let fine = f64::from(deep.encode(light)) / 257.0;
             let coarse = f64::from(flat.encode(light));
-            // Half a code of 8 bits, and half a code of 16.
+            // Half an 8-bit code plus half a 16-bit code.
             assert!((fine - coarse).abs() <= 0.5 + 0.5 / 257.0 + 1e-9, "{light}: {fine} {coarse}");
         }
     }

@@ -1,11 +1,11 @@
-//! The octahedral map: colors by direction on a square (Engelhardt and Dachsbacher 2008).
+//! The octahedral map: stores colors by direction on a square (Engelhardt and Dachsbacher 2008).
 //!
 //! ```text
 //!   ┌────┬────┐     A direction is divided by the sum of its coordinates' magnitudes, which
-//!   │ ╲−y│−y╱ │     projects it onto an octahedron. The upper half is seen from above, the
-//!   │  ╲ │ ╱  │     diamond in the middle; the lower half is folded out over the four corners.
+//!   │ ╲−y│−y╱ │     projects it onto an octahedron. The upper half, seen from above, is the
+//!   │  ╲ │ ╱  │     diamond in the middle; the lower half unfolds over the four corners.
 //!   ├── +y ───┤
-//!   │  ╱ │ ╲  │     A step beyond a border comes back at the mirror image on the same border.
+//!   │  ╱ │ ╲  │     A step beyond a border re-enters at the mirrored position on that border.
 //!   │ ╱−y│−y╲ │
 //!   └────┴────┘
 //! ```
@@ -14,7 +14,7 @@ use crate::approximations::floor_to_int;
 use crate::lanes::{Lanes, Vec3Lanes, map_to_lanes};
 use crate::vector::normalize;
 
-/// Red, green and blue, and padding, so that four numbers are loaded at once.
+/// Red, green, blue and padding, so that four numbers are loaded at once.
 pub(super) type Texel = [f32; 4];
 
 /// Colors by direction, at the nodes of a square grid.
@@ -26,10 +26,10 @@ pub(super) struct OctahedralMap {
     pub(super) texels: Vec<Texel>,
 }
 
-/// Trilinear lookup between mip levels `near` and `near + 1` of each lane; directions need not be
-/// normalized.
+/// Samples trilinearly between mip levels `near` and `near + 1` of each lane. Directions need not
+/// be normalized.
 ///
-/// `level` is not called for a next level without weight: levels may be computed on demand.
+/// `level` is not called for a next level without weight, because levels may be computed on demand.
 #[inline(always)]
 pub(super) fn sample_trilinear<'a, const N: usize>(
     level: impl Fn(usize) -> &'a OctahedralMap,
@@ -37,7 +37,8 @@ pub(super) fn sample_trilinear<'a, const N: usize>(
     fractions: Lanes<N>,
     directions: Vec3Lanes<N>,
 ) -> [Texel; N] {
-    // The two maps of each lane: usually the same in all, because roughness rarely varies much.
+    // The two maps of each lane are usually the same for all lanes, because roughness rarely varies
+    // much.
     let first = near_levels[0];
     let has_next = fractions.0.iter().any(|fraction| *fraction != 0.0);
     let mut maps = [[level(first); N], [level(first + usize::from(has_next)); N]];
@@ -47,13 +48,13 @@ pub(super) fn sample_trilinear<'a, const N: usize>(
             maps[1][lane] = level(near_level + usize::from(fractions[lane] != 0.0));
         }
     }
-    // Their sizes are also stored in lanes.
+    // The map sizes are also stored in lanes.
     let last_nodes =
         map_to_lanes(&maps, |maps| Lanes::from_fn(|lane| (maps[lane].side - 1) as f32));
     let positions = encode_octahedral(directions);
     let near = BilinearNodes::locate(positions, last_nodes[0]);
     let next = BilinearNodes::locate(positions, last_nodes[1]);
-    // Four channels of one lane at a time, in one vector register.
+    // Process the four channels of one lane at a time, in one vector register.
     let mut colors = [[0.0; 4]; N];
     for (lane, color) in colors.iter_mut().enumerate() {
         let a = maps[0][lane].sample_bilinear(&near, lane);
@@ -63,7 +64,7 @@ pub(super) fn sample_trilinear<'a, const N: usize>(
     colors
 }
 
-/// Computes the positions of directions on the square, between 0 and 1.
+/// Maps directions to positions on the square, between 0 and 1.
 #[inline(always)]
 pub(super) fn encode_octahedral<const N: usize>(directions: Vec3Lanes<N>) -> [Lanes<N>; 2] {
     let Vec3Lanes { x, y, z } = directions;
@@ -78,8 +79,8 @@ pub(super) fn encode_octahedral<const N: usize>(directions: Vec3Lanes<N>) -> [La
     [u * 0.5 + 0.5, v * 0.5 + 0.5]
 }
 
-/// The four nodes around a position, in all lanes: column and row of the first, and the fractions
-/// toward the next.
+/// The four nodes around a position in all lanes: the column and row of the first, and the
+/// fractions toward the next.
 pub(super) struct BilinearNodes<const N: usize> {
     columns: [i32; N],
     rows: [i32; N],
@@ -88,7 +89,7 @@ pub(super) struct BilinearNodes<const N: usize> {
 }
 
 impl<const N: usize> BilinearNodes<N> {
-    /// Returns the nodes around positions between 0 and 1, in maps with these last columns and
+    /// Locates the nodes around positions between 0 and 1, in maps with these last columns and
     /// rows.
     #[inline(always)]
     pub(super) fn locate([u, v]: [Lanes<N>; 2], last_nodes: Lanes<N>) -> Self {
@@ -109,7 +110,7 @@ impl OctahedralMap {
         Self { side, texels: (0..side * side).map(texel).collect() }
     }
 
-    /// Bilinear interpolation between the nodes of a lane.
+    /// Interpolates bilinearly between the nodes of a lane.
     #[inline(always)]
     pub(super) fn sample_bilinear<const N: usize>(
         &self,
@@ -123,10 +124,10 @@ impl OctahedralMap {
         lerp_texels(lerp_texels(a, b, s), lerp_texels(c, d, s), t)
     }
 
-    /// Computes the next mip level, with half as many nodes along a side: a tent filter over 3 × 3
+    /// Computes the next mip level, with half as many nodes per side, with a tent filter over 3 × 3
     /// nodes.
     ///
-    /// Nodes keep their positions, so that levels differ in sharpness and not in position.
+    /// Nodes keep their positions, so that levels differ in sharpness but are not shifted.
     pub(super) fn downsample(&self) -> Self {
         let side = self.side / 2 + 1;
         let texel = |node: usize| {
@@ -142,10 +143,11 @@ impl OctahedralMap {
         Self { side, texels: (0..side * side).map(texel).collect() }
     }
 
-    /// Returns the index of a node; a node one step beyond a border is mirrored along that border.
+    /// Returns the index of a node. A node one step beyond a border is mirrored along that border.
     fn wrap_node(&self, x: i32, y: i32) -> usize {
         let last = self.side as i32 - 1;
-        // Beyond the left or right border: back inside, with the row mirrored; likewise for rows.
+        // Beyond the left or right border, step back inside with the row mirrored; likewise for
+        // rows.
         let (x, y) =
             if (0..=last).contains(&x) { (x, y) } else { (x.abs().min(2 * last - x), last - y) };
         let (x, y) =
@@ -154,7 +156,7 @@ impl OctahedralMap {
     }
 }
 
-/// `a + (b − a)·t` of all four components.
+/// Computes `a + (b − a)·t` for all four components.
 #[inline(always)]
 fn lerp_texels(a: Texel, b: Texel, t: f32) -> Texel {
     let mut texel = a;
@@ -169,8 +171,8 @@ pub(super) fn node_coordinate(node: usize, side: usize) -> f32 {
     2.0 * node as f32 / (side - 1) as f32 - 1.0
 }
 
-/// Decodes the direction at a position in the square, with coordinates from −1 to 1: a point on the
-/// octahedron, not normalized.
+/// Decodes the direction at a position in the square, with coordinates from −1 to 1, as a point on
+/// the octahedron, not normalized.
 pub(super) fn decode_octahedral(u: f32, v: f32) -> [f32; 3] {
     let y = 1.0 - u.abs() - v.abs();
     if y >= 0.0 {
@@ -180,15 +182,16 @@ pub(super) fn decode_octahedral(u: f32, v: f32) -> [f32; 3] {
     }
 }
 
-/// −1 below 0, and 1 otherwise.
+/// Returns −1 below 0, and 1 otherwise.
 #[inline(always)]
 fn sign_not_zero(x: f32) -> f32 {
     if x < 0.0 { -1.0 } else { 1.0 }
 }
 
-/// Returns the nodes before positions between 0 and 1, and the fractions toward the next.
+/// Returns the nodes before positions between 0 and 1, and the fractions toward the next nodes.
 ///
-/// `max` and `min` instead of `clamp`, which checks its bounds, so that the loops are vectorized.
+/// This uses `max` and `min` instead of `clamp`, which checks its bounds, so that the loops are
+/// vectorized.
 #[inline(always)]
 fn split_coordinates<const N: usize>(
     positions: Lanes<N>,
@@ -214,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn a_map_of_directions_returns_each_direction() {
+    fn a_map_of_directions_returns_every_direction() {
         let map = OctahedralMap::from_function(129, |direction| direction);
         for step in 0..1000_u32 {
             let [x, y, z] =

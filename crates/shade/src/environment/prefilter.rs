@@ -1,11 +1,11 @@
 //! Prefiltered radiance: the mip levels of an environment for increasing roughness.
 //!
-//! The first sum of the split-sum approximation (Karis 2013). For each direction r, used as both
-//! normal and view:
+//! This is the first sum of the split-sum approximation (Karis 2013). For each direction r, used as
+//! both normal and view:
 //!
 //! ```text
-//!  L(r) = Σ radiance(lᵢ) · (r·lᵢ) / Σ (r·lᵢ)        lᵢ = reflection of r about half vectors hᵢ,
-//!                                                   importance sampled by GGX
+//!  L(r) = Σ radiance(lᵢ) · (r·lᵢ) / Σ (r·lᵢ)        lᵢ = r reflected about half vectors hᵢ,
+//!                                                   importance sampled from GGX
 //! ```
 //!
 //! A few samples are enough, because each reads the environment from a mip level whose texels are
@@ -19,29 +19,29 @@ use raster::{Kernel, SimdLevel};
 use std::f32::consts::PI;
 use std::sync::OnceLock;
 
-/// The number of prefiltered levels: for roughness 0, 0.2 and so on to 1.
+/// The number of prefiltered levels, for roughness 0, 0.2, …, 1.
 pub(super) const LEVEL_COUNT: usize = 6;
-/// Number of nodes along the sides of the levels except the first, which is the environment itself.
-/// In the sharpest one, the distance between nodes is half the width of the lobe of its roughness.
+/// Number of nodes per side of each level except the first, which is the environment itself. In the
+/// sharpest of these, the distance between nodes is half the width of the lobe for its roughness.
 const LEVEL_SIDES: [usize; LEVEL_COUNT - 1] = [65, 65, 33, 33, 17];
-/// Number of mip chain levels that samples are read from.
+/// Number of mip levels that samples are read from.
 const MIP_COUNT: usize = 7;
-/// Number of samples for each texel of a level.
+/// Number of samples per texel of a level.
 const SAMPLE_COUNT: u32 = 64;
 
 /// The prefiltered levels of an environment, from sharp to blurred.
 ///
-/// Each is computed when a surface first needs it: most models have few roughnesses, and the
-/// sharpest of the blurred levels takes longer than all the others.
+/// Each level is computed when a surface first needs it, because most models have few roughnesses,
+/// and the sharpest of the blurred levels takes longer than all the others.
 #[derive(Clone, Debug)]
 pub(super) struct PrefilteredLevels {
-    /// The environment, with its sides halved from one level to the next.
+    /// The mip chain of the environment, with sides halved from level to level.
     mip_chain: Vec<OctahedralMap>,
-    /// The levels from 1 on, each computed on demand by the first thread that needs it.
+    /// The levels from 1, each computed on demand by the first thread that needs it.
     filtered: [OnceLock<OctahedralMap>; LEVEL_COUNT - 1],
 }
 
-/// Equal environments have equal levels, computed or not.
+/// Equal environments have equal levels, whether computed or not.
 impl PartialEq for PrefilteredLevels {
     fn eq(&self, other: &Self) -> bool {
         self.mip_chain == other.mip_chain
@@ -49,7 +49,7 @@ impl PartialEq for PrefilteredLevels {
 }
 
 impl PrefilteredLevels {
-    /// Creates the levels of an environment; only the first is already computed.
+    /// Creates the levels of an environment. Only the first is computed immediately.
     pub(super) fn new(environment: OctahedralMap) -> Self {
         let mut mip_chain = vec![environment];
         while mip_chain.len() < MIP_COUNT {
@@ -58,7 +58,7 @@ impl PrefilteredLevels {
         Self { mip_chain, filtered: Default::default() }
     }
 
-    /// Returns a level by index, starting at 0 for mirrors; computed on the first request.
+    /// Returns a level by index, starting at 0 for mirrors, and computes it on the first request.
     #[inline(always)]
     pub(super) fn level(&self, index: usize) -> &OctahedralMap {
         match index.checked_sub(1) {
@@ -67,12 +67,12 @@ impl PrefilteredLevels {
         }
     }
 
-    /// Computes a level from 1 on.
+    /// Computes a level other than 0.
     #[cold]
     fn prefilter_level(&self, index: usize) -> OctahedralMap {
         let roughness = index as f32 / (LEVEL_COUNT - 1) as f32;
         let (mip_chain, simd_level) = (&self.mip_chain, SimdLevel::best());
-        // α = roughness², then one set of samples for all texels of the level.
+        // α = roughness². All texels of the level share one set of samples.
         let samples = importance_sample_ggx(roughness * roughness, mip_chain);
         let color = |normal| {
             simd_level.run_kernel(PrefilterKernel { mip_chain, normal, samples: &samples })
@@ -81,10 +81,10 @@ impl PrefilteredLevels {
     }
 }
 
-/// The number of samples that are read at once.
+/// The number of samples to read at once.
 const SAMPLE_LANES: usize = 8;
 
-/// Directions of light around the normal, which is z, and the mip levels at which they read the
+/// Light directions around the normal, which is z, and the mip levels from which they read the
 /// environment.
 struct SamplePacket {
     /// The number of lanes in use.
@@ -97,8 +97,8 @@ struct SamplePacket {
 }
 
 impl SamplePacket {
-    /// Up to eight directions, each with its mip level in a chain: the nearest one, because the
-    /// samples of a lobe blend the levels anyway.
+    /// Creates up to eight directions, each with the nearest mip level in a chain; interpolation is
+    /// not needed, because the samples of a lobe blend the levels anyway.
     fn new(samples: &[([f32; 3], f32)], mip_chain: &[OctahedralMap]) -> Self {
         let mut levels = [0; SAMPLE_LANES];
         for (lane, (_, level)) in samples.iter().enumerate() {
@@ -111,27 +111,28 @@ impl SamplePacket {
     }
 }
 
-/// Directions in which a surface with this α reflects the view along its normal, with their mip
-/// levels.
+/// Returns the directions in which a surface with this α reflects a view along its normal, with
+/// their mip levels.
 ///
-/// The level is half the logarithm of the sample's solid angle divided by the texel's, plus one: a
-/// bias against noise, which loses no sharpness that the next level of roughness would show.
+/// The level is half the logarithm of the ratio of the sample's to the texel's solid angle, plus
+/// one. The one is a bias against noise, and loses no sharpness that would be visible at this
+/// roughness.
 ///
-/// The sample set is computed once per level, in the frame of the normal: with n = v = r the lobe
-/// has no preferred azimuth, at the cost of the stretched highlights at grazing angles.
+/// The sample set is computed once per level, in the frame of the normal. With n = v = r the lobe
+/// has no preferred azimuth, at the cost of stretched highlights at grazing angles.
 fn importance_sample_ggx(alpha: f32, mip_chain: &[OctahedralMap]) -> Vec<SamplePacket> {
     let alpha_squared = alpha * alpha;
     let texel_solid_angle = 4.0 * PI / (mip_chain[0].side * mip_chain[0].side) as f32;
     let sample = |n: u32| {
-        // Hammersley points: even steps, and the radical inverse in base 2.
+        // Hammersley points: even steps and the radical inverse in base 2.
         let u = (n as f32 + 0.5) / SAMPLE_COUNT as f32;
         let azimuth = (n.reverse_bits() >> 8) as f32 / (1 << 24) as f32 * 2.0 * PI;
-        // A half vector, distributed as D · n·h (Walter et al. 2007).
+        // A half vector distributed as D · n·h (Walter et al. 2007).
         let n_dot_h = ((1.0 - u) / (1.0 + (alpha_squared - 1.0) * u)).sqrt();
         let sine = (1.0 - n_dot_h * n_dot_h).max(0.0).sqrt();
         let h = [sine * libm::cosf(azimuth), sine * libm::sinf(azimuth), n_dot_h];
         let direction = [2.0 * n_dot_h * h[0], 2.0 * n_dot_h * h[1], 2.0 * n_dot_h * n_dot_h - 1.0];
-        // The density of directions: the half vectors' density D n·h, divided by four times v·h =
+        // The density of directions is the half vector density D n·h, divided by four times v·h =
         // n·h.
         let width = n_dot_h * n_dot_h * (alpha_squared - 1.0) + 1.0;
         let density = alpha_squared / (PI * width * width) / 4.0;
@@ -143,7 +144,7 @@ fn importance_sample_ggx(alpha: f32, mip_chain: &[OctahedralMap]) -> Vec<SampleP
     samples.chunks(SAMPLE_LANES).map(|packet| SamplePacket::new(packet, mip_chain)).collect()
 }
 
-/// The kernel that computes one texel of a level: the light around one normal.
+/// The kernel that computes one texel of a level: the light around a normal.
 struct PrefilterKernel<'a> {
     mip_chain: &'a [OctahedralMap],
     normal: [f32; 3],
@@ -156,7 +157,7 @@ impl Kernel for PrefilterKernel<'_> {
     #[inline(always)]
     fn run(self) -> [f32; 3] {
         let Self { mip_chain, normal, samples } = self;
-        // Any frame around the normal will do: the samples have no preferred azimuth.
+        // Any frame around the normal will do, because the samples have no preferred azimuth.
         let aside = if normal[1].abs() < 0.9 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
         let tangent = normalize(cross(aside, normal));
         let bitangent = cross(normal, tangent);

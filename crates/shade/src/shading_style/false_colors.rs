@@ -12,12 +12,12 @@ use model::{Colormap, TextureInfo};
 /// The number of checkerboard squares per unit of texture coordinates.
 const CHECKER_SQUARES: f32 = 8.0;
 
-/// Computes the color of a glazed clay ball at normals with z toward the viewer: light from the
-/// upper left, a highlight and a rim.
+/// Computes the color of a glazed clay ball at normals with z toward the viewer, with light from
+/// the upper left, a highlight and a rim.
 #[inline(always)]
 pub(super) fn matcap_ball_color<const N: usize>(normals: Vec3Lanes<N>) -> Rgb<N> {
     let light = [-0.4, 0.64, 0.656];
-    // Half Lambert: the cosine mapped to [0, 1], then squared.
+    // Half Lambert: the cosine, mapped to [0, 1] and squared.
     let wrapped = 0.5 + 0.5 * normals.dot(Vec3Lanes::splat(light));
     let diffuse = 0.06 + 0.94 * wrapped * wrapped;
     // Blinn-Phong highlight.
@@ -31,8 +31,8 @@ pub(super) fn matcap_ball_color<const N: usize>(normals: Vec3Lanes<N>) -> Rgb<N>
     Rgb { r: color(0.5, 0.5), g: color(0.24, 0.7), b: color(0.16, 1.0) }
 }
 
-/// Computes a checkerboard whose squares fade if they are smaller than pixels; gray without texture
-/// coordinates.
+/// Computes a checkerboard whose squares fade if they are smaller than pixels. It is gray without
+/// texture coordinates.
 #[inline(always)]
 pub(super) fn checker_color<const N: usize>(
     draw: &Draw<'_>,
@@ -47,10 +47,10 @@ pub(super) fn checker_color<const N: usize>(
     let info = TextureInfo { texture: 0, uv_set: 0, uv_matrix: TextureInfo::IDENTITY_UV };
     let uvs = draw.texture_coordinates(vertices, fragments, &info);
     let [u, v] = uvs.uv;
-    // Odd squares: the integer parts add up to an odd number.
+    // In odd squares, the integer parts add up to an odd number.
     let squares = whole_part(u * CHECKER_SQUARES) + whole_part(v * CHECKER_SQUARES);
     let is_even = (squares - 2.0 * whole_part(squares * 0.5)).is_below(1.0);
-    // Squares per pixel, for fading the contrast.
+    // The number of squares per pixel, for fading the contrast.
     let [dx, dy] = [uvs.dx, uvs.dy].map(|[du, dv]| du.abs().max_lanes(dv.abs()));
     let step = dx.max_lanes(dy) * CHECKER_SQUARES;
     let contrast = 0.35 * (1.5 - step).clamp(0.0, 1.0);
@@ -59,15 +59,16 @@ pub(super) fn checker_color<const N: usize>(
     decode_codes(Rgb { r: ramp(u) * shade, g: ramp(v) * shade, b: 0.55 * shade })
 }
 
-/// Computes the largest integers that are not above the numbers.
+/// Rounds numbers down to integers.
 #[inline(always)]
 fn whole_part<const N: usize>(numbers: Lanes<N>) -> Lanes<N> {
     numbers.map(|x| floor_to_int(x) as f32)
 }
 
-/// Clearly different colors for consecutive parts: hues at multiples of the golden section.
+/// Returns clearly different colors for consecutive parts, with hues at multiples of the golden
+/// ratio.
 pub(super) fn part_color(part: u32) -> [f32; 3] {
-    // 2³² over the golden ratio: the low 32 bits of a product are its fraction.
+    // 2³² over the golden ratio; the low 32 bits of a product are its fractional part.
     let hue = (part.wrapping_add(1).wrapping_mul(2_654_435_769) >> 8) as f32 / 16_777_216.0;
     let [low, high] = if part.is_multiple_of(2) { [0.35, 0.95] } else { [0.2, 0.75] };
     // HSV to RGB.
@@ -88,13 +89,13 @@ pub(super) fn map_colors<const N: usize>(colormap: Colormap, numbers: Lanes<N>) 
     colors
 }
 
-/// Decodes the linear colors with these sRGB codes, from 0 to 1.
+/// Decodes sRGB codes, scaled to [0, 1], to linear colors.
 #[inline(always)]
 pub(super) fn decode_codes<const N: usize>(codes: Rgb<N>) -> Rgb<N> {
     kernel_part!(N, decode_curve(codes))
 }
 
-/// Decodes the sRGB curve, decoded.
+/// Decodes numbers with the sRGB curve.
 #[inline(always)]
 fn decode_curve<const N: usize>(codes: Rgb<N>) -> Rgb<N> {
     codes.map(|code| {
@@ -109,18 +110,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn consecutive_parts_have_colors_far_apart() {
+    fn consecutive_parts_have_distinct_colors() {
         for part in 0..200 {
             for next in 1..5 {
                 let [a, b] = [part_color(part), part_color(part + next)];
                 let difference = (0..3).map(|k| (a[k] - b[k]).abs()).fold(0.0, f32::max);
-                assert!(difference > 0.06, "{part} and {next} on: {a:?} {b:?}");
+                assert!(difference > 0.06, "{part} and {next} further: {a:?} {b:?}");
             }
         }
     }
 
     #[test]
-    fn a_matcap_is_bright_towards_its_light_and_never_beyond_white() {
+    fn a_matcap_is_bright_toward_its_light_and_at_most_white() {
         let color = |normal| matcap_ball_color(Vec3Lanes::<1>::splat(normal)).lane(0);
         let bright = color([-0.4, 0.64, 0.656]);
         let dark = color([0.4, -0.64, 0.656]);
@@ -131,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn decoded_codes_are_those_that_are_encoded_again() {
+    fn decoded_codes_survive_encoding() {
         let encoder = crate::color::SrgbEncoder::shared();
         for code in 0..=255_u8 {
             let value = f32::from(code) / 255.0;

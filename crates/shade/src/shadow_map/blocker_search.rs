@@ -1,4 +1,4 @@
-//! The search for blockers at many positions of a shadow map, eight at once.
+//! Blocker search at many positions of a shadow map, eight at a time.
 
 use super::visibility::floor_lanes;
 use super::{ReceiverPlane, SLOPE_BIAS, ShadowMap};
@@ -6,20 +6,19 @@ use crate::lanes::Lanes;
 use raster::{LANES, SurfaceDepth};
 use std::sync::LazyLock;
 
-/// Positions in a disc of radius 1, evenly distributed, for the search and the filter of point
-/// lights.
+/// Evenly distributed positions in a disc of radius 1, for the search and filter of point lights.
 pub(crate) static VOGEL_DISC: LazyLock<[[f32; 2]; 48]> =
     LazyLock::new(|| std::array::from_fn(|index| vogel_position(index, 48)));
 
-/// Returns one of `count` evenly distributed positions in a disc of radius 1: Vogel's spiral
-/// (1979), with the golden angle.
+/// Returns one of `count` evenly distributed positions in a disc of radius 1, on Vogel's spiral
+/// (1979) with the golden angle.
 fn vogel_position(index: usize, count: usize) -> [f32; 2] {
     let radius = ((index as f64 + 0.5) / count as f64).sqrt();
     let angle = index as f64 * 2.399_963_229_728_653;
     [(radius * libm::cos(angle)) as f32, (radius * libm::sin(angle)) as f32]
 }
 
-/// Positions in a disc of radius 1, x and y of eight at a time.
+/// Positions in a disc of radius 1, with x and y in groups of eight.
 #[derive(Clone, Copy)]
 pub(super) struct Disc<'a>(&'a [[Lanes<LANES>; 2]]);
 
@@ -43,7 +42,7 @@ static DISCS: LazyLock<[[Lanes<LANES>; 2]; 12]> = LazyLock::new(|| {
     })
 });
 
-/// Returns the positions of the search: fewer in a narrow disc, which has few texels.
+/// Returns the positions for the search. There are fewer in a narrow disc, which has few texels.
 #[inline(always)]
 pub(super) fn search_disc(radius: f32) -> Disc<'static> {
     let range = match radius {
@@ -54,7 +53,7 @@ pub(super) fn search_disc(radius: f32) -> Disc<'static> {
     Disc(DISCS.get(range).unwrap_or_default())
 }
 
-/// Returns the positions of the filter.
+/// Returns the positions for the filter.
 #[inline(always)]
 pub(super) fn filter_disc(radius: f32) -> Disc<'static> {
     let range = match radius {
@@ -72,8 +71,8 @@ pub(super) struct Blockers {
 }
 
 impl ShadowMap {
-    /// Counts the blockers of a receiver at the positions of a disc around it, and adds up their
-    /// depths: the comparisons of [`ShadowMap::find_blocker`].
+    /// Counts the blockers of a receiver at the positions of a disc around it, and sums their
+    /// depths. The comparisons are those of [`ShadowMap::find_blocker`].
     #[inline(always)]
     pub(super) fn count_blockers(
         &self,
@@ -95,7 +94,7 @@ impl ShadowMap {
             let columns = Lanes::from_fn(|lane| columns[lane] as f32);
             let rows = Lanes::from_fn(|lane| rows[lane] as f32);
             let at_center = depths - plane_depths(receiver, columns + 0.5, rows + 0.5);
-            // Slopes are read only if something is above the plane.
+            // Read slopes only if something is above the plane.
             if !at_center.is_above(receiver.bias).contains(&true) {
                 continue;
             }
@@ -112,7 +111,7 @@ impl ShadowMap {
     }
 }
 
-/// Computes the sum of all lanes, computed by halves.
+/// Computes the sum of all lanes by halving.
 #[inline(always)]
 fn sum_lanes(Lanes([a, b, c, d, e, f, g, h]): Lanes<LANES>) -> f32 {
     ((a + e) + (c + g)) + ((b + f) + (d + h))
@@ -131,7 +130,7 @@ mod tests {
     use crate::shadow_map::tests::map;
 
     #[test]
-    fn eight_at_once_are_those_found_one_by_one() {
+    fn eight_positions_at_once_match_single_positions() {
         let map = map(0.5, 30.0);
         for step in 0..500 {
             let [x, z] = [step * 37 % 1000, step * 91 % 1000].map(|c| c as f32 * 0.001);
@@ -161,11 +160,11 @@ mod tests {
     }
 
     #[test]
-    fn discs_are_evenly_spread() {
+    fn disc_positions_are_evenly_distributed() {
         for (radius, count) in [(2.0, 16.0), (4.0, 24.0), (60.0, 48.0)] {
             let disc = filter_disc(radius);
             assert_eq!(disc.position_count(), count);
-            // Over a disc of radius 1 the mean of x² + y² is ½, and x and y have mean 0.
+            // Over a disc of radius 1, the mean of x² + y² is ½, and the means of x and y are 0.
             let (mut sums, mut squares) = ([0.0; 2], 0.0);
             for [x, y] in disc.0 {
                 for lane in 0..LANES {

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //!   ┌──┬──┬──┬──┐
-//!   │  │▒▒│▒▒│▒▒│     ▒ and █ are the neighborhood of block █: whatever is within the side of a
-//!   ├──┼──┼──┼──┤     block from a texel of █ is in it
+//!   │  │▒▒│▒▒│▒▒│     ▒ and █ are the neighborhood of block █, which contains everything within
+//!   ├──┼──┼──┼──┤     the side of a block from any texel of █
 //!   │  │▒▒│██│▒▒│
 //!   └──┴──┴──┴──┘
 //! ```
@@ -17,23 +17,23 @@ const BLOCK_SIDE: usize = 16;
 /// The side of a neighborhood in texels.
 const NEIGHBORHOOD_SIDE: f32 = 3.0 * BLOCK_SIDE as f32;
 
-// Texels are compared at their centers, up to a texel beyond the radius; nothing is looked up
-// beyond the reach of three neighborhoods in a row.
+// Texels are compared at their centers, up to a texel beyond the radius. Lookups must not extend
+// beyond three neighborhoods in a row.
 const _: () = assert!(MAX_FILTER_RADIUS + 1.0 <= NEIGHBORHOOD_SIDE + BLOCK_SIDE as f32);
 
 /// The nearest depth in the neighborhood of each block of a shadow map.
 #[derive(Clone, Debug, Default)]
 pub(super) struct NearestDepths {
-    /// Columns and rows of blocks.
+    /// The numbers of block columns and rows.
     size: [usize; 2],
-    /// The maximum depth of a block and the eight around it, rows from the top.
+    /// The maximum depth of each block and the eight blocks around it, in rows from the top.
     depths: Vec<f32>,
-    /// The depths before the last step of the computation, kept to reuse their memory.
+    /// The depths before the last step of the computation, stored to reuse their memory.
     earlier: Vec<f32>,
 }
 
 impl NearestDepths {
-    /// Computes the depths from the texels of a map, in rows from the top.
+    /// Computes the depths from the texels of a map, which are in rows from the top.
     pub(super) fn find(&mut self, texels: &[SurfaceDepth], size: [u32; 2]) {
         let [columns, rows] = size.map(|side| (side as usize).div_ceil(BLOCK_SIDE));
         self.size = [columns, rows];
@@ -50,7 +50,7 @@ impl NearestDepths {
         self.dilate([0, 1]);
     }
 
-    /// Replaces each depth by the maximum of it and its two neighbors along one axis.
+    /// Replaces each depth by the maximum of itself and its two neighbors along one axis.
     fn dilate(&mut self, step: [usize; 2]) {
         let [columns, rows] = self.size;
         std::mem::swap(&mut self.depths, &mut self.earlier);
@@ -70,8 +70,8 @@ impl NearestDepths {
         self.depths.clear();
     }
 
-    /// Returns the nearest depth within `reach` texels of a position, or a nearer one; 1, the
-    /// nearest possible, if depths are not known.
+    /// Returns a bound on the nearest depth within `reach` texels of a position: that depth or a
+    /// nearer depth. Returns 1, the nearest possible depth, if the depths are not known.
     #[inline(always)]
     pub(super) fn depth_around(&self, [x, y]: [f32; 2], reach: f32) -> f32 {
         if reach <= BLOCK_SIDE as f32 {
@@ -104,7 +104,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_texel_within_reach_is_nearer() {
+    fn texels_within_reach_are_not_nearer_than_the_bound() {
         let size = [150_u32, 90];
         let depth = |index: usize| ((index * 7919) % 10_007) as f32 / 10_007.0;
         let texels: Vec<_> = (0..150 * 90)

@@ -1,11 +1,11 @@
-//! Receivers of shadow: surfaces projected onto a shadow map, with their planes.
+//! Shadow receivers: surfaces projected onto a shadow map, with their planes.
 
 use super::{SLOPE_BIAS, ShadowMap, WorldToShadowMap};
 use crate::lanes::{Lanes, Mask, Vec3Lanes, map_to_lanes};
 
-/// The bias for rounding, relative to the depth of the whole scene.
+/// The bias for rounding errors, relative to the depth of the whole scene.
 const DEPTH_BIAS: f32 = 2e-6;
-/// The steepest receiver plane in depth per texel: more grazing light has no weight.
+/// The steepest receiver plane in depth per texel; at more grazing angles the light is negligible.
 const MAX_PLANE_SLOPE: f32 = 4.0;
 
 /// Surfaces on a shadow map: their positions in texels and depth, and their planes.
@@ -19,7 +19,7 @@ pub(crate) struct ReceiverPlanes<const N: usize> {
     pub(super) slope: [Lanes<N>; 2],
     /// The minimum difference of depth for a blocker.
     pub(super) bias: Lanes<N>,
-    /// The lanes that are on the map, and not behind the light.
+    /// The lanes that are on the map and not behind the light.
     pub(crate) is_on_map: Mask<N>,
 }
 
@@ -36,7 +36,7 @@ pub(crate) struct ReceiverPlane {
 }
 
 impl ReceiverPlane {
-    /// Returns the depth of the plane at a position of the map.
+    /// Returns the depth of the plane at a position on the map.
     #[inline(always)]
     pub(super) fn depth_at(&self, x: f32, y: f32) -> f32 {
         self.depth + self.slope[0] * (x - self.x) + self.slope[1] * (y - self.y)
@@ -59,10 +59,10 @@ impl<const N: usize> ReceiverPlanes<N> {
 }
 
 impl ShadowMap {
-    /// Projects surfaces onto the map, with their planes.
+    /// Projects surfaces and their planes onto the map.
     ///
-    /// Positions and planes are transformed by a matrix and its inverse transpose; both are in
-    /// `f32` relative to the middle of the scene, where rounding is smallest.
+    /// Positions and planes are transformed by a matrix and its inverse transpose. Both are in
+    /// `f32` relative to the center of the scene, which minimizes rounding errors.
     #[inline(always)]
     pub(crate) fn project_receivers<const N: usize>(
         &self,
@@ -73,7 +73,7 @@ impl ShadowMap {
         let p = positions - Vec3Lanes::splat(*origin);
         let [x, y, z, w] = map_to_lanes(rows, |[a, b, c, d]| a * p.x + b * p.y + c * p.z + d);
         let (x, y, depth) = (x / w, y / w, z / w);
-        // The plane (n, −n·p) on the map; its slopes are ratios of the components.
+        // The plane (n, −n·p) on the map, whose slopes are ratios of its components.
         let n = normals;
         let offset = -n.dot(p);
         let [along_row, along_column, along_depth] =
@@ -83,7 +83,7 @@ impl ShadowMap {
             let is_finite = slope.abs().is_below(f32::INFINITY);
             slope.clamp(-MAX_PLANE_SLOPE, MAX_PLANE_SLOPE).select(&is_finite, Lanes::ZERO)
         });
-        // Rounding moves positions by a fraction of the scene's size; near a spot light that is a
+        // Rounding moves positions by a fraction of the scene's size, which near a spot light is a
         // larger fraction of its depth range.
         let bias = DEPTH_BIAS * self.nearness_lanes(depth).max(0.1)
             + SLOPE_BIAS * (slope[0].abs() + slope[1].abs());
@@ -99,7 +99,7 @@ impl ShadowMap {
         ReceiverPlanes { x, y, depth, slope, bias, is_on_map }
     }
 
-    /// [`nearness`](Self::nearness) of each lane.
+    /// Computes the [`nearness`](Self::nearness) of each lane.
     #[inline(always)]
     fn nearness_lanes<const N: usize>(&self, depth: Lanes<N>) -> Lanes<N> {
         match self.depth_at_infinity {

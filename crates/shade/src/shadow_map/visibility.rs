@@ -1,4 +1,4 @@
-//! The visibility of a light from many positions at once: percentage-closer soft shadows.
+//! Percentage-closer soft shadows: the visibility of a light from many positions at once.
 
 use super::blocker_search::{filter_disc, search_disc};
 use super::receiver_planes::ReceiverPlanes;
@@ -9,11 +9,12 @@ use crate::shadow_receiver::ShadowReceiver;
 use raster::{Kernel, SimdLevel, SurfaceDepth};
 
 impl ShadowMap {
-    /// Computes the visibility of the light, 0 to 1, from the receivers in the `wanted` lanes; 0 in
-    /// the others.
+    /// Computes the visibility of the light, 0 to 1, from the receivers in the `wanted` lanes.
+    /// Other lanes are 0.
     ///
-    /// Without softness four texels are compared; with softness up to 24, and within a penumbra up
-    /// to 48 more. Outside the map and behind the light nothing is in shadow.
+    /// For sharp shadows, four texels are compared. For soft shadows there are up to 24
+    /// comparisons, and up to 48 more within a penumbra. Outside the map and behind the light,
+    /// nothing is in shadow.
     #[inline(always)]
     pub(crate) fn visibility<const N: usize>(
         &self,
@@ -24,8 +25,8 @@ impl ShadowMap {
             return Lanes::ZERO;
         }
         let kernel = FindVisibility { map: self, receiver, wanted };
-        // Eight receivers are part of a wide kernel. A single one may not have such a kernel around
-        // it.
+        // Eight receivers are part of a wide kernel, but a single receiver may not be inside such a
+        // kernel.
         if const { N == 1 } {
             SimdLevel::best().run_kernel(kernel)
         } else {
@@ -67,8 +68,8 @@ impl<const N: usize> Kernel for FindVisibility<'_, N> {
 }
 
 impl ShadowMap {
-    /// Computes the visibility inside or outside a penumbra. Returns `None` if it is too narrow to
-    /// be visible.
+    /// Computes the visibility inside or outside a penumbra. Returns `None` if the penumbra is too
+    /// narrow to be visible.
     #[inline(always)]
     fn soft_visibility(&self, receiver: &ReceiverPlane) -> Option<f32> {
         let search_radius = self.search_radius(receiver)?;
@@ -77,13 +78,13 @@ impl ShadowMap {
         if found.count == 0.0 {
             return None;
         }
-        // Penumbra of the mean blocker, by similar triangles (PCSS, Fernando 2005).
+        // The penumbra of the mean blocker, by similar triangles (PCSS, Fernando 2005).
         let mean_depth = found.depth_sum / found.count;
         let radius = self.penumbra_radius(receiver.depth, mean_depth).min(search_radius);
         if radius <= 1.0 {
             return None;
         }
-        // If everything in the wider disc is blocked, so is the narrower one.
+        // If everything in the wider disc is blocked, the narrower disc is blocked too.
         if found.count == disc.position_count() {
             return Some(0.0);
         }
@@ -95,7 +96,7 @@ impl ShadowMap {
     }
 
     /// Computes the radius of the blocker search: the penumbra radius of the nearest possible
-    /// blocker. `None` if nothing can shade the receiver.
+    /// blocker. Returns `None` if nothing can shade the receiver.
     #[inline(always)]
     fn search_radius(&self, receiver: &ReceiverPlane) -> Option<f32> {
         let widest = self.penumbra_radius(receiver.depth, 1.0).clamp(1.5, MAX_FILTER_RADIUS);
@@ -107,11 +108,11 @@ impl ShadowMap {
         (nearest > least).then_some(radius)
     }
 
-    /// Computes the radius in texels of the penumbra at one depth, from a caster at another.
+    /// Computes the penumbra radius in texels at one depth for a caster at another depth.
     ///
-    /// By similar triangles: the size of the light times the distance between receiver and caster,
-    /// divided by the distance between caster and light. In parallel light it grows only with the
-    /// difference of depth.
+    /// By similar triangles, this is the size of the light times the distance between receiver and
+    /// caster, divided by the distance between caster and light. In parallel light it grows only
+    /// with the depth difference.
     #[inline(always)]
     fn penumbra_radius(&self, receiver: f32, caster: f32) -> f32 {
         let distance = match self.depth_at_infinity {
@@ -121,8 +122,8 @@ impl ShadowMap {
         self.penumbra_scale * distance
     }
 
-    /// Percentage-closer filtering over the four nearest texels, with bilinear weights; the plane
-    /// of each is extended to the receiver.
+    /// Applies percentage-closer filtering over the four nearest texels with bilinear weights. The
+    /// plane of each texel is extended to the receiver.
     #[inline(always)]
     pub(crate) fn filter_bilinear<const N: usize>(
         &self,
@@ -154,7 +155,8 @@ impl ShadowMap {
         visible
     }
 
-    /// Depth and slopes of texels; beyond the last, the values of an empty one.
+    /// Fetches the depths and slopes of texels. Beyond the last texel, returns the values of an
+    /// empty texel.
     #[inline(always)]
     fn fetch_texels<const N: usize>(&self, indices: [usize; N]) -> [Lanes<N>; 3] {
         let mut texels = [Lanes::ZERO; 3];
@@ -168,7 +170,7 @@ impl ShadowMap {
     }
 }
 
-/// Computes the largest integers not above the numbers.
+/// Rounds numbers down to integers.
 #[inline(always)]
 pub(super) fn floor_lanes<const N: usize>(numbers: Lanes<N>) -> [i32; N] {
     let mut integers = [0; N];

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!            n  blue          n' = normalize(red · t + green · b + blue · n)
-//!            │ ╱ n'           b  = w · n × t, w = ±1 the handedness of the tangent frame
+//!            │ ╱ n'           b  = w · n × t, where w = ±1 is the handedness of the tangent frame
 //!            │╱
 //!            ●────── t  red
 //!           ╱
@@ -21,20 +21,20 @@ pub(crate) struct TangentLanes<const N: usize> {
 }
 
 impl<const N: usize> TangentLanes<N> {
-    /// Tangents for a mesh without any.
+    /// The tangents for a mesh without tangents.
     pub(crate) const NONE: Self = Self { vectors: Vec3Lanes::ZERO, w: Lanes::ZERO };
 
-    /// 1 if the bitangent is n × t, −1 if it is opposite.
+    /// Returns 1 if the bitangent is n × t, or −1 if it is opposite.
     #[inline(always)]
     pub(crate) fn handedness(&self) -> Lanes<N> {
         self.w.map(|w| if w < 0.0 { -1.0 } else { 1.0 })
     }
 }
 
-/// Transforms the normals of a normal map from tangent space to the world.
+/// Transforms the normals of a normal map from tangent space to world space.
 ///
 /// The frame consists of unit vectors, as MikkTSpace requires, but is not orthogonalized. The
-/// surface's normal is kept if it has no tangent, or if the sum has no direction.
+/// surface normal is returned unchanged if there is no tangent or the sum has no direction.
 #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
 #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
 pub(super) fn apply_normal_map<const N: usize>(
@@ -45,7 +45,7 @@ pub(super) fn apply_normal_map<const N: usize>(
     let tangent = tangents.vectors;
     let bitangent = normals.cross(tangent);
     let bitangent_square = bitangent.dot(bitangent);
-    // Red along the unit tangent, green along the unit bitangent.
+    // Red is along the unit tangent, and green is along the unit bitangent.
     let u = tangent_normals.x / tangent.dot(tangent).sqrt();
     let v = tangents.handedness() * tangent_normals.y / bitangent_square.sqrt();
     let sum = tangent * u + bitangent * v + normals * tangent_normals.z;

@@ -5,8 +5,8 @@
 //!   coordinates ─► texels of the level ─► wrap mode ─► four indices, fractions across and down
 //! ```
 //!
-//! This depends on the size of an image and on its sampler, not on its texels, so that the textures
-//! of a material, which usually share both, share the work.
+//! This depends on the size and sampler of an image, not on its texels. The textures of a material
+//! usually have the same size and sampler, and then share the work.
 
 use crate::approximations::{floor_to_int, log2_approx};
 use crate::lanes::Lanes;
@@ -20,22 +20,23 @@ pub(crate) struct TexelAddressing {
     /// Number of texels per column of the full image.
     pub(super) height: i32,
     /// The index of the smallest mip level. The full image is level 0, and each level has half the
-    /// size of the previous one.
+    /// size of the previous level.
     pub(super) last_level: i32,
-    /// Filters and wrap modes.
+    /// The filters and wrap modes.
     pub(super) sampler: Sampler,
 }
 
-/// The mip levels that each lane reads: 0 is the full image magnified, n is level n − 1 minified.
+/// The mip levels that each lane reads: 0 is the magnified full image, and n is the minified level
+/// n − 1.
 ///
-/// Magnification has a separate number because its filter may differ.
+/// Magnification has a separate number because its filter may be different.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LevelOfDetail<const N: usize> {
     /// The level at or above the level of detail.
     pub(super) near_levels: [i32; N],
-    /// The next coarser level; the same as the near one if it has no weight.
+    /// The next coarser level, or the near level if the coarser level has no weight.
     pub(super) far_levels: [i32; N],
-    /// The weights of the far levels in a linear interpolation from the near ones.
+    /// The weights of the far levels in a linear interpolation from the near levels.
     pub(super) far_weights: Lanes<N>,
     /// Whether a far level has a weight in any lane.
     pub(super) is_trilinear: bool,
@@ -46,13 +47,13 @@ pub(super) struct LevelOfDetail<const N: usize> {
 pub(super) struct TexelQuads<const N: usize> {
     /// The mip levels, from 0 for the full image.
     pub(super) levels: [i32; N],
-    /// The indices of the texels in their level: upper left, upper right, lower left, lower right.
+    /// The texel indices in their level: upper left, upper right, lower left, lower right.
     pub(super) texels: [[i32; N]; 4],
-    /// The fraction of the way from the left texels to the right ones.
+    /// The fraction of the way from the left to the right texels.
     pub(super) column_fractions: Lanes<N>,
-    /// The fraction of the way from the upper texels to the lower ones.
+    /// The fraction of the way from the upper to the lower texels.
     pub(super) row_fractions: Lanes<N>,
-    /// Whether all lanes use the nearest filter: only the upper left texel then has a weight.
+    /// Whether all lanes use the nearest filter, so that only the upper left texel has a weight.
     pub(super) are_nearest: bool,
 }
 
@@ -63,8 +64,9 @@ impl TexelAddressing {
         self.last_level > 0 || self.sampler.mag_filter != self.sampler.min_filter
     }
 
-    /// Mip level selection: the level of detail from the derivatives of the texture coordinates
-    /// with respect to the pixel's column and row (glTF 2.0 leaves the formula to OpenGL, 8.14.1).
+    /// Selects mip levels: computes the level of detail from the derivatives of the texture
+    /// coordinates with respect to the pixel's column and row (glTF 2.0 leaves the formula to
+    /// OpenGL, 8.14.1).
     #[inline(always)]
     pub(super) fn select_levels<const N: usize>(
         &self,
@@ -82,17 +84,17 @@ impl TexelAddressing {
         let Sampler { mag_filter, min_filter, mipmap_mode, .. } = self.sampler;
         let (width, height) = (self.width as f32, self.height as f32);
         let round = if mipmap_mode == MipmapMode::Nearest { 0.5 } else { 0.0 };
-        // Conditions with `&` instead of `&&`, and values instead of branches, so that the loop is
-        // vectorized.
+        // Use `&` instead of `&&` and values instead of branches, so that the loop is vectorized.
         for lane in 0..N {
             let (xu, xv) = (dx[0][lane] * width, dx[1][lane] * height);
             let (yu, yv) = (dy[0][lane] * width, dy[1][lane] * height);
             // The number of texels that a pixel covers along its longer side, squared.
             let square = (xu * xu + xv * xv).max(yu * yu + yv * yv);
-            // Not minified if a texel is larger than the pixel, or if derivatives are not finite.
+            // Not minified if a texel is larger than the pixel or derivatives are not finite.
             let is_minified = (square > 1.0) & (square < f32::INFINITY);
             let lambda = 0.5 * log2_approx(if is_minified { square } else { 1.0 });
-            // Level of detail, rounded down for trilinear filtering and to nearest for one level.
+            // The level of detail, rounded down for trilinear filtering, and to nearest for a
+            // single level.
             let level = floor_to_int(lambda + round).min(self.last_level);
             let is_between = (mipmap_mode == MipmapMode::Linear) & (level < self.last_level);
             let is_magnified = (mag_filter != min_filter) & (lambda <= 0.0);
@@ -106,10 +108,10 @@ impl TexelAddressing {
         lod
     }
 
-    /// Locates the texels around a position, on levels in the numbering of [`LevelOfDetail`].
+    /// Locates the texels around a position, on levels numbered as in [`LevelOfDetail`].
     ///
-    /// With nearest filtering all four are computed too, for lanes that filter linearly; the
-    /// fractions are then 0.
+    /// All four texels are also computed for lanes with nearest filtering, because other lanes may
+    /// filter linearly; their fractions are 0.
     #[inline(always)]
     pub(super) fn locate_texels<const N: usize>(
         &self,
@@ -145,21 +147,21 @@ impl TexelAddressing {
     }
 }
 
-/// Positions among the texels of a row or column: the two neighbors along one axis of a quad.
+/// Positions within a row or column of texels: the two neighbors along one axis of a quad.
 struct TexelAxis<const N: usize> {
-    /// Texels of the level along this axis.
+    /// The number of texels of the level along this axis.
     sizes: [i32; N],
     /// The wrapped index of the texel before the position.
     first: [i32; N],
     /// The wrapped index of the texel after the position.
     second: [i32; N],
-    /// The fraction of the way from the first to the second.
+    /// The fraction of the way from the first to the second texel.
     fractions: Lanes<N>,
 }
 
 impl<const N: usize> TexelAxis<N> {
-    /// Locates coordinates on an image of a given size, each on a separate level; coordinates that
-    /// are not filtered linearly fall on a texel.
+    /// Locates coordinates on an image of a given size, each on a separate level. Coordinates that
+    /// are not filtered linearly map to a single texel.
     #[inline(always)]
     fn locate(
         coordinates: Lanes<N>,
@@ -172,7 +174,8 @@ impl<const N: usize> TexelAxis<N> {
         let mut fractions = Lanes::ZERO;
         for lane in 0..N {
             sizes[lane] = (size >> levels[lane]).max(1);
-            // Linear filtering passes through the texel centers, at half-integer coordinates.
+            // Linear filtering passes through the texel centers, which are at half-integer
+            // coordinates.
             let to_center = if are_linear[lane] { 0.5 } else { 0.0 };
             let x = coordinates[lane] * sizes[lane] as f32 - to_center;
             let texel = floor_to_int(x);
@@ -197,22 +200,22 @@ fn wrap_texels<const N: usize>(
     mode: WrapMode,
 ) -> [i32; N] {
     let mut wrapped = *texels;
-    // Clamp to edge: the border texel continues forever.
+    // Clamp to edge: the border texel extends indefinitely.
     if mode == WrapMode::ClampToEdge {
         for (texel, size) in wrapped.iter_mut().zip(sizes) {
             *texel = (*texel).max(0).min(size - 1);
         }
         return wrapped;
     }
-    // Mirrored repeat has a period of two images, the second mirrored.
+    // Mirrored repeat has a period of two images, of which the second is mirrored.
     let images = if mode == WrapMode::MirroredRepeat { 2 } else { 1 };
-    // Repeat: the remainder, which for a power of two is a mask.
+    // Repeat: the remainder, which is a mask for a power of two.
     if are_powers {
         for (texel, size) in wrapped.iter_mut().zip(sizes) {
             *texel &= images * size - 1;
         }
     } else {
-        // A division is slow, and usually all texels are already within the image.
+        // Division is slow, and usually all texels are already within the image.
         let mut are_inside = true;
         for (texel, size) in texels.iter().zip(sizes) {
             are_inside &= (*texel >= 0) & (*texel < images * size);

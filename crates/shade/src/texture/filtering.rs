@@ -7,12 +7,12 @@
 //!    c ──○──── d        ◆ = lerp(●, ○, t)
 //! ```
 //!
-//! Colors are decoded from sRGB before they are mixed, using a table (the `*_SRGB` formats of
-//! Vulkan). Alpha is straight, not premultiplied, as in glTF, and is filtered separately: the color
+//! Colors are decoded from sRGB with a table before they are mixed, as in the `*_SRGB` formats of
+//! Vulkan. Alpha is straight, not premultiplied, as in glTF, and is filtered separately. The color
 //! of transparent texels bleeds into their neighbors, so exporters add padding.
 //!
-//! With eight lanes a texel is fetched lane by lane, as one 32-bit number, and all arithmetic uses
-//! all lanes.
+//! With eight lanes, texels are fetched lane by lane as 32-bit numbers, and all arithmetic uses all
+//! lanes.
 
 use super::addressing::TexelQuads;
 use super::footprint::Tap;
@@ -23,8 +23,8 @@ impl MipChain<'_> {
     /// Computes the filtered color of the texture, linear with straight alpha, over the footprints
     /// of pixels.
     ///
-    /// At most `anisotropy` taps are read along the longer axis of a footprint. Alpha is 1 unless
-    /// it is needed.
+    /// At most `anisotropy` taps are read along the longer axis of a footprint. If alpha is not
+    /// needed, it is 1.
     #[inline(always)]
     pub(crate) fn sample<const N: usize>(
         &self,
@@ -50,8 +50,8 @@ impl MipChain<'_> {
         needs_alpha: bool,
         sum: &mut TexelLanes<N>,
     ) {
-        // Trilinear: interpolates from the first level toward the second; the first starts with
-        // weight 1.
+        // Trilinear: interpolate from the first level, which starts with weight 1, toward the
+        // second.
         let mut texel = TexelLanes::ZERO;
         for level in 0..tap.level_count {
             let next = self.filter_texels(&tap.quads[level], needs_alpha);
@@ -61,7 +61,7 @@ impl MipChain<'_> {
         sum.alpha += texel.alpha * tap.tap_weights;
     }
 
-    /// Bilinear interpolation in quads of texels, channel by channel.
+    /// Interpolates bilinearly in quads of texels, channel by channel.
     #[inline(always)]
     fn filter_texels<const N: usize>(
         &self,
@@ -82,9 +82,9 @@ impl MipChain<'_> {
         TexelLanes { color: Rgb { r, g, b }, alpha }
     }
 
-    /// Bilinear interpolation of colors, decoded from sRGB before they are mixed.
+    /// Interpolates colors bilinearly, after decoding them from sRGB.
     ///
-    /// The codes go from the texel to the table byte by byte: if they were packed into vectors they
+    /// The codes are looked up in the table byte by byte; if they were packed into vectors, they
     /// would have to be extracted again.
     #[inline(always)]
     fn filter_srgb_texels<const N: usize>(
@@ -116,7 +116,7 @@ impl MipChain<'_> {
     #[inline(always)]
     fn fetch_texels<const N: usize>(&self, quads: &TexelQuads<N>) -> [[u32; N]; 4] {
         let mut packed = [[0; N]; 4];
-        // A gather: each lane has a separate mip level.
+        // A gather, because each lane has a separate mip level.
         for lane in 0..N {
             let texels: &[[u8; 4]] = &self.levels[quads.levels[lane] as usize].texels;
             for (packed, indices) in packed.iter_mut().zip(&quads.texels) {
@@ -133,22 +133,22 @@ fn channel_code(texel: u32, channel: usize) -> u32 {
     texel >> (8 * channel) & 255
 }
 
-/// Computes one channel that is stored linearly, from 0 to 1. The division by 255 comes after the
-/// interpolation: one division instead of four.
+/// Interpolates one channel that is stored linearly, from 0 to 1. Dividing by 255 after the
+/// interpolation takes one division instead of four.
 #[inline(always)]
 fn filter_linear_channel<const N: usize>(
     texels: &[[u32; N]; 4],
     channel: usize,
     quads: &TexelQuads<N>,
 ) -> Lanes<N> {
-    // Via `i32`, which vector instructions can convert to `f32`, unlike `u32`.
+    // Convert via `i32`, which vector instructions can convert to `f32`, unlike `u32`.
     let codes = map_to_lanes(texels, |texels| {
         Lanes::from_fn(|lane| channel_code(texels[lane], channel) as i32 as f32)
     });
     bilinear(codes, quads) / 255.0
 }
 
-/// Bilinear interpolation between upper left, upper right, lower left and lower right.
+/// Interpolates bilinearly between the upper left, upper right, lower left and lower right values.
 #[inline(always)]
 fn bilinear<const N: usize>([a, b, c, d]: [Lanes<N>; 4], quads: &TexelQuads<N>) -> Lanes<N> {
     if quads.are_nearest {

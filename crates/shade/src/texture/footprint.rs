@@ -1,14 +1,14 @@
 //! Anisotropic filtering: the footprint of a pixel on a texture, sampled along its longer axis.
 //!
 //! ```text
-//!      ┌──────────────╱╱╲      a pixel's image on the texture is about an ellipse: where a floor
-//!      │       ●  ●  ●  ╱      runs away from the viewer a long one, and one level of the mip
-//!      │    ●  ●  ●    ╱       chain is too blurred across it or too sharp along it
+//!      ┌──────────────╱╱╲      a pixel's image on the texture is roughly an ellipse. On a floor
+//!      │       ●  ●  ●  ╱      that recedes from the viewer the ellipse is long, and any mip
+//!      │    ●  ●  ●    ╱       level is either too blurred across it or too sharp along it
 //!      ╲╲_____________╱
 //! ```
 //!
 //! The texture is therefore read at several taps along the longer axis, on the mip level whose
-//! texels are as large as the shorter one (Heckbert, *Fundamentals of texture mapping and image
+//! texels are as large as the shorter axis (Heckbert, *Fundamentals of texture mapping and image
 //! warping*, 1989; McCormack and others, *Feline: fast elliptical lines for anisotropic texture
 //! mapping*, 1999).
 //!
@@ -20,7 +20,7 @@ use super::addressing::{LevelOfDetail, TexelAddressing, TexelQuads};
 use crate::approximations::floor_to_int;
 use crate::lanes::Lanes;
 
-/// The footprints of pixels on textures with common addressing: taps on a line, all on the same
+/// The footprints of pixels on textures with the same addressing: taps on a line, all on the same
 /// levels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Footprint<const N: usize> {
@@ -28,7 +28,7 @@ pub(crate) struct Footprint<const N: usize> {
     center: [Lanes<N>; 2],
     /// The number of taps, at least 1.
     tap_counts: Lanes<N>,
-    /// The line in texture coordinates, from end to end; zero if there is one tap.
+    /// The line in texture coordinates, from end to end; zero if there is only one tap.
     major_axis: [Lanes<N>; 2],
     /// The mip levels of each tap.
     lod: LevelOfDetail<N>,
@@ -37,18 +37,18 @@ pub(crate) struct Footprint<const N: usize> {
 /// One tap of the footprints, in all lanes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tap<const N: usize> {
-    /// The texels of the nearer mip level, and of the next.
+    /// The texels of the nearer mip level and the next.
     pub(super) quads: [TexelQuads<N>; 2],
-    /// The number of levels, 1 or 2, that have a weight in any lane.
+    /// The number of levels, 1 or 2, with a weight in any lane.
     pub(super) level_count: usize,
-    /// The weights of the levels, each relative to the levels before.
+    /// The weights of the levels, each relative to the preceding levels.
     pub(super) level_weights: [Lanes<N>; 2],
     /// The weight of the tap in its footprint: 0 in lanes with fewer taps.
     pub(super) tap_weights: Lanes<N>,
 }
 
 impl<const N: usize> Footprint<N> {
-    /// Returns the largest number of taps in any lane.
+    /// Returns the maximum number of taps in any lane.
     #[inline(always)]
     pub(crate) fn max_tap_count(&self) -> u32 {
         let mut count = 1.0_f32;
@@ -58,7 +58,7 @@ impl<const N: usize> Footprint<N> {
         count as u32
     }
 
-    /// Returns the tap at an index starting at 0: taps are at the midpoints of equal parts of the
+    /// Returns the tap at an index starting at 0. Taps are at the midpoints of equal parts of the
     /// line.
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
     #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
@@ -83,7 +83,7 @@ impl<const N: usize> Footprint<N> {
 impl TexelAddressing {
     /// Computes the footprints of pixels, with at most `anisotropy` taps.
     ///
-    /// The number of taps is the ratio of the axes, rounded, and at least 1.
+    /// The number of taps is the rounded ratio of the axes, and at least 1.
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
     #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(crate) fn footprint<const N: usize>(
@@ -94,7 +94,8 @@ impl TexelAddressing {
         let mut tap_counts = Lanes::ONE;
         let mut major_axis = [Lanes::ZERO; 2];
         let mut steps = [uvs.dx, uvs.dy];
-        // Without mip levels every tap would read full-size texels: one tap, and aliasing.
+        // Without mip levels every tap would read full-size texels, so use one tap and accept
+        // aliasing.
         if anisotropy > 1 && self.last_level > 0 {
             let most = anisotropy as f32;
             self.fit_anisotropy(most, &mut tap_counts, &mut major_axis, &mut steps);
@@ -102,11 +103,11 @@ impl TexelAddressing {
         Footprint { center: uvs.uv, tap_counts, major_axis, lod: self.select_levels(&steps) }
     }
 
-    /// Fits the ellipse of a pixel's footprint: long ellipses become a line of taps, and the
-    /// derivatives are replaced by steps for a single tap.
+    /// Fits the ellipse of a pixel's footprint. A long ellipse becomes a line of taps, and the
+    /// derivatives are replaced by the steps for a single tap.
     ///
-    /// The ellipse has the axes of J Jᵀ: J, the derivatives in texels, maps the unit circle to it.
-    /// The squared lengths of the axes are the eigenvalues; the longer axis is an eigenvector.
+    /// J, the derivatives in texels, maps the unit circle to the ellipse, whose axes are those of J
+    /// Jᵀ: their squared lengths are the eigenvalues, and the longer axis is an eigenvector.
     #[inline(always)]
     fn fit_anisotropy<const N: usize>(
         &self,
@@ -121,10 +122,10 @@ impl TexelAddressing {
             let (xu, xv) = (dx[0][lane] * width, dx[1][lane] * height);
             let (yu, yv) = (dy[0][lane] * width, dy[1][lane] * height);
             let (uu, vv, uv) = (xu * xu + yu * yu, xv * xv + yv * yv, xu * xv + yu * yv);
-            // Trace and determinant of the 2 × 2 matrix; the determinant of J is the product of the
-            // axes.
+            // The trace and determinant of the 2 × 2 matrix; the determinant of J is the product of
+            // the axes.
             let (trace, area) = (uu + vv, xu * yv - xv * yu);
-            // The longer axis: the root of the larger eigenvalue.
+            // The longer axis is the square root of the larger eigenvalue.
             let root = ((uu - vv) * (uu - vv) + 4.0 * uv * uv).sqrt();
             let longer = (0.5 * (trace + root)).sqrt();
             let shorter = area.abs() / longer;
@@ -132,7 +133,7 @@ impl TexelAddressing {
             let ratio = (longer / shorter.max(1.0) + 0.5).max(0.0);
             let count = (floor_to_int(ratio) as f32).min(most);
             let is_long = (count > 1.0) & (longer < 1e6);
-            // Of the two forms of the eigenvector, the one that does not vanish.
+            // Use the form of the eigenvector that does not vanish.
             let x = if uu > vv { 0.5 * (uu - vv + root) } else { uv };
             let y = if uu > vv { uv } else { 0.5 * (vv - uu + root) };
             let inv_length = 1.0 / (x * x + y * y).sqrt();
@@ -157,10 +158,10 @@ mod tests {
     use model::{Image, Sampler};
 
     #[test]
-    fn a_long_footprint_is_the_ellipse_of_its_derivatives() {
+    fn long_footprints_fit_the_ellipse_of_their_derivatives() {
         let image = Image { width: 64, height: 64, rgba: vec![[0; 4]; 64 * 64] };
         let mip_chain = MipChain::new(&image, Sampler::default(), TexelEncoding::Linear);
-        // Axes of 12 and 3 texels, rotated by an angle; the pixel's axes are rotated too.
+        // Axes of 12 and 3 texels, rotated by an angle; the pixel's axes are also rotated.
         for (angle, pixel_angle) in [(0.0, 0.0), (0.4, 0.0), (1.2, 0.7), (2.5, 1.9), (1.5, 0.3)] {
             let rotate = |x: f32, y: f32, angle: f32| {
                 let (sine, cosine) = (libm::sinf(angle), libm::cosf(angle));

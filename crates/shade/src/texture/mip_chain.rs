@@ -3,7 +3,7 @@
 //! ```text
 //!   level 0        level 1     2    …
 //!  ┌────────────┐  ┌──────┐  ┌───┐ ┌─┐
-//!  │            │  │      │  └───┘ └─┘     each texel the mean of 2 × 2 of the level before
+//!  │            │  │      │  └───┘ └─┘     each texel is the mean of 2 × 2 in the level before
 //!  │            │  └──────┘
 //!  └────────────┘
 //! ```
@@ -19,20 +19,20 @@ use std::sync::OnceLock;
 pub struct MipChain<'a> {
     pub(super) levels: Vec<MipLevel<'a>>,
     pub(super) addressing: TexelAddressing,
-    /// The linear light of each code, for textures that hold colors.
+    /// The linear light of each code, for textures that contain colors.
     pub(super) srgb_table: Option<&'static [f32; 256]>,
 }
 
 /// The encoding of texels.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum TexelEncoding {
-    /// Red, green and blue are sRGB, alpha is linear.
+    /// Red, green and blue are sRGB; alpha is linear.
     Srgb,
-    /// All four are linear, from 0 to 1.
+    /// All four channels are linear, from 0 to 1.
     Linear,
 }
 
-/// One mip level: texels with straight alpha, rows from the top. The full image is borrowed.
+/// A mip level: texels with straight alpha, in rows from the top. The full image is borrowed.
 #[derive(Clone, Debug)]
 pub(super) struct MipLevel<'a> {
     width: i32,
@@ -41,9 +41,9 @@ pub(super) struct MipLevel<'a> {
 }
 
 impl<'a> MipChain<'a> {
-    /// Builds the levels of an image; only the first if the sampler needs no others.
+    /// Builds the levels of an image, or only the first if the sampler does not need others.
     ///
-    /// The full image is borrowed: several chains with different samplers may share it.
+    /// The full image is borrowed, so several chains with different samplers can share it.
     ///
     /// Colors are averaged in linear light. The levels take a third of the image's memory.
     #[must_use]
@@ -94,8 +94,9 @@ impl<'a> MipChain<'a> {
 }
 
 impl MipLevel<'_> {
-    /// Computes the next level, of half the size, by a box filter over 2 × 2 texels. Returns `None`
-    /// after a single texel. If the number of rows or columns is odd, the last one is skipped.
+    /// Computes the next level, of half the size, with a box filter over 2 × 2 texels. Returns
+    /// `None` after a single texel. If the number of rows or columns is odd, the last row or column
+    /// is skipped.
     fn downsample<'b>(&self, average: impl Fn([[u8; 4]; 4]) -> [u8; 4]) -> Option<MipLevel<'b>> {
         if self.width == 1 && self.height == 1 {
             return None;
@@ -108,12 +109,12 @@ impl MipLevel<'_> {
         };
         for y in 0..height {
             let (upper, lower) = (row(2 * y), row(2 * y + 1));
-            // Only the height of a one-texel-wide level is halved.
+            // If a level is one texel wide, only its height is halved.
             if let ([a], [b]) = (upper, lower) {
                 texels.push(average([*a, *a, *b, *b]));
                 continue;
             }
-            // Pairs of texels, without a last one that has no partner.
+            // Pairs of texels, without an unpaired last texel.
             let pairs = upper.as_chunks::<2>().0.iter().zip(lower.as_chunks::<2>().0);
             texels.extend(pairs.map(|(&[a, b], &[c, d])| average([a, b, c, d])));
         }
@@ -139,7 +140,7 @@ struct SrgbAverager {
 }
 
 impl SrgbAverager {
-    /// Returns the tables, computed once.
+    /// Returns the tables, which are computed once.
     fn shared() -> &'static Self {
         static TABLES: OnceLock<SrgbAverager> = OnceLock::new();
         TABLES.get_or_init(|| {
@@ -150,10 +151,10 @@ impl SrgbAverager {
         })
     }
 
-    /// Computes the mean of four colors in linear light; alpha is already linear.
+    /// Computes the mean of four colors in linear light. Alpha is already linear.
     fn average(&self, four: [[u8; 4]; 4]) -> [u8; 4] {
         let color = |k: usize| {
-            // Mean in linear light, in 16 bits, then back to the nearest sRGB code.
+            // The mean in linear light with 16 bits, then back to the nearest sRGB code.
             let sum: u32 = four.iter().map(|texel| self.linear[usize::from(texel[k])]).sum();
             self.codes[((sum + 2) / 4) as usize]
         };

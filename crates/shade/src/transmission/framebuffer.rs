@@ -4,14 +4,14 @@
 //! ```text
 //!   opaque surfaces ─► linear radiance, alpha ──┐
 //!                                               ├─► mip levels ─► lookup at the exit of the ray,
-//!   backdrop, where ─► display colors, alpha ───┘                 at the level of the roughness
+//!   backdrop, where ─► display colors, alpha ───┘                 at the level for the roughness
 //!   no surface is
 //! ```
 //!
-//! Surfaces and a visible environment are light, and are tone mapped with the light that the glass
-//! reflects. Backdrop and background already are display colors and are not tone mapped, so they
-//! are kept separate. Everything is premultiplied: over an empty part of a transparent background,
-//! glass is transparent too.
+//! Surfaces and a visible environment are light, and are tone mapped together with the light that
+//! the glass reflects. The backdrop and background are already display colors and are not tone
+//! mapped, so they are stored separately. Everything is premultiplied, so over an empty part of a
+//! transparent background, glass is also transparent.
 
 use super::mip_levels::MipLevels;
 use super::refraction::{blur_levels, channel_iors, refracted_exits};
@@ -22,29 +22,30 @@ use crate::{Backdrop, Draw};
 use glam::{DMat4, DVec3};
 use raster::for_each_parallel;
 
-/// The maximum light of a texel, the largest half float: a single texel beyond it, from a sun or
+/// The maximum light of a texel, the largest half float. A single texel beyond it, from a sun or
 /// its reflection, would be infinite in all levels.
 const MAX_RADIANCE: f32 = 65_504.0;
 
-/// A picture of the opaque surfaces of a scene with its mip levels.
+/// A picture of the opaque surfaces of a scene, with its mip levels.
 #[derive(Clone, Debug)]
 pub struct TransmissionFramebuffer {
-    /// The projection of positions to the picture.
+    /// The projection from positions to the picture.
     projection: ScreenProjection,
-    /// Radiance of surfaces and of a visible environment.
+    /// The radiance of surfaces and a visible environment.
     surfaces: MipLevels,
-    /// Display colors of the backdrop over the background, without the parts that surfaces hide.
+    /// The display colors of the backdrop over the background, without the parts that surfaces
+    /// hide.
     backdrop: Option<MipLevels>,
-    /// The display color of the background, premultiplied.
+    /// The premultiplied display color of the background.
     background: [f32; 4],
 }
 
-/// The view of a transmission framebuffer: from positions in the world to texels.
+/// The view of a transmission framebuffer, which maps positions in the world to texels.
 #[derive(Clone, Copy, Debug)]
 pub struct ScreenProjection {
     /// Width and height of the framebuffer in texels.
     size: [u32; 2],
-    /// The position that others are relative to.
+    /// The origin that positions are relative to.
     origin: [f32; 3],
     /// The rows of the matrix from relative positions to (x·w, y·w, w).
     rows: [[f32; 4]; 3],
@@ -53,16 +54,16 @@ pub struct ScreenProjection {
 /// The light that arrives through a surface from behind.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightBehind<const N: usize> {
-    /// Radiance of surfaces, premultiplied.
+    /// The premultiplied radiance of surfaces.
     pub(crate) radiance: Rgb<N>,
-    /// Colors of backdrop and background as in the picture, premultiplied.
+    /// The premultiplied display colors of backdrop and background.
     pub(crate) display: Rgb<N>,
-    /// Combined alpha of both.
+    /// The combined alpha of both.
     pub(crate) alpha: Lanes<N>,
 }
 
 impl<const N: usize> LightBehind<N> {
-    /// No light, and nothing that blocks it.
+    /// No light, and nothing that blocks light.
     const NONE: Self = Self { radiance: Rgb::ZERO, display: Rgb::ZERO, alpha: Lanes::ZERO };
 }
 
@@ -79,7 +80,7 @@ impl ScreenProjection {
         Self { size, origin: origin.to_array(), rows }
     }
 
-    /// Computes the positions in texels; arbitrary for positions behind the eye.
+    /// Projects positions to texels. The result is arbitrary for positions behind the eye.
     #[inline(always)]
     fn project<const N: usize>(&self, positions: Vec3Lanes<N>) -> [Lanes<N>; 2] {
         let Vec3Lanes { x, y, z } = positions - Vec3Lanes::splat(self.origin);
@@ -90,11 +91,11 @@ impl ScreenProjection {
 }
 
 impl TransmissionFramebuffer {
-    /// Creates the framebuffer for a picture of all opaque surfaces.
+    /// Creates the framebuffer from a picture of all opaque surfaces.
     ///
-    /// `surfaces` is linear radiance, premultiplied by alpha, rows from the top; behind it are the
-    /// backdrop and the `background`, a linear display color premultiplied by alpha. Uses up to
-    /// `threads` threads, with the same result for any number.
+    /// `surfaces` is linear premultiplied radiance, in rows from the top. Behind it are the
+    /// backdrop and the `background`, a linear premultiplied display color. Uses up to `threads`
+    /// threads, with the same result for any number.
     #[must_use]
     pub fn new(
         projection: ScreenProjection,
@@ -103,7 +104,7 @@ impl TransmissionFramebuffer {
         background: [f32; 4],
         threads: usize,
     ) -> Self {
-        // NaN becomes 0: one texel would otherwise spoil all levels.
+        // NaN becomes 0, because a single texel would otherwise spoil all levels.
         let bounded = |light: f32| if light > 0.0 { light.min(MAX_RADIANCE) } else { 0.0 };
         for texel in &mut surfaces {
             *texel = texel.map(bounded);
@@ -117,9 +118,9 @@ impl TransmissionFramebuffer {
         Self { projection, surfaces, backdrop, background }
     }
 
-    /// Computes the light behind surfaces of a draw, refracted and blurred; not yet tinted.
+    /// Computes the light behind the surfaces of a draw, refracted and blurred but not yet tinted.
     ///
-    /// This is not inlined into the shading kernel: it is a gather from memory that wider
+    /// This is not inlined into the shading kernel, because it gathers from memory, which wider
     /// instructions do not speed up, and most fragments do not need it.
     #[inline(never)]
     pub(crate) fn light_behind<const N: usize>(
@@ -133,8 +134,8 @@ impl TransmissionFramebuffer {
         let levels = blur_levels(inputs.roughness, ior, width.max(height) as f32);
         let lengths = inputs.layers.thickness * draw.world_scale;
         let [red, green, blue] = channel_iors(draw);
-        // Dispersion: each channel is refracted separately; alpha uses the green ray. A single
-        // loop, so that there is one copy of the lookup.
+        // Dispersion: each channel is refracted separately; alpha uses the green ray. There is a
+        // single loop, so that the code has one copy of the lookup.
         let iors = [green, red, blue];
         let count = if red == blue { 1 } else { iors.len() };
         let mut light = LightBehind::NONE;
@@ -149,7 +150,7 @@ impl TransmissionFramebuffer {
         light
     }
 
-    /// Computes the mean light around positions in the world, at a mip level.
+    /// Samples the mean light around positions in the world at a mip level.
     #[inline(always)]
     fn sample<const N: usize>(&self, positions: Vec3Lanes<N>, levels: Lanes<N>) -> LightBehind<N> {
         let [x, y] = self.projection.project(positions);

@@ -1,30 +1,30 @@
-//! Mip levels of the transmission framebuffer: light of any brightness, from full size to one
+//! The mip levels of the transmission framebuffer: light of any brightness, from full size to one
 //! texel.
 //!
 //! ```text
-//!   level 0      one texel per pixel, sampled bilinearly: sharp where nothing is blurred
-//!   level 1 …    each texel the mean of 2 × 2 of the level before, sampled by a quadratic
-//!                B-spline: bilinear sampling of so few texels would show them as diamonds
+//!   level 0      one texel per pixel, sampled bilinearly, so unblurred light stays sharp
+//!   level 1 …    each texel is the mean of 2 × 2 in the level before, sampled with a quadratic
+//!                B-spline; bilinear sampling would show these large texels as diamonds
 //! ```
 //!
-//! Texel (i, j) of level k covers the pixels from (i, j) · 2ᵏ on: halved sizes are rounded up, so
-//! that levels are not shifted against each other. Alpha is premultiplied.
+//! Texel (i, j) of level k covers the pixels starting at (i, j) · 2ᵏ. Halved sizes are rounded up,
+//! so that levels are not shifted relative to each other. Alpha is premultiplied.
 
 use raster::for_each_parallel;
 
 /// A picture at full size, half size, quarter size and so on.
 #[derive(Clone, Debug)]
 pub(super) struct MipLevels {
-    /// From the full size to a single texel.
+    /// The levels from full size to a single texel.
     levels: Vec<FramebufferLevel>,
 }
 
-/// One mip level, rows from the top.
+/// A mip level, in rows from the top.
 #[derive(Clone, Debug)]
 struct FramebufferLevel {
     /// Width and height in texels.
     size: [usize; 2],
-    /// The inverse of the number of full-size pixels per texel along a side: a power of two.
+    /// The inverse of the number of full-size pixels per texel along a side, a power of two.
     scale: f32,
     texels: Vec<[f32; 4]>,
 }
@@ -40,10 +40,10 @@ impl MipLevels {
         Self { levels }
     }
 
-    /// Computes the trilinear mean around a position in full-size pixels.
+    /// Samples the trilinear mean around a position in full-size pixels.
     ///
-    /// Positions beyond the border have the value at the border. `level` is 0 for the full size; it
-    /// is clamped to the existing levels.
+    /// Positions beyond the border have the value at the border. `level` is 0 for the full size,
+    /// and is clamped to the existing levels.
     #[inline(always)]
     pub(super) fn sample(&self, position: [f32; 2], level: f32) -> [f32; 4] {
         let level = level.max(0.0).min((self.levels.len() - 1) as f32);
@@ -64,8 +64,8 @@ impl MipLevels {
 }
 
 impl FramebufferLevel {
-    /// Computes the level of half the size by a box filter. Returns `None` after a single texel. A
-    /// last row or column without a partner is paired with itself.
+    /// Computes the level of half the size with a box filter. Returns `None` after a single texel.
+    /// A last row or column without a partner is paired with itself.
     fn downsample(&self, threads: usize) -> Option<Self> {
         let [width, height] = self.size;
         if self.texels.len() <= 1 {
@@ -86,7 +86,7 @@ impl FramebufferLevel {
         Some(Self { size, scale: self.scale * 0.5, texels })
     }
 
-    /// Bilinear interpolation between texel centers.
+    /// Interpolates bilinearly between texel centers.
     #[inline(always)]
     fn sample_bilinear(&self, position: [f32; 2]) -> [f32; 4] {
         let [width, height] = self.size;
@@ -101,8 +101,8 @@ impl FramebufferLevel {
         sum
     }
 
-    /// Computes the quadratic B-spline over 3 × 3 texels: smooth, nowhere negative, with weights of
-    /// sum 1.
+    /// Evaluates the quadratic B-spline over 3 × 3 texels, which is smooth and nowhere negative,
+    /// with weights that sum to 1.
     #[inline(always)]
     fn sample_spline(&self, position: [f32; 2]) -> [f32; 4] {
         let [width, height] = self.size;
@@ -152,7 +152,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn levels_of_one_color_are_that_color_everywhere() {
+    fn uniform_pictures_have_uniform_levels() {
         for size in [[1, 1], [7, 5], [64, 33]] {
             let levels = MipLevels::new(
                 vec![[0.25, 3.0, 0.0, 1.0]; size[0] * size[1]],
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edge_is_smeared_symmetrically_and_wider_from_level_to_level() {
+    fn edges_are_blurred_symmetrically_and_wider_at_each_level() {
         let edge = |x: usize| if x < 64 { [0.0; 4] } else { [1.0; 4] };
         let levels = MipLevels::new((0..128 * 128).map(|n| edge(n % 128)).collect(), [128; 2], 1);
         let mut last = f32::INFINITY;

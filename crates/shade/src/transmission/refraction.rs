@@ -6,11 +6,11 @@
 //!      ╲θᵢ
 //!  ─────╳──────         surface
 //!       │╲    thickness along the refracted ray
-//!       │θₜ ●           exit: looked up where it is seen on the screen
+//!       │θₜ ●           exit: looked up where it appears on the screen
 //! ```
 //!
-//! As in the Khronos sample viewer: one refraction, at the entry, with the material's thickness as
-//! the length of the path inside.
+//! As in the Khronos sample viewer, there is a single refraction, at the entry, and the material's
+//! thickness is the length of the path inside.
 
 use crate::Draw;
 use crate::lanes::{Lanes, Vec3Lanes};
@@ -18,7 +18,7 @@ use crate::surface_geometry::SurfaceGeometry;
 
 /// Returns the indices of refraction for red, green and blue (KHR_materials_dispersion).
 ///
-/// Dispersion is 20 over the Abbe number; blue is refracted most.
+/// Dispersion is 20 divided by the Abbe number; blue is refracted most.
 #[inline(always)]
 pub(super) fn channel_iors(draw: &Draw<'_>) -> [f32; 3] {
     let extensions = &draw.material.extensions;
@@ -26,7 +26,7 @@ pub(super) fn channel_iors(draw: &Draw<'_>) -> [f32; 3] {
     [extensions.ior - half_spread, extensions.ior, extensions.ior + half_spread]
 }
 
-/// Computes the positions where refracted rays with these lengths end, in the world.
+/// Computes the positions in the world where refracted rays with these lengths end.
 #[inline(always)]
 pub(super) fn refracted_exits<const N: usize>(
     geometry: &SurfaceGeometry<N>,
@@ -34,27 +34,28 @@ pub(super) fn refracted_exits<const N: usize>(
     lengths: Lanes<N>,
 ) -> Vec3Lanes<N> {
     let SurfaceGeometry { positions, views, normals, n_dot_v, .. } = *geometry;
-    // Snell's law in vector form; no total reflection, because light enters the denser medium.
-    // Dispersion may bring an index below 1.
+    // Snell's law in vector form, without total reflection, because light enters the denser medium.
+    // Dispersion may reduce an index below 1.
     let eta = 1.0 / ior.max(1.0);
     let cos_squared = (1.0 - eta * eta * (1.0 - n_dot_v * n_dot_v)).max(0.0);
     let rays = normals * (eta * n_dot_v - cos_squared.sqrt()) - views * eta;
-    // Normals that lean away from the viewer produce rays that are not quite unit vectors.
+    // Normals that point away from the viewer produce rays that are not quite unit vectors.
     positions + rays * (lengths / rays.dot(rays).sqrt().max(1e-6))
 }
 
-/// The side of the Khronos sample viewer's framebuffer in texels, and its number of mip levels: the
-/// logarithm.
+/// The side of the Khronos sample viewer's framebuffer in texels, and its number of mip levels,
+/// which is the base-2 logarithm.
 const REFERENCE_SIDE: f32 = 1024.0;
 const REFERENCE_LEVELS: f32 = 10.0;
 
-/// Computes the mip levels of a framebuffer with this longer side, in texels, that give the blur of
-/// these roughnesses.
+/// Computes the mip levels, in a framebuffer whose longer side has this many texels, that give the
+/// blur for these roughnesses.
 ///
 /// The Khronos sample viewer uses the level log₂(size) · roughness in a framebuffer of 1024 texels.
-/// At other sizes this would blur by another fraction of the picture, so the width of its filter is
-/// scaled: at 1024 texels the levels equal the viewer's, and a roughness of 0 is level 0 at any
-/// size. Roughness is reduced as the index of refraction approaches 1, which scatters nothing.
+/// At other sizes this would blur by a different fraction of the picture, so the width of the
+/// filter is scaled: at 1024 texels the levels equal the viewer's, and a roughness of 0 is level 0
+/// at any size. Roughness is reduced as the index of refraction approaches 1, which does not
+/// scatter light.
 #[inline(always)]
 pub(super) fn blur_levels<const N: usize>(
     roughness: Lanes<N>,

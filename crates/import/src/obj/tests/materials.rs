@@ -1,4 +1,4 @@
-//! Material libraries and their textures, in folders created by the tests.
+//! Tests of material libraries and their textures, in temporary folders.
 
 use super::{SQUARE, primitives, warnings};
 use crate::load;
@@ -6,11 +6,11 @@ use gltf_import::{ImageLoading, ImportOptions};
 use model::{AlphaMode, Material, Model, TextureInfo, WrapMode};
 use std::path::{Path, PathBuf};
 
-/// A folder that is removed with its contents.
+/// A folder that is removed with its contents when dropped.
 struct Folder(PathBuf);
 
 impl Folder {
-    /// Creates an empty folder; the name tells the tests apart.
+    /// Creates an empty folder with a name that is unique to the test.
     fn new(name: &str) -> Self {
         let path = std::env::temp_dir().join(format!("obj-{name}-{}", std::process::id()));
         std::fs::remove_dir_all(&path).ok();
@@ -49,12 +49,12 @@ impl Drop for Folder {
     }
 }
 
-/// Returns a textured square with the material `m` of the library `a.mtl`.
+/// Returns a textured square with the material `m` from the library `a.mtl`.
 fn square() -> String {
     format!("mtllib a.mtl\nusemtl m\n{SQUARE}vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n")
 }
 
-/// Returns a model of the square whose material has these statements.
+/// Returns a model of the square with a material of these statements.
 fn model_of(name: &str, statements: &str) -> Model {
     let folder = Folder::new(name);
     folder.write("a.mtl", format!("newmtl m\n{statements}\n"));
@@ -62,14 +62,14 @@ fn model_of(name: &str, statements: &str) -> Model {
     folder.load("a.obj")
 }
 
-/// Returns the material of these statements.
+/// Returns the material described by these statements.
 fn material_of(name: &str, statements: &str) -> Material {
     let mut model = model_of(name, statements);
     assert_eq!(model.materials.len(), 1);
     model.materials.remove(0)
 }
 
-/// Returns whether two numbers differ by rounding only.
+/// Returns whether two numbers differ only by rounding.
 fn is_near(a: f32, b: f64) -> bool {
     (f64::from(a) - b).abs() < 1e-5
 }
@@ -79,11 +79,11 @@ fn phong_becomes_metallic_roughness() {
     let material = material_of("phong", "Kd 1 0.5 0\nKs 0.5 0.5 0.5\nNs 30\nillum 2\nd 1.0");
     let [r, g, b, a] = material.base_color;
     assert!(is_near(r, 1.0) && is_near(g, 0.214_041) && b == 0.0 && a == 1.0);
-    // α² = 2 / 32: α is 1/4, and the roughness is its square root.
+    // α² = 2 / 32, so α is 1/4, and the roughness is its square root.
     assert!(is_near(material.roughness, 0.5), "{}", material.roughness);
     assert_eq!((material.metallic, material.alpha_mode), (0.0, AlphaMode::Opaque));
     assert!(material.double_sided && !material.unlit);
-    assert_eq!(material.extensions.specular, None, "4 % are the default");
+    assert_eq!(material.extensions.specular, None, "4% is the default");
     assert_eq!(material.name.as_deref(), Some("m"));
 
     let strong = material_of("strong", "Kd 0.5 0.5 0.5\nKs 1 0.5 0");
@@ -103,7 +103,7 @@ fn phong_becomes_metallic_roughness() {
 }
 
 #[test]
-fn opacity_is_d_or_else_tr() {
+fn opacity_comes_from_d_or_else_tr() {
     for (name, statements, alpha, mode) in [
         ("d", "d 0.25", 0.25, AlphaMode::Blend),
         ("halo", "d -halo 0.5", 0.5, AlphaMode::Blend),
@@ -127,7 +127,7 @@ fn opacity_is_d_or_else_tr() {
 }
 
 #[test]
-fn keys_of_physically_based_materials_are_as_they_are() {
+fn physically_based_keys_are_used_unchanged() {
     let material = material_of(
         "pbr",
         "Kd 1 1 1\nKs 1 0 0\nNs 3\nPr 0.3\nPm 0.75\nPs 0.5\nPc 0.6\nPcr 0.1\naniso 0.4\nanisor 0.25\n\
@@ -147,7 +147,7 @@ fn keys_of_physically_based_materials_are_as_they_are() {
 }
 
 #[test]
-fn texture_options_that_a_material_can_have_are_kept() {
+fn supported_texture_options_are_applied() {
     let folder = Folder::new("options");
     folder.write_png("my picture.png", &[[255, 0, 0, 255]]);
     folder.write("a.obj", square());
@@ -158,7 +158,7 @@ fn texture_options_that_a_material_can_have_are_kept() {
     );
     let model = folder.load("a.obj");
     let info = model.materials[0].base_color_texture.unwrap();
-    // With v up: u' = 2 u + 0.5, v' = 4 v + 0.25. At the lower left, here (0, 1), v' is 0.25 up.
+    // With v up, u' = 2 u + 0.5 and v' = 4 v + 0.25. At the lower left, here (0, 1), v' is 0.25.
     let at = |[u, v]: [f32; 2]| info.uv_matrix.map(|[x, y, z]| x * u + y * v + z);
     assert_eq!(at([0.0, 1.0]), [0.5, 0.75]);
     assert_eq!(at([1.0, 0.0]), [2.5, -3.25]);
@@ -166,8 +166,8 @@ fn texture_options_that_a_material_can_have_are_kept() {
     assert_eq!((sampler.wrap_u, sampler.wrap_v), (WrapMode::ClampToEdge, WrapMode::ClampToEdge));
     let emissive = model.materials[0].emissive_texture.unwrap();
     assert_eq!(emissive.uv_matrix, TextureInfo::IDENTITY_UV);
-    assert_eq!(model.materials[0].emissive, [1.0; 3], "a texture beside black would not shine");
-    assert_eq!(model.materials[0].base_color, [1.0; 4], "nor be seen");
+    assert_eq!(model.materials[0].emissive, [1.0; 3], "black would hide the emissive texture");
+    assert_eq!(model.materials[0].base_color, [1.0; 4], "black would hide the color texture");
     assert_eq!(model.images.len(), 1, "one file");
     assert_eq!(model.images[0].as_ref().unwrap().rgba, [[255, 0, 0, 255]]);
     let told = warnings(&model);
@@ -179,7 +179,7 @@ fn texture_options_that_a_material_can_have_are_kept() {
 }
 
 #[test]
-fn images_of_opacity_roughness_and_metalness_are_combined() {
+fn opacity_roughness_and_metalness_images_are_combined() {
     let folder = Folder::new("combined");
     folder.write_png("color.png", &[[10, 20, 30, 255], [40, 50, 60, 255]]);
     folder.write_png("mask.png", &[[255, 255, 255, 255], [0, 0, 0, 255]]);
@@ -205,7 +205,7 @@ fn images_of_opacity_roughness_and_metalness_are_combined() {
     assert_eq!((material.roughness, material.metallic), (1.0, 1.0));
     assert_eq!(material.alpha_mode, AlphaMode::Blend);
 
-    // A file with both needs no other; a mask by itself is white.
+    // A file with both color and opacity is used alone; a mask by itself has the color white.
     folder.write("a.mtl", "newmtl m\nmap_Kd leaf.png\nmap_d leaf.png\n");
     let model = folder.load("a.obj");
     assert_eq!(model.images.len(), 1);
@@ -223,7 +223,7 @@ fn images_of_opacity_roughness_and_metalness_are_combined() {
 }
 
 #[test]
-fn bump_maps_are_normal_maps_or_left_out() {
+fn only_bump_maps_that_are_normal_maps_are_used() {
     let folder = Folder::new("bump");
     folder.write_png("normal.png", &[[128, 128, 255, 255]]);
     folder.write_png("height.png", &[[7, 7, 7, 255]]);
@@ -246,7 +246,7 @@ fn bump_maps_are_normal_maps_or_left_out() {
 }
 
 #[test]
-fn libraries_are_found_by_whole_names_by_several_and_once() {
+fn libraries_are_found_by_one_or_several_names() {
     let folder = Folder::new("libraries");
     folder.write("my library.mtl", "newmtl m\nKd 1 1 1\n");
     folder.write("one.mtl", "newmtl other\nnewmtl  two words  \nKd 0 0 0\n");
@@ -276,7 +276,7 @@ fn libraries_are_found_by_whole_names_by_several_and_once() {
 }
 
 #[test]
-fn libraries_and_textures_may_be_in_the_file() {
+fn libraries_and_textures_may_be_data_uris() {
     let library = "data:;base64,bmV3bXRsIG0KUHIgMC4yNQpuZXcKbWFwX0tkIGRhdGE6LC8vLwo=";
     let model = super::read(square().replace("a.mtl", library)).unwrap();
     assert_eq!(model.materials[0].roughness, 0.25);
@@ -291,7 +291,7 @@ fn libraries_and_textures_may_be_in_the_file() {
 }
 
 #[test]
-fn textures_are_below_the_library_or_beside_it_and_never_outside() {
+fn textures_are_found_only_in_the_model_folder() {
     let folder = Folder::new("paths");
     folder.write_png("a.png", &[[1, 1, 1, 255]]);
     folder.write_png("sub/b.png", &[[2, 2, 2, 255]]);
@@ -323,7 +323,7 @@ fn textures_are_below_the_library_or_beside_it_and_never_outside() {
             "{name}"
         );
     }
-    // Libraries are in the same sandbox.
+    // Libraries are restricted to the same sandbox.
     std::fs::write(&outside, "newmtl m\nPr 0.5\n").unwrap();
     for name in [absolute.clone(), format!("../{secret}"), format!("..\\{secret}")] {
         folder.write("a.obj", square().replace("a.mtl", &name));
@@ -334,7 +334,7 @@ fn textures_are_below_the_library_or_beside_it_and_never_outside() {
 }
 
 #[test]
-fn surfaces_without_texture_coordinates_say_so() {
+fn missing_texture_coordinates_are_reported() {
     let folder = Folder::new("bare");
     folder.write_png("a.png", &[[1, 1, 1, 255]]);
     folder.write("a.mtl", "newmtl m\nmap_Kd a.png\n");
@@ -347,7 +347,7 @@ fn surfaces_without_texture_coordinates_say_so() {
 }
 
 #[test]
-fn changed_bytes_do_no_harm() {
+fn modified_bytes_do_not_panic() {
     let folder = Folder::new("mutants");
     folder.write_png("a.png", &[[1, 1, 1, 255]]);
     folder.write("a.obj", square());

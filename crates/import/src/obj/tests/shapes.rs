@@ -1,4 +1,4 @@
-//! Vertex data, elements, groups and normals.
+//! Tests of vertex data, elements, groups and normals.
 
 use super::{SQUARE, primitives, read, read_leniently, triangle_count, warnings};
 use crate::load_bytes;
@@ -6,7 +6,7 @@ use gltf_import::{ImportOptions, Limits};
 use model::{Primitive, Topology, codes};
 
 #[test]
-fn references_count_from_one_or_backwards() {
+fn references_count_from_the_start_or_backward() {
     let forwards = read(format!("{SQUARE}f 1 2 3 4")).unwrap();
     let backwards = read(format!("{SQUARE}f -4 -3 -2 -1\n")).unwrap();
     let ahead = read(format!("f 1 2 3 4\n{SQUARE}")).unwrap();
@@ -17,7 +17,7 @@ fn references_count_from_one_or_backwards() {
         assert_eq!(square.normals.as_ref().unwrap(), &[[0.0, 0.0, 1.0]; 4]);
         assert_eq!(warnings(model), "");
     }
-    // Backward from the current statement, not from the end of the file.
+    // Negative references count from the current statement, not from the end of the file.
     let two = read(format!("{SQUARE}f -4 -3 -2\nv 9 9 9\nf -4 -3 -2")).unwrap();
     assert_eq!(
         primitives(&two)[0].positions,
@@ -26,10 +26,10 @@ fn references_count_from_one_or_backwards() {
 }
 
 #[test]
-fn references_to_nothing_say_where_and_are_left_out_leniently() {
+fn invalid_references_are_located_or_skipped_leniently() {
     for (face, place, message) in [
         ("f 1 2 5", "line 5, column 7", "there is no vertex 5: there are 4 before this line"),
-        ("f 1 0 2", "line 5, column 5", "there is no vertex 0: the first one is 1"),
+        ("f 1 0 2", "line 5, column 5", "there is no vertex 0: the first vertex is 1"),
         ("f -5 1 2", "line 5, column 3", "there is no vertex -5: there are 4 before this line"),
         (
             "f 1 2 99999999999",
@@ -53,7 +53,7 @@ fn references_to_nothing_say_where_and_are_left_out_leniently() {
 }
 
 #[test]
-fn broken_vertices_matter_only_where_they_are_used() {
+fn broken_vertices_are_errors_only_if_used() {
     let text = format!("{SQUARE}v 1 nan 2\nv 1 1e39 0\nv 3.1+e2 0 0\nv 1 2\nf 1 2 3 4\n");
     assert_eq!(triangle_count(&read(&text).unwrap()), 2);
     for (vertex, line) in [(5, 5), (6, 6), (7, 7), (8, 8)] {
@@ -75,13 +75,13 @@ fn corners_with_the_same_references_share_a_vertex() {
     assert_eq!(part.indices, [0, 1, 2, 0, 2, 3, 4, 2, 3]);
     assert_eq!(part.positions[4], part.positions[0]);
     assert_eq!(part.normals.as_ref().unwrap()[4], [0.0, 1.0, 0.0]);
-    assert_eq!(part.normals.as_ref().unwrap()[0], [0.0, 0.0, 1.0], "of unit length");
-    // In OBJ v points up; in images here it points down.
+    assert_eq!(part.normals.as_ref().unwrap()[0], [0.0, 0.0, 1.0], "unit length");
+    // In OBJ v points up; here it points down.
     assert_eq!(part.uvs[0][..3], [[0.0, 1.0], [1.0, 0.75], [1.0, 0.0]]);
 }
 
 #[test]
-fn attributes_that_corners_lack_are_computed_or_absent() {
+fn missing_attributes_are_computed_or_absent() {
     let text =
         format!("{SQUARE}vt 0 0\nvn 1 0 0\nf 1/1 2/1 3\nf 1//1 3//1 4\nf 1/9/9 2/1/1 3/1/1\n");
     let model = read(text).unwrap();
@@ -98,7 +98,7 @@ fn attributes_that_corners_lack_are_computed_or_absent() {
 }
 
 #[test]
-fn concave_polygons_are_not_fans() {
+fn concave_polygons_are_triangulated() {
     let model = read("v 0 0 0\nv 4 4 0\nv 0 8 0\nv 2 4 0\nf 1 2 3 4").unwrap();
     let [arrowhead] = primitives(&model)[..] else { panic!() };
     let doubled_area = |triangle: &[u32; 3]| {
@@ -112,14 +112,14 @@ fn concave_polygons_are_not_fans() {
 }
 
 #[test]
-fn lines_and_points() {
+fn lines_and_points_are_read() {
     let model = read(format!("{SQUARE}l 1 2 3\nl 1/1 4/1\np 1 -1\nf 1 2 3")).unwrap();
     let [lines, points, surface] = primitives(&model)[..] else { panic!() };
     assert_eq!((lines.topology, &lines.indices[..]), (Topology::Lines, &[0, 1, 1, 2, 0, 3][..]));
     assert_eq!((points.topology, points.item_count()), (Topology::Points, 2));
     assert_eq!(points.positions[1], [0.0, 1.0, 0.0]);
     assert_eq!((lines.normals.is_none(), surface.item_count()), (true, 1));
-    // A file with only vertices is a point cloud; one whose elements are all broken is not.
+    // A file with only vertices is a point cloud, but a file whose elements are all broken is not.
     let cloud = read(format!("{SQUARE}v nan 0 0")).unwrap();
     let [points] = primitives(&cloud)[..] else { panic!() };
     assert_eq!((points.topology, points.item_count()), (Topology::Points, 4));
@@ -128,24 +128,24 @@ fn lines_and_points() {
 }
 
 #[test]
-fn vertex_colors_are_srgb_and_may_be_of_bytes() {
+fn vertex_colors_are_srgb_and_may_be_bytes() {
     let model = read("v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0 0 0 1 0.25\nf 1 2 3").unwrap();
     let colors = primitives(&model)[0].colors.clone().unwrap();
-    // IEC 61966-2-1: 0.5 is 0.214041 of full light.
+    // sRGB 0.5 is linear 0.214041 (IEC 61966-2-1).
     assert!((colors[0][1] - 0.214_041).abs() < 1e-6, "{colors:?}");
     assert_eq!(colors[1], [1.0; 4]);
     assert_eq!(colors[2], [0.0, 0.0, 1.0, 0.25]);
     let bytes = read("v 0 0 0 255 0 0\nv 1 0 0 0 0 255\nv 0 1 0 0 0 0\nf 1 2 3").unwrap();
     assert_eq!(primitives(&bytes)[0].colors.as_ref().unwrap()[0], [1.0, 0.0, 0.0, 1.0]);
     assert!(warnings(&bytes).contains("numbers from 0 to 255"));
-    // A weight is not a color, and moves nothing.
+    // A weight is not a color, and does not move the vertex.
     let weights = read("v 2 0 0 2\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3").unwrap();
     assert_eq!(primitives(&weights)[0].colors, None);
     assert_eq!(primitives(&weights)[0].positions[0], [2.0, 0.0, 0.0]);
 }
 
 #[test]
-fn encodings_line_ends_and_continuations() {
+fn encodings_line_ends_and_continuations_are_handled() {
     let plain = format!("{SQUARE}g näme\nf 1 2 3 4");
     let utf_16 = |swap: bool| -> Vec<u8> {
         let units = format!("\u{FEFF}{plain}").encode_utf16().collect::<Vec<_>>();
@@ -172,13 +172,13 @@ fn encodings_line_ends_and_continuations() {
 }
 
 #[test]
-fn names_that_are_not_utf_8_are_latin_1() {
+fn names_that_are_not_utf_8_are_read_as_latin_1() {
     let model = read([SQUARE.as_bytes(), b"o T\xFCr\nf 1 2 3"].concat()).unwrap();
     assert_eq!(model.nodes[0].name.as_deref(), Some("Tür"));
 }
 
 #[test]
-fn objects_and_groups_are_nodes() {
+fn objects_and_groups_become_nodes() {
     let model = read(format!(
         "{SQUARE}f 1 2 3\no Table\nf 1 2 3\ng top part\nf 1 2 3\ng legs\nf 1 2 3\no Chair\nf 1 2 3\n\
          g default\nf 2 3 4\no Table\ng legs\nf 2 3 4\ng never used\n"
@@ -199,7 +199,7 @@ fn objects_and_groups_are_nodes() {
 }
 
 #[test]
-fn very_many_objects_take_linear_time() {
+fn many_objects_take_linear_time() {
     let mut text = String::from(SQUARE);
     for object in 0..65_537 {
         text.push_str(&format!("o part {object}\nusemtl m{}\nf 1 2 3\n", object % 3));
@@ -216,17 +216,17 @@ fn very_many_objects_take_linear_time() {
     assert_eq!(error.diagnostic.code, codes::LIMIT_EXCEEDED);
 }
 
-/// Two squares at a right angle with a common edge.
+/// Two squares at a right angle that share an edge.
 const FOLD: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 0 1 1\n";
 
 #[test]
-fn normals_follow_smoothing_groups_or_else_the_crease_angle() {
+fn normals_follow_smoothing_groups_or_the_crease_angle() {
     let vertex_count = |text: &str, crease_angle: Option<f64>| {
         let options = ImportOptions { crease_angle, ..ImportOptions::default() };
         let model = load_bytes("fold.obj", text.as_bytes(), &options).unwrap();
         primitives(&model).iter().map(|part| part.positions.len()).sum::<usize>()
     };
-    // Smooth: the edge's two vertices are shared; creased: they are duplicated.
+    // The two vertices of the edge are shared if it is smooth, and duplicated if it is a crease.
     for (faces, crease_angle, expected) in [
         ("f 1 2 3 4\nf 1 4 6 5", None, 8),
         ("f 1 2 3 4\nf 1 4 6 5", Some(95.0), 6),
@@ -238,7 +238,7 @@ fn normals_follow_smoothing_groups_or_else_the_crease_angle() {
     ] {
         assert_eq!(vertex_count(&format!("{FOLD}{faces}"), crease_angle), expected, "{faces}");
     }
-    // Across groups and materials, whose vertices are separate, the normals are the same.
+    // Normals are continuous across groups and materials, although the vertices are separate.
     let model = read(format!("{FOLD}s 7\nusemtl a\nf 1 2 3 4\nusemtl b\nf 1 4 6 5")).unwrap();
     let half = std::f32::consts::FRAC_1_SQRT_2;
     for part in primitives(&model) {
@@ -246,7 +246,7 @@ fn normals_follow_smoothing_groups_or_else_the_crease_angle() {
         let normal = part.normals.as_ref().unwrap()[corner];
         assert!((normal[0] - half).abs() < 1e-6 && (normal[2] - half).abs() < 1e-6, "{normal:?}");
     }
-    // Several vertices at the same position count as one.
+    // Vertices at the same position count as one.
     let soup = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0.2\nf 1 2 3\nf 4 5 6\n";
     let model = read(soup).unwrap();
     let normals = primitives(&model)[0].normals.clone().unwrap();
@@ -270,7 +270,7 @@ fn ignored_statements_are_reported_once() {
 }
 
 #[test]
-fn one_triangle_of_huge_numbers() {
+fn huge_coordinates_are_read() {
     let model = read("v 0 0 0\nv 1e30 0 0\nv 0 1e30 0\nf 1 2 3").unwrap();
     let [part] = primitives(&model)[..] else { panic!() };
     assert_eq!(part.normals.as_ref().unwrap(), &[[0.0, 0.0, 1.0]; 3]);
@@ -278,7 +278,7 @@ fn one_triangle_of_huge_numbers() {
 }
 
 #[test]
-fn arrays_have_limits() {
+fn array_limits_are_enforced() {
     let text = format!("{SQUARE}{}", "f 1 2 3\n".repeat(100));
     let limits = Limits { array_bytes: 1000, ..Limits::default() };
     let options = ImportOptions { limits, ..ImportOptions::default() };
@@ -287,7 +287,7 @@ fn arrays_have_limits() {
 }
 
 #[test]
-fn changed_bytes_do_no_harm() {
+fn modified_bytes_do_not_panic() {
     let text = format!(
         "mtllib a.mtl\n{SQUARE}vt 0 0\nvn 0 0 1\no a\ng b\nusemtl c\ns 1\nf 1/1/1 2//1 3/1 -1\nl 1 2 3\np 1 2\n\
          f 1 2 3 4 1 2 \\\n 3\nv 1 2 3 0.5 0.5 0.5\n"

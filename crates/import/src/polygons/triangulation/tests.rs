@@ -1,15 +1,15 @@
-//! Triangulations are judged by area and by the points they cover, not by which ears were cut.
+//! Tests of triangulation, by area and covered points, not by which ears were clipped.
 
 use super::*;
 
-/// Returns the triangles of a polygon, and how it was cut.
+/// Returns the triangles of a polygon, and the outcome of the triangulation.
 fn triangulate(corners: &[[f32; 3]]) -> (Vec<[u32; 3]>, PolygonKind) {
     let mut triangles = vec![[9; 3]];
     let kind = Triangulator::default().triangulate(corners, &mut triangles);
     (triangles.split_off(1), kind)
 }
 
-/// Twice the signed areas of the triangles in the plane z = 0.
+/// Returns twice the signed areas of triangles in the plane z = 0.
 fn doubled_areas(corners: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<f64> {
     let area = |triangle: &[u32; 3]| {
         let [a, b, c] = triangle.map(|at| corners[at as usize].map(f64::from));
@@ -18,7 +18,7 @@ fn doubled_areas(corners: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<f64> {
     triangles.iter().map(area).collect()
 }
 
-/// Twice the area of a polygon in the plane z = 0 (the shoelace formula).
+/// Returns twice the area of a polygon in the plane z = 0 (the shoelace formula).
 fn doubled_polygon_area(corners: &[[f32; 3]]) -> f64 {
     let edges = corners.iter().zip(corners.iter().cycle().skip(1));
     edges
@@ -27,7 +27,7 @@ fn doubled_polygon_area(corners: &[[f32; 3]]) -> f64 {
 }
 
 /// Checks that a counter-clockwise polygon with small integer coordinates is covered exactly once:
-/// n − 2 triangles, none of them reversed, with the area of the polygon.
+/// by n − 2 triangles, none of them reversed, with the area of the polygon.
 fn assert_covered(plane: &[[f32; 2]]) -> Vec<[u32; 3]> {
     let corners: Vec<[f32; 3]> = plane.iter().map(|&[x, y]| [x, y, 0.0]).collect();
     let (triangles, kind) = triangulate(&corners);
@@ -41,7 +41,7 @@ fn assert_covered(plane: &[[f32; 2]]) -> Vec<[u32; 3]> {
 }
 
 #[test]
-fn convex_polygons_become_the_fan_that_every_program_makes() {
+fn convex_polygons_become_fans() {
     let quad = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
     assert_eq!(assert_covered(&quad), [[0, 1, 2], [0, 2, 3]]);
     assert_eq!(triangulate(&[]), (vec![], PolygonKind::Simple));
@@ -49,7 +49,7 @@ fn convex_polygons_become_the_fan_that_every_program_makes() {
     assert_eq!(triangulate(&[[0.0; 3]; 3]), (vec![[0, 1, 2]], PolygonKind::Simple));
 }
 
-/// Concave polygons: an arrowhead, an L, a U, a comb, a staircase, a spiral.
+/// Concave polygons: an arrowhead, an L, a U, a comb, a staircase and a spiral.
 const CONCAVE: [&[[f32; 2]]; 6] = [
     &[[0.0, 0.0], [4.0, 4.0], [0.0, 8.0], [2.0, 4.0]],
     &[[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [1.0, 1.0], [1.0, 4.0], [0.0, 4.0]],
@@ -103,7 +103,7 @@ const CONCAVE: [&[[f32; 2]]; 6] = [
 ];
 
 #[test]
-fn concave_polygons_are_covered_once_wherever_they_begin() {
+fn concave_polygons_are_covered_once_from_every_first_corner() {
     for shape in CONCAVE {
         for first in 0..shape.len() {
             let mut turned = shape.to_vec();
@@ -114,8 +114,8 @@ fn concave_polygons_are_covered_once_wherever_they_begin() {
 }
 
 #[test]
-fn collinear_and_repeated_corners_leave_triangles_with_area_where_there_can_be_some() {
-    // Corners in the middle of all four edges: six triangles, none of them without area.
+fn collinear_and_repeated_corners_are_triangulated() {
+    // With corners in the middle of all four edges there are six triangles, all with area.
     let square = [
         [0.0, 0.0],
         [1.0, 0.0],
@@ -129,14 +129,15 @@ fn collinear_and_repeated_corners_leave_triangles_with_area_where_there_can_be_s
     let corners = square.map(|[x, y]| [x, y, 0.0]);
     let triangles = assert_covered(&square);
     assert!(doubled_areas(&corners, &triangles).iter().all(|area| *area > 0.0));
-    // A corner twice, and one three times in a row; a needle that goes out and back.
+    // A corner that occurs twice, one that occurs three times in a row, and a needle that goes out
+    // and back.
     assert_covered(&[[0.0, 0.0], [2.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]);
     assert_covered(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [0.0, 2.0], [0.0, 2.0]]);
     assert_covered(&[[0.0, 0.0], [2.0, 0.0], [5.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]);
 }
 
 #[test]
-fn a_hole_that_is_joined_by_a_bridge_stays_open() {
+fn a_hole_joined_by_a_bridge_stays_open() {
     let keyhole = [
         [0.0, 0.0],
         [4.0, 0.0],
@@ -153,7 +154,7 @@ fn a_hole_that_is_joined_by_a_bridge_stays_open() {
         let mut turned = keyhole;
         turned.rotate_left(first);
         let triangles = assert_covered(&turned);
-        // The center of the hole is in no triangle.
+        // No triangle contains the center of the hole.
         for triangle in triangles {
             let [a, b, c] = triangle.map(|at| turned[at as usize].map(f64::from));
             let middle = [2.0, 2.0];
@@ -166,14 +167,14 @@ fn a_hole_that_is_joined_by_a_bridge_stays_open() {
 }
 
 #[test]
-fn orientation_and_position_in_space_make_no_difference() {
+fn triangulation_is_independent_of_pose() {
     let l_shape: [[f32; 2]; 6] =
         [[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [1.0, 1.0], [1.0, 4.0], [0.0, 4.0]];
     let expected = assert_covered(&l_shape);
     let placements: [fn([f32; 2]) -> [f32; 3]; 5] = [
         |[x, y]| [7.0, x, y],
         |[x, y]| [y, 7.0, x],
-        // Slightly bent; tilted; seen from behind.
+        // Slightly nonplanar, tilted, and seen from behind.
         |[x, y]| [x, y, 0.05 * x * y],
         |[x, y]| [x, y, 0.25 * x],
         |[x, y]| [-x, y, 0.0],
@@ -188,7 +189,7 @@ fn orientation_and_position_in_space_make_no_difference() {
 }
 
 #[test]
-fn polygons_that_cross_themselves_have_their_triangles_and_say_so() {
+fn self_intersecting_polygons_become_fans_and_are_reported() {
     let pentagram: Vec<[f32; 3]> = [[0.0, 5.0], [3.0, -4.0], [-5.0, 2.0], [5.0, 2.0], [-3.0, -4.0]]
         .map(|[x, y]| [x, y, 0.0])
         .to_vec();
@@ -202,7 +203,7 @@ fn polygons_that_cross_themselves_have_their_triangles_and_say_so() {
 }
 
 #[test]
-fn polygons_without_area_are_fans() {
+fn polygons_without_area_become_fans() {
     let line: Vec<[f32; 3]> = (0..9).map(|x| [x as f32, 0.0, 0.0]).collect();
     assert_eq!(triangulate(&[[3.0; 3]; 6]).1, PolygonKind::Flat);
     let (triangles, kind) = triangulate(&line);
@@ -210,7 +211,7 @@ fn polygons_without_area_are_fans() {
 }
 
 #[test]
-fn large_numbers_neither_overflow_nor_lose_the_shape() {
+fn large_coordinates_are_triangulated() {
     for scale in [1e-30, 1e30_f32] {
         let arrowhead = [[0.0, 0.0], [4.0, 4.0], [0.0, 8.0], [2.0, 4.0]];
         let corners = arrowhead.map(|[x, y]: [f32; 2]| [scale * x, scale * y, 0.0]);
@@ -220,16 +221,16 @@ fn large_numbers_neither_overflow_nor_lose_the_shape() {
 }
 
 #[test]
-fn ten_thousand_corners_are_cut_within_the_limit() {
-    // A comb of 5,000 teeth, whose ears are all at the tips.
+fn ten_thousand_corners_are_within_the_test_limit() {
+    // A comb with 5,000 teeth, whose ears are all at the tips.
     let comb: Vec<[f32; 2]> = (0..4998)
         .map(|at| [(4998 - at) as f32, if at % 2 == 0 { 100.0 } else { 1.0 }])
         .chain([[0.0, 0.0], [5000.0, 0.0]])
         .collect();
     assert_covered(&comb);
-    // The same comb on its side: its teeth are far apart in y and not in x.
+    // The same comb on its side, so that its teeth are far apart in y, not x.
     assert_covered(&comb.iter().map(|[x, y]| [y * 0.01, -x]).collect::<Vec<_>>());
-    // A star around the origin: a quarter of a turn of integer directions in four copies.
+    // A star around the origin: four copies of a quarter turn of integer directions.
     let star: Vec<[f32; 2]> = (0..10_000)
         .map(|at| {
             let angle = f64::from(at) * std::f64::consts::TAU / 10_000.0;
@@ -241,7 +242,7 @@ fn ten_thousand_corners_are_cut_within_the_limit() {
 }
 
 #[test]
-fn a_file_may_take_so_many_tests_and_no_more() {
+fn the_test_limit_applies_to_the_whole_file() {
     let mut triangulator = Triangulator { tests_left: 3, ..Triangulator::default() };
     let u_shape: Vec<[f32; 3]> = CONCAVE[2].iter().map(|&[x, y]| [x, y, 0.0]).collect();
     let mut triangles = Vec::new();

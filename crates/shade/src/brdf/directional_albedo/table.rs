@@ -1,7 +1,7 @@
 //! The split-sum table (DFG, environment BRDF): `A` and `B` of the directional albedo of GGX.
 //!
-//! A row for the midpoint of each sixteenth of the perceptual roughness; in it a column for each
-//! fifteenth of the square root of the cosine n·v. A test recomputes the integral.
+//! There is a row for the midpoint of each sixteenth of the perceptual roughness, with a column for
+//! each fifteenth of the square root of the cosine n·v. A test recomputes the integral.
 
 #[rustfmt::skip]
 pub(super) static TABLE: [[[f32; 2]; 16]; 16] = [

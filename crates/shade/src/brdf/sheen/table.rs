@@ -1,8 +1,8 @@
 //! The directional albedo of white sheen: the integral of the Charlie lobe over the hemisphere.
 //!
-//! A row for each fifteenth of the perceptual roughness, from 0; in it a column for each fifteenth
-//! of the square root of the cosine n·v. Values above 1 are clamped. A test recomputes the
-//! integral.
+//! There is a row for each fifteenth of the perceptual roughness, starting at 0, with a column for
+//! each fifteenth of the square root of the cosine n·v. Values above 1 are clamped. A test
+//! recomputes the integral.
 
 #[rustfmt::skip]
 pub(super) static TABLE: [[f32; 16]; 16] = [
