@@ -3,11 +3,11 @@
 //! Packed relocations (`DT_RELR`) shrink a quarter of a megabyte of addresses, mostly of strings,
 //! to a few kilobytes.
 //!
-//! The dynamic linker must know the format: glibc does since 2.36. A program built on a machine
-//! with an older version, or for another machine, is left unchanged.
+//! The dynamic linker must support the format, as glibc has since 2.36. A program built on a
+//! machine with an older version, or for another machine, is left unchanged.
 //!
 //! The explorer consists of its page and its lesson models. `ALBERTI_WEB=FOLDER cargo build`, where
-//! FOLDER is the output of `cargo xtask web`, adds the WebAssembly engine; without it the program
+//! FOLDER is the output of `cargo xtask web`, adds the WebAssembly engine; without it, the program
 //! computes everything the page shows.
 
 use std::io::{Error, Result};
@@ -35,7 +35,7 @@ const LESSON_MODELS: [&str; 5] =
 /// Writes `explorer_files.rs`: the explorer's page, its lesson models and its engine, each
 /// compressed (zlib).
 ///
-/// `embedded` links to the page and the models, so that the package contains them.
+/// `embedded` contains links to the page and the models, so that the package includes them.
 fn embed_explorer(engine: Option<&Path>) -> Result<()> {
     let folder_of = |name: &str| PathBuf::from(std::env::var_os(name).unwrap_or_default());
     let (root, out) = (folder_of("CARGO_MANIFEST_DIR"), folder_of("OUT_DIR"));
@@ -65,7 +65,7 @@ fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// The version of this machine's glibc.
+/// Returns the version of this machine's glibc.
 fn glibc_version() -> Option<[u32; 2]> {
     let output = Command::new("getconf").arg("GNU_LIBC_VERSION").output().ok()?;
     let text = String::from_utf8(output.stdout).ok()?;

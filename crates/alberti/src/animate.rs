@@ -3,9 +3,9 @@
 //! ```text
 //!  scene ─► motion, times, frame count ─► frames in order ─► PNG files, APNG, GIF, raw bytes
 //! ```
-//! The scene is loaded and resolved once; each frame poses its models and renders them anew. Frames
+//! The scene is loaded and resolved once. Each frame then poses its models and renders them. Frames
 //! are rendered in parallel, one per thread, and written in order; only a few frames per thread are
-//! in memory.
+//! in memory at a time.
 
 mod frame_sink;
 
@@ -67,12 +67,12 @@ pub(crate) struct AnimateArgs {
 
 /// Renders the frames and writes each as soon as it is ready.
 ///
-/// The warnings of the models are printed first: they apply to every frame, and a missing texture
-/// should be known before hundreds of frames are rendered without it.
+/// Model warnings are printed first: they apply to every frame, and users should learn about a
+/// missing texture before hundreds of frames are rendered without it.
 ///
 /// # Errors
-/// If the input is invalid, a frame cannot be rendered, or the output cannot be written. Then no
-/// animation file exists; PNG files of finished frames remain.
+/// If the input is invalid, a frame cannot be rendered, or the output cannot be written. No
+/// animation file is left behind in that case; PNG files of finished frames remain.
 pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
     let (origin, file, scene) = args.overrides.open_scene(&args.input, &args.load_options)?;
     let unused = find_unused_overrides(&args.overrides, &scene, false);
@@ -99,14 +99,14 @@ pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
     }
 }
 
-/// GIF delays are whole hundredths of a second, and viewers treat a delay below two as a mistake.
+/// GIF delays are whole hundredths of a second, and viewers ignore a delay below two.
 const MAX_GIF_FPS: f64 = 50.0;
 
 impl AnimateArgs {
-    /// The sequence that the flags and the scene describe.
+    /// Returns the sequence that the flags and the scene describe.
     ///
     /// A turntable rotates the models; otherwise their animations play, and the camera follows its
-    /// keyframes, if it has any. Start, end and number of frames default to the animation's.
+    /// keyframes, if any. Start, end and number of frames default to the animation's.
     ///
     /// | flags and scene | motion | default number of frames |
     /// | --- | --- | --- |
@@ -117,11 +117,11 @@ impl AnimateArgs {
     ///
     /// The end is the time of the frame after the last, so that a loop does not show its first
     /// picture twice. If the start is after the end, the animation plays backward. Camera keyframes
-    /// combine with any of these motions; they then give the default times, and with them the
-    /// number of frames.
+    /// can be combined with any of these motions; they then determine the default start and end
+    /// times, and thus the default number of frames.
     ///
     /// # Errors
-    /// If the scene chooses an animation that the model does not have, or its keyframes are
+    /// If the scene selects an animation that the model does not have, or the camera keyframes are
     /// invalid.
     fn build_sequence(
         &self,
@@ -163,7 +163,7 @@ impl AnimateArgs {
 }
 
 impl AnimateArgs {
-    /// Warns if `--from` and `--to` have no meaning, or extend past the end.
+    /// Warns if `--from` and `--to` have no effect, or extend past the end.
     fn warn_of_times(&self, motion: &Motion, has_path: bool, end: f64) {
         let is_timeless = matches!(motion, Motion::Turntable { .. }) && !has_path;
         if self.overrides.model_state.time.is_some() {
@@ -185,10 +185,10 @@ impl AnimateArgs {
     }
 }
 
-/// The animation of each model instance: the one that the scene chooses, or the model's first.
+/// Returns the animation of each model instance: the one the scene selects, or the model's first.
 ///
-/// Instances are in the order of the scene file; a model with several instances has one entry for
-/// each, with the choice made in the scene file. `None` means that the model does not move.
+/// Instances are in the order of the scene file; a model with several instances has one entry per
+/// instance, each with the choice from the scene file. `None` means that the model does not move.
 ///
 /// # Errors
 /// If a choice matches no animation; the message lists the model's animations.

@@ -74,7 +74,7 @@ Examples:
 
   alberti explain model.glb --point 0,1,0         a point through every stage of the pipeline
   alberti explore model.glb                       the same, live in a browser on this machine
-  alberti matrix 1 0 0 0 …                        the transform or projection of a matrix
+  alberti matrix 1 0 0 0 …                        which transform or projection it is
   alberti matrix --perspective 60,16/9,0.1,100    a matrix from parameters, or as code
   alberti exercise 3 --answer 'A=1; B=0'          a check of your answer to an exercise
   alberti demo wrap-around                        why clipping comes before the perspective divide
@@ -197,7 +197,7 @@ pub(crate) struct RenderArgs {
     pub(crate) timings: bool,
     /// Compare the line drawing with a z-buffer image and print the fraction that disagrees
     ///
-    /// The fraction is the length of lines drawn as visible that the z-buffer hides.
+    /// It is the part of the visible lines' length that the z-buffer hides.
     #[arg(help_heading = "Lines", long)]
     pub(crate) verify: bool,
     /// Print a JSON report: size, camera, models, times, warnings, files with their SHA-256
@@ -279,7 +279,7 @@ pub(crate) enum StyleArg {
     Technical,
     /// Black lines, with hatching on faces in shade, as in patents
     Patent,
-    /// Like technical, in white on blue paper
+    /// Like technical, but white on blue paper
     Blueprint,
     /// Pencil lines, as if drawn by hand
     Sketch,

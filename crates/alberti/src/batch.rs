@@ -1,4 +1,4 @@
-//! `alberti batch` and its worker: arguments, messages, exit codes, and the pictures themselves.
+//! `alberti batch` and its worker: arguments, messages, exit codes, and rendering.
 //!
 //! The crate [`batch`](../batch/index.html) manages the jobs, their progress and their results. A
 //! worker is another process of this program; it renders what the coordinator requests.
@@ -48,9 +48,9 @@ pub(crate) struct BatchArgs {
     ///
     /// {stem} and {name} are the input's name without and with its extension. {folder} is its
     /// folder, relative to the folder that was searched. {line} is the number of its line or input,
-    /// {picture} the number of the picture within its line, both from 1; {line:08} has eight
-    /// digits. {prefix} is two hexadecimal digits of a hash of the name; it spreads the pictures
-    /// over 256 folders.
+    /// {picture} the number of the picture within its line, both counted from 1; {line:08} has
+    /// eight digits. {prefix} is two hexadecimal digits of a hash of the name; it spreads the
+    /// pictures over 256 folders.
     #[arg(long, value_name = "TEMPLATE", value_parser = PictureName::parse)]
     name: Option<PictureName>,
     /// Process part I of N; `auto` takes both from the environment variables of an array job
@@ -157,7 +157,7 @@ fn print_fault(error: &CliError, code: u8) -> u8 {
     code
 }
 
-/// Merges the reports; the exit code says whether any job failed.
+/// Merges the reports; the exit code indicates whether any job failed.
 fn merge_to_code(options: &BatchOptions) -> Result<u8, CliError> {
     let counts = merge_reports(&options.out_dir)?;
     print_statistics(&counts)?;

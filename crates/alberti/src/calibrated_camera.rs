@@ -8,7 +8,7 @@ use scene_file::file::{
     CameraFile, Finite, Positive, ProjectionFile, RotationFile, Triple, ViewFile,
 };
 
-/// A camera as calibration, photogrammetry or a data set has it.
+/// A camera as specified by calibration, photogrammetry or a data set.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(crate) struct CalibratedCameraArgs {
     /// Camera intrinsics: focal lengths and principal point in pixels
@@ -37,7 +37,8 @@ pub(crate) struct CalibratedCameraArgs {
         conflicts_with_all = ["view", "camera", "pose", "azimuth", "elevation", "eye"]
     )]
     extrinsics: Option<CameraFrame>,
-    /// Pose of the camera in the world: 12 numbers, row by row, the last column the eye's position
+    /// Pose of the camera in the world: 12 numbers, row by row; the last column is the eye's
+    /// position
     #[arg(
         help_heading = "Camera",
         long,
@@ -52,7 +53,7 @@ pub(crate) struct CalibratedCameraArgs {
     camera_axes: Option<CameraAxes>,
 }
 
-/// Three rows of a rotation, and a column next to them.
+/// The three rows of a rotation, and the column next to them.
 #[derive(Clone, Copy, Debug)]
 struct CameraFrame {
     rotation: [[f64; 3]; 3],
@@ -60,7 +61,7 @@ struct CameraFrame {
 }
 
 impl CameraFrame {
-    /// The rotation as a scene file has it.
+    /// Returns the rotation in the form of a scene file.
     fn to_rotation_file(self) -> RotationFile {
         let [x, y, z] = self.rotation.map(Triple);
         RotationFile::Rows((x, y, z))
@@ -68,17 +69,17 @@ impl CameraFrame {
 }
 
 impl CalibratedCameraArgs {
-    /// Whether a flag says where the camera is.
+    /// Whether a flag sets the camera's position.
     pub(crate) const fn places_camera(&self) -> bool {
         self.extrinsics.is_some() || self.pose.is_some()
     }
 
-    /// Whether the axes of a camera were given without its position.
+    /// Whether the camera's axes are set without its position.
     pub(crate) const fn has_axes_alone(&self) -> bool {
         self.camera_axes.is_some() && !self.places_camera()
     }
 
-    /// Replaces the scene's view and projection with the given flags.
+    /// Replaces the scene's view and projection with those from the flags.
     pub(crate) fn apply_to(&self, file: &mut CameraFile) {
         if let Some(frame) = self.extrinsics {
             let (rotation, translation) = (frame.to_rotation_file(), Triple(frame.column));

@@ -1,12 +1,12 @@
 //! `alberti check` and `alberti scene check`: validation of scenes and models.
 //!
-//! A scene gets its errors, lints for values that are probably unintended, and the validation of
-//! each model it refers to. A glTF file is validated against the glTF 2.0 specification; for other
-//! formats, the report has the importer's diagnostics.
+//! For a scene, the report lists its errors, lints for values that are probably unintended, and the
+//! diagnostics of each model it refers to. A glTF file is validated against the glTF 2.0
+//! specification; for other formats, the diagnostics come from the importer.
 //!
 //! The report goes to the standard output even if it is full of errors: they are the result, not a
 //! failure. Only a problem that keeps the check from running, such as a missing scene, is printed
-//! as `error:`. Both give exit code 1.
+//! as `error:`. The exit code is 1 in both cases.
 
 mod json;
 
@@ -54,8 +54,8 @@ struct CheckResult {
 /// Validates a scene or a model; the exit code is 1 if there are errors.
 ///
 /// # Errors
-/// If a scene file cannot be read. A model that cannot be read is instead an error in its report,
-/// so that a scene with a missing model is checked to the end.
+/// If a scene file cannot be read. If a model cannot be read, the error goes into its report
+/// instead, so that a scene with a missing model is still checked to the end.
 pub(crate) fn run(args: &CheckArgs) -> Result<ExitCode, CliError> {
     let options = args.load_options.import_options();
     let findings = if is_scene_file(&args.input) {
@@ -74,8 +74,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<ExitCode, CliError> {
 
 /// Validates scenes and their models; the exit code is 1 if there are errors.
 ///
-/// All files are checked before anything is printed; the first that cannot be read ends the
-/// command.
+/// All files are checked before anything is printed; the command stops at the first file that
+/// cannot be read.
 pub(crate) fn run_scenes(args: &CheckScenesArgs) -> Result<ExitCode, CliError> {
     let options = args.load_options.import_options();
     let check = |path: &PathBuf| check_scene(path, &options);
@@ -88,15 +88,15 @@ pub(crate) fn run_scenes(args: &CheckScenesArgs) -> Result<ExitCode, CliError> {
     Ok(exit_code(findings.iter().map(CheckResult::error_count).sum()))
 }
 
-/// 1 if there are errors, else 0.
+/// Returns 1 if there are errors, otherwise 0.
 fn exit_code(errors: usize) -> ExitCode {
     if errors == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
 /// Validates a scene and its models.
 ///
-/// A file that cannot be parsed has only its syntax errors. Most lints need a resolved scene, so
-/// they run only if there are no errors.
+/// For a file that cannot be parsed, only syntax errors are reported. Most lints need a resolved
+/// scene, so they run only if there are no errors.
 ///
 /// The order is: parse, resolve as `render` would, lint, check the models. The models are checked
 /// even if the scene has errors, unless it cannot be parsed.
@@ -155,7 +155,7 @@ impl CheckResult {
         mistakes + self.models.iter().map(|report| report.errors).sum::<usize>()
     }
 
-    /// The report as text: the diagnostics of each file, then a summary of it.
+    /// Formats the report as text: the diagnostics of each file, then its summary.
     ///
     /// Writing to a `String` cannot fail.
     ///
@@ -206,7 +206,7 @@ impl CheckResult {
     }
 }
 
-/// A count with its noun: `no errors`, `1 error`, `2 errors`.
+/// Formats a count with its noun: `no errors`, `1 error`, `2 errors`.
 fn count_phrase(count: usize, what: &str) -> String {
     match count {
         0 => format!("no {what}s"),

@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 pub(crate) enum ColorChoice {
     /// On a terminal, unless NO_COLOR is set
     Auto,
-    /// In files and pipes, too
+    /// Always, even in files and pipes
     Always,
     /// Never
     Never,
@@ -29,23 +29,23 @@ pub(super) fn set_color_choice(arg: ColorChoice) {
 
 /// Whether messages on the standard error stream are colored.
 ///
-/// It is independent of the standard output: with `alberti check x.ron > report.txt` errors still
-/// have colors and the report has none.
+/// It is independent of the standard output: with `alberti check x.ron > report.txt` errors are
+/// colored and the report is not.
 pub(super) fn stderr_has_color() -> bool {
     should_use_color(COLOR_CHOICE.get().copied(), std::io::stderr().is_terminal())
 }
 
 /// Whether reports on the standard output are colored.
 ///
-/// Only `check` prints a report with colors. All other results are data and never get any; the
-/// escapes of `--show` are the picture itself.
+/// Only `check` prints a colored report. All other results are data and are never colored; the
+/// escapes printed by `--show` are the picture itself.
 pub(super) fn stdout_has_color() -> bool {
     should_use_color(COLOR_CHOICE.get().copied(), std::io::stdout().is_terminal())
 }
 
-/// Whether a stream gets colors, given that it is a `terminal` or not.
+/// Whether output to a stream is colored, depending on whether the stream is a `terminal`.
 ///
-/// With `auto`, there are none on dumb terminals or if `NO_COLOR` is set to a non-empty value
+/// With `auto`, it is not colored on dumb terminals or if `NO_COLOR` is set to a non-empty value
 /// (<https://no-color.org>).
 fn should_use_color(chosen: Option<ColorChoice>, terminal: bool) -> bool {
     match chosen.unwrap_or(ColorChoice::Auto) {
@@ -58,10 +58,11 @@ fn should_use_color(chosen: Option<ColorChoice>, terminal: bool) -> bool {
     }
 }
 
-/// The severity at the start of a message: bold red for errors, bold yellow for anything else.
+/// Formats the severity at the start of a message: bold red for errors, bold yellow for anything
+/// else.
 ///
-/// A code may follow the word, such as a lint's in `warning[CODE]`; it is colored as well. The
-/// result ends with a reset, so that the text after it has the terminal's color.
+/// A code that follows the word, such as the lint's in `warning[CODE]`, is colored too. The result
+/// ends with a reset, so that the text after it has the terminal's color.
 pub(super) fn style_level(word: &str, colors: bool) -> String {
     match colors {
         false => word.to_owned(),

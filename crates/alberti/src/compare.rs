@@ -3,8 +3,8 @@
 //! Output is bit-exact on every machine, so the default tolerance is 0. A tolerance is meant for
 //! references from other programs or older versions.
 //!
-//! The rendered picture and `NAME.compare.png` are written whether the pictures agree or not; the
-//! verdict is the exit code.
+//! The rendered picture and `NAME.compare.png` are written whether or not the pictures agree; the
+//! exit code is the verdict.
 
 use super::CliError;
 use super::passes::sibling_path;
@@ -25,26 +25,26 @@ pub(crate) struct CompareArgs {
     /// NAME.compare.png with reference, difference and picture side by side.
     #[arg(long, value_name = "PNG")]
     compare: Option<PathBuf>,
-    /// Maximum difference of a channel that counts as equal, 0 to 255
+    /// Maximum channel difference that counts as equal, from 0 to 255
     #[arg(long, value_name = "N", default_value_t = 0, requires = "compare")]
     tolerance: u8,
 }
 
-/// The result of comparing two pictures that have the same size.
+/// The result of comparing two pictures of the same size.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct PictureComparison {
-    /// The largest difference of a channel in any pixel, 0 to 255.
+    /// The maximum channel difference over all pixels, 0 to 255.
     pub(super) max_difference: u8,
     /// The number of pixels that differ by more than the tolerance.
     pub(super) differing_pixels: usize,
     /// The number of pixels of the picture.
     pub(super) total_pixels: usize,
-    /// The largest channel difference that counts as equal.
+    /// The maximum channel difference that counts as equal.
     pub(super) tolerance: u8,
 }
 
 impl PictureComparison {
-    /// Compares two equally large pictures, pixel by pixel.
+    /// Compares two pictures of the same size, pixel by pixel.
     ///
     /// The caller guarantees equal sizes: a reference with another size is rejected before
     /// rendering.
@@ -91,8 +91,8 @@ impl fmt::Display for PictureComparison {
     }
 }
 
-/// The maximum difference over the channels of two pixels. Fully transparent pixels are equal even
-/// if their colors differ.
+/// Returns the maximum difference over the channels of two pixels. Fully transparent pixels are
+/// equal even if their colors differ.
 ///
 /// Codes are compared, not light: the difference is in the file's units, 0 to 255. Alpha counts
 /// like any other channel.
@@ -104,17 +104,17 @@ fn pixel_difference(expected: [u8; 4], actual: [u8; 4]) -> u8 {
 }
 
 impl CompareArgs {
-    /// Whether `--compare` was given.
+    /// Whether `--compare` is set.
     pub(super) const fn is_requested(&self) -> bool {
         self.compare.is_some()
     }
 
-    /// Reads the reference picture, if `--compare` was given.
+    /// Reads the reference picture, if `--compare` is set.
     ///
     /// Called before rendering, so that a wrong path wastes no time.
     ///
     /// # Errors
-    /// If it cannot be read, or its size differs from the rendered region.
+    /// If it cannot be read, or its size differs from the rendered region's.
     pub(super) fn load_reference(&self, region: PixelRect) -> Result<Option<Picture>, CliError> {
         let Some(path) = &self.compare else { return Ok(None) };
         let fault = |why: String| {
@@ -148,7 +148,7 @@ impl CompareArgs {
     }
 }
 
-/// Reads a PNG that has the region's size as RGBA; 16-bit channels are rounded to 8 bits.
+/// Reads a PNG of the region's size as RGBA; 16-bit channels are rounded to 8 bits.
 ///
 /// Palettes, gray and low bit depths are expanded, and a missing alpha channel is added. The size
 /// is checked before the pixels are decoded. 16-bit codes `c` become `(c + 128) / 257`, the nearest
@@ -194,8 +194,8 @@ fn read_reference(path: &Path, region: PixelRect) -> Result<Picture, String> {
 
 /// Returns the expected picture, the difference and the actual picture side by side.
 ///
-/// The difference image is white where the pictures are equal, and ranges from pink to dark red as
-/// they differ more.
+/// The difference image is white where the pictures are equal, and goes from pink to dark red as
+/// the difference grows.
 ///
 /// The output is three times as wide as the pictures. The difference image is opaque even where the
 /// pictures are transparent.

@@ -43,10 +43,10 @@ pub(crate) fn run(args: &CompareProjectionsArgs) -> Result<(), CliError> {
     finish_panels(&args.output, &panels, &scene, progress)
 }
 
-/// The requested projections without duplicates, or all of them by default.
+/// Returns the requested projections without duplicates, or all of them by default.
 ///
 /// A panel's name is the flag's value, so that it can be copied to `--projection`. A repeated
-/// projection has one panel, at its first position.
+/// projection gets one panel, at its first position.
 fn select_members(wanted: &[ProjectionArg]) -> Vec<NamedProjection> {
     let all = if wanted.is_empty() { ProjectionArg::value_variants() } else { wanted };
     let mut members: Vec<NamedProjection> = Vec::new();

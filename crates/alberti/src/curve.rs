@@ -82,7 +82,7 @@ type TableFormatter = fn(&DepthTable, &[DepthRow]) -> String;
 
 /// The file extensions for a table without a plot, with their formatters.
 ///
-/// Any other extension belongs to a plot.
+/// Any other extension means a plot.
 const TABLE_FORMATS: [(&str, TableFormatter); 4] = [
     ("txt", DepthTable::to_text),
     ("md", DepthTable::to_markdown),
@@ -140,7 +140,8 @@ fn write_output(
     write_page(output, &table.to_page(rows, distances))
 }
 
-/// Planes that do not define a projection, such as a near plane behind the eye, are wrong usage.
+/// Reports planes that do not define a projection, such as a near plane behind the eye, as wrong
+/// usage.
 fn projection_error(error: projection::ProjectionError) -> CliError {
     CliError::Usage(error.to_string())
 }

@@ -5,8 +5,8 @@
 
 use clap::{ArgMatches, Args, Command, Error, FromArgMatches, Id};
 
-/// The arguments of a subcommand, whose declaration waits until the subcommand is parsed or its
-/// help is printed.
+/// The arguments of a subcommand, which are declared only when the subcommand is parsed or its help
+/// is printed.
 #[derive(Debug)]
 pub(crate) struct Deferred<T>(pub(crate) T);
 
@@ -22,8 +22,8 @@ impl<T: Args> Args for Deferred<T> {
 
 /// Adds the arguments to a command. Values are case-insensitive, as in `--view Front`.
 ///
-/// The command keeps its own description, which the type's would otherwise replace; existing global
-/// flags are moved to the end.
+/// The command keeps its own description, which the type's description would otherwise replace.
+/// Existing global flags are moved to the end.
 fn declare_arguments<T: Args>(command: Command) -> Command {
     let about = command.get_about().cloned().unwrap_or_default();
     let long_about = command.get_long_about().cloned();

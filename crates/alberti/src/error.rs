@@ -4,7 +4,7 @@
 //! combination that depends on the input or on several flags is a [`CliError::Usage`] and exits
 //! with code 1 like any failure.
 //!
-//! A message may have several lines. Further ones begin with `  = help:` and name a flag or a value
+//! A message may have several lines. Later lines begin with ` = help:` and name a flag or a value
 //! that fixes the problem, as in rustc.
 
 use super::color;
@@ -62,9 +62,9 @@ impl From<BatchError> for CliError {
 }
 
 impl CliError {
-    /// The message for the standard error stream, with colors if it has them.
+    /// Returns the message for the standard error stream, in color if the stream is colored.
     ///
-    /// Only scene file errors have colors: they quote the line with a caret below the mistake. A
+    /// Only scene file errors are colored: they quote the line with a caret below the mistake. A
     /// demonstration error may wrap one, since demonstrations resolve scenes themselves.
     pub(crate) fn to_message(&self) -> String {
         match self {

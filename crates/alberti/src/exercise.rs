@@ -1,6 +1,6 @@
 //! `alberti exercise`: exercises on viewing, with answers checked and mistakes named.
 //!
-//! Prints the exercises of `explorer::exercise`. Questions are in English or Chinese; JSON has
+//! Prints the exercises of `explorer::exercise`. Questions are in English or Chinese; JSON contains
 //! both.
 
 use super::reference::wrap_paragraphs;
@@ -40,10 +40,10 @@ pub(crate) struct ExerciseArgs {
     /// Print the hints
     #[arg(long, requires = "number", conflicts_with = "answer")]
     hint: bool,
-    /// Print JSON, with all texts in both languages
+    /// Print JSON, with all text in both languages
     #[arg(long)]
     json: bool,
-    /// Language of the texts [default: from LC_ALL, LC_MESSAGES or LANG]
+    /// Language of the text [default: from LC_ALL, LC_MESSAGES or LANG]
     #[arg(long, value_name = "LANGUAGE")]
     language: Option<TextLanguage>,
 }
@@ -70,7 +70,7 @@ impl From<TextLanguage> for Language {
 /// the answer is wrong.
 ///
 /// # Errors
-/// If there is no such exercise, or the answer cannot be read.
+/// If there is no such exercise, or the answer cannot be parsed.
 pub(crate) fn run(args: &ExerciseArgs) -> Result<ExitCode, CliError> {
     let language = args.language.map_or_else(language_of_environment, Language::from);
     let chosen = args.number.map(|number| numbered_exercise(number, language)).transpose()?;
@@ -99,7 +99,7 @@ pub(crate) fn run(args: &ExerciseArgs) -> Result<ExitCode, CliError> {
     Ok(if is_wrong { ExitCode::FAILURE } else { ExitCode::SUCCESS })
 }
 
-/// Returns Chinese if the environment asks for it: the first variable that is set counts.
+/// Returns Chinese if the environment selects it; the first variable that is set counts.
 fn language_of_environment() -> Language {
     let values = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().filter_map(std::env::var_os);
     let first = values.into_iter().find(|value| !value.is_empty());
@@ -166,7 +166,7 @@ fn format_hints(exercise: &Exercise, language: Language) -> String {
     page
 }
 
-/// The `--json` document: exercises, and the verdict on an answer if one was given.
+/// Returns the `--json` document: exercises, and the verdict if there is an answer to check.
 fn document(shown: &[&Exercise], verdict: Option<&Verdict>) -> Json {
     json!({
         "schema": {"name": "alberti-exercise", "version": VERSION},

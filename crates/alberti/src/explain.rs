@@ -29,7 +29,8 @@ const MAX_PAGE_SIDE: f64 = 960.0;
 /// Arguments of `alberti explain`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ExplainArgs {
-    /// Scene (.ron) or model (.gltf, .glb, .stl, .obj, .ply, .3mf); none with --matrix or --planes
+    /// Scene (.ron) or model (.gltf, .glb, .stl, .obj, .ply, .3mf); omit it with --matrix or
+    /// --planes
     input: Option<PathBuf>,
     #[command(flatten)]
     subject: ExplainSubjectArgs,
@@ -160,7 +161,7 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
     })
 }
 
-/// The transforms of one eye of a stereo pair, in its own picture.
+/// Returns the transforms for one eye of a stereo pair, in that eye's picture.
 fn eye_chain(eye: &Inset, conventions: ApiConventions) -> Result<TransformChain, CliError> {
     let size = (eye.rect.width, eye.rect.height);
     let chain = TransformChain::new(&eye.scene.view_projection, size, conventions);
@@ -197,7 +198,7 @@ fn render_page_picture(mut scene: Scene) -> Result<Picture, CliError> {
 }
 
 impl ExplainSubjectArgs {
-    /// Explains the subject that the flags name.
+    /// Explains the subject that the flags select.
     ///
     /// clap rejects combinations, so the first subject that is set is the only one.
     ///
@@ -230,7 +231,8 @@ impl ExplainSubjectArgs {
         self.explain_part(chain, placed, find_node(&placed.model, node)?)
     }
 
-    /// The points from the flags for a map without a scene: one, the ends of a segment, or none.
+    /// Returns the points from the flags for a map without a scene: one point, the two ends of a
+    /// segment, or none.
     fn bare_points<S: homog::Space>(&self) -> Vec<HPoint<S>> {
         let point = self.point.map(SubjectPoint::numbers).into_iter();
         let ends = self
@@ -240,7 +242,7 @@ impl ExplainSubjectArgs {
         point.chain(ends).map(HPoint::from).collect()
     }
 
-    /// The point that both eyes of a stereo pair see; `None` for other subjects.
+    /// Returns the point that both eyes of a stereo pair see, or `None` for other subjects.
     fn stereo_point(&self) -> Option<Point<World>> {
         HPoint::<World>::from(self.point?.numbers()).divide()
     }
@@ -248,7 +250,7 @@ impl ExplainSubjectArgs {
     /// Explains a vertex, a triangle, or the visibility of a node.
     ///
     /// # Errors
-    /// If the node has no mesh, or it has no such primitive, vertex or triangle.
+    /// If the node has no mesh, or the mesh has no such primitive, vertex or triangle.
     fn explain_part(
         &self,
         chain: &TransformChain,
@@ -304,7 +306,7 @@ impl SubjectPoint {
 }
 
 impl BareMapArgs {
-    /// The map that the flags name; `None` without them.
+    /// Returns the map that the flags define, or `None` without such flags.
     ///
     /// # Errors
     /// If the planes do not define a matrix P.
@@ -319,7 +321,7 @@ impl BareMapArgs {
     }
 }
 
-/// Parses sixteen numbers, boxed to keep the arguments of the command small.
+/// Parses sixteen numbers, boxed to keep the command's argument struct small.
 fn parse_matrix(text: &str) -> Result<Box<[f64; 16]>, String> {
     let one_word = |problem| {
         format!("{problem}; write one word, with commas or in quotation marks: \"1 0 0 0  0 1 …\"")
@@ -345,7 +347,7 @@ pub(super) fn parse_point(text: &str) -> Result<SubjectPoint, String> {
 
 /// Parses a column and a row.
 ///
-/// Whether the pixel is inside the picture is checked when the scene is known.
+/// Whether the pixel is inside the picture is checked once the scene is known.
 fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
     let fault = || "expected a column and a row, such as 320,200".to_owned();
     let (x, y) = text.split_once(',').ok_or_else(fault)?;

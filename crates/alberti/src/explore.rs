@@ -4,10 +4,10 @@
 //!  browser ─► connections ─► request ─► site: page, models of the lessons, the model given
 //!             few at once    checked     └──► lanes: the explorer's answers
 //! ```
-//! The server listens on the loopback address. Other pages in the same browser can reach it too:
-//! requests caused by another page are refused. Other users of the machine can also reach it: paths
-//! begin with a token, which only the printed address contains. No request names a file on disk;
-//! everything that is served is in memory before the first request.
+//! The server listens on the loopback address. Other pages in the same browser can reach it too, so
+//! requests from other pages are refused. Other users of the machine can also reach it, so every
+//! path must begin with a token that only the printed address contains. No request names a file on
+//! disk: everything that is served is in memory before the first request.
 
 mod companions;
 mod connections;
@@ -48,7 +48,7 @@ pub(crate) struct ExploreArgs {
     native: bool,
 }
 
-/// Serves the explorer until the program is interrupted, and prints its address.
+/// Prints the explorer's address and serves the explorer until the program is interrupted.
 ///
 /// # Errors
 /// If the model cannot be read or shown, or the port is in use.
@@ -67,7 +67,7 @@ pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
     connections::serve(&listener, port, site)
 }
 
-/// Listens on the loopback address; returns the port, which the system chooses if it is 0.
+/// Listens on the loopback address and returns the port; if `port` is 0, the system chooses it.
 fn listen(port: u16) -> Result<(TcpListener, u16), CliError> {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))
         .and_then(|listener| listener.local_addr().map(|address| (listener, address.port())));
@@ -79,7 +79,7 @@ fn listen(port: u16) -> Result<(TcpListener, u16), CliError> {
     })
 }
 
-/// Opens an address in the default browser; prints a note if there is none.
+/// Opens an address in the default browser; prints a note if that fails.
 fn open_browser(address: &str) {
     let opener = if cfg!(target_os = "macos") {
         "open"

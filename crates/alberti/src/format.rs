@@ -1,7 +1,7 @@
 //! Output formats and their file extensions.
 //!
 //! Commands with a plot or panels accept further extensions, such as `.html` or `.csv`, which they
-//! check before they ask for an [`OutputFormat`].
+//! check before they look up an [`OutputFormat`].
 
 mod dxf;
 mod raster;
@@ -20,10 +20,10 @@ use std::path::Path;
 pub(crate) enum OutputFormat {
     /// Raster image
     Png,
-    /// Raster image without alpha, compressed with loss
+    /// Raster image without alpha, with lossy compression
     #[value(alias = "jpg")]
     Jpeg,
-    /// Raster image, compressed without loss
+    /// Raster image with lossless compression
     Webp,
     /// Line drawing
     Svg,
@@ -34,13 +34,13 @@ pub(crate) enum OutputFormat {
 }
 
 impl OutputFormat {
-    /// The format of a file, from its extension in any case.
+    /// Returns a file's format from its extension, ignoring case.
     ///
     /// An unknown extension is an error rather than a PNG, because a typo such as `model.sgv` would
     /// otherwise produce a file that no program opens.
     ///
     /// # Errors
-    /// If the extension is not one of the above.
+    /// If the extension is unknown.
     pub(super) fn from_path(output: &Path) -> Result<Self, CliError> {
         if let Some(error) = prefix_error(&visible_path(output).to_string()) {
             return Err(error);
@@ -57,7 +57,7 @@ impl OutputFormat {
         }
     }
 
-    /// Whether a file is a picture or video by its extension, in a supported format or not.
+    /// Whether the extension indicates a picture or a video, in a supported format or not.
     pub(super) fn is_known(output: &Path) -> bool {
         let ending = output.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         let known = [
@@ -67,7 +67,7 @@ impl OutputFormat {
         ending.is_some_and(|ending| known.contains(&ending.as_str()))
     }
 
-    /// The error for an unsupported extension, with a way to get such a file if there is one.
+    /// Returns the error for an unsupported extension, with a way to get such a file, if any.
     fn unknown_extension_error(output: &Path, ending: &str) -> CliError {
         let name = visible_path(output);
         let unwritten = |format: &str, help: String| {
@@ -87,13 +87,13 @@ impl OutputFormat {
             "exr" | "npy" => unwritten(
                 &format!("{} picture", ending.to_uppercase()),
                 format!(
-                    "depth, normals and other passes are written as {} files, beside the picture: `--passes depth --pass-format {ending} -o picture.png`",
+                    "depth, normals and other passes are written as {} files, next to the picture: `--passes depth --pass-format {ending} -o picture.png`",
                     ending.to_uppercase()
                 ),
             ),
             "glb" | "gltf" | "obj" | "stl" | "ply" | "3mf" | "fbx" | "usdz" => unwritten(
                 "model",
-                "models are drawn, not converted; use another program for that, such as Blender"
+                "models are drawn, not converted; to convert them, use a program such as Blender"
                     .into(),
             ),
             "dwg" => unwritten(
@@ -127,7 +127,7 @@ impl OutputFormat {
         }
     }
 
-    /// The file extension, without the dot.
+    /// Returns the file extension, without the dot.
     pub(super) fn extension(self) -> &'static str {
         match self {
             Self::Png => "png",
@@ -141,7 +141,7 @@ impl OutputFormat {
 
     /// Encodes pages in a vector format; an SVG or a DXF holds only the first.
     ///
-    /// A PDF has one page for each; their sizes may differ. A DXF is in millimeters on paper.
+    /// A PDF contains them all, and their sizes may differ. A DXF is in millimeters on paper.
     /// Raster formats are treated as SVG here: callers rasterize the page before they call this
     /// function.
     pub(super) fn encode_pages<W>(self, pages: &[Page<W>]) -> Vec<u8> {
@@ -158,7 +158,7 @@ impl OutputFormat {
     }
 }
 
-/// The error for a video as the output of a command that writes stills.
+/// Returns the error for a video as the output of a command that writes stills.
 fn moving_picture_error(output: &Path, ending: &str) -> CliError {
     let (name, gif) = (visible_path(output), output.with_extension("gif"));
     let gif = visible_path(&gif);
@@ -166,14 +166,14 @@ fn moving_picture_error(output: &Path, ending: &str) -> CliError {
     let help = match ending {
         "gif" => format!("`{turn} -o {gif}` writes an animation"),
         _ => format!(
-            "`{turn} -o {gif}` writes an animation; for a video pipe the frames to ffmpeg: `{turn} --size 960x720 --background white -o - | ffmpeg -f rawvideo -pixel_format rgba -video_size 960x720 -framerate 30 -i - -pix_fmt yuv420p {name}`"
+            "`{turn} -o {gif}` writes an animation; for a video, pipe the frames to ffmpeg: `{turn} --size 960x720 --background white -o - | ffmpeg -f rawvideo -pixel_format rgba -video_size 960x720 -framerate 30 -i - -pix_fmt yuv420p {name}`"
         ),
     };
     CliError::Usage(format!("{name}: this command writes still pictures\n  = help: {help}"))
 }
 
-/// Refuses `//out/render_`, which starts at the scene's folder in Blender and at the root of the
-/// disk everywhere else.
+/// Refuses `//out/render_`, which is relative to the scene's folder in Blender and to the root of
+/// the file system everywhere else.
 ///
 /// # Errors
 /// If the path begins with two slashes.
@@ -187,7 +187,7 @@ pub(crate) fn refuse_blender_path(output: &Path) -> Result<(), CliError> {
     }
 }
 
-/// The error for ImageMagick's `png:-` and `png:out.png`, if a name is one.
+/// Returns the error for a name in ImageMagick's style, such as `png:-` or `png:out.png`.
 fn prefix_error(name: &str) -> Option<CliError> {
     let (format, rest) = name.split_once(':')?;
     let format = format.trim_end_matches(|c: char| c.is_ascii_digit());

@@ -35,7 +35,7 @@ pub(crate) fn group_commands(program: Command) -> Command {
 /// The description of the command `help`.
 const HELP_OF_HELP: &str = "Print the help for a command";
 
-/// The help lines of a command: its name, and its wrapped description.
+/// Returns the help lines of a command: its name and its wrapped description.
 fn command_lines(name: &str, about: &str) -> String {
     let (mut text, mut column) = (format!("  {name:<20}"), DESCRIPTION_COLUMN);
     for word in about.split_whitespace() {

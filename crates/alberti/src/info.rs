@@ -1,8 +1,8 @@
 //! `alberti info`: prints what a model contains.
 //!
 //! The model is imported as for rendering, so a model that cannot be drawn cannot be described
-//! either; `check` says why. Only the headers of image files are read: they give size and format
-//! without decoding megabytes of pixels.
+//! either; `check` reports why. Only the headers of image files are read: they contain the size and
+//! the format, so that megabytes of pixels need not be decoded.
 
 mod json;
 mod materials;
@@ -33,10 +33,10 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
     }
 }
 
-/// Loads the model in the state that the flags choose. Only the headers of its images are read.
+/// Loads the model in the state that the flags select. Only the headers of its images are read.
 ///
-/// Either of `--animation` and `--time` poses the model; the other then has its default, the first
-/// animation or 0 seconds. Without both, the model is in the pose of its nodes, as in the file.
+/// Either `--animation` or `--time` poses the model; the other then defaults to the first animation
+/// or to 0 seconds. Without both, the model has the pose of its nodes in the file.
 fn load_model(args: &InfoArgs) -> Result<Model, CliError> {
     let ModelStateArgs { scene, variant, animation, time } = &args.model_state;
     let options = ImportOptions {
@@ -62,10 +62,10 @@ fn load_model(args: &InfoArgs) -> Result<Model, CliError> {
 /// The maximum number of nodes listed by name.
 const LISTED_NODES: usize = 20;
 
-/// The report as text, one line per subject. Writing to a `String` cannot fail.
+/// Formats the report as text, one line per subject. Writing to a `String` cannot fail.
 ///
-/// Lines about scenes, lights and variants, which most models lack, are omitted if there are none.
-/// The others are always present, so that two models can be compared line by line:
+/// Lines about scenes, lights and variants, which most models lack, are omitted if they would be
+/// empty. The others are always present, so that two models can be compared line by line:
 ///
 /// ```text
 /// fox.glb
@@ -114,19 +114,19 @@ fn describe_model(model: &Model) -> String {
     text
 }
 
-/// The materials by index and name, which overrides in scene files and `--material` use.
+/// Lists the materials by index and name, which overrides in scene files and `--material` use.
 fn material_names(model: &Model) -> String {
     let names = model.materials.iter().map(|material| material.name.as_deref());
     named_items(names, usize::MAX)
 }
 
-/// The first named nodes, by index and name; `--json` lists all.
+/// Lists the first named nodes by index and name; `--json` lists all.
 fn node_names(model: &Model) -> String {
     named_items(model.nodes.iter().map(|node| node.name.as_deref()), LISTED_NODES)
 }
 
-/// The named items, each with its index, and the number without a name: exporters leave hundreds
-/// unnamed.
+/// Lists the named items with their indices, and the number of unnamed items: exporters leave
+/// hundreds unnamed.
 fn named_items<'a>(names: impl Iterator<Item = Option<&'a str>>, most: usize) -> String {
     let (mut listed, mut unlisted, mut unnamed) = (Vec::new(), 0, 0);
     for (index, name) in names.enumerate() {
@@ -141,7 +141,7 @@ fn named_items<'a>(names: impl Iterator<Item = Option<&'a str>>, most: usize) ->
     listed.join("; ")
 }
 
-/// The number of meshes, primitives and vertices in the file.
+/// Counts the meshes, primitives and vertices in the file.
 ///
 /// Each mesh counts once, however often it is instanced; vertices are counted as in the file,
 /// before any welding.
@@ -152,10 +152,10 @@ fn meshes_line(model: &Model) -> String {
     format!("{}, primitives {primitives}, vertices {vertices}", model.meshes.len())
 }
 
-/// The primitives that the scene draws, counting every instance.
+/// Counts the primitives that the scene draws, in every instance.
 ///
-/// Every instance of a mesh, from several nodes or from EXT_mesh_gpu_instancing, counts: this line
-/// measures rendering work, the line above the file size.
+/// Every instance of a mesh counts, from several nodes or from EXT_mesh_gpu_instancing: this line
+/// measures rendering work, and the line above measures file size.
 fn shown_line(model: &Model) -> String {
     let mut counts = [0_usize; 3];
     for (_, primitive) in model.scene_primitives() {
@@ -169,10 +169,10 @@ fn shown_line(model: &Model) -> String {
     format!("triangles {}, lines {}, points {}", counts[0], counts[1], counts[2])
 }
 
-/// The axis-aligned bounds of the drawn scene.
+/// Formats the axis-aligned bounds of the drawn scene.
 ///
-/// The corners of the box in the chosen pose, in model space: right-handed, y up, lengths in units
-/// of the file.
+/// The corners are those of the box in the selected pose, in model space: right-handed, y up, with
+/// lengths in units of the file.
 fn bounds_line(model: &Model) -> String {
     let Some(bounds) = model.bounds() else { return "none: nothing is shown".to_owned() };
     let triple = |p: [f64; 3]| format!("({:.6}, {:.6}, {:.6})", p[0], p[1], p[2]);
@@ -180,7 +180,7 @@ fn bounds_line(model: &Model) -> String {
     format!("{} to {}", triple(min), triple(max))
 }
 
-/// The number of materials, and how many need special treatment.
+/// Counts the materials and those that need special treatment.
 ///
 /// Masked and blended materials cost more to draw, because their texels decide visibility;
 /// double-sided ones are not culled.
@@ -195,14 +195,14 @@ fn materials_line(model: &Model) -> String {
     format!("{all}, masked {masked}, blended {blended}, double-sided {double}")
 }
 
-/// The cameras by index and name, with their projections.
+/// Lists the cameras by index and name, with their projections.
 ///
 /// Angles are the vertical field of view in degrees, heights are window heights in scene units, and
 /// the last two numbers are the near and far distance.
 fn cameras_line(model: &Model) -> String {
     let describe = |(number, lens): (usize, &model::ModelCamera)| {
         let name = lens.name.as_deref().unwrap_or("unnamed");
-        // Rounded for people: many exporters turn 0.05 into 0.04999999701976776.
+        // Rounded for readability: many exporters turn 0.05 into 0.04999999701976776.
         let short = |distance: f64| distance as f32;
         match lens.projection {
             CameraProjection::Perspective { fov_y, near, far, .. } => {
@@ -222,7 +222,7 @@ fn cameras_line(model: &Model) -> String {
     list_or_none(&model.cameras.iter().enumerate().map(describe).collect::<Vec<_>>())
 }
 
-/// The animations by name, with their channels and duration.
+/// Lists the animations by name, with their channels and duration.
 fn animations_line(model: &Model) -> String {
     let describe = |animation: &model::Animation| {
         let name = animation.name.as_deref().unwrap_or("unnamed");
@@ -232,7 +232,7 @@ fn animations_line(model: &Model) -> String {
     list_or_none(&model.animations.iter().map(describe).collect::<Vec<_>>())
 }
 
-/// The scenes of the file by name, with the drawn one marked.
+/// Lists the file's scenes by name and marks the drawn scene.
 fn scenes_line(model: &Model) -> String {
     let describe = |(number, scene): (usize, &SceneRoots)| {
         let shown = if model.active_scene == Some(number) { " (shown)" } else { "" };
@@ -241,7 +241,7 @@ fn scenes_line(model: &Model) -> String {
     list_or_none(&model.scenes.iter().enumerate().map(describe).collect::<Vec<_>>())
 }
 
-/// The punctual lights by name, with their intensity and its unit.
+/// Lists the punctual lights by name, with their intensity and its unit.
 ///
 /// Directional lights have an illuminance in lux, point and spot lights a luminous intensity in
 /// candela (KHR_lights_punctual).
@@ -254,10 +254,10 @@ fn lights_line(model: &Model) -> String {
     list_or_none(&model.lights.iter().map(describe).collect::<Vec<_>>())
 }
 
-/// The extensions of the file; those not fully supported have a note.
+/// Lists the file's extensions, with a note on each that is not fully supported.
 ///
-/// `(not drawn)` means that the model is shown without the effect, `(not read)` that the extension
-/// is unknown or that a model that requires it is rejected.
+/// `(not drawn)` means that the model is shown without the effect. `(not read)` means that the
+/// extension is unknown, or that models that require it are rejected.
 fn extensions_line(model: &Model) -> String {
     let describe = |name: &String| match extension_use(name) {
         ExtensionUse::Drawn | ExtensionUse::Harmless => name.clone(),
@@ -268,7 +268,7 @@ fn extensions_line(model: &Model) -> String {
     list_or_none(&model.extensions_used.iter().map(describe).collect::<Vec<_>>())
 }
 
-/// A list on one line, or `none`.
+/// Joins a list on one line; an empty list becomes `none`.
 fn list_or_none(items: &[String]) -> String {
     if items.is_empty() { "none".to_owned() } else { items.join("; ") }
 }

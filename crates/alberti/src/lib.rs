@@ -1,7 +1,7 @@
 //! The program `alberti`: renders, draws, validates and explains 3D models.
 //!
-//! [`run`] is the program as a function, for `main.rs` and for the Python package, whose `alberti`
-//! command is the same code.
+//! [`run`] is the entry point of `main.rs` and of the Python package, whose `alberti` command runs
+//! the same code.
 //!
 //! Each command is a module with an arguments struct and a `run` function. Only this crate prints:
 //! results go to the standard output, messages to the standard error stream. It uses these crates:
@@ -14,14 +14,14 @@
 //! | [`clip`](../clip/index.html) | clipping in homogeneous space, before the perspective divide |
 //! | [`viewport`] | window to viewport, pixel conventions, paper, unprojection |
 //! | [`raster`] | coverage (`rasterize.rs`), depth test, multisampling, deterministic tiles |
-//! | [`model`] | files to a checked model, validation, skinning and morph targets |
+//! | [`model`] | import of files to a checked model, validation, skinning and morph targets |
 //! | [`shade`] | glTF materials, lights, environments, tone mapping, picture encoders |
 //! | [`drawing`] | hidden-line drawings, sections, sheets to scale, SVG, PDF and DXF |
-//! | [`scene_file`] | the scene language: types, mistakes with carets, formatter, reference |
+//! | [`scene_file`] | the scene language: types, errors with carets, formatter, reference |
 //! | [`scene`](../scene/index.html) | resolution of scene files, lints |
 //! | [`pipeline`] | the renderer, passes, sequences |
 //! | [`batch`](../batch/index.html) | many pictures: jobs, workers, reports, shards, tar files |
-//! | [`explain`](../explain/index.html) | every step of a point, a triangle, a pixel, a matrix |
+//! | [`explain`](../explain/index.html) | every step for a point, a triangle, a pixel or a matrix |
 
 mod animate;
 mod args;
@@ -84,13 +84,13 @@ use messages::{print_json, print_message, print_note, print_stdout, print_text, 
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-/// Runs the program with its arguments, of which the first is its name; returns the exit code.
+/// Runs the program with its arguments, the first of which is its name; returns the exit code.
 ///
-/// Exit codes: 0 success, 1 failure or errors found by a check, 2 wrong usage (set by clap), 3 a
-/// batch that had to stop, 128 and more a program that a signal interrupted.
+/// Exit codes: 0 for success, 1 for a failure or errors found by a check, 2 for wrong usage (set by
+/// clap), 3 for a batch that had to stop, and 128 or more if a signal interrupted the program.
 ///
-/// A failure is printed as `error: MESSAGE` on the standard error stream. Commands whose result is a
-/// verdict return 1 without one.
+/// A failure is printed as `error: MESSAGE` on the standard error stream. Commands whose result is
+/// a verdict return 1 without an error message.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let words = negative_numbers::join_negative_numbers(arguments, Args::command);
     let args = match usage_advice::parse_args(&words) {
@@ -106,7 +106,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     })
 }
 
-/// Runs the command given by the arguments.
+/// Runs the command that the arguments specify.
 ///
 /// # Errors
 /// If the input is invalid or the work fails; the error has not been printed yet.

@@ -1,7 +1,7 @@
 //! Lighting flags: environment, exposure, tone mapping, shadows, ground, ambient occlusion.
 //!
-//! They change the parsed scene file, not the resolved scene, so that a flag and the field of the
-//! scene file have one meaning and one set of checks.
+//! They change the parsed scene file, not the resolved scene, so that a flag and the corresponding
+//! field have the same meaning and the same checks.
 
 use super::CliError;
 use super::options::option_parser;
@@ -14,7 +14,7 @@ use scene_file::file::{
 };
 use std::path::PathBuf;
 
-/// Flags that replace the light of the scene.
+/// Flags that replace the scene's lighting.
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = "Light")]
 pub(crate) struct LightArgs {
@@ -24,12 +24,12 @@ pub(crate) struct LightArgs {
     /// equirectangular Radiance map.
     #[arg(long, value_name = "studio|sky|none|FILE", value_parser = parse_environment)]
     environment: Option<EnvironmentArg>,
-    /// Turn the environment by this angle, counterclockwise seen from above
+    /// Rotate the environment by this angle, counterclockwise as seen from above
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, value_parser = parse_rotation)]
     environment_rotation: Option<Finite>,
-    /// Multiply the intensity of all lights, 0 to 1000; the environment keeps its strength
+    /// Multiply the intensity of all lights by 0 to 1000; the environment keeps its strength
     ///
-    /// --exposure changes all light together.
+    /// --exposure changes all light, including the environment.
     #[arg(long, value_name = "FACTOR", value_parser = parse_light_intensity)]
     light_intensity: Option<NonNegative>,
     /// Exposure in stops, such as 1 or -0.5; each stop doubles the light
@@ -81,13 +81,13 @@ enum GroundArg {
 }
 
 impl LightArgs {
-    /// Replaces the lighting of a scene with the given flags.
+    /// Replaces the lighting of a scene with the settings from the flags.
     ///
     /// Fields without a flag keep the scene's values. `--ambient-occlusion` keeps the scene's
     /// radius, if it has one.
     ///
     /// # Errors
-    /// If there is no environment for `--environment-rotation` to turn.
+    /// If there is no environment for `--environment-rotation` to rotate.
     pub(super) fn apply_to(&self, origin: &Origin, file: &mut SceneFile) -> Result<(), CliError> {
         if let Some(environment) = &self.environment {
             environment.check_file()?;
@@ -127,8 +127,8 @@ impl LightArgs {
         Ok(())
     }
 
-    /// The given flags that change the light on surfaces. If the environment is visible behind the
-    /// models, flags that change its look are omitted.
+    /// Returns the flags in use that change the light on surfaces. If the environment is visible
+    /// behind the models, flags that change its appearance are omitted.
     pub(super) fn light_flags(&self, shows_environment: bool) -> Vec<&'static str> {
         let lights = self.environment.as_ref().is_some_and(EnvironmentArg::is_light);
         let flags = [
@@ -141,18 +141,19 @@ impl LightArgs {
         given_flags(&flags)
     }
 
-    /// The given flags that darken surfaces; shadows may also fall on a ground.
+    /// Returns the flags in use that darken surfaces. If there is a ground plane, `--shadows` is
+    /// omitted, because shadows are visible on the ground.
     pub(super) fn shadow_flags(&self, has_ground: bool) -> Vec<&'static str> {
         let shadows = matches!(self.shadows, Some(SwitchArg::On)) && !has_ground;
         given_flags(&[("--shadows", shadows), ("--ambient-occlusion", self.ambient_occlusion)])
     }
 
-    /// The flag of the ground, if it was given.
+    /// Returns the ground flag, if it is in use.
     pub(super) fn ground_flags(&self) -> Vec<&'static str> {
         given_flags(&[("--ground", matches!(self.ground, Some(GroundArg::Shadow)))])
     }
 
-    /// The environment map, if a file was given; it may be in any folder.
+    /// Returns the environment map, if the flag names a file; it may be in any folder.
     ///
     /// A path in a scene file may come from elsewhere and is confined to the scene's folder. A path
     /// on the command line comes from the user, who may read any file.
@@ -164,14 +165,14 @@ impl LightArgs {
     }
 }
 
-/// Selects the given flags.
+/// Returns the names of the flags that are in use.
 fn given_flags(flags: &[(&'static str, bool)]) -> Vec<&'static str> {
     flags.iter().filter(|(_, is_given)| *is_given).map(|(name, _)| *name).collect()
 }
 
-/// Turns an environment about the y axis, counterclockwise as seen from above.
+/// Rotates an environment about the y axis, counterclockwise as seen from above.
 ///
-/// A uniform one looks the same in every direction.
+/// A uniform environment looks the same in every direction.
 ///
 /// # Errors
 /// If the scene has no environment.
@@ -202,8 +203,8 @@ fn turn_environment(file: &mut Option<EnvironmentFile>, degrees: f64) -> Result<
 /// Enables or disables the shadows of all lights; the scene's settings are kept.
 ///
 /// `off` disables them for the scene and for every light that overrides the scene. `on` keeps the
-/// parameters of lights that have shadows, and gives others the defaults. Lights that only inherit
-/// the setting keep inheriting it.
+/// parameters of lights that have shadows, and sets the defaults for other lights. Lights that only
+/// inherit the setting keep inheriting it.
 fn switch_shadows(file: &mut SceneFile, switch: SwitchArg) {
     let switched_shadows = |known: Option<ShadowsFile>| match (switch, known) {
         (SwitchArg::Off, _) => Some(ShadowsFile::Off),
@@ -244,7 +245,7 @@ impl EnvironmentArg {
         }
     }
 
-    /// The environment as a field of a scene.
+    /// Returns the environment as a field of a scene.
     fn to_environment_file(&self) -> EnvironmentFile {
         match self {
             Self::Studio => EnvironmentFile::STUDIO,
@@ -293,7 +294,7 @@ fn parse_light_intensity(text: &str) -> Result<NonNegative, String> {
 
 /// Parses a number of stops from −30 to 30.
 ///
-/// Thirty stops are a factor of about 10⁹: more than any scene needs, and too small to overflow
+/// Thirty stops are a factor of about 10⁹: more than any scene needs, but too small to overflow
 /// 32-bit floats.
 fn parse_exposure(text: &str) -> Result<Finite, String> {
     let fault = || "expected a number of stops from -30 to 30, such as 1.5".to_owned();

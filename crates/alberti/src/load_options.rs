@@ -1,5 +1,5 @@
-//! Model loading flags: leniency, allowed folders, axes, unit and normals that a file leaves open,
-//! and limits on input size.
+//! Model loading flags: leniency, allowed folders, limits on input size, and defaults for the up
+//! axis, the unit and the crease angle, which a file may leave open.
 //!
 //! Models are not trusted: without limits, a file of a few kilobytes could demand terabytes. Every
 //! command that loads a model has these flags.
@@ -10,7 +10,8 @@ use model::{LengthUnit, UpAxis};
 use scene_file::file::{CreaseAngle, SceneFile, StyleFile};
 use std::path::PathBuf;
 
-/// How models are loaded; [`import_options`](Self::import_options) makes the library's options.
+/// Flags for loading models; [`import_options`](Self::import_options) converts them to the
+/// library's options.
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Input")]
 pub(crate) struct LoadArgs {
@@ -25,7 +26,7 @@ pub(crate) struct LoadArgs {
     /// Axis that points up in the file [default: z for STL and 3MF, y for all others]
     #[arg(long, value_name = "AXIS", value_parser = option_parser::<UpAxis>(), allow_hyphen_values = true)]
     pub(crate) up: Option<UpAxis>,
-    /// Length unit of the model, for sheets and dimensions [default: what the file declares; else
+    /// Length unit of the model, for sheets and dimensions [default: as declared in the file, else
     /// mm for STL and 3MF, m for all others]
     #[arg(long, value_parser = option_parser::<LengthUnit>())]
     pub(crate) unit: Option<LengthUnit>,
@@ -44,7 +45,7 @@ struct LimitArgs {
     /// Size of one file in bytes [default: 512MiB]
     #[arg(long, value_name = "SIZE", value_parser = parse_byte_size)]
     max_file_bytes: Option<u64>,
-    /// Size of all files of a model in bytes [default: 2GiB]
+    /// Total size of a model's files in bytes [default: 2GiB]
     #[arg(long, value_name = "SIZE", value_parser = parse_byte_size)]
     max_total_bytes: Option<u64>,
     /// Nesting depth of the JSON, up to 127 [default: 120]
@@ -53,7 +54,7 @@ struct LimitArgs {
     /// Number of values in the JSON; an object counts as ten [default: 16M]
     #[arg(long, value_name = "N", value_parser = parse_byte_size)]
     max_json_values: Option<u64>,
-    /// Memory of all decoded arrays of a model in bytes [default: 4GiB]
+    /// Total size of a model's decoded arrays in bytes [default: 4GiB]
     #[arg(long, value_name = "SIZE", value_parser = parse_byte_size)]
     max_array_bytes: Option<u64>,
     /// Ratio of decoded arrays to file size [default: 64]
@@ -62,7 +63,7 @@ struct LimitArgs {
     /// Width and height of an image in texels [default: 16384]
     #[arg(long, value_name = "N", value_parser = parse_byte_size)]
     max_image_side: Option<u64>,
-    /// Number of texels of all images of a model [default: 256Mi]
+    /// Total number of texels in a model's images [default: 256Mi]
     #[arg(long, value_name = "N", value_parser = parse_byte_size)]
     max_image_texels: Option<u64>,
     /// Number of nodes [default: 1M]
@@ -71,16 +72,16 @@ struct LimitArgs {
     /// Depth of the node tree [default: 1024]
     #[arg(long, value_name = "N", value_parser = parse_byte_size)]
     max_node_depth: Option<u64>,
-    /// Number of points, lines and triangles of a model, counting every instance [default: 200M]
+    /// Number of points, lines and triangles in a model, counting every instance [default: 200M]
     #[arg(long, value_name = "N", value_parser = parse_byte_size)]
     max_scene_items: Option<u64>,
-    /// Memory of the arrays and images of all models of a scene in bytes [default: 4GiB]
+    /// Total size of the arrays and images of a scene's models in bytes [default: 4GiB]
     #[arg(long, value_name = "SIZE", value_parser = parse_byte_size)]
     max_scene_bytes: Option<u64>,
 }
 
 impl LoadArgs {
-    /// The options of the `model` crate for these flags.
+    /// Returns the options of the `model` crate for these flags.
     pub(crate) fn import_options(&self) -> ImportOptions {
         ImportOptions {
             limits: self.limits.to_limits(),
@@ -95,7 +96,7 @@ impl LoadArgs {
 }
 
 impl LoadArgs {
-    /// Gives the angle of `--crease` to the edges of a line drawing.
+    /// Applies the angle of `--crease` to the edges of a line drawing.
     ///
     /// A vector file always shows lines, so `draws_lines` changes a surface style to a line style.
     pub(crate) fn apply_crease_to(&self, file: &mut SceneFile, draws_lines: bool) {
@@ -110,7 +111,7 @@ impl LoadArgs {
 }
 
 impl LimitArgs {
-    /// The limits of the `model` crate: the flags that were given, defaults for the others.
+    /// Returns the limits for the `model` crate: those set by flags, and defaults for the others.
     ///
     /// A number that does not fit its limit's type counts as the largest value, that is, as no
     /// limit.
@@ -177,7 +178,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sizes_with_units() {
+    fn sizes_with_units_are_parsed() {
         for (text, number) in [
             ("0", 0),
             ("1_000", 1_000),

@@ -2,7 +2,7 @@
 //!
 //! The numbers come from other programs, logs or books, so any brackets and separators are
 //! accepted. The report names the convention (handedness, depth range, row or column vectors) that
-//! makes sense of them. With a flag such as `--perspective`, the matrix is built instead.
+//! fits them. With a flag such as `--perspective`, the matrix is built instead.
 
 mod build;
 mod builders;
@@ -59,7 +59,8 @@ pub(crate) struct MatrixArgs {
     ///
     /// Brackets and commas between them are ignored, and fractions such as 2/3 are allowed. Source
     /// code in C, GLSL, Python and Rust is accepted in the form that --code prints: mat
-    /// constructors are read column by column, other code as its comments say, or else row by row.
+    /// constructors are read column by column, and other code in the order that its comments state,
+    /// by default row by row.
     #[arg(allow_hyphen_values = true)]
     numbers: Vec<String>,
     /// Read the numbers column by column, as OpenGL, glTF and glam store them
@@ -87,10 +88,10 @@ pub(crate) struct MatrixArgs {
         value_parser = super::explain::conventions_parser()
     )]
     conventions: Option<ApiConventions>,
-    /// Exchange the depths of near and far (reversed z)
+    /// Swap the depths of near and far (reversed z)
     #[arg(long)]
     reversed: bool,
-    /// Drop z, as textbook projections do: --oblique, --axonometric, --n-point
+    /// Drop z, as textbook projections do (for --oblique, --axonometric and --n-point)
     #[arg(long)]
     onto_plane: bool,
     #[command(flatten)]
@@ -101,7 +102,7 @@ pub(crate) struct MatrixArgs {
 ///
 /// # Errors
 /// If there are neither sixteen nor nine numbers, a number is not finite, or a parameter is
-/// refused.
+/// invalid.
 pub(crate) fn run(args: &MatrixArgs) -> Result<(), CliError> {
     match flags_after_numbers(&args.numbers) {
         Some(reordered) => run_ordered(&reordered),
@@ -111,7 +112,7 @@ pub(crate) fn run(args: &MatrixArgs) -> Result<(), CliError> {
 
 /// Returns the arguments with the flags moved to the front, if a flag follows a number.
 ///
-/// Numbers may begin with a minus sign, so everything after the first one is taken for a number.
+/// Numbers may begin with a minus sign, so everything after the first number is taken as a number.
 fn flags_after_numbers(words: &[String]) -> Option<MatrixArgs> {
     let first = words.iter().position(|word| word.starts_with("--"))?;
     let (numbers, flags) = words.split_at(first);
@@ -151,7 +152,7 @@ fn run_ordered(args: &MatrixArgs) -> Result<(), CliError> {
             (args.code.map(|language| language.format_matrix(rows)), map_point(found, rows, args)?)
         }
         GivenMatrix::Plane(_) if args.point.is_some() => {
-            let message = "--point needs a 4 × 4 matrix, or one from parameters";
+            let message = "--point needs a 4 × 4 matrix, or a matrix from parameters";
             return Err(CliError::Usage(message.to_owned()));
         }
         GivenMatrix::Plane(rows) => {
@@ -189,7 +190,8 @@ fn rows_of(matrix: DMat4) -> [[f64; 4]; 4] {
     matrix.transpose().to_cols_array_2d()
 }
 
-/// Explains the matrix, its factors in the order a point passes them, and its inverse.
+/// Explains the matrix, its factors in the order in which they are applied to a point, and its
+/// inverse.
 fn explain_built(built: &BuiltMatrix) -> Explanation {
     let entry = |id: &str, name: &str, value: ItemValue| ExplanationEntry {
         id: id.to_owned(),
@@ -213,7 +215,7 @@ fn explain_built(built: &BuiltMatrix) -> Explanation {
         .map(|(at, (name, factor))| matrix(&format!("factor_{at}"), name, factor))
         .collect();
     if !items.is_empty() {
-        let title = "Its factors, the one that is applied first at the top";
+        let title = "Its factors, in the order in which they are applied";
         steps.push(step("factors", title, built.factor_formula, items));
     }
     let inverse = built.matrix.inverse();
@@ -230,7 +232,7 @@ fn explain_built(built: &BuiltMatrix) -> Explanation {
 
 /// Reads the standard input as text, up to a limit that sixteen numbers cannot reach.
 ///
-/// Further bytes are not read, and surplus numbers give the error of a wrong count.
+/// Bytes beyond it are not read; surplus numbers cause an error about their count.
 fn read_stdin() -> Result<String, CliError> {
     const MAX_BYTES: u64 = 1 << 16;
     let mut bytes = Vec::new();

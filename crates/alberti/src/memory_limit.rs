@@ -2,17 +2,17 @@
 
 use import::Limits;
 
-/// The importer's limits for a program with this much memory.
+/// Returns the importer's limits for a program with this much memory.
 ///
 /// | part | purpose |
 /// | --- | --- |
 /// | 1/4 | files, as stored |
 /// | 1/2 | arrays: vertices, indices, contents of 3MF archives |
-/// | 1/3 | texels of 4 bytes; their mip levels, at a third more, take the next 1/9 |
+/// | 1/3 | texels of 4 bytes; their mip levels need another third of that, 1/9 |
 ///
 /// The limits on nodes, JSON values and triangles follow from their maximum sizes: 2,048, 256 and
 /// 64 bytes each. The parts add up to more than the total, because no model needs the maximum of
-/// everything; one made to do so is stopped by the system.
+/// everything; a model that is built to need it is stopped by the system.
 pub(crate) fn import_limits(usual: &Limits, memory: u64) -> Limits {
     let count = |usual: usize, bytes: u64| {
         usize::try_from(memory / bytes).map_or(usual, |most| usual.min(most))
@@ -37,15 +37,15 @@ pub(crate) fn limit_process_memory(memory: u64) {
     use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
     let maximum = getrlimit(Resource::Data).maximum;
     let current = Some(maximum.map_or(memory, |most| most.min(memory)));
-    // If this is forbidden, the importer's limits still apply.
+    // If the system forbids this, the importer's limits still apply.
     let _ = setrlimit(Resource::Data, Rlimit { current, maximum });
 }
 
-/// Other systems have no such limit: the importer's must suffice.
+/// Other systems have no such limit: the importer's limits must suffice.
 #[cfg(not(target_os = "linux"))]
 pub(crate) fn limit_process_memory(_memory: u64) {}
 
-/// Parses the memory limit of a program, which needs some for itself.
+/// Parses the memory limit of a program, which needs some memory for itself.
 ///
 /// # Errors
 /// If the text is not a size, or is less than 64 MiB.
@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn limits_shrink_with_the_memory_and_never_exceed_the_usual_ones() {
+    fn limits_shrink_with_the_memory_and_never_exceed_the_defaults() {
         let usual = Limits::default();
         assert_eq!(import_limits(&usual, u64::MAX), usual);
         let small = import_limits(&usual, 64 << 20);

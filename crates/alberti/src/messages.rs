@@ -3,13 +3,12 @@
 //! A closed pipe, as in `alberti info model.glb | head`, is not an error for either stream.
 //!
 //! The order on the standard error stream is: progress (removed before anything else is printed),
-//! notes such as `--verify` and `--timings`, then warnings, then the error, if there is one.
-//! Nothing on the standard output depends on whether messages are printed, so results can be piped
-//! safely.
+//! notes such as `--verify` and `--timings`, then warnings, then the error, if any. Nothing on the
+//! standard output depends on whether messages are printed, so results can be piped safely.
 //!
 //! Text for people shows control characters as codes, no matter which file a name comes from. This
-//! holds for [`print_text`], [`print_json`], and everything on the standard error stream. Names
-//! within a message line are written by [`files::visible_text`], which shows line ends as well.
+//! applies to [`print_text`], [`print_json`], and everything on the standard error stream. Names
+//! within a message line are written by [`files::visible_text`], which also shows line ends.
 
 use super::CliError;
 use super::color;
@@ -23,7 +22,7 @@ use std::io::{ErrorKind, Write};
 /// The maximum number of warnings printed per model; the others are only counted.
 ///
 /// A broken exporter can cause one warning per vertex accessor; a screen full of them would hide
-/// the line that matters. `check` and the JSON reports have all of them.
+/// the line that matters. `check` and the JSON reports contain all of them.
 const MAX_WARNINGS: usize = 8;
 
 /// Writes to the standard output.
@@ -44,7 +43,7 @@ pub(crate) fn print_stdout(bytes: &[u8]) -> Result<(), CliError> {
 /// Writes text for people to the standard output: control characters in names are shown as codes.
 ///
 /// # Errors
-/// As [`print_stdout`].
+/// The same as for [`print_stdout`].
 pub(crate) fn print_text(text: &str) -> Result<(), CliError> {
     print_stdout(without_controls(text, color::stdout_has_color()).as_bytes())
 }
@@ -53,7 +52,7 @@ pub(crate) fn print_text(text: &str) -> Result<(), CliError> {
 /// which changes none of its values.
 ///
 /// # Errors
-/// As [`print_stdout`].
+/// The same as for [`print_stdout`].
 pub(crate) fn print_json(json: &str) -> Result<(), CliError> {
     if !json.contains(must_be_escaped) {
         return print_stdout(json.as_bytes());
@@ -61,7 +60,7 @@ pub(crate) fn print_json(json: &str) -> Result<(), CliError> {
     let mut escaped = String::with_capacity(json.len() + 8);
     for character in json.chars() {
         if must_be_escaped(character) {
-            // JSON allows only these in a string: none has more than four digits.
+            // JSON strings may contain only control characters with at most four digits.
             escaped.push_str(&format!("\\u{:04x}", u32::from(character)));
         } else {
             escaped.push(character);
@@ -75,7 +74,7 @@ fn must_be_escaped(character: char) -> bool {
     character != '\n' && is_terminal_control(character)
 }
 
-/// Writes control characters in a multi-line text as codes, except for the colors of the program's
+/// Writes control characters in multi-line text as codes, except for the colors of the program's
 /// own messages if they are `colored`.
 fn without_controls(text: &str, colored: bool) -> Cow<'_, str> {
     if !text.contains(must_be_escaped) {
@@ -103,7 +102,7 @@ fn without_controls(text: &str, colored: bool) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// The length in bytes of a color at the start of a text, such as `ESC [1;31m`.
+/// Returns the length in bytes of a color escape at the start of a text, such as `ESC [1;31m`.
 fn color_length(text: &str) -> Option<usize> {
     let numbers = text.strip_prefix("\x1b[")?;
     let end = numbers.find(|c: char| !c.is_ascii_digit() && c != ';')?;
@@ -112,9 +111,9 @@ fn color_length(text: &str) -> Option<usize> {
 
 /// Prints `LEVEL: MESSAGE` on the standard error stream.
 ///
-/// The level is `error`, `warning` or a word of the command, such as `failed` in `batch`; it is
-/// colored as [`color::style_level`] says. Messages are never colored, except those about scene
-/// files. Any further line of the message is printed unchanged.
+/// The level is `error`, `warning` or a word of the command, such as `failed` in `batch`;
+/// [`color::style_level`] colors it. Messages are never colored, except those about scene files.
+/// Any further line of the message is printed unchanged.
 pub(crate) fn print_message(level: &str, message: &str) {
     let colored = color::stderr_has_color();
     let level = color::style_level(level, colored);
@@ -126,7 +125,7 @@ pub(crate) fn print_message(level: &str, message: &str) {
 /// Prints clap's message about wrong usage, or the requested help.
 pub(crate) fn print_usage(usage: &clap::Error) {
     if !usage.use_stderr() {
-        // A stream that accepts no text leaves nothing to report to.
+        // If the stream accepts no text, there is nowhere to report the error.
         let _ = usage.print();
         return;
     }
@@ -138,7 +137,8 @@ pub(crate) fn print_usage(usage: &clap::Error) {
 
 /// Prints a line without a level on the standard error stream.
 ///
-/// Notes are answers to a flag, such as `--timings`, and therefore have neither level nor color.
+/// Notes are printed because a flag such as `--timings` requests them, and therefore have neither
+/// level nor color.
 pub(crate) fn print_note(line: &str) {
     let line = without_controls(line, false);
     // A closed stream is not an error.
@@ -149,8 +149,8 @@ pub(crate) fn print_note(line: &str) {
 ///
 /// Several instances of a model have the same warnings, which are printed once.
 ///
-/// Two files with one name count as one model here; `check` reports both. The order follows the
-/// scene, so the output is deterministic.
+/// Two files with the same name count as one model here; `check` reports both. The order follows
+/// the scene, so the output is deterministic.
 ///
 /// Warnings about things the picture would not show anyway are omitted. `is_vector` says whether it
 /// is a line drawing regardless of style.
@@ -184,7 +184,7 @@ fn concerns_picture(scene: &Scene, is_vector: bool, warning: &Diagnostic) -> boo
     true
 }
 
-/// Prints the first warnings of a model, and the number of the others.
+/// Prints the first warnings of a model, and the number of remaining warnings.
 ///
 /// ```text
 /// warning: fox.glb: /meshes/0: …
@@ -207,7 +207,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_own_colors_reach_a_terminal() {
+    fn only_the_programs_own_colors_reach_a_terminal() {
         let text = "\x1b[1;31merror\x1b[0m: a\x1b]0;b\x07\n\u{9b}2J\x1b[\u{202e}";
         let plain = "\\u{1b}[1;31merror\\u{1b}[0m: a\\u{1b}]0;b\\u{7}\n\\u{9b}2J\\u{1b}[\\u{202e}";
         assert_eq!(without_controls(text, false), plain);

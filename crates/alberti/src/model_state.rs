@@ -1,6 +1,6 @@
 //! Flags that choose the state of a model: its glTF scene, material variant, animation and time.
 //!
-//! The flags apply to every model of a scene; scene files can choose the state of each.
+//! The flags apply to every model of a scene; scene files can choose the state of each model.
 
 use super::{CliError, print_message};
 use pipeline::{Origin, ResolveError, Scene, SceneFile};
@@ -61,12 +61,12 @@ impl ModelStateArgs {
             let ([begin, end], time) = (path.time_range(), time.value());
             if time > end {
                 let message = format!(
-                    "the camera path ends at {end} s, before --time {time}: the picture shows its last key"
+                    "the camera path ends at {end} s, before --time {time}: the picture shows its last keyframe"
                 );
                 print_message("warning", &message);
             } else if time < begin {
                 let message = format!(
-                    "the camera path begins at {begin} s, after --time {time}: the picture shows its first key"
+                    "the camera path begins at {begin} s, after --time {time}: the picture shows its first keyframe"
                 );
                 print_message("warning", &message);
             }
@@ -77,9 +77,9 @@ impl ModelStateArgs {
         Ok(())
     }
 
-    /// Replaces the fields of a scene's model with the given flags.
+    /// Replaces the fields of a scene's model with the values of the flags.
     ///
-    /// A choice that a model lacks is an error when it is loaded.
+    /// Choosing something that a model lacks is an error when the model is loaded.
     pub(crate) fn apply_to(&self, model: &mut ModelFile) {
         let replace = |flag: &Option<Choice>, field: &mut Option<Choice>| {
             if flag.is_some() {

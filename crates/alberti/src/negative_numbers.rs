@@ -2,13 +2,13 @@
 //!
 //! A word that begins with a hyphen looks like a flag. After a flag that takes a value, a word that
 //! continues as a number is its value, so that the flag itself can report an invalid one. The two
-//! are joined to `--from=-1` before the command line is parsed. Words that are not numbers, such as
-//! a flag after one whose value was forgotten, stay unchanged.
+//! are joined to `--from=-1` before the command line is parsed. Words that are not numbers stay
+//! unchanged, for example a flag that follows another whose value was forgotten.
 
 use clap::{Arg, ArgAction, Command};
 use std::ffi::OsString;
 
-/// The words of a command line, with negative numbers joined to the flags before them.
+/// Returns the words of a command line, with negative numbers joined to the preceding flags.
 ///
 /// The flags are built only if there is such a number: declaring all of them is most of the cost of
 /// a short command.
@@ -46,7 +46,7 @@ fn is_negative_number(word: &OsString) -> bool {
     digits.strip_prefix('.').unwrap_or(digits).starts_with(|c: char| c.is_ascii_digit())
 }
 
-/// The innermost command that the words name.
+/// Returns the innermost command that the words name.
 pub(crate) fn called_command<'a>(program: &'a Command, words: &[OsString]) -> &'a Command {
     words.iter().skip(1).fold(program, |command, word| {
         let name = word.to_str().unwrap_or_default();
@@ -77,7 +77,7 @@ mod tests {
         join_negative_numbers(words, Args::command)
     }
 
-    /// Calls each command below this one with each of its flags and a negative number.
+    /// Parses every command below this one with each of its flags and a negative number.
     fn check_flags(command: &Command, path: &[String], checked: &mut usize) {
         for flag in command.get_arguments() {
             let Some(long) = flag.get_long() else { continue };
@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn every_flag_with_a_value_takes_negative_numbers() {
+    fn every_flag_with_a_value_accepts_negative_numbers() {
         let mut program = Args::command();
         program.build();
         let mut checked = 0;
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_behind_other_words_stay_where_they_are() {
+    fn numbers_after_other_words_stay_separate() {
         for words in [
             ["alberti", "matrix", "--json", "-1", "0"],
             ["alberti", "matrix", "1", "-.5", "0"],

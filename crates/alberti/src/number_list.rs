@@ -1,4 +1,5 @@
-//! Flag values as textbooks write them: decimals and fractions between commas, blanks or brackets.
+//! Lists of numbers in textbook notation: decimals and fractions between commas, spaces or
+//! brackets.
 
 /// Parses a list of numbers such as `1, -2/3, 0.5` or `[1 0 0 4] [0 1 0 2]`.
 ///
@@ -36,7 +37,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fractions_and_brackets_are_accepted_and_infinities_are_not() {
+    fn fractions_and_brackets_are_accepted_and_infinities_rejected() {
         assert_eq!(parse_number_list("[1, -2/4]\n(.5 1e2)"), Ok(vec![1.0, -0.5, 0.5, 100.0]));
         assert_eq!(parse_numbers::<2>("1,2"), Ok([1.0, 2.0]));
         assert!(parse_numbers::<3>("1,2").is_err_and(|words| words.contains("found 2")));

@@ -1,7 +1,7 @@
 //! Flag values, parsed from the library's lists.
 //!
 //! The library declares every option once, as a [`NamedOption`] with its names and descriptions;
-//! scene files, flags, help and reference all read that declaration.
+//! scene files, flags, the help and the reference all use that declaration.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use scene_file::options::NamedOption;
@@ -9,7 +9,8 @@ use scene_file::options::NamedOption;
 /// Value names that are shorter in flags than in scene files.
 ///
 /// The first name of a pair is [`NamedOption::flag_name`], in kebab case; the second is the only
-/// one that flags accept. Scene files keep the long name, because it is read more often than typed.
+/// name that flags accept. Scene files keep the long name, because it is read more often than
+/// typed.
 const SHORT_NAMES: [(&str, &str); 10] = [
     ("ag-x", "agx"),
     ("open-cv", "opencv"),
@@ -23,10 +24,10 @@ const SHORT_NAMES: [(&str, &str); 10] = [
     ("foot-inch", "ft-in"),
 ];
 
-/// The flag name of a value.
+/// Returns the flag name of a value.
 ///
-/// Lower case with hyphens between words, as the library makes it, or the short name from
-/// [`SHORT_NAMES`]: `LengthUnit::Centimeter` is `cm`.
+/// It is in lower case with hyphens between words, or it is the short name from [`SHORT_NAMES`]:
+/// `LengthUnit::Centimeter` is `cm`.
 fn flag_name<T: NamedOption>(value: T) -> String {
     let name = value.flag_name();
     let short = SHORT_NAMES.iter().find(|(long, _)| *long == name);
@@ -74,7 +75,7 @@ mod tests {
     use pipeline::shade::ToneMapping;
 
     #[test]
-    fn names_are_lower_case_and_short_where_that_is_usual() {
+    fn names_are_lower_case_and_units_are_abbreviated() {
         let names: Vec<String> = LengthUnit::ALL.iter().map(|unit| flag_name(*unit)).collect();
         assert_eq!(names, ["um", "mm", "cm", "m", "in", "ft"]);
         assert_eq!(flag_name(ToneMapping::AgX), "agx");

@@ -1,6 +1,6 @@
 //! Output of pages and panels as SVG, PDF, DXF, PNG or HTML, depending on the output's extension.
 //!
-//! HTML holds the panels as inline SVG in a page that refers to no other file. The other formats
+//! An HTML page contains the panels as inline SVG and refers to no other file. The other formats
 //! put all panels on one page.
 
 use super::CliError;
@@ -18,7 +18,7 @@ use std::path::Path;
 /// The progress line is removed before the first warning.
 ///
 /// # Errors
-/// If the output cannot be written; then no warnings are printed.
+/// If the output cannot be written; in that case, no warnings are printed.
 pub(super) fn finish_panels(
     output: &Path,
     panels: &Panels,
@@ -32,7 +32,7 @@ pub(super) fn finish_panels(
     Ok(())
 }
 
-/// Writes panels as .svg, .pdf, .dxf, .png or .html; no file is touched for any other extension.
+/// Writes panels as .svg, .pdf, .dxf, .png or .html; for any other extension, no file is touched.
 pub(super) fn write_panels(output: &Path, panels: &Panels) -> Result<(), CliError> {
     if is_html(output) {
         return Ok(pipeline::write_file(output, panels.to_html().as_bytes())?);
@@ -55,7 +55,7 @@ pub(super) fn write_page(output: &Path, page: &Page) -> Result<(), CliError> {
 
 /// Rejects an output with another extension before any work is done.
 ///
-/// Drawing may take a minute, and a misspelled extension should not cost that.
+/// Drawing may take a minute, too long to wait for an error about a misspelled extension.
 pub(super) fn check_panel_output(output: &Path) -> Result<(), CliError> {
     if is_html(output) {
         return Ok(());
@@ -73,7 +73,7 @@ fn is_html(output: &Path) -> bool {
     has_extension(output, "html")
 }
 
-/// Whether a file name has this extension, in any case.
+/// Whether a file name has this extension, ignoring case.
 pub(super) fn has_extension(output: &Path, ending: &str) -> bool {
     output.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// Which render passes to write, and in which format.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct PassArgs {
-    /// Render passes to write beside the picture, as NAME.PASS.png (or .npy, .exr)
+    /// Render passes to write next to the picture, as NAME.PASS.png (or .npy, .exr)
     ///
     /// Each holds one property of the nearest surface at the center of each pixel: depth along the
     /// view axis and distance from the eye in scene units; normal (world space) and view-normal;
@@ -36,7 +36,7 @@ pub(crate) struct PassArgs {
 }
 
 impl PassArgs {
-    /// Replaces the passes of the scene with the given flags.
+    /// Replaces the passes of the scene with those from the flags.
     ///
     /// `--passes` replaces the scene's whole list, so that one pass can be written without the
     /// others.
@@ -53,7 +53,7 @@ impl PassArgs {
 /// Writes passes to temporary files next to a picture, to be renamed when all are complete.
 ///
 /// # Errors
-/// If a file cannot be created or written; those created so far are then removed.
+/// If a file cannot be created or written; the files created so far are then removed.
 pub(super) fn create_pass_files(
     output: &Path,
     buffers: &[PassBuffer],
@@ -69,9 +69,9 @@ pub(super) fn create_pass_files(
     buffers.iter().map(draft).collect()
 }
 
-/// The path of a file that belongs to a picture: `picture.depth.png` for `picture.png`.
+/// Returns the path of a file that accompanies a picture: `picture.depth.png` for `picture.png`.
 ///
-/// The extension of the output is dropped: `fox.svg` and a pass give `fox.depth.png`.
+/// The extension of the output is dropped: for `fox.svg`, the depth pass is `fox.depth.png`.
 pub(super) fn sibling_path(output: &Path, what: &str, ending: &str) -> PathBuf {
     let mut name = output.file_stem().unwrap_or_default().to_owned();
     name.push(format!(".{what}.{ending}"));

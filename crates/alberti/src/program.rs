@@ -1,4 +1,4 @@
-//! The command line that starts this program again: for batch workers, and if memory is limited.
+//! The command line that starts this program again, for batch workers and to limit memory.
 
 #[cfg(target_os = "linux")]
 mod supervisor;
@@ -8,10 +8,10 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::OnceLock;
 
-/// The words that start this program again if it runs within another one.
+/// The words that start this program again if it runs inside another program.
 static PROGRAM_WORDS: OnceLock<Vec<OsString>> = OnceLock::new();
 
-/// Runs the program within another one, as [`run`](crate::run) does.
+/// Runs the program inside another program, like [`run`](crate::run).
 ///
 /// `program` contains the words that start it again, such as `python -m alberti`: `batch` uses them
 /// to start workers.
@@ -23,10 +23,10 @@ pub fn run_within(
     crate::run(arguments)
 }
 
-/// Runs the program as [`run`](crate::run) does. If memory is limited, it uses a second process, so
-/// that a command that needs more ends with a message.
+/// Runs the program like [`run`](crate::run). If memory is limited, the command runs in a second
+/// process, so that it ends with a message if it needs more.
 ///
-/// Use it only in the program itself, which may be started again.
+/// Use it only in the program itself, because it may start the program again.
 pub fn run_program(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<OsString> = arguments.into_iter().collect();
     #[cfg(target_os = "linux")]
@@ -36,10 +36,10 @@ pub fn run_program(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     crate::run(words)
 }
 
-/// A command that starts this program again.
+/// Returns a command that starts this program again.
 ///
 /// # Errors
-/// If the system does not report where the program is.
+/// If the system does not report the program's path.
 pub(super) fn program_command() -> std::io::Result<Command> {
     if let Some([program, rest @ ..]) = PROGRAM_WORDS.get().map(Vec::as_slice) {
         let mut command = Command::new(program);

@@ -7,8 +7,8 @@
 //! ```
 //!
 //! Flags and fields are both reduced to sections with entries, the only form that the search and
-//! the output formats handle. Descriptions come from doc comments and help texts, so each text
-//! exists only once.
+//! the output formats handle. Descriptions come from doc comments and help texts, so each is
+//! written only once.
 
 mod fields;
 mod flags;
@@ -40,15 +40,15 @@ pub(crate) struct ReferenceArgs {
     format: ReferenceFormat,
 }
 
-/// Arguments of `alberti reference`: what `scene doc` takes, and schemas.
+/// Arguments of `alberti reference`: the arguments of `scene doc`, and schemas.
 #[derive(Debug, clap::Args)]
 pub(crate) struct FullReferenceArgs {
     #[command(flatten)]
     sections: ReferenceArgs,
     /// Print the JSON Schema of a command's output
     ///
-    /// Draft 2020-12. Any release may add members. The version in a document increases when a
-    /// member is removed or changes its meaning.
+    /// Schemas use draft 2020-12. Any release may add members. The version in a document increases
+    /// when a member is removed or changes its meaning.
     #[arg(long, value_name = "NAME", conflicts_with_all = ["word", "format"])]
     schema: Option<SchemaName>,
 }
@@ -114,7 +114,7 @@ pub(crate) fn run(args: &FullReferenceArgs, program: Command) -> Result<(), CliE
         Some(word) => match (search::find_sections(&sections, word), find_formulas(word)) {
             (Ok(found), formulas) => {
                 // If flags and fields only mention the word, formulas that mention it are equally
-                // good.
+                // good matches.
                 let spoken = search::is_only_mentioned(&found, word);
                 let titled = formulas.into_iter().filter(|(_, in_name)| *in_name || spoken);
                 found.into_iter().chain(formula::list_section(titled)).collect()
@@ -132,12 +132,12 @@ pub(crate) fn run(args: &FullReferenceArgs, program: Command) -> Result<(), CliE
     print_sections(args, "Reference of Alberti", &found)
 }
 
-/// The hint for a word that matches nothing.
+/// Returns the hint for a word that matches nothing.
 const FORMULAS_HINT: &str =
     "\n  = help: `alberti reference formulas` lists the formulas, with their ids";
 
-/// The formulas whose ids begin with these letters, such as `HO`, or that have this symbol, such as
-/// `M_vp`.
+/// Returns the formulas whose ids begin with the word, such as `HO`, or that contain it as a
+/// symbol, such as `M_vp`.
 fn formulas_with(word: &str) -> impl Iterator<Item = (Formula, bool)> {
     let prefix = format!("{}-", word.to_uppercase());
     let symbol = word.contains('_').then(|| word.to_owned());
@@ -159,7 +159,7 @@ pub(crate) fn run_fields(args: &ReferenceArgs) -> Result<(), CliError> {
     print_sections(args, "Reference of scene files", &sections)
 }
 
-/// Prints sections in the format that the flags choose.
+/// Prints sections in the format that the flags select.
 fn print_sections(
     args: &ReferenceArgs,
     title: &str,

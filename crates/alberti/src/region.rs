@@ -7,8 +7,8 @@ use scene_file::file::SceneFile;
 
 /// The rectangle of pixels to render, and the bits per channel.
 ///
-/// A region has exactly the pixels that the whole picture has there: bands rendered on several
-/// machines can be stacked.
+/// A region has exactly the same pixels as that part of the whole picture, so bands rendered on
+/// several machines can be stacked.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct RegionArgs {
     /// Bits per channel: 8 or 16
@@ -45,14 +45,14 @@ impl RegionArgs {
         }
     }
 
-    /// Whether `--crop` or `--band` was given.
+    /// Whether `--crop` or `--band` is set.
     pub(crate) fn is_partial(&self) -> bool {
         self.crop.is_some() || self.band.is_some()
     }
 
-    /// The rectangle of the picture to render: the crop, or its band.
+    /// Returns the rectangle of the picture to render: the crop, or its band.
     ///
-    /// `--band` divides the crop if both are given. `nth_band` counts from 0, the flag from 1. Band
+    /// `--band` divides the crop if both are set. `nth_band` counts from 0, the flag from 1. Band
     /// heights differ by at most one row, and together the bands contain every row exactly once.
     ///
     /// # Errors

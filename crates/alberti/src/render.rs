@@ -32,7 +32,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 use tasks::RenderTask;
 
-/// Renders all pictures. With several, a failure or a difference does not stop the others.
+/// Renders all pictures. If one fails or differs from its reference, the others are still rendered.
 ///
 /// The exit code is 1 if any picture failed or differs from its reference. A single failure is
 /// returned and printed by `main`. With several pictures, each failure is printed at once after the
@@ -53,13 +53,13 @@ pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, CliError> {
 /// Renders all pictures once.
 fn render_all(args: &RenderArgs) -> Result<ExitCode, CliError> {
     let tasks = tasks::plan_tasks(args)?;
-    // A log is not meant to receive the picture, but `> picture.png` is.
+    // `> picture.png` is meant to receive the picture; a log file is not.
     let redirected = std::fs::read_link("/proc/self/fd/1").unwrap_or_default();
     if args.output.is_none() && OutputFormat::is_known(&redirected) {
         let output =
             tasks.first().and_then(|task| task.output.as_deref()).unwrap_or(Path::new("-"));
         let message = format!(
-            "the picture is written to {}, not to the standard output; for that, use `-o -`",
+            "the picture is written to {}, not to the standard output; use `-o -` for that",
             visible_path(output)
         );
         print_message("warning", &message);
@@ -99,9 +99,9 @@ fn render_all(args: &RenderArgs) -> Result<ExitCode, CliError> {
 /// Times are measured only if they will be printed: the stopwatch is cheap, but not free.
 ///
 /// # Errors
-/// If the input is invalid, flags contradict each other, or a file cannot be written. Then no
-/// output file has changed, unless `--verify` or `--show` fails, which run after the files are
-/// written.
+/// If the input is invalid, flags contradict each other, or a file cannot be written. No output
+/// file has changed in that case, unless `--verify` or `--show` fails, which run after the files
+/// are written.
 fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     let progress = Progress::start("loading");
     let is_measured = args.timings || args.json;
@@ -154,11 +154,12 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
 /// Compares the scene's line drawing, with hidden lines removed (in `hidden-line/src/visibility`),
 /// with its z-buffer image.
 ///
-/// The drawing is made again, because hidden lines drawn solid or dashed would count as visible.
+/// The scene is drawn again without hidden lines, because hidden lines drawn solid or dashed would
+/// count as visible.
 ///
-/// The two have nothing in common after clip space: visibility comes from line intersections in the
-/// drawing, but from pixel coverage and depth in the image. An error in one is therefore unlikely
-/// to occur in the other.
+/// The two methods have nothing in common after clip space: the drawing finds visibility from line
+/// intersections, the image from pixel coverage and depth. An error in one is therefore unlikely to
+/// occur in the other.
 fn verify_drawing(scene: &Scene, threads: usize) -> Result<Agreement, CliError> {
     let style = scene.style.line_style();
     let options = DrawOptions { hidden_edges: HiddenEdges::Removed, ..style.to_draw_options() };
@@ -169,11 +170,11 @@ fn verify_drawing(scene: &Scene, threads: usize) -> Result<Agreement, CliError> 
         .map_err(pipeline::RenderError::from)?)
 }
 
-/// The message of `--verify`.
+/// Returns the message of `--verify`.
 ///
 /// The length is the total of all visible lines, in pixels; the percentage is the part behind the
-/// z-buffer's surface. Up to about 0.2 % is normal, because the image resolves a quarter of a pixel
-/// and the drawing is exact.
+/// z-buffer's surface. Up to about 0.2 % is normal, because the image resolves only a quarter of a
+/// pixel, while the drawing is exact.
 fn agreement_message(agreement: &Agreement) -> String {
     let percent = 100.0 * agreement.disagreement_ratio();
     let length = agreement.visible_length;
@@ -207,7 +208,7 @@ fn print_timings(timings: &Timings) {
 /// `-` reads either from the standard input. Models are not loaded yet.
 ///
 /// The scene of a bare model frames it from a three-quarter view, in studio light if the model has
-/// no lights. It is an ordinary scene file in memory, so all flags work on both.
+/// no lights. It is an ordinary scene file in memory, so all flags work on both kinds of input.
 ///
 /// # Errors
 /// If the scene or an include cannot be read or parsed, or is outside the allowed folders.
@@ -232,7 +233,7 @@ pub(super) fn open_input(
     }
 }
 
-/// Refuses a folder, and suggests the file that was probably meant if none has this name.
+/// Refuses a folder or a missing file; for a missing file, suggests what was probably meant.
 ///
 /// Other reasons why a file cannot be read are detected and explained where it is read.
 fn check_is_file(input: &Path) -> Result<(), CliError> {
@@ -263,12 +264,14 @@ fn check_is_file(input: &Path) -> Result<(), CliError> {
     help.map_or(Ok(()), |help| Err(missing(help)))
 }
 
-/// Help for an input that does not name a file: a pattern that no shell has expanded, an address,
-/// or a word that belongs to a flag.
+/// Returns help for an input that does not name a file: a pattern that the shell did not expand, an
+/// address, or a word that belongs to a flag.
 pub(super) fn missing_input_help(input: &Path) -> Option<String> {
     let word = input.to_string_lossy();
     if word.contains("://") {
-        return Some(format!("models are not downloaded; fetch it first, as in `curl -O {word}`"));
+        return Some(format!(
+            "models are not downloaded; download the file first, as in `curl -O {word}`"
+        ));
     }
     if word.contains(['*', '?']) {
         return Some(
@@ -288,13 +291,12 @@ pub(super) fn missing_input_help(input: &Path) -> Option<String> {
         ));
     }
     matches!(&*word, "on" | "off" | "true" | "false" | "yes" | "no")
-        .then(|| format!("the flag before it takes no value: leave out `{word}`"))
+        .then(|| format!("the flag before it takes no value: omit `{word}`"))
 }
 
 /// Reads a model or a scene from the standard input.
 ///
-/// A model is recognized by its content. Paths of a scene are relative to the
-/// current folder.
+/// A model is recognized by its content. Paths in a scene are relative to the current folder.
 ///
 /// A scene is a RON struct, and no model begins like one, so the two cannot be confused. A model
 /// must be self-contained: there is no folder in which to find its buffers and images.
@@ -325,12 +327,12 @@ pub(super) fn read_stdin(options: &ImportOptions) -> Result<Vec<u8>, CliError> {
     Ok(bytes)
 }
 
-/// The error for an unreadable standard input.
+/// Returns the error for an unreadable standard input.
 fn stdin_error(why: &str) -> CliError {
     CliError::Usage(format!("cannot read the standard input: {why}"))
 }
 
-/// The requested number of threads, or one per core.
+/// Returns the requested number of threads, or one per core.
 ///
 /// One thread is used if the system does not report its cores. The number never changes the output:
 /// tiles and bands are independent of it.

@@ -8,7 +8,7 @@
 //!        └► passes, comparison ─► .part files ───────┴─► renamed, the picture first
 //! ```
 //! A run that fails before renaming leaves every existing file unchanged and removes its temporary
-//! ones. Only the renaming itself can be interrupted between two files; even then each file is
+//! files. Only the renaming itself can be interrupted between two files; even then each file is
 //! complete.
 
 use super::CliError;
@@ -45,7 +45,7 @@ pub(super) struct RenderJob<'a> {
     pub(super) outputs: Outputs,
     /// The number of threads.
     pub(super) threads: usize,
-    /// The stopwatch of the stages.
+    /// The stopwatch for the stages.
     pub(super) timings: &'a Timings,
 }
 
@@ -67,7 +67,7 @@ pub(super) struct RenderOutput {
 
 impl RenderOutput {
     /// Whether the picture agrees with its reference, if it has one. Prints the comparison unless
-    /// `silent`, which is used if a JSON report contains it.
+    /// `silent`, which is set if a JSON report contains it.
     pub(super) fn matches_reference(&self, silent: bool) -> bool {
         let Some(comparison) = &self.comparison else { return true };
         if !silent {
@@ -89,7 +89,8 @@ struct EncodedPicture {
 
 /// The destination of a picture: a temporary file, or memory for the standard output.
 ///
-/// The standard output gets the bytes only when all are ready, so that a failed run writes none.
+/// The standard output gets the bytes only when all of them are ready, so that a failed run writes
+/// nothing.
 enum PictureSink {
     /// The target's name, for error messages, and its temporary file.
     File(PathBuf, BufWriter<AtomicFile>),
@@ -121,7 +122,8 @@ impl RenderJob<'_> {
     /// temporary names before the first is renamed.
     ///
     /// The standard output has no passes and no comparison, because there is no name from which to
-    /// derive theirs; [`check_combination`](Self::check_combination) has rejected these flags.
+    /// derive their names; [`check_combination`](Self::check_combination) has already rejected
+    /// these flags.
     ///
     /// # Errors
     /// If flags contradict each other, the reference cannot be read, rendering fails, or a file
@@ -200,7 +202,7 @@ impl RenderJob<'_> {
         })
     }
 
-    /// Converts an input/output error to an error about the destination.
+    /// Converts an I/O error to an error about the destination.
     ///
     /// Encoders report errors without a path; the message must name the file, or the standard
     /// output.
@@ -215,7 +217,7 @@ impl RenderJob<'_> {
     /// formats, as a whole.
     ///
     /// The memory needed is one band plus the encoder, whatever the height of the picture; bands
-    /// have the same pixels as the whole. `--compare` and `--show` work on an 8-bit copy.
+    /// have the same pixels as the whole picture. `--compare` and `--show` work on an 8-bit copy.
     ///
     /// Rendering and writing errors arrive as one type and are separated here, so that a full disk
     /// is reported with the file name.

@@ -1,7 +1,7 @@
 //! `alberti render --json`: the report on a rendered picture.
 //!
-//! New members may be added in any release; [`VERSION`] rises when one is removed or changes its
-//! meaning.
+//! New members may be added in any release; [`VERSION`] increases when a member is removed or
+//! changes its meaning.
 //!
 //! ```json
 //! {
@@ -13,7 +13,7 @@
 //!   "files": [{"path": "fox.png", "bytes": 81234, "sha256": "9f86d0…"}]
 //! }
 //! ```
-//! Several pictures give several documents, one after the other.
+//! For several pictures, several documents are printed one after the other.
 
 use super::render_job::{RenderJob, RenderOutput};
 use super::{CliError, print_json};
@@ -29,8 +29,9 @@ const VERSION: u32 = 1;
 
 /// Prints the report on one picture.
 ///
-/// `warnings` are about flags and the line drawing; each model has its own. `milliseconds` lists
-/// the stages in alphabetical order. `share_beyond` is the fraction of differing pixels, 0 to 1.
+/// `warnings` are about flags and the line drawing; each model has its own warnings. `milliseconds`
+/// lists the stages in alphabetical order. `share_beyond` is the fraction of differing pixels, 0 to
+/// 1.
 ///
 /// # Errors
 /// If a written file cannot be read back, or the standard output cannot be written.
@@ -79,7 +80,7 @@ pub(super) fn print_report(
     print_json(&format!("{report:#}\n"))
 }
 
-/// The eye and the view space axes in world space, and the projection matrix by rows.
+/// Returns the eye and the view space axes in world space, and the projection matrix by rows.
 ///
 /// `back` points from the scene to the eye: view space is right-handed, and the camera looks along
 /// its negative third axis. The matrix is for column vectors.
@@ -96,10 +97,10 @@ fn camera_json(job: &RenderJob<'_>) -> Value {
     })
 }
 
-/// The model instances, with their primitive counts and warnings.
+/// Returns the model instances, with their primitive counts and warnings.
 ///
-/// A model with several instances has an entry for each, in the order of the scene. Counts include
-/// every node that draws a mesh.
+/// A model with several instances has one entry per instance, in the order of the scene. Counts
+/// include every node that draws a mesh.
 fn models_json(job: &RenderJob<'_>) -> Vec<Value> {
     let model = |placed: &model::ModelInstance| {
         let model = &placed.model;
@@ -121,10 +122,10 @@ fn models_json(job: &RenderJob<'_>) -> Vec<Value> {
     job.scene.models.iter().map(model).collect()
 }
 
-/// The path of a file, its size, and the SHA-256 of its content.
+/// Returns the path of a file, its size, and the SHA-256 of its content.
 ///
-/// The file is read back from the disk in blocks of 64 KiB, so the hash covers the published bytes,
-/// and large files need no more memory.
+/// The file is read back from the disk in blocks of 64 KiB, so the hash covers the bytes as
+/// written, and large files need no more memory.
 ///
 /// # Errors
 /// If the file cannot be read.

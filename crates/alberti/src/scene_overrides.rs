@@ -1,12 +1,13 @@
 //! Flags that override scene fields: size, camera, style, overlays, model state.
 //!
 //! They are applied to the parsed scene file before it is resolved, so that a flag and a field have
-//! the same meaning and the same errors. A bare model is a scene in which every field is default.
+//! the same meaning and the same errors. A bare model is a scene in which every field has its
+//! default.
 //!
 //! ```text
 //!  scene file ─► flags replace or extend its fields ─► Scene::resolve ─► scene
 //! ```
-//! A flag that is not given changes nothing. Lists (`--section`, `--overlay`) are appended to the
+//! A flag that is not set changes nothing. Lists (`--section`, `--overlay`) are appended to the
 //! scene's lists; everything else is replaced.
 
 mod colormap_flags;
@@ -62,7 +63,7 @@ pub(crate) struct SceneOverrideArgs {
     pub(crate) viewpoint: ViewpointArgs,
     #[command(flatten)]
     pub(crate) calibrated: CalibratedCameraArgs,
-    /// Draw lines exactly and completely however long it takes, even for very many surfaces
+    /// Draw lines exactly and completely, even if very many surfaces make it slow
     #[arg(help_heading = "Lines", long)]
     pub(crate) no_line_limits: bool,
     /// Guides drawn over the picture; repeatable
@@ -89,10 +90,11 @@ pub(crate) struct SceneOverrideArgs {
 }
 
 impl SceneOverrideArgs {
-    /// Replaces the fields of a scene with the given flags.
+    /// Replaces the fields of a scene with the values of the flags.
     ///
-    /// The order matters in one case: `--scale` multiplies the size of `--size`, if both are given.
-    /// A size is at least one pixel; one that is too large is rejected when the scene is resolved.
+    /// The order matters in one case: `--scale` multiplies the size from `--size`, if both are set.
+    /// A size is at least one pixel; a size that is too large is rejected when the scene is
+    /// resolved.
     ///
     /// # Errors
     /// If a flag does not fit the scene, such as `--fov` with a parallel projection.
@@ -153,10 +155,10 @@ impl SceneOverrideArgs {
         self.model_state.place_camera(origin, file, scene)
     }
 
-    /// The import options, with permission to read the files that these flags name.
+    /// Returns the import options, with permission to read the files that these flags name.
     ///
-    /// Only the `--environment` file is named by a flag; the file becomes an allowed path, its
-    /// folder does not.
+    /// Only `--environment` names a file. The file becomes an allowed path, but its folder does
+    /// not.
     pub(crate) fn import_options(&self, load: &LoadArgs) -> ImportOptions {
         let mut options = load.import_options();
         options.allow_outside.extend(self.light.environment_file());
@@ -183,7 +185,7 @@ impl SceneOverrideArgs {
         Ok((origin, file, scene))
     }
 
-    /// The options for resolving scenes: a size on the command line may be any valid size.
+    /// Returns the options for resolving scenes: a size on the command line may be any valid size.
     pub(crate) const fn resolve_options(&self, import: ImportOptions) -> ResolveOptions {
         ResolveOptions {
             import,
@@ -198,12 +200,13 @@ impl SceneOverrideArgs {
         file.view = ViewFile::Frame { from: Some(view.into()), padding_percent };
     }
 
-    /// Replaces the scene's view and projection with the given flags.
+    /// Replaces the scene's view and projection with those from the flags.
     ///
     /// `--view` keeps the padding of a scene that frames its models.
     ///
-    /// `--camera` takes a whole number as an index and anything else as a name. `--view` replaces
-    /// the view of the scene, even one with a fixed eye and target, but not its projection.
+    /// `--camera` interprets a whole number as an index and anything else as a name. `--view`
+    /// replaces the view of the scene, even one with a fixed eye and target, but not its
+    /// projection.
     fn apply_to_camera(&self, file: &mut CameraFile) -> Result<(), CliError> {
         if let Some(camera) = &self.camera {
             let by_name = || CameraChoice::Name(camera.clone());
@@ -221,7 +224,7 @@ impl SceneOverrideArgs {
     }
 }
 
-/// The padding of a camera that frames its models, or the default.
+/// Returns the padding of a camera that frames its models, or the default.
 pub(super) const fn frame_padding(file: &CameraFile) -> NonNegative {
     match &file.view {
         ViewFile::Frame { padding_percent, .. } => *padding_percent,
@@ -370,7 +373,7 @@ mod tests {
 
     /// Other programs in the workspace use the flag's names for styles.
     #[test]
-    fn styles_of_flags_are_those_of_the_library() {
+    fn flag_styles_match_the_library() {
         let names = StyleArg::value_variants().iter().map(|style| {
             let name = style.to_possible_value().expect("a name").get_name().to_owned();
             (name, StyleFile::from(*style))

@@ -7,7 +7,7 @@ use scene_file::file::{SceneFile, SectionFile};
 pub(crate) struct SectionArgs {
     /// Cut the models in a line drawing open at a plane; repeatable
     ///
-    /// x=0.5 removes everything with a larger x, -x=0.5 everything with a smaller one. Six numbers
+    /// x=0.5 removes everything with a larger x, -x=0.5 everything with a smaller x. Six numbers
     /// are a point on the plane and the direction to remove, such as 0,1,0,1,0,1.
     #[arg(
         help_heading = "Lines",
@@ -20,7 +20,7 @@ pub(crate) struct SectionArgs {
 }
 
 impl SectionArgs {
-    /// Appends the planes from the flags to the scene's.
+    /// Appends the planes from the flags to the scene's planes.
     pub(crate) fn append_to(&self, file: &mut SceneFile) {
         file.sections.extend(self.sections.iter().cloned());
     }
@@ -64,7 +64,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn planes_by_axes_and_by_six_numbers() {
+    fn planes_are_parsed_from_an_axis_or_six_numbers() {
         let plane = |text| parse_section_plane(text).map(|s| (s.point.0, s.normal.0));
         assert_eq!(plane("x=0.5"), Ok(([0.5, 0.0, 0.0], [1.0, 0.0, 0.0])));
         assert_eq!(plane("-z=-2"), Ok(([0.0, 0.0, -2.0], [0.0, 0.0, -1.0])));

@@ -31,7 +31,8 @@ use viewport::{Paper, Resolution};
 
 /// The resolution of pages written as PNG, in dots per inch.
 ///
-/// An A4 page then has 1240 × 1754 pixels: legible on a screen, and a few hundred kilobytes.
+/// An A4 page then has 1240 × 1754 pixels, which is legible on a screen and takes a few hundred
+/// kilobytes.
 pub(super) const DEFAULT_DPI: u32 = 150;
 
 /// Arguments of `alberti sheet`; each flag replaces the field of the scene's `sheet`.
@@ -48,7 +49,7 @@ pub(crate) struct SheetArgs {
     /// Paper size [default: a3]
     #[arg(long, value_name = "SIZE", value_parser = option_parser::<PaperSize>())]
     paper: Option<PaperSize>,
-    /// Page orientation [default: the one in which the views are larger]
+    /// Page orientation [default: whichever makes the views larger]
     #[arg(long, value_parser = option_parser::<PageOrientation>())]
     orientation: Option<PageOrientation>,
     /// Arrangement of the views: first-angle or third-angle projection (ISO 5456-2)
@@ -58,7 +59,7 @@ pub(crate) struct SheetArgs {
     /// Scale, paper to model, such as 1:50 [default: the largest standard scale that fits]
     #[arg(long, value_name = "N:M", value_parser = parse_scale)]
     scale: Option<(u32, u32)>,
-    /// Axonometric view beside the three principal views [default: isometric]
+    /// Axonometric view in addition to the three principal views [default: isometric]
     #[arg(long, value_name = "VIEW", value_parser = option_parser::<AxonometricView>())]
     axonometric: Option<AxonometricView>,
     /// Hidden lines in uncut views along the axes [default: as in the scene's line style, else
@@ -135,7 +136,7 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     let (origin, mut file) = open_input(&args.input, &args.load_options.import_options())?;
     file.models.iter_mut().for_each(|model| args.model_state.apply_to(model));
     args.section.append_to(&mut file);
-    // The sheet has its own views: the scene's camera must not matter, even if it is invalid.
+    // The sheet has its own views, so the scene's camera is ignored even if it is invalid.
     file.camera = scene_file::file::CameraFile::default();
     let mut sheet_file = file.sheet.take().unwrap_or_default();
     apply_overrides(&mut sheet_file, args);
@@ -193,7 +194,8 @@ fn warn_of_unused_dpi(args: &SheetArgs, format: OutputFormat) {
     }
 }
 
-/// The error for a sheet that cannot be drawn, with its position in the scene file if known.
+/// Returns the error for a sheet that cannot be drawn, with its position in the scene file if
+/// known.
 fn sheet_error(origin: &Origin, error: sheet::SheetError) -> CliError {
     match scene::sheet_view_error(origin, &error) {
         Some(mistake) => CliError::Scene(mistake),
@@ -201,7 +203,7 @@ fn sheet_error(origin: &Origin, error: sheet::SheetError) -> CliError {
     }
 }
 
-/// The warnings of all pages, without duplicates.
+/// Returns the warnings of all pages, without duplicates.
 fn warnings_of_pages(pages: &[SheetPage]) -> Vec<SheetWarning> {
     let all = pages.iter().flat_map(|page| &page.warnings);
     let mut warnings: Vec<SheetWarning> = all.cloned().collect();
@@ -210,7 +212,7 @@ fn warnings_of_pages(pages: &[SheetPage]) -> Vec<SheetWarning> {
     warnings
 }
 
-/// The input's name with the extension `.pdf`, in the current folder.
+/// Returns the input's name with the extension `.pdf`, in the current folder.
 ///
 /// # Errors
 /// If the input's path has no file name, such as `..`.
@@ -236,7 +238,7 @@ pub(super) fn rasterize_page<W>(page: &Page<W>, dpi: u32) -> Result<Picture, Cli
     })
 }
 
-/// Replaces the fields of the scene's sheet with the given flags.
+/// Replaces the fields of the scene's sheet with the values of the flags.
 ///
 /// `--no-dimensions` can only turn dimensions off; no flag turns them on if the scene has turned
 /// them off.

@@ -2,9 +2,9 @@
 
 /// Makes SIGINT, SIGTERM and SIGHUP remove the program's temporary files before they end it.
 ///
-/// Only for the program itself: within another one, such as Python, signals belong to that program.
-/// Signals ignored at the start, as with `nohup`, stay ignored. If no thread can be created for
-/// them, they end the program at once.
+/// Call it only in the program itself: inside another program, such as Python, signals are handled
+/// by that program. Signals ignored at the start, as with `nohup`, stay ignored. If no thread can
+/// be created for them, they end the program at once.
 #[cfg(unix)]
 pub fn clean_up_on_signals() {
     use files::remove_partial_files;
@@ -15,8 +15,8 @@ pub fn clean_up_on_signals() {
     let wait = move || {
         if let Some(signal) = signals.forever().next() {
             remove_partial_files(|| {
-                // This acts as if there were no handler: the exit status names the signal. It does
-                // not return.
+                // This acts as if there were no handler: the exit status reports the signal. It
+                // does not return.
                 let _ = signal_hook::low_level::emulate_default_handler(signal);
             });
         }
@@ -31,7 +31,7 @@ pub fn clean_up_on_signals() {
 pub const fn clean_up_on_signals() {}
 
 /// Whether the process was started with a signal ignored. Only Linux reports this without changing
-/// it: elsewhere no signal counts as ignored.
+/// it; on other systems, no signal counts as ignored.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

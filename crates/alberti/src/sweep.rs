@@ -55,7 +55,7 @@ enum VaryArg {
     Fov,
     /// Height of the window of a parallel projection
     Height,
-    /// Aspect ratio of the window; the picture keeps its own, so a different one distorts
+    /// Aspect ratio of the window; the picture keeps its own, so other values distort it
     Aspect,
     /// Distance of the near plane
     Near,
@@ -69,7 +69,7 @@ enum VaryArg {
     Distance,
     /// Dolly zoom: the distance, with a field of view that keeps the center the same size
     Dolly,
-    /// Orbit angle around the models in degrees, counterclockwise seen from above
+    /// Orbit angle around the models in degrees, counterclockwise as seen from above
     Angle,
 }
 

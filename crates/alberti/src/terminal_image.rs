@@ -86,8 +86,8 @@ fn downsample(picture: &Picture, columns: u32, rows: u32) -> Vec<[u8; 3]> {
     shrunk
 }
 
-/// The number of columns and rows that fit; `cells` is the width of a column in rows (0.5 for
-/// characters).
+/// Returns the number of columns and rows that fit; `cells` is the width of a column in rows (0.5
+/// for characters).
 ///
 /// At most 400 of each, and no more columns than the picture has pixels.
 fn fit_columns(picture: &Picture, columns: u32, cells: f64) -> (u32, u32) {
@@ -96,7 +96,8 @@ fn fit_columns(picture: &Picture, columns: u32, cells: f64) -> (u32, u32) {
     (columns, ((f64::from(columns) * ratio * cells + 0.5) as u32).clamp(1, 400))
 }
 
-/// The picture as upper half blocks: foreground and background colors are the two pixels of a cell.
+/// Returns the picture as upper half blocks: foreground and background colors are the two pixels of
+/// a cell.
 ///
 /// A terminal cell is about twice as high as it is wide, so the pixels are square.
 ///
@@ -118,7 +119,7 @@ fn half_blocks(picture: &Picture, columns: u32) -> String {
     text
 }
 
-/// The picture as characters of [`ASCII_RAMP`], by luminance.
+/// Returns the picture as characters of [`ASCII_RAMP`], by luminance.
 ///
 /// The weights are from Rec. 709: 0.2126 red, 0.7152 green, 0.0722 blue. They are applied to codes
 /// (luma), which is close to perceived lightness.
@@ -137,10 +138,10 @@ fn ascii_art(picture: &Picture, columns: u32) -> String {
     text
 }
 
-/// Commands of kitty's graphics protocol that transmit and display a PNG, in chunks.
+/// Returns the commands of kitty's graphics protocol that transmit and display a PNG, in chunks.
 ///
 /// `a=T` transmits and displays, `f=100` is PNG, and `c` scales the picture to that many columns.
-/// `m=1` announces another chunk; only the first has the other keys.
+/// `m=1` announces another chunk; only the first chunk has the other keys.
 fn kitty_graphics(picture: &Picture, columns: u32) -> String {
     let (cells, _) = fit_columns(picture, columns, 0.5);
     let small;

@@ -4,8 +4,8 @@
 //!  file manager ─► thumbnail service ─► alberti.thumbnailer ─► alberti thumbnailer INPUT OUTPUT
 //!                   MIME type of the file: alberti.xml              within time and memory
 //! ```
-//! A thumbnail service runs the program on any file in a folder. Within the limits, any input gives
-//! a picture or a nonzero exit code, never part of a picture.
+//! A thumbnail service runs the program on any file in a folder. Within the limits, any input leads
+//! to a complete picture or a nonzero exit code, never to part of a picture.
 
 mod deadline;
 mod installation;
@@ -101,7 +101,7 @@ pub(crate) fn run(args: &ThumbnailerArgs) -> Result<(), CliError> {
     }
 }
 
-/// Maximum number of threads for a thumbnail: each takes memory, and thumbnails are small.
+/// Maximum number of threads for a thumbnail: each needs memory, and thumbnails are small.
 const MAX_THREADS: usize = 8;
 
 /// Renders and writes a square picture, if time and memory suffice.
@@ -116,7 +116,7 @@ fn render_thumbnail(args: &ThumbnailerArgs, input: &Path, output: &Path) -> Resu
     let (origin, mut file) = open_input(input, &import)?;
     let (width, height) = std::mem::replace(&mut file.image.size, (args.size, args.size));
     let mut scene = Scene::resolve(&origin, &file, &ResolveOptions::with_import(import))?;
-    // Lines as wide as in a full drawing would be blots.
+    // Lines as wide as in a full drawing would merge into blots.
     let factor = f64::from(args.size) / f64::from(width.max(height));
     let insets = scene.insets.iter_mut().map(|inset| &mut inset.scene.style);
     for style in insets.chain([&mut scene.style]) {
@@ -139,8 +139,8 @@ fn render_thumbnail(args: &ThumbnailerArgs, input: &Path, output: &Path) -> Resu
 
 /// Writes a picture completely or not at all.
 ///
-/// A new file replaces the old one, unless that is empty: tumbler creates an empty file, keeps it
-/// open, and reads from it afterward.
+/// A new file replaces the old one, unless the old one is empty: tumbler creates an empty file,
+/// keeps it open, and reads from it afterward.
 fn write_thumbnail(path: &Path, png: &[u8]) -> Result<(), OutputError> {
     if path.metadata().map_or(true, |old| !old.is_file() || old.len() > 0) {
         return write_file(path, png);

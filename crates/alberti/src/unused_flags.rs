@@ -1,7 +1,7 @@
-//! Flags without effect on a picture: a line drawing has no exposure, a PNG no arcs.
+//! Flags that have no effect on a picture: a line drawing has no exposure, and a PNG has no arcs.
 //!
-//! They give warnings, not errors: one command line often renders many pictures, and a flag may not
-//! apply to all of them.
+//! They cause warnings, not errors, because one command line often renders many pictures, and a
+//! flag may not apply to all of them.
 
 use super::args::{RenderArgs, StyleArg};
 use super::format::OutputFormat;
@@ -13,7 +13,7 @@ use pipeline::Scene;
 use scene::Style;
 use scene_file::file::{BackgroundFile, StyleFile};
 
-/// The warnings about unused flags for a picture that `render` makes.
+/// Returns the warnings about unused flags for a picture made by `render`.
 pub(super) fn find_unused_flags(
     args: &RenderArgs,
     task: &RenderTask,
@@ -55,8 +55,8 @@ pub(super) fn find_unused_flags(
     warnings
 }
 
-/// The warnings about unused flags that change a scene. `is_vector` says whether the output has
-/// lines regardless of style.
+/// Returns the warnings about unused flags that change a scene. `is_vector` is true if the output
+/// has lines regardless of style.
 pub(super) fn find_unused_overrides(
     flags: &SceneOverrideArgs,
     scene: &Scene,
@@ -100,7 +100,7 @@ pub(super) fn find_unused_overrides(
     warnings
 }
 
-/// The warning that a surface style was requested but lines are drawn.
+/// Returns the warning that a surface style was requested but lines are drawn.
 fn undrawn_style(task: &RenderTask) -> Option<String> {
     let style = task.overrides.style.filter(|style| is_surface_style(*style))?;
     let name = style.to_possible_value()?.get_name().to_owned();
@@ -125,7 +125,7 @@ const fn has_shadows(style: Style) -> bool {
     matches!(style, Style::Shaded | Style::Flat)
 }
 
-/// The flag's name for a surface style.
+/// Returns the flag's name for a surface style.
 const fn style_name(style: Style) -> &'static str {
     match style {
         Style::Shaded => "shaded",

@@ -1,5 +1,5 @@
-//! Advice on wrong command lines: flags and values from other programs lead to their counterparts
-//! here.
+//! Advice on wrong command lines: flags and values from other programs are translated to their
+//! counterparts here.
 //!
 //! clap compares words letter by letter, which finds misspellings but misleads otherwise:
 //! `--resolution` does not resemble `--size`. Words from other programs are in the tables of
@@ -30,7 +30,7 @@ use wrong_value::advise_on_value;
 /// Parses the command line.
 ///
 /// # Errors
-/// The mistake, with advice.
+/// If the command line is wrong; the message contains advice.
 pub(crate) fn parse_args(words: &[OsString]) -> Result<Args, Error> {
     let program = help_groups::group_commands(Args::command());
     let parsed = program.try_get_matches_from(words).and_then(|matches| {
@@ -48,7 +48,7 @@ pub(crate) fn parse_args(words: &[OsString]) -> Result<Args, Error> {
 ///
 /// `program` has all its flags declared; `words` is the command line.
 fn advise(mut error: Error, words: &[OsString], program: &Command) -> Error {
-    // `to pass '--zoom' as a value, use '-- --zoom'` is never what was meant.
+    // `to pass '--zoom' as a value, use '-- --zoom'` is never what the user meant.
     error.remove(ContextKind::Suggested);
     let message = match error.kind() {
         ErrorKind::UnknownArgument => advise_on_flag(&error, words, program),
@@ -77,7 +77,7 @@ fn advise(mut error: Error, words: &[OsString], program: &Command) -> Error {
     }
 }
 
-/// The message with the user's model instead of the example's.
+/// Returns the message with the user's model instead of the example's.
 fn with_given_model(message: &str, words: &[OsString]) -> String {
     let is_model = |word: &&str| FileFormat::from_extension(Path::new(word)).is_some();
     let words: Vec<&str> = words.iter().filter_map(|word| word.to_str()).collect();
@@ -89,7 +89,7 @@ fn with_given_model(message: &str, words: &[OsString]) -> String {
     }
 }
 
-/// Advice on `-hide_banner`, which clap takes for `-h`.
+/// Returns advice on `-hide_banner`, which clap reads as `-h`.
 fn advise_on_help(error: &Error, words: &[OsString], program: &Command) -> Option<String> {
     let is_long = |word: &&str| {
         word.starts_with("-h")
@@ -102,7 +102,7 @@ fn advise_on_help(error: &Error, words: &[OsString], program: &Command) -> Optio
         && let Some(pair) = all.windows(2).find(number)
     {
         return Some(format!(
-            "`-h` prints the help and does not take `{}`; `--size 1920x1080` sets the size",
+            "`-h` prints the help and does not accept `{}`; `--size 1920x1080` sets the size",
             pair[1]
         ));
     }
@@ -117,7 +117,7 @@ fn advise_on_help(error: &Error, words: &[OsString], program: &Command) -> Optio
     })
 }
 
-/// The string in an error's context.
+/// Returns the string in an error's context.
 fn context(error: &Error, kind: ContextKind) -> Option<&str> {
     match error.get(kind) {
         Some(ContextValue::String(text)) => Some(text),
@@ -125,14 +125,14 @@ fn context(error: &Error, kind: ContextKind) -> Option<&str> {
     }
 }
 
-/// Advice on a value for a flag that takes none, as in `--ambient-occlusion=true`.
+/// Returns advice on a value for a flag that accepts none, as in `--ambient-occlusion=true`.
 fn advise_on_switch(error: &Error) -> Option<String> {
     let flag = context(error, ContextKind::InvalidArg)?;
     let value = context(error, ContextKind::InvalidValue)?;
-    Some(format!("`{flag}` takes no value: leave out `={value}`"))
+    Some(format!("`{flag}` takes no value: omit `={value}`"))
 }
 
-/// A name in the form used by the tables: single letters keep their case.
+/// Returns a name in the form used by the tables; single letters keep their case.
 fn with_hyphens(word: &str) -> String {
     match word.chars().count() {
         1 => word.to_owned(),
@@ -141,7 +141,7 @@ fn with_hyphens(word: &str) -> String {
 }
 
 /// Whether two names are too different for a misspelling: more than a third of the longer name's
-/// letters are missing in the other, in any position.
+/// letters are missing from the other name, in any position.
 fn differs_widely(word: &str, name: &str) -> bool {
     let mut rest: Vec<char> = name.chars().collect();
     let shared = word.chars().filter(|letter| {
@@ -157,7 +157,7 @@ fn is_misspelling(word: &str, name: &str) -> bool {
     !differs_widely(word, name) && word.chars().next() == name.chars().next()
 }
 
-/// The full name of a command, such as `alberti scene init`.
+/// Returns the full name of a command, such as `alberti scene init`.
 fn full_name(command: &Command) -> String {
     command.get_bin_name().unwrap_or(command.get_name()).to_owned()
 }
@@ -167,13 +167,13 @@ fn has_flag(command: &Command, name: &str) -> bool {
     command.get_arguments().any(|flag| flag.get_long() == Some(name))
 }
 
-/// Whether a flag of a command takes a value.
+/// Whether a flag of a command accepts a value.
 fn takes_value(command: &Command, name: &str) -> bool {
     let flag = command.get_arguments().find(|flag| flag.get_long() == Some(name));
     flag.is_some_and(|flag| flag.get_action().takes_values())
 }
 
-/// Advice on a file, a folder or another program's command where a command belongs.
+/// Returns advice on a file, a folder or another program's command in place of a command.
 fn advise_on_command(error: &Error, words: &[OsString], program: &Command) -> Option<String> {
     let word = context(error, ContextKind::InvalidSubcommand)?;
     let command = match called_command(program, words) {
@@ -211,7 +211,7 @@ fn advise_on_command(error: &Error, words: &[OsString], program: &Command) -> Op
     ))
 }
 
-/// Adds advice on possible inputs if none was given.
+/// Adds advice on possible inputs if the input is missing.
 fn advise_on_input(error: &mut Error) {
     let is_input = match error.get(ContextKind::InvalidArg) {
         Some(ContextValue::Strings(missing)) => {
@@ -229,7 +229,7 @@ fn advise_on_input(error: &mut Error) {
 /// Adds advice on two conflicting flags.
 fn advise_on_conflict(error: &mut Error) {
     let is_repeated = error.get(ContextKind::InvalidArg) == error.get(ContextKind::PriorArg);
-    let tip = if is_repeated { "give it once" } else { "keep one of them" };
+    let tip = if is_repeated { "use it only once" } else { "keep one of them" };
     let tip = ContextValue::StyledStrs(vec![StyledStr::from(tip)]);
     error.insert(ContextKind::Suggested, tip);
 }
@@ -241,17 +241,17 @@ mod tests {
     use super::*;
     use crate::args::Args;
 
-    /// All commands with their flags.
+    /// Returns all commands with their flags.
     fn built_program() -> Command {
         let mut program = Args::command();
         program.build();
         program
     }
 
-    /// Each piece of advice parses as printed, on a command that has the flag; no name in the table
-    /// is a flag of the command.
+    /// Each piece of advice parses as printed, on a command that has the flag. No name in the table
+    /// is a flag of that command.
     #[test]
-    fn advice_is_accepted_by_the_commands_that_get_it() {
+    fn suggested_flags_are_accepted_by_their_commands() {
         let program = built_program();
         for row in foreign_words("flag") {
             let advice = row.advice;
@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn every_value_of_the_table_exists() {
+    fn every_suggested_value_exists() {
         let program = built_program();
         let render = program.find_subcommand("render").expect("render");
         for row in foreign_words("value") {
@@ -298,10 +298,10 @@ mod tests {
         }
     }
 
-    /// The advice on habits is valid: each command between backquotes parses, and each flag belongs
-    /// to a command.
+    /// The advice on habits is valid: each command in backticks parses, and each flag belongs to a
+    /// command.
     #[test]
-    fn what_habits_lead_to_exists() {
+    fn advice_on_habits_names_existing_commands_and_flags() {
         let program = built_program();
         let exists = |flag: &str| program.get_subcommands().any(|it| has_flag(it, flag));
         for row in foreign_words("habit") {

@@ -13,7 +13,7 @@ use scene_file::file::{
 pub(crate) struct ViewpointArgs {
     /// Frame all models from this angle around them: 0 is the front, 90 the right side
     ///
-    /// If only one of --azimuth and --elevation is given, the other angle is 0.
+    /// If only one of --azimuth and --elevation is set, the other angle is 0.
     #[arg(
         help_heading = "Camera",
         long,
@@ -74,15 +74,15 @@ pub(crate) struct ViewpointArgs {
 }
 
 impl ViewpointArgs {
-    /// Whether a flag says where the camera is.
+    /// Whether a flag sets the camera's position.
     pub(crate) const fn places_camera(&self) -> bool {
         self.azimuth.is_some() || self.elevation.is_some() || self.eye.is_some()
     }
 
-    /// Replaces the camera fields with the given flags.
+    /// Replaces the camera fields with the values of the flags.
     ///
     /// # Errors
-    /// If `--fov` is given for a projection without a field of view.
+    /// If `--fov` is set for a projection without a field of view.
     pub(crate) fn apply_to(&self, file: &mut CameraFile) -> Result<(), CliError> {
         if self.azimuth.is_some() || self.elevation.is_some() {
             let [azimuth, elevation] =
@@ -103,7 +103,7 @@ impl ViewpointArgs {
     }
 }
 
-/// Gives a perspective a vertical field of view, replacing any other.
+/// Sets the vertical field of view of a perspective, replacing any other.
 fn set_field_of_view(file: &mut CameraFile, angle: FieldOfView) -> Result<(), CliError> {
     match file.projection.get_or_insert(ProjectionFile::PERSPECTIVE) {
         ProjectionFile::Perspective {
@@ -125,21 +125,21 @@ fn warn_of_radians(degrees: f64) {
     if degrees < core::f64::consts::PI {
         let meant = libm::round(degrees.to_degrees() * 10.0) / 10.0;
         let message = format!(
-            "a field of view of {degrees} degrees is very narrow; if it is in radians, write --fov {meant}"
+            "a field of view of {degrees} degrees is very narrow; if the value is in radians, write --fov {meant}"
         );
         print_message("warning", &message);
     }
 }
 
-/// The direction from the models to the eye, from angles in degrees.
+/// Returns the direction from the models to the eye for angles in degrees.
 ///
-/// Quarter turns are exact, so that they give the same picture as the named views.
+/// Quarter turns are exact, so that they produce the same picture as the named views.
 fn direction_of(azimuth: f64, elevation: f64) -> [f64; 3] {
     let ([sin, cos], [up, level]) = (sine_and_cosine(azimuth), sine_and_cosine(elevation));
     [sin * level, up, cos * level]
 }
 
-/// Sine and cosine of an angle in degrees, exact for quarter turns.
+/// Returns the sine and cosine of an angle in degrees, exact for quarter turns.
 fn sine_and_cosine(degrees: f64) -> [f64; 2] {
     let turn = degrees.rem_euclid(360.0);
     let quarters =

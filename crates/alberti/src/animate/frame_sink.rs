@@ -1,4 +1,4 @@
-//! The output of a frame sequence, which takes one frame at a time.
+//! The output of a frame sequence, written one frame at a time.
 //!
 //! | output | format | colors | transparency |
 //! | --- | --- | --- | --- |
@@ -19,10 +19,11 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-/// An output for frames. A file of several frames appears under its name once it is complete.
+/// An output for frames. A file with several frames appears under its name only when it is
+/// complete.
 ///
-/// The frames of [`Self::Files`] are each written atomically and stay if the run is stopped. The
-/// raw stream has no header: the reader must know the size and frame rate.
+/// The frames of [`Self::Files`] are written atomically and remain if the run is stopped. The raw
+/// stream has no header: the reader must know the size and frame rate.
 pub(super) enum FrameSink {
     /// One PNG per frame, with the value of `{stem}`.
     Files(NameTemplate, String),
@@ -34,7 +35,7 @@ pub(super) enum FrameSink {
     Raw,
 }
 
-/// The error for a video file name, with the ffmpeg command that makes such a video.
+/// Returns the error for a video file name, with the ffmpeg command that produces the video.
 ///
 /// Most players need colors at half resolution, which requires an even width and height.
 fn unwritten_video_error(input: &Path, output: &Path, size: (u32, u32), fps: f64) -> CliError {
@@ -99,13 +100,13 @@ impl FrameSink {
 
     /// Opens an animated PNG: RGB if every frame is opaque, otherwise RGBA.
     ///
-    /// The delay of a frame is a fraction of 16-bit numbers, 1000 / (1000 fps).
+    /// The delay of a frame is a fraction of two 16-bit numbers, 1000 / (1000 fps).
     ///
     /// The numerator is 1000, so that rates such as 23.976 are exact to a thousandth. The
-    /// denominator has 16 bits as well: rates above 65.535 frames per second play at 65.535.
+    /// denominator also has 16 bits, so rates above 65.535 frames per second play at 65.535.
     ///
-    /// Whether all frames are opaque must be known before the first, because the color type is in
-    /// the header; it follows from the background of the scene. The file loops forever (0
+    /// Whether all frames are opaque must be known before the first one is written, because the
+    /// color type is in the header. The scene's background determines it. The file loops forever (0
     /// repetitions).
     fn open_png(output: &Path, film: &Sequence, fps: f64) -> Result<Self, CliError> {
         let ((width, height), opaque) = (film.image_size(), film.is_opaque());
@@ -147,7 +148,7 @@ impl FrameSink {
 
     /// Appends one frame, or writes it to a separate file.
     ///
-    /// A frame of the animated formats must have the size of the first, which [`Sequence`]
+    /// In the animated formats, every frame must have the size of the first, which [`Sequence`]
     /// guarantees. Alpha is dropped from opaque frames only, never blended.
     pub(super) fn write_frame(&mut self, frame: usize, picture: &Picture) -> Result<(), CliError> {
         match self {
@@ -175,8 +176,8 @@ impl FrameSink {
 
     /// Finishes a file of several frames and renames it into place.
     ///
-    /// It must be called: a sink that is dropped without it removes its temporary file, as a failed
-    /// run should.
+    /// Callers must not skip it: a sink that is dropped without it removes its temporary file, as a
+    /// failed run should.
     pub(super) fn finish(self) -> Result<(), CliError> {
         match self {
             Self::Files(..) => Ok(()),
@@ -196,7 +197,7 @@ impl FrameSink {
 /// A temporary file shared with an encoder that owns its writer and does not return it.
 ///
 /// The encoder holds one clone and [`FrameSink`] the other, so that the file can be renamed after
-/// the encoder has written its last chunk. Everything happens on one thread; `Rc` is enough.
+/// the encoder has written its last chunk. Everything happens on one thread, so `Rc` is enough.
 #[derive(Clone)]
 pub(super) struct SharedFile(Rc<RefCell<BufWriter<AtomicFile>>>);
 
@@ -228,7 +229,8 @@ impl Write for SharedFile {
     }
 }
 
-/// The display time of a GIF frame in hundredths of a second, rounded so that the sum is exact.
+/// Returns the display time of a GIF frame in hundredths of a second, rounded so that the total is
+/// exact.
 ///
 /// It is the difference of two rounded times, not a rounded difference. At 30 frames per second,
 /// the delays are 3, 4, 3, 3, 4, 3 …, and 30 of them last exactly one second. Many viewers raise
@@ -242,8 +244,8 @@ fn frame_delay(frame: usize, fps: f64) -> u16 {
 ///
 /// GIF has no partial transparency: alpha below one half becomes transparent, the rest opaque.
 ///
-/// NeuQuant makes the palette with a sampling factor of 10, which reads a tenth of the pixels: the
-/// `gif` crate's compromise between speed (30) and quality (1). Each frame is erased before the
+/// NeuQuant computes the palette with a sampling factor of 10, which reads a tenth of the pixels:
+/// the `gif` crate's compromise between speed (30) and quality (1). Each frame is erased before the
 /// next, because transparent pixels would otherwise show the previous frame.
 fn gif_frame(picture: &Picture, delay: u16) -> gif::Frame<'static> {
     let mut pixels: Vec<u8> = picture
@@ -260,8 +262,8 @@ fn gif_frame(picture: &Picture, delay: u16) -> gif::Frame<'static> {
 
 /// Converts a PNG encoder error to an error about the output.
 ///
-/// Only input/output errors come from the system; others, such as a wrong amount of data, become
-/// one with the encoder's message. Both are thus reported with the file name.
+/// Only I/O errors come from the system. Others, such as a wrong amount of data, become I/O errors
+/// with the encoder's message, so that both kinds are reported with the file name.
 fn png_error(path: &Path, error: png::EncodingError) -> CliError {
     let cause = match error {
         png::EncodingError::IoError(cause) => cause,
@@ -284,7 +286,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn delays_of_a_gif_add_up() {
+    fn gif_delays_add_up() {
         let all: u32 = (0..30).map(|frame| u32::from(frame_delay(frame, 30.0))).sum();
         assert_eq!(all, 100);
     }

@@ -1,4 +1,4 @@
-//! The flags of a picture: from the command, or from the list line that replaces them.
+//! The flags of a picture: from the command, or from the line of a job list that overrides them.
 //!
 //! ```text
 //!  command: --size 64x64 --view front      line: {"input": "a.glb", "camera": "left"}
@@ -23,7 +23,7 @@ pub(super) struct RenderFlags {
 }
 
 impl RenderFlags {
-    /// Parses words such as `--size=64x64`.
+    /// Parses arguments such as `--size=64x64`.
     ///
     /// # Errors
     /// If a flag does not accept its value, or two flags conflict; the message is clap's.
@@ -44,10 +44,10 @@ fn declaration() -> Command {
     RenderFlags::augment_args(Command::new("batch").disable_help_flag(true))
 }
 
-/// The flags as given to the command.
+/// The flags as passed to the command.
 #[derive(Debug, Default)]
 pub(super) struct GivenFlags {
-    /// The name and value of each, in declaration order; a switch has no value.
+    /// The name and value of each flag, in declaration order; a switch has no value.
     words: Vec<(String, Option<String>)>,
     /// The folders of `--allow-outside`, and the file of `--environment`.
     pub(super) allowed: Vec<PathBuf>,
@@ -94,8 +94,8 @@ impl FromArgMatches for GivenFlags {
 }
 
 impl GivenFlags {
-    /// Removes the scene file of `--scene lineup.ron` from the flags; any other value names a scene
-    /// within the models.
+    /// Removes a scene file, as in `--scene lineup.ron`, from the flags and returns it; any other
+    /// value is the name of a scene in the models.
     pub(super) fn take_scene_file(&mut self) -> Option<PathBuf> {
         let is_file = |(name, value): &(String, Option<String>)| {
             name == "scene" && value.as_deref().is_some_and(is_scene_name)
@@ -104,7 +104,7 @@ impl GivenFlags {
         self.words.remove(at).1.map(PathBuf::from)
     }
 
-    /// The flags as words, for keys and workers.
+    /// Returns the flags as arguments, for keys and workers.
     pub(super) fn to_words(&self) -> Vec<String> {
         self.words.iter().map(|(name, value)| flag_word(name, value.as_deref())).collect()
     }
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_replaces_what_the_command_says_and_what_it_excludes() {
+    fn list_lines_override_flags_and_remove_conflicting_ones() {
         let table = flag_table();
         let base = words(&["--size=64x64", "--view=front", "--overlay=axes", "--overlay=grid"]);
         let merged = table.merge(&base, &words(&["--camera=left", "--overlay=horizon"]));
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_values_are_named_in_one_paragraph() {
+    fn invalid_values_are_reported_in_one_paragraph() {
         let fault = RenderFlags::parse(&words(&["--samples=3"])).expect_err("no such pattern");
         assert!(fault.starts_with("invalid value '3' for '--samples"), "{fault}");
         assert!(fault.contains("expected 1, 4, 8 or 16") && !fault.contains("Usage"), "{fault}");

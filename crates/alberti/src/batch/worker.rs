@@ -1,4 +1,4 @@
-//! `alberti batch-worker`: renders what a batch coordinator requests, until the coordinator ends.
+//! `alberti batch-worker`: renders what a batch coordinator requests, until the coordinator exits.
 //!
 //! A model that hangs, crashes or uses up the memory brings down only its own worker.
 
@@ -20,7 +20,7 @@ use std::time::Instant;
 /// Arguments of `alberti batch-worker`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct WorkerArgs {
-    /// Memory of the worker
+    /// Memory limit of the worker
     #[arg(long, value_name = "SIZE", value_parser = parse_memory_size)]
     memory: Option<u64>,
 }
@@ -65,25 +65,25 @@ pub(crate) fn run(args: &WorkerArgs) -> Result<(), CliError> {
 #[cfg(target_os = "linux")]
 fn end_with_coordinator() {
     use rustix::process::{Signal, set_parent_process_death_signal};
-    // If this is forbidden, the worker ends at its next answer.
+    // If the system forbids this, the worker exits at its next answer.
     let _ = set_parent_process_death_signal(Some(Signal::KILL));
 }
 
-/// Other systems have no such signal: the worker ends at its next answer.
+/// Other systems have no such signal: the worker exits at its next answer.
 #[cfg(not(target_os = "linux"))]
 fn end_with_coordinator() {}
 
 /// A worker with the state it keeps between pictures.
 struct Worker {
-    /// The model that was loaded last.
+    /// The most recently loaded model.
     loader: SceneLoader,
-    /// The buffers.
+    /// The rendering buffers.
     renderer: Renderer,
-    /// The flags parsed last: often the next picture has the same ones.
+    /// The most recently parsed flags; the next picture often has the same flags.
     flags: Option<(Vec<String>, RenderFlags)>,
 }
 
-/// The reason why there is no picture.
+/// The reason a picture could not be rendered.
 enum PictureError {
     /// The input or a flag is wrong.
     Job(CliError),
@@ -101,7 +101,7 @@ impl<E: Into<CliError>> From<E> for PictureError {
 type RenderedPicture = (Vec<u8>, Vec<String>);
 
 impl Worker {
-    /// Renders and writes a picture; returns the answer, and the PNG that may have to follow it.
+    /// Renders and writes a picture; returns the answer, and the PNG to send after it, if any.
     fn answer(&mut self, input: &Path, picture: &PictureRequest) -> (WorkAnswer, Vec<u8>) {
         let begin = Instant::now();
         let made = self.render_picture(input, picture).and_then(|made| {
@@ -131,7 +131,7 @@ impl Worker {
 
     /// Renders one picture; returns it with the warnings of its models and of the drawing.
     ///
-    /// Rendering is single-threaded, as the workers themselves are parallel.
+    /// Rendering is single-threaded, because the workers themselves run in parallel.
     fn render_picture(
         &mut self,
         input: &Path,
@@ -190,8 +190,8 @@ fn write_picture(path: &Path, partial: &Path, png: &[u8]) -> Result<(), PictureE
     }
     let written = create_partial_file(partial).and_then(|mut file| {
         file.write_all(png)?;
-        // Data reaches the disk before the name: a crash leaves the old picture or the new one,
-        // intact.
+        // The data is synced before the rename, so a crash leaves either the old picture or the new
+        // one intact.
         file.sync_all()?;
         std::fs::rename(partial, path)
     });

@@ -1,6 +1,7 @@
 //! The scenes of a worker: a model, a scene file, or a scene file with the input as its model.
 //!
-//! The models loaded last are kept: the next picture is often another view of them.
+//! The most recently loaded models stay in memory, because the next picture is often another view
+//! of them.
 
 use super::render_flags::RenderFlags;
 use crate::CliError;
@@ -14,14 +15,14 @@ use scene_file::is_scene_file;
 use std::path::Path;
 use std::time::SystemTime;
 
-/// The path in a scene file that the input replaces.
+/// The model path in a scene file that is replaced by the input.
 const INPUT_PATH: &str = "{input}";
 
 /// Loads scenes and keeps the last scene's models.
 pub(super) struct SceneLoader {
     /// The worker's memory, which limits what may be loaded.
     memory: Option<u64>,
-    /// The models loaded last, with the key of their source.
+    /// The most recently loaded models, with the key of their source.
     loaded: Option<(LoadKey, Vec<ModelInstance>)>,
 }
 
@@ -35,7 +36,7 @@ struct LoadKey {
 }
 
 impl LoadKey {
-    /// The key of a scene's models.
+    /// Returns the key of a scene's models.
     fn of(origin: &Origin, file: &SceneFile, import: &ImportOptions) -> Self {
         let stamp = |path: &String| {
             let metadata = origin.folder.join(path).metadata().ok()?;
@@ -49,15 +50,15 @@ impl LoadKey {
 }
 
 impl SceneLoader {
-    /// A loader that has nothing loaded yet.
+    /// Returns a loader with nothing loaded.
     pub(super) const fn new(memory: Option<u64>) -> Self {
         Self { memory, loaded: None }
     }
 
-    /// The scene of an input, or the scene file `around` with the input as its model.
+    /// Returns the scene of an input, or the scene file `around` with the input as its model.
     ///
     /// # Errors
-    /// If a file cannot be read or is invalid, or a scene has no place for the input.
+    /// If a file cannot be read or is invalid, or the scene has no placeholder for the input.
     pub(super) fn load_scene(
         &mut self,
         input: &Path,
@@ -80,7 +81,7 @@ impl SceneLoader {
             Some((_, models)) => {
                 Scene::from_models_allowing(&origin, &file, &models, &import.allow_outside)?
             }
-            // The old models have been dropped, so they take no memory while the new ones load.
+            // The old models have been dropped, so they use no memory while the new ones load.
             None => Scene::resolve(&origin, &file, &flags.overrides.resolve_options(import))?,
         };
         self.loaded = Some((key, scene.models.clone()));

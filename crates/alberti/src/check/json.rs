@@ -19,11 +19,11 @@ use pipeline::SceneError;
 use scene::Lint;
 use serde_json::{Value, json};
 
-/// The version of both schemas: it rises when a member is removed or changes its meaning. New
-/// members may be added in any release.
+/// The version of both schemas, which increases when a member is removed or changes its meaning.
+/// New members may be added in any release.
 const VERSION: u32 = 1;
 
-/// The report on a scene or a model.
+/// Returns the report on a scene or a model.
 ///
 /// Members are in alphabetical order, as `serde_json` writes them; the text ends with a line feed.
 pub(super) fn file_report(findings: &CheckResult) -> String {
@@ -32,10 +32,10 @@ pub(super) fn file_report(findings: &CheckResult) -> String {
     format!("{document:#}\n")
 }
 
-/// The report on scenes.
+/// Returns the report on scenes.
 ///
 /// The totals at the top let a script decide without looking at the files. `files` has one entry
-/// for each argument, in that order.
+/// per argument, in the same order.
 pub(super) fn scenes_report(all: &[CheckResult]) -> String {
     let document = json!({
         "schema": {"name": "alberti-scene-check", "version": VERSION},
@@ -46,7 +46,7 @@ pub(super) fn scenes_report(all: &[CheckResult]) -> String {
     format!("{document:#}\n")
 }
 
-/// The result for one input.
+/// Returns the result for one input.
 ///
 /// `scene` is `null` for a bare model and an empty list for a scene without errors. `errors` counts
 /// the errors of the scene and all its models.
@@ -61,7 +61,7 @@ fn result_json(findings: &CheckResult) -> Value {
     })
 }
 
-/// An error of a scene, with line and column from 1.
+/// Returns an error of a scene, with line and column counted from 1.
 ///
 /// `file` may be an include. Columns count characters, not bytes. `remedy` is `null` if there is no
 /// suggestion.
@@ -76,7 +76,7 @@ fn scene_error_json(mistake: &SceneError) -> Value {
     })
 }
 
-/// A lint: a scene error with a code.
+/// Returns a lint: a scene error with a code.
 ///
 /// The code names the kind of lint and is stable, so that a script can ignore it.
 fn lint_json(advice: &Lint) -> Value {
@@ -85,11 +85,11 @@ fn lint_json(advice: &Lint) -> Value {
     value
 }
 
-/// The report of a model.
+/// Returns the report of a model.
 ///
 /// `refusal` is the error that kept the model from being loaded, and `null` if it was loaded.
-/// `problems` is limited in length; `problems_left_out` is the number of those beyond the limit,
-/// which the counts include.
+/// `problems` is limited in length; `problems_left_out` is the number of problems beyond the limit.
+/// The counts include them.
 fn report_json(report: &CheckReport) -> Value {
     let refusal = report.load_error.as_ref().map(
         |fault| json!({"pointer": fault.location, "message": fault.message, "remedy": fault.help}),
@@ -105,7 +105,7 @@ fn report_json(report: &CheckReport) -> Value {
     })
 }
 
-/// A diagnostic of a model.
+/// Returns a diagnostic of a model.
 ///
 /// `pointer` is a JSON pointer (RFC 6901) into the glTF document, `severity` is `error`, `warning`
 /// or `note`, and `code` names the violated rule.

@@ -1,6 +1,6 @@
-//! The files that a model or a scene refers to, so that a browser can be given all of them.
+//! Collects the files that a model or a scene refers to, so that they can all be sent to a browser.
 //!
-//! The importer judges whether they are used correctly. A name that points outside the model's
+//! Whether they are used correctly is left to the importer. A name that points outside the model's
 //! folder, even through a symbolic link, is skipped.
 
 use crate::CliError;
@@ -13,7 +13,7 @@ use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
 use std::path::{Component, Path};
 
-/// A model or a scene and the files it refers to, by their paths relative to its folder.
+/// A model or a scene and the files it refers to, by path relative to its folder.
 #[derive(Debug, Default)]
 pub(super) struct ModelFiles {
     /// The name of the model or scene.
@@ -53,7 +53,7 @@ impl ModelFiles {
     }
 }
 
-/// The files that a scene, a model or a material library refers to.
+/// Returns the files that a scene, a model or a material library refers to.
 fn files_of(name: &str, bytes: &[u8]) -> Vec<String> {
     if !is_scene_file(Path::new(name)) {
         return referenced_files(name, bytes);
@@ -64,7 +64,7 @@ fn files_of(name: &str, bytes: &[u8]) -> Vec<String> {
     scene.models.into_iter().map(|model| model.path).chain(images).collect()
 }
 
-/// The content of a file below a folder, if it exists.
+/// Returns the content of a file below a folder, if it exists.
 fn read_below(folder: &Path, name: &str) -> Option<Vec<u8>> {
     let is_plain = |part| matches!(part, Component::Normal(_) | Component::CurDir);
     if !Path::new(name).components().all(is_plain) {
@@ -74,7 +74,7 @@ fn read_below(folder: &Path, name: &str) -> Option<Vec<u8>> {
     if path.starts_with(folder) { read_file(&path).ok() } else { None }
 }
 
-/// The content of a regular file that is not too large.
+/// Returns the content of a regular file that is not too large.
 fn read_file(path: &Path) -> Result<Vec<u8>, Error> {
     let metadata = path.metadata()?;
     let limit = Limits::default().file_bytes;
@@ -95,7 +95,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_outside_of_the_folder_is_read() {
+    fn files_outside_the_folder_are_not_read() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src").canonicalize().expect("it");
         assert!(read_below(&folder, "./main.rs").is_some());
         for name in ["../Cargo.toml", "explore/../../Cargo.toml", "/etc/hosts", "explore", "none"] {

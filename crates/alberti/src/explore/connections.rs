@@ -1,10 +1,10 @@
-//! Connections: one thread each, few at once, and none that can wait for long.
+//! Connections: one thread each, with limits on their number and on how long they may wait.
 //!
 //! A browser, or any other program on the machine, may open connections and send nothing, or send a
-//! request and not read the answer. When there are too many, the connection that has waited longest
-//! for its request is closed, or else the one that has been reading its answer for longest. A new
-//! connection that sends its request at once is thus answered no matter how many are silent or
-//! slow.
+//! request and not read the answer. When there are too many connections, the one whose request has
+//! been outstanding longest is closed; if all requests have arrived, the one that has been reading
+//! its answer longest is closed. A new connection that sends its request at once is thus answered
+//! no matter how many others are silent or slow.
 
 use super::CliError;
 use super::request::{parse_request, read_head};
@@ -19,15 +19,15 @@ use std::time::{Duration, Instant};
 /// Maximum number of simultaneous connections.
 const MAX_CONNECTIONS: usize = 64;
 
-/// Maximum bytes of computed answers not yet read, over all connections: two of the largest
-/// pictures.
+/// Maximum size in bytes of computed answers not yet read, over all connections: twice the largest
+/// picture.
 const MAX_UNTAKEN_BYTES: usize = 512 << 20;
 
-/// Time in which any response must be read, plus more for each MiB of it.
+/// Time in which a response must be read, and the extra time for each MiB.
 const WRITE_TIME: Duration = Duration::from_secs(20);
 const TIME_PER_MIB: Duration = Duration::from_secs(1);
 
-/// Bytes written at once: the time is checked between blocks.
+/// Bytes written at a time; the deadline is checked between blocks.
 const PIECE_BYTES: usize = 256 << 10;
 
 /// Pause after the system refuses a connection or a thread, to avoid a busy loop.
@@ -38,7 +38,7 @@ const PAUSE: Duration = Duration::from_millis(50);
 struct Connections {
     /// The number of open connections.
     count: usize,
-    /// The number of connections so far, which is the next one's number.
+    /// The number of connections so far, which becomes the number of the next connection.
     accepted: u64,
     /// Connections whose request has not arrived yet, oldest first.
     silent: VecDeque<Closable>,
@@ -46,7 +46,7 @@ struct Connections {
     taking: VecDeque<Closable>,
 }
 
-/// A connection that another one may close.
+/// A connection that may be closed to admit another.
 #[derive(Debug)]
 struct Closable {
     number: u64,
@@ -55,7 +55,7 @@ struct Closable {
     bytes: usize,
 }
 
-/// A connection, counted as long as it lives.
+/// A connection, which counts as open until it is dropped.
 #[derive(Debug)]
 struct Connection {
     number: u64,
@@ -63,10 +63,10 @@ struct Connection {
     all: Arc<Mutex<Connections>>,
 }
 
-/// Answers requests for as long as the program runs.
+/// Answers requests until the program ends.
 ///
 /// # Errors
-/// None: a server ends with its program. The return type is the same for all commands.
+/// Never: the server runs until the program ends. All commands have the same return type.
 pub(super) fn serve(listener: &TcpListener, port: u16, site: Site) -> Result<(), CliError> {
     let site = Arc::new(site);
     let all = Arc::new(Mutex::new(Connections::default()));
@@ -78,7 +78,7 @@ pub(super) fn serve(listener: &TcpListener, port: u16, site: Site) -> Result<(),
         let Some(connection) = Connection::admit(stream, &all) else { continue };
         let site = Arc::clone(&site);
         let thread = std::thread::Builder::new();
-        // A connection without a thread is dropped here, and closed.
+        // If the thread cannot be started, the connection is dropped here, which closes it.
         if thread.spawn(move || connection.answer(port, &site)).is_err() {
             std::thread::sleep(PAUSE);
         }
@@ -86,7 +86,7 @@ pub(super) fn serve(listener: &TcpListener, port: u16, site: Site) -> Result<(),
 }
 
 impl Connections {
-    /// Closes the oldest idle or slow connection; returns false if there is none.
+    /// Closes the oldest idle or slow connection; returns false if no connection can be closed.
     ///
     /// Its thread wakes up and decrements the count.
     fn close_oldest(&mut self) -> bool {
@@ -117,7 +117,7 @@ impl Connections {
 }
 
 impl Connection {
-    /// Counts a connection; closes another one, or this one, if there are too many.
+    /// Counts a connection; if there are too many, closes another or refuses this one.
     fn admit(stream: TcpStream, all: &Arc<Mutex<Connections>>) -> Option<Self> {
         let silent = stream.try_clone().ok()?;
         let mut connections = all.lock().unwrap_or_else(PoisonError::into_inner);
@@ -141,7 +141,7 @@ impl Connection {
             Err(Some(response)) => Err(response),
             Err(None) => return,
         };
-        // A client that is gone reads nothing.
+        // The client may have disconnected.
         let _ = match request {
             Ok(request) => match site.respond(&request, &mut self) {
                 Some(response) => self.write(&response, request.is_head),
@@ -151,7 +151,7 @@ impl Connection {
         };
     }
 
-    /// Writes a response for as long as its client reads it.
+    /// Writes a response while its client keeps reading.
     fn write(&mut self, response: &Response<'_>, is_head: bool) -> std::io::Result<()> {
         let body = if is_head { &[] } else { response.bytes() };
         let mebibytes = u32::try_from(body.len() >> 20).unwrap_or(u32::MAX);
@@ -190,8 +190,8 @@ impl Connection {
 }
 
 impl Visitor for Connection {
-    /// Whether the client is still waiting: it has closed neither the connection nor its half of
-    /// it.
+    /// Whether the client is still waiting: it has closed neither the connection nor its sending
+    /// side.
     fn is_there(&mut self) -> bool {
         if self.stream.set_nonblocking(true).is_err() {
             return false;

@@ -1,8 +1,8 @@
-//! The page's files, its lesson models and its engine, embedded when the program was built.
+//! The page's files, its lesson models and its engine, embedded at build time.
 
 use std::collections::BTreeMap;
 
-/// Paths with compressed contents; see `build.rs`.
+/// Paths and compressed contents; see `build.rs`.
 const FILES: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/explorer_files.rs"));
 
 /// All files by their URL paths, without the leading slash.
@@ -14,7 +14,7 @@ pub(super) fn embedded_files() -> BTreeMap<String, Vec<u8>> {
     FILES.iter().filter_map(unpack).collect()
 }
 
-/// The content type of a file, from its extension.
+/// Returns a file's content type from its extension.
 pub(super) fn content_type(path: &str) -> &'static str {
     match path.rsplit_once('.').map_or("", |(_, ending)| ending) {
         "html" => "text/html; charset=utf-8",
@@ -32,7 +32,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn all_files_of_the_page_are_embedded_and_have_a_type() {
+    fn all_page_files_are_embedded_with_a_content_type() {
         let files = embedded_files();
         for path in ["index.html", "main.js", "style.css", "worker.js", "models/house.glb"] {
             assert!(files.contains_key(path), "{path}");

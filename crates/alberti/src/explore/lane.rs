@@ -1,11 +1,11 @@
-//! Lanes: threads that answer one request at a time. Requests from clients that are gone are
+//! Lanes: threads that answer one query at a time. Queries from clients that have disconnected are
 //! canceled.
 //!
 //! ```text
 //!  thread of a connection ─► queue ─► thread of the lane: its explorer computes
-//!  waits, and looks whether the client is still there ──► CancelToken
+//!  waits, and checks that the client is still connected ──► CancelToken
 //! ```
-//! Small questions have a separate lane, so that none has to wait for a large picture.
+//! Small queries have a separate lane, so that they never wait for a large picture.
 
 use explorer::{Answer, Explorer, ExplorerError};
 use pipeline::CancelToken;
@@ -14,19 +14,19 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Maximum number of questions waiting in a lane.
+/// Maximum number of queries waiting in a lane.
 const MAX_WAITING: usize = 16;
 
-/// Interval between checks whether the client is still there.
+/// Interval between checks that the client is still connected.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Checks of a full lane before it counts as busy.
+/// Number of times a full lane is checked before it counts as busy.
 const MAX_LOOKS: u32 = 40;
 
 /// The explorer's answer or error.
 type Computed = Result<Answer, ExplorerError>;
 
-/// A question waiting for its turn.
+/// A query waiting for its turn.
 #[derive(Debug)]
 struct Job {
     query: String,
@@ -34,25 +34,25 @@ struct Job {
     reply: Sender<Computed>,
 }
 
-/// The questions of a lane, oldest first.
+/// The queries in a lane, oldest first.
 #[derive(Debug, Default)]
 struct Queue {
     jobs: Mutex<VecDeque<Job>>,
     has_job: Condvar,
 }
 
-/// A thread that answers one question at a time.
+/// A thread that answers one query at a time.
 #[derive(Debug)]
 pub(super) struct Lane {
     queue: Arc<Queue>,
 }
 
-/// The reason why a question has no answer.
+/// The reason a query was not answered.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Unanswered {
     /// Too many others are waiting.
     Busy,
-    /// Its client is gone.
+    /// The client has disconnected.
     Abandoned,
     /// The computation failed unexpectedly.
     Failed,
@@ -70,10 +70,10 @@ impl Lane {
         Ok(Self { queue })
     }
 
-    /// Answers a query; polls `is_wanted` to learn whether anybody is still waiting.
+    /// Answers a query; polls `is_wanted` to check that the client is still waiting.
     ///
     /// # Errors
-    /// If there will be no answer.
+    /// If the query cannot be answered.
     pub(super) fn ask(
         &self,
         query: &str,
@@ -83,7 +83,8 @@ impl Lane {
         let mut looks = 0;
         let answer = loop {
             match self.queue.push(query, &cancel) {
-                // Questions whose clients are gone make room as soon as that is noticed.
+                // Queries of disconnected clients leave the queue as soon as the disconnection is
+                // noticed.
                 Err(Unanswered::Busy) if looks < MAX_LOOKS => {
                     looks += 1;
                     std::thread::sleep(LOOK);
@@ -135,16 +136,16 @@ impl Queue {
         }
     }
 
-    /// Answers questions for as long as the program runs.
+    /// Answers queries until the program ends.
     fn work(&self, mut explorer: Explorer) {
         loop {
             let Job { query, cancel, reply } = self.next();
-            // In a separate thread: a panic ends that thread, not the lane.
+            // Runs in a separate thread, so that a panic ends that thread and not the lane.
             let computed = std::thread::scope(|scope| {
                 scope.spawn(|| explorer.answer_unless_canceled(&query, &cancel)).join()
             });
             if let Ok(outcome) = computed {
-                // The client may be gone.
+                // The client may have disconnected.
                 let _ = reply.send(outcome);
             }
         }
@@ -159,7 +160,7 @@ mod tests {
     const SLOW: &str = "v=1&what=picture&lesson=frustum&size=8192x8192";
 
     #[test]
-    fn what_nobody_waits_for_is_not_computed() {
+    fn abandoned_queries_are_not_computed() {
         let mut explorer = Explorer::new();
         let house = embedded_files().remove("models/house.glb").expect("a model");
         explorer.add_file("models/house.glb", house).expect("a model");
@@ -172,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn a_full_queue_says_so() {
+    fn a_full_queue_is_reported_as_busy() {
         let queue = Queue::default();
         let cancel = CancelToken::default();
         let answers: Vec<_> = (0..MAX_WAITING).map(|_| queue.push(SLOW, &cancel)).collect();

@@ -6,10 +6,10 @@ use std::io::Read;
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
-/// Maximum bytes of the first line and all headers together.
+/// Maximum size in bytes of the first line and all headers together.
 const MAX_HEAD_BYTES: usize = 16 * 1024;
 
-/// Time in which they must arrive.
+/// Time within which the first line and the headers must arrive.
 const HEAD_TIME: Duration = Duration::from_secs(10);
 
 /// A request that may be answered.
@@ -26,7 +26,8 @@ pub(super) struct Request {
 /// Reads the head of a request, up to the empty line.
 ///
 /// # Errors
-/// The response to a head that is too long; none if the connection was closed or too slow.
+/// Fails with the response to a head that is too long, or with `None` if the connection was closed
+/// or too slow.
 pub(super) fn read_head(stream: &mut TcpStream) -> Result<Vec<u8>, Option<Response<'static>>> {
     let deadline = Instant::now() + HEAD_TIME;
     let mut head = Vec::new();
@@ -53,7 +54,7 @@ pub(super) fn read_head(stream: &mut TcpStream) -> Result<Vec<u8>, Option<Respon
 /// Parses a head and checks that it comes from this server's own page or from the user.
 ///
 /// # Errors
-/// The refusal as a response.
+/// Fails with the response that refuses the request.
 pub(super) fn parse_request(head: &[u8], port: u16) -> Result<Request, Response<'static>> {
     let refuse = |status, text| Err(Response::text(status, text));
     let Ok(head) = std::str::from_utf8(head) else {
@@ -136,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn only_the_own_page_is_answered() {
+    fn cross_site_requests_are_refused() {
         let ask = |headers: &[&str]| {
             parse(&[&["GET / HTTP/1.1"], headers].concat()).map(|_| ()).map_err(u32::from)
         };
@@ -159,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn other_methods_are_refused() {
+    fn unsupported_methods_are_refused() {
         for method in ["POST", "PUT", "DELETE", "OPTIONS", "CONNECT", "get"] {
             let line = format!("{method} / HTTP/1.1");
             assert_eq!(parse(&[&line, "Host: localhost:8000"]), Err(405), "{method}");

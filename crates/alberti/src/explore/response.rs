@@ -16,7 +16,7 @@ pub(super) struct Response<'a> {
 }
 
 impl<'a> Response<'a> {
-    /// A response with the requested bytes.
+    /// Returns a response with the requested bytes.
     pub(super) fn ok(
         content_type: impl Into<Cow<'a, str>>,
         bytes: impl Into<Cow<'a, [u8]>>,
@@ -24,18 +24,18 @@ impl<'a> Response<'a> {
         Self { status: 200, content_type: content_type.into(), bytes: bytes.into() }
     }
 
-    /// A response that consists of a sentence.
+    /// Returns a plain-text response with one sentence.
     pub(super) fn text(status: u16, text: &'a str) -> Self {
         let content_type = "text/plain; charset=utf-8".into();
         Self { status, content_type, bytes: Cow::Borrowed(text.as_bytes()) }
     }
 
-    /// The bytes after the headers.
+    /// Returns the bytes after the headers.
     pub(super) fn bytes(&self) -> &[u8] {
         &self.bytes
     }
 
-    /// The number of bytes held in memory only for this response.
+    /// Returns the number of bytes held in memory only for this response.
     pub(super) fn owned_bytes(&self) -> usize {
         match &self.bytes {
             Cow::Owned(bytes) => bytes.len(),
@@ -43,7 +43,7 @@ impl<'a> Response<'a> {
         }
     }
 
-    /// The first line and the headers.
+    /// Returns the first line and the headers.
     pub(super) fn head(&self) -> String {
         let reason = match self.status {
             200 => "OK",

@@ -14,7 +14,7 @@ use serde_json::json;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The page itself, which also answers an empty path.
+/// The page itself, which is also served for an empty path.
 const INDEX: &str = "index.html";
 
 /// Everything that can be requested.
@@ -36,7 +36,7 @@ pub(super) trait Visitor {
 }
 
 impl Site {
-    /// Reads the given model and checks that it can be shown.
+    /// Reads the model from the command line and checks that it can be shown.
     ///
     /// # Errors
     /// If it cannot be read or shown.
@@ -67,7 +67,7 @@ impl Site {
         Ok(Self { files, token, small, large })
     }
 
-    /// The response to a request; none if nobody is waiting any more.
+    /// Returns the response to a request, or `None` if the client is no longer waiting.
     pub(super) fn respond(
         &self,
         request: &Request,
@@ -88,11 +88,11 @@ impl Site {
         })
     }
 
-    /// The explorer's answer to a query.
+    /// Returns the explorer's answer to a query.
     ///
-    /// An explorer error is an answer like any other, recognizable by its type. Browsers log every
-    /// response with a status other than 200, and a value that cannot be drawn is not an error of
-    /// the page.
+    /// An explorer error is an answer like any other, with its own content type. It does not change
+    /// the status, because browsers log every response with a status other than 200, and a value
+    /// that cannot be drawn is not an error in the page.
     fn compute(&self, query: &str, visitor: &mut impl Visitor) -> Option<Response<'_>> {
         let lane = if draws(query) { &self.large } else { &self.small };
         Some(match lane.ask(query, || visitor.is_there()) {
@@ -108,7 +108,7 @@ impl Site {
     }
 }
 
-/// Whether a query asks for pixels or lines.
+/// Whether a query requests pixels or lines.
 fn draws(query: &str) -> bool {
     let asked = query.split('&').find_map(|pair| pair.strip_prefix("what="));
     !matches!(asked, None | Some("lessons" | "state" | "depth" | "pick"))
@@ -128,7 +128,7 @@ fn as_cli_error(error: ExplorerError) -> CliError {
     CliError::Usage(format!("{message}\n  = help: {help}"))
 }
 
-/// The page with information about the server in an attribute.
+/// Returns the page with information about the server in an attribute.
 fn with_server_info(page: &str, said: &str) -> String {
     let said = said.replace('&', "&amp;").replace('"', "&quot;").replace('<', "&lt;");
     let place = r#"name="explorer-server" content=""#;

@@ -8,10 +8,10 @@ use super::CliError;
 /// Bytes of randomness in a token: too many to guess.
 const TOKEN_BYTES: usize = 16;
 
-/// A new token, in hexadecimal digits.
+/// Returns a new token of hexadecimal digits.
 ///
 /// # Errors
-/// If the system has no random bytes.
+/// If the system cannot provide random bytes.
 pub(super) fn new_token() -> Result<String, CliError> {
     let bytes = random_bytes().map_err(|error| {
         CliError::Usage(format!(
@@ -30,8 +30,8 @@ fn random_bytes() -> std::io::Result<[u8; TOKEN_BYTES]> {
     Ok(bytes)
 }
 
-/// The standard library offers no random bytes, but keys its map hashes with the system's: the hash
-/// of a number cannot be guessed without the key.
+/// Makes random bytes from the standard library, which has no generator but seeds the hash keys of
+/// its maps from the system: without the key, the hash of a number cannot be guessed.
 #[cfg(not(unix))]
 fn random_bytes() -> std::io::Result<[u8; TOKEN_BYTES]> {
     use std::hash::{BuildHasher as _, RandomState};
@@ -43,10 +43,10 @@ fn random_bytes() -> std::io::Result<[u8; TOKEN_BYTES]> {
     Ok(bytes)
 }
 
-/// Returns the rest of a path after the token and a slash; nothing if the path does not begin with
+/// Returns the rest of a path after the token and a slash; `None` if the path does not begin with
 /// the token.
 ///
-/// The comparison takes the same time however many digits are right.
+/// The comparison takes the same time regardless of how many digits match.
 pub(super) fn strip_token<'a>(path: &'a str, token: &str) -> Option<&'a str> {
     let (given, rest) = path.split_once('/')?;
     let pairs = given.bytes().zip(token.bytes());
@@ -68,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn only_the_whole_token_opens_a_path() {
+    fn only_the_full_token_grants_access() {
         assert_eq!(strip_token("abc/main.js", "abc"), Some("main.js"));
         assert_eq!(strip_token("abc/", "abc"), Some(""));
         for path in ["", "abc", "main.js", "ab/main.js", "abd/main.js", "abcd/main.js", "/abc/"] {

@@ -17,18 +17,18 @@ pub(crate) struct DxfArgs {
 }
 
 impl DxfArgs {
-    /// Whether the tolerance was given.
+    /// Whether the tolerance is set.
     pub(crate) const fn has_tolerance(&self) -> bool {
         self.arc_tolerance.is_some()
     }
 
-    /// The options with the flag's tolerance.
+    /// Returns the options with the flag's tolerance.
     pub(crate) fn apply_to(&self, options: DxfOptions) -> DxfOptions {
         DxfOptions { arc_tolerance: self.arc_tolerance.unwrap_or(options.arc_tolerance), ..options }
     }
 }
 
-/// The warning that a format omits the images of a page.
+/// Returns the warning that a format omits the images of a page.
 pub(crate) fn image_warning<W>(format: OutputFormat, page: &Page<W>) -> Option<Warning> {
     let leaves_out = format == OutputFormat::Dxf && !page.images.is_empty();
     leaves_out.then_some(Warning::ImagesNotInDxf)
@@ -37,5 +37,5 @@ pub(crate) fn image_warning<W>(format: OutputFormat, page: &Page<W>) -> Option<W
 /// Parses a tolerance in millimeters.
 fn parse_tolerance(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|mm: &f64| (0.0..=10.0).contains(mm));
-    number.ok_or_else(|| "expected millimeters from 0 to 10, such as 0.01".to_owned())
+    number.ok_or_else(|| "expected 0 to 10 millimeters, such as 0.01".to_owned())
 }

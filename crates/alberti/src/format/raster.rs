@@ -1,5 +1,5 @@
-//! Pictures as PNG, JPEG and WebP, all from encoders that compute with integers: the bytes are the
-//! same on every machine.
+//! Pictures as PNG, JPEG and WebP. All encoders use integer arithmetic, so the bytes are the same
+//! on every machine.
 
 use super::OutputFormat;
 use crate::CliError;
@@ -58,7 +58,7 @@ impl OutputFormat {
     /// Refuses a size that exceeds the limit of the format.
     ///
     /// # Errors
-    /// As [`encode_picture`](Self::encode_picture).
+    /// The same as for [`encode_picture`](Self::encode_picture).
     pub(crate) fn check_size(self, [width, height]: [u32; 2]) -> Result<(), CliError> {
         let (name, most) = match self {
             Self::Jpeg => ("JPEG", MAX_JPEG_SIDE),
@@ -69,12 +69,12 @@ impl OutputFormat {
             return Ok(());
         }
         Err(CliError::Usage(format!(
-            "a {name} can have at most {most} pixels per side, but the picture has {width} x {height}\n  = help: write a .png"
+            "a {name} can have at most {most} pixels per side, but the picture is {width} x {height}\n  = help: write a .png"
         )))
     }
 }
 
-/// A color over white paper.
+/// Blends a color over white paper.
 fn over_white([r, g, b, alpha]: [u8; 4]) -> [u8; 3] {
     let alpha = u32::from(alpha);
     // Rounded to the nearest code.
@@ -92,14 +92,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_transparent_is_white_in_a_jpeg() {
+    fn transparent_pixels_are_white_in_a_jpeg() {
         assert_eq!(over_white([10, 20, 30, 255]), [10, 20, 30]);
         assert_eq!(over_white([10, 20, 30, 0]), [255; 3]);
         assert_eq!(over_white([0, 100, 255, 128]), [127, 177, 255]);
     }
 
     #[test]
-    fn files_begin_as_their_formats_ask() {
+    fn files_begin_with_their_format_signatures() {
         let mut picture = Picture::<u8>::default();
         picture.resize(3, 2);
         picture.pixels.fill([200, 100, 50, 255]);

@@ -1,9 +1,9 @@
 //! `alberti info --json`: the contents of a model as JSON.
 //!
-//! Objects are in file order and referred to by index from 0. Lengths are in units of the model,
-//! angles in radians, times in seconds, colors linear. Absent values are `null` or empty lists. New
-//! members may be added in any release; [`VERSION`] rises when one is removed or changes its
-//! meaning.
+//! Objects are in file order, with indices from 0. Lengths are in units of the model, angles in
+//! radians and times in seconds; colors are linear. Absent values are `null` or empty lists. New
+//! members may be added in any release; [`VERSION`] increases when a member is removed or changes
+//! its meaning.
 //!
 //! ```json
 //! {
@@ -14,8 +14,8 @@
 //!   "scenes": [], "nodes": [], "meshes": [], "materials": [], "textures": [], "images": []
 //! }
 //! ```
-//! (Shortened: `shown` also has bounds and counts, and lists follow for cameras, lights, skins,
-//! animations, variants, extensions and warnings.)
+//! (Shortened: `shown` also contains bounds and counts, and lists of cameras, lights, skins,
+//! animations, variants, extensions and warnings follow.)
 
 use super::materials::{images_json, materials_json, textures_json};
 use super::scenes::{cameras_json, lights_json, meshes_json, nodes_json, scenes_json};
@@ -74,27 +74,27 @@ pub(super) fn info_document(args: &InfoArgs, model: &Model) -> String {
     format!("{value:#}\n")
 }
 
-/// The index of the animation that poses the model.
+/// Returns the index of the animation that poses the model.
 ///
 /// `None` cannot occur for a loaded model, because an invalid choice has already ended the command.
 fn chosen_animation_index(args: &InfoArgs, model: &Model) -> Option<usize> {
     scene::select_animation(model, args.model_state.animation.as_ref()).ok()
 }
 
-/// An f32 as the shortest decimal number that rounds to it: 0.8, not 0.800000011920929.
+/// Returns an `f32` as the shortest decimal number that rounds to it: 0.8, not 0.800000011920929.
 ///
-/// glTF stores factors as 32-bit floats; widened to 64 bits they show digits that the
-/// file does not have. NaN and infinities become `null`, as JSON has no such numbers.
+/// glTF stores factors as 32-bit floats; widened to 64 bits, they would show digits that are not in
+/// the file. NaN and infinities become `null`, because JSON has no such numbers.
 pub(super) fn shortest_number(x: f32) -> Value {
     x.to_string().parse::<f64>().map_or(Value::Null, Value::from)
 }
 
-/// Several numbers as [`shortest_number`] writes them.
+/// Returns several numbers, each as [`shortest_number`] returns it.
 pub(super) fn shortest_numbers(numbers: &[f32]) -> Vec<Value> {
     numbers.iter().copied().map(shortest_number).collect()
 }
 
-/// Bounds as two points, or `null`.
+/// Returns bounds as two points, or `null`.
 ///
 /// Coordinates are 64-bit, because the bounds are computed in that precision.
 pub(super) fn bounds_json<S: homog::Space>(of: Option<Bounds<S>>) -> Value {
@@ -104,7 +104,7 @@ pub(super) fn bounds_json<S: homog::Space>(of: Option<Bounds<S>>) -> Value {
     })
 }
 
-/// Totals of some primitives: vertices, triangles, lines and points.
+/// Returns the totals over some primitives: vertices, triangles, lines and points.
 ///
 /// `items` is indexed by an item's vertex count minus one: points, lines, triangles.
 pub(super) fn counts_json<'a>(primitives: impl Iterator<Item = &'a Primitive>) -> Value {
@@ -124,7 +124,7 @@ pub(super) fn counts_json<'a>(primitives: impl Iterator<Item = &'a Primitive>) -
     })
 }
 
-/// The name of a topology, in the plural.
+/// Returns the name of a topology, in the plural.
 pub(super) fn topology_name(of: Topology) -> &'static str {
     match of {
         Topology::Points => "points",
@@ -133,12 +133,12 @@ pub(super) fn topology_name(of: Topology) -> &'static str {
     }
 }
 
-/// A skin, as its joints.
+/// Returns a skin as a list of joints.
 fn skin_json(skin: &Skin) -> Value {
     json!({"joints": skin.joints})
 }
 
-/// An animation: its name, duration and channels.
+/// Returns an animation: its name, duration and channels.
 ///
 /// `duration` is the time of the last keyframe of any channel.
 fn animation_json(model: &Model, animation: &Animation) -> Value {
@@ -149,7 +149,7 @@ fn animation_json(model: &Model, animation: &Animation) -> Value {
     })
 }
 
-/// A channel: its target, interpolation, number of keyframes, start and end time.
+/// Returns a channel: its target, interpolation, number of keyframes, start and end time.
 ///
 /// Spherical interpolation of rotations is `LINEAR` in glTF, so both have that name. `start` and
 /// `end` are `null` for a channel without keyframes.
@@ -167,9 +167,9 @@ fn channel_json(model: &Model, AnimationChannel { target, curve }: &AnimationCha
     })
 }
 
-/// The property that an animation channel changes, as a JSON pointer into the file.
+/// Returns the property that an animation channel changes, as a JSON pointer into the file.
 ///
-/// The form follows KHR_animation_pointer, also for channels of core glTF:
+/// The form follows KHR_animation_pointer, even for channels of core glTF:
 ///
 /// ```text
 /// /nodes/3/rotation
@@ -210,10 +210,10 @@ fn target_pointer(model: &Model, target: AnimationTarget) -> String {
     }
 }
 
-/// The extensions of the file, sorted, with the level of support for each.
+/// Returns the extensions of the file, sorted, with the level of support for each.
 ///
 /// `extensionsRequired` should be a subset of `extensionsUsed`, but not all files comply, so both
-/// lists are merged. `note` explains a status that is not plain success.
+/// lists are merged. `note` explains any status other than full support.
 fn extensions_json(model: &Model) -> Value {
     let mut names: Vec<&String> =
         model.extensions_used.iter().chain(&model.extensions_required).collect();
@@ -234,9 +234,10 @@ fn extensions_json(model: &Model) -> Value {
     names.iter().map(describe).collect()
 }
 
-/// The warnings of the importer.
+/// Returns the importer's warnings.
 ///
-/// `check` reports more: it examines everything, the importer only the parts it reads.
+/// `check` reports more, because it examines the whole file, while the importer examines only the
+/// parts it reads.
 fn warnings_json(model: &Model) -> Value {
     let describe = |warning: &model::Diagnostic| json!({"pointer": warning.location, "message": warning.message});
     model.warnings.iter().map(describe).collect()

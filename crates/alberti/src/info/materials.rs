@@ -10,15 +10,15 @@ use model::{
 };
 use serde_json::{Value, json};
 
-/// All materials of the file.
+/// Returns all materials in the file.
 pub(super) fn materials_json(model: &Model) -> Vec<Value> {
     model.materials.iter().map(material_json).collect()
 }
 
-/// A material: the factors and textures of core glTF, and its extensions.
+/// Returns a material: the factors and textures of core glTF, and its extensions.
 ///
 /// `alpha_cutoff` is `null` unless the mode is `MASK`. `base_color` has four components, of which
-/// the last is alpha; `emissive` has three and does not include the strength of the extension.
+/// the last is alpha; `emissive` has three and does not include the strength from the extension.
 fn material_json(material: &Material) -> Value {
     let (mode, cutoff) = match material.alpha_mode {
         AlphaMode::Opaque => ("OPAQUE", None),
@@ -41,9 +41,9 @@ fn material_json(material: &Material) -> Value {
     })
 }
 
-/// A texture slot of a material.
+/// Returns a texture slot of a material.
 ///
-/// `slot` is the path of the texture in the material's JSON. `transformed` says whether
+/// `slot` is the path of the texture in the material's JSON. `transformed` is true if
 /// KHR_texture_transform changes the texture coordinates.
 fn texture_use_json(slot: TextureSlot, used: TextureInfo) -> Value {
     json!({
@@ -54,10 +54,11 @@ fn texture_use_json(slot: TextureSlot, used: TextureInfo) -> Value {
     })
 }
 
-/// The material extensions that differ from their defaults, by name without `KHR_materials_`.
+/// Returns the material extensions that differ from their defaults, by name without
+/// `KHR_materials_`.
 ///
 /// An extension with default values has no effect and is omitted: an index of refraction of 1.5, a
-/// dispersion of 0, a strength of 1. Extension textures are listed with the material's.
+/// dispersion of 0, a strength of 1. Extension textures are listed with the material's textures.
 fn material_extensions_json(material: &Material) -> Value {
     let (more, strength) = (&material.extensions, material.emission.strength);
     let ior = (more.ior != 1.5).then(|| json!({"ior": shortest_number(more.ior)}));
@@ -81,11 +82,12 @@ fn material_extensions_json(material: &Material) -> Value {
     all.filter_map(|(name, value)| Some((name.to_owned(), value?))).collect()
 }
 
-/// The extensions that add or replace a layer of the BRDF; `None` if the material has none.
+/// Returns the extensions that add or replace a layer of the BRDF, or `None` if the material has
+/// none.
 ///
-/// The thickness of iridescence is a pair, minimum and maximum, in nanometers.
+/// The thickness of iridescence is a pair in nanometers: minimum and maximum.
 fn material_layers_json(more: &MaterialExtensions) -> [(&'static str, Option<Value>); 7] {
-    // Colors and reflectances have three components, every other parameter one.
+    // Colors and reflectances have three components; every other parameter has one.
     let (one, three) = (shortest_number, |color: &[f32]| shortest_numbers(color));
     let specular = more
         .specular
@@ -123,9 +125,9 @@ fn material_layers_json(more: &MaterialExtensions) -> [(&'static str, Option<Val
     ]
 }
 
-/// All textures of the file, with their samplers.
+/// Returns all textures in the file, with their samplers.
 ///
-/// `wrap` has the modes along u and v. glTF samplers combine minification and mipmaps in one
+/// `wrap` contains the modes along u and v. glTF samplers combine minification and mipmaps in one
 /// constant, such as `LINEAR_MIPMAP_NEAREST`; here they are two members.
 pub(super) fn textures_json(model: &Model) -> Vec<Value> {
     let describe = |texture: &model::Texture| {
@@ -145,7 +147,7 @@ pub(super) fn textures_json(model: &Model) -> Vec<Value> {
     model.textures.iter().map(describe).collect()
 }
 
-/// The name of a wrap mode.
+/// Returns the name of a wrap mode.
 fn wrap_name(wrap: WrapMode) -> &'static str {
     match wrap {
         WrapMode::Repeat => "repeat",
@@ -154,7 +156,7 @@ fn wrap_name(wrap: WrapMode) -> &'static str {
     }
 }
 
-/// The name of a filter.
+/// Returns the name of a filter.
 fn filter_name(filter: TextureFilter) -> &'static str {
     match filter {
         TextureFilter::Nearest => "nearest",
@@ -162,7 +164,7 @@ fn filter_name(filter: TextureFilter) -> &'static str {
     }
 }
 
-/// All images of the file; `file` has the header of each readable image.
+/// Returns all images in the file; `file` contains the header of each readable image.
 ///
 /// `uri` is `null` for an image in a buffer. `bytes` is the size of the encoded file.
 pub(super) fn images_json(model: &Model) -> Vec<Value> {

@@ -1,8 +1,8 @@
 //! Scenes, nodes, meshes, cameras and lights in `alberti info --json`.
 //!
 //! Arrays are in file order, so an index in the glTF document is also an index here. Nodes refer to
-//! meshes, skins, cameras and lights by index; cameras and lights in turn list their nodes, which
-//! the glTF document does not.
+//! meshes, skins, cameras and lights by index; unlike in the glTF document, cameras and lights also
+//! list their nodes.
 
 use super::json::{bounds_json, counts_json, shortest_number, shortest_numbers, topology_name};
 use model::{
@@ -11,7 +11,7 @@ use model::{
 };
 use serde_json::{Value, json};
 
-/// All scenes of the file, with their root nodes and bounds.
+/// Returns all scenes in the file, with their root nodes and bounds.
 ///
 /// `bounds` is `null` for a scene that draws nothing.
 pub(super) fn scenes_json(model: &Model) -> Vec<Value> {
@@ -22,19 +22,19 @@ pub(super) fn scenes_json(model: &Model) -> Vec<Value> {
     model.scenes.iter().map(describe).collect()
 }
 
-/// All nodes of the file.
+/// Returns all nodes in the file.
 pub(super) fn nodes_json(model: &Model) -> Vec<Value> {
     model.nodes.iter().map(node_json).collect()
 }
 
-/// A node: its place in the hierarchy, its transforms, and the objects attached to it.
+/// Returns a node: its position in the hierarchy, its transforms, and the objects attached to it.
 ///
-/// `transform` is the local one, `null` for a node with a matrix; `to_model` is the matrix from the
-/// node to the model, column by column, in the current pose.
+/// `transform` is the local transform, or `null` for a node with a matrix; `to_model` is the matrix
+/// from the node to the model, column by column, in the current pose.
 ///
 /// `rotation` is a unit quaternion `x, y, z, w`. `places` is the number of instances of
-/// EXT_mesh_gpu_instancing, `null` without the extension. `weights` are the node's weights, which
-/// replace the mesh's.
+/// EXT_mesh_gpu_instancing, or `null` without the extension. `weights` are the node's weights,
+/// which replace the mesh's weights.
 fn node_json(node: &Node) -> Value {
     let parts = node.trs.map(|parts| {
         json!({
@@ -58,7 +58,7 @@ fn node_json(node: &Node) -> Value {
     })
 }
 
-/// All meshes of the file; `shown` is the number of instances in the drawn scene.
+/// Returns all meshes in the file; `shown` is the number of instances in the drawn scene.
 ///
 /// A mesh with `shown` 0 is not part of the drawn scene, which often explains why something seems
 /// to be missing.
@@ -83,7 +83,7 @@ pub(super) fn meshes_json(model: &Model) -> Vec<Value> {
         .collect()
 }
 
-/// A primitive: its topology, its counts, and which attributes it has.
+/// Returns a primitive: its topology, its counts and the attributes it has.
 ///
 /// `count` is the number of triangles, lines or points after converting strips, fans and loops to
 /// lists.
@@ -105,7 +105,7 @@ fn primitive_json(primitive: &Primitive) -> Value {
     })
 }
 
-/// The edges that the file declares visible (EXT_mesh_primitive_edge_visibility).
+/// Returns the edges that the file declares visible (EXT_mesh_primitive_edge_visibility).
 ///
 /// `hard` and `silhouette` count edges of triangles, so an edge shared by two triangles may count
 /// twice. `lines` counts segments of explicit line strings.
@@ -120,10 +120,11 @@ fn edges_json(edges: &PrimitiveEdges) -> Value {
     })
 }
 
-/// All cameras in the file, with the nodes that carry them.
+/// Returns all cameras in the file, with the nodes that refer to them.
 ///
-/// `fov_y` is in radians; `width` and `height` are the whole extent, twice glTF's `xmag` and
-/// `ymag`. `aspect` is `null` if the camera adapts to the picture, `far` if it is infinite.
+/// `fov_y` is in radians; `width` and `height` are the full extent, twice glTF's `xmag` and `ymag`.
+/// `aspect` is `null` if the camera adapts to the picture, and `far` is `null` if the far plane is
+/// at infinity.
 pub(super) fn cameras_json(model: &Model) -> Vec<Value> {
     let describe = |(number, lens): (usize, &model::ModelCamera)| {
         let mut value = match lens.projection {
@@ -149,10 +150,10 @@ pub(super) fn cameras_json(model: &Model) -> Vec<Value> {
     model.cameras.iter().enumerate().map(describe).collect()
 }
 
-/// All punctual lights of the file, with the nodes that carry them.
+/// Returns all punctual lights in the file, with the nodes that refer to them.
 ///
-/// `range` is present for point and spot lights; the cone angles, in radians from the axis, only
-/// for spot lights.
+/// `range` is present for point and spot lights; the cone angles, in radians from the axis, are
+/// present only for spot lights.
 pub(super) fn lights_json(model: &Model) -> Vec<Value> {
     let describe = |(number, light): (usize, &model::PunctualLight)| {
         let unit = if light.kind == LightKind::Directional { "lux" } else { "candela" };
@@ -177,7 +178,7 @@ pub(super) fn lights_json(model: &Model) -> Vec<Value> {
     model.lights.iter().enumerate().map(describe).collect()
 }
 
-/// The indices of the nodes that satisfy a predicate.
+/// Returns the indices of the nodes that satisfy a predicate.
 ///
 /// Several nodes may share one camera or light.
 fn nodes_where(model: &Model, carries: impl Fn(&Node) -> bool) -> Value {

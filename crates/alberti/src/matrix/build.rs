@@ -15,8 +15,8 @@ use recognition::parse_number;
 /// The sentence on near and far for all flags except `--p`, in the help and in messages.
 pub(super) const DISTANCES: &str = "near and far are distances ahead of the eye, 0 < near < far \
     (--ortho and --oblique also accept near = 0 and, except with the conventions alberti and \
-    chapter, a near plane behind the eye, as in glOrtho's -1,1); the textbook's coordinates n and \
-    f, 0 > n > f, are near = -n and far = -f";
+    chapter, a near plane behind the eye, as in glOrtho's -1,1); for the textbook's coordinates \
+    0 > n > f, use near = -n and far = -f";
 
 /// Options that change the matrices of some flags.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -33,7 +33,7 @@ struct BuilderFlag {
     name: &'static str,
     value: &'static str,
     help: &'static str,
-    /// The modifiers that affect it.
+    /// The modifiers that affect the matrix.
     uses: &'static [Modifier],
     build: fn(&NumberList, BuildOptions) -> Built,
 }
@@ -130,7 +130,7 @@ const FLAGS: [BuilderFlag; 16] = [
         "[X,Y,]WIDTH,HEIGHT",
         &[Conventions],
         build_viewport,
-        "Viewport of an image, or of a rectangle in one",
+        "Viewport of an image, or of a rectangle in an image",
     ),
     flag(
         "window-to-viewport",
@@ -214,10 +214,10 @@ impl NumberList {
     }
 }
 
-/// The message for a list with too many or too few numbers.
+/// Returns the message for a list with too many or too few numbers.
 pub(super) fn wrong_count(flag: &str, expected: &str, found: usize) -> CliError {
     CliError::Usage(format!(
-        "{flag} takes {expected} numbers, found {found}; join them with commas, without spaces"
+        "{flag} expects {expected} numbers, found {found}; join them with commas, without spaces"
     ))
 }
 
@@ -260,7 +260,7 @@ impl BuildOptions {
         })
     }
 
-    /// Refuses the modifiers of view volumes for a matrix without one.
+    /// Refuses the modifiers of view volumes for a matrix that has no view volume.
     pub(super) fn refuse_volume(self, what: &str) -> Result<(), CliError> {
         let refused = self.given().find(|(modifier, _)| *modifier != OntoPlane);
         refused.map_or(Ok(()), |(_, name)| {
@@ -297,11 +297,13 @@ pub(super) struct BuiltMatrix {
     pub(super) matrix: DMat4,
     /// A remark on the matrix.
     pub(super) note: Option<&'static str>,
-    /// Names and matrices, in the order a point passes them; their product is the matrix.
+    /// Names and matrices, in the order in which they are applied to a point; their product is the
+    /// matrix.
     pub(super) factors: Vec<(&'static str, DMat4)>,
-    /// The ids of the formulas of the factors.
+    /// The ids of the factors' formulas.
     pub(super) factor_formula: Option<&'static str>,
-    /// The factors, in the order a point passes it; empty for a single matrix.
+    /// The matrices of a product, in the order in which they are applied to a point; empty for a
+    /// single matrix.
     pub(super) product_of: Vec<(String, DMat4)>,
 }
 
@@ -322,17 +324,16 @@ impl BuiltMatrix {
 pub(super) type Built = Result<BuiltMatrix, CliError>;
 
 impl BuildArgs {
-    /// Builds the matrix that the flags describe, a product if there are several; `None` without a
-    /// flag.
+    /// Builds the matrix that the flags describe, or the product if there are several flags;
+    /// returns `None` without flags.
     ///
     /// # Errors
-    /// If the number of parameters is wrong, the builder refuses one, or a modifier changes
-    /// nothing.
+    /// If the number of parameters is wrong, the builder rejects one, or a modifier has no effect.
     pub(super) fn build(&self, options: BuildOptions) -> Option<Built> {
         (!self.calls.is_empty()).then(|| self.build_product(options))
     }
 
-    /// Refuses numbers next to a flag that builds a matrix: a list with a blank in it, or a second
+    /// Refuses numbers next to a flag that builds a matrix: a list with a space in it, or a second
     /// matrix.
     pub(super) fn check_alone(&self, numbers: &[String]) -> Result<(), CliError> {
         let (Some((at, list)), false) = (self.calls.last(), numbers.is_empty()) else {
@@ -363,7 +364,7 @@ impl BuildArgs {
         let single = self.calls.len() == 1;
         let build = |(at, list): &(usize, NumberList)| {
             let flag = &FLAGS[*at];
-            // Each flag of a product takes the modifiers that affect it.
+            // Each flag of a product gets only the modifiers that affect it.
             let has = |modifier: Modifier| single || flag.uses.contains(&modifier);
             let own = BuildOptions {
                 given_conventions: options.given_conventions.filter(|_| has(Conventions)),

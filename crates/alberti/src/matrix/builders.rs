@@ -1,4 +1,4 @@
-//! The library's builder behind each flag of `alberti matrix`, with factors and formulas.
+//! The library's builder for each flag of `alberti matrix`, with factors and formulas.
 
 use super::super::CliError;
 use super::build::{BuildOptions, Built, BuiltMatrix, DISTANCES, NumberList, wrong_count};
@@ -16,13 +16,13 @@ fn built(subject: String, formula: &'static str, matrix: DMat4) -> BuiltMatrix {
     BuiltMatrix { formula: Some(formula), ..BuiltMatrix::new(subject, matrix) }
 }
 
-/// A refused parameter is wrong usage.
+/// Reports a rejected parameter as wrong usage.
 fn refused(error: impl std::error::Error) -> CliError {
     CliError::Usage(error.to_string())
 }
 
-/// Refuses coordinates instead of distances. An orthographic box may begin at or behind the eye,
-/// except in the textbook's convention, where -1 would be taken for a coordinate.
+/// Refuses coordinates in place of distances. An orthographic box may begin at or behind the eye,
+/// except in the textbook's convention, where -1 would be taken as a coordinate.
 fn check_distances(flag: &str, near: f64, far: f64, least: f64) -> Result<(), CliError> {
     if near >= least && far > 0.0 {
         return Ok(());
@@ -31,13 +31,13 @@ fn check_distances(flag: &str, near: f64, far: f64, least: f64) -> Result<(), Cl
     Err(CliError::Usage(message))
 }
 
-/// The smallest near plane of a box.
+/// Returns the minimum near distance of a box.
 fn least_near(options: BuildOptions) -> f64 {
     let textbook = [ApiConventions::Chapter, ApiConventions::ChapterYDown, ApiConventions::Alberti];
     if textbook.contains(&options.conventions()) { 0.0 } else { f64::NEG_INFINITY }
 }
 
-/// The id of the formula of a perspective in a convention.
+/// Returns the formula id of a perspective in a convention.
 fn perspective_formula(volume: Convention, by_angle: bool, infinite: bool) -> &'static str {
     let either = |angle, window| if by_angle { angle } else { window };
     let right_handed = volume.ahead() < 0.0;
@@ -53,7 +53,8 @@ fn perspective_formula(volume: Convention, by_angle: bool, infinite: bool) -> &'
     }
 }
 
-/// The id of the formula of an orthographic box in a convention; windowing for rare ones.
+/// Returns the formula id of an orthographic box in a convention; for rare conventions, the id of
+/// windowing.
 fn box_formula(volume: Convention) -> &'static str {
     match volume {
         Convention::CHAPTER => "OR-1",
@@ -64,7 +65,7 @@ fn box_formula(volume: Convention) -> &'static str {
     }
 }
 
-/// Replaces rounding noise by 0: entries below 1e-15 of a row of length 1, and of the largest
+/// Replaces rounding noise with 0: entries below 1e-15, and offsets below 1e-15 of the largest
 /// offset.
 fn without_noise(matrix: DMat4) -> DMat4 {
     let clean = |column: glam::DVec4| {

@@ -2,7 +2,7 @@
 //!
 //! The system ends a program that runs out of memory in the middle of its work, without a message.
 //! If there is a limit, from `--max-memory`, `ulimit` or the thumbnailer, the command runs in a
-//! second process. The first one reports what happened, removes unfinished files, and ends with
+//! second process. The first process reports what happened, removes unfinished files, and ends with
 //! exit code 1.
 //!
 //! ```text
@@ -32,7 +32,7 @@ const LAST_WORDS: &str = "memory allocation of";
 /// and in the second process.
 pub(super) fn supervise(words: &[OsString]) -> Option<u8> {
     if let Some(bytes) = std::env::var(LIMITED).ok().and_then(|text| text.parse().ok()) {
-        // The waiting process may be killed.
+        // Ends this process if the waiting process is killed.
         let _ = set_parent_process_death_signal(Some(Signal::TERM));
         if bytes > 0 {
             limit_process_memory(bytes);
@@ -53,8 +53,8 @@ pub(super) fn supervise(words: &[OsString]) -> Option<u8> {
     Some(1)
 }
 
-/// The bytes that the command may use, 0 if another limit is in force, and the message for a
-/// command that exceeds it. `None` without a limit.
+/// Returns the bytes that the command may use, or 0 if another limit is in force, and the message
+/// for a command that exceeds it. Returns `None` without a limit.
 fn memory_limit(words: &[OsString]) -> Option<(u64, String)> {
     let limits = [Resource::As, Resource::Data].map(|resource| getrlimit(resource).current);
     let of_system = limits.into_iter().flatten().min();
@@ -65,7 +65,7 @@ fn memory_limit(words: &[OsString]) -> Option<(u64, String)> {
     if !may_ask && of_system.is_none() {
         return None;
     }
-    // Mistakes in the words are reported when they are parsed again.
+    // Mistakes in the words are reported when the second process parses them.
     let words = negative_numbers::join_negative_numbers(words.iter().cloned(), Args::command);
     let args = usage_advice::parse_args(&words).ok()?;
     let size = |bytes: u64| format!("{} MiB", bytes >> 20);
@@ -81,8 +81,8 @@ fn memory_limit(words: &[OsString]) -> Option<(u64, String)> {
     Some((0, format!("the system allows {}\n  = help: raise the limit (`ulimit`)", size(bytes))))
 }
 
-/// Forwards the messages of a process as they arrive, except the last words of one that is out of
-/// memory, and waits for it to end.
+/// Forwards a process's messages as they arrive, except the standard library's message about
+/// running out of memory, and waits for the process to end.
 fn forward_messages(mut child: Child) -> std::io::Result<std::process::ExitStatus> {
     if let Some(messages) = child.stderr.take() {
         let mut reader = BufReader::new(messages);
@@ -102,7 +102,7 @@ fn forward_messages(mut child: Child) -> std::io::Result<std::process::ExitStatu
         .inspect(|status| debug_assert!(status.code().is_some() || status.signal().is_some()))
 }
 
-/// Removes the temporary files of a killed process from the folders named by the words.
+/// Removes a killed process's temporary files from the folders named in the words.
 fn remove_left_over(words: &[OsString], process: u32) {
     let ending = format!(".{process}.part");
     let of_words = words.iter().skip(1).filter_map(|word| Path::new(word).parent());
@@ -114,7 +114,7 @@ fn remove_left_over(words: &[OsString], process: u32) {
         let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
         for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
             if entry.file_name().to_string_lossy().ends_with(&ending) {
-                // It may already be gone.
+                // It may have been removed already.
                 let _ = std::fs::remove_file(entry.path());
             }
         }

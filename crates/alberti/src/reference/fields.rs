@@ -6,12 +6,12 @@
 use super::{ReferenceEntry, ReferenceSection};
 use scene_file::reference::{FieldEntry, Shape, TypeEntry, VariantEntry, all_types};
 
-/// A section for each type, in the order of the scene language.
+/// Returns a section for each type, in the order of the scene language.
 pub(super) fn type_sections() -> Vec<ReferenceSection> {
     all_types().into_iter().map(type_section).collect()
 }
 
-/// The section for one type.
+/// Returns the section for one type.
 fn type_section(entry: &TypeEntry) -> ReferenceSection {
     let entries = match entry.shape {
         Shape::Plain(_) => Vec::new(),
@@ -21,7 +21,7 @@ fn type_section(entry: &TypeEntry) -> ReferenceSection {
     ReferenceSection { title: entry.name.to_owned(), about: entry.about(), entries }
 }
 
-/// The entry for one field.
+/// Returns the entry for one field.
 ///
 /// Optional fields need no note, because nearly all are.
 fn field_entry(field: &FieldEntry) -> ReferenceEntry {
@@ -34,7 +34,8 @@ fn field_entry(field: &FieldEntry) -> ReferenceEntry {
     }
 }
 
-/// The entry for a variant, written as in a scene: `Word`, `Word(value)` or `Word(field: …)`.
+/// Returns the entry for a variant, written as in a scene: `Word`, `Word(value)` or `Word(field:
+/// …)`.
 ///
 /// The fields of a variant are inner entries, so that a search can find them by name.
 fn variant_entry(variant: &VariantEntry) -> ReferenceEntry {

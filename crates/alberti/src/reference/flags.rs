@@ -3,7 +3,7 @@
 use super::{ReferenceEntry, ReferenceSection};
 use clap::{Arg, Command};
 
-/// A section for each command, in help order.
+/// Returns a section for each command, in help order.
 ///
 /// The command must be built first: only then does clap add global flags and subcommand names
 /// (`alberti scene init`).
@@ -29,8 +29,8 @@ fn collect_sections(command: &Command, sections: &mut Vec<ReferenceSection>) {
     }
 }
 
-/// The entry for a flag or positional argument, as clap parses it: names, value, default and
-/// possible values.
+/// Returns the entry for a flag or positional argument, as clap parses it: names, value, default
+/// and possible values.
 ///
 /// Positional arguments have no flag and are listed by their value name. A switch has neither value
 /// nor default, although clap stores `true` and `false` for it.

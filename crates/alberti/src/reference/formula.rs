@@ -1,14 +1,15 @@
 //! A formula from the reference, as text, Markdown or HTML.
 //!
 //! The text comes from `docs/formulas.md`, which is embedded in the program; paragraphs are
-//! wrapped, matrices and tables stay unchanged.
+//! wrapped, and matrices and tables stay unchanged.
 
 use super::text::wrap_paragraphs;
 use super::{ReferenceEntry, ReferenceFormat, ReferenceSection};
 use explain::formulas::Formula;
 use page::escape_markup;
 
-/// The entry for a formula: name, formula and meaning, sources, and the command that shows it.
+/// Returns the entry for a formula: name, formula and meaning, sources, and the command that shows
+/// it.
 pub(super) fn format_formula(formula: &Formula, format: ReferenceFormat) -> String {
     match format {
         ReferenceFormat::Text => plain_text(formula),
@@ -22,7 +23,7 @@ pub(super) fn format_formula(formula: &Formula, format: ReferenceFormat) -> Stri
     }
 }
 
-/// The entry with wrapped paragraphs, without Markdown markup.
+/// Returns the entry with wrapped paragraphs, without Markdown markup.
 fn plain_text(formula: &Formula) -> String {
     let mut page = String::new();
     let mut paragraph = String::new();
@@ -57,7 +58,7 @@ fn push_paragraph(page: &mut String, paragraph: &mut String) {
     }
 }
 
-/// The section that lists formulas; `None` without any.
+/// Returns the section that lists formulas, or `None` if there are no formulas.
 pub(super) fn list_section(
     formulas: impl Iterator<Item = (Formula, bool)>,
 ) -> Option<ReferenceSection> {

@@ -16,7 +16,7 @@ dd { margin-left: 1.5rem } a { color: #1f4e79; text-decoration: none } .note { c
 @media (prefers-color-scheme: dark) { body { color: #e6e6e6; background: #16191d } nav { background: #20242a } a { color: #8ab8e6 } }
 ";
 
-/// The page: links to all sections on the left, the sections themselves on the right.
+/// Returns the page: links to all sections on the left, the sections themselves on the right.
 pub(super) fn format_html(title: &str, sections: &[ReferenceSection]) -> String {
     let titles: Vec<&str> = sections.iter().map(|section| section.title.as_str()).collect();
     let links =
@@ -60,7 +60,7 @@ fn write_entries(page: &mut String, entries: &[ReferenceEntry], titles: &[&str])
     page.push_str("</dl>\n");
 }
 
-/// The fragment identifier of a section.
+/// Returns the fragment identifier of a section.
 fn section_anchor(title: &str) -> String {
     title.replace(' ', "-")
 }

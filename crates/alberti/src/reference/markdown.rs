@@ -2,7 +2,7 @@
 
 use super::{ReferenceEntry, ReferenceSection};
 
-/// The document: a heading for each section, and a nested list of its entries.
+/// Returns the document: a heading for each section, and a nested list of its entries.
 pub(super) fn format_markdown(title: &str, sections: &[ReferenceSection]) -> String {
     let mut page = format!("# {title}\n");
     for section in sections {

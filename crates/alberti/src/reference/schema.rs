@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 
-/// A schema, by the name that its documents have in `schema.name` after `alberti-`.
+/// A schema, named like `schema.name` in its documents, without the prefix `alberti-`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
 pub(super) enum SchemaName {
     /// `alberti render --json`
@@ -21,20 +21,20 @@ pub(super) enum SchemaName {
     PartsList,
     /// `alberti exercise --json`
     Exercise,
-    /// A line of the reports of `alberti batch`
+    /// A line of an `alberti batch` report
     BatchRecord,
     /// The lessons of `alberti explore`
     ExploreLessons,
-    /// The state of a lesson of `alberti explore`
+    /// The state of a lesson in `alberti explore`
     ExploreState,
-    /// A pixel of `alberti explore`
+    /// A picked pixel in `alberti explore`
     ExplorePick,
-    /// An error of `alberti explore`
+    /// An error from `alberti explore`
     ExploreError,
 }
 
 impl SchemaName {
-    /// The schema as stored in the repository.
+    /// Returns the schema as stored in the repository.
     pub(super) fn schema_text(self) -> &'static str {
         match self {
             Self::Render => include_str!("../../schemas/render.schema.json"),

@@ -3,15 +3,16 @@
 use super::{ReferenceEntry, ReferenceSection};
 use scene_file::closest_name;
 
-/// Finds the section titled `word`, the end of a field path with its types, or all entries with
-/// that name.
+/// Finds the section titled `word`, the entries at the end of a field path with their types, or all
+/// entries with that name.
 ///
 /// Titles come first, because they are the most specific: `render` is the command, not every entry
-/// with that name. Types are found in any case, commands with or without `alberti`. A path may come
-/// from an error, with indices as in `models[0].materials[0].of`, and may begin with a type.
+/// with that name. Types match in any case, and commands match with or without `alberti`. A path
+/// may come from an error message, with indices as in `models[0].materials[0].of`, and may begin
+/// with a type.
 ///
 /// # Errors
-/// If nothing has that name; the message suggests the most similar one.
+/// If nothing has that name; the message suggests the most similar name.
 pub(super) fn find_sections(
     sections: &[ReferenceSection],
     word: &str,
@@ -31,8 +32,8 @@ pub(super) fn find_sections(
 }
 
 /// Finds matches for a word that is not a name. These are names in other cases or with more words,
-/// such as `Depth` and `depth_cue_percent` for `depth`, or fields that other programs call by this
-/// word, such as `camera_path` for `turntable`. Otherwise, all entries that mention it match.
+/// such as `Depth` and `depth_cue_percent` for `depth`, or fields for which other programs use this
+/// word, such as `camera_path` for `turntable`. Otherwise, all entries that mention the word match.
 fn find_related(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSection> {
     let word = word.to_lowercase();
     let mut found = filter_entries(sections, &|entry| has_in_name(entry, &word));
@@ -51,7 +52,7 @@ fn find_related(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSecti
     found
 }
 
-/// Whether a lowercase word is the name of an entry in any case, or a part of it.
+/// Whether a lowercase word is an entry's name or part of it, ignoring case.
 fn has_in_name(entry: &ReferenceEntry, word: &str) -> bool {
     entry_names(entry).any(|name| {
         let name = name.trim_start_matches('-').to_lowercase();
@@ -68,7 +69,7 @@ pub(super) fn is_only_mentioned(found: &[ReferenceSection], word: &str) -> bool 
         && !filter_entries(found, &mentioned).is_empty()
 }
 
-/// Whether a text contains a word or its plural.
+/// Whether text contains a word or its plural.
 fn mentions(text: &str, word: &str) -> bool {
     let is_word = |part: &str| {
         let part = part.to_lowercase();
@@ -77,7 +78,7 @@ fn mentions(text: &str, word: &str) -> bool {
     text.split(|c: char| !c.is_alphanumeric()).any(is_word)
 }
 
-/// A path step without its index: `models` for `models[0]`.
+/// Returns a path step without its index: `models` for `models[0]`.
 fn without_index(step: &str) -> &str {
     match step.split_once('[') {
         Some((name, index)) if !name.is_empty() && index.ends_with(']') => name,
@@ -92,12 +93,12 @@ fn is_titled(section: &ReferenceSection, word: &str) -> bool {
         || title.strip_prefix("alberti ").is_some_and(|command| command == word)
 }
 
-/// The sections reduced to entries with this name.
+/// Reduces the sections to entries with this name.
 fn find_entries(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSection> {
     filter_entries(sections, &|entry| is_named(entry, word))
 }
 
-/// The sections reduced to the wanted entries.
+/// Reduces the sections to the wanted entries.
 fn filter_entries(
     sections: &[ReferenceSection],
     is_wanted: &dyn Fn(&ReferenceEntry) -> bool,
@@ -114,10 +115,10 @@ fn filter_entries(
     sections.iter().filter_map(with).collect()
 }
 
-/// A wanted entry, or an entry reduced to its wanted inner entries.
+/// Returns a wanted entry, or an entry reduced to its wanted inner entries.
 ///
-/// An entry that itself matches keeps all its inner entries; one that only contains matches keeps
-/// those.
+/// An entry that itself matches keeps all its inner entries; an entry that only contains matches
+/// keeps only those.
 fn prune_entry(
     entry: &ReferenceEntry,
     is_wanted: &dyn Fn(&ReferenceEntry) -> bool,
@@ -135,15 +136,15 @@ fn is_named(entry: &ReferenceEntry, word: &str) -> bool {
     entry_names(entry).any(|name| name == word || name.trim_start_matches('-') == word)
 }
 
-/// The name of a field or variant, or the short and long name of a flag.
+/// Returns the name of a field or variant, or the short and long name of a flag.
 fn entry_names(entry: &ReferenceEntry) -> impl Iterator<Item = &str> {
     entry.term.split(", ").map(|name| name.split('(').next().unwrap_or(name))
 }
 
-/// The entries at the end of a path such as `camera.view.eye`.
+/// Returns the entries at the end of a path such as `camera.view.eye`.
 ///
 /// Variants on the path may be named or omitted. The types of the values at the end are appended,
-/// so that `camera.view` describes `View` as well.
+/// so that `camera.view` also describes `View`.
 ///
 /// Each step looks up its name in the current scopes, beginning with `Scene`; the next scopes are
 /// the types of the values found and their inner fields. If a step has no match, nothing is found.
@@ -162,7 +163,7 @@ fn find_by_path(sections: &[ReferenceSection], steps: &[&str]) -> Vec<ReferenceS
     }
 }
 
-/// The entries at the end of a path that starts in one of the scopes.
+/// Returns the entries at the end of a path that starts in one of the scopes.
 fn follow_path(
     sections: &[ReferenceSection],
     mut scopes: Vec<ReferenceSection>,
@@ -183,9 +184,10 @@ fn follow_path(
     found
 }
 
-/// The scope below the entries with this name: their own fields, and the types of their values.
+/// Returns the scope below the entries with this name: their own fields, and the types of their
+/// values.
 ///
-/// Types are found by name in the value's text, so `list of Model` opens `Model`.
+/// Types are found by name in the value's text, so `list of Model` leads to `Model`.
 fn open_entries(
     sections: &[ReferenceSection],
     part: &ReferenceSection,
@@ -205,7 +207,8 @@ fn open_entries(
     entries.iter().flat_map(open).collect()
 }
 
-/// The message for a word without a match; it suggests the most similar name, or where to look.
+/// Returns the message for a word without a match, which suggests the most similar name or where to
+/// look.
 ///
 /// Only the last step of a path is compared.
 fn unknown_word(sections: &[ReferenceSection], word: &str) -> String {
@@ -228,7 +231,7 @@ fn unknown_word(sections: &[ReferenceSection], word: &str) -> String {
         || "`alberti scene doc` lists all scene fields, `alberti --help` all commands".to_owned(),
         |name| format!("did you mean `{name}`?"),
     );
-    format!("the reference has nothing named `{word}`\n  = help: {hint}")
+    format!("the reference has no entry named `{word}`\n  = help: {hint}")
 }
 
 #[cfg(test)]
@@ -236,9 +239,9 @@ mod tests {
     use super::super::fields::type_sections;
     use super::*;
 
-    /// Paths can be followed as messages print them.
+    /// Paths can be looked up exactly as messages print them.
     #[test]
-    fn paths_of_messages_are_found() {
+    fn paths_from_messages_are_found() {
         let sections = type_sections();
         for path in [
             "models[0].materials[0].of",
@@ -269,7 +272,7 @@ mod tests {
 
     /// Words from other programs, and words that occur only in descriptions, lead to entries.
     #[test]
-    fn words_that_are_no_names_are_answered_with_what_they_mean() {
+    fn words_that_are_not_names_lead_to_matching_entries() {
         let sections = type_sections();
         for (word, expected) in [
             ("turntable", "camera_path"),
@@ -292,9 +295,9 @@ mod tests {
         assert!(find_sections(&sections, "qwertz").is_err());
     }
 
-    /// Every field of every type is found by the name of its type.
+    /// Every field of every type is found by a path that begins with the type.
     #[test]
-    fn every_field_is_found_behind_its_type() {
+    fn every_field_is_found_by_its_type() {
         let sections = type_sections();
         for section in &sections {
             for entry in &section.entries {

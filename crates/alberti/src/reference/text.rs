@@ -11,7 +11,7 @@ use super::{ReferenceEntry, ReferenceSection};
 /// The width of a line in characters.
 const LINE_WIDTH: usize = 100;
 
-/// The text, with a block for each section.
+/// Returns the text, with a block for each section.
 pub(super) fn format_text(sections: &[ReferenceSection]) -> String {
     let mut page = String::new();
     for (number, section) in sections.iter().enumerate() {

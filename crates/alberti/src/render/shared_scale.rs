@@ -7,7 +7,7 @@ use pipeline::{Origin, Scene};
 use scene_file::SceneFile;
 use scene_file::file::{EnvironmentFile, ViewportsScale};
 
-/// Gives the view of a scene the smallest scale of all `--views`.
+/// Sets the view of a scene to the smallest scale of all `--views`.
 ///
 /// The other views are resolved around this view's models, without viewports and backdrops, which
 /// do not affect the scale.

@@ -1,4 +1,4 @@
-//! The pictures that one call of `render` makes, planned before any work starts.
+//! Plans the pictures that one call of `render` makes before any work starts.
 //!
 //! Every output name is known up front, so that two pictures with the same name are refused before
 //! the first is written.
@@ -16,17 +16,18 @@ use std::path::{Path, PathBuf};
 
 /// The text and number fields of an output name template.
 ///
-/// All except `stem` have the value of a flag, or `default` without it. They differ between calls,
-/// not between pictures, except `view` with `--views`.
+/// All except `stem` have the value of a flag, or `default` if the flag is not set. They differ
+/// between calls, not between pictures, except `view` with `--views`.
 const WORD_FIELDS: [&str; 6] = ["stem", "camera", "view", "style", "projection", "variant"];
 /// The number fields of an output name template.
 ///
-/// `frame` starts again for each input, `index` does not.
+/// `frame` starts at 0 for each input; `index` does not.
 const NUMBER_FIELDS: [&str; 2] = ["index", "frame"];
 
 /// One picture to render.
 ///
-/// It owns its overrides, because `--views` makes one task per view, with the flags common to all.
+/// It owns its overrides, because `--views` makes one task per view, and all of them share the
+/// other flags.
 #[derive(Debug)]
 pub(crate) struct RenderTask {
     /// The scene or model; `-` for the standard input.
@@ -78,7 +79,7 @@ pub(super) fn plan_tasks(args: &RenderArgs) -> Result<Vec<RenderTask>, CliError>
     Ok(jobs)
 }
 
-/// Refuses `render model.glb picture.png`, before a picture of only the first is made.
+/// Refuses `render model.glb picture.png` before a picture of only the first model is made.
 fn refuse_output_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
     let is_flag = |path: &Path| path.to_string_lossy().starts_with('+');
     let is_output =
@@ -114,7 +115,7 @@ fn refuse_words_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
     Err(CliError::Usage(format!("{name}: the file does not exist\n  = help: {help}")))
 }
 
-/// The overrides for each picture of an input: one for each of `--views`.
+/// Returns the overrides for each picture of an input: one for each of `--views`.
 fn overrides_per_view(args: &RenderArgs) -> Vec<SceneOverrideArgs> {
     if args.views.is_empty() {
         return vec![args.overrides.clone()];
@@ -127,7 +128,7 @@ fn overrides_per_view(args: &RenderArgs) -> Vec<SceneOverrideArgs> {
     args.views.iter().map(from).collect()
 }
 
-/// The template for the output name: from `--output`, or the default.
+/// Returns the template for the output name: from `--output`, or the default.
 ///
 /// The default names the view only if there are several, so that `--view front` and `--views front`
 /// write the same file.
@@ -143,7 +144,7 @@ fn output_template(args: &RenderArgs) -> Result<NameTemplate, CliError> {
         .map_err(CliError::Usage)
 }
 
-/// The value of a text field of the template; `default` if no flag sets it.
+/// Returns the value of a text field of the template, or `default` if no flag sets it.
 ///
 /// The value of a flag is its name as written on the command line.
 ///
@@ -174,8 +175,8 @@ fn template_word(name: &str, input: &Path, look: &SceneOverrideArgs) -> String {
 
 /// Checks that no two pictures have the same file name.
 ///
-/// Paths are compared as written: `a.png` and `./a.png` count as two. A typical cause is a scene
-/// and a model with the same stem.
+/// Paths are compared as written: `a.png` and `./a.png` count as different. A typical cause is a
+/// scene and a model with the same stem.
 fn check_distinct_outputs(jobs: &[RenderTask]) -> Result<(), CliError> {
     let mut taken: BTreeMap<&Path, &RenderTask> = BTreeMap::new();
     for job in jobs {

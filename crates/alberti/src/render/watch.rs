@@ -1,8 +1,8 @@
 //! `render --watch`: renders again when the inputs, or files they use, change.
 //!
 //! The times and lengths of files are polled a few times a second, which works on every file
-//! system. A change counts once two successive polls agree, because editors and exporters write for
-//! a while.
+//! system. A change counts once two successive polls agree, because editors and exporters may take
+//! a while to write a file.
 
 use crate::CliError;
 use crate::messages::{print_message, print_note};
@@ -18,7 +18,7 @@ use std::time::{Duration, SystemTime};
 const INTERVAL: Duration = Duration::from_millis(150);
 /// The maximum number of watched files.
 const MAX_FILES: usize = 4096;
-/// The maximum length of a file that is searched for the names of others.
+/// The maximum length of a file that is searched for the names of other files.
 const MAX_SEARCHED_BYTES: u64 = 64 << 20;
 
 /// The modification time and length of each file; `None` if it does not exist.
@@ -34,7 +34,8 @@ pub(super) fn repeat(
     mut make: impl FnMut() -> Result<(), CliError>,
 ) -> Result<(), CliError> {
     if inputs.iter().any(|input| input.as_os_str() == "-") || to_stdout {
-        let message = "--watch needs files: standard input does not change, and standard output holds one picture";
+        let message = "--watch needs files: the standard input does not change, and the \
+                       standard output can hold only one picture";
         return Err(CliError::Usage(message.to_owned()));
     }
     loop {
@@ -62,7 +63,7 @@ pub(super) fn repeat(
     }
 }
 
-/// The stamps of all files that the inputs use.
+/// Returns the stamps of all files that the inputs use.
 fn stamp_files(inputs: &[PathBuf]) -> Stamps {
     let mut stamps = Stamps::new();
     let mut waiting: Vec<PathBuf> = inputs.to_vec();
@@ -80,7 +81,7 @@ fn stamp_files(inputs: &[PathBuf]) -> Stamps {
     stamps
 }
 
-/// The files that a scene or a model names and that exist.
+/// Returns the existing files that a scene or a model names.
 fn used_files(path: &Path) -> Vec<PathBuf> {
     let Ok(bytes) = std::fs::read(path) else { return Vec::new() };
     let names: Vec<String> = if is_scene_file(path) {
@@ -100,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_files_of_a_scene_and_of_its_models_are_found() {
+    fn the_files_of_a_scene_and_its_models_are_found() {
         let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
         let scene = scenes.join("teapot.ron");
         let stamps = stamp_files(std::slice::from_ref(&scene));

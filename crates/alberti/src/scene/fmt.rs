@@ -20,8 +20,8 @@ pub(crate) struct FmtArgs {
 
 /// Formats the files, or with `--check` lists the unformatted ones.
 ///
-/// A file that is already formatted is not written, so its modification time stays. When the
-/// command fails on a syntax error, earlier files have already been formatted.
+/// A file that is already formatted is not written, so its modification time stays the same. When
+/// the command fails on a syntax error, earlier files have already been formatted.
 ///
 /// # Errors
 /// If a file cannot be read, parsed or written.

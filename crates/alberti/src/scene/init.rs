@@ -1,7 +1,7 @@
 //! `alberti scene init`: creates a commented scene file for a model.
 //!
-//! The file is a starting point for editing: it has the default view and light as explicit fields,
-//! and everything else that the model offers as comments.
+//! The file is a starting point for editing: it contains the default view and light as explicit
+//! fields, and everything else that the model offers as comments.
 //!
 //! ```text
 //! // fox.glb: 576 triangles, 0.256 wide, 0.788 high, 1.545 deep.
@@ -29,7 +29,7 @@ use std::path::{Path, PathBuf};
 pub(crate) struct InitArgs {
     /// Model (.gltf, .glb, .stl, .obj, .ply, .3mf)
     model: PathBuf,
-    /// Output file; `-` is the standard output [default: beside the model, with .ron]
+    /// Output file; `-` is the standard output [default: the model's name with .ron, next to it]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Replace an existing file
@@ -39,15 +39,15 @@ pub(crate) struct InitArgs {
     load_options: LoadArgs,
 }
 
-/// Writes the scene file, prints its path, and warns if it cannot be read without further
+/// Writes the scene file, prints its path, and warns if it cannot be read without additional
 /// permission.
 ///
 /// The model is loaded to learn its size, cameras and lights. The text is built without indentation
 /// and then formatted as by `scene fmt`, which also proves that it parses.
 ///
 /// # Errors
-/// If the output exists and `--force` is not given, the model cannot be loaded, or the file cannot
-/// be written.
+/// If the output exists and `--force` is not set, the model cannot be loaded, or the file cannot be
+/// written.
 pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
     let output = args.output.clone().unwrap_or_else(|| args.model.with_extension("ron"));
     let to_stdout = output.as_os_str() == "-";
@@ -85,13 +85,13 @@ pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
     Ok(())
 }
 
-/// The path of a file relative to the folder of the scene, with `/` as separator.
+/// Returns the path of a file relative to the scene's folder, with `/` as the separator.
 ///
 /// Both paths are made canonical first, so that symbolic links and `..` in the current folder do
 /// not matter.
 ///
 /// A path that cannot be made canonical, for example in a folder that does not exist yet, is
-/// written as given.
+/// written unchanged.
 fn relative_path(folder: &Path, file: &Path) -> String {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let (Ok(from), Ok(to)) = (here.canonicalize(), file.canonicalize()) else {
@@ -104,7 +104,7 @@ fn relative_path(folder: &Path, file: &Path) -> String {
     up.chain(down).collect::<Vec<_>>().join("/")
 }
 
-/// The text of the scene, before formatting.
+/// Returns the text of the scene, before formatting.
 ///
 /// Every comment that shows a field is valid RON, so you only need to remove the slashes to try it.
 /// Writing to a `String` cannot fail.
@@ -134,14 +134,15 @@ fn starter_scene(path: &str, output: &str, scene: &Scene, crease: Option<f64>) -
     if exposure != 0.0 {
         let _ = writeln!(
             text,
-            "// Stops; the lights of the model are bright.\nexposure_ev: {exposure:.4},"
+            "// In stops; the model's lights are bright.\nexposure_ev: {exposure:.4},"
         );
     }
     text.push_str("),\n// overlays: [Axes(), Grid()],\n)\n");
     text
 }
 
-/// Writes the light of the bare model: its lights or else a key light, and the studio around it.
+/// Writes the lighting of a bare model: its own lights or else a key light, and the studio
+/// environment.
 fn write_light(text: &mut String, scene: &Scene) {
     let placed = &scene.models[0];
     let has_lights = placed.model.scene_lights().next().is_some();
@@ -163,7 +164,7 @@ fn write_light(text: &mut String, scene: &Scene) {
     let _ = writeln!(text, "environment: Studio(strength: {strength}),");
 }
 
-/// The comment at the top: the model's size, and commands to try next.
+/// Returns the comment at the top: the model's size, and commands to try next.
 ///
 /// The commands can be copied as they are if the path has no spaces.
 fn header_comment(model: &Model, path: &str, output: &str) -> String {
@@ -203,16 +204,19 @@ fn write_model_states(text: &mut String, model: &Model) {
         }
     };
     if model.scenes.len() > 1 {
-        text.push_str("// Scenes of the model, without one its default:\n");
+        text.push_str("// Scenes of the model; without a choice, its default scene is used:\n");
         names(model.scenes.iter().map(|scene| scene.name.as_deref()).collect(), "scene", text);
     }
     if !model.variants.is_empty() {
-        text.push_str("// Variants of its materials:\n");
+        text.push_str("// Material variants of the model:\n");
         names(model.variants.iter().map(|name| Some(name.as_str())).collect(), "variant", text);
     }
     if let Some(longest) = model.animations.iter().map(|one| one.duration_seconds).reduce(f64::max)
     {
-        let _ = writeln!(text, "// Animations, of up to {longest:.3} s, and the time in seconds:");
+        let _ = writeln!(
+            text,
+            "// Animations of the model, up to {longest:.3} s long, and the time in seconds:"
+        );
         names(model.animations.iter().map(|one| one.name.as_deref()).collect(), "animation", text);
         text.push_str("// time: 0.5,\n");
     }
@@ -231,7 +235,7 @@ fn write_views(text: &mut String, scene: &Scene) {
     let (eye, gaze) = (camera.eye().raw(), camera.gaze().raw());
     let target = eye + gaze * (middle - eye).dot(gaze);
     let triple = |p: glam::DVec3| format!("({:.4}, {:.4}, {:.4})", p.x, p.y, p.z);
-    text.push_str("// Everything, from the front, a little from the right and from above.\n");
+    text.push_str("// Frames everything from the front, slightly from the right and above.\n");
     text.push_str(
         "view: Frame(from: ThreeQuarter, padding_percent: 5),\n// The same view in numbers:\n",
     );
@@ -251,10 +255,10 @@ fn write_views(text: &mut String, scene: &Scene) {
     }
 }
 
-/// Replaces control characters, so that a name cannot end the line of a comment.
+/// Replaces control characters, so that a name cannot end a comment.
 ///
-/// Names come from files: a line break in one would otherwise turn the rest of it into fields of
-/// the scene.
+/// Names come from files: a line break in a name would otherwise turn the rest of the name into
+/// fields of the scene.
 fn single_line(name: &str) -> String {
     name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

@@ -7,7 +7,7 @@ use pipeline::Scene;
 use scene::Style;
 use scene_file::file::{Finite, ScalarsFile, SceneFile};
 
-/// The colors of scalars and depths; each flag replaces what the scene file says of all models.
+/// The colors of scalars and depths; each flag overrides the scene file for all models.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(crate) struct ColormapArgs {
     /// Color the model by this scalar vertex attribute: a custom glTF attribute such as
@@ -20,8 +20,8 @@ pub(crate) struct ColormapArgs {
     /// Colors for --scalars [default: viridis] and for --style depth [default: grayscale]
     #[arg(help_heading = "Picture", long, value_parser = option_parser::<Colormap>())]
     colormap: Option<Colormap>,
-    /// Values that get the first and the last color of --scalars [default: the model's smallest and
-    /// largest value]
+    /// Values for the first and the last color of --scalars [default: the model's minimum and
+    /// maximum]
     #[arg(
         help_heading = "Picture",
         long,
@@ -32,7 +32,7 @@ pub(crate) struct ColormapArgs {
     scalar_range: Option<ScalarRange>,
 }
 
-/// The values that get the first and the last color.
+/// The values that are mapped to the first and the last color.
 #[derive(Clone, Copy, Debug)]
 struct ScalarRange {
     min: Finite,
@@ -40,9 +40,10 @@ struct ScalarRange {
 }
 
 impl ColormapArgs {
-    /// Replaces the colors of the depth and of all models in a scene.
+    /// Replaces the depth colors and the colors of all models in a scene.
     ///
-    /// Another attribute has its own range of values, so --scalars does not keep the scene's.
+    /// A different attribute has a different range of values, so `--scalars` discards the scene's
+    /// range.
     pub(crate) fn apply_to(&self, file: &mut SceneFile) {
         file.depth_colormap = self.colormap.or(file.depth_colormap);
         for model in &mut file.models {
@@ -58,8 +59,8 @@ impl ColormapArgs {
         }
     }
 
-    /// The warnings about flags that have no effect in a picture of a scene. `draws_lines` is
-    /// whether the picture is a line drawing, `style` is the name of its style.
+    /// Returns the warnings about flags that have no effect in a picture of a scene. `draws_lines`
+    /// is true for a line drawing; `style` is the name of the picture's style.
     pub(crate) fn find_unused(&self, scene: &Scene, draws_lines: bool, style: &str) -> Vec<String> {
         let has_scalars =
             scene.models.iter().any(|placed| placed.model.active_scalar_attribute.is_some());

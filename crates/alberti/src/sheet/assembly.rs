@@ -50,7 +50,7 @@ impl AssemblyArgs {
         }
     }
 
-    /// The file name and content of the parts list, if a file was requested.
+    /// Returns the file name and content of the parts list, if a file was requested.
     pub(super) fn list_file(
         &self,
         sheet: &Sheet,

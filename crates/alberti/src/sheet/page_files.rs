@@ -44,7 +44,7 @@ impl PageNames {
         Ok(Self { output: output.to_owned(), stem, template })
     }
 
-    /// The name of a page, from 1, of `count`.
+    /// Returns the name of a page, counted from 1, out of `count`.
     fn name(&self, page: usize, count: usize) -> PathBuf {
         if let Some(template) = &self.template {
             return template.expand_fields(|_| self.stem.clone(), |_| page);
@@ -59,10 +59,10 @@ impl PageNames {
         self.output.with_file_name(name)
     }
 
-    /// The file name and content for each page.
+    /// Returns the file name and content for each page.
     ///
     /// # Errors
-    /// Those of `encode`.
+    /// The same as for `encode`.
     pub(super) fn files(
         &self,
         pages: &[SheetPage],
@@ -76,7 +76,7 @@ impl PageNames {
 /// Writes files; none appears under its name before all are written.
 ///
 /// # Errors
-/// If one cannot be written; existing files with these names are then unchanged.
+/// If a file cannot be written; existing files with these names are then unchanged.
 pub(super) fn write_all(files: &[(PathBuf, Vec<u8>)]) -> Result<(), CliError> {
     let mut written = Vec::new();
     for (path, bytes) in files {

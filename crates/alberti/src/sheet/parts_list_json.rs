@@ -1,7 +1,7 @@
 //! `alberti sheet --parts-list=FILE.json`: the parts list as JSON.
 //!
-//! New members may be added in any release; [`VERSION`] rises when one is removed or changes its
-//! meaning.
+//! New members may be added in any release; [`VERSION`] increases when a member is removed or
+//! changes its meaning.
 //!
 //! ```json
 //! {
@@ -29,7 +29,7 @@ pub(super) fn parts_list_document(list: &PartsList) -> String {
     format!("{value:#}\n")
 }
 
-/// An item; masses have the same decimals as in CSV.
+/// Returns an item; masses have the same decimals as in CSV.
 fn item_json(item: &PartsListItem) -> Value {
     json!({
         "item": item.number,
@@ -41,7 +41,7 @@ fn item_json(item: &PartsListItem) -> Value {
     })
 }
 
-/// The position of a part in its model.
+/// Returns the position of a part in its model.
 fn place_json(place: &PartPlace) -> Value {
     json!({"model": place.model, "node": place.node, "path": place.path})
 }

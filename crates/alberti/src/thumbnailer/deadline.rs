@@ -44,7 +44,7 @@ impl Deadline {
         })
     }
 
-    /// The token that is canceled when time is up.
+    /// Returns the token that is canceled when time is up.
     pub(super) const fn cancel_token(&self) -> &CancelToken {
         &self.cancel
     }
@@ -58,7 +58,7 @@ impl Deadline {
     }
 }
 
-/// The error for a thumbnail that took too long.
+/// Returns the error for a thumbnail that took too long.
 pub(super) fn timeout(seconds: u32) -> CliError {
     CliError::Usage(format!("timed out after {seconds} s; raise --max-seconds"))
 }

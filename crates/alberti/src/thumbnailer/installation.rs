@@ -1,4 +1,4 @@
-//! The files through which file managers find the thumbnailer: its entry and the MIME types.
+//! The files that tell file managers about the thumbnailer: its entry and the MIME types.
 //!
 //! ```text
 //!  $XDG_DATA_HOME/thumbnailers/alberti.thumbnailer      or below PREFIX/share
@@ -16,10 +16,11 @@ use std::process::{Command, Stdio};
 
 /// The MIME types of all formats, for shared-mime-info.
 ///
-/// Debian's has had types for glTF, STL, OBJ and 3MF since version 2.2, but none for PLY.
+/// Debian's shared-mime-info has had types for glTF, STL, OBJ and 3MF since version 2.2, but none
+/// for PLY.
 pub(super) const MIME_TYPES: &str = include_str!("mime_types.xml");
 
-/// The MIME types in the entry, including other names in use.
+/// The MIME types in the entry, including aliases in use.
 const MIME_TYPE_NAMES: [&str; 13] = [
     "model/gltf+json",
     "model/gltf-binary",
@@ -36,7 +37,7 @@ const MIME_TYPE_NAMES: [&str; 13] = [
     "application/vnd.ms-3mfdocument",
 ];
 
-/// The thumbnailer entry for a program.
+/// Returns the thumbnailer entry for a program.
 ///
 /// # Errors
 /// If its path cannot be written into such a file.
@@ -127,12 +128,13 @@ pub(super) fn remove_files(prefix: Option<&Path>) -> Result<(), CliError> {
     print_stdout(done.as_bytes())
 }
 
-/// The paths of the entry and the MIME types below a data folder.
+/// Returns the paths of the entry and the MIME types below a data folder.
 fn file_paths(folder: &Path) -> [PathBuf; 2] {
     [folder.join("thumbnailers/alberti.thumbnailer"), folder.join("mime/packages/alberti.xml")]
 }
 
-/// The data folder below a prefix, or else the user's (XDG base directory specification).
+/// Returns the data folder below a prefix, or else the user's data folder (XDG base directory
+/// specification).
 fn data_folder(prefix: Option<&Path>) -> Result<PathBuf, CliError> {
     if let Some(prefix) = prefix {
         return Ok(prefix.join("share"));
@@ -169,7 +171,7 @@ mod tests {
     use import::FileFormat;
 
     #[test]
-    fn every_extension_and_every_type_is_in_the_mime_types() {
+    fn every_extension_and_type_is_in_the_mime_types() {
         for extension in FileFormat::ALL.iter().flat_map(|format| format.extensions()) {
             assert!(MIME_TYPES.contains(&format!("pattern=\"*.{extension}\"")), "{extension}");
         }
@@ -179,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn paths_are_quoted_as_a_shell_does_and_escaped_as_key_files_do() {
+    fn paths_are_quoted_for_a_shell_and_escaped_for_a_key_file() {
         let entry = |path: &str| entry_of(path.as_ref()).unwrap_or_default();
         let lines = |path: &str| entry(path).lines().skip(1).take(2).collect::<Vec<_>>().join("|");
         assert_eq!(

@@ -1,15 +1,15 @@
 //! Words that users know from f3d, Blender, ImageMagick, ffmpeg, three.js or stl-thumb.
 //!
-//! Each line of `foreign_words.tsv` has a table, words without leading hyphens, their owner (`-`
-//! for none), and the text to write. If several lines have a word, the first counts. Single letters
-//! keep their case.
+//! Each line of `foreign_words.tsv` contains a table, words without leading hyphens, their owner
+//! (`-` for none), and the text to write instead. If a word is on several lines, the first counts.
+//! Single letters keep their case.
 //!
 //! | table | owner |
 //! | --- | --- |
 //! | `flag` | the flag that the command must have; none if the advice names another command |
 //! | `habit` | the only command to which it applies; none if it applies to all |
 //! | `value` | the flag |
-//! | `command` | the command before it |
+//! | `command` | the preceding command |
 
 /// The content of the file.
 const TABLES: &str = include_str!("foreign_words.tsv");
@@ -36,7 +36,7 @@ impl ForeignWords {
     }
 }
 
-/// The lines of a table, in order.
+/// Iterates over the lines of a table, in order.
 pub(super) fn foreign_words(table: &str) -> impl Iterator<Item = ForeignWords> {
     TABLES.lines().filter_map(move |line| {
         let mut cells = line.split('\t');

@@ -5,9 +5,9 @@ use super::foreign_words::foreign_words;
 use clap::error::{ContextKind, ErrorKind};
 use clap::{Command, Error};
 
-/// The value given for another program's flag.
+/// The value passed to another program's flag.
 pub(super) enum Given {
-    /// No value was given, or the flag here takes none.
+    /// There is no value, or the flag here accepts none.
     Nothing,
     /// The flag here accepts it: the advice with the value.
     Fits(String),
@@ -15,7 +15,8 @@ pub(super) enum Given {
     FitsNot(String),
 }
 
-/// The advice with the value given for the other program's flag, if the flag here accepts it.
+/// Returns the advice with the value passed to the other program's flag, if the flag here accepts
+/// it.
 pub(super) fn with_given_value(
     advice: &str,
     word: &str,
@@ -60,7 +61,7 @@ pub(super) fn with_given_value(
     }
 }
 
-/// The value that follows a word on the command line or its equals sign.
+/// Returns the value that follows a word on the command line, or the word's equals sign.
 pub(super) fn value_of(word: &str, words: &[String]) -> Option<String> {
     let name = word.split('=').next().unwrap_or(word);
     let joined = words.iter().find_map(|it| it.strip_prefix(name)?.strip_prefix('='));
@@ -71,7 +72,7 @@ pub(super) fn value_of(word: &str, words: &[String]) -> Option<String> {
     given.filter(|value| !value.is_empty() && (!value.starts_with('-') || is_number(value)))
 }
 
-/// A value whose numbers are separate words, as in `--size 64 48` or `--eye 3 2 5`.
+/// Returns a value whose numbers are separate words, as in `--size 64 48` or `--eye 3 2 5`.
 pub(super) fn following_numbers(
     word: &str,
     flag: &str,
@@ -93,7 +94,7 @@ pub(super) fn following_numbers(
     })
 }
 
-/// The size given by two flags, such as `--width 64 --height 48`.
+/// Returns the size from two flags, such as `--width 64 --height 48`.
 fn both_sides(words: &[String]) -> Option<String> {
     let side = |names: [&str; 4]| {
         let value = names.iter().find_map(|name| value_of(name, words))?;
@@ -110,7 +111,8 @@ pub(super) fn quoted(value: &str) -> String {
     if is_plain { value.to_owned() } else { format!("'{value}'") }
 }
 
-/// A value that a flag accepts: the given one, or its equivalent from another program.
+/// Returns a value that a flag accepts: the original one, or the equivalent of another program's
+/// value.
 pub(super) fn accepted_value(flag: &str, given: &str, command: &Command) -> Option<String> {
     let lower = given.to_ascii_lowercase();
     // Values from a list are written as in the help.
@@ -129,14 +131,14 @@ pub(super) fn accepted_value(flag: &str, given: &str, command: &Command) -> Opti
     meant.into_iter().flatten().find(|value| is_accepted(flag, value, command))
 }
 
-/// The equivalent of another program's value.
+/// Returns the equivalent of another program's value.
 pub(super) fn foreign_value(flag: &str, given: &str) -> Option<String> {
     let given = given.to_ascii_lowercase().replace('_', "-");
     let mut values = foreign_words("value");
     values.find(|row| row.owner == flag && row.has(&given)).map(|row| row.advice.to_owned())
 }
 
-/// A value in this program's notation: `200,150` as `200x150`, `1,0,0` as `#ff0000`, and
+/// Returns a value in this program's notation: `200,150` as `200x150`, `1,0,0` as `#ff0000`, and
 /// `100x80+10+20` as `10,20,100,80`.
 fn rewritten(flag: &str, given: &str) -> Option<String> {
     match flag {
@@ -199,14 +201,14 @@ fn rewritten(flag: &str, given: &str) -> Option<String> {
     }
 }
 
-/// A color of three numbers, up to 1 or up to 255, in hexadecimal digits; four with an alpha of 0
-/// are transparent.
+/// Converts a color of three numbers, up to 1 or up to 255, to hexadecimal digits; four numbers
+/// with an alpha of 0 are transparent.
 fn hex_color(given: &str) -> Option<String> {
     let numbers = given.trim_start_matches(|c: char| c.is_alphabetic() || "([".contains(c));
     let numbers = numbers.trim_end_matches([')', ']']).split([',', ' ']);
     let numbers = numbers.filter(|word| !word.is_empty());
     let channels: Vec<f64> = numbers.map(|word| word.trim().parse().ok()).collect::<Option<_>>()?;
-    // An alpha between transparent and opaque cannot be kept.
+    // An alpha between transparent and opaque cannot be expressed.
     let has_alpha = matches!(channels[..], [_, _, _, alpha] if ![0.0, 1.0, 255.0].contains(&alpha));
     if has_alpha {
         return None;
@@ -223,7 +225,8 @@ fn hex_color(given: &str) -> Option<String> {
     Some(format!("#{red:02x}{green:02x}{blue:02x}"))
 }
 
-/// The scale of a drawing from another notation: `0.5`, `50%`, `1/2` or `2`, as `1:2` or `2:1`.
+/// Converts the scale of a drawing from another notation: `0.5`, `50%`, `1/2` or `2`, as `1:2` or
+/// `2:1`.
 fn drawing_scale(given: &str) -> Option<String> {
     if let Some((paper, model)) = given.split_once(['/', ':']) {
         return Some(format!("{}:{}", paper.trim(), model.trim()));
@@ -237,7 +240,7 @@ fn drawing_scale(given: &str) -> Option<String> {
     })
 }
 
-/// The color name, or other value of the flag, that is most similar to the given one.
+/// Returns the color name, or other value of the flag, that is most similar to a value.
 pub(super) fn similar_color(flag: &str, given: &str) -> Option<String> {
     let names = scene_file::color_names().chain(["transparent", "environment"]);
     let names: Vec<&str> = names.collect();
@@ -252,21 +255,22 @@ fn degrees_of_radians(name: &str, given: &str) -> Option<f64> {
     (0.0..core::f64::consts::PI).contains(&radians).then_some(degrees)
 }
 
-/// The vertical angle of view in degrees of a full-frame lens (24 mm high), from its focal length.
+/// Returns the vertical angle of view in degrees of a full-frame lens (24 mm high), from its focal
+/// length.
 pub(super) fn lens_angle(millimeters: &str) -> Option<String> {
     let length: f64 = millimeters.trim().parse().ok().filter(|length| *length > 0.0)?;
     let degrees = 2.0 * libm::atan(12.0 / length).to_degrees();
     Some((libm::round(degrees * 10.0) / 10.0).to_string())
 }
 
-/// The number of seconds of `1.5s` or `00:01:30`.
+/// Returns the number of seconds in `1.5s` or `00:01:30`.
 fn seconds(given: &str) -> Option<String> {
     let parts = given.trim_end_matches("sec").trim_end_matches('s').split(':');
     let parts: Vec<f64> = parts.map(|part| part.trim().parse().ok()).collect::<Option<_>>()?;
     Some(parts.into_iter().fold(0.0, |sum, part| 60.0 * sum + part).to_string())
 }
 
-/// The factor of a percentage, such as 0.5 of `50%`.
+/// Converts a percentage to a factor, such as `50%` to 0.5.
 fn percent(given: &str) -> Option<f64> {
     let percent: f64 = given.strip_suffix('%')?.parse().ok()?;
     (percent > 0.0).then_some(percent / 100.0)
@@ -287,7 +291,7 @@ fn is_accepted(flag: &str, value: &str, command: &Command) -> bool {
     }
 }
 
-/// The flag, without hyphens, and the value in an error about a value.
+/// Returns the flag, without hyphens, and the value from an error about a value.
 pub(super) fn invalid_value(error: &Error) -> Option<(String, String)> {
     let flag = context(error, ContextKind::InvalidArg)?;
     let flag = flag.trim_start_matches('-').split([' ', '=']).next()?;
@@ -300,7 +304,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_of_other_programs_are_rewritten() {
+    fn values_from_other_programs_are_rewritten() {
         for (flag, given, meant) in [
             ("size", "200,150", "200x150"),
             ("size", "200x150!", "200x150"),
@@ -316,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_stands_behind_its_flag_or_its_equals_sign() {
+    fn a_value_follows_its_flag_or_an_equals_sign() {
         let words = ["render", "--bg=red", "--roll", "-30", "-e", "-b"].map(str::to_owned);
         for (word, value) in
             [("--bg", Some("red")), ("--roll", Some("-30")), ("-e", None), ("-b", None)]

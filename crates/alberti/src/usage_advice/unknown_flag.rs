@@ -13,7 +13,7 @@ use scene_file::closest_name;
 use std::ffi::OsString;
 use std::path::Path;
 
-/// Advice on a flag that does not exist.
+/// Returns advice on a flag that does not exist.
 pub(super) fn advise_on_flag(
     error: &Error,
     words: &[OsString],
@@ -45,7 +45,7 @@ pub(super) fn advise_on_flag(
         }
         let command = full_name(command);
         return Some(format!(
-            "`{command}` reads one file, and `{name}` is a second one; for several files use a loop: `for f in *.glb; do {command} \"$f\"; done`"
+            "`{command}` reads one file, and `{name}` is a second file; for several files, use a loop: `for f in *.glb; do {command} \"$f\"; done`"
         ));
     }
     if let Some(advice) = advise_on_detached_value(&words, command) {
@@ -73,7 +73,8 @@ pub(super) fn advise_on_flag(
     Some(format!("`{name}` is not a flag of `{command}`; {help}"))
 }
 
-/// Text to replace a flag: the flag with two hyphens, or the equivalent of another program's.
+/// Returns text to replace a flag: the flag with two hyphens, or the equivalent of another
+/// program's flag.
 pub(super) fn what_to_write(
     name: &str,
     word: &str,
@@ -116,7 +117,7 @@ pub(super) fn what_to_write(
     }
 }
 
-/// Advice on an output name without its flag, as in `alberti animate a.glb film.gif`.
+/// Returns advice on an output name without its flag, as in `alberti animate a.glb film.gif`.
 fn advise_on_output(name: &str, words: &[String], command: &Command) -> Option<String> {
     let is_output = FileFormat::from_extension(Path::new(name)).is_none();
     let input = words
@@ -133,8 +134,8 @@ fn advise_on_output(name: &str, words: &[String], command: &Command) -> Option<S
     })
 }
 
-/// The format that `-f svg`, `-Tsvg` or `--export-type=svg` selects in other programs, unless it is
-/// a frame number.
+/// Returns the format that `-f svg`, `-Tsvg` or `--export-type=svg` selects in other programs,
+/// unless the value is a frame number.
 fn chosen_format(name: &str, words: &[String], command: &Command) -> Option<String> {
     let known = [
         "f",
@@ -169,7 +170,7 @@ fn with_value_apart(word: String, words: Vec<String>) -> (String, Vec<String>) {
     (flag.to_owned(), apart)
 }
 
-/// Advice on a negative number after another one, as in `--eye 3 -2 5`.
+/// Returns advice on a negative number after another number, as in `--eye 3 -2 5`.
 fn advise_on_negative_number(name: &str, words: &[String], command: &Command) -> Option<String> {
     name.parse::<f64>().ok()?;
     let before = words.iter().take_while(|word| *word != name);
@@ -178,7 +179,8 @@ fn advise_on_negative_number(name: &str, words: &[String], command: &Command) ->
     Some(format!("`{flag}` takes one value: write `{flag} {meant}`"))
 }
 
-/// Advice without flags already given, such as `--target 0,0,0 --eye 4,3,6` next to an `--eye`.
+/// Removes flags that are already present from a piece of advice, such as `--target 0,0,0 --eye
+/// 4,3,6` next to an `--eye`.
 fn without_given_flags(advice: &str, words: &[String]) -> String {
     let is_given = |part: &str| {
         let flag = format!("--{}", part.split(' ').next().unwrap_or(part));
@@ -192,7 +194,7 @@ fn without_given_flags(advice: &str, words: &[String]) -> String {
     parts.filter(|part| !is_given(part)).fold(first, |kept, part| format!("{kept} --{part}"))
 }
 
-/// The output folder given to a command whose outputs are named by a template.
+/// Returns the output folder passed to a command whose outputs are named by a template.
 fn chosen_folder(stem: &str, words: &[String], command: &Command) -> Option<String> {
     let names = ["output-dir", "outdir", "out-dir", "output-folder"];
     let is_meant = command.get_name() == "render" && names.contains(&&*with_hyphens(stem));
@@ -200,14 +202,15 @@ fn chosen_folder(stem: &str, words: &[String], command: &Command) -> Option<Stri
     Some(folder.trim_end_matches('/').to_owned())
 }
 
-/// Whether the value in a piece of advice is a name that few models or folders have.
+/// Whether the value in a piece of advice is a name that the user's model or folder is unlikely to
+/// have.
 fn is_only_an_example(advice: &str) -> bool {
     let flags = ["environment", "scalars", "compare", "camera", "animation", "variant", "pose"];
     let flag = advice.split(' ').next().and_then(|flag| flag.strip_prefix("--"));
     flag.is_some_and(|flag| flags.contains(&flag))
 }
 
-/// Advice on a focal length in millimeters: the equivalent angle of view.
+/// Returns advice on a focal length in millimeters: the equivalent angle of view.
 fn lens_advice(stem: &str, words: &[String], command: &Command) -> Option<String> {
     let is_length = ["focal-length", "focal", "lens", "lens-mm"].contains(&&*with_hyphens(stem));
     let length = value_of(&format!("--{stem}"), words).filter(|_| is_length)?;
@@ -218,7 +221,7 @@ fn lens_advice(stem: &str, words: &[String], command: &Command) -> Option<String
     ))
 }
 
-/// Advice on Blender's `-b` or `--background` before a file: Alberti draws without a window.
+/// Returns advice on Blender's `-b` or `--background` before a file: Alberti never opens a window.
 fn advise_on_no_window(name: &str, words: &[String]) -> Option<String> {
     let file = value_of(name, words).filter(|value| Path::new(value).extension().is_some())?;
     if !matches!(name, "-b" | "--background") {
@@ -233,10 +236,10 @@ fn advise_on_no_window(name: &str, words: &[String]) -> Option<String> {
         "-b" => "",
         _ => ", whose `--background` is the color behind the model",
     };
-    Some(format!("nothing opens a window here, so leave `{name}` out: {help}{color}"))
+    Some(format!("this program never opens a window, so omit `{name}`: {help}{color}"))
 }
 
-/// Advice on a flag before any command.
+/// Returns advice on a flag before any command.
 fn advise_before_command(name: &str, program: &Command) -> Option<String> {
     let stem = if name == "-o" { "output" } else { name.strip_prefix("--")? };
     has_flag(program.find_subcommand("render")?, stem).then(|| {
@@ -246,7 +249,7 @@ fn advise_before_command(name: &str, program: &Command) -> Option<String> {
     })
 }
 
-/// The whole word that was typed: for `-resize` the parser reports only `-r`.
+/// Returns the whole word that was typed; for `-resize`, the parser reports only `-r`.
 fn whole_word(told: &str, words: &[OsString]) -> String {
     let is_long = |word: &&str| {
         !word.starts_with("--")
@@ -258,14 +261,14 @@ fn whole_word(told: &str, words: &[OsString]) -> String {
     typed.flatten().unwrap_or(told).to_owned()
 }
 
-/// Advice on another program's flag that has no counterpart here, or several.
+/// Returns advice on another program's flag that has no counterpart here, or several counterparts.
 fn foreign_habit(word: &str, command: &Command) -> Option<&'static str> {
     let word = with_hyphens(word);
     let holds = |owner: &str| owner.is_empty() || owner == command.get_name();
     foreign_words("habit").find(|row| holds(row.owner) && row.has(&word)).map(|row| row.advice)
 }
 
-/// Text to replace another program's flag.
+/// Returns text to replace another program's flag.
 pub(super) fn foreign_flag(word: &str, command: &Command) -> Option<&'static str> {
     let word = with_hyphens(word);
     // Commands that draw have a style.
@@ -273,8 +276,8 @@ pub(super) fn foreign_flag(word: &str, command: &Command) -> Option<&'static str
     foreign_words("flag").find(|row| is_known(row.owner) && row.has(&word)).map(|row| row.advice)
 }
 
-/// Text to replace a separate value after a flag that needs an equals sign, as in `--turntable
-/// 180`.
+/// Returns text to replace a separate value after a flag that needs an equals sign, as in
+/// `--turntable 180`.
 fn advise_on_detached_value(words: &[String], command: &Command) -> Option<String> {
     words.windows(2).find_map(|pair| {
         let [flag, value] = pair else { return None };
@@ -283,7 +286,7 @@ fn advise_on_detached_value(words: &[String], command: &Command) -> Option<Strin
             |known: &clap::Arg| known.get_long() == Some(name) && known.is_require_equals_set();
         value.parse::<f64>().ok()?;
         command.get_arguments().any(wants_equals).then(|| {
-            format!("the value of `{flag}` comes after an equals sign: write `{flag}={value}`")
+            format!("the value of `{flag}` must follow an equals sign: write `{flag}={value}`")
         })
     })
 }

@@ -12,8 +12,8 @@ use clap::{Command, Error};
 use std::ffi::OsString;
 use std::path::Path;
 
-/// Replaces clap's tip with the equivalent of another program's value; says more if a flag with
-/// this name has another meaning.
+/// Replaces clap's tip with the equivalent of another program's value, and explains a flag that has
+/// another meaning in other programs.
 pub(super) fn advise_on_value(
     error: &mut Error,
     words: &[OsString],
@@ -29,13 +29,13 @@ pub(super) fn advise_on_value(
         && let (Ok(azimuth), Ok(elevation)) = (azimuth.parse::<f64>(), elevation.parse::<f64>())
     {
         return Some(format!(
-            "`--view` takes the name of a direction; for angles use `--azimuth {azimuth} --elevation {elevation}`"
+            "`--view` takes the name of a direction; for angles, use `--azimuth {azimuth} --elevation {elevation}`"
         ));
     }
     let are_views = || accepted_value("views", &given, command).is_some();
     if flag == "view" && given.contains(',') && has_flag(command, "views") && are_views() {
         return Some(format!(
-            "`--view` takes one direction; `--views {given}` draws a picture from each"
+            "`--view` takes one direction; `--views {given}` renders a picture from each"
         ));
     }
     let texts: Vec<String> = words.iter().map(|it| it.to_string_lossy().into_owned()).collect();
@@ -58,7 +58,7 @@ pub(super) fn advise_on_value(
             && context(error, ContextKind::SuggestedValue)
                 .is_none_or(|similar| differs_widely(&given, similar)) =>
         {
-            Some("other directions are given as in `--azimuth 45 --elevation 20`".to_owned())
+            Some("for other directions, use angles, as in `--azimuth 45 --elevation 20`".to_owned())
         }
         None => None,
     };
@@ -74,13 +74,13 @@ pub(super) fn advise_on_value(
     None
 }
 
-/// Advice on a kind of value that a flag with this name takes in other programs.
+/// Returns advice on a kind of value that a flag with this name accepts in other programs.
 fn other_meaning(flag: &str, given: &str) -> Option<String> {
     if flag == "color" {
         return Some(format!(
-            "`--color` says when messages are colored (auto, always or never), and does not accept \
-             {given}; the colors of a model come from its file, and a scene file replaces them, as in \
-             `materials: [(base_color: \"red\")]`"
+            "`--color` sets when messages are colored (auto, always or never), and does not accept \
+             {given}; a model's colors come from its file, and a scene file can replace them, as \
+             in `materials: [(base_color: \"red\")]`"
         ));
     }
     if flag == "background" && given.is_empty() {
@@ -114,13 +114,13 @@ fn other_meaning(flag: &str, given: &str) -> Option<String> {
     if flag == "up" && given.starts_with('-') {
         return Some(format!(
             "invalid value '{given}' for '--up': the axis that points up is x, y or z; to turn a \
-             model over use `rotation_degrees` in a scene file"
+             model over, use `rotation_degrees` in a scene file"
         ));
     }
     None
 }
 
-/// Advice on a format in which pictures cannot be written.
+/// Returns advice on a format in which pictures cannot be written.
 fn unwritten_format_help(flag: &str, given: &str) -> Option<String> {
     let ending = given.to_ascii_lowercase().replace(['_', '-'], "").replace("openexr", "exr");
     let path = format!("picture.{ending}");
@@ -130,7 +130,7 @@ fn unwritten_format_help(flag: &str, given: &str) -> Option<String> {
     Some(format!("{message}; {help}"))
 }
 
-/// Advice on a file that a flag does not accept, but that can be converted.
+/// Returns advice on a file that a flag does not accept, but that can be converted.
 fn other_file_help(flag: &str, given: &str) -> Option<String> {
     let path = Path::new(given);
     let ending = path.extension()?.to_str()?.to_ascii_lowercase();
@@ -141,7 +141,7 @@ fn other_file_help(flag: &str, given: &str) -> Option<String> {
             let hdr = quoted(&hdr.to_string_lossy());
             let given = quoted(given);
             Some(format!(
-                "environments are read from .hdr files; convert it, for example with ImageMagick: \
+                "environments are read from .hdr files; convert the image, for example with ImageMagick: \
                  `magick {given} {hdr}`"
             ))
         }
@@ -153,7 +153,7 @@ fn other_file_help(flag: &str, given: &str) -> Option<String> {
     }
 }
 
-/// The numbers that a flag accepts, if clap reports them in Rust notation: `0 is not in
+/// Returns the numbers that a flag accepts, if clap reports them in Rust notation: `0 is not in
 /// 1..=100000`.
 fn expected_number(error: &Error, given: &str) -> Option<String> {
     let reason = std::error::Error::source(error)?.to_string();
