@@ -63,7 +63,7 @@ pub fn draco_cases() -> Vec<Case> {
         "draco: more triangles than indices",
         &whole.with_value("/accessors/1/count", json!(33)),
         Expected::Says(
-            "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression: the Draco stream is not valid: \
+            "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression: invalid Draco stream: \
              stream decodes 12 faces, over the caller's ceiling of 11; export the file again"
                 .to_owned(),
         ),

@@ -32,17 +32,17 @@ pub fn text_cases() -> Vec<Case> {
 fn encoding_cases() -> Vec<Case> {
     let utf16: Vec<u8> = "\u{FEFF}{}".encode_utf16().flat_map(u16::to_le_bytes).collect();
     vec![
-        text_case("empty", "", refusal_containing("the file is empty; give a .gltf or .glb file")),
+        text_case("empty", "", refusal_containing("the file is empty; use a .gltf or .glb file")),
         text_case(
             "blanks",
             " \n\t ",
-            refusal_containing("the file is empty; give a .gltf or .glb file"),
+            refusal_containing("the file is empty; use a .gltf or .glb file"),
         ),
         text_case(
             "not glTF",
             "solid cube",
             refusal_containing(
-                "this is not a glTF file: it starts neither with { nor with glTF; give a .gltf or .glb file",
+                "this is not a glTF file: it starts neither with { nor with glTF; use a .gltf or .glb file",
             ),
         ),
         text_case("UTF-16", utf16, refusal_containing("the text is in UTF-16; save it in UTF-8")),
@@ -131,7 +131,7 @@ fn version_cases() -> Vec<Case> {
     };
     let missing = refusal_containing(
         "/asset/version: the glTF version is missing; check that this is a glTF file; \
-         a glTF 2.0 file says \"asset\": {\"version\": \"2.0\"}",
+         a glTF 2.0 file contains \"asset\": {\"version\": \"2.0\"}",
     );
     vec![
         version(json!({"version": "1.0"}), unknown("version", "1.0")),

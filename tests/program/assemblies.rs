@@ -3,7 +3,8 @@
 use crate::drawings::assert_succeeds;
 use crate::sandbox::Sandbox;
 
-/// A sandbox with the bearing of the scenes: a housing, a bush, a ring, a shaft and four bolts.
+/// Returns a sandbox with the bearing from `scenes`: a housing, a bush, a ring, a shaft and four
+/// bolts.
 fn bearing(name: &str) -> Sandbox {
     let sandbox = Sandbox::new(name);
     let model = alberti_tests::project_root().join("scenes/models/bearing.glb");
@@ -11,7 +12,7 @@ fn bearing(name: &str) -> Sandbox {
     sandbox
 }
 
-/// The content of a file; bytes that are not text are replaced.
+/// Returns the content of a file; bytes that are not UTF-8 are replaced.
 fn read_text(sandbox: &Sandbox, name: &str) -> String {
     let bytes = std::fs::read(sandbox.path_of(name)).expect("a file");
     String::from_utf8_lossy(&bytes).into_owned()
@@ -33,7 +34,7 @@ fn pages_are_numbered_files_or_one_pdf() {
     assert!(sandbox.path_of("bearing_07.dxf").exists());
     assert_succeeds(&sandbox, &[&flags[..], &["-o", "out.pdf"]].concat());
     let pdf = read_text(&sandbox, "out.pdf");
-    assert!(pdf.contains("/Count 7"), "a PDF of seven pages");
+    assert!(pdf.contains("/Count 7"), "a PDF with seven pages");
     // A single page keeps its name.
     assert_succeeds(&sandbox, &["sheet", "bearing.glb", "--unit", "mm", "-o", "one.svg"]);
     assert!(sandbox.path_of("one.svg").exists());
@@ -42,7 +43,7 @@ fn pages_are_numbered_files_or_one_pdf() {
 }
 
 #[test]
-fn nothing_is_written_where_one_page_cannot_be() {
+fn nothing_is_written_if_one_page_fails() {
     let sandbox = bearing("assembly_unwritten");
     let list = "--parts-list=missing/list.csv";
     let run = sandbox.run(&["sheet", "bearing.glb", "--balloons", list, "-o", "out.svg"]);
@@ -79,7 +80,7 @@ fn parts_lists_are_drawn_and_written() {
     assert_eq!((&bolt["quantity"], &bolt["name"]), (&4.into(), &"bolt".into()));
     assert_eq!(bolt["mass_grams"].as_f64(), rows[5][4].parse().ok());
     assert!(json["items"][0]["mass_grams"].is_null(), "{json}");
-    let parts = bolt["parts"].as_array().expect("the places of the bolts");
+    let parts = bolt["parts"].as_array().expect("the positions of the bolts");
     let paths: Vec<String> = parts.iter().map(|part| part["path"].to_string()).collect();
     assert!(paths.len() == 4 && paths[0].ends_with("\"bolt 1\"]"), "{paths:?}");
     sandbox.write_file(

@@ -1,13 +1,14 @@
-//! Animated files from the wild, from `shared/assets` next to the project or from `$ASSETS`. At the
-//! time of a key the pose must be the key's value, with any interpolation, and pictures at
-//! different times must differ. Reported as skipped if the folder is missing.
+//! Real-world animated files, from `shared/assets` next to the project or from `$ASSETS`. At the
+//! time of a keyframe, the pose must equal the keyframe's value with any interpolation, and
+//! pictures at different times must differ. The tests are reported as skipped if the folder is
+//! missing.
 
 use crate::sandbox::Sandbox;
 use alberti_tests::skip::report_skip;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// The path of a model; `None`, with a report, if there are no assets.
+/// Returns the path of a model, or reports a skip and returns `None` if there are no assets.
 pub(crate) fn asset_path(name: &str) -> Option<PathBuf> {
     let chosen = std::env::var_os("ASSETS").map(PathBuf::from);
     let beside = alberti_tests::project_root().join("../shared/assets");
@@ -36,12 +37,12 @@ impl Gltf {
             return Self { json, bytes: all[28 + length..].to_vec() };
         }
         let json: Value = serde_json::from_slice(&all).expect("JSON");
-        let uri = json["buffers"][0]["uri"].as_str().expect("a file of its own");
+        let uri = json["buffers"][0]["uri"].as_str().expect("a separate file");
         let bytes = std::fs::read(path.with_file_name(uri)).expect("the buffer");
         Self { json, bytes }
     }
 
-    /// The values in an accessor of tightly packed floats.
+    /// Returns the values in an accessor of tightly packed floats.
     fn read_floats(&self, accessor: &Value) -> Vec<f64> {
         let json = &self.json["accessors"][accessor.as_u64().expect("a number") as usize];
         let view = &self.json["bufferViews"][json["bufferView"].as_u64().expect("a view") as usize];
@@ -55,13 +56,14 @@ impl Gltf {
     }
 }
 
-/// Whether two lists of numbers are equal except for rounding; rotations may also be opposite.
+/// Whether two lists of numbers are equal except for rounding; rotations may also have the opposite
+/// sign.
 fn are_equal_values(actual: &[f64], expected: &[f64], rotation: bool) -> bool {
     let near = |sign: f64| actual.iter().zip(expected).all(|(a, b)| (a - sign * b).abs() < 1e-5);
     actual.len() == expected.len() && (near(1.0) || rotation && near(-1.0))
 }
 
-/// Compares the poses of an animation at three of its keys with the file, and checks that the
+/// Compares the poses of an animation at three of its keyframes with the file, and checks that the
 /// pictures differ.
 fn check_animation(name: &str, path: &str, animation: usize) {
     let Some(path) = asset_path(path) else { return };
@@ -78,7 +80,7 @@ fn check_animation(name: &str, path: &str, animation: usize) {
         assert_eq!(run.code, 0, "{}", run.stderr);
         let info: Value = serde_json::from_str(&run.stdout).expect("JSON");
         let checked = check_pose(&gltf, json, &info, time);
-        assert!(checked > 0, "{name}: no channel has a key at {time}");
+        assert!(checked > 0, "{name}: no channel has a keyframe at {time}");
         let size = ["--size", "96x72", "-o", "out.png"];
         let run = sandbox.run(&[&["render", file.as_str()], &pick[..], &size].concat());
         assert_eq!(run.code, 0, "{}", run.stderr);
@@ -89,7 +91,7 @@ fn check_animation(name: &str, path: &str, animation: usize) {
     assert!(pictures[0] != pictures[1] || pictures[1] != pictures[2], "{name}: nothing moves");
 }
 
-/// Compares all channels that have a key at this time; returns their number.
+/// Compares all channels that have a keyframe at this time; returns their number.
 fn check_pose(gltf: &Gltf, json: &Value, info: &Value, time: f64) -> usize {
     let mut checked = 0;
     for channel in json["channels"].as_array().expect("channels") {
@@ -133,7 +135,7 @@ fn nine_cubes_move_in_nine_ways() {
 }
 
 #[test]
-fn eight_bars_grow_by_morph_targets() {
+fn eight_bars_grow_with_morph_targets() {
     for animation in 0..3 {
         check_animation("morph-stress-test", "morph-stress-test/MorphStressTest.gltf", animation);
     }
@@ -145,13 +147,13 @@ fn a_skinned_cylinder_bends() {
 }
 
 #[test]
-fn a_skinned_skater_compressed_by_draco_stands() {
+fn a_skinned_skater_compressed_with_draco_is_upright() {
     let Some(path) = asset_path("skater-female-draco/model.gltf") else { return };
     let (sandbox, file) = (Sandbox::new("real_skater"), path.to_string_lossy().into_owned());
     let run = sandbox.run(&["info", "--json", file.as_str()]);
     let info: Value = serde_json::from_str(&run.stdout).expect("JSON");
-    // She has no animation. With her arms out she is about as wide as high, and her feet are on the
-    // ground.
+    // The skater has no animation. With her arms out, she is about as wide as she is high, and her
+    // feet are on the ground.
     let corner =
         |end: &str, axis: usize| info["shown"]["bounds"][end][axis].as_f64().expect("a number");
     let size = |axis| corner("max", axis) - corner("min", axis);

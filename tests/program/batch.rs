@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// The records of all runs whose reports begin with these words, in the order in which they were
-/// written.
+/// Returns the records of all runs whose report names begin with `run`, in the order in which they
+/// were written.
 pub(crate) fn read_records(sandbox: &Sandbox, run: &str) -> Vec<Value> {
     let Ok(entries) = std::fs::read_dir(sandbox.path_of("out/reports")) else { return Vec::new() };
     let paths = entries.map(|entry| entry.expect("an entry").path());
@@ -25,7 +25,7 @@ pub(crate) fn read_records(sandbox: &Sandbox, run: &str) -> Vec<Value> {
     texts.flat_map(lines).collect()
 }
 
-/// The picture names in records, sorted.
+/// Returns the picture names in records, sorted.
 fn outputs(records: &[Value]) -> Vec<&str> {
     let mut names: Vec<&str> =
         records.iter().map(|record| record["output"].as_str().expect("a name")).collect();
@@ -33,7 +33,8 @@ fn outputs(records: &[Value]) -> Vec<&str> {
     names
 }
 
-/// A folder of models: three good ones, one of them in a subfolder, and a broken one.
+/// Returns a sandbox with a folder of models: three valid ones, one of them in a subfolder, and a
+/// broken one.
 pub(crate) fn batch_sandbox(name: &str) -> Sandbox {
     let sandbox = Sandbox::new(name);
     std::fs::create_dir_all(sandbox.path_of("models/more")).expect("folders");
@@ -50,7 +51,7 @@ pub(crate) fn batch_sandbox(name: &str) -> Sandbox {
 
 const SMALL: [&str; 6] = ["batch", "models", "--out-dir", "out", "--size", "32x24"];
 
-/// The status of each picture in a report.
+/// Returns the status of each picture in a report.
 fn read_report(sandbox: &Sandbox, name: &str) -> BTreeMap<String, String> {
     let text = std::fs::read_to_string(sandbox.path_of(name)).expect("a report");
     let record = |line: &str| {
@@ -70,7 +71,7 @@ fn status_list(pairs: &[(&str, &str)]) -> Vec<(String, String)> {
 }
 
 #[test]
-fn a_broken_model_is_a_line_of_the_report_and_what_is_done_is_not_done_again() {
+fn broken_models_are_recorded_and_finished_pictures_are_not_rendered_again() {
     let sandbox = batch_sandbox("batch");
     let run = sandbox.run(&SMALL);
     assert_eq!(run.code, 1, "{}", run.stderr);
@@ -94,22 +95,28 @@ fn a_broken_model_is_a_line_of_the_report_and_what_is_done_is_not_done_again() {
         .expect("another model");
     std::fs::remove_file(sandbox.path_of("out/more/a.png")).expect("a picture");
     let run = sandbox.run(&SMALL);
-    assert_eq!(run.stdout, "2 rendered, 1 up to date, 1 failed\n", "content changed, picture gone");
+    assert_eq!(
+        run.stdout, "2 rendered, 1 up to date, 1 failed\n",
+        "one model changed, one picture is missing"
+    );
     assert!(!run.stderr.contains("broken.glb"), "{}", run.stderr);
     assert!(run.stderr.contains("1 in an earlier run; use --retry-failed"), "{}", run.stderr);
     let run = sandbox.run(&[&SMALL[..], &["--retry-failed"]].concat());
     assert_eq!((run.code, run.stdout.as_str()), (1, "0 rendered, 3 up to date, 1 failed\n"));
-    assert!(run.stderr.contains("broken.glb"), "it was tried again: {}", run.stderr);
+    assert!(run.stderr.contains("broken.glb"), "it was retried: {}", run.stderr);
     let run = sandbox.run(&[&SMALL[..], &["--background", "#123"]].concat());
     assert_eq!(run.stdout, "3 rendered, 0 up to date, 1 failed\n", "settings changed");
     let run = sandbox.run(&[&SMALL[..], &["--background", "#123", "--force"]].concat());
-    assert_eq!(run.stdout, "3 rendered, 0 up to date, 1 failed\n", "asked for again");
+    assert_eq!(
+        run.stdout, "3 rendered, 0 up to date, 1 failed\n",
+        "rendering everything was requested"
+    );
 }
 
 #[test]
-fn shards_unite_to_the_whole() {
+fn shards_add_up_to_the_whole_batch() {
     let sandbox = batch_sandbox("batch_shards");
-    std::fs::remove_file(sandbox.path_of("models/broken.glb")).expect("the broken one");
+    std::fs::remove_file(sandbox.path_of("models/broken.glb")).expect("the broken model");
     for shard in ["1/2", "2/2"] {
         let run = sandbox.run(&[&SMALL[..], &["--shard", shard]].concat());
         assert_eq!(run.code, 0, "{}", run.stderr);
@@ -117,7 +124,7 @@ fn shards_unite_to_the_whole() {
     let [first, second] = ["1-of-2.", "2-of-2."].map(|run| read_records(&sandbox, run));
     assert!(!first.is_empty() && !second.is_empty(), "{first:?} {second:?}");
     let united = [first, second].concat();
-    assert_eq!(outputs(&united), ["a.png", "b.png", "more/a.png"], "no picture is made twice");
+    assert_eq!(outputs(&united), ["a.png", "b.png", "more/a.png"], "no picture is rendered twice");
     let run = sandbox.run(&SMALL);
     assert_eq!((run.code, run.stdout.as_str()), (0, "0 rendered, 3 up to date, 0 failed\n"));
     let run = sandbox.run(&[&SMALL[..], &["--shard", "auto"]].concat());
@@ -126,7 +133,7 @@ fn shards_unite_to_the_whole() {
 }
 
 #[test]
-fn a_run_that_is_killed_goes_on_where_it_was() {
+fn a_killed_run_resumes_where_it_stopped() {
     let sandbox = Sandbox::new("batch_killed");
     std::fs::create_dir(sandbox.path_of("models")).expect("a folder");
     sandbox.copy_model("teapot.glb");
@@ -145,7 +152,7 @@ fn a_run_that_is_killed_goes_on_where_it_was() {
     let begin = Instant::now();
     let done = || read_records(&sandbox, "").len();
     while done() < 3 {
-        assert!(begin.elapsed() < Duration::from_secs(60), "it does nothing");
+        assert!(begin.elapsed() < Duration::from_secs(60), "the run makes no progress");
         std::thread::sleep(Duration::from_millis(5));
     }
     process.kill().expect("it can be killed");
@@ -162,7 +169,7 @@ fn a_run_that_is_killed_goes_on_where_it_was() {
         .and_then(|count| count.parse().ok())
         .expect("a count");
     assert_eq!(kept, before, "{}", run.stdout);
-    assert!(kept < 16, "it was killed before it was through");
+    assert!(kept < 16, "the run was killed before it finished");
     let entries = std::fs::read_dir(sandbox.path_of("out")).expect("the folder");
     for entry in entries {
         let name = entry.expect("an entry").file_name().into_string().expect("a name");
@@ -171,7 +178,7 @@ fn a_run_that_is_killed_goes_on_where_it_was() {
 }
 
 #[test]
-fn lists_and_scenes_are_inputs_too() {
+fn lists_and_scenes_can_be_inputs() {
     let sandbox = batch_sandbox("batch_lists");
     sandbox.write_file("list.txt", "# models\nmodels/a.glb\n\nmodels/more/a.glb\n");
     sandbox.write_file(

@@ -1,5 +1,5 @@
 //! `alberti batch` when it is killed, when its disk is full, and when it is started twice: nothing
-//! is lost, and no bad result counts as done.
+//! is lost, and no bad result counts as finished.
 //!
 //! `ALBERTI_BATCH_KILLS` is the number of times a batch is killed; the default is 12.
 
@@ -29,12 +29,12 @@ const COUNT: usize = 18;
 const BATCH: [&str; 8] =
     ["batch", "models", "--out-dir", "out", "--size", "96x64", "--threads", "2"];
 
-/// The batch with further flags.
+/// Returns the batch command with additional flags.
 fn batch_with<'a>(flags: &[&'a str]) -> Vec<&'a str> {
     [&BATCH[..], flags].concat()
 }
 
-/// The pictures from an undisturbed run, by name.
+/// Returns the pictures from an undisturbed run, by name.
 fn undisturbed_pictures(sandbox: &Sandbox) -> BTreeMap<String, Vec<u8>> {
     let mut arguments = BATCH;
     arguments[3] = "whole";
@@ -45,15 +45,16 @@ fn undisturbed_pictures(sandbox: &Sandbox) -> BTreeMap<String, Vec<u8>> {
     pictures
 }
 
-/// All `.png` files, by their path below a folder.
+/// Returns all `.png` files, by their path below a folder.
 fn pictures_below(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let files = files_below(folder).into_iter().filter(|name| name.ends_with(".png"));
-    // A file that another process is replacing is read in the old or the new version.
+    // If another process is replacing a file, either the old or the new version is read.
     let read = |name: String| std::fs::read(folder.join(&name)).map(|bytes| (name, bytes)).ok();
     files.filter_map(read).collect()
 }
 
-/// The paths of all files below a folder, relative to it; none if it does not exist.
+/// Returns the paths of all files below a folder, relative to it; none if the folder does not
+/// exist.
 fn files_below(folder: &Path) -> Vec<String> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let mut files = Vec::new();
@@ -68,7 +69,7 @@ fn files_below(folder: &Path) -> Vec<String> {
     files
 }
 
-/// The complete records in the reports of all runs.
+/// Returns the complete records in the reports of all runs.
 fn recorded(out: &Path) -> Vec<Value> {
     let names = files_below(&out.join("reports")).into_iter();
     let texts = names
@@ -83,7 +84,7 @@ fn recorded(out: &Path) -> Vec<Value> {
 /// Checks that the existing pictures are complete.
 fn check_pictures(sandbox: &Sandbox, whole: &BTreeMap<String, Vec<u8>>, when: &str) {
     for (name, bytes) in pictures_below(&sandbox.path_of("out")) {
-        assert!(whole.get(&name) == Some(&bytes), "{when}: {name} is not the whole picture");
+        assert!(whole.get(&name) == Some(&bytes), "{when}: {name} is incomplete");
     }
 }
 
@@ -104,11 +105,11 @@ fn check_remains(sandbox: &Sandbox, whole: &BTreeMap<String, Vec<u8>>, when: &st
     for tar in files_below(&out).iter().filter(|name| name.ends_with(".tar")) {
         let bytes = std::fs::read(out.join(tar)).expect("a tar file");
         let is_whole = bytes.len().is_multiple_of(512) && bytes.ends_with(&[0; 1024]);
-        assert!(is_whole, "{when}: {tar} is not whole");
+        assert!(is_whole, "{when}: {tar} is incomplete");
     }
 }
 
-/// Checks that a batch is complete: `--verify` says so, and another run does nothing.
+/// Checks that a batch is complete: `--verify` confirms it, and another run renders nothing.
 fn check_complete(sandbox: &Sandbox, flags: &[&str]) {
     let run = sandbox.run(&batch_with(&[flags, &["--verify"]].concat()));
     let expected = "18 intact, 0 missing, 0 wrong, 0 failed\n";
@@ -118,7 +119,7 @@ fn check_complete(sandbox: &Sandbox, flags: &[&str]) {
     assert_eq!((run.code, run.stdout.as_str()), (0, expected), "{}", run.stderr);
 }
 
-/// Starts a batch whose output nobody reads.
+/// Starts a batch without reading its output.
 fn start_batch(sandbox: &Sandbox, arguments: &[&str]) -> std::process::Child {
     let program = alberti_tests::program_path().expect("the program");
     let mut command = Command::new(program);
@@ -127,8 +128,8 @@ fn start_batch(sandbox: &Sandbox, arguments: &[&str]) -> std::process::Child {
     command.spawn().expect("the program starts")
 }
 
-/// Kills two shards at seeded moments until it has happened often enough; shards that finish are
-/// checked and start over.
+/// Kills two shards at seeded random moments until there have been enough kills; shards that finish
+/// are checked and started again.
 fn kill_often(name: &str, kills: usize, flags: &[&str]) {
     let sandbox = crash_sandbox(name);
     let begin = Instant::now();
@@ -149,7 +150,7 @@ fn kill_often(name: &str, kills: usize, flags: &[&str]) {
             check_pictures(&sandbox, &whole, "while it runs");
             std::thread::sleep(Duration::from_millis(1));
         }
-        // Sometimes both, sometimes one of them.
+        // Kills one of the shards, or both.
         let spared = (state >> 38) % 4;
         let mut ended = 0;
         for (at, mut shard) in (0_u64..).zip(shards) {
@@ -185,22 +186,22 @@ fn kill_count() -> usize {
 }
 
 #[test]
-fn a_batch_that_is_killed_at_any_moment_loses_nothing() {
+fn a_batch_killed_at_any_moment_loses_nothing() {
     kill_often("batch_kills", kill_count(), &[]);
 }
 
 #[test]
-fn tar_files_are_whole_or_absent_when_a_batch_is_killed() {
+fn tar_files_are_complete_or_absent_after_a_kill() {
     kill_often("batch_kills_tar", kill_count() / 2, &["--tar", "3"]);
 }
 
 #[test]
-fn workers_end_with_the_batch_that_is_killed() {
+fn workers_exit_when_their_batch_is_killed() {
     let sandbox = crash_sandbox("batch_orphans");
     let mut batch = start_batch(&sandbox, &BATCH);
     let begin = Instant::now();
     while recorded(&sandbox.path_of("out")).is_empty() {
-        assert!(begin.elapsed() < Duration::from_secs(120), "it does nothing");
+        assert!(begin.elapsed() < Duration::from_secs(120), "the batch makes no progress");
         std::thread::sleep(Duration::from_millis(5));
     }
     batch.kill().expect("it is ours");
@@ -210,15 +211,15 @@ fn workers_end_with_the_batch_that_is_killed() {
         files.sort();
         files
     };
-    // Pictures that workers have begun may still get their names, but no new ones are begun.
+    // Workers may still finish the pictures they have begun, but they begin no new ones.
     std::thread::sleep(Duration::from_millis(300));
     let left = files();
     std::thread::sleep(Duration::from_secs(1));
-    assert_eq!(files(), left, "somebody goes on");
+    assert_eq!(files(), left, "a worker is still running");
 }
 
 #[test]
-fn records_that_are_torn_are_made_again() {
+fn truncated_records_are_written_again() {
     let sandbox = crash_sandbox("batch_torn");
     let whole = undisturbed_pictures(&sandbox);
     assert_eq!(sandbox.run(&BATCH).code, 0);
@@ -230,7 +231,7 @@ fn records_that_are_torn_are_made_again() {
     let text = std::fs::read(&path).expect("a report");
     let mut cuts = 0;
     for lost in [1, 2, 40, 400, text.len() - 30] {
-        std::fs::write(&path, &text[..text.len() - lost]).expect("a torn report");
+        std::fs::write(&path, &text[..text.len() - lost]).expect("a truncated report");
         let left = recorded(&sandbox.path_of("out")).len();
         let run = sandbox.run(&batch_with(&["--verify"]));
         let open = COUNT - left;
@@ -247,12 +248,12 @@ fn records_that_are_torn_are_made_again() {
         }
         std::fs::remove_file(&merged).expect("a merged report");
     }
-    // A line without its line break is complete.
+    // A line that lacks only its line break is complete.
     assert_eq!(cuts, 4);
 }
 
 #[test]
-fn a_shard_that_runs_twice_at_once_does_no_harm() {
+fn running_a_shard_twice_at_once_is_harmless() {
     for flags in [&[][..], &["--tar", "4"]] {
         let sandbox = crash_sandbox(&format!("batch_twice_{}", flags.len()));
         let whole = undisturbed_pictures(&sandbox);
@@ -276,7 +277,7 @@ fn a_shard_that_runs_twice_at_once_does_no_harm() {
     }
 }
 
-/// Sets the time of all files below a folder.
+/// Sets the modification time of all files below a folder.
 fn set_times(folder: &Path, time: SystemTime) {
     for name in files_below(folder) {
         let file = std::fs::File::options().append(true).open(folder.join(name)).expect("a file");
@@ -285,7 +286,7 @@ fn set_times(folder: &Path, time: SystemTime) {
 }
 
 #[test]
-fn what_is_done_does_not_depend_on_clocks() {
+fn finished_pictures_are_recognized_regardless_of_clocks() {
     let sandbox = crash_sandbox("batch_clocks");
     assert_eq!(sandbox.run(&BATCH).code, 0);
     let ages = Duration::from_secs(20 * 365 * 86_400);
@@ -294,7 +295,7 @@ fn what_is_done_does_not_depend_on_clocks() {
         set_times(&sandbox.path_of("models"), inputs);
         set_times(&sandbox.path_of("out"), outputs);
         check_complete(&sandbox, &[]);
-        // A changed model is rendered, although its picture and its record are newer.
+        // A changed model is rendered again, although its picture and its record are newer.
         let (model, other) = (sandbox.path_of("models/3/house.glb"), sandbox.path_of("panes.glb"));
         let former = std::fs::read(&model).expect("a model");
         std::fs::copy(other, &model).expect("another model");
@@ -303,7 +304,7 @@ fn what_is_done_does_not_depend_on_clocks() {
         let run = sandbox.run(&BATCH);
         assert_eq!(run.stdout, "1 rendered, 17 up to date, 0 failed\n");
         check_complete(&sandbox, &[]);
-        // And once more when it is changed back: the old record is superseded.
+        // It is rendered once more when it is changed back, because the old record is superseded.
         std::fs::write(&model, former).expect("the former model");
         set_times(&sandbox.path_of("models"), past);
         set_times(&sandbox.path_of("out"), future);
@@ -322,7 +323,8 @@ fn run_script(sandbox: &Sandbox, shell: &[&str], script: &str) -> Output {
     command.output().expect("a shell")
 }
 
-/// Checks a run that could not write: the exit code is 3, a message says why, and no job is blamed.
+/// Checks a run that could not write: the exit code is 3, a message gives the reason, and no job
+/// has failed.
 fn check_stopped(sandbox: &Sandbox, run: &RunResult) {
     assert_eq!(run.code, 3, "{}{}", run.stdout, run.stderr);
     assert!(run.stderr.contains("cannot write") || run.stderr.contains("cannot create"));
@@ -333,12 +335,12 @@ fn check_stopped(sandbox: &Sandbox, run: &RunResult) {
 }
 
 #[test]
-fn files_that_cannot_grow_stop_the_run_and_blame_no_model() {
+fn file_size_limits_stop_the_run_without_failing_jobs() {
     let sandbox = crash_sandbox("batch_file_size");
     let whole = undisturbed_pictures(&sandbox);
-    // In blocks of 512 bytes: none, then enough for at least one record.
+    // Limits in blocks of 512 bytes: none, then enough for at least one record.
     for blocks in ["0", "1", "2"] {
-        // Without the signal that a write beyond the limit would send.
+        // Ignores the signal that a write beyond the limit would cause.
         let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$alberti\" $batch");
         let output = run_script(&sandbox, &["sh", "-c"], &script);
         let run = RunResult::of(output);
@@ -352,7 +354,7 @@ fn files_that_cannot_grow_stop_the_run_and_blame_no_model() {
 
 /// Runs a batch on a separate disk, of 64 KiB and then larger, with and without tar files.
 ///
-/// The disk exists only for the script, in a namespace.
+/// The disk exists only for the script, in a mount namespace.
 const SMALL_DISK: &str = "
 mkdir -p out && mount -t tmpfs -o size=64k tmpfs out || exit 99
 for flags in '' '--tar 4'; do
@@ -370,14 +372,14 @@ done";
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_disk_that_is_full_or_read_only_stops_the_run_and_the_next_one_goes_on() {
+fn a_full_or_read_only_disk_stops_the_run_and_the_next_run_resumes() {
     let sandbox = crash_sandbox("batch_disk");
     let unshare = ["unshare", "--mount", "--map-root-user", "sh", "-c"];
     let is_there = Command::new("unshare").arg("--version").output().is_ok();
     let output = is_there.then(|| run_script(&sandbox, &unshare, SMALL_DISK));
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     let Some(output) = output.filter(|output| text(&output.stdout).contains("full")) else {
-        let name = "a_disk_that_is_full_or_read_only_stops_the_run_and_the_next_one_goes_on";
+        let name = "a_full_or_read_only_disk_stops_the_run_and_the_next_run_resumes";
         let why = "no file system can be mounted here (unshare --mount --map-root-user)";
         return report_skip(name, why);
     };

@@ -1,5 +1,6 @@
-//! `alberti batch` on misleading lists and folders: two lines with one output, pipes instead of
-//! reports, links in circles and out of the output folder, names that are not text.
+//! `alberti batch` on misleading lists and folders: two lines with the same output, pipes instead
+//! of reports, symbolic links that form cycles or lead out of the output folder, and names that are
+//! not UTF-8.
 
 use crate::sandbox::{RunResult, Sandbox};
 use std::ffi::OsStr;
@@ -18,7 +19,7 @@ fn run_in_time(sandbox: &Sandbox, arguments: &[&str]) -> RunResult {
     while child.try_wait().expect("its state").is_none() {
         if begin.elapsed() > Duration::from_secs(60) {
             let _ = child.kill();
-            panic!("it waits for ever: {arguments:?}");
+            panic!("the program hangs: {arguments:?}");
         }
         std::thread::sleep(Duration::from_millis(20));
     }
@@ -32,7 +33,7 @@ fn crate_sandbox(name: &str) -> Sandbox {
 }
 
 #[test]
-fn two_lines_of_one_output_are_refused() {
+fn lines_with_the_same_output_are_refused() {
     let sandbox = crate_sandbox("batch_same_output");
     let (x, y) = (r#"{"input":"crate.glb","output":"x.png"}"#, r#"{"input":"crate.glb"}"#);
     let many = r#"{"input":"crate.glb","pictures":[{"output":"y.png"},{"output":"x.png"}]}"#;
@@ -56,7 +57,7 @@ fn two_lines_of_one_output_are_refused() {
         assert!(run.stderr.starts_with(&expected), "{}", run.stderr);
         assert!(!sandbox.path_of(out_dir).exists(), "{name}");
     }
-    // A pipe cannot be read before that.
+    // A pipe cannot be read in advance.
     let arguments = [&["batch", "--list", "-", "--out-dir", "out"][..], &SIZE].concat();
     let (code, stdout) = sandbox.run_with_input(&arguments, format!("{x}\n{x}\n").as_bytes());
     let stdout = String::from_utf8(stdout).expect("UTF-8");
@@ -66,7 +67,7 @@ fn two_lines_of_one_output_are_refused() {
 }
 
 #[test]
-fn a_long_list_is_compared_in_little_memory() {
+fn duplicates_in_a_long_list_are_found_in_little_memory() {
     let sandbox = crate_sandbox("batch_long_list");
     let line = |at: u32| format!("{{\"input\":\"none.glb\",\"output\":\"{at}.png\"}}\n");
     let mut list: String = (0..20_000).map(line).collect();
@@ -77,7 +78,7 @@ fn a_long_list_is_compared_in_little_memory() {
 }
 
 #[test]
-fn pipes_and_folders_are_no_reports() {
+fn pipes_and_folders_are_not_read_as_reports() {
     let sandbox = crate_sandbox("batch_pipes");
     let batch = [&["batch", "crate.glb", "--out-dir", "out"][..], &SIZE].concat();
     assert_eq!(sandbox.run(&batch).code, 0);
@@ -153,7 +154,7 @@ fn a_link_out_of_the_output_folder_is_not_followed() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_name_that_is_not_utf_8_is_reported() {
+fn names_that_are_not_utf8_are_reported() {
     let sandbox = crate_sandbox("batch_no_text");
     std::fs::create_dir(sandbox.path_of("models")).expect("a folder");
     let name = sandbox.path_of("models").join(OsStr::from_bytes(b"a\xff.glb"));

@@ -1,5 +1,5 @@
-//! `alberti batch --list`: jobs from lines of JSON and CSV, names from templates, scenes for
-//! models.
+//! `alberti batch --list`: jobs from JSON and CSV lines, names from templates, and one scene for
+//! many models.
 
 use crate::batch::{batch_sandbox, read_records};
 use crate::sandbox::Sandbox;
@@ -12,7 +12,7 @@ fn run_list(sandbox: &Sandbox, list: &str, more: &[&str]) -> (i32, String, Strin
 }
 
 #[test]
-fn lines_of_json_have_flags_of_their_own() {
+fn json_lines_have_their_own_flags() {
     let sandbox = batch_sandbox("batch_jsonl");
     sandbox.write_file(
         "models/jobs.jsonl",
@@ -38,8 +38,8 @@ fn lines_of_json_have_flags_of_their_own() {
     assert_eq!(size("out/b-00000004-2.png"), (6, 6), "the second picture has no name");
     let corner = |name: &str| sandbox.read_picture(name).2.first().copied();
     assert_eq!(corner("out/top.png"), Some([0, 0, 0, 255]), "the line's background");
-    assert_eq!(corner("out/red.png"), Some([255, 0, 0, 255]), "the picture's");
-    // As without a list.
+    assert_eq!(corner("out/red.png"), Some([255, 0, 0, 255]), "the picture's background");
+    // The same picture as without a list.
     let front = ["render", "models/a.glb", "--size", "32x24", "--view", "front", "--samples", "4"];
     let front = [&front[..], &["--overlay", "axes,grid", "-o", "front.png"]].concat();
     assert_eq!(sandbox.run(&front).code, 0);
@@ -49,7 +49,7 @@ fn lines_of_json_have_flags_of_their_own() {
 }
 
 #[test]
-fn a_wrong_line_fails_by_its_number_and_the_others_run() {
+fn invalid_lines_fail_by_number_and_the_others_run() {
     let sandbox = batch_sandbox("batch_wrong_lines");
     let lines = [
         ("{\"input\": \"models/a.glb\", \"size\": \"8x8\"}", ""),
@@ -92,7 +92,7 @@ fn a_wrong_line_fails_by_its_number_and_the_others_run() {
 }
 
 #[test]
-fn columns_of_csv_are_members() {
+fn csv_columns_are_members() {
     let sandbox = batch_sandbox("batch_csv");
     sandbox.write_file(
         "jobs.csv",
@@ -123,7 +123,7 @@ fn columns_of_csv_are_members() {
 }
 
 #[test]
-fn a_list_comes_through_a_pipe_too() {
+fn a_list_can_come_from_a_pipe() {
     let sandbox = batch_sandbox("batch_list_pipe");
     for (list, output) in [
         ("{\"input\": \"models/a.glb\", \"output\": \"j.png\"}", "out/j.png"),
@@ -160,7 +160,7 @@ fn names_follow_a_template_in_any_folder() {
 }
 
 #[test]
-fn one_scene_goes_over_many_models() {
+fn one_scene_is_rendered_with_many_models() {
     let sandbox = batch_sandbox("batch_scene");
     sandbox.write_file(
         "lineup.ron",
@@ -172,7 +172,7 @@ fn one_scene_goes_over_many_models() {
     let run = sandbox.run(&[&arguments[..], &["--scene", "lineup.ron"]].concat());
     assert_eq!(run.stdout, "2 rendered, 0 up to date, 0 failed\n", "{}", run.stderr);
     assert_eq!(sandbox.read_picture("out/a.glb.png").0, 12);
-    // As a scene that names the model.
+    // The same picture as from a scene that names the model.
     let text = std::fs::read_to_string(sandbox.path_of("lineup.ron")).expect("the scene");
     sandbox.write_file("named.ron", text.replace("{input}", "models/a.glb"));
     assert_eq!(sandbox.run(&["render", "named.ron", "-o", "named.png"]).code, 0);

@@ -1,11 +1,11 @@
-//! The batch page, `docs/batch.md`: its commands run with the files that it shows.
+//! The batch page, `docs/batch.md`: its commands are run with the files that it shows.
 
 use crate::sandbox::Sandbox;
 
-/// The mark after a command of the page that no test runs.
+/// The mark after a command on the page that no test runs.
 const NOT_RUN: &str = "# not run here";
 
-/// The code blocks of the page in a language.
+/// Returns the page's code blocks in a language.
 fn blocks<'a>(page: &'a str, language: &str) -> Vec<&'a str> {
     let fence = format!("\n```{language}\n");
     page.split(fence.as_str())
@@ -14,7 +14,7 @@ fn blocks<'a>(page: &'a str, language: &str) -> Vec<&'a str> {
         .collect()
 }
 
-/// The words of a command; words in single quotes are one.
+/// Splits a command into words; quoted words are one word.
 fn split_words(command: &str) -> Vec<&str> {
     let parts = command.split('\'').enumerate();
     let words = parts.flat_map(|(part, text)| match part % 2 {
@@ -25,7 +25,7 @@ fn split_words(command: &str) -> Vec<&str> {
 }
 
 #[test]
-fn every_command_of_the_page_does_what_it_says() {
+fn every_command_on_the_page_works_as_described() {
     let path = alberti_tests::project_root().join("docs/batch.md");
     let page = std::fs::read_to_string(path).expect("the page");
     let sandbox = Sandbox::new("batch_page");
@@ -66,7 +66,7 @@ fn every_command_of_the_page_does_what_it_says() {
 }
 
 #[test]
-fn every_file_that_is_shipped_is_on_the_page() {
+fn every_shipped_file_is_on_the_page() {
     let root = alberti_tests::project_root();
     let page = std::fs::read_to_string(root.join("docs/batch.md")).expect("the page");
     for folder in std::fs::read_dir(root.join("deploy")).expect("the folder") {

@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
-/// A list of one job that takes minutes, between two small ones.
+/// A list with one job that takes minutes, between two short ones.
 fn slow_sandbox(name: &str) -> Sandbox {
     let sandbox = batch_sandbox(name);
     sandbox.write_file(
@@ -25,7 +25,7 @@ fn slow_sandbox(name: &str) -> Sandbox {
 
 const SLOW: [&str; 7] = ["batch", "--list", "jobs.jsonl", "--out-dir", "out", "--threads", "1"];
 
-/// The record of a picture.
+/// Returns the record of a picture.
 fn record_of(sandbox: &Sandbox, output: &str) -> Option<Value> {
     read_records(sandbox, "").into_iter().find(|record| record["output"] == output)
 }
@@ -42,7 +42,7 @@ fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
     }
 }
 
-/// The child processes of a process.
+/// Returns the child processes of a process.
 fn children(process: u32) -> Vec<u32> {
     let Ok(tasks) = std::fs::read_dir(format!("/proc/{process}/task")) else { return Vec::new() };
     let lists =
@@ -54,22 +54,22 @@ fn children(process: u32) -> Vec<u32> {
 
 fn send_signal(process: u32, signal: &str) {
     let sent = Command::new("kill").args([format!("-{signal}"), process.to_string()]).status();
-    assert!(sent.expect("kill runs").success(), "{process} is there");
+    assert!(sent.expect("kill runs").success(), "{process} exists");
 }
 
-/// Waits until a worker other than `known` renders the slow picture; returns its process.
+/// Waits until a worker other than `known` renders the slow picture; returns its process id.
 fn slow_worker(sandbox: &Sandbox, run: &Child, known: Option<u32>) -> u32 {
     wait_for("the first picture", || record_of(sandbox, "first.png"));
     wait_for("a worker", || children(run.id()).into_iter().find(|id| Some(*id) != known))
 }
 
-/// The end of a run, possibly by a signal.
+/// Waits for a run to end, possibly by a signal.
 fn end_of(run: Child) -> RunResult {
     RunResult::of(run.wait_with_output().expect("it ends"))
 }
 
 #[test]
-fn a_job_that_takes_too_long_is_one_line_of_the_report() {
+fn a_job_that_times_out_is_one_failed_record() {
     let sandbox = slow_sandbox("batch_slow");
     let run = sandbox.run(&[&SLOW[..], &["--job-seconds", "6"]].concat());
     assert_eq!((run.code, run.stdout.as_str()), (1, "2 rendered, 0 up to date, 1 failed\n"));
@@ -81,7 +81,7 @@ fn a_job_that_takes_too_long_is_one_line_of_the_report() {
 }
 
 #[test]
-fn a_job_that_wants_too_much_memory_is_one_line_of_the_report() {
+fn a_job_that_needs_too_much_memory_is_one_failed_record() {
     let sandbox = slow_sandbox("batch_memory");
     let run = sandbox.run(&[&SLOW[..], &["--job-memory", "64MiB"]].concat());
     assert_eq!((run.code, run.stdout.as_str()), (1, "2 rendered, 0 up to date, 1 failed\n"));
@@ -95,13 +95,13 @@ fn a_job_that_wants_too_much_memory_is_one_line_of_the_report() {
 }
 
 #[test]
-fn a_worker_that_is_killed_twice_costs_one_job() {
+fn a_worker_killed_twice_fails_one_job() {
     let sandbox = slow_sandbox("batch_killed_worker");
     let run = sandbox.start(&SLOW);
     let first = slow_worker(&sandbox, &run, None);
     send_signal(first, "KILL");
     let second = slow_worker(&sandbox, &run, Some(first));
-    assert!(record_of(&sandbox, "slow.png").is_none(), "it is tried again");
+    assert!(record_of(&sandbox, "slow.png").is_none(), "it is retried");
     send_signal(second, "KILL");
     let run = end_of(run);
     assert_eq!((run.code, run.stdout.as_str()), (1, "2 rendered, 0 up to date, 1 failed\n"));
@@ -136,7 +136,7 @@ fn an_interrupted_worker_ends_the_run_and_records_nothing() {
 }
 
 #[test]
-fn workers_end_with_their_coordinator() {
+fn workers_exit_with_their_coordinator() {
     let sandbox = slow_sandbox("batch_orphans");
     let mut run = sandbox.start(&SLOW);
     let worker = slow_worker(&sandbox, &run, None);
@@ -144,14 +144,14 @@ fn workers_end_with_their_coordinator() {
     run.wait().expect("it ends");
     wait_for("the worker ends", || {
         let status = std::fs::read_to_string(format!("/proc/{worker}/stat"));
-        // A process that has ended remains until its new parent asks for it.
+        // A process that has exited remains until its new parent reaps it.
         status.map_or(true, |status| status.contains(") Z ")).then_some(())
     });
     assert!(record_of(&sandbox, "slow.png").is_none());
 }
 
 #[test]
-fn a_pipe_in_the_place_of_a_scene_is_a_job_that_fails() {
+fn a_pipe_instead_of_a_scene_fails_its_job() {
     let sandbox = batch_sandbox("batch_pipes");
     let made = Command::new("mkfifo").arg(sandbox.path_of("pipe.ron")).status();
     assert!(made.expect("mkfifo runs").success());
@@ -162,7 +162,7 @@ fn a_pipe_in_the_place_of_a_scene_is_a_job_that_fails() {
 }
 
 #[test]
-fn an_output_folder_at_fault_stops_the_run_and_fails_no_job() {
+fn an_unusable_output_folder_stops_the_run_without_failing_jobs() {
     let sandbox = batch_sandbox("batch_place");
     std::fs::create_dir(sandbox.path_of("out")).expect("a folder");
     // Nothing can be written there, not even by root.

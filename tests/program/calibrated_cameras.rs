@@ -4,10 +4,10 @@ use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
 use serde_json::Value;
 
-/// Three units in front of the origin, x to the right, y down, z ahead.
+/// A camera three units in front of the origin, with x to the right, y down and z ahead.
 const EXTRINSICS: &str = "1,0,0,0, 0,1,0,0, 0,0,1,3";
 
-/// An item of an explanation.
+/// Returns an item of an explanation.
 fn item(explanation: &Value, step: &str, id: &str) -> Value {
     let by_id = |list: &Value, id: &str| {
         let list = list.as_array().expect("a list");
@@ -16,7 +16,8 @@ fn item(explanation: &Value, step: &str, id: &str) -> Value {
     by_id(&by_id(&explanation["steps"], step)["items"], id)["value"].clone()
 }
 
-/// The position of the point (0.5, 0.25, 1): column and row, pixel centers at halves; and K.
+/// Returns the position of the point (0.5, 0.25, 1), as column and row with pixel centers at
+/// half-integers, and K.
 fn seen(sandbox: &Sandbox, flags: &[&str]) -> ([f64; 2], Value) {
     let subject =
         ["explain", "square.gltf", "--point", "0.5,0.25,1", "--json", "--size", "640x480"];
@@ -29,10 +30,11 @@ fn seen(sandbox: &Sandbox, flags: &[&str]) -> ([f64; 2], Value) {
 }
 
 #[test]
-fn pixels_are_those_of_the_definition_of_k() {
+fn pixels_follow_the_definition_of_k() {
     let sandbox = Sandbox::new("calibrated");
     GltfBuilder::square().write_file(&sandbox, "square");
-    // X/Z = 0.125, Y/Z = 0.0625; whole numbers are half a pixel before this project's.
+    // X/Z = 0.125, Y/Z = 0.0625; with pixel centers at whole numbers, coordinates are half a pixel
+    // smaller than in this project.
     let expected = [800.0 * 0.125 + 300.0 + 0.5, 780.0 * 0.0625 + 250.0 + 0.5];
     for flags in [
         ["--intrinsics", "800,780,300,250", "--extrinsics", EXTRINSICS],
@@ -42,7 +44,7 @@ fn pixels_are_those_of_the_definition_of_k() {
             "--extrinsics",
             "1,0,0,0,0,1,0,0,0,0,1,3,0,0,0,1",
         ],
-        // Behind the origin, upside down: the same camera as a pose in OpenGL's axes.
+        // The same camera as a pose with OpenGL's axes: behind the origin, upside down.
         ["--intrinsics", "800,780,300,250", "--pose", "1,0,0,0, 0,-1,0,0, 0,0,-1,-3"],
     ] {
         let (pixel, k) = seen(&sandbox, &flags);

@@ -1,5 +1,5 @@
 //! Labels at world points, captions below views, and several views at one scale: all are at the
-//! positions that the formulas give, in pictures and in drawings.
+//! positions from the formulas, in pictures and in drawings.
 
 use crate::sandbox::Sandbox;
 use crate::vector_files::{Layers, PagePoint, parse_svg, point_bounds};
@@ -8,7 +8,7 @@ use crate::vector_files::{Layers, PagePoint, parse_svg, point_bounds};
 const PIXELS_PER_MILLIMETRE: f64 = 96.0 / 25.4;
 /// Rounding to micrometers at both ends of an extent, in pixels.
 const MICROMETRE: f64 = 0.001 * PIXELS_PER_MILLIMETRE;
-/// The extents of the crate of these tests along x, y and z; by itself it is a cube of side 1.
+/// The extents of the crate in these tests along x, y and z; unscaled, it is a cube of side 1.
 const BOX: [f64; 3] = [2.0, 1.0, 3.0];
 
 /// Writes a scene with the crate, and renders it to an SVG without messages.
@@ -36,7 +36,7 @@ fn read_layers(sandbox: &Sandbox, file: &str) -> Layers {
     parse_svg(&std::fs::read_to_string(sandbox.path_of(file)).expect("an SVG")).1
 }
 
-/// The minimum and maximum coordinates of the layers with a prefix, in pixels.
+/// Returns the minimum and maximum coordinates of the layers with a prefix, in pixels.
 fn bounds_in_pixels(layers: &Layers, prefix: &str) -> [PagePoint; 2] {
     let lines = layers.iter().filter(|(id, _)| id.starts_with(prefix)).flat_map(|(_, all)| all);
     point_bounds(lines.flatten()).map(|point| point.map(|c| c * PIXELS_PER_MILLIMETRE))
@@ -51,7 +51,7 @@ fn assert_near(actual: PagePoint, expected: PagePoint, tolerance: f64) {
 /// In a picture of 800 × 600 pixels, a unit is 100 pixels in the plane z = 0; the perspective has
 /// its eye at a distance of 10, so (1, 1, 2) is at 1/8 instead of 1/10.
 #[test]
-fn labels_are_beside_the_images_of_their_points() {
+fn labels_are_next_to_their_projected_points() {
     let sandbox = Sandbox::new("labels");
     let parallel = ("Orthographic(height: 6)", "(1, 1, 2)", [500.0, 200.0]);
     let fov = 2.0 * libm::atan(0.3).to_degrees();
@@ -62,7 +62,7 @@ fn labels_are_beside_the_images_of_their_points() {
             "camera: (view: LookAt(eye: (0, 0, 10), target: (0, 0, 0)), projection: {projection})"
         );
         let image = "image: (size: (800, 600))";
-        // The corner or side of the text at the offset, for capitals of 20 pixels.
+        // The corner or side of the text at the offset, for capitals 20 pixels high.
         for (offset, corner) in [
             ([30.0, -10.0], [Some(0), Some(1)]),
             ([-30.0, 10.0], [Some(1), Some(0)]),
@@ -95,7 +95,7 @@ fn labels_are_beside_the_images_of_their_points() {
 }
 
 #[test]
-fn labels_that_are_not_in_the_picture_are_named() {
+fn labels_outside_the_picture_are_reported() {
     let sandbox = Sandbox::new("labels_outside");
     let labels = "Label(at: (0, 0, 20), text: \"B\"), Label(at: (50, 0, 0), text: \"far 漢\")";
     let fields = format!(
@@ -120,7 +120,7 @@ fn labels_that_are_not_in_the_picture_are_named() {
     assert_eq!(labels.collect::<Vec<_>>(), ["overlay-3-label"]);
 }
 
-/// The strip is 28 pixels high; above it is the picture of the given height.
+/// The strip is 28 pixels high; above it is the picture with the requested height.
 #[test]
 fn a_caption_is_below_the_picture() {
     let sandbox = Sandbox::new("caption");
@@ -139,14 +139,14 @@ fn a_caption_is_below_the_picture() {
     let written: Vec<usize> =
         (0..strip.len()).filter(|at| strip[*at] != [0x12, 0x34, 0xaa, 255]).collect();
     assert!(!written.is_empty());
-    // Letters of 12 pixels in the middle of the strip, light on the dark background.
+    // Letters 12 pixels high in the middle of the strip, light on the dark background.
     assert!(written.iter().all(|at| (7..=21).contains(&(at / 128))));
     let columns = written.iter().map(|at| at % 128);
     let (least, most) = (columns.clone().min(), columns.max());
     let middle = (least.expect("a column") + most.expect("a column") + 1) as f64 / 2.0;
     assert!((middle - 64.0).abs() <= 1.0, "{middle}");
     assert!(written.iter().any(|at| strip[*at][0] > 200));
-    // Part of the picture has its part of the caption.
+    // A crop of the picture has its part of the caption.
     picture("with.png", (128, 156), "caption: \"Front\"");
     let run = sandbox.run(&["render", "scene.ron", "-o", "part.png", "--crop", "20,120,90,30"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
@@ -155,7 +155,7 @@ fn a_caption_is_below_the_picture() {
         let from = (120 + y) * 128 + 20;
         assert_eq!(row, &with[from..from + 90], "{y}");
     }
-    // In a drawing the caption is a layer, and its strip contains nothing else.
+    // In a drawing, the caption is a layer, and its strip contains nothing else.
     let floor =
         "overlays: [Axes(length: 90)], camera: (view: LookAt(eye: (5, 4, 7), target: (0, 0, 0)))";
     let image = "image: (size: (400, 300)), style: Lines(), caption: \"HIM\"";
@@ -171,7 +171,7 @@ fn a_caption_is_below_the_picture() {
 
 /// MV-1, AX-1: extents on the page of an SVG are the box's extents times the scale.
 #[test]
-fn c75_drawings_of_several_views_have_one_scale() {
+fn c75_several_views_of_a_drawing_have_one_scale() {
     let sandbox = Sandbox::new("one_scale");
     let views =
         ["Front", "Left", "Top", "Isometric"].iter().zip(["0, 0", "0.5, 0", "0, 0.5", "0.5, 0.5"]);
@@ -197,14 +197,14 @@ fn c75_drawings_of_several_views_have_one_scale() {
     for (size, expected) in sizes.into_iter().zip(expected) {
         assert_near(size, expected.map(|extent| extent * scale), 3.0 * MICROMETRE);
     }
-    // The lower right view is in its quarter, the caption below it.
+    // The lower right view is in its quarter, with the caption below it.
     let [low, high] = bounds_in_pixels(&layers, "view-4-visible");
     let [caption, _] = bounds_in_pixels(&layers, "view-4-caption");
     assert!(low[0] > 400.0 && low[1] > 300.0 && high[0] < 800.0 && high[1] < caption[1]);
 }
 
 #[test]
-fn views_of_the_command_line_share_a_scale() {
+fn command_line_views_share_a_scale() {
     let sandbox = Sandbox::new("same_scale");
     write_scene(&sandbox, "image: (size: (300, 200)), style: Lines()");
     let views = ["--views", "front,right,top", "-o", "{view}.svg", "--same-scale"];
@@ -218,7 +218,7 @@ fn views_of_the_command_line_share_a_scale() {
             bounds_in_pixels(&read_layers(&sandbox, &format!("{view}.svg")), "visible");
         [high[0] - low[0], high[1] - low[1]]
     });
-    // The top view, 3 high, decides the scale: with 5 % of padding it has 180 pixels.
+    // The top view, 3 units high, determines the scale: with 5 % padding, it is 180 pixels high.
     for (size, (_, extents)) in sizes.into_iter().zip(expected) {
         assert_near(size, extents.map(|extent| extent * 60.0), 2.0 * MICROMETRE);
     }

@@ -17,7 +17,7 @@ fn faulty_model() -> GltfBuilder {
 }
 
 #[test]
-fn every_diagnostic_has_severity_code_pointer_and_help_worst_first() {
+fn diagnostics_have_severity_code_pointer_and_help_worst_first() {
     let sandbox = Sandbox::new("check");
     faulty_model().write_file(&sandbox, "faulty");
     let run = sandbox.run(&["check", "faulty.gltf"]);
@@ -37,7 +37,7 @@ fn every_diagnostic_has_severity_code_pointer_and_help_worst_first() {
 }
 
 #[test]
-fn a_good_model_has_no_errors_and_exit_code_0() {
+fn a_valid_model_has_no_errors_and_exit_code_0() {
     let sandbox = Sandbox::new("check_good");
     sandbox.copy_model("crate.glb");
     let run = sandbox.run(&["check", "crate.glb"]);
@@ -51,7 +51,7 @@ fn a_good_model_has_no_errors_and_exit_code_0() {
 }
 
 #[test]
-fn the_report_for_programs_has_a_version_and_the_same_problems() {
+fn the_json_report_has_a_version_and_the_same_problems() {
     let sandbox = Sandbox::new("check_json");
     faulty_model().write_file(&sandbox, "faulty");
     let run = sandbox.run(&["check", "faulty.gltf", "--json"]);
@@ -78,7 +78,7 @@ fn the_report_for_programs_has_a_version_and_the_same_problems() {
 }
 
 #[test]
-fn all_mistakes_of_a_scene_are_pointed_at_and_its_models_are_checked() {
+fn all_mistakes_in_a_scene_are_located_and_its_models_checked() {
     let sandbox = Sandbox::new("check_scene");
     sandbox.copy_model("crate.glb");
     faulty_model().write_file(&sandbox, "faulty");
@@ -179,7 +179,7 @@ fn every_limit_has_a_flag_and_its_message_names_it() {
 }
 
 #[test]
-fn other_folders_can_be_allowed_and_nothing_beyond_them() {
+fn folders_can_be_allowed_but_nothing_outside_them() {
     let sandbox = Sandbox::new("allow_outside");
     for folder in ["models/tin", "bins", "scenes", "secret"] {
         std::fs::create_dir_all(sandbox.path_of(folder)).expect("a folder");

@@ -1,4 +1,4 @@
-//! Numbers as colors: scalar attributes of vertices, and depth in a colormap.
+//! Numbers as colors: scalar vertex attributes, and depth in a colormap.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
@@ -33,12 +33,12 @@ end_header
 4 8 9 10 11
 ";
 
-/// The codes of a color in a colormap.
+/// Returns the codes of a color in a colormap.
 fn codes(colormap: Colormap, t: f32) -> [u8; 3] {
     colormap.srgb_at(t).map(|fraction| (fraction * 255.0).round() as u8)
 }
 
-/// The colors of a picture at the centers of `parts` equal columns, and the messages.
+/// Returns the colors of a picture at the centers of `parts` equal columns, and the messages.
 fn column_colors(sandbox: &Sandbox, arguments: &[&str], parts: u32) -> (Vec<[u8; 3]>, String) {
     let picture = ["-o", "out.png", "--size", "100x20", "--view", "front", "--samples", "1"];
     let lens = ["--projection", "orthographic"];
@@ -61,7 +61,7 @@ fn assert_close(color: [u8; 3], expected: [u8; 3], what: &str) {
     assert!(is_close, "{what}: {color:?} instead of {expected:?}");
 }
 
-/// Unlit, so that the picture has the colors themselves.
+/// Unlit, so that the picture shows the exact colors.
 fn scene(model: &str, scalars: &str) -> String {
     format!(
         "Scene(models: [(path: \"{model}\", materials: [(unlit: true)], scalars: ({scalars}))])"
@@ -69,7 +69,7 @@ fn scene(model: &str, scalars: &str) -> String {
 }
 
 #[test]
-fn qualities_have_the_colors_of_the_colormap() {
+fn qualities_have_colormap_colors() {
     let sandbox = Sandbox::new("colormap_ply");
     sandbox.write_file("scan.ply", QUALITIES);
     sandbox.write_file("scan.ron", scene("scan.ply", "attribute: \"quality\", colormap: Turbo"));
@@ -102,13 +102,13 @@ fn flags_color_a_bare_model_which_stays_shaded() {
 }
 
 #[test]
-fn a_custom_attribute_of_gltf_has_the_colors_of_the_colormap() {
+fn a_custom_gltf_attribute_has_colormap_colors() {
     let sandbox = Sandbox::new("colormap_gltf");
     let mut document = GltfBuilder::square();
     let bytes = json!({"componentType": 5121, "type": "SCALAR", "count": 4});
     let scalars = document.add_accessor(&[10, 10, 10, 10], &bytes);
     document.json["meshes"][0]["primitives"][0]["attributes"]["_TEMPERATURE"] = json!(scalars);
-    // The square beside it lacks the attribute and stays red.
+    // The neighboring square lacks the attribute and stays red.
     let plain = json!({"primitives": [{"attributes": {"POSITION": 0}, "mode": 6, "material": 0}]});
     let mesh = document.push_item("/meshes", plain);
     let node = document.push_item("/nodes", json!({"mesh": mesh, "translation": [2, 0, 0]}));
@@ -140,7 +140,7 @@ fn a_format_without_scalars_is_refused() {
 }
 
 #[test]
-fn depth_has_the_ends_of_the_colormap_at_the_nearest_and_farthest_vertex() {
+fn the_nearest_and_farthest_vertex_have_the_end_colors_of_the_colormap() {
     let sandbox = Sandbox::new("colormap_depth");
     // Two squares that face +z, the right one farther away.
     let square = "0 0 Z\n1 0 Z\n1 1 Z\n0 1 Z\n";
@@ -166,7 +166,7 @@ fn depth_has_the_ends_of_the_colormap_at_the_nearest_and_farthest_vertex() {
 }
 
 #[test]
-fn colormap_flags_without_scalars_are_reported() {
+fn flags_without_numbers_to_show_are_reported() {
     let sandbox = Sandbox::new("colormap_unused");
     sandbox.write_file("scan.ply", QUALITIES);
     for (flags, told) in [

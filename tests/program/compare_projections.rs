@@ -1,4 +1,4 @@
-//! `alberti compare-projections`: the whole family on one page.
+//! `alberti compare-projections`: all projections on one page.
 
 use crate::drawings::{PROJECTIONS, assert_succeeds, read_drawing, write_box};
 use crate::sandbox::Sandbox;
@@ -6,7 +6,7 @@ use crate::vector_files::{Layers, layer_bounds, parse_pdf};
 
 const COMMAND: &str = "compare-projections";
 
-/// Width and height of the lines of a projection's panel.
+/// Returns the width and height of the lines in a projection's panel.
 fn layer_size(layers: &Layers, name: &str) -> [f64; 2] {
     let [low, high] = layer_bounds(layers, |id| id.starts_with(&format!("{name}-visible-")));
     [high[0] - low[0], high[1] - low[1]]
@@ -21,7 +21,7 @@ fn a_subject_is_drawn_in_every_projection() {
     for name in PROJECTIONS {
         let [low, high] = layer_bounds(&layers, |id| id.starts_with(&format!("{name}-visible-")));
         assert!(low[0] > 0.0 && low[1] > 0.0 && high[0] < page[0] && high[1] < page[1], "{name}");
-        // Framed: the drawing fills most of its 84.7 × 63.5 mm, and no more.
+        // The drawing is framed: it fills most of its 84.7 × 63.5 mm and does not exceed them.
         let [w, h] = layer_size(&layers, name);
         assert!(w < 84.7 && h < 63.5 && (w > 70.0 || h > 52.0), "{name}: {w} x {h}");
     }
@@ -29,9 +29,9 @@ fn a_subject_is_drawn_in_every_projection() {
     assert!(text.contains("<g id=\"names.two-point\">\n<title>two point</title>"));
 }
 
-/// A box of 4 × 3 × 2: its pictures have the sizes given in the textbooks.
+/// A box of 4 × 3 × 2, whose pictures have the sizes from the textbooks.
 #[test]
-fn oblique_boxes_measure_as_the_textbooks_say() {
+fn oblique_boxes_have_textbook_sizes() {
     let sandbox = Sandbox::new("compare_box");
     write_box(&sandbox, "box", [4.0, 3.0, 2.0]);
     let flags = ["--projections", "multiview,cavalier,cabinet,isometric", "--columns", "2"];
@@ -43,7 +43,8 @@ fn oblique_boxes_measure_as_the_textbooks_say() {
         ("multiview", 4.0, 3.0),
         ("cavalier", 4.0 + 2.0 * half, 3.0 + 2.0 * half),
         ("cabinet", 4.0 + half, 3.0 + half),
-        // Both horizontal axes at 30°, the height vertical, all by √(2/3).
+        // Both horizontal axes are at 30°, the height is vertical, and all are foreshortened by
+        // √(2/3).
         ("isometric", 6.0 * slant, (3.0 + 0.5 * 6.0) * (2_f64 / 3.0).sqrt()),
     ] {
         let [w, h] = layer_size(&layers, name);
@@ -71,7 +72,7 @@ fn every_format_shows_the_same() {
         (f64::from(width) - dots[0]).abs() <= 1.0 && (f64::from(height) - dots[1]).abs() <= 1.0
     );
     let html = std::fs::read_to_string(sandbox.path_of("out.html")).expect("a page");
-    assert_eq!(html.matches("<figure").count(), 2, "each projection is there once");
+    assert_eq!(html.matches("<figure").count(), 2, "each projection appears once");
     assert!(html.contains("formulas OB-1, VV-1") && html.contains("z 1 at 225°"), "{html}");
     assert!(html.contains("formulas VN-1, PE-1, PE-3, VV-2") && html.contains("x to (-3.2, 0.4)"));
     assert!(html.contains("OB-1: x' = x + z L1 cos phi, y' = y + z L1 sin phi"), "{html}");
@@ -82,7 +83,7 @@ fn every_format_shows_the_same() {
 }
 
 #[test]
-fn threads_and_repetition_change_no_byte() {
+fn output_does_not_depend_on_threads_or_repetition() {
     let sandbox = Sandbox::new("compare_threads");
     sandbox.copy_model("teapot.glb");
     for flags in [

@@ -1,11 +1,11 @@
-//! `alberti curve depth` and `alberti demo wrap-around`: plots, tables and demonstrations against
-//! their formulas.
+//! `alberti curve depth` and `alberti demo wrap-around`: checks plots, tables and demonstrations
+//! against their formulas.
 
 use crate::drawings::{assert_succeeds, read_drawing};
 use crate::sandbox::Sandbox;
 use crate::vector_files::layer_bounds;
 
-/// The rows of a CSV table as numbers.
+/// Returns the rows of a CSV table as numbers.
 fn curve_csv(sandbox: &Sandbox, flags: &[&str]) -> Vec<[f64; 5]> {
     assert_succeeds(sandbox, &[&["curve", "depth", "-o", "out.csv"], flags].concat());
     let text = std::fs::read_to_string(sandbox.path_of("out.csv")).expect("a table");
@@ -17,10 +17,10 @@ fn curve_csv(sandbox: &Sandbox, flags: &[&str]) -> Vec<[f64; 5]> {
     text.lines().skip(1).map(row).collect()
 }
 
-/// The lesson's table for near 2 and far 40 (C68), with its four printed digits where they are well
-/// known.
+/// The lesson's table for near 2 and far 40 (C68), and some of its values with the four printed
+/// digits.
 #[test]
-fn the_lessons_table_comes_out() {
+fn the_lesson_table_is_reproduced() {
     let sandbox = Sandbox::new("curve_lesson");
     let lesson = ["--near", "2", "--far", "40", "--range", "minus-one-one"];
     let at = ["--distances", "2,3,4,5,6,8,10,12,14,16,18,20,25,30,35,40"];
@@ -47,7 +47,7 @@ fn the_lessons_table_comes_out() {
 /// Fixed point: D²(F − N)/(F N) parts of the range. Floating point: the gap to the nearest f32,
 /// divided by the slope.
 #[test]
-fn steps_are_those_of_the_formats() {
+fn steps_match_the_depth_formats() {
     let sandbox = Sandbox::new("curve_steps");
     let planes = ["--near", "0.1", "--far", "1000", "--distances", "0.15,1,10,250,950"];
     for (bits, parts) in [("16", 65_535.0), ("24", 16_777_215.0)] {
@@ -97,9 +97,9 @@ fn the_curves_are_drawn_in_every_format() {
     }
 }
 
-/// On a linear axis the mark for half the range is at its distance, 2FN/(F + N).
+/// On a linear axis, the mark for half the range is at its distance, 2FN/(F + N).
 #[test]
-fn the_axis_of_distances_can_be_linear() {
+fn the_distance_axis_can_be_linear() {
     let sandbox = Sandbox::new("curve_linear");
     let flags = ["curve", "depth", "--near", "2", "--far", "40", "-o", "out.svg"];
     for (more, expected) in [

@@ -1,10 +1,10 @@
-//! Line drawings and sheets, measured as written, in SVG and in PDF.
+//! Line drawings and sheets, measured in the SVG and PDF files that the program writes.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
 use crate::vector_files::{Layers, PagePoint, layer_bounds, parse_pdf, parse_svg};
 
-/// The projections by their names, in the order of the textbooks.
+/// The projections by name, in textbook order.
 pub(crate) const PROJECTIONS: [&str; 12] = [
     "perspective",
     "orthographic",
@@ -20,8 +20,8 @@ pub(crate) const PROJECTIONS: [&str; 12] = [
     "three-point",
 ];
 
-/// A solid box with these sides in meters, one corner at the origin, with a groove so that front
-/// and back differ.
+/// Writes a solid box with these sides in meters, with one corner at the origin and a groove that
+/// makes front and back differ.
 pub(crate) fn write_box(sandbox: &Sandbox, name: &str, [w, h, d]: [f32; 3]) {
     let mut document = GltfBuilder::square();
     let corner = |n: usize| {
@@ -52,7 +52,7 @@ pub(crate) fn assert_succeeds(sandbox: &Sandbox, arguments: &[&str]) {
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{arguments:?}");
 }
 
-/// The size of a view's contents.
+/// Returns the size of a view's contents.
 fn view_size(layers: &Layers, view: &str) -> PagePoint {
     let [low, high] = layer_bounds(layers, |id| id.starts_with(view));
     [high[0] - low[0], high[1] - low[1]]
@@ -64,7 +64,7 @@ pub(crate) fn assert_near(actual: f64, expected: f64) {
 }
 
 #[test]
-fn a_hundred_millimetres_measure_a_hundred_at_one_to_one() {
+fn a_hundred_millimeters_measure_a_hundred_at_one_to_one() {
     let sandbox = Sandbox::new("hundred");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let flags = ["--scale", "1:1", "--no-dimensions", "--axonometric", "none"];
@@ -80,7 +80,7 @@ fn a_hundred_millimetres_measure_a_hundred_at_one_to_one() {
         assert_near(w, width);
         assert_near(h, height);
     }
-    // The PDF has the same lines at the same positions, to the digits of its matrix.
+    // The PDF has the same lines at the same positions, to the precision of its matrix.
     let pages = parse_pdf(&std::fs::read(sandbox.path_of("box.pdf")).expect("a PDF"));
     let [(page, lines)] = &pages[..] else { panic!("one page") };
     assert_near(page[0], 420.0);
@@ -93,13 +93,13 @@ fn a_hundred_millimetres_measure_a_hundred_at_one_to_one() {
         let sides = lines.flat_map(|line| line.windows(2));
         sides.filter(|pair| level(pair) && (length(pair) - wanted).abs() < 0.0005).count()
     };
-    // Two edges of the front and two of the top are 100 mm long.
+    // Two edges of the front view and two edges of the top view are 100 mm long.
     assert_eq!(side(&mut all.into_iter(), 100.0), 4);
     assert_eq!(side(&mut lines.iter(), 100.0), 4);
 }
 
 #[test]
-fn a_scale_makes_things_smaller_and_units_larger() {
+fn scales_reduce_and_units_enlarge() {
     let sandbox = Sandbox::new("scales");
     write_box(&sandbox, "box", [1.0, 0.5, 0.25]);
     for (flags, width) in [
@@ -115,7 +115,7 @@ fn a_scale_makes_things_smaller_and_units_larger() {
 }
 
 #[test]
-fn views_are_aligned_and_stand_where_the_angle_says() {
+fn views_are_aligned_and_arranged_by_projection_angle() {
     let sandbox = Sandbox::new("aligned");
     sandbox.copy_model("house.glb");
     for (angle, side, top_is_below) in [("first", "left-", true), ("third", "right-", false)] {
@@ -131,7 +131,7 @@ fn views_are_aligned_and_stand_where_the_angle_says() {
             }
             assert_eq!(top[0][1] > front[1][1], top_is_below, "{angle} {paper}");
             assert!(side[0][0] > front[1][0], "{angle} {paper}");
-            // Depth is as wide from the side as it is high from above.
+            // The depth is as wide in the side view as it is high in the top view.
             assert_near(side[1][0] - side[0][0], top[1][1] - top[0][1]);
             let all = layer_bounds(&layers, |_| true);
             assert!(all[0].iter().all(|c| *c > 0.0) && all[1][0] < page[0] && all[1][1] < page[1]);
@@ -148,7 +148,7 @@ fn views_are_aligned_and_stand_where_the_angle_says() {
 }
 
 #[test]
-fn dimensions_give_the_true_size() {
+fn dimensions_show_the_true_size() {
     let sandbox = Sandbox::new("dimensions");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     assert_succeeds(&sandbox, &["sheet", "box.gltf", "-o", "with.svg", "--scale", "1:1"]);
@@ -156,7 +156,7 @@ fn dimensions_give_the_true_size() {
     let front = layer_bounds(&layers, |id| id.starts_with("front-"));
     let lines = &layers["dimensions"];
     let level = |line: &&Vec<PagePoint>| line.len() == 2 && line[0][1] == line[1][1];
-    // The dimension line of the width is as long as the front, and above it.
+    // The dimension line of the width is above the front view and as long as it.
     let widths = lines.iter().filter(level).filter(|line| {
         (line[0][0] - front[0][0]).abs() < 5e-4 && (line[1][0] - front[1][0]).abs() < 5e-4
     });
@@ -171,7 +171,7 @@ fn dimensions_give_the_true_size() {
 }
 
 #[test]
-fn threads_and_repetition_change_no_byte_of_a_drawing() {
+fn drawings_do_not_depend_on_threads_or_repetition() {
     let sandbox = Sandbox::new("same_drawing");
     sandbox.copy_model("teapot.glb");
     for (command, name) in
@@ -196,7 +196,7 @@ fn every_style_has_its_lines_in_every_projection() {
     let count = |style: &str, projection: &str| {
         let flags = ["-o", "out.svg", "--style", style, "--projection", projection];
         let run = sandbox.run(&[&["render", "house.glb"][..], &flags].concat());
-        // An SVG has only the lines of surfaces; a message says so.
+        // An SVG shows only the lines of surfaces, as a message explains.
         let is_surface = matches!(style, "shaded" | "flat");
         assert_eq!(run.code, 0, "{flags:?}: {}", run.stderr);
         assert_eq!(
@@ -276,7 +276,7 @@ fn drawing_errors_are_reported_and_leave_no_file() {
 }
 
 #[test]
-fn a_sheet_is_described_by_the_scene_and_flags_go_before_it() {
+fn flags_override_the_sheet_of_the_scene() {
     let sandbox = Sandbox::new("described");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     sandbox.write_file(
@@ -298,13 +298,13 @@ fn a_sheet_is_described_by_the_scene_and_flags_go_before_it() {
     let (page, layers) = read_drawing(&sandbox, "out.svg");
     assert_eq!(page, [420.0, 297.0]);
     assert_near(view_size(&layers, "front-")[0], 100.0);
-    // Without an output name the sheet becomes a PDF next to the input.
+    // Without an output name, the sheet becomes a PDF in the current folder.
     assert_succeeds(&sandbox, &["sheet", "scene.ron"]);
     assert_eq!(sandbox.file_names(), ["box.bin", "box.gltf", "out.svg", "scene.pdf", "scene.ron"]);
 }
 
 #[test]
-fn sheets_take_their_lines_from_the_style_of_the_scene() {
+fn sheets_use_the_line_style_of_the_scene() {
     let sandbox = Sandbox::new("sheet_style");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let sheet = |fields: &str, flags: &[&str]| {
@@ -323,7 +323,7 @@ fn sheets_take_their_lines_from_the_style_of_the_scene() {
     for part in ["<image id=\"front-tone\"", "#e01020", "stroke-width=\"1.25\""] {
         assert!(styled.contains(part) && !plain.contains(part), "{part}");
     }
-    // Edges of 90° are creases only up to that angle.
+    // Edges of 90° are creases only for crease angles below 90°.
     let (_, creases) = sheet("style: Lines()", &["--crease", "89"]);
     let (_, smooth) = sheet("style: Lines()", &["--crease", "91"]);
     assert!(creases.contains("isometric-visible-crease"));
@@ -335,7 +335,7 @@ fn sheets_take_their_lines_from_the_style_of_the_scene() {
 }
 
 #[test]
-fn creases_follow_the_angle_of_the_flag() {
+fn creases_follow_the_crease_flag() {
     let sandbox = Sandbox::new("crease_flag");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let has_creases = |angle: &str, style: &[&str]| {
@@ -343,7 +343,7 @@ fn creases_follow_the_angle_of_the_flag() {
         assert_succeeds(&sandbox, &[&render[..], &["--crease", angle], style].concat());
         read_drawing(&sandbox, "out.svg").1.contains_key("visible-crease")
     };
-    // Without a style, too: a vector file shows lines.
+    // This also applies without a style, because a vector file shows lines.
     for style in [&["--style", "lines"][..], &["--style", "technical"], &[]] {
         assert!(has_creases("89", style) && !has_creases("91", style), "{style:?}");
     }
@@ -355,7 +355,7 @@ fn drawings_are_verified() {
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let run = sandbox.run(&["render", "box.gltf", "-o", "box.svg", "--verify"]);
     assert_eq!(run.code, 0, "{}", run.stderr);
-    // Nine edges of a box are visible; no pixel is in doubt.
+    // Nine edges of a box are visible, and no pixel is ambiguous.
     let prefix = "verified: 0.0000 % of ";
     assert!(run.stderr.starts_with(prefix), "{}", run.stderr);
     let length = run.stderr[prefix.len()..].split(' ').next().and_then(|px| px.parse::<f64>().ok());

@@ -1,9 +1,10 @@
-//! DXF and outlines: units, coordinates and layers as written; `tests/dxf` reads whole files.
+//! DXF and outlines: units, coordinates and layers in the written files; `tests/dxf` reads whole
+//! files.
 
 use crate::drawings::{assert_near, assert_succeeds, write_box};
 use crate::sandbox::Sandbox;
 
-/// The tags in a file.
+/// Returns the tags in a file.
 fn read_tags(sandbox: &Sandbox, name: &str) -> Vec<(u16, String)> {
     let text = std::fs::read_to_string(sandbox.path_of(name)).expect("a DXF");
     let lines: Vec<&str> = text.lines().collect();
@@ -11,7 +12,7 @@ fn read_tags(sandbox: &Sandbox, name: &str) -> Vec<(u16, String)> {
     lines.chunks(2).map(pair).collect()
 }
 
-/// The values of a code in the entities of a kind.
+/// Returns the values of a code in the entities of a kind.
 fn numbers(tags: &[(u16, String)], kind: &str, code: u16) -> Vec<f64> {
     let mut is_inside = false;
     let mut found = Vec::new();
@@ -24,7 +25,7 @@ fn numbers(tags: &[(u16, String)], kind: &str, code: u16) -> Vec<f64> {
     found
 }
 
-/// Whether an entity is of a kind and on a layer whose name begins like this.
+/// Whether there is an entity of a kind on a layer whose name begins like this.
 fn has_entity(tags: &[(u16, String)], kind: &str, layer: &str) -> bool {
     let is_such = |entity: &[(u16, String)]| {
         entity[0].1 == kind
@@ -33,7 +34,7 @@ fn has_entity(tags: &[(u16, String)], kind: &str, layer: &str) -> bool {
     tags.chunk_by(|_, (code, _)| *code != 0).any(is_such)
 }
 
-/// The texts on a layer, sorted.
+/// Returns the text entities on a layer, sorted.
 fn texts_on<'a>(tags: &'a [(u16, String)], layer: &str) -> Vec<&'a str> {
     let is_here = |entity: &&[(u16, String)]| {
         entity[0].1 == "TEXT" && entity.iter().any(|(code, name)| *code == 8 && name == layer)
@@ -46,20 +47,20 @@ fn texts_on<'a>(tags: &'a [(u16, String)], layer: &str) -> Vec<&'a str> {
     texts
 }
 
-/// The value after a variable in the header.
+/// Returns the value after a variable in the header.
 fn header<'a>(tags: &'a [(u16, String)], name: &str) -> &'a str {
     let at = tags.iter().position(|(_, value)| value == name).expect("a variable");
     &tags[at + 1].1
 }
 
-/// The minimum and maximum of some numbers.
+/// Returns the minimum and maximum of some numbers.
 fn extent(numbers: &[f64]) -> [f64; 2] {
     let least = numbers.iter().fold(f64::INFINITY, |least, number| least.min(*number));
     [least, numbers.iter().fold(-least, |most, number| most.max(*number))]
 }
 
 #[test]
-fn a_parallel_view_has_the_coordinates_of_the_model() {
+fn a_parallel_view_has_model_coordinates() {
     let sandbox = Sandbox::new("dxf_units");
     write_box(&sandbox, "box", [40.0, 25.0, 10.0]);
     let view = ["--view", "front", "--projection", "orthographic", "--style", "outline"];
@@ -68,7 +69,7 @@ fn a_parallel_view_has_the_coordinates_of_the_model() {
         assert_succeeds(&sandbox, &[&flags[..], &view].concat());
         let tags = read_tags(&sandbox, "box.dxf");
         assert_eq!((header(&tags, "$ACADVER"), header(&tags, "$INSUNITS")), ("AC1015", code));
-        // One closed polyline from corner to corner of the front.
+        // One closed polyline through the corners of the front.
         assert_eq!(numbers(&tags, "LWPOLYLINE", 70), [129.0]);
         let [x, y] = [10, 20].map(|code| extent(&numbers(&tags, "LWPOLYLINE", code)));
         for (actual, expected) in x.into_iter().chain(y).zip([0.0, 40.0, 0.0, 25.0]) {
@@ -78,7 +79,7 @@ fn a_parallel_view_has_the_coordinates_of_the_model() {
 }
 
 #[test]
-fn perspectives_and_sheets_are_in_millimeters_of_the_page() {
+fn perspectives_and_sheets_are_in_page_millimeters() {
     let sandbox = Sandbox::new("dxf_paper");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let flags = ["render", "box.gltf", "--projection", "perspective", "--style", "lines"];
@@ -100,7 +101,7 @@ fn perspectives_and_sheets_are_in_millimeters_of_the_page() {
 }
 
 #[test]
-fn annotations_of_a_sheet_have_their_texts_on_layers_of_their_own() {
+fn sheet_annotations_have_text_on_separate_layers() {
     let sandbox = Sandbox::new("dxf_annotations");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let flags = ["sheet", "box.gltf", "--scale", "1:1", "--section", "z=0.015", "-o", "cut.dxf"];
@@ -108,7 +109,7 @@ fn annotations_of_a_sheet_have_their_texts_on_layers_of_their_own() {
     let tags = read_tags(&sandbox, "cut.dxf");
     let [dimensions, names] = ["dimensions-text", "cut-names"].map(|layer| texts_on(&tags, layer));
     assert!(dimensions.contains(&"100") && dimensions.contains(&"50"), "{dimensions:?}");
-    // Above and beside the front view, which is cut: the section line.
+    // The section line is marked above and beside the front view, which is cut.
     assert_eq!(names, ["A", "A", "A", "A", "A-A"]);
     for layer in ["dimensions", "cut-lines", "cut-arrows", "scale-bar"] {
         assert_eq!(texts_on(&tags, layer), [""; 0], "{layer}");
@@ -122,7 +123,7 @@ fn annotations_of_a_sheet_have_their_texts_on_layers_of_their_own() {
 }
 
 #[test]
-fn sheets_have_the_outlines_that_a_scene_asks_for() {
+fn sheets_have_the_outlines_that_a_scene_requests() {
     let sandbox = Sandbox::new("dxf_outline_sheet");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     sandbox.write_file(
@@ -150,7 +151,11 @@ fn images_and_invalid_tolerances_are_reported() {
     for tolerance in ["-1", "11", "nan", "x"] {
         let flag = format!("--arc-tolerance={tolerance}");
         let run = sandbox.run(&["render", "box.gltf", "-o", "box.dxf", &flag]);
-        assert!(run.code == 2 && run.stderr.contains("from 0 to 10"), "{}", run.stderr);
+        assert!(
+            run.code == 2 && run.stderr.contains("expected 0 to 10 millimeters"),
+            "{}",
+            run.stderr
+        );
     }
 }
 

@@ -7,7 +7,7 @@ use std::process::Command;
 /// Runs an example of the crate `pipeline` in a test folder, and returns its output.
 fn run_example(sandbox: &Sandbox, name: &str, arguments: &[&str]) -> String {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    // With the features of the whole workspace nothing is compiled twice.
+    // With the features of the whole workspace, nothing is compiled twice.
     cargo.args(["build", "--quiet", "--workspace", "--example", name]);
     let test = std::env::current_exe().expect("this test");
     let folder = test.ancestors().nth(2).expect("the folder of the profile");
@@ -27,7 +27,7 @@ fn run_example(sandbox: &Sandbox, name: &str, arguments: &[&str]) -> String {
 }
 
 #[test]
-fn the_examples_do_what_the_program_does() {
+fn the_examples_match_the_program() {
     let sandbox = Sandbox::new("examples");
     sandbox.copy_model("crate.glb");
     let program = |flags: &[&str]| {
@@ -66,7 +66,7 @@ fn the_examples_do_what_the_program_does() {
     for number in ["0000", "0999"] {
         let (scene, picture) = (format!("scenes/{number}.ron"), format!("scenes/{number}.png"));
         let run = sandbox.run(&["render", &scene, "--allow-outside", ".", "-o", "again.png"]);
-        // The path of the model starts at its own folder, not at the scene's.
+        // The model's path is relative to its own folder, not to the scene's.
         assert_eq!(run.code, 1, "{}", run.stderr);
         std::fs::copy(sandbox.path_of(&scene), sandbox.path_of("scene.ron")).expect(number);
         let run = sandbox.run(&["render", "scene.ron", "-o", "again.png"]);

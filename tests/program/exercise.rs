@@ -4,14 +4,14 @@ use crate::sandbox::{RunResult, Sandbox};
 use serde_json::Value;
 use std::path::Path;
 
-/// A run in English, regardless of the environment.
+/// Runs the program in English, regardless of the environment.
 fn run(sandbox: &Sandbox, arguments: &[&str]) -> RunResult {
     let words: Vec<&str> = ["exercise"].iter().chain(arguments).copied().collect();
     sandbox.run_with_variable(("LC_ALL", Path::new("C")), &words)
 }
 
 #[test]
-fn exercises_are_listed_asked_and_hinted_at() {
+fn exercises_are_listed_and_printed_with_hints() {
     let sandbox = Sandbox::new("exercise_questions");
     let list = run(&sandbox, &[]);
     assert_eq!((list.code, list.stderr.as_str()), (0, ""));
@@ -46,7 +46,7 @@ fn exercises_are_listed_asked_and_hinted_at() {
 }
 
 #[test]
-fn answers_are_right_or_wrong_by_exit_code_and_name() {
+fn verdicts_have_an_exit_code_and_name_the_mistake() {
     let sandbox = Sandbox::new("exercise_answers");
     for (number, answer, code, said) in [
         ("3", "A=n+f; B=-n*f", 0, "right\n"),
@@ -82,7 +82,7 @@ fn answers_are_right_or_wrong_by_exit_code_and_name() {
 }
 
 #[test]
-fn texts_are_chinese_where_the_flag_or_the_environment_asks_for_it() {
+fn text_is_chinese_if_the_flag_or_the_environment_selects_it() {
     let sandbox = Sandbox::new("exercise_chinese");
     let by_flag = run(&sandbox, &["3", "--language", "zh"]).stdout;
     assert!(by_flag.starts_with("习题 3：P 的第三行\n"), "{by_flag}");
@@ -106,7 +106,7 @@ fn texts_are_chinese_where_the_flag_or_the_environment_asks_for_it() {
 }
 
 #[test]
-fn the_json_of_an_exercise_has_both_languages_and_the_verdict() {
+fn the_json_document_has_both_languages_and_the_verdict() {
     let sandbox = Sandbox::new("exercise_json");
     let json = |arguments: &[&str]| -> Value {
         serde_json::from_str(&run(&sandbox, arguments).stdout).expect("JSON")

@@ -17,7 +17,7 @@ fn read_page(name: &str) -> String {
     std::fs::read_to_string(path).expect(name)
 }
 
-/// A sandbox with the scenes of the exercises below `docs`, as the commands expect.
+/// Returns a sandbox with the scenes of the exercises below `docs`, where the commands expect them.
 fn sandbox_with_scenes(name: &str) -> Sandbox {
     let sandbox = Sandbox::new(name);
     std::fs::create_dir_all(sandbox.path_of("docs/exercises")).expect("a folder");
@@ -30,14 +30,14 @@ fn sandbox_with_scenes(name: &str) -> Sandbox {
     sandbox
 }
 
-/// A number or a fraction on the page.
+/// Parses a number or a fraction on the page.
 fn parse_number(word: &str) -> f64 {
     let (above, below) = word.split_once('/').unwrap_or((word, "1"));
     let parse = |digits: &str| digits.parse::<f64>().unwrap_or_else(|_| panic!("{word}"));
     parse(above) / parse(below)
 }
 
-/// The commands on the page, each with the answers that follow it.
+/// Returns the commands on the page, each with the answers that follow it.
 fn read_cases(page: &str) -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
     let mut title = String::new();
@@ -59,7 +59,7 @@ fn read_cases(page: &str) -> Vec<Case> {
     cases
 }
 
-/// The words of a command; words in single quotes are one.
+/// Splits a command into words; quoted words are one word.
 fn split_words(command: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     for (part, text) in command.split('\'').enumerate() {
@@ -82,7 +82,7 @@ fn run_command(sandbox: &Sandbox, command: &str, more: &[&str]) -> String {
     run.stdout
 }
 
-/// The numbers in a value: in a step's item, or in a member of the document.
+/// Returns the numbers in a value: in a step's item, or in a member of the document.
 fn find_numbers(document: &Value, id: &str) -> Option<Vec<f64>> {
     let steps = document["steps"].as_array().into_iter().flatten();
     let mut items = steps.flat_map(|step| step["items"].as_array().into_iter().flatten());
@@ -102,7 +102,7 @@ fn find_numbers(document: &Value, id: &str) -> Option<Vec<f64>> {
 }
 
 #[test]
-fn c104_every_command_of_the_exercises_gives_the_worked_answer() {
+fn c104_every_exercise_command_gives_the_worked_answer() {
     let sandbox = sandbox_with_scenes("exercises");
     for Case { title, command, answers } in read_cases(&read_page("exercises.md")) {
         let output = match command.rsplit_once(" -o ") {
@@ -124,7 +124,7 @@ fn c104_every_command_of_the_exercises_gives_the_worked_answer() {
 }
 
 #[test]
-fn the_page_has_all_exercises_and_items_of_all_sources() {
+fn the_page_has_all_exercises_and_source_items() {
     let page = read_page("exercises.md");
     let cases = read_cases(&page);
     let headings = (12..=24).map(|number| format!("\n### Exercise {number} [own]\n"));
@@ -140,9 +140,9 @@ fn the_page_has_all_exercises_and_items_of_all_sources() {
     }
 }
 
-/// The answers that the page checks with `alberti exercise` are right.
+/// The answers that the page checks with `alberti exercise` are correct.
 #[test]
-fn answers_in_the_text_of_the_exercises_are_right() {
+fn answers_in_the_exercise_text_are_correct() {
     let sandbox = Sandbox::new("exercises_answers");
     let page = read_page("exercises.md");
     let spans = page.split('`').skip(1).step_by(2);
@@ -153,7 +153,7 @@ fn answers_in_the_text_of_the_exercises_are_right() {
     for command in commands {
         assert_eq!(run_command(&sandbox, command, &["--language", "en"]), "right\n", "{command}");
     }
-    // The samples in the section on checking.
+    // Runs the samples in the section on checking.
     let (_, samples) = page.split_once("```text\n").expect("samples");
     let samples = samples.split("```").next().unwrap_or_default();
     for sample in samples.split("$ ").skip(1) {
@@ -180,7 +180,7 @@ fn every_formula_is_in_the_reference_and_its_command_works() {
     for command in with_scene {
         run_command(&sandbox, command, &[]);
     }
-    // In a folder without files.
+    // These commands are run in an empty folder.
     let empty = Sandbox::new("formulas_alone");
     for command in alone {
         run_command(&empty, command, &[]);
@@ -212,6 +212,6 @@ fn every_formula_is_in_the_reference_and_its_command_works() {
     let html = sandbox.run(&["reference", "PE-1", "--format", "html"]).stdout;
     assert!(html.starts_with("<!DOCTYPE html>") && html.contains("Command: alberti"), "{html}");
     let unknown = sandbox.run(&["reference", "UNKNOWN-1"]);
-    assert!(unknown.code == 1 && unknown.stderr.contains("nothing named `UNKNOWN-1`"));
+    assert!(unknown.code == 1 && unknown.stderr.contains("no entry named `UNKNOWN-1`"));
     assert!(unknown.stderr.contains("`alberti scene doc` lists"), "{}", unknown.stderr);
 }

@@ -23,7 +23,7 @@ fn explanation_json(sandbox: &Sandbox, arguments: &[&str]) -> Value {
     serde_json::from_str(&run.stdout).expect("JSON")
 }
 
-/// The value of an item, in any step.
+/// Returns the value of an item, in any step.
 fn find_item(explanation: &Value, id: &str) -> Value {
     let steps = explanation["steps"].as_array().expect("steps").iter();
     let mut items = steps.flat_map(|step| step["items"].as_array().expect("items"));
@@ -40,9 +40,9 @@ fn assert_near(ours: &Value, theirs: &[f64]) {
 }
 
 #[test]
-fn a_point_is_followed_to_its_pixel() {
+fn a_point_is_traced_to_its_pixel() {
     let sandbox = sandbox_with_scene("explain_point", |_| {});
-    // Halfway up from the center at distance 5, where the picture is 10 high: 25 of 100 rows.
+    // Halfway up from the center at distance 5, where the picture is 10 units high: row 25 of 100.
     let found = explanation_json(&sandbox, &["--point", "0,2.5,0"]);
     assert_eq!(found["schema"], json!({"name": "alberti-explain", "version": 1}));
     assert_near(&find_item(&found, "view"), &[0.0, 2.5, -5.0]);
@@ -61,7 +61,7 @@ fn a_point_is_followed_to_its_pixel() {
 }
 
 #[test]
-fn a_segment_behind_the_eye_is_cut_by_the_near_plane() {
+fn a_segment_behind_the_eye_is_clipped_by_the_near_plane() {
     let sandbox = sandbox_with_scene("explain_segment", |_| {});
     let found = explanation_json(&sandbox, &["--segment", "0,0,0,0,0,10"]);
     assert_near(&find_item(&found, "t"), &[0.0, 0.4]);
@@ -80,7 +80,7 @@ fn vertices_and_triangles_come_from_the_mesh() {
     assert_near(&find_item(&corner, "mesh"), &[1.0, 1.0, 0.0]);
     assert_near(&find_item(&corner, "world"), &[2.0, 1.0, 0.0]);
     let half = explanation_json(&sandbox, &["--node", "0", "--triangle", "1"]);
-    // Half of a square of 2 × 2 where ten units are a hundred pixels.
+    // Half of a square of 2 × 2 units; ten units are a hundred pixels.
     assert!((find_item(&half, "area").as_f64().expect("an area").abs() - 200.0).abs() < 1e-9);
     let run = sandbox.run(&["explain", "scene.ron", "--node", "sing", "--vertex", "2"]);
     assert_eq!(run.code, 1);
@@ -94,7 +94,7 @@ fn vertices_and_triangles_come_from_the_mesh() {
 }
 
 #[test]
-fn why_a_node_is_not_seen() {
+fn invisible_nodes_are_explained() {
     let verdict = |name: &str, change: &dyn Fn(&mut GltfBuilder)| {
         let sandbox = sandbox_with_scene(name, change);
         explanation_json(&sandbox, &["--node", "0"])["verdict"].as_str().expect("words").to_owned()
@@ -152,7 +152,7 @@ fn a_pixel_is_traced_to_its_triangle() {
 }
 
 #[test]
-fn a_page_has_the_same_numbers_as_the_text_and_asks_for_nothing_else() {
+fn a_page_has_the_same_numbers_as_the_text_and_loads_nothing() {
     let sandbox = sandbox_with_scene("explain_page", |_| {});
     let run = sandbox.run(&[
         "explain",
@@ -180,7 +180,7 @@ fn a_page_has_the_same_numbers_as_the_text_and_asks_for_nothing_else() {
 }
 
 #[test]
-fn a_page_marks_the_pixel_also_where_rows_run_up() {
+fn a_page_marks_the_pixel_even_if_rows_run_upward() {
     let sandbox = sandbox_with_scene("explain_page_rows", |_| {});
     for conventions in ["alberti", "chapter", "opengl", "vulkan", "direct3d", "webgpu"] {
         let run = sandbox.run(&[
@@ -192,13 +192,13 @@ fn a_page_marks_the_pixel_also_where_rows_run_up() {
             "--conventions",
             conventions,
         ]);
-        // 25 rows from the top, in any convention for counting rows.
+        // 25 rows from the top, in any row convention.
         assert!(run.stdout.contains("cx=\"100.0\" cy=\"25.0\""), "{conventions}");
     }
 }
 
 #[test]
-fn the_page_introduces_itself_with_its_units() {
+fn the_page_states_its_units() {
     let sandbox = sandbox_with_scene("explain_introduction", |_| {});
     for (flags, words) in [
         (&["explain", "scene.ron"][..], "units of the scene"),
@@ -216,7 +216,7 @@ fn the_page_introduces_itself_with_its_units() {
 }
 
 #[test]
-fn maps_without_a_scene_say_what_they_need() {
+fn maps_without_a_scene_report_what_they_need() {
     let sandbox = Sandbox::new("explain_map_mistakes");
     for (flags, code, words) in [
         (&["explain"][..], 1, "no scene or model to explain"),
@@ -237,7 +237,7 @@ fn maps_without_a_scene_say_what_they_need() {
 /// A point with w = 0 is a direction, and its image is a vanishing point (VN-1); a segment that
 /// passes the eye has no f(t).
 #[test]
-fn directions_vanish_and_segments_through_the_eye_have_no_f() {
+fn directions_vanish_and_segments_past_the_eye_have_no_f() {
     let sandbox = sandbox_with_scene("explain_direction", |_| {});
     // The window is 4 x 2 on the plane at distance 1: (1, 0, -1) vanishes halfway to the right.
     let found = explanation_json(&sandbox, &["--point", "1,0,-1,0"]);

@@ -1,4 +1,4 @@
-//! `alberti explore`: the server's answers, its refusals, and that it keeps running.
+//! `alberti explore`: what the server answers and refuses, and that it keeps running.
 
 use crate::sandbox::Sandbox;
 use alberti_tests::skip::report_skip;
@@ -8,13 +8,13 @@ use std::net::{TcpListener, TcpStream};
 use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
-/// A test server, which ends with this value.
+/// A test server, which ends when this value is dropped.
 struct Server {
     child: Child,
     port: u16,
-    /// The line that it printed.
+    /// The line that the server printed.
     address: String,
-    /// The prefix of paths: a slash and the token.
+    /// The prefix of all paths: a slash and the token.
     base: String,
 }
 
@@ -47,12 +47,13 @@ impl Server {
         String::from_utf8_lossy(&bytes).into_owned()
     }
 
-    /// The status of a GET below the token with the server's own name, and the body.
+    /// Returns the status and body of a GET request below the token, with the server's own host
+    /// name.
     fn get(&self, target: &str) -> (u16, String) {
         self.get_path(&format!("{}{target}", self.base))
     }
 
-    /// The status of a GET with the server's own name, and the body.
+    /// Returns the status and body of a GET request, with the server's own host name.
     fn get_path(&self, target: &str) -> (u16, String) {
         let host = format!("Host: 127.0.0.1:{}", self.port);
         let answer = self.send(&[&format!("GET {target} HTTP/1.1"), &host]);
@@ -60,7 +61,7 @@ impl Server {
         (status(head), body.to_owned())
     }
 
-    /// Requests something below the token and reads none of it.
+    /// Sends a request below the token without reading the response.
     fn ask(&self, target: &str) -> TcpStream {
         let (mut stream, base, port) = (self.connect(), &self.base, self.port);
         let request = format!("GET {base}{target} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n");
@@ -69,7 +70,7 @@ impl Server {
         stream
     }
 
-    /// Checks that a small question is answered as soon as a person expects it, even on a slow test
+    /// Checks that a small query is answered as soon as a person expects, even on a slow test
     /// machine.
     fn assert_answers_soon(&self, query: &str) {
         let start = Instant::now();
@@ -87,7 +88,7 @@ impl Drop for Server {
     }
 }
 
-/// The status in the first line of a response; 0 for a dropped connection.
+/// Returns the status in the first line of a response, or 0 for a dropped connection.
 fn status(response: &str) -> u16 {
     response.split(' ').nth(1).and_then(|status| status.parse().ok()).unwrap_or(0)
 }
@@ -119,7 +120,7 @@ fn the_page_its_modules_and_the_model_are_served() {
 }
 
 #[test]
-fn a_scene_is_explored_as_it_is() {
+fn a_scene_is_explored_unchanged() {
     let sandbox = Sandbox::new("explore_scene");
     sandbox.copy_model("house.glb");
     let scene = r#"Scene(
@@ -136,7 +137,7 @@ fn a_scene_is_explored_as_it_is() {
     assert_eq!(state["scene"].as_str(), Some(scene), "{state}");
     let command = state["command"].as_str().expect("a command").trim();
     assert_eq!(command, "alberti render 'a.ron' --size 64x40 --samples 4");
-    // The eye of the scene, in the camera's step.
+    // The scene's eye, in the camera step.
     assert_eq!(
         state["matrix"]["steps"][0]["items"][0]["value"],
         serde_json::json!([0.0, 2.0, 12.0])
@@ -148,7 +149,7 @@ fn a_scene_is_explored_as_it_is() {
 }
 
 #[test]
-fn an_error_of_a_request_is_an_answer() {
+fn request_errors_are_answers() {
     let sandbox = Sandbox::new("explore_errors");
     let server = Server::start(&sandbox, &[]);
     let (code, error) = server.get("/compute?v=1&what=state&naer=2");
@@ -159,7 +160,7 @@ fn an_error_of_a_request_is_an_answer() {
 }
 
 #[test]
-fn foreign_pages_names_and_methods_are_refused() {
+fn foreign_pages_host_names_and_methods_are_refused() {
     let sandbox = Sandbox::new("explore_foreign");
     let server = Server::start(&sandbox, &[]);
     let own = format!("Host: 127.0.0.1:{}", server.port);
@@ -194,13 +195,13 @@ fn nothing_is_served_without_the_token() {
             assert!(body.contains("address that `alberti explore` printed"), "{body}");
         }
     }
-    assert_eq!(server.get_path(&server.base).0, 403, "the slash belongs to the address");
+    assert_eq!(server.get_path(&server.base).0, 403, "the slash is part of the address");
     let other = Server::start(&sandbox, &[]);
     assert_ne!(other.base, server.base);
 }
 
 #[test]
-fn slow_readers_and_abandoned_pictures_do_not_stop_it() {
+fn slow_readers_and_abandoned_pictures_do_not_stop_the_server() {
     let sandbox = Sandbox::new("explore_slow");
     let gltf = r#"{"asset":{"version":"2.0"},"buffers":[{"uri":"a.bin","byteLength":36},
         {"uri":"large.bin","byteLength":16777216}],
@@ -215,7 +216,7 @@ fn slow_readers_and_abandoned_pictures_do_not_stop_it() {
     sandbox.write_file("a.bin", bytes);
     sandbox.write_file("large.bin", vec![0; 16 << 20]);
     let server = Server::start(&sandbox, &["a.gltf"]);
-    // More than the server holds at once, and none of the clients reads.
+    // More bytes than the server holds at once, and no client reads them.
     let _slow: Vec<TcpStream> = (0..500).map(|_| server.ask("/files/large.bin")).collect();
     server.assert_answers_soon("what=state&lesson=frustum");
     // Each takes most of a minute.
@@ -230,7 +231,7 @@ fn slow_readers_and_abandoned_pictures_do_not_stop_it() {
 }
 
 #[test]
-fn paths_never_leave_what_is_served() {
+fn paths_never_leave_the_served_files() {
     let sandbox = Sandbox::new("explore_paths");
     sandbox.write_file("secret.txt", "secret");
     std::fs::create_dir(sandbox.path_of("models")).expect("a folder");
@@ -274,7 +275,7 @@ fn paths_never_leave_what_is_served() {
 }
 
 #[test]
-fn a_header_of_a_megabyte_is_dropped() {
+fn a_one_megabyte_header_is_refused() {
     let sandbox = Sandbox::new("explore_header");
     let server = Server::start(&sandbox, &[]);
     let long = format!("X: {}", "a".repeat(1 << 20));
@@ -284,13 +285,13 @@ fn a_header_of_a_megabyte_is_dropped() {
 }
 
 #[test]
-fn a_thousand_silent_connections_do_not_stop_it() {
+fn a_thousand_silent_connections_do_not_stop_the_server() {
     let sandbox = Sandbox::new("explore_silent");
     let server = Server::start(&sandbox, &[]);
     let mut silent = VecDeque::new();
     for _ in 0..1000 {
         silent.push_back(server.connect());
-        // A process may have a thousand files open; this counts all tests together.
+        // A process may have a thousand files open, over all tests together.
         if silent.len() > 300 {
             let mut oldest = silent.pop_front().expect("the oldest");
             assert!(matches!(oldest.read(&mut [0]), Ok(0) | Err(_)), "it is still open");
@@ -302,13 +303,13 @@ fn a_thousand_silent_connections_do_not_stop_it() {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupt_ends_it() {
+fn an_interrupt_stops_the_server() {
     use std::os::unix::process::ExitStatusExt as _;
-    // A shell starts background commands with interrupts ignored, and everything that they start
+    // A shell starts background commands with interrupts ignored, and everything that these start
     // inherits this.
     if ignores_signal(2) {
         return report_skip(
-            "an_interrupt_ends_it",
+            "an_interrupt_stops_the_server",
             "this test was started with interrupts ignored",
         );
     }
@@ -320,7 +321,7 @@ fn an_interrupt_ends_it() {
     let process = server.child.id().to_string();
     let kill = Command::new("kill").args(["-INT", &process]).status().expect("kill");
     assert!(kill.success());
-    // As in the other commands, the signal ends it; there is nothing to clean up.
+    // As in the other commands, the signal ends the program; there is nothing to clean up.
     let status = server.child.wait().expect("it ends");
     assert_eq!(status.signal(), Some(2), "{status}");
 }

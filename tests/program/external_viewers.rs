@@ -1,16 +1,17 @@
 //! Drawings as other programs show them: an SVG in Chromium and a PDF in Poppler must look like the
-//! PNG that `alberti` draws of the same page.
+//! PNG that `alberti` draws for the same page.
 //!
-//! Each program softens edges a little differently, so pictures are compared with a tolerance of a
-//! pixel: where one has ink, the other must have some next to it. Reported as skipped if the
-//! programs are not installed; `.ci/run` installs them if it can.
+//! Each program antialiases edges a little differently, so pictures are compared with a tolerance
+//! of a pixel: where one has ink, the other must have some next to it. The tests are reported as
+//! skipped if the programs are not installed; `.ci/run` installs them if it can.
 
 use crate::sandbox::Sandbox;
 use alberti_tests::skip::report_skip;
 use std::path::Path;
 use std::process::Command;
 
-/// The path of a program, by one of its names; `None`, with a report, if it is not installed.
+/// Returns the path of a program with one of these names, or reports a skip and returns `None` if
+/// it is not installed.
 fn installed(names: &[&str]) -> Option<String> {
     let answers = |name: &&&str| Command::new(name).arg("--version").output().is_ok();
     if let Some(name) = names.iter().find(answers) {
@@ -27,7 +28,7 @@ struct InkMap {
 }
 
 impl InkMap {
-    /// On white paper.
+    /// Measures the ink of a picture on white paper.
     fn from_picture((width, height, pixels): (u32, u32, Vec<[u8; 4]>)) -> Self {
         let ink = |[r, g, b, alpha]: &[u8; 4]| {
             let light = (u32::from(*r) + u32::from(*g) + u32::from(*b)) as f64 / 765.0;
@@ -40,7 +41,7 @@ impl InkMap {
         self.ink.iter().sum()
     }
 
-    /// The maximum ink in a pixel and its neighbors.
+    /// Returns the maximum ink in a pixel and its neighbors.
     fn max_ink_around(&self, x: usize, y: usize) -> f64 {
         let [width, height] = self.size;
         let rows = y.saturating_sub(1)..(y + 2).min(height);
@@ -49,7 +50,8 @@ impl InkMap {
         rows.flat_map(row).fold(0.0, f64::max)
     }
 
-    /// The pixels with much ink here and hardly any in or next to the same pixel there.
+    /// Counts the pixels with much ink here and hardly any ink in or next to the same pixel in
+    /// `other`.
     fn missing_ink(&self, other: &Self) -> usize {
         let [width, height] = self.size;
         let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
@@ -84,7 +86,7 @@ fn drawings() -> Vec<(Vec<&'static str>, [u32; 2])> {
         render("technical", "cavalier"),
         render("wireframe", "isometric"),
         render("depth-cued", "perspective"),
-        // At 150 dots per inch.
+        // The default resolution is 150 dots per inch.
         (vec!["sheet", "house.glb", "--paper", "a4", "--author", "Ä. Ŷ, ⌀ 3 × 4°"], [1240, 1754]),
     ]
 }
@@ -95,7 +97,7 @@ fn draw_file(sandbox: &Sandbox, flags: &[&str], output: &str) {
 }
 
 #[test]
-fn chromium_shows_an_svg_as_the_png_has_it() {
+fn chromium_matches_the_png() {
     let Some(chromium) = installed(&["chromium", "chromium-browser", "google-chrome"]) else {
         return;
     };
@@ -104,7 +106,7 @@ fn chromium_shows_an_svg_as_the_png_has_it() {
     for (flags, [width, height]) in drawings() {
         draw_file(&sandbox, &flags, "ours.png");
         draw_file(&sandbox, &flags, "drawing.svg");
-        // A sheet is laid out for 96 pixels to the inch.
+        // A sheet is laid out for 96 pixels per inch.
         let factor = if flags[0] == "sheet" { 150.0 / 96.0 } else { 1.0 };
         let [columns, rows] = [width, height].map(|side| (f64::from(side) / factor).ceil());
         let url = format!("file://{}", sandbox.path_of("drawing.svg").display());
@@ -124,7 +126,7 @@ fn chromium_shows_an_svg_as_the_png_has_it() {
     }
 }
 
-/// The upper left part of a picture, which may be one pixel larger.
+/// Returns the upper left part of a picture, which may be one pixel larger.
 fn cropped(
     (width, height, pixels): (u32, u32, Vec<[u8; 4]>),
     [columns, rows]: [usize; 2],
@@ -136,7 +138,7 @@ fn cropped(
 }
 
 #[test]
-fn poppler_shows_a_pdf_as_the_png_has_it() {
+fn poppler_matches_the_png() {
     let Some(pdftoppm) = installed(&["pdftoppm"]) else { return };
     let sandbox = Sandbox::new("poppler");
     sandbox.copy_model("house.glb");

@@ -3,7 +3,7 @@
 use crate::sandbox::Sandbox;
 
 #[test]
-fn without_a_name_the_picture_goes_to_the_current_folder() {
+fn by_default_the_picture_goes_to_the_current_folder() {
     let sandbox = Sandbox::new("default_output");
     sandbox.copy_model("teapot.glb");
     let run = sandbox.run(&["render", "teapot.glb", "--size", "40x30"]);
@@ -29,7 +29,7 @@ fn a_failed_run_leaves_the_old_picture_and_nothing_else() {
 }
 
 #[test]
-fn a_misspelt_model_is_suggested_and_a_folder_is_for_batch() {
+fn misspelled_models_get_a_suggestion_and_folders_a_hint_at_batch() {
     let sandbox = Sandbox::new("misspelt_model");
     sandbox.copy_model("crate.glb");
     let run = sandbox.run(&["render", "crat.glb", "-o", "out.png"]);
@@ -44,7 +44,7 @@ fn a_misspelt_model_is_suggested_and_a_folder_is_for_batch() {
 }
 
 #[test]
-fn values_of_flags_may_be_capital() {
+fn flag_values_are_case_insensitive() {
     let sandbox = Sandbox::new("capital_values");
     sandbox.copy_model("crate.glb");
     let sheet = |paper: &str, out: &str| {
@@ -56,7 +56,7 @@ fn values_of_flags_may_be_capital() {
 }
 
 #[test]
-fn an_output_that_cannot_be_written_is_named() {
+fn unwritable_outputs_are_reported_by_name() {
     let sandbox = Sandbox::new("bad_output");
     sandbox.copy_model("crate.glb");
     let run = sandbox.run(&["render", "crate.glb", "-o", "no/such/folder/out.png"]);
@@ -74,7 +74,7 @@ fn an_output_that_cannot_be_written_is_named() {
 }
 
 #[test]
-fn a_scene_may_not_lead_out_of_its_folder_unless_allowed() {
+fn a_scene_cannot_leave_its_folder_unless_allowed() {
     let sandbox = Sandbox::new("sandbox");
     sandbox.copy_model("crate.glb");
     std::fs::create_dir(sandbox.path_of("inner")).expect("a folder");

@@ -10,8 +10,8 @@ pub(crate) struct GltfBuilder {
 }
 
 impl GltfBuilder {
-    /// A square from (−1, −1, 0) to (1, 1, 0) that faces +z, with a red unlit material; node 0
-    /// shows it.
+    /// Returns a square from (−1, −1, 0) to (1, 1, 0) that faces +z, with a red unlit material;
+    /// node 0 shows it.
     pub(crate) fn square() -> Self {
         let mut document = Self {
             json: json!({

@@ -1,4 +1,5 @@
-//! Names with terminal control sequences: for any file name and content, the program prints text.
+//! Names with terminal control sequences: for any file name and content, the program prints only
+//! plain text.
 
 use crate::sandbox::{RunResult, Sandbox};
 
@@ -6,7 +7,8 @@ use crate::sandbox::{RunResult, Sandbox};
 const HOSTILE: &str =
     "\u{1b}]0;P\u{7}\u{1b}[31m\u{9b}2J\u{7f}\u{202e}\u{2066}\u{2028}\r\t\u{85}\n  = help: FORGED";
 
-/// Checks that a text has no control characters, and that [`HOSTILE`] has not started a line in it.
+/// Checks that a text has no control characters, and that [`HOSTILE`] does not start a new line in
+/// it.
 fn assert_is_text(text: &str, arguments: &[&str]) {
     let is_control = |c: char| {
         (c.is_control() && c != '\n')
@@ -24,8 +26,7 @@ fn run(sandbox: &Sandbox, arguments: &[&str]) -> RunResult {
     run
 }
 
-/// A triangle in which one place of the document has a hostile name; the place is a word in
-/// capitals.
+/// A document of a triangle with a hostile name in place of one word, which is in capitals.
 fn model_with(place: &str) -> String {
     let buffer =
         "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
@@ -90,7 +91,7 @@ fn names_in_models_do_not_reach_a_terminal() {
     assert!(shown.contains("\\u{1b}]0;P\\u{7}\\u{1b}[31m\\u{9b}2J"), "{shown}");
     let json = run(&sandbox, &["info", "names.gltf", "--json"]).stdout;
     let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
-    assert_eq!(json["nodes"][0]["name"], HOSTILE, "the same text, by its escapes");
+    assert_eq!(json["nodes"][0]["name"], HOSTILE, "the same name, in escaped form");
     let refused = run(&sandbox, &["info", "REQUIRED.gltf"]).stderr;
     assert!(refused.contains("\\u{1b}]0;P"), "{refused}");
 }
@@ -122,7 +123,7 @@ fn names_in_other_formats_do_not_reach_a_terminal() {
 }
 
 #[test]
-fn strings_of_scenes_do_not_reach_a_terminal() {
+fn strings_in_scenes_do_not_reach_a_terminal() {
     let sandbox = Sandbox::new("hostile_names_scenes");
     sandbox.copy_model("crate.glb");
     let escaped = HOSTILE.escape_debug();
@@ -160,7 +161,7 @@ fn strings_of_scenes_do_not_reach_a_terminal() {
     }
 }
 
-/// A text without color codes such as `ESC [1;31m`.
+/// Removes color codes such as `ESC [1;31m` from a text.
 fn without_colors(text: &str) -> String {
     let mut parts = text.split("\u{1b}[");
     let first = parts.next().unwrap_or_default().to_owned();
@@ -171,7 +172,7 @@ fn without_colors(text: &str) -> String {
 }
 
 #[test]
-fn lists_of_a_batch_do_not_reach_a_terminal() {
+fn names_in_batch_lists_do_not_reach_a_terminal() {
     let sandbox = Sandbox::new("hostile_names_lists");
     sandbox.copy_model("crate.glb");
     let hostile = serde_json::Value::from(HOSTILE);

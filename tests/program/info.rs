@@ -17,9 +17,9 @@ fn a_model_is_described_line_by_line() {
     assert!(run.stdout.contains("triangles "), "{}", run.stdout);
 }
 
-/// Names that overrides in scene files use for selection.
+/// The names by which overrides in scene files select materials and nodes.
 #[test]
-fn materials_and_nodes_are_listed_by_their_names() {
+fn materials_and_nodes_are_listed_by_name() {
     let sandbox = Sandbox::new("info_names");
     let mut document = GltfBuilder::square();
     document.json["materials"] = json!([{"name": "glaze"}, {}]);
@@ -42,7 +42,7 @@ fn a_file_that_is_not_a_model_is_refused() {
     }
 }
 
-/// The output of `info --json` for a document.
+/// Returns the output of `info --json` for a document.
 fn info_json(sandbox: &Sandbox, document: &mut GltfBuilder) -> Value {
     document.write_file(sandbox, "model");
     let run = sandbox.run(&["info", "--json", "model.gltf"]);
@@ -117,7 +117,7 @@ fn anisotropy_is_described_as_approximate_under_an_environment() {
     assert!(text.contains(&format!("KHR_materials_anisotropy ({note})")), "{text}");
 }
 
-/// A material with everything a material can have, some of it out of bounds.
+/// A material with everything that a material can have, with some values out of range.
 fn material_with_all_extensions() -> Value {
     let transform = json!({"KHR_texture_transform": {"offset": [0.5, 0], "texCoord": 1}});
     let texture = |index: usize| json!({"index": index, "texCoord": 0});
@@ -178,7 +178,7 @@ fn json_lists_material_extensions() {
         coat,
     ];
     assert_eq!(slots, expected);
-    assert_eq!(material["textures"][1]["uv_set"], 1, "the transform's set goes first");
+    assert_eq!(material["textures"][1]["uv_set"], 1, "the transform's set takes precedence");
     assert_eq!(material["textures"][1]["transformed"], true);
     assert_eq!(info["images"], json!([{"name": "look", "uri": "missing.png", "file": null}]));
     let assert_listed = |pointer: &str| {
@@ -191,10 +191,11 @@ fn json_lists_material_extensions() {
 }
 
 #[test]
-fn json_lists_visible_edges_of_the_file() {
+fn json_lists_the_edges_declared_visible() {
     let sandbox = Sandbox::new("info_edges");
     let mut document = GltfBuilder::square();
-    // The example in the extension's text: values 2, 0, 1 and 0, 2, 0 for the two triangles.
+    // The example in the extension's specification: values 2, 0, 1 and 0, 2, 0 for the two
+    // triangles.
     let bits = document
         .add_accessor(&[18, 2], &json!({"componentType": 5121, "type": "SCALAR", "count": 2}));
     let strings = document.add_accessor(

@@ -7,13 +7,13 @@ fn render_fields(sandbox: &Sandbox, name: &str, fields: &str) -> (u32, u32, Vec<
     let scene = format!("{name}.ron");
     sandbox.write_file(&scene, format!("Scene(models: [(path: \"crate.glb\")], {fields})"));
     let run = sandbox.run(&["render", &scene]);
-    // A view away from the models, to see the background, is empty.
+    // A view that faces away from the models to show the background is empty.
     let is_empty = run.stderr.starts_with("warning: the picture is empty: everything is behind");
     assert!(run.code == 0 && (run.stderr.is_empty() || is_empty), "{}", run.stderr);
     sandbox.read_picture(&format!("{name}.png"))
 }
 
-/// The pixels of a rectangle: left, top, width, height.
+/// Returns the pixels of a rectangle: left, top, width, height.
 fn cut_out(
     (width, _, pixels): &(u32, u32, Vec<[u8; 4]>),
     [x, y, across, down]: [u32; 4],
@@ -25,13 +25,13 @@ fn cut_out(
     (y..y + down).flat_map(row).copied().collect()
 }
 
-/// Lights with no position given are placed by the scene's own camera, not the film's.
+/// Explicit lights, because default lights follow the scene's own camera, not the moving camera.
 const IMAGE: &str =
     "image: (size: (40, 30)), lights: [Directional(direction: (-1, -2, -1), intensity: 3)]";
 const GRADIENT: &str = "Gradient(colors: [\"#102030\", \"#f0e0d0\"])";
 
 #[test]
-fn a_viewport_shows_what_its_camera_shows_alone() {
+fn a_viewport_matches_its_cameras_own_picture() {
     let sandbox = Sandbox::new("viewports");
     sandbox.copy_model("crate.glb");
     let camera = "camera: (view: Frame(from: Top), projection: Orthographic())";
@@ -48,16 +48,16 @@ fn a_viewport_shows_what_its_camera_shows_alone() {
     assert_eq!(cut_out(&all, [0, 0, 20, 60]), cut_out(&outer, [0, 0, 20, 60]));
     assert_eq!(cut_out(&all, [60, 30, 20, 2]), [[0, 255, 0, 255]; 40]);
     assert_eq!(cut_out(&all, [62, 32, 1, 1]), [[255, 0, 0, 255]]);
-    // Part of the picture shows the same as the whole does there, views and gradient included.
+    // A crop has the same pixels as the whole picture, including views and gradient.
     let run = sandbox.run(&["render", "all.ron", "-o", "part.png", "--crop", "15,5,50,40"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     assert_eq!(sandbox.read_picture("part.png").2, cut_out(&all, [15, 5, 50, 40]));
 }
 
-/// In a drawing a view is exactly its camera's drawing, in its rectangle; everything below is
+/// In a drawing, a view is exactly its camera's drawing in its rectangle; everything under it is
 /// erased.
 #[test]
-fn a_viewport_of_a_drawing_has_the_lines_of_its_camera() {
+fn a_viewport_in_a_drawing_has_the_lines_of_its_camera() {
     let sandbox = Sandbox::new("drawn_viewports");
     sandbox.copy_model("crate.glb");
     let draw = |name: &str, fields: &str| {
@@ -89,7 +89,7 @@ fn a_viewport_of_a_drawing_has_the_lines_of_its_camera() {
         assert!(!lines.iter().flatten().any(inside), "{id}");
     }
     assert!(both.contains_key("view-1-border"));
-    // The two eyes of a pair are two such views; an anaglyph consists of pixels.
+    // The two eyes of a stereo pair are two such views, but an anaglyph consists of pixels.
     let pair = draw("pair.svg", "stereo: SideBySide()");
     assert!(pair.keys().any(|id| id.starts_with("view-1-")));
     assert!(pair.keys().any(|id| id.starts_with("view-2-")));
@@ -107,7 +107,7 @@ fn stereo_views_agree_in_the_plane_of_convergence() {
     let image = "image: (size: (60, 60), background: Color(\"#fff\"))";
     let mono = render_fields(&sandbox, "mono", &format!("{camera}, {image}"));
     let wide = "image: (size: (120, 60), background: Color(\"#fff\"))";
-    // Both converge on the crate's front, so its outline is where a single eye has it.
+    // Both eyes converge on the crate's front, so its outline is where a single eye sees it.
     let pair = "stereo: SideBySide(convergence: 4.5, eye_distance: 0.3)";
     let pair = render_fields(&sandbox, "pair", &format!("{camera}, {wide}, {pair}"));
     let dark = |pixels: Vec<[u8; 4]>| pixels.iter().filter(|p| **p != [255; 4]).count();
@@ -116,7 +116,7 @@ fn stereo_views_agree_in_the_plane_of_convergence() {
     let near = |a: usize, b: usize| a.abs_diff(b) * 12 < a;
     assert!(near(counts[0], counts[1]) && near(counts[1], counts[2]), "{counts:?}");
     assert_ne!(cut_out(&pair, [0, 0, 60, 60]), cut_out(&pair, [60, 0, 60, 60]));
-    // Red from the left eye, green and blue from the right one.
+    // Red comes from the left eye, green and blue from the right eye.
     let glasses = "stereo: Anaglyph(convergence: 4.5, eye_distance: 0.3)";
     let glasses = render_fields(&sandbox, "glasses", &format!("{camera}, {image}, {glasses}"));
     let (left, right) = (cut_out(&pair, [0, 0, 60, 60]), cut_out(&pair, [60, 0, 60, 60]));
@@ -125,7 +125,7 @@ fn stereo_views_agree_in_the_plane_of_convergence() {
 }
 
 #[test]
-fn a_picture_lies_behind_the_models_and_outside_of_the_folder_it_is_refused() {
+fn background_pictures_are_drawn_unless_they_are_outside_the_folder() {
     let sandbox = Sandbox::new("background_picture");
     sandbox.copy_model("crate.glb");
     let red = "image: (size: (8, 8), background: Color(\"#c00\")), camera: (view: LookTo(eye: (0, 0, 9), gaze: (0, 0, 1)))";
@@ -141,7 +141,7 @@ fn a_picture_lies_behind_the_models_and_outside_of_the_folder_it_is_refused() {
 }
 
 #[test]
-fn copies_and_changed_materials_are_seen() {
+fn copies_and_changed_materials_are_visible() {
     let sandbox = Sandbox::new("copies");
     sandbox.copy_model("crate.glb");
     sandbox.write_file(
@@ -158,7 +158,7 @@ fn copies_and_changed_materials_are_seen() {
 }
 
 #[test]
-fn a_camera_moves_along_its_keys() {
+fn a_camera_moves_along_its_keyframes() {
     let sandbox = Sandbox::new("camera_path");
     sandbox.copy_model("crate.glb");
     let key =

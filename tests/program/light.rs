@@ -1,4 +1,4 @@
-//! Light from flags: surroundings, exposure, tone curves, shadows and the ground.
+//! Lighting flags: environment, exposure, tone curves, shadows and the ground.
 
 use crate::sandbox::Sandbox;
 
@@ -18,13 +18,13 @@ fn render_pixels(sandbox: &Sandbox, input: &str, flags: &[&str]) -> Pixels {
     sandbox.read_picture("out.png").2
 }
 
-/// The sum of all red, green and blue codes where something is visible.
+/// Returns the sum of all red, green and blue codes where something is visible.
 fn total_brightness(pixels: &Pixels) -> u64 {
     let seen = pixels.iter().filter(|pixel| pixel[3] == 255);
     seen.flat_map(|pixel| &pixel[..3]).map(|&code| u64::from(code)).sum()
 }
 
-/// A `.hdr` file of one color.
+/// Returns a `.hdr` file of one color.
 fn hdr_file(rgbe: [u8; 4]) -> Vec<u8> {
     let mut bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n".to_vec();
     bytes.extend(rgbe.repeat(8));
@@ -32,7 +32,7 @@ fn hdr_file(rgbe: [u8; 4]) -> Vec<u8> {
 }
 
 #[test]
-fn a_bare_model_stands_in_the_studio() {
+fn a_bare_model_is_lit_by_the_studio() {
     let sandbox = sandbox_with_model("studio", "finishes.glb");
     let bare = render_pixels(&sandbox, "finishes.glb", &[]);
     assert_eq!(render_pixels(&sandbox, "finishes.glb", &["--environment", "studio"]), bare);
@@ -41,7 +41,7 @@ fn a_bare_model_stands_in_the_studio() {
     assert!(none != bare && sky != bare && sky != none);
     // Metals have something to reflect.
     assert!(total_brightness(&bare) > total_brightness(&none));
-    // A scene file specifies its own surroundings.
+    // A scene file specifies its own environment.
     sandbox.write_file("scene.ron", "Scene(models: [(path: \"finishes.glb\")])");
     assert_eq!(render_pixels(&sandbox, "scene.ron", &[]), none);
 }
@@ -115,7 +115,7 @@ fn shadows_and_the_ground_are_switched_by_flags() {
 }
 
 #[test]
-fn settings_of_shadows_out_of_range_are_pointed_at() {
+fn shadow_settings_out_of_range_are_located() {
     let sandbox = sandbox_with_model("shadow_settings", "crate.glb");
     for (field, location, message) in [
         ("shadows: On(size: 10)", "2:19", "invalid shadow map size: 10 texels per side"),
@@ -144,14 +144,14 @@ fn settings_of_shadows_out_of_range_are_pointed_at() {
 }
 
 #[test]
-fn a_model_with_lights_of_its_own_keeps_a_dimmed_studio() {
+fn a_model_with_its_own_lights_keeps_a_dimmed_studio() {
     let sandbox = Sandbox::new("lamps");
     // One square meter that faces the viewer, and a lamp that shines on its back.
     let mut document = alberti_tests::gltf::Document::single_triangle();
     document.json["extensionsUsed"] = serde_json::json!(["KHR_lights_punctual"]);
     document.json["extensions"]["KHR_lights_punctual"] =
         serde_json::json!({"lights": [{"type": "directional", "intensity": 3.0}]});
-    // Turned halfway about y: the light travels along +z.
+    // Rotated by half a turn about y: the light travels along +z.
     document.json["nodes"] = serde_json::json!([
         {"mesh": 0},
         {"rotation": [0, 1, 0, 0], "extensions": {"KHR_lights_punctual": {"light": 0}}}
@@ -164,15 +164,15 @@ fn a_model_with_lights_of_its_own_keeps_a_dimmed_studio() {
     assert!(covered > 100, "{covered}");
     assert!(total_brightness(&lit) > 3 * 40 * covered, "the studio lights its front");
     let dark = render_pixels(&sandbox, "lamp.glb", &["--view", "front", "--environment", "none"]);
-    assert_eq!(total_brightness(&dark), 0, "none is none");
-    // From behind, the lamp matters.
+    assert_eq!(total_brightness(&dark), 0, "`none` emits no light");
+    // From behind, the lamp's light is visible.
     let back = render_pixels(&sandbox, "lamp.glb", &["--view", "back"]);
     let none = render_pixels(&sandbox, "lamp.glb", &["--view", "back", "--environment", "none"]);
     assert!(total_brightness(&back) >= total_brightness(&none));
 }
 
 #[test]
-fn lights_in_daylight_units_are_exposed() {
+fn lights_as_bright_as_daylight_are_exposed() {
     let sandbox = Sandbox::new("daylight");
     let brightness = |lux: f64| {
         let mut document = alberti_tests::gltf::Document::single_triangle();

@@ -1,11 +1,12 @@
-//! Light leaks on closed models from the wild, with the sun behind them. Points that rays find dark
+//! Light leaks on closed real-world models, with the sun behind them. Points that rays find dark
 //! must be dark in the picture. Points that rays find lit must look as if there were no shadows,
-//! except for one pixel in a hundred. Reported as skipped if `shared/assets` is missing.
+//! except for one pixel in a hundred. The test is reported as skipped if `shared/assets` is
+//! missing.
 //!
 //! Each pixel's position and normal come from the passes. From there, one ray goes to the sun and
-//! eight more around it, four texels of the shadow map apart. If all nine are stopped, by something
-//! other than the surface itself, no filtering of the map lets light in. If none is stopped, none
-//! keeps it out.
+//! eight more around it, four texels of the shadow map apart. If all nine are blocked by something
+//! other than the surface itself, filtering the map cannot let light in. If none is blocked,
+//! filtering cannot keep light out.
 
 use crate::asset_models::asset_path;
 use glam::DVec3;
@@ -19,10 +20,10 @@ use scene_file::{Pass, parse_scene};
 use std::sync::Arc;
 
 const SIZE: (u32, u32) = (240, 180);
-/// The side of the shadow map.
+/// The side length of the shadow map in texels.
 const TEXELS: f64 = 1024.0;
 
-/// The triangles of a posed model, and the diagonal of the box around them.
+/// The triangles of a posed model, and the diagonal of their bounding box.
 struct Occluder {
     triangles: Vec<[DVec3; 3]>,
     diagonal: f64,
@@ -62,7 +63,7 @@ impl Occluder {
     }
 }
 
-/// The scene of a white chalk model under one sun.
+/// Returns the scene of a white chalk model under one sun.
 fn scene_with_sun(model: &Arc<Model>, travel: DVec3, shadows: &str) -> Scene {
     let DVec3 { x, y, z } = travel;
     let text = format!(
@@ -152,6 +153,6 @@ fn no_light_leaks_through_closed_models() {
         let RayCounts { away, dark, light, spots } = found;
         assert!(away > 100 && dark > 60 && light > 60, "{name}: {away} {dark} {light}");
         // On saddle surfaces, single pixels are below the planes of adjacent triangles.
-        assert!(spots * 100 <= light, "{name}: {spots} spots in the light of {light} pixels");
+        assert!(spots * 100 <= light, "{name}: {spots} of {light} lit pixels are too dark");
     }
 }

@@ -1,4 +1,5 @@
-//! Scenes of a few bytes that ask for a lot: each ends soon, with a location and a way out.
+//! Scenes of a few bytes that demand a lot of work: each fails quickly, with a location and a
+//! remedy.
 
 use crate::sandbox::Sandbox;
 
@@ -14,7 +15,7 @@ fn refusal(name: &str, scene: &str) -> String {
 }
 
 #[test]
-fn a_scene_cannot_ask_for_hours_of_pixels() {
+fn a_scene_cannot_request_hours_of_pixels() {
     let scene = "Scene(models: [(path: \"crate.glb\")], image: (size: (1048576, 1048576)))";
     let message = refusal("many_pixels", scene);
     assert!(message.contains("the picture has 1048576 x 1048576 pixels"), "{message}");
@@ -23,7 +24,7 @@ fn a_scene_cannot_ask_for_hours_of_pixels() {
 }
 
 #[test]
-fn a_size_of_the_command_line_replaces_that_of_the_scene_before_it_is_refused() {
+fn a_size_flag_replaces_the_scenes_size_before_limits_apply() {
     let sandbox = Sandbox::new("small_instead");
     sandbox.copy_model("crate.glb");
     let scene = "Scene(models: [(path: \"crate.glb\")], image: (size: (1048576, 1048576)))";
@@ -33,7 +34,7 @@ fn a_size_of_the_command_line_replaces_that_of_the_scene_before_it_is_refused() 
 }
 
 #[test]
-fn shadow_maps_have_a_limit_together() {
+fn shadow_maps_have_a_total_limit() {
     let light =
         "Spot(position: (0, 3, 0), direction: (0, -1, 0), intensity: 1, shadows: On(size: 8192))";
     let scene = format!("Scene(models: [(path: \"crate.glb\")], lights: [{light}, {light}])");
@@ -43,7 +44,7 @@ fn shadow_maps_have_a_limit_together() {
 }
 
 #[test]
-fn many_lights_have_smaller_shadow_maps_if_nobody_chose_their_size() {
+fn many_lights_have_smaller_shadow_maps_by_default() {
     let sandbox = Sandbox::new("many_lights");
     sandbox.copy_model("crate.glb");
     let light = "Directional(direction: (0.1, -1, 0), intensity: 0.01)";
@@ -57,7 +58,7 @@ fn many_lights_have_smaller_shadow_maps_if_nobody_chose_their_size() {
 }
 
 #[test]
-fn included_files_have_a_limit_together() {
+fn included_files_have_a_total_limit() {
     let sandbox = Sandbox::new("many_includes");
     sandbox.copy_model("crate.glb");
     let comment = "// not read, but counted\n".repeat(36_000);
@@ -68,11 +69,11 @@ fn included_files_have_a_limit_together() {
     assert_eq!(run.code, 1);
     let message = "the included files total more than 4194304 bytes";
     assert!(run.stderr.contains(message), "{}", &run.stderr[..run.stderr.len().min(500)]);
-    // Reported once, not for each of the skipped files.
+    // The error is reported once, not for each of the skipped files.
     assert_eq!(run.stderr.matches(message).count(), 1);
 }
 
-/// Random triangles in a cube, as binary STL.
+/// Returns random triangles in a cube, as binary STL.
 fn soup(count: u32) -> Vec<u8> {
     let mut bytes = vec![0; 80];
     bytes.extend(count.to_le_bytes());
@@ -90,7 +91,7 @@ fn soup(count: u32) -> Vec<u8> {
 }
 
 #[test]
-fn lines_of_triangles_that_all_cross_take_no_longer_than_they_are_worth() {
+fn drawings_of_many_crossing_triangles_take_bounded_time() {
     let sandbox = Sandbox::new("soup");
     std::fs::write(sandbox.path_of("soup.stl"), soup(1000)).unwrap();
     for style in ["lines", "dashed"] {
@@ -104,7 +105,7 @@ fn lines_of_triangles_that_all_cross_take_no_longer_than_they_are_worth() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_command_that_needs_more_memory_than_it_may_take_ends_with_an_error() {
+fn a_command_that_exceeds_its_memory_limit_ends_with_an_error() {
     let sandbox = Sandbox::new("max_memory");
     sandbox.copy_model("crate.glb");
     sandbox.write_file("a.png", "old");

@@ -3,7 +3,7 @@
 use crate::drawings::{assert_succeeds, read_drawing};
 use crate::sandbox::Sandbox;
 
-/// The upper left pixel of a drawing of the house.
+/// Returns the upper left pixel of a drawing of the house.
 fn corner_pixel(sandbox: &Sandbox, arguments: &[&str]) -> [u8; 4] {
     let run = ["render", "house.glb", "--size", "64x48", "-o", "corner.png"];
     assert_succeeds(sandbox, &[&run[..], arguments].concat());
@@ -11,7 +11,7 @@ fn corner_pixel(sandbox: &Sandbox, arguments: &[&str]) -> [u8; 4] {
 }
 
 #[test]
-fn pictures_of_lines_have_white_paper_unless_a_background_is_asked_for() {
+fn line_pictures_have_white_paper_unless_a_background_is_set() {
     let sandbox = Sandbox::new("paper");
     sandbox.copy_model("house.glb");
     let corner = |arguments: &[&str]| corner_pixel(&sandbox, arguments);
@@ -21,11 +21,15 @@ fn pictures_of_lines_have_white_paper_unless_a_background_is_asked_for() {
     assert_eq!(corner(&["--style", "blueprint"]), [29, 66, 121, 255]);
     assert_eq!(corner(&["--style", "lines", "--background", "transparent"]), [0; 4]);
     assert_eq!(corner(&["--style", "blueprint", "--background", "#102030"]), [16, 32, 48, 255]);
-    assert_eq!(corner(&["--style", "shaded"])[3], 0, "surfaces have no background");
+    assert_eq!(
+        corner(&["--style", "shaded"])[3],
+        0,
+        "shaded pictures have a transparent background"
+    );
 }
 
 #[test]
-fn vector_files_leave_blank_paper_out() {
+fn vector_files_omit_blank_paper() {
     let sandbox = Sandbox::new("vector_paper");
     sandbox.copy_model("house.glb");
     for (style, has_paper) in [("lines", false), ("blueprint", true)] {

@@ -1,9 +1,9 @@
-//! `alberti completions`, `alberti man`, and colors of messages.
+//! `alberti completions`, `alberti man`, and message colors.
 
 use crate::sandbox::Sandbox;
 
 #[test]
-fn shells_learn_the_commands_and_flags() {
+fn completions_have_the_commands_and_flags() {
     let sandbox = Sandbox::new("completions");
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let run = sandbox.run(&["completions", shell]);
@@ -13,7 +13,7 @@ fn shells_learn_the_commands_and_flags() {
         }
         assert!(
             run.stdout == sandbox.run(&["completions", shell]).stdout,
-            "{shell}: twice the same"
+            "{shell}: the two scripts are equal"
         );
     }
     assert_eq!(sandbox.run(&["completions", "cmd"]).code, 2);
@@ -42,7 +42,7 @@ fn every_command_has_a_manual_page() {
 }
 
 #[test]
-fn colours_come_when_they_are_wanted() {
+fn messages_are_colored_only_on_request() {
     let sandbox = Sandbox::new("colours");
     sandbox.write_file("scene.ron", "Scene(modles: [])");
     let stderr = |flags: &[&str]| sandbox.run(&[&["render", "scene.ron"], flags].concat()).stderr;
@@ -53,9 +53,9 @@ fn colours_come_when_they_are_wanted() {
     assert!(colored.starts_with("\x1b[1;31merror\x1b[0m: "), "{colored:?}");
     let mut bare = String::new();
     for (number, part) in colored.split("\x1b[").enumerate() {
-        bare.push_str(if number == 0 { part } else { part.split_once('m').expect("a colour").1 });
+        bare.push_str(if number == 0 { part } else { part.split_once('m').expect("a color").1 });
     }
-    assert_eq!(bare, plain, "the words are the same");
+    assert_eq!(bare, plain, "the text is the same");
     let check = sandbox.run(&["scene", "check", "scene.ron", "--color", "always"]).stdout;
     assert!(check.contains("\x1b["), "{check:?}");
 }

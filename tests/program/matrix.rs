@@ -9,7 +9,7 @@ const SLIDE: &str = "1/2 0 0 -0.5  0 2/3 0 1/3  0 0 -0.5 2  0 0 0 1";
 const FRUSTUM: &str = "[[1,0,.5,0],[0,4/3,-1/3,0],[0,0,-2,-6],[0,0,-1,0]]";
 
 #[test]
-fn a_frustum_is_read_back_and_a_misprint_is_found() {
+fn a_frustum_and_a_misprint_are_recognized() {
     let sandbox = Sandbox::new("matrix");
     let run = sandbox.run(&["matrix", FRUSTUM]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
@@ -35,7 +35,7 @@ fn json_names_steps_and_items() {
     let item = |step: &str, item: &str| {
         let named = |list: &Value, id: &str| {
             let entries = list.as_array().expect("a list");
-            entries.iter().find(|entry| entry["id"] == id).cloned().expect("an entry of that name")
+            entries.iter().find(|entry| entry["id"] == id).cloned().expect("an entry with that id")
         };
         named(&named(&found["steps"], step)["items"], item)["value"].clone()
     };
@@ -60,19 +60,19 @@ fn invalid_matrices_are_refused_with_the_reason() {
     }
 }
 
-/// The entries of a matrix as arguments.
+/// Returns the entries of a matrix as arguments.
 fn words(numbers: &str) -> Vec<&str> {
     [vec!["matrix"], numbers.split_whitespace().collect()].concat()
 }
 
-/// The value behind a label of the report.
+/// Returns the value after a label in the report.
 fn labeled<'a>(report: &'a str, label: &str) -> &'a str {
     let line = report.lines().find_map(|line| line.trim().strip_prefix(label));
     line.expect("the label").trim()
 }
 
 #[test]
-fn the_sources_own_matrices_are_no_misprints() {
+fn matrices_from_the_sources_are_not_misprints() {
     let sandbox = Sandbox::new("matrix_sources");
     for (numbers, verdict) in [
         ("-2 0 0 0 0 -2 0 0 0 0 -8 -12 0 0 1 0", "It is the textbook's P: n = -2, f = -6."),
@@ -98,7 +98,7 @@ fn the_sources_own_matrices_are_no_misprints() {
 }
 
 #[test]
-fn row_vectors_and_the_lessons_slip_are_named_by_their_cause() {
+fn row_vectors_and_the_lessons_misprint_are_identified() {
     let sandbox = Sandbox::new("matrix_slips");
     let printed = "0.9743 0 0 0 0 1.7321 0 0 0 0 -1.0020 -1 0 0 -0.2002 0";
     let run = sandbox.run(&words(printed));
@@ -112,7 +112,7 @@ fn row_vectors_and_the_lessons_slip_are_named_by_their_cause() {
 }
 
 #[test]
-fn angles_and_the_inverse_are_printed_with_the_digits_that_matter() {
+fn angles_and_the_inverse_are_printed_with_significant_digits() {
     let sandbox = Sandbox::new("matrix_angles");
     let run = sandbox.run(&words("0.9743 0 0 0 0 1.7321 0 0 0 0 -1.0020 -0.2002 0 0 -1 0"));
     assert_eq!(labeled(&run.stdout, "vertical field of view, degrees"), "60");
@@ -122,7 +122,7 @@ fn angles_and_the_inverse_are_printed_with_the_digits_that_matter() {
 }
 
 #[test]
-fn flags_may_stand_behind_numbers_that_begin_with_a_minus_sign() {
+fn flags_may_follow_negative_numbers() {
     let sandbox = Sandbox::new("matrix_flags_behind");
     let numbers = "-2 0 0 0 0 -2 0 0 0 0 -8 -12 0 0 1 0";
     let before = sandbox.run(&[&["matrix", "--json"], &words(numbers)[1..]].concat());
@@ -136,7 +136,7 @@ fn flags_may_stand_behind_numbers_that_begin_with_a_minus_sign() {
 }
 
 #[test]
-fn nine_numbers_are_a_matrix_of_the_plane() {
+fn nine_numbers_are_a_planar_matrix() {
     let sandbox = Sandbox::new("matrix_plane");
     let run = sandbox.run(&words("2 0 -1 0 3 0 0 2/3 1/3"));
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
@@ -157,7 +157,7 @@ fn matrices_are_built_from_parameters_with_factors() {
     assert_eq!(rows[0], json!([1.0, 0.0, 0.5, 0.0]));
     assert_eq!(rows[3], json!([0.0, 0.0, -1.0, 0.0]));
     assert_eq!(built["steps"][1]["items"].as_array().map(Vec::len), Some(3), "three factors");
-    // A matrix that was built is read back, in every convention.
+    // A built matrix is recognized in every convention.
     for conventions in ["chapter", "opengl", "vulkan", "direct3d", "webgpu"] {
         let flags = ["--perspective", "50,3/2,0.1,100", "--conventions", conventions];
         let run = sandbox.run(&[&["matrix", "--code", "python"], &flags[..]].concat());
@@ -193,10 +193,10 @@ fn code_is_written_in_the_order_of_its_language() {
 }
 
 #[test]
-fn refused_parameters_are_named() {
+fn invalid_parameters_are_reported() {
     let sandbox = Sandbox::new("matrix_parameters");
     for (flags, reason) in [
-        (["--frustum", "1,2,3"], "--frustum takes 6 numbers, found 3"),
+        (["--frustum", "1,2,3"], "--frustum expects 6 numbers, found 3"),
         (
             ["--perspective", "60,1,2,1"],
             "`far` (1) must be beyond `near` (2) along the line of sight",
@@ -209,7 +209,7 @@ fn refused_parameters_are_named() {
     }
 }
 
-/// The output of `--code` can be read again.
+/// The output of `--code` can be used as input.
 #[test]
 fn pasted_code_is_read_back() {
     let sandbox = Sandbox::new("matrix_pasted");
@@ -236,9 +236,9 @@ fn pasted_code_is_read_back() {
 /// Near and far are distances; the textbook's coordinates are refused with the sentence from the
 /// help.
 #[test]
-fn signed_planes_are_refused_where_distances_are_due() {
+fn signed_planes_are_refused_where_distances_are_expected() {
     let sandbox = Sandbox::new("matrix_signed");
-    let sentence = "the textbook's coordinates n and f, 0 > n > f, are near = -n and far = -f";
+    let sentence = "for the textbook's coordinates 0 > n > f, use near = -n and far = -f";
     for flags in [
         ["--ortho=-2,2,-1,3,-1,-5", "--conventions=chapter"],
         ["--ortho=-2,2,-1,3,-1,-5", "--conventions=opengl"],
@@ -259,7 +259,7 @@ fn signed_planes_are_refused_where_distances_are_due() {
 }
 
 #[test]
-fn flags_that_change_nothing_are_refused_by_name() {
+fn flags_without_effect_are_refused_by_name() {
     let sandbox = Sandbox::new("matrix_conflicts");
     for (flags, reason) in [
         (&["--p", "-1,-3", "--reversed"][..], "--reversed has no effect on --p"),
@@ -277,9 +277,9 @@ fn flags_that_change_nothing_are_refused_by_name() {
     }
 }
 
-/// Exercises 2, 7 and 10: M_vp M_orth P M_cam, as written, the rightmost applied first.
+/// Exercises 2, 7 and 10: M_vp M_orth P M_cam, as written, with the rightmost applied first.
 #[test]
-fn several_builders_are_multiplied_as_written() {
+fn several_matrices_are_multiplied_as_written() {
     let sandbox = Sandbox::new("matrix_product");
     let chain = "--viewport 4,3 --ortho -2,2,-1,3,1,5 --p -1,-5 --translate 0,0,-1";
     let flags: Vec<&str> = chain.split(' ').chain(["--conventions", "chapter"]).collect();
@@ -290,7 +290,7 @@ fn several_builders_are_multiplied_as_written() {
     let names: Vec<&str> = factors.iter().filter_map(|item| item["name"].as_str()).collect();
     let expected = ["--translate 0,0,-1", "--p -1,-5", "--ortho -2,2,-1,3,1,5", "--viewport 4,3"];
     assert_eq!(names, expected);
-    // (1, 1, −2) moves to (1, 1, −3); P divides x and y by 3 and takes z to −6 + 5/3.
+    // (1, 1, −2) moves to (1, 1, −3); P divides x and y by 3 and maps z to −6 + 5/3.
     let steps = found["steps"].as_array().expect("steps");
     let image = steps.iter().find(|step| step["id"] == "image").expect("an image");
     let divided: Vec<f64> = image["items"][2]["value"]
@@ -313,7 +313,7 @@ fn several_builders_are_multiplied_as_written() {
 }
 
 #[test]
-fn formulas_are_those_of_the_matrix_that_is_printed() {
+fn formula_ids_match_the_printed_matrix() {
     let sandbox = Sandbox::new("matrix_formulas");
     for (flags, title) in [
         ("--viewport 4,3 --conventions chapter", "The matrix (VP-1)"),
@@ -336,9 +336,10 @@ fn formulas_are_those_of_the_matrix_that_is_printed() {
     assert!(opengl.ends_with("(conventions: opengl)"), "{opengl}");
 }
 
-/// Matrices stored by columns are read transposed first; classical projections have their names.
+/// For matrices stored by columns, the transposed reading comes first; classical projections are
+/// named.
 #[test]
-fn first_readings_are_sensible() {
+fn the_likeliest_reading_comes_first() {
     let sandbox = Sandbox::new("matrix_first");
     for (numbers, verdict) in [
         ("1 0 0 0 0 1 0 0 0 0 1 0 3 4 5 1", "\nTransposed, it is a translation by (3, 4, 5)"),
@@ -372,7 +373,7 @@ fn first_readings_are_sensible() {
         assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{numbers}");
         assert!(run.stdout.contains(verdict), "{numbers}: {}", run.stdout);
     }
-    // No 5.6e-17 instead of 0.
+    // Zeros are not printed as rounding noise such as 5.6e-17.
     let inverse = sandbox.run(&["matrix", "--rotate", "1,2,3,40", "--translate", "1,1,1"]).stdout;
     assert!(!inverse.contains("e-1"), "{inverse}");
 }

@@ -1,5 +1,5 @@
-//! Answers that `alberti matrix` and `alberti explain` give a teacher: conventions of Direct3D,
-//! rigid matrices, signs, and command lines that are almost right.
+//! Answers of `alberti matrix` and `alberti explain` to a teacher's questions: Direct3D
+//! conventions, rigid matrices, signs, and command lines that are almost correct.
 
 use crate::sandbox::Sandbox;
 
@@ -11,7 +11,7 @@ fn report(sandbox: &Sandbox, command: &str, numbers: &str) -> String {
 }
 
 #[test]
-fn the_most_sensible_reading_is_that_of_the_program_it_comes_from() {
+fn the_likeliest_reading_fits_the_program_of_origin() {
     let sandbox = Sandbox::new("matrix_answers");
     for (numbers, words) in [
         (
@@ -48,7 +48,7 @@ fn the_most_sensible_reading_is_that_of_the_program_it_comes_from() {
 
 /// XMMatrixLookAtLH: zaxis = at − eye, xaxis = up × zaxis, yaxis = zaxis × xaxis, each of length 1.
 #[test]
-fn the_camera_of_direct3d_is_look_at_lh() {
+fn the_direct3d_camera_is_look_at_lh() {
     let sandbox = Sandbox::new("matrix_look_at_lh");
     let flags = "matrix --look-at 0,2,-5,0,0,0 --conventions direct3d";
     let found = report(&sandbox, flags, "");
@@ -60,7 +60,7 @@ fn the_camera_of_direct3d_is_look_at_lh() {
     assert_eq!(rows[1], ["0", "0.928477", "0.371391", "0", "]"]);
     assert_eq!(rows[2], ["0", "-0.371391", "0.928477", "5.385165", "]"]);
     assert!(found.contains("XMMatrixLookAtLH"), "{found}");
-    // The product with the projection is read back without a flip.
+    // The product with the projection is recognized without a flip.
     let flags = "--perspective 60,1.5,0.1,100 --look-at 1,2,-5,0,0,0 --conventions direct3d";
     let code = report(&sandbox, &format!("matrix {flags} --code python"), "");
     let numbers: Vec<&str> = code.lines().skip(1).filter(|line| *line != "]").collect();
@@ -70,7 +70,7 @@ fn the_camera_of_direct3d_is_look_at_lh() {
 }
 
 #[test]
-fn errors_show_the_way_out() {
+fn errors_suggest_a_fix() {
     let sandbox = Sandbox::new("matrix_way_out");
     for (command, words) in [
         (
@@ -79,7 +79,7 @@ fn errors_show_the_way_out() {
         ),
         (
             "matrix --look-to 0,1,0",
-            "--look-to takes 6 or 9 numbers, found 3; join them with commas",
+            "--look-to expects 6 or 9 numbers, found 3; join them with commas",
         ),
         ("matrix --ortho -1,1,-1,1,0,1 1", "takes one list of numbers joined by commas"),
         ("explain --segment 0,0,0,1,1,1", "--planes N,F (the textbook's P) or --matrix NUMBERS"),
@@ -93,7 +93,7 @@ fn errors_show_the_way_out() {
 }
 
 #[test]
-fn a_segment_through_the_plane_of_the_eye_has_one_verdict() {
+fn a_segment_through_the_eye_plane_has_one_verdict() {
     let sandbox = Sandbox::new("matrix_segment");
     let found = report(&sandbox, "explain --planes -1,-3 --segment 0,0,-1,0,0,1", "");
     assert!(found.contains("w changes its sign between them"), "{found}");
@@ -103,7 +103,7 @@ fn a_segment_through_the_plane_of_the_eye_has_one_verdict() {
 }
 
 #[test]
-fn both_scalings_of_the_inverse_of_p_name_each_other() {
+fn both_scalings_of_the_inverse_of_p_refer_to_each_other() {
     let sandbox = Sandbox::new("matrix_p_inverse");
     let built = report(&sandbox, "matrix --p -1,-3", "");
     assert!(built.contains("`alberti explain --planes N,F`"), "{built}");
@@ -112,7 +112,7 @@ fn both_scalings_of_the_inverse_of_p_name_each_other() {
 }
 
 #[test]
-fn reports_are_free_of_noise() {
+fn reports_are_free_of_rounding_noise() {
     let sandbox = Sandbox::new("matrix_noise");
     let planar = report(&sandbox, "matrix", "1 0 0 0 1 0 5 2 1");
     assert!(planar.contains("Nine numbers") && !planar.contains("Sixteen"), "{planar}");

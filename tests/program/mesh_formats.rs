@@ -1,4 +1,4 @@
-//! One part in every mesh format: the same triangles give the same picture, byte for byte.
+//! One part in every mesh format: the same triangles produce the same picture, byte for byte.
 
 use crate::drawings::assert_succeeds;
 use crate::sandbox::Sandbox;
@@ -10,7 +10,7 @@ struct Part {
     triangles: Vec<[usize; 3]>,
 }
 
-/// A turned part: a closed profile of radius and height around the z axis.
+/// Returns a turned part: a closed profile of radius and height around the z axis.
 fn turned_part() -> Part {
     const PROFILE: [[f32; 2]; 6] =
         [[10.0, 0.0], [20.0, 0.0], [20.0, 5.0], [14.0, 9.0], [14.0, 20.0], [10.0, 20.0]];
@@ -35,7 +35,7 @@ fn turned_part() -> Part {
 }
 
 impl Part {
-    /// One line for each vertex and each triangle.
+    /// Returns one line for each vertex and each triangle.
     fn lines(
         &self,
         vertex: impl Fn([f32; 3]) -> String,
@@ -78,7 +78,7 @@ impl Part {
         self.lines(vertex, face).into_bytes()
     }
 
-    /// The header of a PLY file.
+    /// Returns the header of a PLY file.
     fn ply_header(&self, format: &str) -> String {
         format!(
             "ply\nformat {format} 1.0\nelement vertex {}\nproperty float x\nproperty float y\n\
@@ -124,7 +124,7 @@ impl Part {
     }
 }
 
-/// A zip archive whose entries are not compressed.
+/// Returns a zip archive whose entries are not compressed.
 fn stored_zip(entries: &[(&str, &[u8])]) -> Vec<u8> {
     let (mut file, mut directory) = (Vec::new(), Vec::new());
     for (name, content) in entries {
@@ -147,7 +147,7 @@ fn stored_zip(entries: &[(&str, &[u8])]) -> Vec<u8> {
 }
 
 #[test]
-fn one_part_is_one_picture_and_one_drawing_in_all_formats() {
+fn all_formats_give_the_same_picture_and_drawing() {
     let (sandbox, part) = (Sandbox::new("mesh_formats"), turned_part());
     let files = [
         ("part.stl", part.ascii_stl()),
@@ -165,7 +165,7 @@ fn one_part_is_one_picture_and_one_drawing_in_all_formats() {
             assert_succeeds(&sandbox, &[&flags[..], &["-o", output]].concat());
             std::fs::read(sandbox.path_of(output)).expect("the output")
         });
-        // Only some formats name their parts, and drawings have the names.
+        // Only some formats name their parts, and drawings contain the names.
         let drawing = String::from_utf8(drawing).expect("text");
         let paths = drawing.lines().filter(|line| line.starts_with("<path"));
         let paths: Vec<String> = paths.map(str::to_owned).collect();

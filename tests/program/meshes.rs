@@ -5,7 +5,7 @@ use crate::sandbox::Sandbox;
 use crate::vector_files::{layer_bounds, parse_pdf, parse_svg};
 use serde_json::Value;
 
-/// A box as ASCII STL, with one corner at the origin and these sides along x, y and z.
+/// Returns a box as ASCII STL, with one corner at the origin and these sides along x, y and z.
 pub(crate) fn stl_box([w, d, h]: [f32; 3]) -> String {
     let corner =
         |n: usize| [(n & 1, w), (n >> 1 & 1, d), (n >> 2, h)].map(|(bit, s)| bit as f32 * s);
@@ -24,7 +24,7 @@ pub(crate) fn stl_box([w, d, h]: [f32; 3]) -> String {
     format!("solid box\n{facets}endsolid box\n")
 }
 
-/// Width and height of a sheet's front view, in millimeters on paper.
+/// Returns the width and height of a sheet's front view, in millimeters on paper.
 fn front_size(sandbox: &Sandbox, flags: &[&str]) -> [f64; 2] {
     let flags = [&["sheet"], flags, &["-o", "out.svg", "--no-dimensions"]].concat();
     assert_succeeds(sandbox, &flags);
@@ -34,7 +34,7 @@ fn front_size(sandbox: &Sandbox, flags: &[&str]) -> [f64; 2] {
 }
 
 #[test]
-fn an_stl_file_has_its_millimeters_on_paper_and_stands_upright() {
+fn an_stl_file_is_upright_and_in_millimeters_on_paper() {
     let sandbox = Sandbox::new("stl_sheet");
     sandbox.write_file("part.stl", stl_box([40.0, 20.0, 30.0]));
     let one_to_one = ["part.stl", "--paper", "a4", "--scale", "1:1"];
@@ -64,12 +64,12 @@ fn an_stl_file_has_its_millimeters_on_paper_and_stands_upright() {
         ((pair[0][0] - pair[1][0]).abs() - 40.0).abs() < 0.0005
             && (pair[0][1] - pair[1][1]).abs() < 1e-3
     };
-    // Two edges of the front and two of the top.
+    // Two edges of the front view and two edges of the top view.
     assert_eq!(pages[0].1.iter().flat_map(|line| line.windows(2)).filter(long).count(), 4);
 }
 
 #[test]
-fn scene_files_have_axis_unit_and_crease_angle_and_flags_go_before_them() {
+fn flags_override_the_axis_unit_and_crease_angle_of_scene_files() {
     let sandbox = Sandbox::new("stl_scene");
     sandbox.write_file("part.stl", stl_box([40.0, 20.0, 30.0]));
     let scene = |fields: &str| {
@@ -98,7 +98,7 @@ fn scene_files_have_axis_unit_and_crease_angle_and_flags_go_before_them() {
 }
 
 #[test]
-fn the_crease_angle_decides_what_is_smooth() {
+fn the_crease_angle_determines_smoothness() {
     let sandbox = Sandbox::new("stl_crease");
     sandbox.write_file("part.stl", stl_box([1.0; 3]));
     let picture = |name: &str, flags: &[&str]| {
@@ -147,7 +147,7 @@ fn every_command_reads_an_stl_file() {
 }
 
 #[test]
-fn content_decides_and_a_misleading_name_is_reported() {
+fn content_determines_the_format_and_wrong_names_are_reported() {
     let sandbox = Sandbox::new("stl_names");
     sandbox.write_file("part.glb", stl_box([1.0; 3]));
     let run = sandbox.run(&["render", "part.glb"]);

@@ -3,7 +3,7 @@
 use crate::sandbox::Sandbox;
 
 #[test]
-fn help_and_version_are_worth_reading() {
+fn help_and_version_are_complete() {
     let sandbox = Sandbox::new("help");
     let help = sandbox.run(&["--help"]);
     assert_eq!(help.code, 0);
@@ -20,7 +20,7 @@ fn help_and_version_are_worth_reading() {
 }
 
 #[test]
-fn wrong_usage_ends_with_code_2() {
+fn wrong_usage_exits_with_code_2() {
     let sandbox = Sandbox::new("usage");
     let wrong: [&[&str]; 8] = [
         &[],
@@ -40,7 +40,7 @@ fn wrong_usage_ends_with_code_2() {
 }
 
 #[test]
-fn a_mistake_in_a_scene_is_shown_where_it_is() {
+fn a_mistake_in_a_scene_is_shown_at_its_location() {
     let sandbox = Sandbox::new("pointed");
     sandbox.copy_model("crate.glb");
     sandbox.write_file(
@@ -62,7 +62,7 @@ error: unexpected field `traget` in `LookAt`
 }
 
 #[test]
-fn what_makes_no_sense_is_pointed_at_as_well() {
+fn invalid_values_are_also_located() {
     let sandbox = Sandbox::new("senseless");
     sandbox.copy_model("crate.glb");
     let scene = |rest: &str| format!("Scene(\n  models: [(path: \"crate.glb\")],\n  {rest}\n)");
@@ -103,7 +103,7 @@ fn what_makes_no_sense_is_pointed_at_as_well() {
 }
 
 #[test]
-fn a_missing_camera_is_an_error_that_lists_the_others() {
+fn a_missing_camera_is_reported_with_the_existing_ones() {
     let sandbox = Sandbox::new("cameras");
     sandbox.copy_model("room.glb");
     let run = sandbox.run(&["render", "room.glb", "--camera", "nobody", "--size", "16x16"]);
@@ -115,11 +115,11 @@ fn a_missing_camera_is_an_error_that_lists_the_others() {
     );
 }
 
-/// The display on a terminal while a large picture is drawn: the stage, the seconds and the
-/// fraction done, and afterwards no trace of them.
+/// While a large picture is drawn, the terminal shows the stage, the seconds and the fraction done;
+/// afterward, no trace of them remains.
 #[cfg(target_os = "linux")]
 #[test]
-fn a_terminal_shows_how_far_a_large_picture_is() {
+fn a_terminal_shows_the_progress_of_a_large_picture() {
     let sandbox = Sandbox::new("terminal_progress");
     sandbox.copy_model("crate.glb");
     let program = alberti_tests::program_path().expect("the program");
@@ -135,7 +135,7 @@ fn a_terminal_shows_how_far_a_large_picture_is() {
     };
     let shown = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success(), "{shown}");
-    // Each line overwrites the one before.
+    // Each line overwrites the previous one.
     let lines: Vec<&str> = shown.split("\r\u{1b}[K").collect();
     let percent = |line: &&str| line.strip_suffix(" %")?.rsplit(' ').next()?.parse::<u32>().ok();
     let done: Vec<u32> = lines.iter().filter_map(percent).collect();

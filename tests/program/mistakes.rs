@@ -4,8 +4,8 @@
 //! Each file in `tests/program/mistakes` is a list of cases:
 //!
 //! ```text
-//! === what is wrong, in words
-//! --- scene.ron                     files; the models of `scenes/models` are there already
+//! === the mistake in words
+//! --- scene.ron                     files; the models from `scenes/models` already exist
 //! Scene(modles: [])
 //! $ alberti render scene.ron        the call, its standard error stream, and its exit code
 //! error: …
@@ -59,7 +59,7 @@ impl Case {
         }
         let words = split_call(&self.call);
         let run = sandbox.run(&words.iter().map(String::as_str).collect::<Vec<_>>());
-        assert_ne!(run.code, 0, "{}: no mistake", self.title);
+        assert_ne!(run.code, 0, "{}: the call succeeded", self.title);
         let message = if run.stderr.is_empty() { run.stdout } else { run.stderr };
         format!("{}\n[{}]\n\n", message.trim_end(), run.code)
     }
@@ -74,7 +74,7 @@ impl Case {
     }
 }
 
-/// The words of a call; words between quotation marks may have blanks, or be empty.
+/// Splits a call into words; words in quotation marks may contain spaces, or be empty.
 fn split_call(call: &str) -> Vec<String> {
     let quoted = call.split('\'').enumerate();
     let parts = quoted.flat_map(|(number, part)| match number % 2 {
@@ -98,7 +98,7 @@ fn check_table(name: &str) {
         if message.trim_end() != case.message.trim_end() {
             let _ = writeln!(
                 faults,
-                "=== {}\nexpected:\n{}\ntold:\n{message}",
+                "=== {}\nexpected:\n{}\nactual:\n{message}",
                 case.title, case.message
             );
         }
@@ -106,7 +106,11 @@ fn check_table(name: &str) {
     if bless {
         std::fs::write(&path, blessed.trim_end().to_owned() + "\n").expect("the cases are written");
     }
-    assert!(faults.is_empty(), "{}{faults}", if bless { "written: read it\n" } else { "" });
+    assert!(
+        faults.is_empty(),
+        "{}{faults}",
+        if bless { "the file was rewritten: review it\n" } else { "" }
+    );
 }
 
 #[test]
@@ -145,7 +149,7 @@ fn views() {
 }
 
 #[test]
-fn there_are_enough_of_them() {
+fn there_are_at_least_sixty_cases() {
     let folder = alberti_tests::project_root().join("tests/program/mistakes");
     let entries = std::fs::read_dir(folder).expect("the cases");
     let text = |entry: std::io::Result<std::fs::DirEntry>| {

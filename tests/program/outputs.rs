@@ -3,7 +3,7 @@
 use crate::sandbox::Sandbox;
 
 #[test]
-fn several_inputs_and_views_go_to_files_by_a_template() {
+fn a_template_names_the_files_of_several_inputs_and_views() {
     let sandbox = Sandbox::new("templates");
     for model in ["crate.glb", "lamp.glb"] {
         sandbox.copy_model(model);
@@ -51,7 +51,7 @@ fn several_inputs_and_views_go_to_files_by_a_template() {
 }
 
 #[test]
-fn names_that_meet_are_refused_before_anything_is_drawn() {
+fn colliding_names_are_refused_before_anything_is_drawn() {
     let sandbox = Sandbox::new("collisions");
     sandbox.copy_model("crate.glb");
     sandbox.copy_model("lamp.glb");
@@ -86,7 +86,7 @@ fn one_bad_input_does_not_stop_the_others() {
 }
 
 #[test]
-fn pictures_come_from_the_standard_input_and_go_to_the_standard_output() {
+fn models_come_from_the_standard_input_and_pictures_go_to_the_standard_output() {
     let sandbox = Sandbox::new("pipes");
     sandbox.copy_model("crate.glb");
     let model = std::fs::read(sandbox.path_of("crate.glb")).expect("the model");

@@ -1,10 +1,10 @@
 //! Overlays and classical projections: vanishing points, the horizon and the axes are at the
-//! positions that the formulas give.
+//! positions from the formulas.
 
 use crate::sandbox::Sandbox;
 use crate::vector_files::{Layers, PagePoint, parse_svg, point_bounds};
 
-/// The layers in a drawing of the house, and half the width and height of its page.
+/// Returns the layers in a drawing of the house, and half the width and height of its page.
 fn draw_overlays(sandbox: &Sandbox, camera: &str, overlays: &str) -> (PagePoint, Layers) {
     sandbox.copy_model("house.glb");
     sandbox.write_file(
@@ -21,13 +21,13 @@ fn draw_overlays(sandbox: &Sandbox, camera: &str, overlays: &str) -> (PagePoint,
     ([page[0] / 2.0, page[1] / 2.0], layers)
 }
 
-/// The layers whose names end like this.
+/// Returns the layers whose names end like this.
 fn layers_ending_in<'a>(layers: &'a Layers, end: &str) -> Vec<&'a Vec<PagePoint>> {
     let chosen = layers.iter().filter(|(id, _)| id.starts_with("overlay-") && id.ends_with(end));
     chosen.flat_map(|(_, lines)| lines).collect()
 }
 
-/// A point on the page in half heights of the picture from its center, y up.
+/// Converts a point on the page to half heights of the picture from its center, with y up.
 fn to_half_heights(point: PagePoint, half: PagePoint) -> PagePoint {
     [(point[0] - half[0]) / half[1], (half[1] - point[1]) / half[1]]
 }
@@ -38,7 +38,7 @@ fn assert_near(actual: PagePoint, expected: PagePoint) {
     assert!(near, "{actual:?} instead of {expected:?}");
 }
 
-/// The center of the ring around a vanishing point.
+/// Returns the center of the ring around a vanishing point.
 fn ring_center(layers: &Layers, axis: &str, half: PagePoint) -> Option<PagePoint> {
     let lines = layers_ending_in(layers, &format!("-vanishing-{axis}"));
     let [low, high] = point_bounds(lines.first()?.iter());
@@ -47,7 +47,7 @@ fn ring_center(layers: &Layers, axis: &str, half: PagePoint) -> Option<PagePoint
 }
 
 #[test]
-fn c82_axes_vanish_where_the_construction_wants_them() {
+fn c82_axes_vanish_at_the_constructed_points() {
     let sandbox = Sandbox::new("vanishing");
     let cases = [
         ("OnePoint(at: (0.35, 0.45), distance: 3)", [None, None, Some([0.35, 0.45])]),
@@ -82,7 +82,7 @@ fn c82_axes_vanish_where_the_construction_wants_them() {
 }
 
 #[test]
-fn c80_lines_of_the_models_run_to_the_vanishing_points() {
+fn c80_model_edges_lead_to_the_vanishing_points() {
     let sandbox = Sandbox::new("run_to");
     let camera = "projection: TwoPoint(x: (-1.2, 0.5), z: (1.1, 0.5), fraction: 0.5)";
     let (half, layers) = draw_overlays(&sandbox, camera, "VanishingPoints");
@@ -100,11 +100,12 @@ fn c80_lines_of_the_models_run_to_the_vanishing_points() {
 }
 
 #[test]
-fn c76_c77_axes_are_drawn_as_long_and_at_the_angles_of_the_textbooks() {
+fn c76_c77_axes_have_textbook_lengths_and_angles() {
     let sandbox = Sandbox::new("axes");
     let isometric = libm::sqrt(2.0 / 3.0);
     let half_angle = std::f64::consts::FRAC_1_SQRT_2;
-    // The images of the unit vectors along x, y and z, up to a common factor; z towards the viewer.
+    // The images of the unit vectors along x, y and z, up to a common factor; z points toward the
+    // viewer.
     let cases = [
         ("Multiview(Front)", [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]]),
         (
@@ -146,7 +147,7 @@ fn vector_length([x, y]: PagePoint) -> f64 {
     libm::sqrt(x * x + y * y)
 }
 
-/// The images of the three axes, from the origin to the tip, y up.
+/// Returns the images of the three axes, from the origin to the tip, with y up.
 fn axis_vectors(layers: &Layers) -> [PagePoint; 3] {
     let points = ["x", "y", "z"].map(|axis| {
         let parts =
@@ -166,9 +167,10 @@ fn axis_vectors(layers: &Layers) -> [PagePoint; 3] {
     })
 }
 
-/// A vanishing point beyond the border is labeled there; one in the picture has only its ring.
+/// A vanishing point outside the picture is labeled at the border; a vanishing point inside has
+/// only its ring.
 #[test]
-fn vanishing_points_outside_of_the_picture_are_named_at_its_border() {
+fn vanishing_points_outside_the_picture_are_labeled_at_its_border() {
     let sandbox = Sandbox::new("vanishing_outside");
     let camera = "projection: TwoPoint(x: (-3.2, 0.5), z: (1.1, 0.5))";
     let (half, layers) = draw_overlays(&sandbox, camera, "VanishingPoints");

@@ -1,5 +1,5 @@
-//! Temporary files: a signal leaves none, and the next run removes those that a killed process
-//! left.
+//! Temporary files: none remain after a signal, and the next run removes the files that a killed
+//! process left behind.
 
 use crate::explore::ignores_signal;
 use crate::sandbox::Sandbox;
@@ -14,7 +14,7 @@ fn start_picture(sandbox: &Sandbox) -> Child {
     let begin = Instant::now();
     while parts_of(sandbox).is_empty() {
         assert!(begin.elapsed() < Duration::from_secs(60), "there is no temporary file");
-        assert!(child.try_wait().expect("its state").is_none(), "it has ended");
+        assert!(child.try_wait().expect("its state").is_none(), "the run has ended");
         std::thread::sleep(Duration::from_millis(10));
     }
     child
@@ -29,7 +29,7 @@ fn send_signal(child: &Child, signal: &str) {
     assert!(kill.success());
 }
 
-/// The id of a process that has ended.
+/// Returns the id of a process that has ended.
 fn dead_process() -> u32 {
     let mut child = Command::new("true").spawn().expect("a process");
     child.wait().expect("its end");
@@ -58,14 +58,14 @@ fn a_signal_leaves_no_temporary_file() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn the_next_run_removes_what_a_killed_one_has_left() {
+fn the_next_run_removes_the_files_of_a_killed_run() {
     let sandbox = Sandbox::new("partial_killed");
     sandbox.copy_model("house.glb");
     let mut child = start_picture(&sandbox);
     send_signal(&child, "-KILL");
     child.wait().expect("it ends");
     assert_eq!(parts_of(&sandbox), [format!("a.png.{}.part", child.id())]);
-    // One that another run is writing, and one for another output.
+    // A file that another run is writing, and a file for another output.
     let alive = format!("a.png.{}.part", std::process::id());
     let other = format!("b.png.{}.part", dead_process());
     sandbox.write_file(&alive, "");
@@ -77,7 +77,7 @@ fn the_next_run_removes_what_a_killed_one_has_left() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn the_next_batch_removes_what_a_killed_one_has_left() {
+fn the_next_batch_removes_the_files_of_a_killed_batch() {
     let sandbox = Sandbox::new("partial_batch");
     sandbox.copy_model("crate.glb");
     let batch = ["batch", "crate.glb", "--out-dir", "out", "--size", "16x16"];

@@ -4,7 +4,7 @@ use crate::sandbox::Sandbox;
 use std::time::{Duration, Instant};
 
 #[test]
-fn jpeg_and_webp_have_the_size_of_the_picture_and_the_same_bytes_each_time() {
+fn jpeg_and_webp_have_the_picture_size_and_repeatable_bytes() {
     let sandbox = Sandbox::new("picture_formats");
     sandbox.copy_model("crate.glb");
     let bytes = |name: &str| std::fs::read(sandbox.path_of(name)).expect("a picture");
@@ -29,14 +29,14 @@ fn jpeg_and_webp_have_the_size_of_the_picture_and_the_same_bytes_each_time() {
     assert_eq!(jpeg_size(&bytes("a.jpg")), [90, 70]);
     let webp = bytes("a.webp");
     assert!(webp.starts_with(b"RIFF") && &webp[8..16] == b"WEBPVP8L");
-    // 14 bits for the width minus one, then 14 for the height.
+    // 14 bits for the width minus one, then 14 bits for the height minus one.
     let bits = u32::from_le_bytes([webp[21], webp[22], webp[23], webp[24]]);
     assert_eq!([bits & 0x3fff, bits >> 14 & 0x3fff], [89, 69]);
 }
 
-/// Width and height of a baseline JPEG, from its frame header.
+/// Returns the width and height of a baseline JPEG from its frame header.
 fn jpeg_size(bytes: &[u8]) -> [u16; 2] {
-    assert!(bytes.starts_with(&[0xff, 0xd8]) && bytes.ends_with(&[0xff, 0xd9]), "a whole JPEG");
+    assert!(bytes.starts_with(&[0xff, 0xd8]) && bytes.ends_with(&[0xff, 0xd9]), "a complete JPEG");
     let mut at = 2;
     loop {
         let number = |at: usize| u16::from_be_bytes([bytes[at], bytes[at + 1]]);
@@ -67,7 +67,7 @@ fn a_watched_picture_is_rendered_again_when_its_model_changes() {
     child.wait().expect("its end");
 }
 
-/// The bytes of the picture, once they differ from the previous ones.
+/// Waits until the bytes of the picture differ from the previous ones, and returns them.
 fn wait_for_change(sandbox: &Sandbox, before: &[u8]) -> Vec<u8> {
     let begin = Instant::now();
     loop {
@@ -75,7 +75,7 @@ fn wait_for_change(sandbox: &Sandbox, before: &[u8]) -> Vec<u8> {
         if !now.is_empty() && now != before {
             return now;
         }
-        assert!(begin.elapsed() < Duration::from_secs(60), "the picture stays as it is");
+        assert!(begin.elapsed() < Duration::from_secs(60), "the picture does not change");
         std::thread::sleep(Duration::from_millis(20));
     }
 }
@@ -115,13 +115,13 @@ fn a_label_has_lines_greek_letters_and_a_halo() {
         let has_white = |row: &[[u8; 4]]| row.contains(&[255; 4]);
         rows.chunks_exact(240).filter(|row| has_white(row)).count()
     };
-    // Black letters on black are visible by their halo.
+    // Black letters on a black background are visible because of their halo.
     let (one, two) = (white("α → β"), white("α → β\\nΔφ ≤ 2π"));
-    assert!(one > 8 && two > one + 10, "{one} rows, {two} of two lines");
+    assert!(one > 8 && two > one + 10, "{one} rows for one line, {two} for two lines");
 }
 
 #[test]
-fn points_are_as_large_as_wanted_and_passes_are_openexr_on_request() {
+fn point_size_can_be_set_and_passes_can_be_openexr() {
     let sandbox = Sandbox::new("points_and_exr");
     sandbox.write_file("dots.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\n");
     let covered = |size: &str| {
@@ -139,7 +139,7 @@ fn points_are_as_large_as_wanted_and_passes_are_openexr_on_request() {
     for name in ["b.depth.exr", "b.id.exr"] {
         let bytes = std::fs::read(sandbox.path_of(name)).expect("a pass");
         assert!(bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]), "{name}");
-        // Ten rows of twenty values, each row after its number and its length.
+        // Ten rows of twenty values, each row preceded by its number and its length.
         assert!(bytes.len() > 10 * (8 + 80), "{name}: {}", bytes.len());
     }
 }

@@ -1,9 +1,9 @@
-//! Pictures: sizes, backgrounds, and the same bytes again.
+//! Pictures: sizes, backgrounds, and repeatable bytes.
 
 use crate::sandbox::Sandbox;
 
 #[test]
-fn flags_go_before_what_the_scene_says() {
+fn flags_override_the_scene() {
     let sandbox = Sandbox::new("flags");
     sandbox.copy_model("crate.glb");
     sandbox.write_file(
@@ -54,8 +54,8 @@ fn a_transparent_background_has_no_halo() {
             0 => assert_eq!((*clear, *white), ([0; 4], [255; 4]), "pixel {at}"),
             255 => assert_eq!(clear, white, "pixel {at}"),
             alpha => {
-                // Over white, in linear light, the soft pixel must give the opaque picture's
-                // color.
+                // Blended over white in linear light, the partly transparent pixel must have the
+                // opaque picture's color.
                 let share = f64::from(alpha) / 255.0;
                 for k in 0..3 {
                     let over = srgb_to_linear(clear[k]) * share + 1.0 - share;
@@ -73,7 +73,7 @@ fn srgb_to_linear(code: u8) -> f64 {
 }
 
 #[test]
-fn threads_and_repetition_change_no_byte() {
+fn pictures_do_not_depend_on_threads_or_repetition() {
     let sandbox = Sandbox::new("same_bytes");
     sandbox.copy_model("teapot.glb");
     let bytes = |name: &str, threads: &str| {
@@ -114,7 +114,8 @@ fn every_view_style_and_projection_shows_something() {
                 let run = sandbox.run(&[&["render", "house.glb"][..], &flags, &size].concat());
                 assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{flags:?}");
                 let (_, _, pixels) = sandbox.read_picture("out.png");
-                // Line drawings are dark on white paper, shaded pictures opaque on transparency.
+                // Line drawings are dark on white paper; shaded pictures are opaque on a
+                // transparent background.
                 let on_paper = |pixel: &[u8; 4]| 255 - pixel[0].min(pixel[1]).min(pixel[2]);
                 let coverage = |pixel: &[u8; 4]| match style {
                     "wireframe" => on_paper(pixel),
@@ -122,8 +123,9 @@ fn every_view_style_and_projection_shows_something() {
                 };
                 let inked = pixels.iter().filter(|pixel| coverage(pixel) > 0).count();
                 assert!(inked > 48 * 32 / 16, "{flags:?}: {inked} pixels");
-                // Framing leaves the margin of 5 percent free: nothing touches the border. Dense
-                // wireframes are hairlines, which leave a trace of 30 in 255 one pixel beyond them.
+                // Framing leaves a margin of 5 percent, so nothing touches the border. Dense
+                // wireframes consist of hairlines, which leave a trace of 30 of 255 one pixel
+                // beyond them.
                 let border =
                     |n: usize| n.is_multiple_of(48) || n % 48 == 47 || !(48..48 * 31).contains(&n);
                 let touches =
@@ -135,7 +137,7 @@ fn every_view_style_and_projection_shows_something() {
 }
 
 #[test]
-fn c36_the_floor_is_whole_from_the_horizon_down_with_the_eye_just_above_it() {
+fn c36_the_floor_has_no_gaps_with_the_eye_just_above_it() {
     let sandbox = Sandbox::new("floor");
     sandbox.copy_model("floor.glb");
     for height in [0.1, 0.01, 0.001] {
@@ -155,8 +157,8 @@ fn c36_the_floor_is_whole_from_the_horizon_down_with_the_eye_just_above_it() {
             .chunks(width as usize)
             .map(|row| row.iter().filter(|pixel| **pixel == [255, 0, 255, 255]).count())
             .collect();
-        // The horizon is row 60. From a little below it, where the sides of the floor are out of
-        // sight, every pixel is covered.
+        // The horizon is at row 60. A little below it, where the sides of the floor are outside the
+        // picture, every pixel is covered.
         let torn: Vec<usize> = (66..120).filter(|&row| rows[row] > 0).collect();
         assert!(torn.is_empty(), "eye at {height}: background in rows {torn:?}");
         assert_eq!(rows[0], width as usize, "sky above");

@@ -1,11 +1,11 @@
-//! Animations as the program poses them, compared with the formulas of glTF 2.0 (appendix C) and
-//! with the keys in real files. `info --json` gives the pose in numbers.
+//! Animated poses, compared with the formulas of glTF 2.0 (appendix C) and with the keyframes in
+//! real files. `info --json` reports the pose in numbers.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
 use serde_json::{Value, json};
 
-/// The output of `info --json` for a file.
+/// Returns the output of `info --json` for a file.
 fn info_json(sandbox: &Sandbox, arguments: &[&str]) -> Value {
     let run = sandbox.run(&[&["info", "--json"][..], arguments].concat());
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{arguments:?}");
@@ -25,7 +25,7 @@ fn assert_near(actual: &Value, expected: &[f64], what: &str) {
 }
 
 /// A square whose node moves linearly, turns linearly and grows by a cubic spline, whose second
-/// node steps, and whose weights, material, light and camera change too.
+/// node steps, and whose weights, material, light and camera also change.
 fn write_animated_model(sandbox: &Sandbox) {
     let mut document = GltfBuilder::square();
     let [zero_to_two, steps] =
@@ -87,7 +87,7 @@ fn write_animated_model(sandbox: &Sandbox) {
     document.write_file(sandbox, "moving");
 }
 
-/// Gives the square morph targets and a second node, which carries a light and a camera.
+/// Adds morph targets to the square, and a second node with a light and a camera.
 fn add_camera_and_light(document: &mut GltfBuilder) {
     let morph = document.add_floats("VEC3", &[0.0; 12]);
     document.json["meshes"][0]["primitives"][0]["targets"] =
@@ -104,11 +104,11 @@ fn add_camera_and_light(document: &mut GltfBuilder) {
 }
 
 #[test]
-fn poses_are_those_of_the_specification() {
+fn poses_follow_the_specification() {
     let sandbox = Sandbox::new("poses");
     write_animated_model(&sandbox);
-    // A cubic with these ends and slopes is x²; at a quarter of the turn the angle is a quarter of
-    // a right angle.
+    // A cubic with these end values and slopes is x²; after a quarter of the time, the angle is a
+    // quarter of a right angle.
     for (time, part, step) in [
         ("0.25", 0.125, 1.0),
         ("0.5", 0.25, 1.0),
@@ -141,7 +141,7 @@ fn poses_are_those_of_the_specification() {
         assert_near(
             &info["materials"][0]["base_color"],
             &[1.0 - part, part, 0.0, 1.0],
-            &what("colour"),
+            &what("color"),
         );
         assert_near(
             &json!([info["lights"][0]["intensity"]]),
@@ -160,9 +160,9 @@ fn poses_are_those_of_the_specification() {
     assert_eq!(described["materials"][0]["base_color"], json!([1.0, 0.0, 0.0, 1.0]), "at rest");
 }
 
-/// After its end an animation holds its last pose; a later time is a warning.
+/// After its end, an animation holds its last pose; a later time causes a warning.
 #[test]
-fn times_behind_the_end_are_said() {
+fn times_after_the_end_are_reported() {
     let sandbox = Sandbox::new("late_times");
     write_animated_model(&sandbox);
     let late = sandbox.run(&["render", "moving.gltf", "--size=8x8", "--time", "9"]);
@@ -183,7 +183,7 @@ fn times_behind_the_end_are_said() {
 }
 
 #[test]
-fn animation_pointers_to_nothing_are_reported_and_skipped() {
+fn dangling_animation_pointers_are_reported_and_skipped() {
     let sandbox = Sandbox::new("lost_pointers");
     write_animated_model(&sandbox);
     let text = std::fs::read_to_string(sandbox.path_of("moving.gltf")).expect("the file");

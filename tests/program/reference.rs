@@ -2,7 +2,7 @@
 
 use crate::sandbox::Sandbox;
 
-/// The long flags in a help text.
+/// Returns the long flags in a help text.
 fn flags_in_help(help: &str) -> Vec<&str> {
     let words = help.split(|c: char| c.is_whitespace() || c == ',' || c == '[' || c == '=');
     words.filter(|word| word.starts_with("--") && word.len() > 2).collect()
@@ -52,7 +52,7 @@ fn every_flag_of_every_command_is_in_the_reference() {
 }
 
 #[test]
-fn fields_are_found_by_name_by_type_and_by_path() {
+fn fields_are_found_by_name_type_and_path() {
     let sandbox = Sandbox::new("reference_fields");
     let doc = |word: &str| {
         let run = sandbox.run(&["scene", "doc", word]);
@@ -75,7 +75,7 @@ fn fields_are_found_by_name_by_type_and_by_path() {
 }
 
 #[test]
-fn the_reference_can_be_read_elsewhere() {
+fn the_reference_is_also_markdown_and_html() {
     let sandbox = Sandbox::new("reference_formats");
     let markdown = sandbox.run(&["reference", "--format", "markdown"]).stdout;
     assert!(markdown.starts_with("# Reference of Alberti\n\n## alberti\n"), "{markdown}");
@@ -89,9 +89,9 @@ fn the_reference_can_be_read_elsewhere() {
     }
 }
 
-/// Symbols and the prefixes of ids lead to formulas; other words lead to the list of them.
+/// Symbols and id prefixes lead to formulas; other words lead to the list of formulas.
 #[test]
-fn words_of_textbooks_lead_to_formulas() {
+fn textbook_words_lead_to_formulas() {
     let sandbox = Sandbox::new("reference_symbols");
     for (word, name) in [("HO", "HO-1, lift and divide"), ("M_vp", "VP-1, ")] {
         let run = sandbox.run(&["reference", word]);
@@ -105,9 +105,9 @@ fn words_of_textbooks_lead_to_formulas() {
     assert!(run.stderr.contains("`alberti reference formulas`"), "{}", run.stderr);
 }
 
-/// Each convention name with its depth range, y, handedness and pixels.
+/// Each convention is explained with its depth range, y direction, handedness and pixel centers.
 #[test]
-fn conventions_are_explained_by_their_names() {
+fn conventions_are_explained_by_name() {
     let sandbox = Sandbox::new("reference_conventions");
     for words in [&["reference", "conventions"][..], &["help", "matrix"], &["explain", "--help"]] {
         let text = sandbox.run(words).stdout;
@@ -123,9 +123,9 @@ fn conventions_are_explained_by_their_names() {
     }
 }
 
-/// Words from titles and texts, in any case and form.
+/// Words from titles and descriptions lead to formulas, in any case and form.
 #[test]
-fn formulas_are_found_by_their_words() {
+fn formulas_are_found_by_words() {
     let sandbox = Sandbox::new("reference_words");
     for (word, names) in [
         ("windowing", &["WI-2 and WI-3, windowing", "OR-1, orthographic box"][..]),

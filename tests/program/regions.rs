@@ -17,7 +17,7 @@ fn sandbox_with_model(name: &str) -> Sandbox {
 }
 
 #[test]
-fn crops_and_bands_are_the_pixels_of_the_whole() {
+fn crops_and_bands_match_the_whole_picture() {
     let sandbox = sandbox_with_model("parts");
     render_region(&sandbox, "whole.png", &["--overlay", "axes"]);
     let (width, _, whole) = sandbox.read_picture("whole.png");
@@ -36,8 +36,8 @@ fn crops_and_bands_are_the_pixels_of_the_whole() {
     assert_eq!(united, whole);
 }
 
-/// Everything that looks beyond a pixel: shadows of two kinds of light, a ground that catches them,
-/// occlusion, an environment, textures.
+/// A scene with everything that depends on more than one pixel: shadows of two kinds of light, a
+/// ground that catches them, occlusion, an environment and textures.
 const EVERYTHING: &str = r#"Scene(
     models: [
         (path: "crate.glb"),
@@ -54,11 +54,11 @@ const EVERYTHING: &str = r#"Scene(
 )"#;
 
 #[test]
-fn parts_with_shadows_and_occlusion_unite_byte_for_byte() {
+fn parts_with_shadows_and_occlusion_match_byte_for_byte() {
     let sandbox = sandbox_with_model("everything");
     sandbox.copy_model("panes.glb");
     sandbox.write_file("scene.ron", EVERYTHING);
-    // The tall one is drawn in two bands.
+    // The tall picture is drawn in two bands.
     for (size, columns, rows) in [("96x80", 96, 80), ("60x2100", 60, 2100)] {
         let draw = |output: &str, flags: &[&str]| {
             let default = ["render", "scene.ron", "-o", output, "--size", size];
@@ -74,7 +74,7 @@ fn parts_with_shadows_and_occlusion_unite_byte_for_byte() {
             bands.extend(draw("band.png", &["--band", band]));
         }
         assert!(bands == whole, "{size} in bands");
-        // Left and right of a line, joined row by row.
+        // The parts left and right of a line, joined row by row.
         let left = draw("left.png", &["--crop", &format!("0,0,37,{rows}")]);
         let right = draw("right.png", &["--crop", &format!("37,0,{},{rows}", columns - 37)]);
         let pairs = left.chunks(37).zip(right.chunks(columns - 37));
@@ -118,14 +118,14 @@ fn sixteen_bits_round_to_eight() {
     let file = std::fs::read(sandbox.path_of("deep.png")).expect("a file");
     assert_eq!(file[24], 16, "the depth in the header");
     let (flat, deep) = (sandbox.read_picture("flat.png").2, sandbox.read_picture("deep.png").2);
-    // The test's reader takes the high byte, which is the 8-bit code or differs from it by one.
+    // The test's reader uses the high byte, which equals the 8-bit code or differs from it by one.
     for (flat, deep) in flat.iter().zip(&deep) {
         assert!((0..4).all(|k| flat[k].abs_diff(deep[k]) <= 1), "{flat:?} {deep:?}");
     }
 }
 
 #[test]
-fn passes_lie_beside_the_picture() {
+fn passes_are_written_next_to_the_picture() {
     let sandbox = sandbox_with_model("passes");
     render_region(
         &sandbox,
@@ -153,9 +153,9 @@ fn passes_lie_beside_the_picture() {
 }
 
 #[test]
-fn nothing_is_written_if_a_pass_cannot_be() {
+fn nothing_is_written_if_a_pass_fails() {
     let sandbox = sandbox_with_model("all-or-nothing");
-    // A name that is just short enough for a picture and too long for its pass.
+    // A name that is just short enough for a picture but too long for its pass.
     let stem = "a".repeat(232);
     let output = format!("{stem}.png");
     sandbox.write_file(&output, "old");
@@ -170,7 +170,7 @@ fn nothing_is_written_if_a_pass_cannot_be() {
 }
 
 #[test]
-fn comparisons_print_figures_and_decide_the_exit_code() {
+fn comparisons_print_statistics_and_set_the_exit_code() {
     let sandbox = sandbox_with_model("compare");
     render_region(&sandbox, "expected.png", &[]);
     let same = ["render", "crate.glb", "-o", "same.png", "--compare", "expected.png"];
@@ -188,14 +188,14 @@ fn comparisons_print_figures_and_decide_the_exit_code() {
     let run = sandbox.run(&[&other[..], &flags, &SIZE].concat());
     assert_eq!(run.code, 1);
     assert!(run.stderr.starts_with("compared: differs; maximum difference 255 of 255; "));
-    assert!(sandbox.path_of("other.png").exists(), "the picture is there to be looked at");
+    assert!(sandbox.path_of("other.png").exists(), "the picture is written for inspection");
     let run = sandbox.run(&["render", "crate.glb", "--size", "10x10", "--compare", "expected.png"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("its size is 120 x 90, but the picture is 10 x 10"));
 }
 
 #[test]
-fn the_report_names_files_by_their_content() {
+fn the_report_identifies_files_by_content() {
     let sandbox = sandbox_with_model("report");
     let flags = ["--json", "--passes", "id", "--crop", "10,10,60,50", "--compare", "expected.png"];
     render_region(&sandbox, "expected.png", &["--crop", "10,10,60,50"]);
@@ -229,7 +229,7 @@ fn pictures_are_shown_in_half_blocks() {
     let run = sandbox.run(&[&["render", "crate.glb", "--show"], &SIZE[..]].concat());
     assert_eq!(run.code, 0, "{}", run.stderr);
     let lines: Vec<&str> = run.stdout.lines().collect();
-    // 80 columns, and 60 rows of pixels in 30 lines; or characters, where the tests run without
+    // 80 columns, and 60 rows of pixels in 30 lines; or characters, if the tests run without
     // colors.
     assert_eq!(lines.len(), 30);
     let cells = lines[15].matches('▀').count();

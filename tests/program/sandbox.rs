@@ -18,7 +18,7 @@ pub(crate) struct RunResult {
 }
 
 impl RunResult {
-    /// Exit code and output of a program that has ended by itself.
+    /// Returns the exit code and output of a program that was not ended by a signal.
     pub(crate) fn of(output: Output) -> Self {
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes UTF-8");
         Self {
@@ -35,7 +35,7 @@ fn program() -> &'static Path {
 }
 
 impl Sandbox {
-    /// A folder named after the test, with the suffix `SANDBOX_SUFFIX`.
+    /// Creates a folder named after the test, with the suffix `SANDBOX_SUFFIX`.
     pub(crate) fn new(name: &str) -> Self {
         let suffix = std::env::var("SANDBOX_SUFFIX").unwrap_or_default();
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}{suffix}"));
@@ -93,7 +93,7 @@ impl Sandbox {
 
     fn spawn_with_input(&self, arguments: &[&str], input: &[u8]) -> Output {
         let mut child = self.start(arguments);
-        // A program that has read enough may close it.
+        // A program that has read enough may close its input.
         let _ = child.stdin.take().expect("a pipe").write_all(input);
         child.wait_with_output().expect("the program ends")
     }
@@ -112,7 +112,7 @@ impl Sandbox {
         std::fs::copy(from, self.path_of(model)).expect("a committed model");
     }
 
-    /// The file names here, sorted.
+    /// Returns the file names here, sorted.
     pub(crate) fn file_names(&self) -> Vec<String> {
         let entries = std::fs::read_dir(&self.folder).expect("the folder");
         let name = |entry: std::io::Result<std::fs::DirEntry>| {
@@ -123,7 +123,7 @@ impl Sandbox {
         names
     }
 
-    /// Width, height and RGBA pixels of a PNG in this folder.
+    /// Returns the width, height and RGBA pixels of a PNG in this folder.
     pub(crate) fn read_picture(&self, name: &str) -> (u32, u32, Vec<[u8; 4]>) {
         alberti_tests::read_png(&self.path_of(name)).expect("a picture")
     }

@@ -1,10 +1,10 @@
-//! `alberti scene`: starter files, checks, layout.
+//! `alberti scene`: starter files, checks, formatting.
 
 use crate::sandbox::Sandbox;
 use serde_json::{Value, json};
 
 #[test]
-fn a_starter_is_drawn_checked_and_laid_out_and_each_of_its_comments_is_a_choice() {
+fn a_starter_is_valid_and_formatted_and_each_of_its_comments_is_an_option() {
     let sandbox = Sandbox::new("scene_init");
     for model in ["room.glb", "crate.glb", "lamp.glb"] {
         sandbox.copy_model(model);
@@ -25,7 +25,7 @@ fn a_starter_is_drawn_checked_and_laid_out_and_each_of_its_comments_is_a_choice(
         });
         let mut seen = 0;
         for choice in choices {
-            // The field that the comment offers, instead of the existing one.
+            // Replaces the existing field with the field in the comment.
             let field = choice.trim_start().trim_start_matches("// ");
             let name = field.split(':').next().expect("a name");
             let there = |line: &&str| !line.trim_start().starts_with(&format!("{name}: "));
@@ -40,7 +40,7 @@ fn a_starter_is_drawn_checked_and_laid_out_and_each_of_its_comments_is_a_choice(
 }
 
 #[test]
-fn a_starter_replaces_nothing_unless_it_must_and_finds_its_model_from_elsewhere() {
+fn a_starter_replaces_files_only_if_forced_and_finds_its_model_from_elsewhere() {
     let sandbox = Sandbox::new("scene_init_places");
     sandbox.copy_model("crate.glb");
     sandbox.write_file("crate.ron", "mine");
@@ -60,7 +60,7 @@ fn a_starter_replaces_nothing_unless_it_must_and_finds_its_model_from_elsewhere(
 }
 
 #[test]
-fn layout_is_written_or_only_checked() {
+fn formatting_is_written_or_only_checked() {
     let sandbox = Sandbox::new("scene_fmt");
     let wild = "Scene( models:[ (path:\"a.glb\") ],// the crate\nstyle:Flat)";
     let tidy = "Scene(\n    models: [(path: \"a.glb\")], // the crate\n    style: Flat,\n)\n";
@@ -78,7 +78,7 @@ fn layout_is_written_or_only_checked() {
 }
 
 #[test]
-fn the_committed_scenes_are_laid_out_and_nothing_in_them_is_unmeant() {
+fn the_committed_scenes_are_formatted_and_free_of_lints() {
     let sandbox = Sandbox::new("scene_committed");
     let folder = alberti_tests::project_root().join("scenes");
     let entries = std::fs::read_dir(&folder).expect("the scenes");
@@ -94,7 +94,8 @@ fn the_committed_scenes_are_laid_out_and_nothing_in_them_is_unmeant() {
     assert_eq!(report["files"].as_array().map(Vec::len), Some(scenes.len()));
 }
 
-/// A scene with a crate, one unit wide about the origin, and the messages about it.
+/// Returns a scene with a crate, one unit wide and centered at the origin, and the messages about
+/// it.
 fn check_with_fields(sandbox: &Sandbox, rest: &str) -> (i32, String) {
     sandbox.write_file(
         "scene.ron",
@@ -105,7 +106,7 @@ fn check_with_fields(sandbox: &Sandbox, rest: &str) -> (i32, String) {
 }
 
 /// Fields for a scene with a crate that are valid but probably unintended: the code of the warning,
-/// its location (empty: anywhere), and words from it.
+/// its location (empty for any), and words from it.
 const SUSPICIOUS: &[(&str, &str, &str, &str)] = &[
     (
         "camera: (view: LookTo(eye: (0, 0.5, 6), gaze: (0, 0, 1)), projection: Perspective(near: 0.1, far: 100))",
@@ -203,7 +204,7 @@ const SUSPICIOUS: &[(&str, &str, &str, &str)] = &[
 ];
 
 #[test]
-fn suspicious_values_are_warnings_with_their_location() {
+fn suspicious_values_cause_warnings_with_locations() {
     let sandbox = Sandbox::new("scene_advice");
     sandbox.copy_model("crate.glb");
     for &(rest, code, location, words) in SUSPICIOUS {
@@ -224,7 +225,7 @@ fn suspicious_values_are_warnings_with_their_location() {
 }
 
 #[test]
-fn models_that_hide_each_other_or_are_specks_are_named() {
+fn coincident_and_tiny_models_are_reported() {
     let sandbox = Sandbox::new("scene_advice_instances_coincide");
     sandbox.copy_model("crate.glb");
     let check = |models: &str| {
@@ -248,7 +249,7 @@ fn models_that_hide_each_other_or_are_specks_are_named() {
 }
 
 #[test]
-fn missing_names_come_at_once_and_missing_files_with_their_folders() {
+fn missing_names_are_reported_together_and_missing_files_with_their_folders() {
     let sandbox = Sandbox::new("scene_missing_names");
     sandbox.copy_model("crate.glb");
     std::fs::create_dir(sandbox.path_of("models")).expect("a folder");
@@ -268,7 +269,7 @@ fn missing_names_come_at_once_and_missing_files_with_their_folders() {
 }
 
 #[test]
-fn viewports_in_pixels_say_how_to_follow_the_size() {
+fn viewports_in_pixels_explain_how_to_follow_the_size() {
     let sandbox = Sandbox::new("scene_pixels");
     sandbox.copy_model("crate.glb");
     let scene =
@@ -282,7 +283,7 @@ fn viewports_in_pixels_say_how_to_follow_the_size() {
 }
 
 #[test]
-fn a_model_beside_the_picture_is_named() {
+fn a_model_outside_the_picture_is_reported() {
     let sandbox = Sandbox::new("scene_advice_model");
     sandbox.copy_model("crate.glb");
     sandbox.write_file(
@@ -304,7 +305,7 @@ fn a_model_beside_the_picture_is_named() {
 }
 
 #[test]
-fn instances_beside_the_picture_are_named_once_and_only_if_all_are() {
+fn instances_outside_the_picture_are_reported_once_and_only_if_all_are() {
     let sandbox = Sandbox::new("scene_advice_instances");
     sandbox.copy_model("crate.glb");
     let check = |grid: &str, after: &str| {
@@ -315,18 +316,18 @@ fn instances_beside_the_picture_are_named_once_and_only_if_all_are() {
         sandbox.write_file("scene.ron", &text);
         sandbox.run(&["scene", "check", "scene.ron"]).stdout
     };
-    // A forest: the camera is among its trees.
+    // A forest with the camera among its trees.
     let forest = "count: (9, 1, 9), step: (4, 0, 4)";
     let output = check(forest, "");
     assert!(!output.contains("model-not-visible"), "{output}");
-    // The message points to a model behind it as the second in the file.
+    // A model after the forest is located as the second model in the file.
     let output = check(forest, "\n    (path: \"crate.glb\", translation: (90, 0, 90))");
     assert_eq!(output.matches("warning[model-not-visible]").count(), 1, "{output}");
     assert!(output.contains("scene.ron:3:5"), "{output}");
 }
 
 #[test]
-fn included_files_are_joined_and_mistakes_point_into_the_right_one() {
+fn included_files_are_merged_and_mistakes_point_to_the_correct_file() {
     let sandbox = Sandbox::new("scene_include");
     sandbox.copy_model("crate.glb");
     std::fs::create_dir(sandbox.path_of("lib")).expect("a folder");
@@ -352,7 +353,7 @@ fn included_files_are_joined_and_mistakes_point_into_the_right_one() {
     sandbox.write_file("one.ron", format!("Scene({one}, {view}, {image}, style: Shaded)"));
     assert_eq!(sandbox.run(&["render", "one.ron", "-o", "one.png"]).code, 0);
     assert!(sandbox.read_picture("out.png") == sandbox.read_picture("one.png"));
-    // A mistake in each of the three.
+    // One mistake in each of the three files.
     let cases = [
         (
             "lib/studio.ron",
@@ -380,7 +381,7 @@ fn included_files_are_joined_and_mistakes_point_into_the_right_one() {
 }
 
 #[test]
-fn includes_go_neither_in_circles_nor_astray() {
+fn circular_and_outside_includes_are_refused() {
     let sandbox = Sandbox::new("scene_include_refused");
     sandbox.copy_model("crate.glb");
     std::fs::create_dir(sandbox.path_of("in")).expect("a folder");
@@ -413,7 +414,7 @@ fn includes_go_neither_in_circles_nor_astray() {
 }
 
 #[test]
-fn a_misspelt_model_is_answered_with_the_one_beside_it() {
+fn a_misspelled_model_gets_the_name_of_a_nearby_file() {
     let sandbox = Sandbox::new("scene_namesake");
     sandbox.copy_model("crate.glb");
     sandbox.write_file("scene.ron", "Scene(models: [(path: \"crato.glb\")])");
@@ -421,9 +422,9 @@ fn a_misspelt_model_is_answered_with_the_one_beside_it() {
     assert!(run.code == 1 && run.stderr.contains("did you mean \"crate.glb\"?"), "{}", run.stderr);
 }
 
-/// Valid but unintended values cause warnings, in the first run and next to errors.
+/// Valid but unintended values cause warnings, even if there are also errors.
 #[test]
-fn sections_of_shaded_scenes_and_flat_stereo_pairs_are_warned_of() {
+fn sections_of_shaded_scenes_and_flat_stereo_pairs_cause_warnings() {
     let sandbox = Sandbox::new("scene_warnings");
     sandbox.copy_model("crate.glb");
     let check = |fields: &str| {

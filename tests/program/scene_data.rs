@@ -15,10 +15,10 @@ use scene_text::{SceneFiles, random_scene_text};
 use std::fs;
 use std::path::PathBuf;
 
-/// The random scenes of a run.
+/// The number of random scenes per run.
 const CASES: u64 = 10_000;
 
-/// All scene files in a folder and its subfolders.
+/// Finds all scene files in a folder and its subfolders.
 fn scene_files(folder: PathBuf, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("the folder is there") {
         let path = entry.expect("the folder can be read").path();
@@ -31,7 +31,7 @@ fn scene_files(folder: PathBuf, found: &mut Vec<PathBuf>) {
 }
 
 #[test]
-fn plain_ron_reads_every_scene_of_the_repository() {
+fn plain_ron_reads_every_scene_in_the_repository() {
     let mut paths = Vec::new();
     for folder in ["scenes", "book/scenes", "docs/exercises"] {
         scene_files(alberti_tests::project_root().join(folder), &mut paths);
@@ -47,7 +47,7 @@ fn plain_ron_reads_every_scene_of_the_repository() {
 }
 
 #[test]
-fn random_scenes_read_back_as_they_were_written() {
+fn random_scenes_survive_a_round_trip() {
     let files = SceneFiles {
         models: vec!["crate.glb".to_owned(), "part \"2\".gltf".to_owned()],
         environment: "sky.hdr",
@@ -59,7 +59,7 @@ fn random_scenes_read_back_as_they_were_written() {
     let count = numbers.len();
     for number in numbers {
         let text = random_scene_text(number, &files);
-        // Most values are reasonable, but not all: refusals are tested elsewhere.
+        // Most values are valid, but not all; errors are tested elsewhere.
         let Ok(scene) = SceneFile::from_ron(&text) else { continue };
         read += 1;
         assert_reads_back(&scene, &format!("scene {number}"));
@@ -67,7 +67,7 @@ fn random_scenes_read_back_as_they_were_written() {
     assert!(read > count / 2, "only {read} scenes can be read");
 }
 
-/// A scene is unchanged after RON, as `to_ron` lays it out and compact, and after JSON.
+/// Checks that a scene is unchanged after RON, formatted by `to_ron` and compact, and after JSON.
 #[track_caller]
 fn assert_reads_back(scene: &SceneFile, name: &str) {
     let text = scene.to_ron().expect(name);
@@ -79,7 +79,7 @@ fn assert_reads_back(scene: &SceneFile, name: &str) {
 }
 
 #[test]
-fn what_has_its_default_is_not_written() {
+fn default_values_are_not_written() {
     let scene = SceneFile::from_model_path("a.glb".to_owned());
     assert_eq!(scene.to_ron().expect("it is written"), "Scene(models: [(path: \"a.glb\")])\n");
     let json = serde_json::to_string(&scene).expect("it is written");
@@ -97,7 +97,7 @@ fn values_that_cannot_be_read_are_not_written() {
 }
 
 #[test]
-fn other_formats_refuse_what_ron_refuses() {
+fn other_formats_refuse_the_same_values_as_ron() {
     for (json, reason) in [
         (r#"{"modles": []}"#, "unknown field `modles`"),
         (r#"{"models": [{}]}"#, "missing field `path`"),
@@ -130,7 +130,7 @@ fn every_type_of_a_public_field_can_be_named() {
     ]
     .map(read);
     let mut known: Vec<&str> = vec!["Option", "Vec", "String", "Box", "Self"];
-    // Items are at the beginning of a line: `shade::ImageFit`.
+    // Items begin a line: `shade::ImageFit`.
     let items = others.iter().flat_map(|other| other.lines()).chain(listing.lines());
     let items = items.filter(|line| !line.starts_with(' '));
     known.extend(items.filter_map(|line| line.split_whitespace().next()?.rsplit("::").next()));

@@ -1,4 +1,4 @@
-//! Cuts through models and tones under lines, as the program writes them.
+//! Cuts through models, and tones under lines, in the program's output.
 
 use crate::drawings::{assert_near, assert_succeeds, read_drawing, write_box};
 use crate::sandbox::Sandbox;
@@ -32,7 +32,7 @@ fn sections_cut_drawings_open() {
         }
         assert!(layers["visible-hatching"].len() > 3, "{flags:?}");
     }
-    // A plane beside the box removes nothing, or everything, and the message names it.
+    // A plane outside the box removes nothing, or everything, and the message names the plane.
     for (plane, warning) in [("x=1", "cuts nothing"), ("-x=1", "would remove everything")] {
         let flags = ["render", "box.gltf", "-o", "out.svg", "--style", "lines", "--section", plane];
         let run = sandbox.run(&flags);
@@ -70,7 +70,7 @@ fn invalid_sections_are_reported() {
 }
 
 #[test]
-fn open_surfaces_are_cut_without_a_cap_and_named() {
+fn open_surfaces_are_cut_without_a_cap_and_reported() {
     let sandbox = Sandbox::new("open_section");
     sandbox.copy_model("teapot.glb");
     let run = sandbox.run(&["render", "teapot.glb", "-o", "out.svg", "--section", "z=0"]);
@@ -79,10 +79,10 @@ fn open_surfaces_are_cut_without_a_cap_and_named() {
     assert!(read_drawing(&sandbox, "out.svg").1.contains_key("visible-section"));
 }
 
-/// The remaining part fills the picture, and in the technical style nothing is dashed behind the
+/// The remaining part fills the picture, and in the technical style, nothing is dashed behind the
 /// cut.
 #[test]
-fn cut_pictures_frame_what_is_left_and_dash_nothing_behind_the_cut() {
+fn cut_pictures_frame_the_rest_and_dash_nothing_behind_the_cut() {
     let sandbox = Sandbox::new("cut_frame");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let layers = |flags: &[&str]| {
@@ -98,17 +98,18 @@ fn cut_pictures_frame_what_is_left_and_dash_nothing_behind_the_cut() {
     assert!(whole.keys().any(|id| id.starts_with("hidden-")));
     let cut = layers(&["--style", "technical", "--section", "x=0.02"]);
     assert!(cut.keys().all(|id| !id.starts_with("hidden-")), "{:?}", cut.keys());
-    // Both are as high as the picture allows; framed like the whole, the rest would be lower.
+    // Both are as high as the picture allows; framed like the whole model, the rest would be
+    // smaller.
     assert!(height(&cut) > 0.95 * height(&whole), "{} {}", height(&cut), height(&whole));
     // Requested dashes are drawn.
     let dashed = layers(&["--style", "dashed", "--section", "x=0.02"]);
     assert!(dashed.keys().any(|id| id.starts_with("hidden-")));
 }
 
-/// The front view of a sheet is cut and named; the others show the whole model and the position of
-/// the cut.
+/// The front view of a sheet is cut and labeled; the others show the whole model and the position
+/// of the cut.
 #[test]
-fn sheets_show_cuts_in_the_view_that_looks_onto_them() {
+fn sheets_show_cuts_in_the_view_that_faces_them() {
     let sandbox = Sandbox::new("cut_sheet");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let flags = ["--section", "z=0.01", "--scale", "1:1"];
@@ -117,14 +118,14 @@ fn sheets_show_cuts_in_the_view_that_looks_onto_them() {
     assert!(layers.contains_key("front-visible-hatching"));
     assert!(layers.contains_key("isometric-visible-hatching"));
     assert!(!layers.contains_key("top-visible-hatching"));
-    // Whole from above: 30 mm deep. The cut is 10 mm in front of the rear edge, and its line
-    // extends beyond both sides.
+    // The top view shows the whole depth of 30 mm. The cut is 10 mm in front of the rear edge, and
+    // its line extends beyond both sides.
     let [low, high] = layer_bounds(&layers, |id| id.starts_with("top-"));
     assert_near(high[1] - low[1], 30.0);
     let along = layers["cut-lines"].iter().find(|line| line[0][1] == line[1][1]).expect("a line");
     assert_near(along[0][1] - low[1], 10.0);
     assert_near((along[1][0] - along[0][0]).abs(), 108.0);
-    // Spaced according to the style, at any scale: 2 mm at right angles to the lines.
+    // The hatching is spaced according to the style at any scale: 2 mm, perpendicular to the lines.
     let mut at: Vec<f64> =
         layers["front-visible-hatching"].iter().map(|line| line[0][0] + line[0][1]).collect();
     at.sort_by(f64::total_cmp);
@@ -133,7 +134,7 @@ fn sheets_show_cuts_in_the_view_that_looks_onto_them() {
 }
 
 #[test]
-fn tones_lie_under_the_lines_in_all_formats() {
+fn tones_are_under_the_lines_in_all_formats() {
     let sandbox = Sandbox::new("tones");
     sandbox.copy_model("house.glb");
     let scene = |tone: &str| {

@@ -19,7 +19,7 @@ fn write_moving_model(sandbox: &Sandbox) {
     document.write_file(sandbox, "model");
 }
 
-/// The center of all red pixels, as fractions of the width and height.
+/// Returns the center of all red pixels, as fractions of the width and height.
 fn visible_center(sandbox: &Sandbox, name: &str) -> [f64; 2] {
     let (width, height, pixels) = sandbox.read_picture(name);
     let (mut sum, mut count) = ([0.0; 2], 0.0);
@@ -27,14 +27,14 @@ fn visible_center(sandbox: &Sandbox, name: &str) -> [f64; 2] {
         let (x, y) = (at % width as usize, at / width as usize);
         sum = [sum[0] + x as f64 + 0.5, sum[1] + y as f64 + 0.5];
         count += 1.0;
-        assert!(pixel[0] > 200 && pixel[1] < 50, "red is what the square is");
+        assert!(pixel[0] > 200 && pixel[1] < 50, "the square is red");
     }
     assert!(count > 0.0, "{name} is empty");
     [sum[0] / count / f64::from(width), sum[1] / count / f64::from(height)]
 }
 
 #[test]
-fn an_animation_becomes_a_file_for_each_picture() {
+fn an_animation_becomes_one_file_per_frame() {
     let sandbox = Sandbox::new("animate_files");
     write_moving_model(&sandbox);
     let run = sandbox.run(&[
@@ -57,12 +57,12 @@ fn an_animation_becomes_a_file_for_each_picture() {
     for pair in places.windows(2) {
         assert!((pair[1][0] - pair[0][0] - step).abs() < 0.01 && step > 0.02, "{places:?}");
     }
-    // The camera does not follow: all of the motion is in the picture, and centered.
+    // The camera does not follow the square: the whole motion is in the picture, and centered.
     assert!(places[0][0] > 0.1 && places[3][0] < 0.9, "{places:?}");
 }
 
 #[test]
-fn a_turntable_is_one_animated_png_and_the_same_for_any_number_of_threads() {
+fn a_turntable_is_the_same_animated_png_with_any_number_of_threads() {
     let sandbox = Sandbox::new("animate_turntable");
     sandbox.copy_model("crate.glb");
     let turn = |name: &str, more: &[&str]| {
@@ -70,7 +70,7 @@ fn a_turntable_is_one_animated_png_and_the_same_for_any_number_of_threads() {
             ["animate", "crate.glb", "-o", name, "--turntable", "--frames", "8", "--size", "48x48"];
         let run = sandbox.run(&[&run[..], more].concat());
         assert_eq!((run.code, run.stderr.as_str()), (0, ""));
-        std::fs::read(sandbox.path_of(name)).expect("the film")
+        std::fs::read(sandbox.path_of(name)).expect("the animation")
     };
     let one = turn("one.png", &["--threads", "1"]);
     assert_eq!(one, turn("three.png", &["--threads", "3"]));
@@ -97,7 +97,7 @@ fn a_turntable_is_one_animated_png_and_the_same_for_any_number_of_threads() {
 }
 
 #[test]
-fn raw_frames_go_to_a_pipe() {
+fn raw_frames_can_be_piped() {
     let sandbox = Sandbox::new("animate_raw");
     sandbox.copy_model("crate.glb");
     let program = alberti_tests::program_path().expect("the program");
@@ -112,7 +112,7 @@ fn raw_frames_go_to_a_pipe() {
 }
 
 #[test]
-fn what_cannot_be_is_refused() {
+fn invalid_sequences_are_rejected() {
     let sandbox = Sandbox::new("animate_refused");
     sandbox.copy_model("crate.glb");
     let cases: [(&[&str], i32, &str); 4] = [
@@ -131,7 +131,7 @@ fn what_cannot_be_is_refused() {
 
 /// `--time` renders the still of a camera path that `animate` shows at that time.
 #[test]
-fn a_still_of_a_camera_path_is_the_frame_of_its_time() {
+fn a_still_of_a_camera_path_matches_the_frame_at_its_time() {
     let sandbox = Sandbox::new("camera_path_still");
     sandbox.copy_model("crate.glb");
     sandbox.write_file(

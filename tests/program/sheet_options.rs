@@ -1,19 +1,19 @@
-//! Sheet options: paper, title blocks, resolution, and messages about the layout; texts in a PDF as
-//! another reader finds them.
+//! Sheet options: paper, title blocks, resolution, and messages about the layout; PDF text as
+//! another program extracts it.
 
 use crate::drawings::{assert_near, assert_succeeds, read_drawing, write_box};
 use crate::sandbox::Sandbox;
 use alberti_tests::skip::report_skip;
 use std::process::Command;
 
-/// A sheet of a box of 100 × 50 × 30 mm with these fields.
+/// Draws a sheet of a box of 100 × 50 × 30 mm with these fields.
 fn write_scene(sandbox: &Sandbox, name: &str, fields: &str) {
     let text = format!("Scene(models: [(path: \"box.gltf\")], sheet: Sheet({fields}))");
     sandbox.write_file(name, text);
 }
 
 #[test]
-fn paper_is_chosen_by_the_size_of_the_model() {
+fn paper_size_follows_the_model_size() {
     let sandbox = Sandbox::new("sheet_paper");
     for (sides, flags, page) in [
         ([0.1, 0.05, 0.03], &[][..], [210.0, 297.0]),
@@ -47,7 +47,7 @@ fn the_scale_is_explained() {
 }
 
 #[test]
-fn the_resolution_of_a_png_is_chosen() {
+fn the_resolution_of_a_png_can_be_set() {
     let sandbox = Sandbox::new("sheet_dpi");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     for (flags, size) in [(&[][..], (1240, 1754)), (&["--dpi", "50"], (413, 585))] {
@@ -61,7 +61,7 @@ fn the_resolution_of_a_png_is_chosen() {
 }
 
 #[test]
-fn texts_of_a_pdf_are_found_by_another_reader() {
+fn pdf_text_is_found_by_another_reader() {
     let sandbox = Sandbox::new("sheet_text");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     write_scene(
@@ -71,7 +71,7 @@ fn texts_of_a_pdf_are_found_by_another_reader() {
          owner: \"Alberti\", language: Chinese",
     );
     let run = sandbox.run(&["sheet", "scene.ron", "-o", "out.pdf"]);
-    // The letters are invisible, but the text is found.
+    // The characters are invisible, but the text is found.
     assert!(run.code == 0 && run.stderr.contains("the drawing font lacks 轴承"), "{}", run.stderr);
     let read = |flags: &[&str]| {
         let path = sandbox.path_of("out.pdf").display().to_string();
@@ -83,14 +83,13 @@ fn texts_of_a_pdf_are_found_by_another_reader() {
         })
     };
     let Some(text) = read(&["-raw"]) else {
-        return report_skip("texts of a PDF", "pdftotext is not installed");
+        return report_skip("PDF text", "pdftotext is not installed");
     };
     for word in ["Größe 轴承", "Zoë", "Alberti", "100", "50", "30", "单位名称", "1:1", "A4", "zh"]
     {
         assert!(text.contains(word), "{word}: {text}");
     }
-    // A word is at the position of its letters: the title begins 1.5 mm from the border of the
-    // block.
+    // A word is at the position of its letters: the title begins 1.5 mm from the block's border.
     let boxes = read(&["-bbox"]).expect("a reader");
     let line = boxes.lines().find(|line| line.contains(">Größe<")).expect("the title");
     let attribute = |name: &str| {
@@ -103,7 +102,7 @@ fn texts_of_a_pdf_are_found_by_another_reader() {
 }
 
 #[test]
-fn a_title_block_of_ones_own_is_read_or_its_mistake_is_shown() {
+fn a_custom_title_block_is_read_or_its_mistake_shown() {
     let sandbox = Sandbox::new("sheet_block");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     write_scene(&sandbox, "scene.ron", "title: \"Box\", title_block: \"block.svg\"");
@@ -142,7 +141,7 @@ fn a_title_block_of_ones_own_is_read_or_its_mistake_is_shown() {
 }
 
 #[test]
-fn numbers_that_make_no_sense_are_mistakes() {
+fn invalid_numbers_are_mistakes() {
     let sandbox = Sandbox::new("sheet_numbers");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     for (fields, told) in [
@@ -157,7 +156,7 @@ fn numbers_that_make_no_sense_are_mistakes() {
 }
 
 #[test]
-fn a_check_of_the_scene_warns_of_what_the_sheet_lacks() {
+fn checking_a_scene_warns_about_problems_of_the_sheet() {
     let sandbox = Sandbox::new("sheet_check");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let section = |normal: &str| format!("Section(normal: {normal}, point: (0.05, 0.02, 0.02))");
@@ -188,7 +187,7 @@ fn a_check_of_the_scene_warns_of_what_the_sheet_lacks() {
 }
 
 #[test]
-fn a_check_of_the_scene_reads_title_blocks_where_it_may() {
+fn checking_a_scene_reads_title_blocks_only_where_allowed() {
     let sandbox = Sandbox::new("sheet_check_block");
     std::fs::create_dir(sandbox.path_of("inner")).expect("a folder");
     sandbox.copy_model("crate.glb");

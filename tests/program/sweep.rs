@@ -25,7 +25,7 @@ const PARALLEL_RANGES: [(&str, &str, &str); 6] = [
     ("angle", "0", "90"),
 ];
 
-/// C62, C64, C94: sheets of every parameter, in perspective and in parallel.
+/// C62, C64, C94: pages for every parameter, in perspective and in parallel projection.
 #[test]
 fn every_parameter_can_be_varied() {
     let sandbox = Sandbox::new("sweep_all");
@@ -48,10 +48,10 @@ fn every_parameter_can_be_varied() {
     }
 }
 
-/// The front of a box seen in the middle, at the depth of the middle of a flat box, keeps its size
-/// in a dolly zoom and scales with 1/distance without one.
+/// The front of a flat box, which is at the depth of its center, keeps its size in a dolly zoom and
+/// otherwise scales with 1/distance.
 #[test]
-fn a_dolly_zoom_keeps_the_size_and_a_walk_does_not() {
+fn a_dolly_zoom_keeps_the_size_and_a_plain_move_does_not() {
     let sandbox = Sandbox::new("sweep_dolly");
     write_box(&sandbox, "box", [4.0, 3.0, 1e-6]);
     let widths = |vary: &str| {
@@ -75,7 +75,7 @@ fn a_dolly_zoom_keeps_the_size_and_a_walk_does_not() {
 
 /// C64: the frustum and its apex.
 #[test]
-fn view_volumes_stand_below_the_pictures() {
+fn view_volumes_are_below_the_pictures() {
     let sandbox = Sandbox::new("sweep_volumes");
     write_box(&sandbox, "box", [4.0, 3.0, 2.0]);
     let sweep =
@@ -144,7 +144,7 @@ fn parameters_that_do_not_apply_are_reported() {
         let run = run(vary, from, "40", more);
         assert_eq!(run.code, 2, "{vary} {from} {more:?}: {}", run.stderr);
     }
-    // Orbiting the models works in parallel projection too.
+    // Orbiting the models also works in parallel projection.
     assert_eq!(run("angle", "0", "90", &["--projection", "orthographic"]).code, 0);
     assert_eq!(sandbox.file_names(), ["box.bin", "box.gltf", "sweep.svg"]);
 }

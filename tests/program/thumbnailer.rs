@@ -1,4 +1,4 @@
-//! `alberti thumbnailer`: the files it installs, its pictures, and that it ends.
+//! `alberti thumbnailer`: the files it installs, its pictures, and its limits.
 
 use crate::meshes::stl_box;
 use crate::sandbox::{RunResult, Sandbox};
@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-/// Files below a folder, as paths relative to it, sorted.
+/// Returns the files below a folder, as paths relative to it, sorted.
 fn files_below(folder: &Path) -> Vec<String> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];
@@ -24,7 +24,7 @@ fn files_below(folder: &Path) -> Vec<String> {
 const ENTRY: &str = "thumbnailers/alberti.thumbnailer";
 const MIME_TYPES: &str = "mime/packages/alberti.xml";
 
-/// Checks that the file is refused with this message, and that only `files` are left.
+/// Checks that the file is refused with this message, and that only `files` remain.
 fn assert_refuses(sandbox: &Sandbox, arguments: &[&str], words: &str, files: &[&str]) {
     let run = sandbox.run(&[&["thumbnailer"], arguments].concat());
     assert_eq!(run.code, 1, "{arguments:?}: {}", run.stderr);
@@ -49,7 +49,8 @@ fn both_files_are_installed_for_a_user_and_removed_again() {
             assert!(path.is_file(), "{name}");
             assert!(said.contains(&format!("wrote {}\n", path.display())), "{said}");
         }
-        // If it is installed, its database knows the one format that Debian's does not.
+        // If update-mime-database is installed, its database has the one format that Debian's
+        // lacks.
         if said.contains("\nran update-mime-database ") {
             let globs = std::fs::read_to_string(data.join("mime/globs2")).expect("a database");
             for glob in ["50:model/x-ply:*.ply", "60:model/obj:*.obj", "50:model/stl:*.stl"] {
@@ -76,7 +77,7 @@ fn both_files_are_installed_for_a_user_and_removed_again() {
 fn a_prefix_and_packages_get_the_same_files() {
     let sandbox = Sandbox::new("thumbnailer_prefix");
     let run = sandbox.run(&["thumbnailer", "--install", "--prefix", "usr"]);
-    // If installed, update-mime-database notes that this folder is not one that is searched.
+    // If installed, update-mime-database notes that this folder is not searched.
     assert_eq!(run.code, 0, "{}", run.stderr);
     let read = |name: &str| {
         std::fs::read_to_string(sandbox.path_of("usr/share").join(name)).expect("a file")
@@ -127,10 +128,10 @@ fn every_format_has_a_square_thumbnail() {
 }
 
 #[test]
-fn lines_of_thumbnails_are_thin_enough_to_be_told_apart() {
+fn lines_in_thumbnails_are_thin_enough_to_distinguish() {
     let sandbox = Sandbox::new("thumbnailer_lines");
     sandbox.write_file("box.stl", stl_box([1.0; 3]));
-    // A hundred boxes side by side: at full width everything is black.
+    // A hundred boxes side by side: at full line width, everything would be black.
     let scene = "Scene(
         models: [(path: \"box.stl\", instances: Grid(count: (10, 1, 10), step: (1.5, 1, 1.5)))],
         style: Lines(width: Mm(0.7)), image: (size: (1600, 1600)),
@@ -146,10 +147,11 @@ fn lines_of_thumbnails_are_thin_enough_to_be_told_apart() {
 }
 
 #[test]
-fn an_empty_file_is_filled_in_its_place() {
+fn an_empty_file_is_filled_in_place() {
     let sandbox = Sandbox::new("thumbnailer_in_place");
     sandbox.copy_model("crate.glb");
-    // As services do: the file is created for the program, and read through the same handle.
+    // As thumbnail services do, the test creates the file for the program and reads it through the
+    // same handle.
     let options = File::options().read(true).write(true).create_new(true).to_owned();
     let mut file = options.open(sandbox.path_of("out.png")).expect("an empty file");
     let run = sandbox.run(&["thumbnailer", "crate.glb", "out.png", "--size", "32"]);
@@ -178,7 +180,7 @@ fn broken_and_huge_inputs_end_without_a_picture() {
         ("e.3mf", b"PK\x03\x04\0\0\0\0", ""),
     ];
     inputs.iter().for_each(|(name, content, _)| sandbox.write_file(name, content));
-    // Far more bytes than the disk has blocks for.
+    // A sparse file, which has far more bytes than blocks on the disk.
     File::create(sandbox.path_of("f.stl")).and_then(|file| file.set_len(1 << 36)).expect("a file");
     let mut facets = vec![0; 80];
     facets.extend(400_000_u32.to_le_bytes());
@@ -201,10 +203,10 @@ fn broken_and_huge_inputs_end_without_a_picture() {
 }
 
 #[test]
-fn an_input_that_never_comes_ends_after_the_time() {
+fn an_input_that_never_arrives_times_out() {
     let sandbox = Sandbox::new("thumbnailer_time");
     let mut child = sandbox.start(&["thumbnailer", "-", "out.png", "--max-seconds", "1"]);
-    // Held open: the program waits for bytes, which nothing can cancel.
+    // The pipe is held open: the program waits for bytes, and this cannot be canceled.
     let pipe = child.stdin.take();
     let run = RunResult::of(child.wait_with_output().expect("the program ends"));
     drop(pipe);
@@ -215,7 +217,7 @@ fn an_input_that_never_comes_ends_after_the_time() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn the_system_ends_what_takes_more_memory() {
+fn the_system_ends_a_thumbnail_that_needs_more_memory() {
     let sandbox = Sandbox::new("thumbnailer_memory");
     sandbox.copy_model("crate.glb");
     let flags = ["--size", "4096", "--max-memory-bytes", "64MiB"];

@@ -1,9 +1,9 @@
-//! Flags that do nothing in a picture are reported; warnings about things it would not show are
-//! not.
+//! Flags without effect on a picture are reported; warnings about things that the picture would not
+//! show are not.
 
 use crate::sandbox::Sandbox;
 
-/// The messages of a picture of 8 × 8 pixels.
+/// Returns the messages for a picture of 8 × 8 pixels.
 fn messages(sandbox: &Sandbox, flags: &[&str]) -> String {
     let run = sandbox.run(&[&["render", "crate.glb", "--size", "8x8"], flags].concat());
     assert_eq!(run.code, 0, "{flags:?}: {}", run.stderr);
@@ -55,7 +55,7 @@ fn flags_without_effect_are_reported() {
 }
 
 #[test]
-fn the_report_has_the_warnings_too() {
+fn the_json_report_contains_the_warnings() {
     let sandbox = Sandbox::new("unused_report");
     sandbox.copy_model("crate.glb");
     let call = ["render", "crate.glb", "--size", "8x8", "--arc-tolerance", "1", "--json"];
@@ -64,7 +64,7 @@ fn the_report_has_the_warnings_too() {
     assert_eq!(run.stderr, "");
 }
 
-/// A file that uses an extension of which only part is drawn.
+/// A file that uses an extension that is drawn only in part.
 fn partly_drawn(name: &str) -> String {
     format!(
         r#"{{"asset": {{"version": "2.0"}}, "extensionsUsed": ["{name}"], "scene": 0,
@@ -78,7 +78,7 @@ fn partly_drawn(name: &str) -> String {
 }
 
 #[test]
-fn only_pictures_of_materials_warn_of_materials() {
+fn only_pictures_with_materials_warn_about_materials() {
     let sandbox = Sandbox::new("unshown_materials");
     sandbox.write_file("glass.gltf", partly_drawn("KHR_materials_transmission"));
     sandbox.write_file("edges.gltf", partly_drawn("EXT_mesh_primitive_edge_visibility"));
@@ -99,7 +99,7 @@ fn only_pictures_of_materials_warn_of_materials() {
 }
 
 #[test]
-fn a_batch_notes_them_in_its_report() {
+fn a_batch_report_contains_the_warnings() {
     let sandbox = Sandbox::new("unused_flags_batch");
     sandbox.copy_model("crate.glb");
     let flags = ["--size", "8x8", "--style", "lines", "--exposure", "3"];

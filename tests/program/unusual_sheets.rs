@@ -5,7 +5,8 @@ use crate::sandbox::{RunResult, Sandbox};
 /// The flags that draw every page of an assembly.
 const ALL_PAGES: [&str; 4] = ["--parts-list=list.csv", "--balloons", "--exploded", "--part-sheets"];
 
-/// A cube as OBJ: its vertices start at x, and the indices of its faces start after `first`.
+/// Returns a cube as OBJ: its vertices start at x, and the indices of its faces start after
+/// `first`.
 fn cube(x: i32, first: usize) -> String {
     let mut text = String::new();
     for corner in 0..8 {
@@ -19,7 +20,7 @@ fn cube(x: i32, first: usize) -> String {
     text
 }
 
-/// The sheet of an OBJ file with these flags, in every format.
+/// Draws the sheet of an OBJ file with these flags, in every format.
 fn draw_everywhere(name: &str, obj: &str, flags: &[&str]) -> (Sandbox, RunResult) {
     let sandbox = Sandbox::new(name);
     sandbox.write_file("model.obj", obj);
@@ -34,13 +35,13 @@ fn draw_everywhere(name: &str, obj: &str, flags: &[&str]) -> (Sandbox, RunResult
 }
 
 #[test]
-fn models_without_size_or_lines_have_a_message() {
+fn models_without_size_or_lines_are_reported() {
     let point = "v 1 2 3\n".repeat(3) + "f 1 2 3\n";
     for flags in [&[][..], &ALL_PAGES, &["--face-fill", "gray"], &["--face-fill", "flat"]] {
         let (_, run) = draw_everywhere("unusual_no_size", &point, flags);
         assert!(run.stderr.contains("the views are empty"), "{}", run.stderr);
     }
-    // Lines are parts; points are drawn too.
+    // Lines are parts, and points are also drawn.
     for (own, flags) in [("l 1 2 3\n", &ALL_PAGES[..]), ("p 1 2 3\n", &[])] {
         let obj = format!("v 0 0 0\nv 1 1 1\nv 1 0 0\n{own}");
         let (_, run) = draw_everywhere("unusual_lines", &obj, flags);
@@ -49,7 +50,7 @@ fn models_without_size_or_lines_have_a_message() {
 }
 
 #[test]
-fn names_of_parts_are_drawn_and_quoted_in_one_short_line() {
+fn part_names_are_drawn_and_quoted_on_one_short_line() {
     let long = "\u{5d0}".repeat(10_000);
     let names = ["bolt\u{7}\u{1b}[31m", "\u{202e}evil", "\u{5d1}\u{5d5}", "\u{1f600}", &long, ""];
     let mut obj = String::new();
@@ -67,7 +68,7 @@ fn names_of_parts_are_drawn_and_quoted_in_one_short_line() {
 }
 
 #[test]
-fn cuts_through_open_meshes_have_a_message() {
+fn cuts_through_open_meshes_are_reported() {
     // A cube without its last face.
     let mut open = cube(0, 0);
     open.truncate(open.rfind("f ").expect("a face"));
@@ -77,7 +78,7 @@ fn cuts_through_open_meshes_have_a_message() {
 }
 
 #[test]
-fn nothing_is_written_where_nothing_fits() {
+fn nothing_is_written_if_nothing_fits() {
     let sandbox = Sandbox::new("unusual_large");
     sandbox.write_file("model.obj", "v 0 0 0\nv 1e9 1e9 1e9\nv 1e9 0 0\nf 1 2 3\n");
     let draw = ["sheet", "model.obj", "--paper", "a5", "-o", "out.svg"];
@@ -87,7 +88,7 @@ fn nothing_is_written_where_nothing_fits() {
 }
 
 #[test]
-fn title_blocks_lie_below_the_scene_or_an_allowed_folder() {
+fn title_blocks_must_be_below_the_scene_or_an_allowed_folder() {
     let sandbox = Sandbox::new("unusual_title_block");
     std::fs::create_dir(sandbox.path_of("inner")).expect("a folder");
     sandbox.write_file("inner/model.obj", cube(0, 0));
@@ -107,7 +108,7 @@ fn title_blocks_lie_below_the_scene_or_an_allowed_folder() {
 }
 
 #[test]
-fn models_that_are_too_small_to_be_seen_have_a_message() {
+fn models_too_small_to_be_seen_are_reported() {
     let shrunk = |line: &str| line.replace('1', if line.starts_with('v') { "1e-6" } else { "1" });
     let tiny: String = cube(0, 0).lines().map(|line| shrunk(line) + "\n").collect();
     for (obj, is_tiny) in [(tiny.as_str(), true), (&cube(0, 0), false)] {

@@ -8,13 +8,14 @@ fn sandbox_with_teapot(name: &str) -> Sandbox {
     sandbox
 }
 
-/// Whether a message contains these words, with the given model in place of the example's.
+/// Whether a message contains these words, or the words with the test's model in place of the
+/// example's.
 fn tells(message: &str, words: &str) -> bool {
     message.contains(words) || message.contains(&words.replace("model.glb", "teapot.glb"))
 }
 
 #[test]
-fn flags_of_other_programs_lead_to_ours() {
+fn flags_from_other_programs_lead_to_their_equivalents() {
     let sandbox = sandbox_with_teapot("foreign_flags");
     for (flags, told) in [
         (&["--resolution", "8x8"][..], "use `--size 8x8`"),
@@ -35,8 +36,8 @@ fn flags_of_other_programs_lead_to_ours() {
         ),
         (
             &["-b"],
-            "nothing opens a window here, so leave it out; `--background white` is the color behind the \
-             model",
+            "this program never opens a window, so omit it; `--background white` is the color \
+             behind the model",
         ),
         (
             &["--engine", "CYCLES"],
@@ -44,8 +45,8 @@ fn flags_of_other_programs_lead_to_ours() {
         ),
         (
             &["--dpi", "300"],
-            "`--size 1920x1080` gives the pixels; `alberti sheet model.glb --dpi 300 -o sheet.png` \
-             draws on paper, to scale",
+            "`--size 1920x1080` sets the size in pixels; `alberti sheet model.glb --dpi 300 -o \
+             sheet.png` draws on paper, to scale",
         ),
         (&["--resolution", "200,150"], "use `--size 200x150`"),
         (&["-resize", "50%"], "use `--scale 0.5`"),
@@ -70,7 +71,7 @@ fn flags_of_other_programs_lead_to_ours() {
 }
 
 #[test]
-fn habits_of_other_programs_do_not_make_wrong_files() {
+fn habits_from_other_programs_do_not_write_wrong_files() {
     let sandbox = sandbox_with_teapot("foreign_habits");
     for (words, told) in [
         (
@@ -88,7 +89,7 @@ fn habits_of_other_programs_do_not_make_wrong_files() {
         ),
         (&["render", "teapot.glb", "--up", "-Y"], "the axis that points up is x, y or z"),
         (&["render", "teapot.glb", "--crop", "9x8+1+2"], "write `--crop 1,2,9,8`"),
-        (&["render", "teapot.glb", "--color", "1,0,0"], "`--color` says when messages are colored"),
+        (&["render", "teapot.glb", "--color", "1,0,0"], "`--color` sets when messages are colored"),
         (&["render", "teapot.glb", "-o", "png:-"], "write `--format png -o -`"),
         (&["render", "teapot.glb", "+repage", "-o", "a.png"], "a flag begins with `--`"),
         (
@@ -111,24 +112,24 @@ fn habits_of_other_programs_do_not_make_wrong_files() {
         assert!(tells(&run.stderr, told), "{words:?}: {}", run.stderr);
     }
     let files = std::fs::read_dir(sandbox.path_of(".")).expect("the folder").count();
-    assert_eq!(files, 1, "only the model is there");
+    assert_eq!(files, 1, "only the model exists");
 }
 
 #[test]
-fn tips_are_never_nonsense() {
+fn tips_are_never_misleading() {
     let sandbox = sandbox_with_teapot("tips");
     let unknown = sandbox.run(&["render", "teapot.glb", "--lenient", "--qwerty"]);
     assert!(!unknown.stderr.contains("tip:"), "{}", unknown.stderr);
-    // It would say that `--lenient` is needed.
+    // The usage would claim that `--lenient` is required.
     assert!(!unknown.stderr.contains("Usage:"), "{}", unknown.stderr);
     let cel = sandbox.run(&["render", "teapot.glb", "--style", "cel"]);
     assert!(cel.stderr.contains("`--style toon`\n"), "{}", cel.stderr);
-    let misspelt = sandbox.run(&["render", "teapot.glb", "--enviroment", "sky"]);
-    assert!(misspelt.stderr.contains("did you mean `--environment`?"), "{}", misspelt.stderr);
+    let misspelled = sandbox.run(&["render", "teapot.glb", "--enviroment", "sky"]);
+    assert!(misspelled.stderr.contains("did you mean `--environment`?"), "{}", misspelled.stderr);
 }
 
 #[test]
-fn help_has_groups_that_people_know() {
+fn help_has_familiar_groups() {
     let sandbox = Sandbox::new("help_groups");
     let help = sandbox.run(&["render", "--help"]).stdout;
     let headings: Vec<&str> = help
@@ -165,19 +166,22 @@ fn help_has_groups_that_people_know() {
     }
 }
 
-/// Attempts by users of f3d, Blender or ImageMagick, and the answers.
+/// Attempts by users of f3d, Blender or ImageMagick, and the advice they get.
 #[test]
-fn habits_that_were_tried_are_answered() {
+fn observed_habits_get_advice() {
     let sandbox = sandbox_with_teapot("tried_habits");
     std::fs::create_dir(sandbox.path_of("empty")).expect("a folder");
     for (words, told) in [
         (&["render", "models/*.glb"][..], "this pattern matches no file"),
-        (&["render", "https://a.org/a.glb"], "fetch it first, as in `curl -O https://a.org/a.glb`"),
-        (&["render", "teapot.glb", "--ambient-occlusion", "on"], "takes no value: leave out `on`"),
+        (
+            &["render", "https://a.org/a.glb"],
+            "download the file first, as in `curl -O https://a.org/a.glb`",
+        ),
+        (&["render", "teapot.glb", "--ambient-occlusion", "on"], "takes no value: omit `on`"),
         (&["render", "teapot.glb", "-o", "."], ". is a folder\n  = help: name a file in it"),
         (
             &["render", "teapot.glb", "--view", "front,top"],
-            "`--view` takes one direction; `--views front,top` draws a picture from each",
+            "`--view` takes one direction; `--views front,top` renders a picture from each",
         ),
         (
             &["render", "teapot.glb", "--compare", "a.png", "--tolerance", "1%"],
@@ -189,15 +193,15 @@ fn habits_that_were_tried_are_answered() {
         ),
         (
             &["info", "teapot.glb", "teapot.glb"],
-            "`alberti info` reads one file, and `teapot.glb` is a second one",
+            "`alberti info` reads one file, and `teapot.glb` is a second file",
         ),
         (&["compare", "a.png", "b.png"], "`magick compare a.png b.png difference.png`"),
-        (&["sheet", "teapot.glb", "--size", "800x600"], "`--paper a4` gives the size of the page"),
+        (&["sheet", "teapot.glb", "--size", "800x600"], "`--paper a4` sets the page size"),
         (&["batch", "nothere", "--out-dir", "th"], "failed: nothere: the file does not exist"),
         (&["render", "+Iteapot.glb", "+W64", "+Oo.png"], "a flag begins with `--`"),
         (&["batch", "empty", "-o", "thumbs"], "use `--out-dir thumbs`"),
         (&["batch", "empty", "--out-dir", "th"], "warning: nothing to draw"),
-        (&["thumbnailer", "-s", "128", "teapot.glb", "t.png"], "--size 128` gives the side"),
+        (&["thumbnailer", "-s", "128", "teapot.glb", "t.png"], "--size 128` sets the side length"),
         (
             &["render", "teapot.glb", "--size=8x8", "--background", "transparent", "-o", "a.jpg"],
             "a JPEG has no transparency",
@@ -223,9 +227,9 @@ fn habits_that_were_tried_are_answered() {
     }
 }
 
-/// Arguments of `alberti render teapot.glb`, and the answers.
+/// Arguments of `alberti render teapot.glb`, and the advice for them.
 const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
-    (&["-x"], "for axes use `--overlay axes`; a format needs no flag"),
+    (&["-x"], "for axes, use `--overlay axes`; a format needs no flag"),
     (&["--threads", "0"], "omit the flag to use all processors"),
     (&["--camera=0,0,5"], "to place a camera, use `--eye 0,0,5 --target 0,0,0`"),
     (&["--camera-view-up", "0,0,1"], "use `--view-up 0,0,1 --eye 4,3,6 --target 0,0,0`"),
@@ -233,7 +237,7 @@ const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
     (&["--max-size=100"], "`--max-file-bytes 100MiB`"),
     (&["--shadow", "off"], "use `--shadows off`"),
     (&["--view-transform", "AgX"], "use `--tone-mapping agx`"),
-    (&["--ambient-occlusion=true"], "`--ambient-occlusion` takes no value: leave out `=true`"),
+    (&["--ambient-occlusion=true"], "`--ambient-occlusion` takes no value: omit `=true`"),
     (&["--near", "0.1"], "the near and far planes are placed around the model"),
     (
         &["--scene", "main.ron"],
@@ -259,8 +263,8 @@ const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
     (&["--fov", "50mm"], "tip: write `--fov 27`"),
     (&["--scale", "10%"], "tip: write `--scale 0.1`"),
     (&["--quality", "80%"], "write `--quality 80`"),
-    (&["--up", "-Z"], "to turn a model over use `rotation_degrees`"),
-    (&["--view", "front-left"], "tip: other directions are given as in `--azimuth 45"),
+    (&["--up", "-Z"], "to turn a model over, use `rotation_degrees`"),
+    (&["--view", "front-left"], "tip: for other directions, use angles, as in `--azimuth 45"),
     (&["--scalar-coloring"], "the flag here is `--scalars`, as in `--scalars temperature`"),
     (&["out.tiff"], "TIFF output is not supported"),
     (&["--json", "out.json"], "redirect it, as in `--json > out.json`"),
@@ -287,21 +291,21 @@ const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
     (&["--views", "front,top", "-o", "a.png"], "use a template such as -o '{stem}_{view}.png'\n"),
     (&["--paper", "a4"], "`alberti sheet model.glb --paper a4` draws on paper"),
     (&["-a"], "`--samples 8` smooths edges"),
-    (&["-s", "1"], "`alberti animate model.glb --from 0 --to 2.5 -o film.gif` a range of frames"),
+    (&["-s", "1"], "`alberti animate model.glb --from 0 --to 2.5 -o film.gif` renders a range"),
     (&["--colour", "white"], "`--background white` is the color behind the model"),
     (&["--size", "50%"], "`--scale 0.5` scales the width and height"),
     (&["--background", "rgba(255,255,255,0.5)"], "a background color has no alpha"),
     (&["-w", "64", "-h", "48"], "use `--size 64x48`"),
     (&["-h", "48"], "`--size 1920x1080` sets the size"),
     (&["--width", "64", "--height", "48"], "use `--size 64x48`"),
-    (&["--view", "45,30"], "for angles use `--azimuth 45 --elevation 30`"),
+    (&["--view", "45,30"], "for angles, use `--azimuth 45 --elevation 30`"),
     (&["--elev", "30"], "use `--elevation 30`"),
     (&["--tone", "aces"], "did you mean `--tone-mapping`?"),
     (&["-ss", "1.5"], "use `--time 1.5`"),
     (&["--figsize", "8,6"], "sizes are in pixels"),
     (&["--camera", "perspective"], "`--projection` for projections"),
     (&["--up", "0,0,1"], "tip: write `--up z`"),
-    (&["--color", "red"], "`--color` says when messages are colored"),
+    (&["--color", "red"], "`--color` sets when messages are colored"),
     (&["--output-dir", "out/"], "as in `-o 'out/{stem}.png'`"),
     (&["-o", "out/"], "is a folder"),
     (&["\u{2014}size", "64x48"], "it begins with a dash; flags begin with two hyphens"),
@@ -310,16 +314,16 @@ const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
     (&["--samplse", "4"], "did you mean `--samples`?"),
 ];
 
-/// Command lines, and the answers.
+/// Command lines, and the advice for them.
 const COMMAND_LINES: &[(&[&str], &str)] = &[
-    (&["montage", "teapot.glb"], "which writes `index.html` beside the pictures"),
+    (&["montage", "teapot.glb"], "which writes `index.html` next to the pictures"),
     (&["scene", "validate", "a.ron"], "run `alberti scene check scene.ron`"),
     (&["sheet", "teapot.glb", "--scale", "50%"], "tip: write `--scale 1:2`"),
     (&["teapot.glb", "-o", "a.png"], "run `alberti render teapot.glb -o a.png`"),
     (&["rendr", "teapot.glb"], "`rendr` is not a command of `alberti`; did you mean `render`?"),
     (&["man", "rendr"], "did you mean `render`?"),
     (&["-v"], "`alberti --version` prints the version"),
-    (&["sheet", "teapot.glb", "--format", "svg"], "as in `-o sheet.pdf`, so leave it out"),
+    (&["sheet", "teapot.glb", "--format", "svg"], "as in `-o sheet.pdf`, so omit it"),
     (&["info", "-i", "teapot.glb"], "as in `alberti info model.glb`"),
     (&["animate", "teapot.glb", "--frames", "1..10", "-o", "a.gif"], "write `--frames 10`"),
     (&["animate", "teapot.glb", "-o", "film"], "missing file extension"),
@@ -334,10 +338,10 @@ const COMMAND_LINES: &[(&[&str], &str)] = &[
     (&["explore", "teapot.glb", "8080"], "use `--port 8080`"),
     (&["render", "scene.ron"], "scene.ron: the file does not exist"),
     (&["check", "teapot.glb", "-o", "a.txt"], "`alberti check model.glb > report.txt`"),
-    (&["simplify", "teapot.glb"], "models are only read here and never changed"),
+    (&["simplify", "teapot.glb"], "this program reads models and never changes them"),
     (&["-o", "a.png", "teapot.glb"], "flags come after the command"),
     (&["-v"], "`alberti --version` prints the version"),
-    (&["sheet", "teapot.glb", "--format", "svg"], "as in `-o sheet.pdf`, so leave it out"),
+    (&["sheet", "teapot.glb", "--format", "svg"], "as in `-o sheet.pdf`, so omit it"),
     (&["info", "-i", "teapot.glb"], "as in `alberti info model.glb`"),
     (&["animate", "teapot.glb", "--frames", "1..10", "-o", "a.gif"], "write `--frames 10`"),
     (&["animate", "teapot.glb", "-o", "film"], "missing file extension"),
@@ -347,7 +351,7 @@ const COMMAND_LINES: &[(&[&str], &str)] = &[
 
 /// Words and values from f3d, Blender, POV-Ray and ffmpeg that mean something else here.
 #[test]
-fn values_of_other_programs_are_translated() {
+fn values_from_other_programs_are_translated() {
     let sandbox = sandbox_with_teapot("translated_values");
     sandbox.write_file("text.png", "not a picture");
     sandbox.write_file("scene.yaml", "models:\n  - path: teapot.glb\n");
@@ -367,7 +371,7 @@ fn values_of_other_programs_are_translated() {
 
 /// The action is reported if it is probably not the intended one.
 #[test]
-fn flags_without_an_effect_are_warnings() {
+fn flags_without_effect_cause_warnings() {
     let sandbox = sandbox_with_teapot("idle_flags");
     let film = ["animate", "teapot.glb", "--turntable", "--frames=2", "--size=8x8", "-o", "a.gif"];
     let run = sandbox.run(&[&film[..], &["--to", "1"]].concat());
@@ -379,7 +383,7 @@ fn flags_without_an_effect_are_warnings() {
     );
     let run = sandbox.run(&["render", "teapot.glb", "--size=8x8", "--fov", "0.785"]);
     assert_eq!(run.code, 0);
-    assert!(run.stderr.contains("if it is in radians, write --fov 45"), "{}", run.stderr);
+    assert!(run.stderr.contains("if the value is in radians, write --fov 45"), "{}", run.stderr);
     let run = sandbox.run(&["render", "teapot.glb", "--size=8x8", "--view", "Front"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let render = ["render", "teapot.glb", "--size=8x8"];
@@ -392,9 +396,10 @@ fn flags_without_an_effect_are_warnings() {
     assert!(run.stderr.ends_with("need --allow-outside .\n"), "{}", run.stderr);
 }
 
-/// Scenes and models in each other's place, and syntax from other languages instead of RON.
+/// Scenes in place of models and models in place of scenes, and syntax from other languages instead
+/// of RON.
 #[test]
-fn scenes_of_other_languages_are_answered() {
+fn scenes_in_other_languages_get_advice() {
     let sandbox = sandbox_with_teapot("tried_scenes");
     sandbox.write_file("scene.ron", "# a comment\nScene(models: [(path: \"teapot.glb\")])\n");
     sandbox.write_file("pov.ron", "camera { location <0, 2, -3> }\nsphere { <0, 1, 2>, 2 }\n");

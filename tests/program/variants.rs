@@ -1,11 +1,11 @@
-//! Variants and scenes: the choices that a file offers, and the requests for them.
+//! Variants and scenes: the choices that a file offers, and the flags and fields that select them.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
 use serde_json::json;
 
-/// A file with a red square on the left; in the variant `blue` it is blue. Its second scene shows
-/// the square on the right too.
+/// Writes a file with a red square on the left, which is blue in the variant `blue`. Its second
+/// scene also shows the square on the right.
 fn write_variants_model(sandbox: &Sandbox) {
     let mut document = GltfBuilder::square();
     let blue = document.add_unlit_material([0.0, 0.0, 1.0]);
@@ -20,7 +20,7 @@ fn write_variants_model(sandbox: &Sandbox) {
     document.write_file(sandbox, "offer");
 }
 
-/// The colors in a picture, without the soft ones at edges.
+/// Returns the colors in a picture that has no antialiased edges.
 fn rendered_colors(sandbox: &Sandbox, arguments: &[&str]) -> Vec<[u8; 4]> {
     let default = ["-o", "out.png", "--size", "40x20", "--view", "front", "--samples", "1"];
     let run = sandbox.run(&[arguments, &default].concat());
@@ -36,7 +36,7 @@ const RED: [u8; 4] = [255, 0, 0, 255];
 const BLUE: [u8; 4] = [0, 0, 255, 255];
 
 #[test]
-fn a_variant_is_chosen_by_name_or_number() {
+fn a_variant_is_selected_by_name_or_number() {
     let sandbox = Sandbox::new("variants");
     write_variants_model(&sandbox);
     assert_eq!(rendered_colors(&sandbox, &["render", "offer.gltf"]), [TRANSPARENT, RED]);
@@ -55,7 +55,7 @@ fn a_variant_is_chosen_by_name_or_number() {
 }
 
 #[test]
-fn a_scene_is_chosen_by_name_or_number() {
+fn a_scene_is_selected_by_name_or_number() {
     let sandbox = Sandbox::new("scenes");
     write_variants_model(&sandbox);
     let width = |scene: &str| {
@@ -72,11 +72,11 @@ fn a_scene_is_chosen_by_name_or_number() {
         |sandbox: &Sandbox| sandbox.read_picture("out.png").2.iter().filter(|p| p[3] > 0).count();
     let both = inked(&sandbox);
     rendered_colors(&sandbox, &["render", "scene.ron", "--scene", "0"]);
-    assert!(inked(&sandbox) > both, "the flag goes before the scene file: one square fills more");
+    assert!(inked(&sandbox) > both, "the flag overrides the scene file: one square fills more");
 }
 
 #[test]
-fn what_the_file_does_not_offer_is_answered_with_what_it_does() {
+fn missing_choices_are_reported_with_the_available_ones() {
     let sandbox = Sandbox::new("no_such_variant");
     write_variants_model(&sandbox);
     for (flag, wanted, offered) in [

@@ -1,6 +1,6 @@
 //! Reads back the drawings that the program writes: the positions of all lines in an SVG by layer,
-//! and in a PDF, in millimeters. It knows only the parts of both formats that the program uses, and
-//! fails at anything else.
+//! and in a PDF, in millimeters. It supports only the parts of both formats that the program uses,
+//! and fails on anything else.
 
 use std::collections::BTreeMap;
 
@@ -10,11 +10,11 @@ pub(crate) type PagePoint = [f64; 2];
 /// Lines as lists of points, by layer id.
 pub(crate) type Layers = BTreeMap<String, Vec<Vec<PagePoint>>>;
 
-/// The lines in an SVG by layer, and the size of its page.
+/// Returns the lines in an SVG by layer, and the size of its page.
 pub(crate) fn parse_svg(text: &str) -> (PagePoint, Layers) {
     let size = ["width", "height"].map(|name| {
         let value = attribute_value(text, name).expect(name);
-        value.strip_suffix("mm").and_then(|number| number.parse().ok()).expect("millimetres")
+        value.strip_suffix("mm").and_then(|number| number.parse().ok()).expect("millimeters")
     });
     assert_eq!(attribute_value(text, "viewBox"), Some(format!("0 0 {} {}", size[0], size[1])));
     let (mut layers, mut layer) = (Layers::new(), String::new());
@@ -34,17 +34,17 @@ pub(crate) fn parse_svg(text: &str) -> (PagePoint, Layers) {
     let count = ids.len();
     ids.sort();
     ids.dedup();
-    assert_eq!(ids.len(), count, "ids are there once");
+    assert_eq!(ids.len(), count, "ids are unique");
     (size, layers)
 }
 
-/// The first attribute with a name.
+/// Returns the first attribute with a name.
 fn attribute_value(text: &str, name: &str) -> Option<String> {
     let start = text.find(&format!(" {name}=\""))? + name.len() + 3;
     Some(text[start..].split('"').next().unwrap_or_default().to_owned())
 }
 
-/// The lines of a path that contains only `M m l h v z`.
+/// Returns the lines of a path that contains only `M m l h v z`.
 fn parse_path(path: &str) -> Vec<Vec<PagePoint>> {
     let mut lines: Vec<Vec<PagePoint>> = Vec::new();
     let (mut at, mut start) = ([0.0, 0.0], [0.0, 0.0]);
@@ -55,7 +55,7 @@ fn parse_path(path: &str) -> Vec<Vec<PagePoint>> {
         rest = &rest[end..];
         match command {
             'M' | 'm' => {
-                let [x, y] = numbers[..] else { panic!("one place: {path}") };
+                let [x, y] = numbers[..] else { panic!("one point: {path}") };
                 at = if command == 'M' { [x, y] } else { [at[0] + x, at[1] + y] };
                 start = at;
                 lines.push(vec![at]);
@@ -83,13 +83,14 @@ fn parse_path(path: &str) -> Vec<Vec<PagePoint>> {
     lines
 }
 
-/// Numbers separated by blanks, or by the sign of the next one.
+/// Parses numbers separated by spaces, or by the sign of the next number.
 fn parse_numbers(text: &str) -> Vec<f64> {
     let parted = text.replace('-', " -");
     parted.split_ascii_whitespace().map(|word| word.parse().expect("a number")).collect()
 }
 
-/// The lines on each page of a PDF in millimeters from its upper left corner, and the page sizes.
+/// Returns the lines on each page of a PDF in millimeters from its upper left corner, and the page
+/// sizes.
 pub(crate) fn parse_pdf(bytes: &[u8]) -> Vec<(PagePoint, Vec<Vec<PagePoint>>)> {
     let text = String::from_utf8_lossy(bytes);
     let sizes: Vec<PagePoint> = text
@@ -112,7 +113,7 @@ pub(crate) fn parse_pdf(bytes: &[u8]) -> Vec<(PagePoint, Vec<Vec<PagePoint>>)> {
 /// Millimeters per point.
 const POINT: f64 = 25.4 / 72.0;
 
-/// The decompressed streams in a file; font streams are not compressed, and are skipped.
+/// Returns the decompressed streams in a file; font streams are not compressed and are skipped.
 fn inflate_streams(bytes: &[u8]) -> Vec<String> {
     let find = |from: usize, word: &[u8]| {
         bytes[from..].windows(word.len()).position(|part| part == word).map(|at| from + at)
@@ -128,7 +129,7 @@ fn inflate_streams(bytes: &[u8]) -> Vec<String> {
     streams
 }
 
-/// The lines a content stream draws.
+/// Returns the lines that a content stream draws.
 fn drawn_lines(content: &str, height: f64) -> Vec<Vec<PagePoint>> {
     let mut map = [1.0, 0.0, 0.0, 1.0, 0.0, 0.0];
     let (mut lines, mut stack): (Vec<Vec<PagePoint>>, Vec<f64>) = (Vec::new(), Vec::new());
@@ -138,7 +139,7 @@ fn drawn_lines(content: &str, height: f64) -> Vec<Vec<PagePoint>> {
             continue;
         }
         let point = || {
-            let [.., x, y] = stack[..] else { panic!("a place before {word}") };
+            let [.., x, y] = stack[..] else { panic!("a point before {word}") };
             let [a, b, c, d, e, f] = map;
             [(a * x + c * y + e) * POINT, height - (b * x + d * y + f) * POINT]
         };
@@ -157,13 +158,13 @@ fn drawn_lines(content: &str, height: f64) -> Vec<Vec<PagePoint>> {
     lines
 }
 
-/// The minimum and maximum coordinates of some layers.
+/// Returns the minimum and maximum coordinates of some layers.
 pub(crate) fn layer_bounds(layers: &Layers, wanted: impl Fn(&str) -> bool) -> [PagePoint; 2] {
     let chosen = layers.iter().filter(|(id, _)| wanted(id));
     point_bounds(chosen.flat_map(|(_, lines)| lines).flatten())
 }
 
-/// The minimum and maximum coordinates of points.
+/// Returns the minimum and maximum coordinates of points.
 pub(crate) fn point_bounds<'a>(places: impl Iterator<Item = &'a PagePoint>) -> [PagePoint; 2] {
     places.fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], place| {
         let axis = |f: fn(f64, f64) -> f64, from: PagePoint| [0, 1].map(|k| f(from[k], place[k]));

@@ -1,4 +1,4 @@
-//! The camera and the light by flags: angles, eye and target, field of view, zoom, intensity.
+//! Camera and light flags: angles, eye and target, field of view, zoom, intensity.
 
 use crate::sandbox::Sandbox;
 
@@ -17,19 +17,19 @@ fn render_pixels(sandbox: &Sandbox, input: &str, flags: &[&str]) -> Pixels {
     sandbox.read_picture("out.png").2
 }
 
-/// The number of pixels that show the model.
+/// Returns the number of pixels that show the model.
 fn covered_pixels(pixels: &Pixels) -> usize {
     pixels.iter().filter(|pixel| pixel[3] == 255).count()
 }
 
-/// The sum of all codes of red, green and blue where the model is.
+/// Returns the sum of all red, green and blue codes where the model is visible.
 fn total_brightness(pixels: &Pixels) -> u64 {
     let seen = pixels.iter().filter(|pixel| pixel[3] == 255);
     seen.flat_map(|pixel| &pixel[..3]).map(|&code| u64::from(code)).sum()
 }
 
 #[test]
-fn quarter_turns_are_the_named_views() {
+fn quarter_turns_match_the_named_views() {
     let sandbox = sandbox_with_teapot("azimuth");
     let pixels = |flags: &[&str]| render_pixels(&sandbox, "teapot.glb", flags);
     for (azimuth, view) in [("0", "front"), ("90", "right"), ("180", "back"), ("-90", "left")] {
@@ -83,7 +83,7 @@ fn zoom_enlarges_in_every_projection() {
 }
 
 #[test]
-fn light_flags_change_lights_and_surroundings() {
+fn light_flags_change_lights_and_environment() {
     let sandbox = Sandbox::new("light_flags");
     sandbox.copy_model("finishes.glb");
     let pixels = |flags: &[&str]| render_pixels(&sandbox, "finishes.glb", flags);
@@ -92,7 +92,7 @@ fn light_flags_change_lights_and_surroundings() {
     let [dark, bright] = ["0", "3"].map(|factor| pixels(&["--light-intensity", factor]));
     assert!(total_brightness(&dark) < total_brightness(&bare));
     assert!(total_brightness(&bare) < total_brightness(&bright));
-    // The studio is still there.
+    // The studio remains.
     assert!(total_brightness(&dark) > 0);
     assert_ne!(pixels(&["--environment-rotation", "90"]), bare);
     let sky = |angle: &str| pixels(&["--environment", "sky", "--environment-rotation", angle]);
@@ -102,7 +102,7 @@ fn light_flags_change_lights_and_surroundings() {
 }
 
 #[test]
-fn frames_of_a_film_have_the_intensity_too() {
+fn animation_frames_have_the_same_intensity() {
     let sandbox = sandbox_with_teapot("film_intensity");
     let frame = |factor: &str| {
         let flags = ["--frames", "1", "--size", "80x60", "--light-intensity", factor];
