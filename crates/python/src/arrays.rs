@@ -1,7 +1,6 @@
-//! Validated Python arrays: numbers of any dtype and strides, converted to C order.
-//!
-//! NumPy itself makes the array contiguous and casts it. Unreadable objects and values that are not
-//! real numbers give an error that names the argument.
+//! Validated Python arrays: numbers of any dtype and strides, converted to C order. NumPy itself
+//! makes the array contiguous and casts it. Objects that cannot be read, and values that are not
+//! real numbers, cause an error that names the argument.
 
 use crate::failure::{Failure, Fallible};
 use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
@@ -12,7 +11,7 @@ use pyo3::prelude::*;
 pub(crate) struct Numbers<T> {
     /// The length along each axis.
     pub(crate) shape: Vec<usize>,
-    /// The elements, the last axis fastest.
+    /// The elements; the last axis varies fastest.
     pub(crate) values: Vec<T>,
 }
 
@@ -89,7 +88,8 @@ pub(crate) fn as_array<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<B
     numpy.call_method1("asarray", (value,)).map_err(|error| unreadable(name, error, value.py()))
 }
 
-/// The error for an object that is not an array; errors not caused by the object pass through.
+/// Returns the error for an object that is not an array; errors not caused by the object are
+/// returned unchanged.
 fn unreadable(name: &str, error: PyErr, py: Python<'_>) -> PyErr {
     if !error.is_instance_of::<PyException>(py) {
         return error;
@@ -105,7 +105,7 @@ pub(crate) fn shape_text(shape: &[usize]) -> String {
     }
 }
 
-/// The error for an array with another shape.
+/// Returns the error for an array with the wrong shape.
 pub(crate) fn wrong_shape(name: &str, shape: &[usize], wanted: &str) -> Failure {
     Failure::argument(name, format!("shape {}, expected {wanted}", shape_text(shape)))
 }
@@ -171,7 +171,7 @@ pub(crate) fn matrix<const R: usize, const C: usize>(
 /// Reads a list of `N` finite numbers.
 ///
 /// # Errors
-/// If there are more or fewer, or one is not finite.
+/// If the length is different, or a number is not finite.
 pub(crate) fn vector<const N: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<[f64; N]> {
     let numbers = real_array::<f64>(name, value, "float64")?;
     let is_row = numbers.shape == [N] || numbers.shape == [N, 1] || numbers.shape == [1, N];
@@ -185,7 +185,7 @@ pub(crate) fn vector<const N: usize>(name: &str, value: &Bound<'_, PyAny>) -> Py
     Ok(*values)
 }
 
-/// Makes a new array of this shape with these elements, without copying them.
+/// Creates an array of this shape with these elements, without copying them.
 ///
 /// # Errors
 /// If the number of elements does not match the shape.

@@ -1,4 +1,4 @@
-//! Camera options: position and lens, in the terms of a scene file.
+//! Camera options: position and lens, converted to the types of a scene file.
 
 use crate::arrays;
 use crate::failure::{Failure, Fallible};
@@ -21,8 +21,8 @@ pub(crate) fn read_camera(options: &Keywords<'_, '_>) -> PyResult<CameraFile> {
     Ok(CameraFile { view, projection, ..CameraFile::default() })
 }
 
-/// The camera position: from eye and target, R and t, a pose, the name of a camera in the model, or
-/// a direction.
+/// Reads the camera position: from eye and target, R and t, a pose, the name of a camera in the
+/// model, or a direction.
 fn read_view(options: &Keywords<'_, '_>) -> PyResult<ViewFile> {
     if let Some(eye) = options.vector("eye")? {
         let target = options.vector("target")?.unwrap_or_default();
@@ -45,14 +45,14 @@ fn read_view(options: &Keywords<'_, '_>) -> PyResult<ViewFile> {
     let padding_percent = match options.number("padding")? {
         None => DEFAULT_PADDING,
         Some(percent) => scene_file::file::NonNegative::new(percent).ok_or_else(|| {
-            let message = format!("is {percent}, expected 0 or a greater number");
+            let message = format!("is {percent}, expected a number of at least 0");
             PyErr::from(Failure::argument("padding", message))
         })?,
     };
     Ok(ViewFile::Frame { from, padding_percent })
 }
 
-/// The direction from which a model is framed: a name, or a vector.
+/// Reads the direction from which a model is framed: a name, or a vector.
 fn read_direction(value: &Bound<'_, PyAny>) -> PyResult<FromFile> {
     let Ok(name) = value.extract::<String>() else {
         return Ok(FromFile::Direction(Triple(arrays::vector("direction", value)?)));
@@ -66,7 +66,7 @@ fn read_direction(value: &Bound<'_, PyAny>) -> PyResult<FromFile> {
     })
 }
 
-/// Rotation and translation from the world to the camera.
+/// Reads the rotation and translation from the world to the camera.
 fn read_extrinsics(options: &Keywords<'_, '_>, rotation: &Bound<'_, PyAny>) -> PyResult<ViewFile> {
     let axes = options.named("axes")?.unwrap_or(CameraAxes::OpenCv);
     let translation = options.vector("t")?.unwrap_or_default();
@@ -80,8 +80,8 @@ fn read_extrinsics(options: &Keywords<'_, '_>, rotation: &Bound<'_, PyAny>) -> P
     Ok(ViewFile::Extrinsics { rotation, translation: Triple(translation), axes })
 }
 
-/// A rotation as a matrix, a rotation vector (axis times angle in radians), or a quaternion (w, x,
-/// y, z).
+/// Reads a rotation: a matrix, a rotation vector (axis times angle in radians), or a quaternion (w,
+/// x, y, z).
 fn read_rotation(value: &Bound<'_, PyAny>) -> PyResult<[[f64; 3]; 3]> {
     let numbers = arrays::real_array::<f64>("R", value, "float64")?;
     let from_quaternion = |quaternion: [f64; 4]| -> Fallible<[[f64; 3]; 3]> {
@@ -95,7 +95,7 @@ fn read_rotation(value: &Bound<'_, PyAny>) -> PyResult<[[f64; 3]; 3]> {
             let [x, y, z]: [f64; 3] = arrays::vector("R", value)?;
             let angle = glam::DVec3::new(x, y, z).length();
             let (sine, cosine) = libm::sincos(0.5 * angle);
-            // The limit of sin(angle / 2) / angle.
+            // The limit of sin(angle / 2) / angle at 0.
             let scale = if angle > 0.0 { sine / angle } else { 0.5 };
             Ok(from_quaternion([cosine, x * scale, y * scale, z * scale])?)
         }
@@ -106,7 +106,7 @@ fn read_rotation(value: &Bound<'_, PyAny>) -> PyResult<[[f64; 3]; 3]> {
     }
 }
 
-/// A pose from the camera to the world.
+/// Reads a pose from the camera to the world.
 fn read_pose(options: &Keywords<'_, '_>, pose: &Bound<'_, PyAny>) -> PyResult<ViewFile> {
     let axes = options.named("axes")?.unwrap_or(CameraAxes::OpenGl);
     let shape = arrays::real_array::<f64>("pose", pose, "float64")?.shape;
@@ -126,12 +126,12 @@ fn read_pose(options: &Keywords<'_, '_>, pose: &Bound<'_, PyAny>) -> PyResult<Vi
     Ok(ViewFile::Pose { rotation: rotation_file(rotation), eye: Triple(eye), axes })
 }
 
-/// A rotation in the form of a scene file.
+/// Converts a rotation to the form of a scene file.
 pub(crate) fn rotation_file([x, y, z]: [[f64; 3]; 3]) -> RotationFile {
     RotationFile::Rows((Triple(x), Triple(y), Triple(z)))
 }
 
-/// The lens; `None` if the options do not specify one.
+/// Reads the lens; `None` if the options do not specify one.
 fn read_lens(options: &Keywords<'_, '_>) -> PyResult<Option<ProjectionFile>> {
     let (near, far) = (options.positive("near")?, options.positive("far")?);
     if let Some(k) = options.value("K")? {
@@ -160,7 +160,7 @@ fn read_lens(options: &Keywords<'_, '_>) -> PyResult<Option<ProjectionFile>> {
         FieldOfView::new(angle).map(Some).ok_or_else(|| Failure::argument(name, wrong).into())
     };
     if angles.iter().all(Option::is_some) {
-        let message = "give only one of fov_y and fov_x: the other follows from the size";
+        let message = "pass only one of fov_y and fov_x; the other follows from the size";
         return Err(Failure::argument("fov_x", message).into());
     }
     Ok(Some(ProjectionFile::Perspective {
@@ -173,7 +173,7 @@ fn read_lens(options: &Keywords<'_, '_>) -> PyResult<Option<ProjectionFile>> {
     }))
 }
 
-/// The lens from a matrix K or (fx, fy, cx, cy).
+/// Reads the lens from a matrix K or (fx, fy, cx, cy).
 fn read_intrinsics(
     options: &Keywords<'_, '_>,
     k: &Bound<'_, PyAny>,

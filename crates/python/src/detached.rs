@@ -1,4 +1,4 @@
-//! Work without Python's lock: other Python threads continue, Ctrl-C stops a picture, and a panic
+//! Work without Python's lock: other Python threads continue, Ctrl+C cancels a picture, and a panic
 //! becomes an exception.
 //!
 //! ```text
@@ -15,16 +15,16 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread::{self, Builder};
 use std::time::Duration;
 
-/// The maximum delay of Ctrl-C.
+/// The maximum delay of Ctrl+C.
 const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
-/// The stack size of a worker in bytes: the same as for a program's main thread.
+/// The stack size of a worker in bytes, the same as for the main thread of a program.
 const STACK_BYTES: usize = 8 << 20;
 
 /// Runs `work` in another thread without the lock, and waits for it.
 ///
 /// # Errors
 /// The exception of a signal handler (`KeyboardInterrupt`), after `work` has ended; the error that
-/// `work` returns; a panic.
+/// `work` returns; or a panic.
 pub(crate) fn run_detached<T, E>(
     py: Python<'_>,
     work: impl FnOnce(&CancelToken) -> Result<T, E> + Send,
@@ -39,7 +39,7 @@ where
             let (done, finished) = mpsc::channel::<()>();
             let token = &cancel;
             let worker = Builder::new().stack_size(STACK_BYTES).spawn_scoped(scope, move || {
-                // Dropped at the end, even by a panic, which wakes the receiver.
+                // Dropped at the end, even after a panic, which wakes the receiver.
                 let _done = done;
                 work(token)
             });

@@ -14,7 +14,7 @@ use pipeline::{Scene, Timings, draw_lines, dxf_options};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// A drawing: its page and the scene that it shows.
+/// A drawing: its page, and the scene that it shows.
 #[pyclass(frozen, module = "alberti._native", name = "Drawing")]
 pub(crate) struct NativeDrawing {
     page: Page,
@@ -41,7 +41,7 @@ pub(crate) fn draw(
     })
 }
 
-/// The class of an edge, as a word.
+/// Returns the name of an edge class.
 const fn class_name(class: EdgeClass) -> &'static str {
     match class {
         EdgeClass::Silhouette => "silhouette",
@@ -59,36 +59,36 @@ const fn class_name(class: EdgeClass) -> &'static str {
 
 #[pymethods]
 impl NativeDrawing {
-    /// The page as an SVG file.
+    /// Returns the page as an SVG file.
     fn svg(&self, py: Python<'_>) -> String {
         py.detach(|| self.page.to_svg())
     }
 
-    /// The page as a PDF file.
+    /// Returns the page as a PDF file.
     fn pdf<'py>(&self, py: Python<'py>) -> Bound<'py, pyo3::types::PyBytes> {
         let bytes = py.detach(|| page::to_pdf(std::slice::from_ref(&self.page)));
         pyo3::types::PyBytes::new(py, &bytes)
     }
 
-    /// The page as a DXF file: in the model's unit if the view is parallel, otherwise in
+    /// Returns the page as a DXF file: in the model's unit if the view is parallel, otherwise in
     /// millimeters on paper.
     fn dxf<'py>(&self, py: Python<'py>) -> Bound<'py, pyo3::types::PyBytes> {
         let bytes = py.detach(|| self.page.to_dxf(&dxf_options(&self.scene, &self.page)));
         pyo3::types::PyBytes::new(py, &bytes)
     }
 
-    /// Warnings about missing parts.
+    /// Returns warnings about missing parts.
     fn warnings(&self) -> Vec<String> {
         self.page.warnings.iter().map(ToString::to_string).collect()
     }
 
-    /// The camera, with its position.
+    /// Returns the camera, with its position.
     fn camera(&self) -> NativeCamera {
         NativeCamera::of_scene(&self.camera, &self.scene)
     }
 
-    /// Object names and the segments: ends (N, 2, 2) in pixels with y down, visibility (N,), the
-    /// class name of each, the object (N,), the edge (N,).
+    /// Returns the object names and the segments: ends (N, 2, 2) in pixels with y down, visibility
+    /// (N,), class names, objects (N,) and edges (N,).
     fn lines<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let style = self.scene.style.line_style();
         let (options, fill) = (style.to_draw_options(), style.to_fill_options());
@@ -97,7 +97,8 @@ impl NativeDrawing {
         })?;
         let segments = &drawing.segments;
         let count = segments.len();
-        // Converts pixels with the origin at the corner to pixels whose first center is (0, 0).
+        // Converts pixel coordinates with the origin at the corner to coordinates in which the
+        // center of the first pixel is (0, 0).
         let ends = segments.iter().flat_map(|segment| segment.ends);
         let ends: Vec<f64> = ends.flat_map(|end| [end.x - 0.5, end.y - 0.5]).collect();
         let visible: Vec<bool> = segments.iter().map(|segment| segment.visible).collect();

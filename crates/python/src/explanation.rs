@@ -57,7 +57,7 @@ fn read_part(options: &Keywords<'_, '_>) -> PyResult<ExplainedPart> {
     }
     let [(name, value)] = &found[..] else {
         let [_, (second, _), ..] = &found[..] else { return Ok(ExplainedPart::Transforms) };
-        let message = "give only one of point, segment, pixel and node";
+        let message = "pass only one of point, segment, pixel and node";
         return Err(Failure::argument(*second, message).into());
     };
     Ok(match *name {
@@ -80,7 +80,7 @@ fn read_part(options: &Keywords<'_, '_>) -> PyResult<ExplainedPart> {
     })
 }
 
-/// Reads the conventions for view space, canonical volume and pixels.
+/// Reads the conventions for view space, the canonical volume and pixels.
 fn read_conventions(options: &Keywords<'_, '_>) -> PyResult<ApiConventions> {
     let name = options.text("conventions")?.unwrap_or_else(|| "alberti".to_owned());
     let known =
@@ -114,7 +114,7 @@ fn explain_part(
     }
 }
 
-/// The first model with a node with this index or name.
+/// Finds the first model that has a node with this index or name.
 fn find_node<'a>(
     models: &'a [ModelInstance],
     wanted: &Choice,

@@ -29,30 +29,31 @@ pub(crate) type Fallible<T> = Result<T, Failure>;
 /// The reason why a call failed.
 #[derive(Debug)]
 pub(crate) struct Failure {
-    /// The kind of error, for programs.
+    /// The kind of error, as a code for programs.
     pub(crate) code: &'static str,
     /// The location: the argument, or the position in a file.
     pub(crate) pointer: String,
-    /// The problem, in a sentence.
+    /// A description of the problem.
     pub(crate) message: String,
     /// The remedy.
     pub(crate) help: Option<String>,
 }
 
 impl Failure {
-    /// An invalid argument; `argument` is its name, with the index of an element.
+    /// Creates the failure for an invalid argument; `argument` is its name, if necessary with the
+    /// index of an element.
     pub(crate) fn argument(argument: impl Into<String>, message: impl Into<String>) -> Self {
         let (pointer, message) = (argument.into(), message.into());
         Self { code: INVALID_ARGUMENT, pointer, message, help: None }
     }
 
-    /// An exceeded limit.
+    /// Creates the failure for an exceeded limit.
     pub(crate) fn limit(argument: &str, message: impl Into<String>, help: &str) -> Self {
         let (pointer, message) = (argument.to_owned(), message.into());
         Self { code: codes::LIMIT_EXCEEDED, pointer, message, help: Some(help.to_owned()) }
     }
 
-    /// A panic: a bug in this package.
+    /// Creates the failure for a panic, which is a bug in this package.
     pub(crate) fn internal(panic: &(dyn std::any::Any + Send)) -> Self {
         let text = panic.downcast_ref::<String>().map(String::as_str);
         let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");
@@ -60,7 +61,7 @@ impl Failure {
             code: INTERNAL_ERROR,
             pointer: String::new(),
             message: format!("internal error in the renderer: {text}"),
-            help: Some("please report it with the input".to_owned()),
+            help: Some("please report this, with the input".to_owned()),
         }
     }
 
@@ -69,7 +70,7 @@ impl Failure {
         Self { help: Some(help.into()), ..self }
     }
 
-    /// Locates this failure at an argument, unless it already has a location.
+    /// Sets the location to an argument, unless this failure already has a location.
     pub(crate) fn at(self, argument: &str) -> Self {
         let pointer = if self.pointer.is_empty() { argument.to_owned() } else { self.pointer };
         Self { pointer, ..self }

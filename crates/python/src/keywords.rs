@@ -1,6 +1,5 @@
-//! Keyword arguments: a dictionary of options, each read by name and type.
-//!
-//! The Python functions define the signatures; an option that is absent or `None` is not given.
+//! Keyword arguments: a dictionary of options, each read by name and type. The Python functions
+//! define the signatures; an option that is `None` counts as absent.
 
 use crate::arrays;
 use crate::failure::Failure;
@@ -13,12 +12,12 @@ use scene_file::options::NamedOption;
 pub(crate) struct Keywords<'a, 'py>(pub(crate) &'a Bound<'py, PyDict>);
 
 impl<'py> Keywords<'_, 'py> {
-    /// An option; `None` if it was not given.
+    /// Returns an option; `None` if it is absent.
     pub(crate) fn value(&self, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
         Ok(self.0.get_item(name)?.filter(|value| !value.is_none()))
     }
 
-    /// An option of any type that PyO3 can convert; `wanted` describes the type in words.
+    /// Reads an option of any type that PyO3 can convert; `wanted` describes the type in words.
     fn extract<T>(&self, name: &str, wanted: &str) -> PyResult<Option<T>>
     where
         T: for<'a> FromPyObject<'a, 'py>,
@@ -28,17 +27,17 @@ impl<'py> Keywords<'_, 'py> {
         found.map(Some).map_err(|_| not_a(name, &value, wanted).into())
     }
 
-    /// A text.
+    /// Reads a string.
     pub(crate) fn text(&self, name: &str) -> PyResult<Option<String>> {
         self.extract(name, "a string")
     }
 
-    /// Yes or no.
+    /// Reads a flag.
     pub(crate) fn flag(&self, name: &str) -> PyResult<bool> {
         Ok(self.extract(name, "True or False")?.unwrap_or(false))
     }
 
-    /// A finite number.
+    /// Reads a finite number.
     pub(crate) fn number(&self, name: &str) -> PyResult<Option<f64>> {
         let Some(number) = self.extract::<f64>(name, "a number")? else { return Ok(None) };
         if number.is_finite() {
@@ -47,7 +46,7 @@ impl<'py> Keywords<'_, 'py> {
         Err(Failure::argument(name, format!("is {number}, expected a finite number")).into())
     }
 
-    /// A number above 0.
+    /// Reads a number greater than 0.
     pub(crate) fn positive(&self, name: &str) -> PyResult<Option<Positive>> {
         let Some(number) = self.number(name)? else { return Ok(None) };
         let wrong = || {
@@ -57,12 +56,12 @@ impl<'py> Keywords<'_, 'py> {
         Positive::new(number).map(Some).ok_or_else(wrong)
     }
 
-    /// An integer of at least 0.
+    /// Reads an integer of at least 0.
     pub(crate) fn count(&self, name: &str) -> PyResult<Option<usize>> {
-        self.extract(name, "a whole number, 0 or greater")
+        self.extract(name, "a whole number of at least 0")
     }
 
-    /// Width and height in pixels.
+    /// Reads the width and height in pixels.
     pub(crate) fn size(&self, name: &str) -> PyResult<Option<(u32, u32)>> {
         let Some(value) = self.value(name)? else { return Ok(None) };
         let sides = value.extract::<(i64, i64)>();
@@ -77,12 +76,12 @@ impl<'py> Keywords<'_, 'py> {
         Err(Failure::argument(name, message).into())
     }
 
-    /// A list of finite numbers.
+    /// Reads a list of finite numbers.
     pub(crate) fn vector<const N: usize>(&self, name: &str) -> PyResult<Option<[f64; N]>> {
         self.value(name)?.map(|value| arrays::vector(name, &value)).transpose()
     }
 
-    /// A value that the library identifies by name.
+    /// Reads a value that the library identifies by name.
     pub(crate) fn named<T: NamedOption>(&self, name: &str) -> PyResult<Option<T>> {
         let Some(text) = self.text(name)? else { return Ok(None) };
         let wanted = plain_name(&text);
@@ -95,14 +94,14 @@ impl<'py> Keywords<'_, 'py> {
     }
 }
 
-/// A name without the differences between Python, flags and scene files: case, hyphens,
+/// Returns a name without the differences between Python, flags and scene files: case, hyphens,
 /// underscores.
 pub(crate) fn plain_name(name: &str) -> String {
     let letters = name.chars().filter(|c| !matches!(c, '-' | '_' | ' '));
     letters.flat_map(char::to_lowercase).collect()
 }
 
-/// The error for a value of another type.
+/// Returns the error for a value of the wrong type.
 pub(crate) fn not_a(name: &str, value: &Bound<'_, PyAny>, wanted: &str) -> Failure {
     let found = value.repr().map_or_else(|_| "?".to_owned(), |text| text.to_string());
     let found: String = found.chars().take(80).collect();

@@ -1,17 +1,16 @@
-//! The extension module of the Python package `alberti`: the part that needs the crates.
-//!
-//! Signatures, documentation and types are in the Python sources beside it, which pass their
-//! keyword arguments as dictionaries. Every function here validates them and names the invalid one.
-//!
-//! | for | file |
+//! The extension module of the Python package `alberti`: the part that depends on the crates.
+//! Signatures, documentation and types are in the Python sources, which pass their keyword
+//! arguments as dictionaries. Every function here validates them and reports an invalid argument by
+//! name.
+//! | topic | file |
 //! | --- | --- |
 //! | models and scenes, from files and from memory | `loading.rs`, `subject.rs` |
-//! | cameras, points to pixels and back | `camera_options.rs`, `native_camera.rs`, `pixel_rays.rs` |
+//! | cameras, points and pixels | `camera_options.rs`, `native_camera.rs`, `pixel_rays.rs` |
 //! | meshes as arrays | `mesh_arrays.rs`, `mesh_colors.rs`, `mesh_material.rs` |
 //! | pictures and passes | `scene_options.rs`, `rendering.rs` |
 //! | line drawings; explanations | `drawing_result.rs`; `explanation.rs` |
 //! | arguments: dictionaries, arrays | `keywords.rs`, `arrays.rs` |
-//! | threads, Ctrl-C, panics; exceptions | `detached.rs`, `failure.rs` |
+//! | threads, Ctrl+C, panics; exceptions | `detached.rs`, `failure.rs` |
 
 mod arrays;
 mod camera_options;
@@ -43,7 +42,7 @@ fn run_program(
     py.detach(|| alberti::run_within(program, arguments))
 }
 
-/// The functions and classes for the Python sources.
+/// Registers the functions and classes for the Python sources.
 #[pymodule]
 mod _native {
     #[pymodule_export]

@@ -59,7 +59,7 @@ pub(crate) fn load_model(
     })
 }
 
-/// Loads a scene from its file, or from a text with paths relative to `folder`.
+/// Loads a scene from its file, or from text with paths relative to `folder`.
 #[pyfunction]
 pub(crate) fn load_scene(
     py: Python<'_>,
@@ -88,7 +88,7 @@ pub(crate) fn compose(parts: Vec<(Bound<'_, Subject>, Bound<'_, PyAny>)>) -> PyR
         for placed in &part.get().models {
             let model_to_world = placed.model_to_world.then(pose);
             if !model_to_world.is_finite() {
-                let message = "combined with the poses in the scene, it is not finite";
+                let message = "is not finite when combined with the poses in the scene";
                 return Err(Failure::argument(name, message).into());
             }
             models.push(ModelInstance { model: Arc::clone(&placed.model), model_to_world });
@@ -98,10 +98,10 @@ pub(crate) fn compose(parts: Vec<(Bound<'_, Subject>, Bound<'_, PyAny>)>) -> PyR
     Ok(Subject::new(origin, file, models))
 }
 
-/// Reads an invertible matrix with the last row 0, 0, 0, 1.
+/// Reads an invertible matrix whose last row is 0, 0, 0, 1.
 ///
 /// # Errors
-/// If the matrix is different.
+/// If the matrix has another form.
 pub(crate) fn affine_map<A: homog::Space, B: homog::Space>(
     name: &str,
     value: &Bound<'_, PyAny>,
@@ -113,16 +113,16 @@ pub(crate) fn affine_map<A: homog::Space, B: homog::Space>(
     }
     let raw = DMat4::from_cols_array_2d(&rows).transpose();
     let map = Affine::from_raw(raw).filter(|map| map.inverse().is_some());
-    map.ok_or_else(|| Failure::argument(name, "it has no inverse: it flattens space").into())
+    map.ok_or_else(|| Failure::argument(name, "the matrix is not invertible").into())
 }
 
-/// A model at the origin of the world.
+/// Places a model at the origin of the world.
 pub(crate) fn place_model(model: Model) -> ModelInstance {
     let model_to_world = Affine::scale(1.0, 1.0, 1.0);
     ModelInstance { model: Arc::new(model), model_to_world }
 }
 
-/// Poses a model by an animation.
+/// Poses a model with an animation.
 fn pose_model(model: &mut Model, request: &LoadRequest) -> Fallible<()> {
     let chosen = select_animation(model, request.animation.as_ref());
     let animation = chosen
@@ -153,7 +153,7 @@ fn load_request(options: &Keywords<'_, '_>) -> PyResult<LoadRequest> {
     })
 }
 
-/// The crease angle in degrees.
+/// Reads the crease angle in degrees.
 pub(crate) fn crease_angle(options: &Keywords<'_, '_>) -> PyResult<Option<f64>> {
     let angle = options.number("crease")?;
     if let Some(angle) = angle.filter(|angle| !(0.0..=180.0).contains(angle)) {
@@ -163,7 +163,7 @@ pub(crate) fn crease_angle(options: &Keywords<'_, '_>) -> PyResult<Option<f64>> 
     Ok(angle)
 }
 
-/// A part of a file, by name or index.
+/// Reads a selection by name or index.
 fn choice(options: &Keywords<'_, '_>, name: &str) -> PyResult<Option<Choice>> {
     let Some(value) = options.value(name)? else { return Ok(None) };
     if let Ok(index) = value.extract::<usize>() {
@@ -175,7 +175,7 @@ fn choice(options: &Keywords<'_, '_>, name: &str) -> PyResult<Option<Choice>> {
     }
 }
 
-/// The importer limits: the defaults, overridden by `limits`.
+/// Returns the importer limits: the defaults, overridden by `limits`.
 pub(crate) fn limits(options: &Keywords<'_, '_>) -> PyResult<Limits> {
     let mut limits = Limits::default();
     let Some(value) = options.value("limits")? else { return Ok(limits) };
@@ -187,7 +187,7 @@ pub(crate) fn limits(options: &Keywords<'_, '_>) -> PyResult<Limits> {
         let name = name.map_err(|_| not_a("limits", &key, "the name of a limit"))?;
         let argument = format!("limits[{name:?}]");
         let Ok(number) = value.extract::<u64>() else {
-            return Err(not_a(&argument, &value, "a whole number, 0 or greater").into());
+            return Err(not_a(&argument, &value, "a whole number of at least 0").into());
         };
         let size = usize::try_from(number).unwrap_or(usize::MAX);
         match name.as_str() {
@@ -202,7 +202,7 @@ pub(crate) fn limits(options: &Keywords<'_, '_>) -> PyResult<Limits> {
             "nodes" => limits.nodes = size,
             "node_depth" => limits.node_depth = size,
             "scene_items" => limits.scene_items = number,
-            _ => return Err(Failure::argument(argument, "there is no such limit").into()),
+            _ => return Err(Failure::argument(argument, "unknown limit").into()),
         }
     }
     Ok(limits)

@@ -14,10 +14,10 @@ use pipeline::Origin;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 
-/// A node from Python: its name, the index of its mesh, and the matrix to the model.
+/// A node from Python: its name, the index of its mesh, and the matrix from the mesh to the model.
 type NodeOfPython<'py> = (Option<String>, usize, Bound<'py, PyAny>);
 
-/// Makes a model from meshes; without nodes each mesh is shown once, untransformed.
+/// Makes a model from meshes; without nodes, each mesh appears once, untransformed.
 #[pyfunction]
 pub(crate) fn build_model(
     py: Python<'_>,
@@ -52,7 +52,7 @@ pub(crate) fn build_model(
     })
 }
 
-/// The node of a mesh that is shown once.
+/// Creates the node of a mesh that appears once.
 fn default_node(meshes: &[MeshArrays], mesh: usize) -> MeshNode {
     MeshNode { name: meshes[mesh].name.clone(), mesh, to_model: Affine::IDENTITY }
 }
@@ -96,14 +96,14 @@ fn read_mesh(mesh: &Keywords<'_, '_>, limits: &Limits) -> PyResult<MeshArrays> {
         Some(value) => {
             let uvs = arrays::finite_rows::<2>("uv", &value, "V")?;
             rows("uv", positions.len(), uvs.len())?;
-            // From the lower left of the image to the upper left.
+            // Moves the origin from the lower left of the image to the upper left.
             Some(uvs.into_iter().map(|[u, v]| [u, 1.0 - v]).collect())
         }
         None => None,
     };
     let image = mesh.value("texture")?.map(|value| read_texture(&value, limits)).transpose()?;
     if image.is_some() && uvs.is_none() {
-        let message = "needs texture coordinates: give uv";
+        let message = "needs texture coordinates; pass uv";
         return Err(Failure::argument("texture", message).into());
     }
     let [vertex_colors, face_colors] = read_colors(mesh, [positions.len(), lengths.len()])?;
@@ -124,7 +124,7 @@ fn read_mesh(mesh: &Keywords<'_, '_>, limits: &Limits) -> PyResult<MeshArrays> {
     })
 }
 
-/// The number of corners of each face, and the vertices of all corners.
+/// Returns the number of corners of each face, and the vertices of all corners.
 fn read_faces(faces: &Bound<'_, PyAny>, vertices: usize) -> PyResult<(Vec<u32>, Vec<u32>)> {
     let is_list = faces.is_instance_of::<PyList>() || faces.is_instance_of::<PyTuple>();
     if is_list && let Ok(polygons) = faces.extract::<Vec<Vec<i64>>>() {
@@ -174,7 +174,7 @@ fn read_indices(name: &str, numbers: Numbers<i64>, vertices: usize) -> PyResult<
     Ok(indices?)
 }
 
-/// The error for an index out of range.
+/// Returns the error for an index out of range.
 fn no_vertex(name: &str, [row, column]: [usize; 2], vertex: i64, vertices: usize) -> Failure {
     let message = format!("is {vertex}, but there are {vertices} vertices");
     Failure::argument(format!("{name}[{row}, {column}]"), message)

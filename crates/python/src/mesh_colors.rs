@@ -9,7 +9,7 @@ use model::Image;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-/// Linear colors of the vertices and faces; `counts` contains their numbers.
+/// Reads linear colors of the vertices or faces; `counts` contains the numbers of both.
 pub(crate) fn read_colors(
     mesh: &Keywords<'_, '_>,
     counts: [usize; 2],
@@ -54,7 +54,7 @@ pub(crate) fn linear_colors(
     Ok((shape, values.chunks_exact(channels).map(to_linear).collect()))
 }
 
-/// The linear value of an sRGB channel: from the table for bytes, from the formula for fractions.
+/// Decodes an sRGB channel: bytes with the table, fractions with the formula.
 fn linear_channel(channel: f64, most: f64) -> f32 {
     if most == 1.0 {
         return linear_fraction(channel);
@@ -62,12 +62,12 @@ fn linear_channel(channel: f64, most: f64) -> f32 {
     shade::color::srgb_to_linear_table()[channel as usize]
 }
 
-/// The linear value of an sRGB-encoded value; both are in [0, 1].
+/// Decodes an sRGB-encoded value to linear light; both are in [0, 1].
 fn linear_fraction(encoded: f64) -> f32 {
     shade::color::srgb_to_linear(encoded) as f32
 }
 
-/// A texture: an array of bytes, or the content of an image file.
+/// Reads a texture: an array of bytes, or the content of an image file.
 pub(crate) fn read_texture(value: &Bound<'_, PyAny>, limits: &Limits) -> PyResult<Image> {
     if let Ok(bytes) = value.cast::<PyBytes>() {
         let image = decode_image(bytes.as_bytes(), limits.image_texels);

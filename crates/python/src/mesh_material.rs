@@ -1,7 +1,5 @@
 //! Mesh materials: one color and metallic-roughness factors, or the keys of an MTL library, as
-//! stored by trimesh.
-//!
-//! The keys are converted to a material as in the OBJ importer.
+//! stored by trimesh. The keys are converted to a material as in the OBJ importer.
 
 use crate::failure::Failure;
 use crate::keywords::{Keywords, not_a};
@@ -12,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scene_file::file::Color;
 
-/// Reads the material; `None` if none is given.
+/// Reads the material; `None` if the mesh has none.
 ///
 /// # Errors
 /// If a factor is out of range or a color is invalid.
@@ -42,14 +40,14 @@ pub(crate) fn read_material(
     Ok(Some(with_alpha_mode(material)))
 }
 
-/// Makes a material that is blended if its color is translucent.
+/// Creates a material that is blended if its color is translucent.
 fn with_alpha_mode(material: Material) -> Material {
     let is_translucent = material.base_color[3] < 1.0;
     let alpha_mode = if is_translucent { AlphaMode::Blend } else { AlphaMode::Opaque };
     Material { alpha_mode, ..material }
 }
 
-/// A number from 0 to 1.
+/// Reads a number from 0 to 1.
 fn fraction(mesh: &Keywords<'_, '_>, name: &str) -> PyResult<Option<f32>> {
     let Some(number) = mesh.number(name)? else { return Ok(None) };
     if (0.0..=1.0).contains(&number) {
@@ -59,7 +57,7 @@ fn fraction(mesh: &Keywords<'_, '_>, name: &str) -> PyResult<Option<f32>> {
     Err(Failure::argument(name, message).into())
 }
 
-/// A color, by name or by channels.
+/// Reads a color, by name or by channels.
 fn read_color(value: &Bound<'_, PyAny>) -> PyResult<[f32; 4]> {
     if let Ok(name) = value.extract::<String>() {
         let Some(color) = Color::parse(&name) else {
@@ -74,7 +72,7 @@ fn read_color(value: &Bound<'_, PyAny>) -> PyResult<[f32; 4]> {
     }
 }
 
-/// Makes the material from the keys `Kd`, `Ks`, `Ns`, `illum`, `d` and `Tr`.
+/// Creates the material from the keys `Kd`, `Ks`, `Ns`, `illum`, `d` and `Tr`.
 fn read_mtl(keys: &Keywords<'_, '_>, has_texture: bool) -> PyResult<Material> {
     let number = |name: &str| Ok::<_, PyErr>(keys.number(name)?.map(|number| number as f32));
     let color = |name: &str| -> PyResult<Option<[f32; 3]>> {

@@ -1,4 +1,4 @@
-//! Cameras: points to pixels and back, rays, intrinsic and extrinsic parameters.
+//! Cameras: conversion between points and pixels, rays, intrinsic and extrinsic parameters.
 
 use crate::arrays;
 use crate::camera_options::{read_camera, rotation_file};
@@ -23,13 +23,13 @@ use std::path::PathBuf;
 pub(crate) struct NativeCamera {
     /// The description.
     pub(crate) file: CameraFile,
-    /// Width and height of its pictures, if known.
+    /// The width and height of its pictures, if known.
     pub(crate) size: Option<(u32, u32)>,
-    /// The position around the models of a picture; `None` before the first picture.
+    /// The position, framed around the models of a picture; `None` before the first picture.
     placed: Option<ViewProjection>,
 }
 
-/// Makes a camera from the options of the Python class `Camera`.
+/// Creates a camera from the options of the Python class `Camera`.
 #[pyfunction]
 pub(crate) fn make_camera(options: &Bound<'_, PyDict>) -> PyResult<NativeCamera> {
     let options = Keywords(options);
@@ -38,7 +38,7 @@ pub(crate) fn make_camera(options: &Bound<'_, PyDict>) -> PyResult<NativeCamera>
 }
 
 impl NativeCamera {
-    /// The camera of a scene, with its position, so that more pictures can be taken with it.
+    /// Returns the camera of a scene, with its position, so that it can be used for more pictures.
     pub(crate) fn of_scene(file: &CameraFile, scene: &Scene) -> Self {
         let view_projection = scene.view_projection;
         let mut file = file.clone();
@@ -67,15 +67,15 @@ impl NativeCamera {
     ) -> Fallible<(ViewProjection, (u32, u32))> {
         let Some(size) = size.or(self.size) else {
             let help =
-                "give the camera size=(width, height), or use a frame's camera: frame.camera";
+                "pass size=(width, height) to the camera, or use a frame's camera: frame.camera";
             return Err(Failure::argument("size", "the camera has no size").with_help(help));
         };
         if let Some(placed) = self.placed.filter(|_| self.size == Some(size)) {
             return Ok((placed, size));
         }
         if matches!(self.file.view, ViewFile::Frame { .. }) && models.is_empty() {
-            let help = "use the camera of a rendered picture, frame.camera, or give eye and target";
-            let message = "the camera frames a model and has no position without one";
+            let help = "use the camera of a rendered picture, frame.camera, or pass eye and target";
+            let message = "the camera frames a model, and has no position before rendering";
             return Err(Failure::argument("camera", message).with_help(help));
         }
         let mut file = SceneFile { camera: self.file.clone(), ..SceneFile::default() };
@@ -84,15 +84,15 @@ impl NativeCamera {
         Ok((Scene::resolve_camera(&origin, &file, models)?, size))
     }
 
-    /// The rays through its pixels.
+    /// Returns the rays through its pixels.
     fn rays_of_pixels(&self) -> Fallible<PixelRays> {
         let (placed, size) = self.place(None, &[])?;
         Ok(PixelRays::new(placed, size))
     }
 }
 
-/// Whether a position describes a framed camera. Classical projections have none, because they fit
-/// their windows themselves.
+/// Whether a camera frames its model. Classical projections do not, because they fit their own
+/// windows.
 fn can_stand(file: &CameraFile) -> bool {
     let lens = file.projection.as_ref();
     lens.is_none_or(|lens| {
@@ -106,7 +106,7 @@ fn can_stand(file: &CameraFile) -> bool {
     })
 }
 
-/// The directions of the camera-space axes, by name.
+/// Returns the directions of the camera-space axes for a named convention.
 fn axes_by_name(name: &str) -> Fallible<CameraAxes> {
     let wanted = plain_name(name);
     let known = CameraAxes::ALL.iter().copied().find(|axes| plain_name(axes.name()) == wanted);
@@ -118,25 +118,25 @@ fn axes_by_name(name: &str) -> Fallible<CameraAxes> {
 
 #[pymethods]
 impl NativeCamera {
-    /// Width and height of its pictures.
+    /// Returns the width and height of its pictures.
     #[getter]
     fn size(&self) -> Option<(u32, u32)> {
         self.size
     }
 
-    /// The matrix K with pixel centers at integers.
+    /// Returns the matrix K, with pixel centers at integers.
     fn intrinsics<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let (placed, (width, height)) = self.place(None, &[])?;
         let size = [width, height];
         let lens = Intrinsics::from_view_to_clip(placed.view_to_clip, Convention::CHAPTER, size);
         let lens = lens.map_err(|error| Failure::argument("camera", error.to_string()))?;
         let rows = lens.in_pixel_centers(PixelCenters::Integer).to_rows();
-        // Without skew, the entry may be −0.
+        // Without skew, this entry may be −0.
         let entries = rows.as_flattened().iter().map(|entry| entry + 0.0).collect();
         arrays::new_array(py, entries, &[3, 3])
     }
 
-    /// R and t from the world to the camera.
+    /// Returns R and t from the world to the camera.
     fn extrinsics<'py>(
         &self,
         py: Python<'py>,
@@ -151,7 +151,7 @@ impl NativeCamera {
         ))
     }
 
-    /// The matrix from view space to clip space in OpenGL's convention.
+    /// Returns the matrix from view space to clip space in OpenGL's convention.
     fn projection_matrix<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let placed = self.place(None, &[])?.0;
         let matrix = Convention::CHAPTER.convert(Convention::OPENGL, placed.view_to_clip);
@@ -159,7 +159,7 @@ impl NativeCamera {
         arrays::new_array(py, rows.to_vec(), &[4, 4])
     }
 
-    /// Pixel coordinates and depths of world points.
+    /// Returns the pixel coordinates and depths of world points.
     fn project<'py>(
         &self,
         py: Python<'py>,
@@ -177,7 +177,7 @@ impl NativeCamera {
         ))
     }
 
-    /// World points at pixel coordinates and depths.
+    /// Returns the world points at pixel coordinates and depths.
     fn unproject_pixels<'py>(
         &self,
         py: Python<'py>,
@@ -199,7 +199,7 @@ impl NativeCamera {
         arrays::new_array(py, points.into_flattened(), &[count, 3])
     }
 
-    /// World points of all pixels in a depth image; NaN where it is infinite.
+    /// Returns the world points of all pixels in a depth image; NaN where the depth is infinite.
     fn unproject_image<'py>(
         &self,
         py: Python<'py>,
@@ -219,7 +219,7 @@ impl NativeCamera {
         arrays::new_array(py, points.into_flattened(), &[height, width, 3])
     }
 
-    /// Distances along the rays of a depth image.
+    /// Converts a depth image to distances along the rays.
     fn distances<'py>(
         &self,
         py: Python<'py>,
@@ -235,7 +235,7 @@ impl NativeCamera {
         arrays::new_array(py, distances, &[height, width])
     }
 
-    /// Origins and unit directions of the rays through the centers of all pixels.
+    /// Returns the origins and unit directions of the rays through the centers of all pixels.
     fn rays<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let rays = self.rays_of_pixels()?;
         let [width, height] = rays.size;

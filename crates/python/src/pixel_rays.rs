@@ -4,8 +4,8 @@
 //!  world ─► view ─► clip ─► pixel (column, row), depth = −z of view space
 //!  pixel, depth ─► x and y of view space, from two equations ─► world
 //! ```
-//! In pixel coordinates the center of the upper left pixel is (0, 0), as in OpenCV and array
-//! indices. Depth is along the view axis for every projection.
+//! In pixel coordinates, the center of the upper left pixel is (0, 0), as in OpenCV and array
+//! indices. For every projection, depth is measured along the view axis.
 
 use camera::ViewProjection;
 use glam::{DMat4, DVec3, DVec4};
@@ -13,7 +13,7 @@ use homog::{Affine, Point, View, World};
 
 /// The rays through the pixels of a picture.
 pub(crate) struct PixelRays {
-    /// Columns and rows.
+    /// The numbers of columns and rows.
     pub(crate) size: [usize; 2],
     world_to_view: Affine<World, View>,
     view_to_world: Affine<View, World>,
@@ -21,7 +21,7 @@ pub(crate) struct PixelRays {
 }
 
 impl PixelRays {
-    /// The rays of a camera for pictures of the given size.
+    /// Returns the rays of a camera for pictures of the given size.
     pub(crate) fn new(view_projection: ViewProjection, size: (u32, u32)) -> Self {
         let (width, height) = size;
         Self {
@@ -32,14 +32,14 @@ impl PixelRays {
         }
     }
 
-    /// The coordinates of all pixels, row by row.
+    /// Returns the coordinates of all pixels, row by row.
     pub(crate) fn pixels(&self) -> impl Iterator<Item = [f64; 2]> + use<> {
         let [width, height] = self.size;
         (0..height).flat_map(move |row| (0..width).map(move |column| [column as f64, row as f64]))
     }
 
-    /// Pixel coordinates and depth of a world point; the coordinates are NaN for points that are
-    /// not in front of the eye.
+    /// Returns the pixel coordinates and depth of a world point; the coordinates are NaN for points
+    /// that are not in front of the eye.
     pub(crate) fn project(&self, point: [f64; 3]) -> ([f64; 2], f64) {
         let view = self.world_to_view.transform_point(Point::from(point)).raw();
         let clip = self.view_to_clip * view.extend(1.0);
@@ -53,8 +53,8 @@ impl PixelRays {
         (pixel, -view.z)
     }
 
-    /// The view-space point at pixel coordinates and a depth: x and y such that clip.x = ndc.x ·
-    /// clip.w and clip.y = ndc.y · clip.w.
+    /// Returns the view-space point at pixel coordinates and a depth: x and y such that clip.x =
+    /// ndc.x · clip.w and clip.y = ndc.y · clip.w.
     fn view_point(&self, [column, row]: [f64; 2], depth: f64) -> DVec3 {
         let [width, height] = self.size.map(|side| side as f64);
         let x = 2.0 * (column + 0.5) / width - 1.0;
@@ -68,7 +68,7 @@ impl PixelRays {
         DVec3::new((b * q.y - p.y * c) / determinant, (p.x * c - b * q.x) / determinant, z)
     }
 
-    /// The world point at pixel coordinates and a depth; NaN if the depth is not finite.
+    /// Returns the world point at pixel coordinates and a depth; NaN if the depth is not finite.
     pub(crate) fn point_at(&self, pixel: [f64; 2], depth: f64) -> [f64; 3] {
         if !depth.is_finite() {
             return [f64::NAN; 3];
@@ -77,7 +77,8 @@ impl PixelRays {
         self.view_to_world.transform_point(view).raw().to_array()
     }
 
-    /// The distance from the eye to the point at a depth; infinite if the depth is infinite.
+    /// Returns the distance from the eye to the point at a depth; infinite if the depth is
+    /// infinite.
     pub(crate) fn distance(&self, pixel: [f64; 2], depth: f32) -> f32 {
         if !depth.is_finite() {
             return depth;
@@ -85,8 +86,8 @@ impl PixelRays {
         self.view_point(pixel, f64::from(depth)).length() as f32
     }
 
-    /// World-space origin and unit direction of the ray through a pixel. It starts in the plane of
-    /// the eye: at the eye itself in a perspective.
+    /// Returns the world-space origin and unit direction of the ray through a pixel. It starts in
+    /// the plane of the eye and, in perspective, at the eye itself.
     pub(crate) fn ray(&self, pixel: [f64; 2]) -> ([f64; 3], [f64; 3]) {
         let origin = self.point_at(pixel, 0.0);
         let ahead = self.point_at(pixel, 1.0);

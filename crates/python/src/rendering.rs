@@ -22,19 +22,19 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-/// The maximum number of pixels of a picture: about four gigabytes with four samples and all
-/// passes.
+/// The maximum number of pixels in a picture, which takes about four gigabytes with four samples
+/// and all passes.
 const MAX_PIXELS: u64 = 1 << 26;
 /// The maximum number of idle renderers.
 const MAX_IDLE_RENDERERS: usize = 8;
 
-/// Idle renderers; the next picture reuses their memory.
+/// Idle renderers, whose memory the next picture reuses.
 static IDLE_RENDERERS: Mutex<Vec<Renderer>> = Mutex::new(Vec::new());
 
 /// The subject and options of a picture.
 pub(crate) struct RenderJob<'a> {
     subject: &'a Subject,
-    /// The scene description, with the options of the call.
+    /// The scene description, with the options of the call applied.
     file: SceneFile,
     /// Whether colors are requested.
     has_color: bool,
@@ -64,7 +64,7 @@ pub(crate) fn render<'py>(
     run_detached(py, |cancel| job.render(cancel))?.into_parts(py)
 }
 
-/// Renders many pictures, each in one thread, in the order of the jobs.
+/// Renders many pictures, each on one thread, and returns them in the order of the jobs.
 ///
 /// The first job that fails stops the others.
 #[pyfunction]
@@ -128,28 +128,28 @@ fn read_picture(rgba: &Bound<'_, PyAny>) -> PyResult<Picture> {
     Ok(picture)
 }
 
-/// The error for an array that is not a picture.
+/// Returns the error for an array that is not a picture.
 fn wrong_picture() -> PyErr {
     Failure::argument("rgba", "expected uint8 (height, width, 4)").into()
 }
 
-/// The number of threads: one per processor by default.
+/// Reads the number of threads; the default is one per processor.
 pub(crate) fn thread_count(given: Option<usize>) -> usize {
     let processors = || thread::available_parallelism().map_or(1, usize::from);
     given.unwrap_or_else(processors).clamp(1, 1024)
 }
 
-/// The error for pictures that are too large for memory.
+/// Returns the error for a picture that is too large for memory.
 pub(crate) fn check_pixel_count(width: u64, height: u64) -> Fallible<()> {
     if width * height <= MAX_PIXELS {
         return Ok(());
     }
-    let message = format!("{width} x {height} pixels are more than the limit of {MAX_PIXELS}");
-    let help = "render parts of it, or write it with the command `alberti render`, which has no such limit";
+    let message = format!("{width} x {height} pixels exceed the limit of {MAX_PIXELS}");
+    let help = "render it in parts, or use the command `alberti render`, which has no such limit";
     Err(Failure::limit("size", message, help))
 }
 
-/// Reads the requested passes: their names, and whether colors are among them.
+/// Reads the requested passes: whether colors are among them, and the names of the others.
 fn read_passes(options: &Keywords<'_, '_>) -> PyResult<(bool, Vec<Pass>)> {
     let Some(value) = options.value("passes")? else { return Ok((true, Vec::new())) };
     let names = value.extract::<String>().map(|name| vec![name]);
@@ -176,7 +176,8 @@ fn read_passes(options: &Keywords<'_, '_>) -> PyResult<(bool, Vec<Pass>)> {
     Ok((has_color, passes))
 }
 
-/// Whether a simplified name refers to a pass: by the library's name, or as `ids`, `model_ids` …
+/// Whether a simplified name refers to a pass, either by the library's name or as `ids`,
+/// `model_ids` …
 fn means_pass(wanted: &str, pass: Pass) -> bool {
     let own = plain_name(pass.name());
     wanted == own
@@ -237,7 +238,7 @@ impl<'a> RenderJob<'a> {
 }
 
 impl RenderedJob {
-    /// The arrays of the job.
+    /// Returns the arrays of the job.
     fn into_parts(self, py: Python<'_>) -> PyResult<FrameParts<'_>> {
         let arrays = PyDict::new(py);
         if let Some(picture) = self.picture {
@@ -258,11 +259,11 @@ impl RenderedJob {
     }
 }
 
-/// A renderer that returns to the pool when it is dropped, unless a panic drops it.
+/// A renderer that returns to the pool when it is dropped, except during a panic.
 struct IdleRenderer(Renderer);
 
 impl IdleRenderer {
-    /// A renderer from the pool, or a new one.
+    /// Takes a renderer from the pool, or creates one.
     fn take() -> Self {
         let mut idle = IDLE_RENDERERS.lock().unwrap_or_else(PoisonError::into_inner);
         Self(idle.pop().unwrap_or_default())
@@ -281,7 +282,7 @@ impl Drop for IdleRenderer {
     }
 }
 
-/// Renders jobs with this number of workers; each takes the next open job.
+/// Renders jobs with this number of workers, each of which takes the next pending job.
 fn render_jobs(
     jobs: &[RenderJob<'_>],
     workers: usize,
@@ -323,7 +324,7 @@ fn render_jobs(
     for result in results {
         match result {
             Ok(done) => rendered.extend(done),
-            // Jobs canceled because of another failure come after it.
+            // A job that was canceled because of another failure ranks after it.
             Err(failure)
                 if first_failure.as_ref().is_none_or(|first| is_cause(&failure, first)) =>
             {
@@ -339,7 +340,7 @@ fn render_jobs(
     Ok(rendered.into_iter().map(|(_, job)| job).collect())
 }
 
-/// Whether a failure is more informative than another: it does not come from a canceled job.
+/// Whether a failure is more informative than another because it was not caused by cancellation.
 fn is_cause(one: &(usize, Failure), other: &(usize, Failure)) -> bool {
     let is_stopped = |failure: &Failure| failure.message.contains("canceled");
     (is_stopped(&one.1), one.0) < (is_stopped(&other.1), other.0)

@@ -1,4 +1,4 @@
-//! Picture and drawing options: the parts of a scene description that a call replaces.
+//! Picture and drawing options: the parts of a scene description that a call overrides.
 
 use crate::failure::{Failure, Fallible};
 use crate::keywords::{Keywords, plain_name};
@@ -48,7 +48,7 @@ fn style_by_name(name: &str) -> Fallible<StyleFile> {
     })
 }
 
-/// A background: transparent, or a color.
+/// Reads a background: transparent, or a color.
 fn background_by_name(text: &str) -> Fallible<BackgroundFile> {
     if text.eq_ignore_ascii_case("transparent") {
         return Ok(BackgroundFile::Transparent);

@@ -1,5 +1,5 @@
 //! Rendering subjects: placed models with a scene description, and the mip chains of their
-//! textures, which are computed once and kept.
+//! textures, which are computed once and reused.
 
 use crate::arrays;
 use crate::failure::{Failure, Fallible};
@@ -20,32 +20,32 @@ self_cell! {
     }
 }
 
-/// Placed models, and the default settings for showing them.
+/// Placed models with default settings for rendering them.
 #[pyclass(frozen, module = "alberti._native")]
 pub(crate) struct Subject {
     /// The source of the scene.
     pub(crate) origin: Origin,
-    /// The description of the scene.
+    /// The scene description.
     pub(crate) file: SceneFile,
     /// The models, loaded and placed.
     pub(crate) models: Vec<ModelInstance>,
     /// The folders allowed for scene files, and the model loading options.
     options: ResolveOptions,
-    /// The models with their textures; empty before the first picture.
+    /// The models with their mip chains; empty before the first picture.
     textured: OnceLock<TexturedModels>,
 }
 
 impl Subject {
-    /// Makes a subject from loaded models.
+    /// Creates a subject from loaded models.
     pub(crate) fn new(origin: Origin, file: SceneFile, models: Vec<ModelInstance>) -> Self {
         let options = ResolveOptions::default();
         Self { origin, file, models, options, textured: OnceLock::new() }
     }
 
-    /// Makes a subject from a scene and loads its models.
+    /// Creates a subject from a scene and loads its models.
     ///
     /// # Errors
-    /// Every error in the scene; a model that cannot be loaded.
+    /// All errors in the scene, including models that cannot be loaded.
     pub(crate) fn from_scene(
         origin: Origin,
         file: SceneFile,
@@ -55,7 +55,7 @@ impl Subject {
         Ok(Self { options, ..Self::new(origin, file, models) })
     }
 
-    /// The scene that results from a description and the models.
+    /// Resolves a description with the models to a scene.
     ///
     /// # Errors
     /// If the description is invalid.
@@ -65,14 +65,14 @@ impl Subject {
         Ok(Scene::from_models_allowing(&self.origin, file, &models, allowed)?)
     }
 
-    /// The mip chains of the model textures.
+    /// Returns the mip chains of the model textures.
     pub(crate) fn textures(&self) -> &Textures<'_> {
         let make =
             || TexturedModels::new(self.models.clone(), |models| Textures::for_models(models));
         self.textured.get_or_init(make).borrow_dependent()
     }
 
-    /// The models without duplicates, in scene order.
+    /// Returns the models without duplicates, in scene order.
     fn distinct_models(&self) -> Vec<&Arc<model::Model>> {
         let mut distinct: Vec<&Arc<model::Model>> = Vec::new();
         for placed in &self.models {
@@ -86,13 +86,14 @@ impl Subject {
 
 #[pymethods]
 impl Subject {
-    /// The model names.
+    /// Returns the model names.
     #[getter]
     fn name(&self) -> String {
         model::model_names(&self.models)
     }
 
-    /// The corners of the world bounding box of all vertices, or None if there are none.
+    /// Returns the corners of the world bounding box of all vertices, or None if there are no
+    /// vertices.
     fn bounds<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let Some(bounds) = Bounds::from_points(world_points(&self.models)) else {
             return Ok(None);
@@ -101,7 +102,7 @@ impl Subject {
         arrays::new_array(py, corners.as_flattened().to_vec(), &[2, 3]).map(Some)
     }
 
-    /// The counts of points, lines and triangles.
+    /// Returns the numbers of points, lines and triangles.
     fn item_counts(&self) -> [usize; 3] {
         let mut counts = [0; 3];
         for placed in &self.models {
@@ -112,7 +113,7 @@ impl Subject {
         counts
     }
 
-    /// The importer's warnings, without notes and hints.
+    /// Returns the importer's warnings, without notes and hints.
     fn warnings(&self) -> Vec<String> {
         let models = self.distinct_models().into_iter();
         let warnings = models.flat_map(|model| {
@@ -123,7 +124,7 @@ impl Subject {
         warnings.collect()
     }
 
-    /// Node, mesh or material names of each distinct model; None for unnamed ones.
+    /// Returns the node, mesh or material names of each distinct model; None for unnamed parts.
     fn part_names(&self, what: &str) -> PyResult<Vec<Vec<Option<String>>>> {
         let names = |model: &Arc<model::Model>| match what {
             "nodes" => Ok(model.nodes.iter().map(|part| part.name.clone()).collect()),

@@ -1,9 +1,10 @@
-"""Compares speed with pyrender and OSMesa, or with VTK if OSMesa is missing.
+"""Compare speed with pyrender and OSMesa, or with VTK if OSMesa is missing.
 
     python compare_speed.py [alberti] [pyrender] [vtk]
 
-A sphere of 15,000 triangles with a texture of 1024 × 1024 texels: color, depth and ids at 640 × 480
-in one thread, warm; and 100 views at 256 × 256 in two. Every renderer runs in a separate process.
+The model is a sphere of 15,000 triangles with a texture of 1024 × 1024 texels. Measured are color,
+depth and ids at 640 × 480 on one thread after a warm-up, and 100 views at 256 × 256 on two threads.
+Every renderer runs in a separate process.
 """
 
 import os
@@ -15,7 +16,7 @@ SIZE = (640, 480)
 
 
 def sphere():
-    """A sphere of 76 x 100 quads: 15,000 triangles."""
+    """Return a sphere of 76 x 100 quads: 15,000 triangles."""
     import numpy as np
 
     rows, columns = 76, 100
@@ -35,7 +36,7 @@ def sphere():
 
 
 def report(name, call, count=15):
-    """Medians of wall-clock time and of CPU time over all threads."""
+    """Return the medians of wall-clock time and of CPU time over all threads."""
     for _ in range(3):
         call()
     walls, processors = [], []
@@ -165,7 +166,7 @@ def main():
         known[sys.argv[2]]()
         return
     for name in sys.argv[1:] or known:
-        # Otherwise several Mesa threads would be compared with one of ours.
+        # Otherwise several Mesa threads would be compared with a single thread of Alberti.
         environment = {**os.environ, "LP_NUM_THREADS": "0"}
         command = [sys.executable, __file__, "only", name]
         done = subprocess.run(command, capture_output=True, text=True, env=environment)

@@ -1,4 +1,4 @@
-"""Folders and models shared by the tests."""
+"""Fixtures shared by the tests: folders, models, and the program."""
 
 import os
 import shutil
@@ -12,7 +12,7 @@ PROJECT = Path(__file__).resolve().parents[3]
 
 
 def assets_folder():
-    """The folder of test models outside the repository: `ASSETS`, or next to it."""
+    """Return the folder of external test models: `ASSETS`, or next to the repository."""
     given = os.environ.get("ASSETS")
     folder = Path(given) if given else PROJECT.parent / "shared" / "assets"
     return folder if folder.is_dir() else None
@@ -20,13 +20,13 @@ def assets_folder():
 
 @pytest.fixture(scope="session")
 def models():
-    """The scene models."""
+    """Return the folder of the scene models."""
     return PROJECT / "scenes" / "models"
 
 
 @pytest.fixture(scope="session")
 def assets():
-    """External test models."""
+    """Return the folder of external test models."""
     folder = assets_folder()
     if folder is None:
         pytest.skip("SKIPPED: no folder of test models; set ASSETS")
@@ -35,7 +35,7 @@ def assets():
 
 @pytest.fixture(scope="session")
 def program():
-    """The program `alberti`: `ALBERTI`, or the command installed by the wheel."""
+    """Return the path of the program: `ALBERTI`, or the command installed by the wheel."""
     command = os.environ.get("ALBERTI") or shutil.which("alberti")
     if command is None:
         pytest.skip("SKIPPED: the program alberti is not installed; set ALBERTI")
@@ -49,13 +49,13 @@ def teapot(models):
 
 @pytest.fixture
 def plane():
-    """A square of side 20 in the plane z = 0."""
+    """Return a square with side 20 in the plane z = 0."""
     corners = np.array([[-10, -10, 0], [10, -10, 0], [10, 10, 0], [-10, 10, 0]], float)
     return alberti.Model.from_arrays(corners, [[0, 1, 2, 3]])
 
 
 def random_rotation(rng):
-    """A uniformly distributed rotation matrix: a normalized quaternion of four normals."""
+    """Return a uniformly distributed rotation matrix, from four normally distributed numbers."""
     w, x, y, z = (q := rng.normal(size=4)) / np.linalg.norm(q)
     return np.array(
         [
@@ -67,7 +67,7 @@ def random_rotation(rng):
 
 
 def _report_skip(name, reason):
-    """Reports skipped tests in the form that the summary of `cargo xtask test` reads."""
+    """Report skipped tests in the form that the summary of `cargo xtask test` reads."""
     reason = reason.removeprefix("Skipped: ").removeprefix("SKIPPED: ").splitlines()[0]
     log = os.environ.get("SKIP_LOG")
     if log:

@@ -1,4 +1,4 @@
-"""Random valid and invalid calls: none may end the process or leak memory.
+"""Make random valid and invalid calls: none may end the process or leak memory.
 
     python fuzz_calls.py [CALLS] [SEED]
 
@@ -46,7 +46,7 @@ class Caller:
         return self.rng.random() < part
 
     def array(self, *shape):
-        """An array of about this shape: mostly valid, with some wrong kinds, sizes and numbers."""
+        """Return an array of about this shape: mostly valid, sometimes with errors."""
         if self.rare(0.05):
             return self.pick(OBJECTS)
         if self.rare(0.1):
@@ -74,7 +74,7 @@ class Caller:
         return alberti.Model.from_arrays(self.numbers.normal(size=(count, 3)), faces)
 
     def options(self, **known):
-        """Some of the options, occasionally with a wrong type."""
+        """Return some of the options, occasionally with a wrong type."""
         chosen = {name: value() for name, value in known.items() if self.rare(0.4)}
         for name in chosen:
             if name != "passes" and self.rare(0.08):
@@ -240,7 +240,7 @@ def main():
     warnings.simplefilter("ignore")
     right = sum(caller.call() for _ in range(count))
     print(f"{count} calls: {right} returned, {count - right} raised")
-    # A source of only invalid calls would test nothing.
+    # If all calls were invalid, nothing would be tested.
     assert 0.2 < right / count < 0.95
 
 

@@ -23,7 +23,7 @@ def random_camera(rng, skew=True):
 
 
 def points_ahead(rng, R, t, count=50):
-    """World points in front of the camera."""
+    """Return world points in front of the camera."""
     inside = rng.uniform((-4, -4, 0.5), (4, 4, 20), (count, 3))
     return (inside - t) @ R
 
@@ -39,7 +39,7 @@ def test_intrinsics_and_extrinsics_round_trip():
         assert np.abs(again.K - K).max() / np.abs(K).max() < 1e-12
 
 
-def test_projection_is_its_formula():
+def test_projection_matches_its_formula():
     rng = np.random.default_rng(3)
     for _ in range(200):
         camera, K, R, t = random_camera(rng)
@@ -89,7 +89,7 @@ def test_rays_pass_through_their_pixels():
         assert np.abs(pixels - np.stack([columns, rows], 1)).max() < 1e-7
 
 
-def test_conventions_name_one_camera():
+def test_conventions_describe_the_same_camera():
     rng = np.random.default_rng(6)
     for _ in range(100):
         camera, K, R, t = random_camera(rng)
@@ -126,7 +126,7 @@ def test_rotation_vectors_and_quaternions():
         assert np.abs(by_quaternion.R - R).max() < 1e-12, angle
 
 
-def test_the_projection_matrix_is_that_of_opengl():
+def test_projection_matrix_is_opengls():
     camera = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y=60, size=(400, 300), near=0.5, far=20)
     f = 1 / np.tan(np.pi / 6)
     expected = np.array(
@@ -140,7 +140,7 @@ def test_the_projection_matrix_is_that_of_opengl():
     assert np.abs(camera.projection_matrix - expected).max() < 1e-12
 
 
-def test_a_camera_that_frames_has_no_place_yet():
+def test_framing_camera_has_no_position_before_rendering():
     camera = Camera.frame("front", size=(64, 48))
     with pytest.raises(alberti.AlbertiError, match="frame.camera"):
         camera.project([[0, 0, 0]])
@@ -148,7 +148,7 @@ def test_a_camera_that_frames_has_no_place_yet():
         Camera.look_at((0, 0, 5), (0, 0, 0)).project([[0, 0, 0]])
 
 
-def test_pixels_agree_with_opencv_and_with_the_picture():
+def test_pixels_agree_with_opencv_and_the_picture():
     cv2 = pytest.importorskip("cv2", reason="SKIPPED: opencv-python-headless is not installed")
     rng = np.random.default_rng(8)
     worst = 0
@@ -164,12 +164,12 @@ def test_pixels_agree_with_opencv_and_with_the_picture():
 
 
 def test_pictures_of_calibrated_cameras_agree_with_the_formula():
-    """For 1,000 cameras and lens shifts, each pixel's position projects back to the pixel, with
-    OpenCV if it is installed, and the centroid of a square's coverage is the projection of its center.
+    """For 1,000 cameras and lens shifts, each pixel's position projects back to the pixel (with
+    OpenCV if it is installed), and the centroid of a square's coverage matches its center.
 
     A square that faces the camera is also a square in the picture, so the centroid of its coverage
-    is the projection of its center. It is rotated by a random angle, so that the steps of 8 samples
-    average out along its sides.
+    is the projection of its center. It is rotated by a random angle, so that the quantization by 8
+    samples averages out along its sides.
     """
     try:
         from cv2 import projectPoints
@@ -197,7 +197,7 @@ def test_pictures_of_calibrated_cameras_agree_with_the_formula():
         weight = frame.coverage / frame.coverage.sum()
         errors.append([(weight * columns).sum(), (weight * rows).sum()] - middle)
 
-        # Skip the diagonal of the square: a center there may be just outside its triangle.
+        # Skip the diagonal of the square, where a pixel center may be just outside its triangle.
         whole = frame.coverage == 1
         for axis, step in ((0, 1), (0, -1), (1, 1), (1, -1)):
             whole &= np.roll(frame.ids, step, axis) == frame.ids
@@ -210,5 +210,5 @@ def test_pictures_of_calibrated_cameras_agree_with_the_formula():
         assert np.abs(found - centers[whole]).max() < 0.01
     errors = np.abs(errors)
     assert np.sqrt((errors**2).mean()) < 0.005, np.sqrt((errors**2).mean())
-    # Sides along rows and columns do not average out.
+    # The errors of sides along rows and columns do not average out.
     assert np.quantile(errors, 0.98) < 0.02 and errors.max() < 1 / 15, errors.max()

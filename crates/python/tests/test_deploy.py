@@ -1,4 +1,4 @@
-"""Tests `deploy`: the Kubernetes job against its published schema, the Ray example locally."""
+"""Test `deploy`: the Kubernetes job against its published schema, the Ray example locally."""
 
 import os
 import shutil
@@ -19,7 +19,7 @@ def job():
     return yaml.safe_load((DEPLOY / "kubernetes" / "batch.yaml").read_text())
 
 
-def test_job_is_valid_by_the_published_schema(job):
+def test_job_matches_the_published_schema(job):
     validator = pytest.importorskip(
         "kubernetes_validate", reason="SKIPPED: kubernetes-validate is not installed"
     )
@@ -29,23 +29,23 @@ def test_job_is_valid_by_the_published_schema(job):
         validator.validate(job, KUBERNETES_VERSION, strict=True)
 
 
-def test_job_divides_by_as_many_shards_as_it_has(job):
+def test_shard_count_matches_completions(job):
     arguments = job["spec"]["template"]["spec"]["containers"][0]["args"]
     assert f"--shard=auto/{job['spec']['completions']}" in arguments
 
 
-def test_job_treats_each_exit_code_by_its_meaning(job):
+def test_exit_codes_are_handled_by_meaning(job):
     rules = job["spec"]["podFailurePolicy"]["rules"]
     by_code = {
         code: rule["action"]
         for rule in rules
         for code in rule.get("onExitCodes", {}).get("values", [])
     }
-    # No rule mentions 3: it counts as a try.
+    # No rule mentions 3, so it counts as an attempt.
     assert by_code == {1: "FailIndex", 2: "FailJob"}
 
 
-def test_job_has_memory_for_all_its_workers(job):
+def test_job_has_memory_for_all_workers(job):
     container = job["spec"]["template"]["spec"]["containers"][0]
     flags = dict(word[2:].split("=") for word in container["args"] if "=" in word)
     gibibytes = int(flags["threads"]) * int(flags["job-memory"].removesuffix("GiB"))
@@ -53,7 +53,7 @@ def test_job_has_memory_for_all_its_workers(job):
     assert container["resources"]["requests"]["cpu"] == flags["threads"]
 
 
-def test_program_knows_the_flags_of_the_job(job, program):
+def test_program_accepts_the_flags_of_the_job(job, program):
     arguments = job["spec"]["template"]["spec"]["containers"][0]["args"]
     text = subprocess.run([program, "batch", "--help"], capture_output=True, text=True).stdout
     for word in arguments[1:]:
@@ -66,7 +66,7 @@ def short_folder():
         yield folder
 
 
-def test_ray_draws_all_models_and_continues(models, tmp_path, short_folder):
+def test_ray_draws_all_models_and_resumes(models, tmp_path, short_folder):
     pytest.importorskip("ray", reason="SKIPPED: ray is not installed")
     inputs, out = tmp_path / "models", tmp_path / "out"
     (inputs / "below").mkdir(parents=True)

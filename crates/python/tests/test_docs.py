@@ -1,4 +1,4 @@
-"""Documentation: the examples in the modules and in docs/python.md, and each row of its tables."""
+"""Run the examples in the modules and in docs/python.md, and each row of its tables."""
 
 import doctest
 import importlib
@@ -23,23 +23,23 @@ MODULES = {module.name for module in pkgutil.iter_modules(alberti.__path__)}
 
 
 @pytest.mark.parametrize("name", sorted(MODULES - {"__main__", "_native"}))
-def test_examples_of_modules(name):
+def test_module_examples(name):
     module = importlib.import_module(f"alberti.{name}")
     assert doctest.testmod(module).failed == 0
 
 
-def test_examples_of_the_package():
+def test_package_example():
     assert doctest.testmod(alberti).attempted > 0
     assert doctest.testmod(alberti).failed == 0
 
 
-def test_examples_of_the_page():
+def test_page_examples():
     result = doctest.testfile(str(PAGE), module_relative=False)
     assert result.attempted > 10 and result.failed == 0
 
 
 def table_rows():
-    """The right column of every table whose left column lists another package's names."""
+    """Return the right column of every table whose left column lists another package's names."""
     rows = []
     for line in PAGE.read_text().splitlines():
         cells = re.split(r" \| ", line.strip("| \n"))
@@ -49,7 +49,7 @@ def table_rows():
 
 
 def namespace(folder):
-    """The names used in the rows."""
+    """Return the names used in the rows."""
     trimesh = pytest.importorskip("trimesh", reason="SKIPPED: trimesh is not installed")
     mesh = trimesh.creation.icosphere()
     model = alberti.load(PROJECT / "scenes" / "models" / "teapot.glb")
@@ -86,7 +86,7 @@ def namespace(folder):
 
 
 @pytest.mark.parametrize(("theirs", "ours"), table_rows(), ids=lambda cell: cell[:50])
-def test_rows_of_the_tables(theirs, ours, tmp_path):
+def test_table_rows(theirs, ours, tmp_path):
     if ours == "nothing":
         for variable in ("DISPLAY", "PYOPENGL_PLATFORM"):
             os.environ.pop(variable, None)
@@ -97,7 +97,7 @@ def test_rows_of_the_tables(theirs, ours, tmp_path):
         assert eval(code, namespace(tmp_path)) is not None or ".save(" in code
 
 
-def test_the_tables_are_found():
+def test_tables_are_found():
     rows = table_rows()
     assert len(rows) > 30
     assert {cell[1] for cell in rows if "xvfb" in cell[0]} == {"nothing"}

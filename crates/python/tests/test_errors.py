@@ -1,4 +1,4 @@
-"""Invalid input gives an exception that names the argument and the value, and never aborts."""
+"""Invalid input raises an exception with the argument and its value, and never aborts."""
 
 import pickle
 import signal
@@ -48,10 +48,10 @@ NAN = [[0, 0, 0], [1, np.nan, 0], [1, 1, 0]]
         ("crease", "200", {"crease": 200}),
         ("up", "north", {"up": "north"}),
         ("unit", "furlong", {"unit": "furlong"}),
-        ("limits['pixels']", "no such limit", {"limits": {"pixels": 1}}),
+        ("limits['pixels']", "unknown limit", {"limits": {"pixels": 1}}),
     ],
 )
-def test_arrays_are_refused(pointer, words, arguments):
+def test_invalid_arrays_are_rejected(pointer, words, arguments):
     arguments = {"vertices": SQUARE, "faces": [[0, 1, 2, 3]], **arguments}
     with pytest.raises(alberti.AlbertiError) as caught:
         Model.from_arrays(**arguments)
@@ -61,7 +61,7 @@ def test_arrays_are_refused(pointer, words, arguments):
     assert words in str(error), str(error)
 
 
-def test_limits_are_named():
+def test_exceeded_limits_are_reported():
     many = np.zeros((1000, 3))
     with pytest.raises(alberti.AlbertiError, match="array_bytes") as caught:
         Model.from_arrays(many, limits={"array_bytes": 1000})
@@ -107,7 +107,7 @@ def camera(**options):
         ("pixels", lambda: camera(size=(9, 9)).unproject(np.zeros(3), np.zeros((3, 3)))),
     ],
 )
-def test_cameras_are_refused(pointer, make):
+def test_invalid_cameras_are_rejected(pointer, make):
     with pytest.raises(alberti.AlbertiError) as caught:
         make()
     assert caught.value.pointer == pointer, caught.value
@@ -130,7 +130,7 @@ def test_cameras_are_refused(pointer, make):
         ("direction", {"camera": "nowhere"}),
     ],
 )
-def test_renderings_are_refused(teapot, pointer, options):
+def test_invalid_render_options_are_rejected(teapot, pointer, options):
     with pytest.raises(alberti.AlbertiError) as caught:
         alberti.render(teapot, **options)
     assert caught.value.pointer == pointer, caught.value
@@ -139,11 +139,11 @@ def test_renderings_are_refused(teapot, pointer, options):
             alberti.render_many([{"model": teapot, **options}])
 
 
-#: A pose that overflows when combined with another one.
+# : A pose that overflows when combined with itself.
 FAR = [[1, 0, 0, 1.7e308], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
 
 
-def test_other_calls_are_refused(teapot, tmp_path):
+def test_other_invalid_calls_are_rejected(teapot, tmp_path):
     for call in (
         lambda: alberti.load(tmp_path / "missing.glb"),
         lambda: alberti.load(b""),
@@ -173,7 +173,7 @@ def test_other_calls_are_refused(teapot, tmp_path):
         assert str(caught.value) and caught.value.code
 
 
-def test_mistakes_in_scenes_have_a_place_and_help():
+def test_scene_mistakes_have_a_location_and_help():
     text = 'Scene(models: [(path: "x.glb")], camera: (view: LookAt(eye: (1, 2, 3), traget: (0, 0, 0))))'
     with pytest.raises(alberti.AlbertiError) as caught:
         alberti.load_scene(text=text)
@@ -183,7 +183,7 @@ def test_mistakes_in_scenes_have_a_place_and_help():
     assert pickle.loads(pickle.dumps(error)).pointer == error.pointer
 
 
-def test_arrays_of_every_kind_are_read():
+def test_arrays_of_every_dtype_and_layout_are_read():
     expected = Model.from_arrays(SQUARE, [[0, 1, 2, 3]])
     picture = alberti.render(expected, size=(40, 30)).png()
     square = np.asarray(SQUARE)
@@ -198,7 +198,7 @@ def test_arrays_of_every_kind_are_read():
     assert alberti.render(Model.from_arrays(square, [[0, 1, 2, 3]]), size=(40, 30)).png() == picture
 
 
-def test_import_warnings_are_warnings_of_python(assets):
+def test_import_warnings_become_python_warnings(assets):
     broken = next(iter(sorted((assets / "meshes" / "obj").glob("space_in_material_name.obj"))))
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
@@ -210,7 +210,7 @@ def test_import_warnings_are_warnings_of_python(assets):
     assert all(w.filename == __file__ for w in caught)
 
 
-def test_other_threads_run_while_a_picture_is_rendered(teapot):
+def test_other_threads_run_during_rendering(teapot):
     rendered = []
 
     def work():
@@ -226,7 +226,7 @@ def test_other_threads_run_while_a_picture_is_rendered(teapot):
     assert rendered and steps > 10
 
 
-def test_ctrl_c_stops_a_picture():
+def test_ctrl_c_cancels_a_picture():
     code = """
 import alberti, os, signal, sys, threading, time
 # What is started in the background of a shell ignores interrupts.

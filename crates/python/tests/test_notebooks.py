@@ -1,4 +1,4 @@
-"""Notebooks run, and their code passes type checks."""
+"""Run the notebooks and type-check their code."""
 
 import json
 import subprocess
@@ -16,12 +16,12 @@ def code_of(path):
     return "\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code")
 
 
-def test_there_are_three():
+def test_there_are_three_notebooks():
     assert len(NOTEBOOKS) == 3
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_a_notebook_runs(path):
+def test_notebook_runs(path):
     nbclient = pytest.importorskip("nbclient", reason="SKIPPED: nbclient is not installed")
     pytest.importorskip("ipykernel", reason="SKIPPED: ipykernel is not installed")
     import nbformat
@@ -41,7 +41,7 @@ def test_a_notebook_runs(path):
     assert any({"image/png", "image/svg+xml"} & set(output.data) for output in shown)
 
 
-def test_the_code_is_typed(tmp_path):
+def test_code_passes_type_checks(tmp_path):
     pytest.importorskip("mypy", reason="SKIPPED: mypy is not installed")
     files = []
     for path in NOTEBOOKS:

@@ -1,4 +1,4 @@
-"""Pictures and passes, compared with the program, with formulas and with each other."""
+"""Compare pictures and passes with the program, with formulas and with each other."""
 
 import io
 import subprocess
@@ -19,7 +19,7 @@ def run(program, *arguments):
 
 
 @pytest.mark.parametrize("name", ["teapot", "house", "table", "bearing"])
-def test_bytes_are_those_of_the_program(name, models, program, tmp_path):
+def test_bytes_match_the_program(name, models, program, tmp_path):
     source, target = models / f"{name}.glb", tmp_path / "picture.png"
     passes = "depth,distance,normal,position,id,node,material,uv"
     size = ("--size", "320x240")
@@ -44,13 +44,13 @@ def test_bytes_are_those_of_the_program(name, models, program, tmp_path):
         assert array.tobytes() == expected.tobytes(), name
 
 
-def test_a_scene_file_is_that_of_the_program(models, program, tmp_path):
+def test_scene_file_matches_the_program(models, program, tmp_path):
     scene, target = models.parent / "house.ron", tmp_path / "picture.png"
     run(program, "render", scene, "-o", target)
     assert alberti.render(alberti.load_scene(scene)).png() == target.read_bytes()
 
 
-def test_styles_cameras_and_backgrounds_are_those_of_the_program(teapot, models, program, tmp_path):
+def test_styles_cameras_and_backgrounds_match_the_program(teapot, models, program, tmp_path):
     target = tmp_path / "picture.png"
     for style in ("clay", "toon", "lines", "x-ray", "depth-cued"):
         flags = ("--style", style, "--view", "front", "--background", "#102030", "--samples", "8")
@@ -66,7 +66,7 @@ def test_styles_cameras_and_backgrounds_are_those_of_the_program(teapot, models,
         assert frame.png() == target.read_bytes(), style
 
 
-def test_threads_change_nothing(teapot):
+def test_threads_do_not_change_the_picture(teapot):
     one, many = (
         alberti.render(teapot, size=(333, 222), passes=PASSES, threads=threads)
         for threads in (1, 7)
@@ -90,7 +90,7 @@ def test_shapes_and_dtypes(teapot):
     assert frame.size == (31, 17) and frame.mask.dtype == bool
 
 
-def test_rgb_is_over_white(teapot):
+def test_rgb_is_blended_over_white(teapot):
     frame = alberti.render(teapot, size=(64, 48))
     color, alpha = frame.rgba[..., :3].astype(int), frame.rgba[..., 3:].astype(int)
     expected = (color * alpha + 255 * (255 - alpha) + 127) // 255
@@ -98,9 +98,9 @@ def test_rgb_is_over_white(teapot):
     assert (frame.rgb[0, 0] == 255).all()
 
 
-def test_the_depth_of_a_plane_is_its_formula():
-    # The plane z = 0 under a ray: eye + s · direction, with s = −eye.z / direction.z. One triangle
-    # larger than the picture, so that no pixel is on its border.
+def test_depth_of_a_plane_matches_its_formula():
+    # A ray hits the plane z = 0 at eye + s · direction, with s = −eye.z / direction.z. One triangle
+    # extends beyond the picture, so that no pixel is on its border.
     corners = [[-1000, -1000, 0], [3000, -1000, 0], [-1000, 3000, 0]]
     plane = alberti.Model.from_arrays(corners, [[0, 1, 2]])
     rng = np.random.default_rng(1)
@@ -126,13 +126,13 @@ def test_the_depth_of_a_plane_is_its_formula():
         assert (np.linalg.norm(frame.position[hit] - points[hit], axis=1) / far).max() < 1e-6
 
 
-def test_distance_from_depth_is_the_pass(teapot):
+def test_distance_from_depth_matches_the_pass(teapot):
     both = alberti.render(teapot, size=(200, 150), passes=("depth", "distance"))
     depth = alberti.render(teapot, size=(200, 150), passes="depth")
     hit = both.mask
     error = np.abs(depth.distance[hit] / both.distance[hit] - 1)
-    # If snapping to 1/256 pixel puts a center outside its triangle, the passes describe a point
-    # on its border, not quite on the ray.
+    # If snapping to 1/256 pixel moves a triangle off a pixel center, the passes describe a point on
+    # its border, which is not exactly on the ray.
     assert np.quantile(error, 0.99) < 3e-7 and error.max() < 1e-4
     assert np.isinf(depth.distance[~hit]).all()
 
@@ -152,7 +152,7 @@ def test_ids_are_rows_of_faces():
     assert ((ids == 1).sum(), (ids == 2).sum()) in ((45, 55), (55, 45), (50, 50))
 
 
-def test_scenes_of_models_with_poses(plane):
+def test_scenes_from_models_with_poses(plane):
     box = np.eye(4)
     box[:3, 3] = (0, 0, 1)
     small = alberti.Model.from_arrays([[-1, -1, 0], [1, -1, 0], [0, 1, 0]], [[0, 1, 2]])
@@ -163,7 +163,7 @@ def test_scenes_of_models_with_poses(plane):
     assert frame.depth[32, 32] == 4 and abs(frame.depth[0, 0] - 5) < 1e-6
 
 
-def test_render_many_is_render(teapot):
+def test_render_many_matches_render(teapot):
     cameras = [alberti.Camera.frame(name) for name in ("front", "left", "top", "isometric")]
     passes = ("rgb", "depth", "ids")
     jobs = [{"model": teapot, "camera": c, "size": (64, 48), "passes": passes} for c in cameras]
@@ -175,7 +175,7 @@ def test_render_many_is_render(teapot):
     assert alberti.render_many([]) == []
 
 
-def test_the_camera_of_a_frame_takes_the_same_picture(teapot):
+def test_camera_of_a_frame_renders_the_same_picture(teapot):
     for camera in (
         alberti.Camera.frame("three-quarter"),
         alberti.Camera.frame((1, 2, 3), orthographic=True, padding=10),
@@ -217,7 +217,7 @@ def test_lines_are_projected_edges():
     assert set(drawing.classes) == {"boundary"}
 
 
-def test_explanations_are_those_of_the_program(teapot, models, program):
+def test_explanations_match_the_program(teapot, models, program):
     import json
 
     arguments = ["explain", models / "teapot.glb", "--point", "0.1,0.2,0.3", "--json"]
@@ -232,7 +232,7 @@ def test_explanations_are_those_of_the_program(teapot, models, program):
     assert node["subject"]
 
 
-def test_the_program_is_installed(program):
+def test_program_is_installed(program):
     done = subprocess.run([program, "--version"], capture_output=True, text=True)
     assert done.returncode == 0 and done.stdout.startswith("alberti")
     wrong = subprocess.run([program, "render", "--no-such-flag"], capture_output=True, text=True)
@@ -243,5 +243,5 @@ def test_the_program_is_installed(program):
     assert module.stdout.decode() == done.stdout
 
 
-def test_a_picture_is_a_png(teapot):
+def test_pictures_are_encoded_as_png(teapot):
     assert io.BytesIO(teapot._repr_png_()).read(8) == b"\x89PNG\r\n\x1a\n"

@@ -1,4 +1,4 @@
-"""trimesh objects: the picture of a file matches the one from our own reader."""
+"""Compare pictures of trimesh objects with pictures of the same files from our own reader."""
 
 import alberti
 import numpy as np
@@ -10,7 +10,7 @@ SIZE = (160, 120)
 PASSES = ("rgb", "depth", "normal", "mesh_ids")
 
 
-def test_boxes_of_a_scene_keep_their_places():
+def test_boxes_of_a_scene_keep_their_positions():
     scene = trimesh.Scene()
     box = trimesh.creation.box((1, 2, 3))
     pose = trimesh.transformations.rotation_matrix(0.5, (1, 2, 3))
@@ -60,7 +60,7 @@ def test_colors_and_textures():
         assert first.rgba.tobytes() == second.rgba.tobytes(), list(theirs)
 
 
-def test_keys_of_materials_are_lists_or_arrays():
+def test_material_keys_can_be_lists_or_arrays():
     def picture(**keys):
         material = trimesh.visual.material.SimpleMaterial(**keys)
         visual = trimesh.visual.TextureVisuals(uv=np.zeros((8, 2)), material=material)
@@ -74,7 +74,7 @@ def test_keys_of_materials_are_lists_or_arrays():
     assert expected == picture(Kd=np.array(color), Ns=None, d="none")
 
 
-def test_clouds_and_paths():
+def test_point_clouds_and_paths():
     points = np.random.default_rng(2).normal(size=(100, 3))
     cloud = alberti.Model.from_trimesh(trimesh.PointCloud(points))
     assert alberti.render(cloud, size=SIZE, passes="ids").ids.max() > 50
@@ -94,16 +94,16 @@ def files():
 
 @pytest.mark.parametrize("path", files(), ids=lambda path: path.name)
 @pytest.mark.filterwarnings("ignore")
-def test_a_file_has_one_picture(path):
-    """Depths agree for all files; colors may differ where trimesh changes the file's data."""
+def test_pictures_of_a_file_match(path):
+    """Depths match for all files; colors may differ where trimesh changes the file's data."""
     try:
         ours = alberti.load(path, lenient=True)
     except alberti.AlbertiError as error:
-        pytest.skip(f"our reader refuses it: {error}")
+        pytest.skip(f"our reader rejects it: {error}")
     try:
         scene = trimesh.load_scene(path, process=False)
     except BaseException as error:
-        pytest.skip(f"trimesh refuses it: {error}")
+        pytest.skip(f"trimesh rejects it: {error}")
     up = "z" if path.suffix.lower() in (".stl", ".3mf") else "y"
     theirs = alberti.Model.from_trimesh(scene, up=up)
     if ours.bounds is None or theirs.bounds is None:
@@ -115,7 +115,7 @@ def test_a_file_has_one_picture(path):
 
 
 def compare_pictures(name, first, second):
-    """Geometry and colors are equal, except where the table says otherwise."""
+    """Check that geometry and colors are equal, except for files in the tables below."""
     inside = first.mask & second.mask
     assert (first.mask != second.mask).mean() < DIFFERENT_SHAPES.get(name, 1e-4), "mask"
     if not inside.any():
@@ -130,15 +130,15 @@ def compare_pictures(name, first, second):
     assert (color > 2).mean() <= DIFFERENT_COLORS.get(name, 0.005), "color"
 
 
-# Files whose shape trimesh reads differently: the fraction of pixels that differ.
+# Files whose geometry trimesh reads differently, with the fraction of pixels that differ.
 DIFFERENT_SHAPES = {
-    # Concave polygons are cut into fans.
+    # Concave polygons are triangulated as fans.
     "concave_polygon.obj": 0.3,
     "space_in_material_name.obj": 0.3,
     "wallhole.obj": 0.03,
-    # Lines are dropped, and their ends are kept as points.
+    # Lines are dropped, and their ends remain as points.
     "testline.obj": 1,
-    # Objects with the same id in two files of the archive are treated as one.
+    # Objects with the same id in two files of the archive are treated as one object.
     "production_components.3mf": 1,
 }
 # Files where trimesh splits a surface by material, which makes the borders creases.
@@ -147,9 +147,9 @@ DIFFERENT_NORMALS = {"chair_model.obj": 0.03}
 DIFFERENT_COLORS = {
     # A material whose name has spaces is not found.
     "box_mat_with_spaces.obj": 1,
-    # In OBJ, vertex colors multiply the plain material; arrays have no material then.
+    # In OBJ, vertex colors multiply the plain material; trimesh's arrays then have no material.
     "cube_with_vertexcolors.obj": 1,
-    # Colors beside texture coordinates, face colors, floats, diffuse_red, or in the header.
+    # Colors next to texture coordinates, face colors, floats, diffuse_red, or colors in the header.
     "fuze.ply": 1,
     "multi.ply": 1,
     "pond.0.ply": 1,

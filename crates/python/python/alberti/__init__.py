@@ -1,6 +1,7 @@
 """Pictures, depth, normals and ids of 3D models as NumPy arrays.
 
-Rendered on the CPU, without a display, a window or OpenGL; the same bits on every machine.
+Renders on the CPU, without a display, a window or OpenGL. Results are bit-identical on every
+machine.
 
 >>> import alberti
 >>> cube = alberti.Model.from_arrays(

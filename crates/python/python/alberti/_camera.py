@@ -16,13 +16,13 @@ if TYPE_CHECKING:
 class Camera:
     """A camera: position, direction and lens.
 
-    Created by :meth:`look_at`, :meth:`frame`, :meth:`from_intrinsics`, :meth:`from_opencv`,
-    :meth:`from_pytorch3d` or :meth:`from_pose`; immutable.
+    Create one with :meth:`look_at`, :meth:`frame`, :meth:`from_intrinsics`, :meth:`from_opencv`,
+    :meth:`from_pytorch3d`, :meth:`from_pose` or :meth:`from_model`. Cameras are immutable.
 
     Lengths are in the units of the model, angles in degrees, sizes ``(width, height)`` in pixels.
     The world is right-handed, and y points up in glTF. Pixel coordinates are ``(column, row)``,
-    and the *center* of the upper left pixel is ``(0, 0)``, as in OpenCV and as arrays are indexed:
-    ``depth[row, column]``. Depth is measured along the view axis, in front of the eye.
+    and the *center* of the upper left pixel is ``(0, 0)``, as in OpenCV; arrays are indexed
+    ``depth[row, column]``. Depth is measured from the eye along the view axis.
 
     Near and far planes are fitted to the model by default.
     """
@@ -49,7 +49,7 @@ class Camera:
         """Make a camera at ``eye`` that looks at ``target``.
 
         Args:
-            eye: Position (3,) in the world.
+            eye: Position (3,) in world space.
             target: Point (3,) at the center of the picture.
             up: Direction (3,) that points up in the picture.
             fov_y: Vertical field of view in degrees; 35 by default.
@@ -77,7 +77,7 @@ class Camera:
         near: float | None = None,
         far: float | None = None,
     ) -> Camera:
-        """Make a camera at the distance at which the model just fits into the picture.
+        """Make a camera at the distance at which the model just fits in the picture.
 
         Its position is known only after rendering: ``render(model, camera=…).camera``.
 
@@ -87,7 +87,7 @@ class Camera:
                 from the model to the camera.
             fov_y: Vertical field of view in degrees; 35 by default.
             orthographic: Whether the projection is parallel.
-            padding: Margin on each side in percent of the picture's side; 5 by default.
+            padding: Margin on each side, in percent of the picture size; 5 by default.
             size: Size of the pictures.
             near: Distance of the near plane.
             far: Distance of the far plane.
@@ -117,8 +117,8 @@ class Camera:
         Args:
             K: Matrix (3, 3) with fx, fy, cx, cy and skew in pixels, or (fx, fy, cx, cy).
             size: Size ``(width, height)`` of the pictures to which K applies.
-            pose: Matrix (4, 4) or (3, 4) from the camera to the world; without one the camera
-                frames the model, as :meth:`frame` does.
+            pose: Matrix (4, 4) or (3, 4) from the camera to the world; by default, the camera
+                frames the model, like :meth:`frame`.
             axes: Directions of the camera axes in the pose; see :meth:`from_pose`.
             pixel_centers: ``integer``: the center of the first pixel is (0, 0), as in OpenCV; or
                 ``half``: it is (½, ½), as in COLMAP and OpenGL.
@@ -149,9 +149,9 @@ class Camera:
 
         Args:
             K: Matrix (3, 3), or (fx, fy, cx, cy). Distortion is not modeled: undistort first.
-            R: Rotation (3, 3); or a rotation vector (3,) in radians, as ``cv2.solvePnP`` returns
-                it; or a quaternion (4,) w, x, y, z, as in COLMAP's ``images.txt``.
-            t: Translation (3,): the origin of the world in the camera's coordinates.
+            R: Rotation (3, 3); or a rotation vector (3,) in radians, as returned by
+                ``cv2.solvePnP``; or a quaternion (4,) w, x, y, z, as in COLMAP's ``images.txt``.
+            t: Translation (3,): the world origin in camera coordinates.
             size: Size ``(width, height)`` of the pictures to which K applies.
             pixel_centers: ``integer`` for OpenCV, ``half`` for COLMAP.
             near: Distance of the near plane.
@@ -235,17 +235,17 @@ class Camera:
 
     @property
     def R(self) -> NDArray[np.float64]:
-        """The rotation (3, 3) from the world to the camera, with the axes of OpenCV."""
+        """The rotation (3, 3) from the world to the camera, with OpenCV axes."""
         return self._native.extrinsics("opencv")[0]
 
     @property
     def t(self) -> NDArray[np.float64]:
-        """The translation (3,) from the world to the camera, with the axes of OpenCV."""
+        """The translation (3,) from the world to the camera, with OpenCV axes."""
         return self._native.extrinsics("opencv")[1]
 
     @property
     def eye(self) -> NDArray[np.float64]:
-        """The position (3,) in the world."""
+        """The position (3,) in world space."""
         return self.pose()[:3, 3]
 
     @property
@@ -270,7 +270,7 @@ class Camera:
     def project(self, points: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Project points (N, 3) to pixel coordinates (N, 2), column and row, and depths (N,).
 
-        Points that are not in front of the eye have a depth of at most 0; in a perspective, their
+        Points that are not in front of the eye have a depth of at most 0; in perspective, their
         coordinates are NaN.
         """
         return self._native.project(points)

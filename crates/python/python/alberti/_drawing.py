@@ -33,11 +33,11 @@ def draw(
     Args:
         model: As for :func:`alberti.render`.
         camera: As for :func:`alberti.render`.
-        size: As for :func:`alberti.render`; 96 pixels are one inch on paper.
+        size: As for :func:`alberti.render`; 96 pixels correspond to one inch on paper.
         style: ``lines``, ``dashed`` (hidden lines dashed), ``silhouette``, ``outline`` (the
-            silhouette as closed loops), ``technical`` (line types of ISO 128), ``wireframe`` or
-            ``depth-cued``; ``lines`` by default.
-        background: As for :func:`alberti.render`; the color of the paper.
+            silhouette as closed loops), ``technical`` (line types of ISO 128), ``patent``,
+            ``blueprint``, ``sketch``, ``wireframe`` or ``depth-cued``; ``lines`` by default.
+        background: As for :func:`alberti.render`; sets the color of the paper.
         threads: As for :func:`alberti.render`.
 
     >>> from alberti import Model
@@ -82,7 +82,7 @@ class Drawing:
     def dxf(self) -> bytes:
         """The page as a DXF file (R2000).
 
-        In the model's unit if the view is parallel, otherwise in millimeters on paper.
+        The unit is the model's unit if the view is parallel, otherwise millimeters on paper.
         """
         return self._native.dxf()
 
@@ -93,7 +93,7 @@ class Drawing:
 
     @property
     def lines(self) -> NDArray[np.float64]:
-        """Ends (N, 2, 2) of the segments of all edges: column and row in pixels, y down.
+        """Ends (N, 2, 2) of all segments: column and row in pixels, y down.
 
         Includes hidden segments if the style shows them; see :attr:`visible`.
         """
@@ -106,12 +106,12 @@ class Drawing:
 
     @property
     def classes(self) -> list[str]:
-        """Class of each segment: ``silhouette``, ``boundary``, ``crease`` …"""
+        """Class of each segment, such as ``silhouette``, ``boundary`` or ``crease``."""
         return self._arrays()["class"]  # type: ignore[no-any-return]
 
     @property
     def edges(self) -> NDArray[np.uint32]:
-        """Edge (N,) to which each segment belongs."""
+        """Index (N,) of the edge to which each segment belongs."""
         return self._arrays()["edge"]  # type: ignore[no-any-return]
 
     @property
@@ -126,7 +126,7 @@ class Drawing:
         return self._native.warnings()
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the drawing as ``.svg``, ``.pdf`` or ``.dxf``, chosen by the path's extension."""
+        """Write the drawing as SVG, PDF or DXF, according to the path's extension."""
         ending = os.path.splitext(os.fspath(path))[1].lower()
         if ending not in (".svg", ".pdf", ".dxf"):
             raise AlbertiError(f"ends in {ending!r}, expected .svg, .pdf or .dxf", pointer="path")

@@ -1,4 +1,4 @@
-"""The exception and the warning of the package."""
+"""The exception and warning types of the package."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ class AlbertiError(Exception):
     """Raised by every function for invalid input.
 
     Attributes:
-        code: Kind of error, for programs: ``INVALID_ARGUMENT`` for an argument,
+        code: Kind of error, for use in code: ``INVALID_ARGUMENT`` for an argument,
             ``SCENE_ERROR`` for a mistake in a scene or a camera, ``LIMIT_EXCEEDED``,
-            ``IO_ERROR``; for errors in files an importer code, such as
-            ``INVALID_DATA``.
-        pointer: Location: the argument (``faces[3, 1]``), or the position in a file, a JSON pointer
-            in glTF, otherwise ``line 4, column 2``. May be empty.
-        help: Suggested remedy, if there is one.
+            ``IO_ERROR``, or an importer code such as ``INVALID_DATA`` for an error
+            in a file.
+        pointer: Location: the argument (``faces[3, 1]``), or the position in a file: a JSON
+            pointer in glTF, otherwise ``line 4, column 2``. May be empty.
+        help: Suggested remedy, or None.
     """
 
     code: str
@@ -51,7 +51,7 @@ _MOST_WARNINGS = 8
 
 
 def warn_all(messages: Iterable[str], stacklevel: int = 3) -> None:
-    """Warn about the first few messages, and about the number of further ones."""
+    """Warn about the first few messages, and about how many more there are."""
     messages = list(messages)
     for message in messages[:_MOST_WARNINGS]:
         _warnings.warn(message, AlbertiWarning, stacklevel=stacklevel + 1)

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 class Frame:
     """A rendered picture and its passes, as arrays with the top row first.
 
-    Every array is created once. A pass that was not rendered raises :class:`AlbertiError`.
+    Every array is created once. Accessing a pass that was not rendered raises
+    :class:`AlbertiError`.
     """
 
     __slots__ = ("_arrays", "camera", "warnings")
@@ -41,7 +42,7 @@ class Frame:
 
     @property
     def rgba(self) -> NDArray[np.uint8]:
-        """Colors (height, width, 4), sRGB with straight alpha; identical to the program's."""
+        """Colors (height, width, 4), sRGB with straight alpha, as written by the program."""
         return self._pass("rgba", "rgb")
 
     @property
@@ -68,7 +69,7 @@ class Frame:
 
     @property
     def normal(self) -> NDArray[np.float32]:
-        """Unit normals (height, width, 3) in the world, of the visible side; 0 for background."""
+        """World-space unit normals (height, width, 3) of the visible side; 0 for background."""
         return self._pass("normal")
 
     @property
@@ -78,12 +79,12 @@ class Frame:
 
     @property
     def position(self) -> NDArray[np.float32]:
-        """Positions (height, width, 3) in the world; 0 for background."""
+        """World-space positions (height, width, 3); 0 for background."""
         return self._pass("position")
 
     @property
     def uv(self) -> NDArray[np.float32]:
-        """Texture coordinates (height, width, 2), v down in the texture; 0 if there are none."""
+        """Texture coordinates (height, width, 2), with v down in the texture; 0 where missing."""
         return self._pass("uv")
 
     @property
@@ -98,12 +99,12 @@ class Frame:
 
     @property
     def overdraw(self) -> NDArray[np.uint32]:
-        """Number (height, width) of surfaces at each pixel's center, hidden ones included."""
+        """Number (height, width) of surfaces at each pixel's center, including hidden surfaces."""
         return self._pass("overdraw")
 
     @property
     def ids(self) -> NDArray[np.uint32]:
-        """Triangle (point, line) of each pixel, counted from 1 in scene order; 0 for background.
+        """Triangle, point or line of each pixel, counted from 1 in scene order; 0 for background.
 
         For a model with one mesh, ``ids - 1`` is the row of ``faces``.
         """
@@ -126,7 +127,7 @@ class Frame:
 
     @property
     def material_ids(self) -> NDArray[np.uint32]:
-        """Material of each pixel: its index in the file plus 1; 0 also for the default one."""
+        """Material of each pixel: its index in the file plus 1; 0 for background or the default."""
         return self._pass("material", "material_ids")
 
     @property
@@ -141,14 +142,14 @@ class Frame:
         return np.greater(self.ids, 0)
 
     def points(self) -> NDArray[np.float64]:
-        """Return the world points (N, 3) of all pixels with a depth, row by row: a point cloud."""
+        """Return the world points (N, 3) of all pixels with a finite depth, row by row."""
         import numpy as np
 
         depth = self.depth
         return self.camera.unproject(depth)[np.isfinite(depth)]
 
     def png(self) -> bytes:
-        """Return the picture as the bytes of a PNG file, identical to the program's."""
+        """Return the picture as the bytes of a PNG file, identical to the program's output."""
         return _native.encode_png(self.rgba)
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -172,5 +173,5 @@ class Frame:
         except KeyError:
             asked = asked or name.replace("-", "_")
             message = f"the frame has no {asked}"
-            help = f'render it: passes=(…, "{asked}")'
+            help = f'add it to the passes: passes=(…, "{asked}")'
             raise AlbertiError(message, "NO_SUCH_PASS", asked, help) from None

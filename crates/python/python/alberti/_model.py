@@ -17,8 +17,10 @@ if TYPE_CHECKING:
 
 
 class Model:
-    """A model: meshes with materials, in one pose. Created by :func:`load`, :meth:`from_arrays` or
-    :meth:`from_trimesh`; immutable, and can be rendered any number of times.
+    """A model: meshes with materials, in one pose.
+
+    Create one with :func:`load`, :meth:`from_arrays` or :meth:`from_trimesh`. Models are immutable
+    and can be rendered any number of times.
     """
 
     __slots__ = ("_native",)
@@ -51,23 +53,23 @@ class Model:
         Args:
             vertices: Positions (V, 3), any real dtype; converted to float32.
             faces: Indices (F, 3) of triangles or (F, n) of polygons, counterclockwise seen from
-                outside; or a list of polygons with any number of corners; None for points.
+                outside; or a list of polygons with any number of corners; or None for points.
             normals: Normals (V, 3) of any length; without them, faces that meet at up to
                 ``crease`` degrees are smooth.
             colors: sRGB colors of vertices (V, 3 or 4) or faces (F, 3 or 4): uint8, or floats
                 from 0 to 1.
             uv: Texture coordinates (V, 2) with (0, 0) at the lower left, as in OBJ and trimesh.
             texture: sRGB image uint8 (height, width, 3 or 4), or the bytes of a PNG, JPEG or WebP
-                file; needs ``uv``, and replaces ``colors``.
-            color: Color of the whole surface: "#rrggbb", the name of a CSS color, or sRGB (3)
-                or (4) as for ``colors``.
+                file; requires ``uv``, and replaces ``colors``.
+            color: Color of the whole surface: "#rrggbb", a CSS color name, or 3 or 4 sRGB channels
+                as for ``colors``.
             metallic: Metalness from 0 to 1; 0 by default.
             roughness: Roughness from 0 to 1; 0.6 by default.
-            double_sided: Whether the backs of faces are drawn too.
+            double_sided: Whether back faces are drawn.
             crease: Angle in degrees, 0 to 180; 30 by default, 0 for flat faces.
-            up: Axis that points up in the vertices, ``x``, ``y`` or ``z``; the model is rotated so
-                that it becomes y.
-            unit: Unit of length for drawings to scale; meters by default.
+            up: Up axis of the vertices, ``x``, ``y`` or ``z``; the model is rotated so that it
+                becomes y.
+            unit: Unit of length, for drawings to scale; meters by default.
             name: Name of the mesh.
             limits: Limits on sizes, by name; see :func:`load`.
 
@@ -101,12 +103,12 @@ class Model:
     ) -> Model:
         """Make a model from a ``trimesh.Trimesh``, ``Scene``, ``PointCloud`` or ``Path3D``.
 
-        Includes the transforms of the scene graph, normals if trimesh loaded them from a file,
-        vertex and face colors, texture coordinates and materials.
+        The model includes the transforms of the scene graph, normals if trimesh loaded them from a
+        file, vertex and face colors, texture coordinates and materials.
 
         Args:
             scene: The object; trimesh itself is not imported here.
-            up: Axis that points up: trimesh keeps file coordinates, so ``z`` for STL and 3MF.
+            up: Up axis; trimesh keeps file coordinates, so use ``z`` for STL and 3MF files.
             crease: As for :meth:`from_arrays`.
             unit: As for :meth:`from_arrays`.
         """
@@ -123,7 +125,7 @@ class Model:
 
     @property
     def bounds(self) -> NDArray[np.float64] | None:
-        """Minimum and maximum corner (2, 3) of the bounding box; None if it is empty."""
+        """Minimum and maximum corners (2, 3) of the bounding box; None if it is empty."""
         return self._native.bounds()
 
     @property
@@ -224,16 +226,16 @@ def load(
 
     Args:
         source: Path of the file, or its content as bytes; bytes must not refer to other files.
-        name: Name of the content in messages; ``part.obj`` also indicates the format.
-        up: Axis that points up in the file; by default z for STL and 3MF, y for all others.
-        unit: Unit of length: ``millimeter``, ``meter`` …; by default the file's unit.
-        crease: Largest angle in degrees between faces that are shaded as one smooth surface if
+        name: Name used in messages; a name such as ``part.obj`` also indicates the format.
+        up: Up axis of the file; by default z for STL and 3MF, y for all others.
+        unit: Unit of length, such as ``millimeter`` or ``meter``; by default the file's unit.
+        crease: Maximum angle in degrees between faces that are shaded as one smooth surface if
             the file has no normals; 30 by default.
         scene: Scene of a glTF file, by name or index.
         variant: Material variant, by name or index.
-        animation: Animation for the pose, by name or index; the first if only ``time`` is given.
+        animation: Animation for the pose, by name or index; the first if only ``time`` is set.
         time: Time of the animation in seconds.
-        lenient: Whether broken parts are skipped with a warning instead of an error.
+        lenient: Whether broken parts are skipped with a warning instead of causing an error.
         limits: Maximum accepted sizes, by name, such as ``{"array_bytes": 1 << 30}``:
             file_bytes, total_bytes, json_depth, json_values, array_bytes, array_growth,
             image_side, image_texels, nodes, node_depth, scene_items.
@@ -273,15 +275,15 @@ def load_scene(
 
     Args:
         path: Path of the scene file.
-        text: Text of a scene, instead of a path.
+        text: Scene text, instead of a path.
         folder: Folder to which paths in the text are relative.
         limits: As for :func:`load`.
 
     Raises:
-        AlbertiError: With the location of every mistake in the file.
+        AlbertiError: If the scene has mistakes; the message locates each of them.
     """
     if (path is None) == (text is None):
-        raise AlbertiError("expected a path or a text, not both", pointer="path")
+        raise AlbertiError("expected either a path or a text", pointer="path")
     place = os.fspath(folder if path is None else path)
     return _warned(Scene(_native.load_scene(place, text, {"limits": limits})))
 

@@ -1,4 +1,4 @@
-"""Types of the extension module; the public interface is the Python code around it."""
+"""Types of the extension module; the Python modules around it are the public interface."""
 
 from __future__ import annotations
 

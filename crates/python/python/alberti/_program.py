@@ -10,7 +10,7 @@ from . import _native
 
 def main() -> None:
     """Run the program with the command-line arguments, and exit with its code."""
-    # Ctrl-C ends the program immediately, as without Python.
+    # Ctrl+C ends the program immediately, as it does without Python.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     program = [sys.executable, "-m", "alberti"]
     sys.exit(_native.run_program(program, ["alberti", *sys.argv[1:]]))

@@ -31,23 +31,25 @@ def render(
 ) -> Frame:
     """Render a model or a scene.
 
-    The picture matches the command ``alberti render`` with the same options, bit for bit, with
-    any number of threads. Other Python threads keep running, and Ctrl-C cancels it.
+    The picture is bit-identical to the output of the command ``alberti render`` with the same
+    options, with any number of threads. Other Python threads keep running during the call, and
+    Ctrl+C cancels it.
 
     Args:
         model: A :class:`Model` or a :class:`Scene`; or a trimesh object, which is converted.
-        camera: A :class:`Camera`, or the name of a direction to frame the model from, as for
-            ``Camera.frame``. By default the scene's, or else a three-quarter view.
-        size: ``(width, height)`` in pixels; by default the camera's size, then the scene's,
-            then (960, 720).
+        camera: A :class:`Camera`, or the name of a direction from which to frame the model, as for
+            ``Camera.frame``. By default the scene's camera, otherwise a three-quarter view.
+        size: ``(width, height)`` in pixels; by default the camera's size, otherwise the scene's,
+            otherwise (960, 720).
         passes: Names of the passes to render: ``rgb`` (or ``rgba``), ``depth``, ``distance``,
             ``normal``, ``view_normal``, ``position``, ``uv``, ``barycentric``, ``ids``,
             ``model_ids``, ``node_ids``, ``mesh_ids``, ``material_ids``, ``overdraw``,
             ``coverage``. All except the first describe the surface at the center of each pixel.
         style: ``shaded``, ``flat``, ``gouraud``, ``clay``, ``matcap``, ``normals``, ``depth``,
             ``uv``, ``ids``, ``toon``, ``x-ray``, ``wireframe``, ``lines``, ``dashed``,
-            ``silhouette``, ``outline``, ``technical`` or ``depth-cued``.
-        background: ``transparent``, ``#rrggbb``, or the name of a CSS color.
+            ``silhouette``, ``outline``, ``technical``, ``patent``, ``blueprint``, ``sketch`` or
+            ``depth-cued``.
+        background: ``transparent``, ``#rrggbb``, or a CSS color name.
         samples: Samples per pixel for anti-aliasing: 1, 4, 8 or 16; 4 by default.
         threads: Maximum number of threads; by default one per processor.
 
@@ -86,11 +88,11 @@ def render_many(jobs: Iterable[Mapping[str, Any]], *, threads: int | None = None
         threads: Maximum number of threads; by default one per processor.
 
     Returns:
-        The frames, in the order of the jobs. All are kept in memory: render a million views in
-        parts.
+        The frames, in the order of the jobs. All are kept in memory, so render very large numbers
+        of views in parts.
 
     Raises:
-        AlbertiError: For the first job that fails; ``pointer`` gives its number.
+        AlbertiError: For the first job that fails; ``pointer`` contains its index.
 
     >>> model = Model.from_arrays([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     >>> views = [{"model": model, "camera": view, "size": (32, 32)} for view in ("front", "back")]
@@ -123,14 +125,14 @@ def explain(
     size: Size | None = None,
     conventions: str = "alberti",
 ) -> dict[str, Any]:
-    """Explain how a point, a segment, a pixel or a node goes through the viewing pipeline.
+    """Explain how a point, segment, pixel or node passes through the viewing pipeline.
 
     Args:
         model: As for :func:`render`.
-        point: Point (3,) in the world, or homogeneous (4,).
-        segment: The two ends (2, 3) of a segment in the world.
-        pixel: Column and row of a pixel: which surface it shows, and why it has its color.
-        node: Name or index of a node: why it is visible or not.
+        point: Point (3,) in world space, or homogeneous (4,).
+        segment: The two ends (2, 3) of a segment in world space.
+        pixel: Column and row of a pixel, to explain its surface and its color.
+        node: Name or index of a node, to explain why it is visible or not.
         camera: As for :func:`render`.
         size: As for :func:`render`.
         conventions: ``alberti``, ``opengl``, ``vulkan``, ``direct3d``, ``metal`` or ``webgpu``.

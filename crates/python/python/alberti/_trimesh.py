@@ -1,4 +1,4 @@
-"""trimesh objects as arrays. trimesh is never imported; only attributes are read."""
+"""Convert trimesh objects to arrays. trimesh is never imported; only attributes are read."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from ._errors import AlbertiError
 
 
 def collect_meshes(scene: Any) -> tuple[list[dict[str, Any]], list[tuple[str | None, int, Any]]]:
-    """Return the meshes of a scene or a geometry, and the nodes that show them."""
+    """Return the meshes of a scene or a geometry, and the nodes that place them."""
     import numpy as np
 
     if not hasattr(scene, "geometry") or not hasattr(scene, "graph"):
