@@ -214,8 +214,7 @@ fn choose_animations(
 
 /// Parses a finite number.
 ///
-/// NaN and infinite numbers are rejected, although Rust parses them: an angle or a time must be
-/// finite.
+/// Rejects NaN and infinite numbers, which Rust parses: angles and times must be finite.
 fn parse_finite(text: &str) -> Result<Finite, String> {
     text.parse()
         .ok()

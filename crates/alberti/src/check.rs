@@ -74,8 +74,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<ExitCode, CliError> {
 
 /// Validates scenes and their models; the exit code is 1 if there are errors.
 ///
-/// All files are checked before anything is printed; the command stops at the first file that
-/// cannot be read.
+/// Checks all files before printing anything; stops at the first file that cannot be read.
 pub(crate) fn run_scenes(args: &CheckScenesArgs) -> Result<ExitCode, CliError> {
     let options = args.load_options.import_options();
     let check = |path: &PathBuf| check_scene(path, &options);

@@ -58,8 +58,7 @@ fn should_use_color(chosen: Option<ColorChoice>, terminal: bool) -> bool {
     }
 }
 
-/// Formats the severity at the start of a message: bold red for errors, bold yellow for anything
-/// else.
+/// Formats the severity at the start of a message: bold red for errors, otherwise bold yellow.
 ///
 /// A code that follows the word, such as the lint's in `warning[CODE]`, is colored too. The result
 /// ends with a reset, so that the text after it has the terminal's color.

@@ -46,8 +46,7 @@ pub(super) struct PictureComparison {
 impl PictureComparison {
     /// Compares two pictures of the same size, pixel by pixel.
     ///
-    /// The caller guarantees equal sizes: a reference with another size is rejected before
-    /// rendering.
+    /// The caller guarantees equal sizes: other references are rejected before rendering.
     fn new(expected: &Picture, actual: &Picture, tolerance: u8) -> Self {
         let mut comparison = Self {
             max_difference: 0,

@@ -140,8 +140,7 @@ fn write_output(
     write_page(output, &table.to_page(rows, distances))
 }
 
-/// Reports planes that do not define a projection, such as a near plane behind the eye, as wrong
-/// usage.
+/// Reports planes that define no projection, such as a near plane behind the eye, as wrong usage.
 fn projection_error(error: projection::ProjectionError) -> CliError {
     CliError::Usage(error.to_string())
 }

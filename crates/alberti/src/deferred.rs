@@ -5,8 +5,7 @@
 
 use clap::{ArgMatches, Args, Command, Error, FromArgMatches, Id};
 
-/// The arguments of a subcommand, which are declared only when the subcommand is parsed or its help
-/// is printed.
+/// The arguments of a subcommand, declared only when it is parsed or its help is printed.
 #[derive(Debug)]
 pub(crate) struct Deferred<T>(pub(crate) T);
 

@@ -1,7 +1,6 @@
 //! `alberti exercise`: exercises on viewing, with answers checked and mistakes named.
 //!
-//! Prints the exercises of `explorer::exercise`. Questions are in English or Chinese; JSON contains
-//! both.
+//! Prints the exercises of `explorer::exercise` in English or Chinese; JSON contains both.
 
 use super::reference::wrap_paragraphs;
 use super::{CliError, print_stdout};

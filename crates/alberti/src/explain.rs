@@ -129,8 +129,7 @@ struct ExplainSubjectArgs {
 
 /// Prints or writes the explanation of a subject.
 ///
-/// The format is text, JSON or HTML; only HTML renders the scene, and only after the explanation
-/// has succeeded.
+/// The format is text, JSON or HTML. HTML renders the scene after the explanation has succeeded.
 ///
 /// # Errors
 /// If the input is invalid or has no such subject, or the output cannot be written.
@@ -186,8 +185,7 @@ fn write_explanation(
 
 /// Renders the scene, scaled down to at most [`MAX_PAGE_SIDE`].
 ///
-/// A picture that is already smaller keeps its size. The aspect ratio is preserved to within a
-/// pixel.
+/// A smaller picture keeps its size. The aspect ratio is preserved to within a pixel.
 fn render_page_picture(mut scene: Scene) -> Result<Picture, CliError> {
     let image = &mut scene.image;
     let most = f64::from(image.width.max(image.height));

@@ -1,7 +1,6 @@
 //! The program `alberti`: renders, draws, validates and explains 3D models.
 //!
-//! [`run`] is the entry point of `main.rs` and of the Python package, whose `alberti` command runs
-//! the same code.
+//! [`run`] is the entry point of `main.rs` and of the Python package's `alberti` command.
 //!
 //! Each command is a module with an arguments struct and a `run` function. Only this crate prints:
 //! results go to the standard output, messages to the standard error stream. It uses these crates:

@@ -294,8 +294,7 @@ fn parse_light_intensity(text: &str) -> Result<NonNegative, String> {
 
 /// Parses a number of stops from −30 to 30.
 ///
-/// Thirty stops are a factor of about 10⁹: more than any scene needs, but too small to overflow
-/// 32-bit floats.
+/// Thirty stops are a factor of about 10⁹: more than any scene needs, without overflow in `f32`.
 fn parse_exposure(text: &str) -> Result<Finite, String> {
     let fault = || "expected a number of stops from -30 to 30, such as 1.5".to_owned();
     let stops: f64 = text.parse().map_err(|_| fault())?;

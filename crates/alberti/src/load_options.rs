@@ -113,8 +113,7 @@ impl LoadArgs {
 impl LimitArgs {
     /// Returns the limits for the `model` crate: those set by flags, and defaults for the others.
     ///
-    /// A number that does not fit its limit's type counts as the largest value, that is, as no
-    /// limit.
+    /// A number too large for its limit's type means that there is no limit.
     fn to_limits(&self) -> Limits {
         let defaults = Limits::default();
         let size = |flag: Option<u64>, usual: usize| {

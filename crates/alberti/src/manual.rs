@@ -27,8 +27,7 @@ pub(crate) struct ManArgs {
     out_dir: Option<PathBuf>,
 }
 
-/// Prints the completion script of a shell. It is generated in memory first, so that a closed pipe
-/// is not an error.
+/// Prints a shell's completion script, generated in memory so that a closed pipe is not an error.
 ///
 /// Commands hidden from the help are omitted; otherwise the scripts would offer them.
 pub(crate) fn print_completions(args: &CompletionArgs, program: &Command) -> Result<(), CliError> {

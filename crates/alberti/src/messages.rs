@@ -137,8 +137,7 @@ pub(crate) fn print_usage(usage: &clap::Error) {
 
 /// Prints a line without a level on the standard error stream.
 ///
-/// Notes are printed because a flag such as `--timings` requests them, and therefore have neither
-/// level nor color.
+/// A flag such as `--timings` requests notes, so they have neither a level nor a color.
 pub(crate) fn print_note(line: &str) {
     let line = without_controls(line, false);
     // A closed stream is not an error.

@@ -10,8 +10,7 @@ use std::ffi::OsString;
 
 /// Returns the words of a command line, with negative numbers joined to the preceding flags.
 ///
-/// The flags are built only if there is such a number: declaring all of them is most of the cost of
-/// a short command.
+/// The flags are built only if there is such a number, because this takes most of a short command.
 pub(crate) fn join_negative_numbers(
     words: impl IntoIterator<Item = OsString>,
     program: impl FnOnce() -> Command,

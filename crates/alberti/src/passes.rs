@@ -38,8 +38,7 @@ pub(crate) struct PassArgs {
 impl PassArgs {
     /// Replaces the passes of the scene with those from the flags.
     ///
-    /// `--passes` replaces the scene's whole list, so that one pass can be written without the
-    /// others.
+    /// `--passes` replaces the scene's list, so that one pass can be written without the others.
     pub(crate) fn apply_to(&self, file: &mut SceneFile) {
         if !self.passes.is_empty() {
             file.passes.write.clone_from(&self.passes);

@@ -1,5 +1,4 @@
-//! `alberti reference` and `alberti scene doc`: the reference of flags, scene fields, formulas and
-//! JSON.
+//! `alberti reference` and `alberti scene doc`: flags, scene fields, formulas and JSON.
 //!
 //! ```text
 //!  clap's commands ─► flags ──┐
@@ -113,8 +112,7 @@ pub(crate) fn run(args: &FullReferenceArgs, program: Command) -> Result<(), CliE
     let found = match &args.word {
         Some(word) => match (search::find_sections(&sections, word), find_formulas(word)) {
             (Ok(found), formulas) => {
-                // If flags and fields only mention the word, formulas that mention it are equally
-                // good matches.
+                // If flags and fields only mention the word, formulas that mention it match equally.
                 let spoken = search::is_only_mentioned(&found, word);
                 let titled = formulas.into_iter().filter(|(_, in_name)| *in_name || spoken);
                 found.into_iter().chain(formula::list_section(titled)).collect()

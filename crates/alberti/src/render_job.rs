@@ -89,8 +89,7 @@ struct EncodedPicture {
 
 /// The destination of a picture: a temporary file, or memory for the standard output.
 ///
-/// The standard output gets the bytes only when all of them are ready, so that a failed run writes
-/// nothing.
+/// The standard output gets the bytes when all are ready, so that a failed run writes nothing.
 enum PictureSink {
     /// The target's name, for error messages, and its temporary file.
     File(PathBuf, BufWriter<AtomicFile>),
@@ -204,8 +203,7 @@ impl RenderJob<'_> {
 
     /// Converts an I/O error to an error about the destination.
     ///
-    /// Encoders report errors without a path; the message must name the file, or the standard
-    /// output.
+    /// Encoders report errors without a path; the message must name the file or standard output.
     fn output_error(&self, cause: std::io::Error) -> CliError {
         match &self.task.output {
             Some(path) => OutputError { path: path.clone(), cause }.into(),

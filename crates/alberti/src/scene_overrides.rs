@@ -157,8 +157,7 @@ impl SceneOverrideArgs {
 
     /// Returns the import options, with permission to read the files that these flags name.
     ///
-    /// Only `--environment` names a file. The file becomes an allowed path, but its folder does
-    /// not.
+    /// Only `--environment` names a file. The file becomes an allowed path; its folder does not.
     pub(crate) fn import_options(&self, load: &LoadArgs) -> ImportOptions {
         let mut options = load.import_options();
         options.allow_outside.extend(self.light.environment_file());

@@ -31,8 +31,7 @@ use viewport::{Paper, Resolution};
 
 /// The resolution of pages written as PNG, in dots per inch.
 ///
-/// An A4 page then has 1240 × 1754 pixels, which is legible on a screen and takes a few hundred
-/// kilobytes.
+/// An A4 page then has 1240 × 1754 pixels: legible on a screen, and a few hundred kilobytes.
 pub(super) const DEFAULT_DPI: u32 = 150;
 
 /// Arguments of `alberti sheet`; each flag replaces the field of the scene's `sheet`.
@@ -194,8 +193,7 @@ fn warn_of_unused_dpi(args: &SheetArgs, format: OutputFormat) {
     }
 }
 
-/// Returns the error for a sheet that cannot be drawn, with its position in the scene file if
-/// known.
+/// Returns the error for a sheet that cannot be drawn, with its position in the scene file.
 fn sheet_error(origin: &Origin, error: sheet::SheetError) -> CliError {
     match scene::sheet_view_error(origin, &error) {
         Some(mistake) => CliError::Scene(mistake),
@@ -240,8 +238,7 @@ pub(super) fn rasterize_page<W>(page: &Page<W>, dpi: u32) -> Result<Picture, Cli
 
 /// Replaces the fields of the scene's sheet with the values of the flags.
 ///
-/// `--no-dimensions` can only turn dimensions off; no flag turns them on if the scene has turned
-/// them off.
+/// `--no-dimensions` can only turn dimensions off; no flag turns them on again.
 fn apply_overrides(sheet: &mut SheetFile, args: &SheetArgs) {
     args.paper.into_iter().for_each(|paper| sheet.paper = paper);
     args.orientation.into_iter().for_each(|orientation| sheet.orientation = Some(orientation));

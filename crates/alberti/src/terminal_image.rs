@@ -3,8 +3,7 @@
 //! Terminals with kitty's graphics protocol get the picture as a PNG. Others get half blocks, two
 //! pixels per cell in 24-bit color, or, if NO_COLOR is set, ASCII art by luminance.
 //!
-//! The result is text on the standard output, so it can also be piped into a pager that passes
-//! escapes through.
+//! The result is text, so it can also be piped into a pager that passes escapes through.
 
 use super::CliError;
 use super::render_job::RenderOutput;
@@ -86,8 +85,7 @@ fn downsample(picture: &Picture, columns: u32, rows: u32) -> Vec<[u8; 3]> {
     shrunk
 }
 
-/// Returns the number of columns and rows that fit; `cells` is the width of a column in rows (0.5
-/// for characters).
+/// Returns the columns and rows that fit; `cells` is a column's width in rows (0.5 for characters).
 ///
 /// At most 400 of each, and no more columns than the picture has pixels.
 fn fit_columns(picture: &Picture, columns: u32, cells: f64) -> (u32, u32) {
@@ -96,8 +94,7 @@ fn fit_columns(picture: &Picture, columns: u32, cells: f64) -> (u32, u32) {
     (columns, ((f64::from(columns) * ratio * cells + 0.5) as u32).clamp(1, 400))
 }
 
-/// Returns the picture as upper half blocks: foreground and background colors are the two pixels of
-/// a cell.
+/// Returns the picture as upper half blocks, whose two colors are the two pixels of a cell.
 ///
 /// A terminal cell is about twice as high as it is wide, so the pixels are square.
 ///

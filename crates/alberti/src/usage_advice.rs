@@ -298,8 +298,7 @@ mod tests {
         }
     }
 
-    /// The advice on habits is valid: each command in backticks parses, and each flag belongs to a
-    /// command.
+    /// The advice is valid: each command in backticks parses, and each flag belongs to a command.
     #[test]
     fn advice_on_habits_names_existing_commands_and_flags() {
         let program = built_program();

@@ -8,8 +8,7 @@
 //!  Rgb<8>          [ r … ] [ g … ] [ b … ]                      one linear color per fragment
 //! ```
 //!
-//! A BRDF term therefore reads like its formula. This is Schlick's Fresnel for all fragments and
-//! channels:
+//! A BRDF term therefore reads like its formula. Schlick's Fresnel, for all fragments and channels:
 //!
 //! ```text
 //!  let schlick = pow5(1.0 - v_dot_h);                      // Lanes<N>
@@ -32,8 +31,7 @@
 
 use std::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, MulAssign, Neg, Sub};
 
-/// The lanes for which a condition holds. Lanes do not branch: both branches are computed, and one
-/// is selected.
+/// The lanes for which a condition holds. Both branches are computed, and one is selected.
 pub(crate) type Mask<const N: usize> = [bool; N];
 
 /// One `f32` for each of `N` fragments.
@@ -407,8 +405,7 @@ three_components! {
 }
 
 three_components! {
-    /// A linear color in each lane: light, or the fraction of light that a surface reflects, by
-    /// channel.
+    /// A linear color in each lane: light, or the fraction of light that a surface reflects.
     Rgb { r, g, b }
 }
 

@@ -19,8 +19,7 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-/// An output for frames. A file with several frames appears under its name only when it is
-/// complete.
+/// An output for frames. A file with several frames gets its name only when it is complete.
 ///
 /// The frames of [`Self::Files`] are written atomically and remain if the run is stopped. The raw
 /// stream has no header: the reader must know the size and frame rate.
@@ -209,8 +208,7 @@ impl SharedFile {
 
     /// Renames the file into place; the encoder must have been dropped.
     ///
-    /// If another clone is still alive, nothing is renamed, and the last clone removes the
-    /// temporary file.
+    /// If another clone is still alive, nothing is renamed, and the last clone removes the file.
     fn finish(self, path: PathBuf) -> Result<(), CliError> {
         let Ok(file) = Rc::try_unwrap(self.0) else { return Ok(()) };
         let draft = file.into_inner().into_inner();
@@ -229,8 +227,7 @@ impl Write for SharedFile {
     }
 }
 
-/// Returns the display time of a GIF frame in hundredths of a second, rounded so that the total is
-/// exact.
+/// Returns the display time of a GIF frame in hundredths of a second; the total is exact.
 ///
 /// It is the difference of two rounded times, not a rounded difference. At 30 frames per second,
 /// the delays are 3, 4, 3, 3, 4, 3 …, and 30 of them last exactly one second. Many viewers raise

@@ -164,8 +164,7 @@ fn parse_flags(words: &[String]) -> Result<RenderFlags, CliError> {
     })
 }
 
-/// Writes a picture atomically: to this worker's own file, which is then renamed to the picture's
-/// name.
+/// Writes a picture atomically: to this worker's temporary file, which is then renamed.
 ///
 /// The picture's folder is created only now, so that failed models leave no empty folders.
 fn write_picture(path: &Path, partial: &Path, png: &[u8]) -> Result<(), PictureError> {

@@ -1,7 +1,6 @@
 //! The scenes of a worker: a model, a scene file, or a scene file with the input as its model.
 //!
-//! The most recently loaded models stay in memory, because the next picture is often another view
-//! of them.
+//! Recently loaded models stay in memory, because the next picture often shows them again.
 
 use super::render_flags::RenderFlags;
 use crate::CliError;

@@ -63,8 +63,7 @@ fn result_json(findings: &CheckResult) -> Value {
 
 /// Returns an error of a scene, with line and column counted from 1.
 ///
-/// `file` may be an include. Columns count characters, not bytes. `remedy` is `null` if there is no
-/// suggestion.
+/// `file` may be an include. Columns count characters. `remedy` is `null` without a suggestion.
 fn scene_error_json(mistake: &SceneError) -> Value {
     let (line, column) = mistake.line_and_column();
     json!({

@@ -19,8 +19,7 @@ use std::time::{Duration, Instant};
 /// Maximum number of simultaneous connections.
 const MAX_CONNECTIONS: usize = 64;
 
-/// Maximum size in bytes of computed answers not yet read, over all connections: twice the largest
-/// picture.
+/// Maximum total size in bytes of answers not yet read by clients: twice the largest picture.
 const MAX_UNTAKEN_BYTES: usize = 512 << 20;
 
 /// Time in which a response must be read, and the extra time for each MiB.
@@ -98,8 +97,7 @@ impl Connections {
         })
     }
 
-    /// Closes the connections that have been reading their answers longest, until another answer
-    /// fits.
+    /// Closes the connections that have been reading longest, until another answer fits.
     fn make_room_for(&mut self, bytes: usize) {
         let mut untaken: usize = self.taking.iter().map(|taking| taking.bytes).sum();
         while untaken + bytes > MAX_UNTAKEN_BYTES {
@@ -190,8 +188,7 @@ impl Connection {
 }
 
 impl Visitor for Connection {
-    /// Whether the client is still waiting: it has closed neither the connection nor its sending
-    /// side.
+    /// Whether the client is still waiting: it has not closed the connection or its sending side.
     fn is_there(&mut self) -> bool {
         if self.stream.set_nonblocking(true).is_err() {
             return false;

@@ -1,5 +1,4 @@
-//! Lanes: threads that answer one query at a time. Queries from clients that have disconnected are
-//! canceled.
+//! Lanes: threads that answer one query at a time. Queries from disconnected clients are canceled.
 //!
 //! ```text
 //!  thread of a connection ─► queue ─► thread of the lane: its explorer computes

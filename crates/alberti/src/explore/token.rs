@@ -43,8 +43,7 @@ fn random_bytes() -> std::io::Result<[u8; TOKEN_BYTES]> {
     Ok(bytes)
 }
 
-/// Returns the rest of a path after the token and a slash; `None` if the path does not begin with
-/// the token.
+/// Returns the rest of a path after the token and a slash; `None` without the token.
 ///
 /// The comparison takes the same time regardless of how many digits match.
 pub(super) fn strip_token<'a>(path: &'a str, token: &str) -> Option<&'a str> {

@@ -236,8 +236,7 @@ fn extensions_json(model: &Model) -> Value {
 
 /// Returns the importer's warnings.
 ///
-/// `check` reports more, because it examines the whole file, while the importer examines only the
-/// parts it reads.
+/// `check` reports more, because it examines the whole file, not only the parts that are read.
 fn warnings_json(model: &Model) -> Value {
     let describe = |warning: &model::Diagnostic| json!({"pointer": warning.location, "message": warning.message});
     model.warnings.iter().map(describe).collect()

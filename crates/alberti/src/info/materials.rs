@@ -1,7 +1,6 @@
 //! Materials, textures and images in `alberti info --json`.
 //!
-//! Colors are linear, as in glTF, and factors are as in the file: textures are listed, not
-//! multiplied in.
+//! Colors are linear, and factors are as in the file: textures are listed, not multiplied in.
 
 use super::json::{shortest_number, shortest_numbers};
 use model::{
@@ -82,8 +81,7 @@ fn material_extensions_json(material: &Material) -> Value {
     all.filter_map(|(name, value)| Some((name.to_owned(), value?))).collect()
 }
 
-/// Returns the extensions that add or replace a layer of the BRDF, or `None` if the material has
-/// none.
+/// Returns the extensions that add or replace a layer of the BRDF, or `None` without any.
 ///
 /// The thickness of iridescence is a pair in nanometers: minimum and maximum.
 fn material_layers_json(more: &MaterialExtensions) -> [(&'static str, Option<Value>); 7] {

@@ -60,8 +60,7 @@ fn node_json(node: &Node) -> Value {
 
 /// Returns all meshes in the file; `shown` is the number of instances in the drawn scene.
 ///
-/// A mesh with `shown` 0 is not part of the drawn scene, which often explains why something seems
-/// to be missing.
+/// A mesh with `shown` 0 is not in the drawn scene, which often explains why something is missing.
 pub(super) fn meshes_json(model: &Model) -> Vec<Value> {
     let mut shown = vec![0_usize; model.meshes.len()];
     for instance in model.mesh_instances() {
@@ -85,8 +84,7 @@ pub(super) fn meshes_json(model: &Model) -> Vec<Value> {
 
 /// Returns a primitive: its topology, its counts and the attributes it has.
 ///
-/// `count` is the number of triangles, lines or points after converting strips, fans and loops to
-/// lists.
+/// `count` is the number of triangles, lines or points; strips, fans and loops count as lists.
 fn primitive_json(primitive: &Primitive) -> Value {
     let variant = |of: &VariantMaterial| json!({"variant": of.variant, "material": of.material});
     json!({

@@ -297,13 +297,11 @@ pub(super) struct BuiltMatrix {
     pub(super) matrix: DMat4,
     /// A remark on the matrix.
     pub(super) note: Option<&'static str>,
-    /// Names and matrices, in the order in which they are applied to a point; their product is the
-    /// matrix.
+    /// Names and matrices, in the order of their application to a point; the product is the matrix.
     pub(super) factors: Vec<(&'static str, DMat4)>,
     /// The ids of the factors' formulas.
     pub(super) factor_formula: Option<&'static str>,
-    /// The matrices of a product, in the order in which they are applied to a point; empty for a
-    /// single matrix.
+    /// The matrices of a product, in the order of their application; empty for a single matrix.
     pub(super) product_of: Vec<(String, DMat4)>,
 }
 
@@ -333,8 +331,7 @@ impl BuildArgs {
         (!self.calls.is_empty()).then(|| self.build_product(options))
     }
 
-    /// Refuses numbers next to a flag that builds a matrix: a list with a space in it, or a second
-    /// matrix.
+    /// Rejects numbers next to a flag that builds a matrix: a list with a space, or a second matrix.
     pub(super) fn check_alone(&self, numbers: &[String]) -> Result<(), CliError> {
         let (Some((at, list)), false) = (self.calls.last(), numbers.is_empty()) else {
             return Ok(());

@@ -1,7 +1,6 @@
 //! Reference sections for the scene file types.
 //!
-//! The scene language declares its types with their doc comments in a schema; nothing is repeated
-//! here.
+//! The scene language declares its types and their doc comments in a schema.
 
 use super::{ReferenceEntry, ReferenceSection};
 use scene_file::reference::{FieldEntry, Shape, TypeEntry, VariantEntry, all_types};

@@ -8,8 +8,7 @@ use super::{ReferenceEntry, ReferenceFormat, ReferenceSection};
 use explain::formulas::Formula;
 use page::escape_markup;
 
-/// Returns the entry for a formula: name, formula and meaning, sources, and the command that shows
-/// it.
+/// Returns the entry for a formula: name, formula and meaning, sources, and a command.
 pub(super) fn format_formula(formula: &Formula, format: ReferenceFormat) -> String {
     match format {
         ReferenceFormat::Text => plain_text(formula),

@@ -184,8 +184,7 @@ fn follow_path(
     found
 }
 
-/// Returns the scope below the entries with this name: their own fields, and the types of their
-/// values.
+/// Returns the scope below the entries with this name: their fields, and their values' types.
 ///
 /// Types are found by name in the value's text, so `list of Model` leads to `Model`.
 fn open_entries(
@@ -207,8 +206,7 @@ fn open_entries(
     entries.iter().flat_map(open).collect()
 }
 
-/// Returns the message for a word without a match, which suggests the most similar name or where to
-/// look.
+/// Returns the message for a word without a match, with a similar name or a place to look.
 ///
 /// Only the last step of a path is compared.
 fn unknown_word(sections: &[ReferenceSection], word: &str) -> String {

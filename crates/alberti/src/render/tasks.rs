@@ -26,8 +26,7 @@ const NUMBER_FIELDS: [&str; 2] = ["index", "frame"];
 
 /// One picture to render.
 ///
-/// It owns its overrides, because `--views` makes one task per view, and all of them share the
-/// other flags.
+/// It owns its overrides: `--views` makes one task per view, and the tasks share all other flags.
 #[derive(Debug)]
 pub(crate) struct RenderTask {
     /// The scene or model; `-` for the standard input.

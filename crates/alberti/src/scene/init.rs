@@ -39,8 +39,7 @@ pub(crate) struct InitArgs {
     load_options: LoadArgs,
 }
 
-/// Writes the scene file, prints its path, and warns if it cannot be read without additional
-/// permission.
+/// Writes the scene file, prints its path, and warns if reading it needs additional permission.
 ///
 /// The model is loaded to learn its size, cameras and lights. The text is built without indentation
 /// and then formatted as by `scene fmt`, which also proves that it parses.
@@ -87,8 +86,7 @@ pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
 
 /// Returns the path of a file relative to the scene's folder, with `/` as the separator.
 ///
-/// Both paths are made canonical first, so that symbolic links and `..` in the current folder do
-/// not matter.
+/// Makes both paths canonical first, so that symbolic links and `..` do not matter.
 ///
 /// A path that cannot be made canonical, for example in a folder that does not exist yet, is
 /// written unchanged.
@@ -141,8 +139,7 @@ fn starter_scene(path: &str, output: &str, scene: &Scene, crease: Option<f64>) -
     text
 }
 
-/// Writes the lighting of a bare model: its own lights or else a key light, and the studio
-/// environment.
+/// Writes a bare model's lighting: its lights or else a key light, and the studio environment.
 fn write_light(text: &mut String, scene: &Scene) {
     let placed = &scene.models[0];
     let has_lights = placed.model.scene_lights().next().is_some();

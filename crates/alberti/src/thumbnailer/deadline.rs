@@ -49,8 +49,7 @@ impl Deadline {
         &self.cancel
     }
 
-    /// Does the final work, which is not interrupted once begun: a file is written completely or
-    /// not at all.
+    /// Does the final work without interruption: a file is written completely or not at all.
     pub(super) fn finish<T>(&self, work: impl FnOnce() -> T) -> T {
         let mut is_done = self.is_done.lock().unwrap_or_else(PoisonError::into_inner);
         *is_done = true;

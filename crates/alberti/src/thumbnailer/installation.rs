@@ -16,8 +16,7 @@ use std::process::{Command, Stdio};
 
 /// The MIME types of all formats, for shared-mime-info.
 ///
-/// Debian's shared-mime-info has had types for glTF, STL, OBJ and 3MF since version 2.2, but none
-/// for PLY.
+/// Debian's shared-mime-info 2.2 and later has types for glTF, STL, OBJ and 3MF, but not for PLY.
 pub(super) const MIME_TYPES: &str = include_str!("mime_types.xml");
 
 /// The MIME types in the entry, including aliases in use.
@@ -133,8 +132,7 @@ fn file_paths(folder: &Path) -> [PathBuf; 2] {
     [folder.join("thumbnailers/alberti.thumbnailer"), folder.join("mime/packages/alberti.xml")]
 }
 
-/// Returns the data folder below a prefix, or else the user's data folder (XDG base directory
-/// specification).
+/// Returns the data folder below a prefix, or else the user's data folder (XDG).
 fn data_folder(prefix: Option<&Path>) -> Result<PathBuf, CliError> {
     if let Some(prefix) = prefix {
         return Ok(prefix.join("share"));

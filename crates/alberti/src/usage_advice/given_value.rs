@@ -15,8 +15,7 @@ pub(super) enum Given {
     FitsNot(String),
 }
 
-/// Returns the advice with the value passed to the other program's flag, if the flag here accepts
-/// it.
+/// Returns the advice with the other program's value, if the flag here accepts it.
 pub(super) fn with_given_value(
     advice: &str,
     word: &str,
@@ -111,8 +110,7 @@ pub(super) fn quoted(value: &str) -> String {
     if is_plain { value.to_owned() } else { format!("'{value}'") }
 }
 
-/// Returns a value that a flag accepts: the original one, or the equivalent of another program's
-/// value.
+/// Returns a value that a flag accepts: the original, or the equivalent of another program's.
 pub(super) fn accepted_value(flag: &str, given: &str, command: &Command) -> Option<String> {
     let lower = given.to_ascii_lowercase();
     // Values from a list are written as in the help.
@@ -225,8 +223,7 @@ fn hex_color(given: &str) -> Option<String> {
     Some(format!("#{red:02x}{green:02x}{blue:02x}"))
 }
 
-/// Converts the scale of a drawing from another notation: `0.5`, `50%`, `1/2` or `2`, as `1:2` or
-/// `2:1`.
+/// Converts a drawing scale from another notation: `0.5`, `50%` or `1/2` to `1:2`, `2` to `2:1`.
 fn drawing_scale(given: &str) -> Option<String> {
     if let Some((paper, model)) = given.split_once(['/', ':']) {
         return Some(format!("{}:{}", paper.trim(), model.trim()));
@@ -255,8 +252,7 @@ fn degrees_of_radians(name: &str, given: &str) -> Option<f64> {
     (0.0..core::f64::consts::PI).contains(&radians).then_some(degrees)
 }
 
-/// Returns the vertical angle of view in degrees of a full-frame lens (24 mm high), from its focal
-/// length.
+/// Returns the vertical angle of view in degrees of a full-frame lens, from its focal length.
 pub(super) fn lens_angle(millimeters: &str) -> Option<String> {
     let length: f64 = millimeters.trim().parse().ok().filter(|length| *length > 0.0)?;
     let degrees = 2.0 * libm::atan(12.0 / length).to_degrees();

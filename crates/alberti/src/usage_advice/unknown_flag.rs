@@ -73,8 +73,7 @@ pub(super) fn advise_on_flag(
     Some(format!("`{name}` is not a flag of `{command}`; {help}"))
 }
 
-/// Returns text to replace a flag: the flag with two hyphens, or the equivalent of another
-/// program's flag.
+/// Returns text to replace a flag: the flag with two hyphens, or another program's equivalent.
 pub(super) fn what_to_write(
     name: &str,
     word: &str,
@@ -202,8 +201,7 @@ fn chosen_folder(stem: &str, words: &[String], command: &Command) -> Option<Stri
     Some(folder.trim_end_matches('/').to_owned())
 }
 
-/// Whether the value in a piece of advice is a name that the user's model or folder is unlikely to
-/// have.
+/// Whether the value in a piece of advice is an unlikely name for the user's model or folder.
 fn is_only_an_example(advice: &str) -> bool {
     let flags = ["environment", "scalars", "compare", "camera", "animation", "variant", "pose"];
     let flag = advice.split(' ').next().and_then(|flag| flag.strip_prefix("--"));

@@ -153,8 +153,7 @@ fn other_file_help(flag: &str, given: &str) -> Option<String> {
     }
 }
 
-/// Returns the numbers that a flag accepts, if clap reports them in Rust notation: `0 is not in
-/// 1..=100000`.
+/// Returns the numbers that a flag accepts, if clap reports them as in `0 is not in 1..=100000`.
 fn expected_number(error: &Error, given: &str) -> Option<String> {
     let reason = std::error::Error::source(error)?.to_string();
     if let Some((_, range)) = reason.split_once(" is not in ") {
