@@ -67,7 +67,7 @@ fn a_segment_behind_the_eye_is_clipped_by_the_near_plane() {
     assert_near(&find_item(&found, "t"), &[0.0, 0.4]);
     assert_eq!(find_item(&found, "leaves"), "the near plane");
     let beside = explanation_json(&sandbox, &["--segment", "50,0,0,60,0,0"]);
-    assert_eq!(beside["verdict"], "None of it is in the picture: it is outside of right.");
+    assert_eq!(beside["verdict"], "None of it is in the picture: it is outside the right plane.");
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn invisible_nodes_are_explained() {
     let away = verdict("explain_away", &|document| {
         document.json["nodes"][0]["translation"] = json!([100, 0, 0]);
     });
-    assert_eq!(away, "It is not in the picture: all of it is outside of right.");
+    assert_eq!(away, "It is not in the picture: the whole mesh is outside the right plane.");
     let behind = verdict("explain_behind", &|document| {
         document.json["nodes"][0]["rotation"] = json!([0, 1, 0, 0]);
     });
@@ -117,7 +117,7 @@ fn invisible_nodes_are_explained() {
         document.push_item("/nodes", json!({"name": "empty"}));
         document.json["scenes"][0]["nodes"] = json!([1]);
     });
-    assert_eq!(other, "It is not below a root of the scene that is shown.");
+    assert_eq!(other, "It is not part of the scene that is drawn.");
 }
 
 #[test]

@@ -84,7 +84,7 @@ fn matrices_from_the_sources_are_not_misprints() {
             "1 0 0 0 0 1 0 0 0 0 0 0 0 0 -0.2 1",
             "It is a one-point perspective, onto the plane z = 0: (p, q, r) = (0, 0, -0.2).",
         ),
-        ("1 0 0 0 0 1 0 0 0 0 1 0 .1 .2 .3 1", "depth kept: (p, q, r) = (0.1, 0.2, 0.3)"),
+        ("1 0 0 0 0 1 0 0 0 0 1 0 .1 .2 .3 1", "depth preserved: (p, q, r) = (0.1, 0.2, 0.3)"),
         (
             "320 0 0 319.5 0 -240 0 239.5 0 0 1 0 0 0 0 1",
             "It is the viewport of 640 × 480 pixels, y down, pixel centers at whole numbers.",
@@ -116,7 +116,7 @@ fn angles_and_the_inverse_are_printed_with_significant_digits() {
     let sandbox = Sandbox::new("matrix_angles");
     let run = sandbox.run(&words("0.9743 0 0 0 0 1.7321 0 0 0 0 -1.0020 -0.2002 0 0 -1 0"));
     assert_eq!(labeled(&run.stdout, "vertical field of view, degrees"), "60");
-    for line in ["Its inverse", "near 0.1, far 100"] {
+    for line in ["Inverse", "near 0.1, far 100"] {
         assert!(run.stdout.contains(line), "{line}: {}", run.stdout);
     }
 }

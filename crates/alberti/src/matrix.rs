@@ -221,7 +221,7 @@ fn explain_built(built: &BuiltMatrix) -> Explanation {
     let verdict = if inverse.is_finite() && built.matrix.determinant() != 0.0 {
         let rows = without_rounding(built.matrix, inverse);
         let inverse = vec![entry("inverse", "inverse", rows.into())];
-        steps.push(step("inverse", "Its inverse", None, inverse));
+        steps.push(step("inverse", "Inverse", None, inverse));
         "For column vectors, row by row."
     } else {
         "For column vectors, row by row. A dimension is lost: there is no inverse."

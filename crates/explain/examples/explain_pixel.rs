@@ -1,7 +1,7 @@
 //! Explains the color of a pixel: its triangles, the nearest surface point, and every stage.
 //!
 //! Run it with `cargo run -p alberti-explain --example explain_pixel -- model.glb 480 360`.
-#![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
+#![allow(clippy::print_stdout, reason = "an example prints its result")]
 
 use explain::{ApiConventions, TransformChain, explain_pixel};
 use scene::{Origin, Scene};
@@ -9,7 +9,7 @@ use scene::{Origin, Scene};
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let names: Vec<String> = std::env::args().skip(1).collect();
     let [model, column, row] = names.as_slice() else {
-        return Err("name a model and a pixel".into());
+        return Err("specify a model and a pixel".into());
     };
     let (origin, file) = Origin::from_model_path(model.as_ref());
     let scene = Scene::resolve(&origin, &file, &Default::default())?;

@@ -17,7 +17,7 @@ use projection::{ProjectionError, chapter};
 pub struct BareMap {
     /// The map.
     map: Projective<View, Clip>,
-    /// The steps before a point is mapped.
+    /// The steps that precede the mapping of a point.
     steps: Vec<Step>,
 }
 
@@ -76,7 +76,7 @@ impl BareMap {
         }
         let verdict = match images[..] {
             [image] => describe_image(image),
-            [] => "--point and --segment map something by it.".to_owned(),
+            [] => "Use --point or --segment to map a point or a segment.".to_owned(),
             [start, end] => describe_segment(start.w(), end.w()).to_owned(),
             _ => "Every point is mapped.".to_owned(),
         };
@@ -109,11 +109,11 @@ fn image_step(labels: &[&str], points: &[HPoint<View>], images: &[HPoint<Clip>])
 /// Describes the image of a segment in words, from w at its ends.
 fn describe_segment(start: f64, end: f64) -> &'static str {
     if start * end > 0.0 {
-        "Both ends are mapped; f(t) says where the points between them go."
+        "Both ends are mapped; f(t) gives the images of the points between them."
     } else if start == 0.0 || end == 0.0 {
         "An end with w = 0 maps to infinity, so the image has no end there: clip the segment first."
     } else {
-        "Each end has an image, but w changes its sign between them: the segment passes the plane \
+        "Each end has an image, but w changes sign between them: the segment crosses the plane \
          of the eye, where w is 0, and the line between the two images is not its image. Clip it \
          first."
     }

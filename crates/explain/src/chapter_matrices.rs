@@ -18,7 +18,7 @@ pub(super) struct ChapterMatrices {
     window: Window,
     /// The z-coordinates n and f of the near and far planes.
     planes: [f64; 2],
-    /// P, of a perspective.
+    /// P, for a perspective.
     p: Option<Projective<View, View>>,
     /// M_orth.
     m_orth: Affine<View, Clip>,
@@ -88,7 +88,7 @@ impl ChapterMatrices {
         step.add_item("m", name, whole.rows());
     }
 
-    /// Whether w is negative ahead of the eye in the textbook, as in M_per.
+    /// Whether w is negative ahead of the eye in the textbook's matrix, as in M_per.
     pub(super) const fn turns_w(&self) -> bool {
         self.p.is_some()
     }

@@ -26,8 +26,8 @@ use viewport::{DepthRange, Rectangle, Viewport, ViewportError};
 /// convention of the viewport and its depth range.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum ApiConventions {
-    /// The program's own: the chapter's volume, near at z = +1; pixels as in image files; depth 1
-    /// at the near plane.
+    /// The program's default: the chapter's volume, near at z = +1; pixels as in image files; depth
+    /// 1 at the near plane.
     #[default]
     Alberti,
     /// Shirley and others, chapters 7 and 8: near at z = +1, integer pixel centers, y up, z
@@ -35,7 +35,7 @@ pub enum ApiConventions {
     ///
     /// The viewport matrix is M_vp of the chapter, with x from −1/2 to width − 1/2.
     Chapter,
-    /// The chapter's, with pixel rows counted from the top (VP-2, exercise 1).
+    /// The chapter's conventions, with pixel rows counted from the top (VP-2, exercise 1).
     ChapterYDown,
     /// OpenGL: near at z = −1, y up, depth 0 at the near plane.
     OpenGl,
@@ -63,7 +63,7 @@ impl ApiConventions {
 
     /// The name on the command line.
     ///
-    /// Lower case, without spaces; `FromStr` accepts exactly these names.
+    /// It is in lower case, without spaces; `FromStr` accepts exactly these names.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -77,7 +77,7 @@ impl ApiConventions {
         }
     }
 
-    /// One line with the depth range, direction of y, handedness and pixel centers.
+    /// Describes the depth range, direction of y, handedness and pixel centers in one line.
     #[must_use]
     pub const fn summary(self) -> &'static str {
         match self {
@@ -214,7 +214,7 @@ impl FromStr for ApiConventions {
 
 /// The common name of a canonical volume.
 ///
-/// Looks in a table of the volumes in use, in their plain and reversed forms. A custom convention
+/// Looks the volume up in a table of common ones, plain and reversed. A custom convention
 /// has no entry and is called `another convention`.
 pub(super) fn volume_name(volume: Convention) -> &'static str {
     const OPENCV: Convention = Convention::OPENGL.left_handed().with_ndc_y(NdcY::Down);
@@ -231,13 +231,10 @@ pub(super) fn volume_name(volume: Convention) -> &'static str {
             "Direct3D with reversed depth (near 1, far 0, looks along +z)",
         ),
         (Convention::OPENGL.left_handed(), "OpenGL's volume seen along +z"),
-        (
-            OPENCV,
-            "a camera of OpenCV or COLMAP in OpenGL's volume (x right, y down, looks along +z)",
-        ),
+        (OPENCV, "an OpenCV or COLMAP camera in OpenGL's volume (x right, y down, looks along +z)"),
         (
             Convention::DIRECT3D.with_ndc_y(NdcY::Down),
-            "depth from 0 to 1 with y down and looking along +z, as of OpenCV or COLMAP",
+            "depth from 0 to 1 with y down and looking along +z, as in OpenCV or COLMAP",
         ),
         (Convention::OPENGL.with_ndc_y(NdcY::Down), "OpenGL's volume with y down"),
         (

@@ -29,7 +29,7 @@ const MARGIN: f64 = 24.0;
 
 /// A point of the subject in one space, with its label.
 struct LabeledPoint {
-    /// The label, such as `a` or `start`: empty for a single point.
+    /// The label, such as `a` or `start`; empty for a single point.
     name: String,
     /// Three finite coordinates in the space of the diagram.
     coordinates: Vec<f64>,
@@ -311,7 +311,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_window_holds_its_points_at_one_scale() {
+    fn a_window_shows_its_points_at_equal_scales() {
         let points = [[-1.0, 0.0], [3.0, 0.0], [0.0, 1.0]];
         let window = DiagramWindow::around_points(points.iter());
         for point in points {

@@ -1,4 +1,4 @@
-//! An explanation as data: steps, each with its formula and its items.
+//! An explanation as data: a list of steps, each with a formula and items.
 
 /// The stages that a subject passes through, and the result.
 ///

@@ -43,7 +43,7 @@ pub fn entries() -> impl Iterator<Item = Formula> {
     })
 }
 
-/// The formulas with these words in the name, then the ones with them in the text; true for a name.
+/// Finds formulas that contain these words: first in the name (true), then in the text (false).
 ///
 /// Words are compared by stem, in any case: `homogenize` finds `homogeneous`.
 #[must_use]
@@ -59,7 +59,7 @@ pub fn find_formulas(words: &str) -> Vec<(Formula, bool)> {
     named.into_iter().map(|entry| (entry, true)).chain(told).collect()
 }
 
-/// The stems, of three letters or more, of the words in a text.
+/// The stems of three letters or more of the words in a text.
 fn stems(text: &str) -> impl Iterator<Item = String> {
     let words = text.split(|c: char| !c.is_alphabetic()).filter(|word| word.len() >= 3);
     words.map(|word| stem(&word.to_lowercase()))
@@ -74,7 +74,7 @@ fn stem(word: &str) -> String {
     ];
     let mut cut = ENDINGS.iter().filter_map(|ending| word.strip_suffix(ending));
     let stem = cut.find(|stem| stem.len() >= 3).unwrap_or(word);
-    // clipping is a form of clip
+    // `clipping` has the stem `clip`.
     let doubled = stem.len() > 3
         && stem != word
         && stem.is_ascii()
@@ -116,7 +116,7 @@ impl fmt::Display for Formula {
         }
         match self.command {
             Some(command) => writeln!(f, "Command: {command}"),
-            None => writeln!(f, "Command: none shows it by itself"),
+            None => writeln!(f, "Command: none demonstrates it separately"),
         }
     }
 }
@@ -146,7 +146,7 @@ fn table_row(id: &str) -> Option<Formula> {
     Some(Formula { name: row.trim_matches(['|', ' ']), marks: "std", text: text.trim(), command })
 }
 
-/// Splits the command line off a text.
+/// Splits a text into its body and its command.
 fn split_command(text: &'static str) -> (&'static str, Option<&'static str>) {
     match text.split_once("\nCommand: `") {
         Some((text, rest)) => (text.trim(), rest.split("`\n").next().map(str::trim)),
@@ -159,13 +159,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn entries_and_rows_are_found_with_formula_source_and_command() {
+    fn entries_and_table_rows_have_a_formula_source_and_command() {
         let oblique = find_formula("ob-1").expect("an entry");
         assert_eq!(oblique.name, "OB-1, oblique projection by length and angle");
         assert_eq!(oblique.equations().next(), Some("x' = x + z L1 cos φ"));
         assert!(oblique.sources().all(|source| source.starts_with("Lecture slides")));
         assert!(oblique.command.is_some_and(|command| command.starts_with("alberti ")));
-        let windowing = find_formula("WI-3").expect("an entry of two ids");
+        let windowing = find_formula("WI-3").expect("an entry with two ids");
         assert_eq!(find_formula("WI-2"), Some(windowing));
         let row = find_formula("D3D-3").expect("a row");
         assert!(row.name.starts_with("D3D-3 | left-handed, by window"), "{}", row.name);
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn texts_end_before_the_next_entry() {
+    fn entry_text_ends_before_the_next_entry() {
         for entry in entries() {
             assert!(!entry.text.contains("\n**") && !entry.text.contains("Command:"), "{entry}");
             assert!(!entry.text.is_empty() && entry.sources().next().is_some(), "{entry}");

@@ -13,7 +13,7 @@ use homog::{Clip, HPoint, World};
 
 /// Follows a homogeneous world point through every stage up to the divide.
 ///
-/// The four numbers are not divided before the divide, so a factor h is visible in all of them.
+/// The four numbers stay undivided until the divide step, so a factor h is visible in all of them.
 /// Outcodes are computed for the multiple with w = 1, since −p and p have different ones. A point
 /// with w = 0 is a direction: it is not clipped, and the divide gives its vanishing point.
 ///
@@ -47,7 +47,7 @@ pub fn explain_homogeneous_point(
     };
     steps.extend(chain.screen_steps(&[("", clip)]));
     Ok(Explanation {
-        subject: format!("The homogeneous point ({x}, {y}, {z}, {w}) of the world"),
+        subject: format!("The homogeneous point ({x}, {y}, {z}, {w}) in world space"),
         steps,
         verdict,
     })
@@ -73,8 +73,8 @@ fn describe_vanishing_point(chain: &TransformChain, clip: HPoint<Clip>) -> Strin
     match chain.project_to_screen(clip) {
         Some(screen) => {
             let [x, y, _] = <[f64; 3]>::from(screen).map(format_number);
-            format!("Lines along it vanish at the pixel position ({x}, {y}).")
+            format!("Lines in this direction vanish at pixel position ({x}, {y}).")
         }
-        None => "Lines along it stay parallel in the picture: w is 0.".to_owned(),
+        None => "Lines in this direction stay parallel in the picture: w is 0.".to_owned(),
     }
 }

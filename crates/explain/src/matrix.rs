@@ -58,10 +58,10 @@ fn corrected_reading(found: &Recognition) -> Option<(MatrixReading, &'static str
     let slip = found.misprint()?;
     let title = match slip.misprint {
         Misprint::Transposed => {
-            "Its most sensible reading, transposed: it is for row vectors, or stored by columns"
+            "Most likely reading, transposed: the matrix is for row vectors, or stored by columns"
         }
-        Misprint::LastRowNegated => "Its most sensible reading, with the last row negated",
-        Misprint::WrongSign => "Its most sensible reading, with one sign turned",
+        Misprint::LastRowNegated => "Most likely reading, with the last row negated",
+        Misprint::WrongSign => "Most likely reading, with one sign flipped",
         _ => return None,
     };
     Some((recognize(slip.remedied?).first(), title))
@@ -80,7 +80,7 @@ fn check_finite<const N: usize>(rows: &[[f64; N]; N]) -> Result<(), String> {
 
 /// The inverse matrix, or the reason why there is none.
 fn inverse_step(map: Projective<View, Clip>) -> Step {
-    let step = Step::new("inverse", "Its inverse", Some("IV-1"));
+    let step = Step::new("inverse", "Inverse", Some("IV-1"));
     match map.inverse() {
         Some(inverse) => {
             step.with_item("inverse", "inverse", without_rounding(map.raw(), inverse.raw()))
@@ -113,7 +113,7 @@ pub fn without_rounding(matrix: DMat4, inverse: DMat4) -> [[f64; 4]; 4] {
 /// shows whether orientation changes, as it does between handednesses.
 fn kind_step(rows: [[f64; 4]; 4], map: Projective<View, Clip>) -> Step {
     let found = map.classify();
-    Step::new("kind", "What kind of map it is", Some("HO-3"))
+    Step::new("kind", "Kind of map", Some("HO-3"))
         .with_item("matrix", "matrix", rows)
         .with_item("kind", "kind", found.to_string())
         .with_item("rank", "rank", found.rank as f64)
@@ -148,10 +148,10 @@ fn affine_step(map: Projective<View, Clip>, meaning: &MatrixMeaning) -> Option<S
     let determinant = axes[0].cross(axes[1]).dot(axes[2]);
     let handedness = match determinant {
         turn if turn > 0.0 => "kept",
-        turn if turn < 0.0 => "exchanged, as in a mirror",
+        turn if turn < 0.0 => "reversed, as in a mirror",
         _ => "lost: the image is flat",
     };
-    let step = Step::new("affine", "Its parts", Some("HO-4, HO-5"))
+    let step = Step::new("affine", "Parts of the map", Some("HO-4, HO-5"))
         .with_item("translation", "translation", matrix.w_axis.truncate().to_array())
         .with_item("scales", "lengths of the axes", lengths)
         .with_item("angles", "angles", angles)
@@ -181,9 +181,9 @@ fn vanishing_points_step(map: Projective<View, Clip>) -> Step {
             format!("vanishes at ({x}, {y}, {z})")
         }
         HPointKind::AtInfinity(_) => "stays parallel".to_owned(),
-        HPointKind::Invalid => "is lost".to_owned(),
+        HPointKind::Invalid => "has no image".to_owned(),
     };
-    let step = Step::new("vanishing_points", "Where lines along the axes meet", Some("VN-1"));
+    let step = Step::new("vanishing_points", "Vanishing points of the axes", Some("VN-1"));
     ["x", "y", "z"]
         .into_iter()
         .zip(points)
@@ -211,11 +211,11 @@ fn other_readings_step(found: &Recognition) -> Option<Step> {
     if others.is_empty() {
         return None;
     }
-    let step = Step::new("readings", "It can also be read as", None);
+    let step = Step::new("readings", "Other readings", None);
     Some((0..).zip(others).fold(step, |step, (at, reading): (usize, _)| {
         let name = match at < equal {
-            true => "equally sensible",
-            false if turned => "less likely, as it stands",
+            true => "equally likely",
+            false if turned => "less likely, as given",
             false => "less likely",
         };
         step.with_item(at.to_string(), name, describe_meaning(reading))
@@ -233,7 +233,7 @@ fn entry_words(rows: [[f64; 4]; 4], found: &Recognition) -> String {
     changed.map_or("one entry".to_owned(), |[row, column]| place_words(row, column))
 }
 
-/// The first entry that the remedy changes, by row and column from 0.
+/// The first entry that the remedy changes, as row and column counted from 0.
 fn changed_entry(rows: [[f64; 4]; 4], slip: &Suspicion) -> Option<[usize; 2]> {
     let remedied = slip.remedied?;
     let at = (0..16).find(|at| rows[at / 4][at % 4] != remedied[at / 4][at % 4])?;
@@ -245,7 +245,7 @@ fn changed_entry(rows: [[f64; 4]; 4], slip: &Suspicion) -> Option<[usize; 2]> {
 /// The corrected matrix is shown only if the sixteen entries determine it. The first misprint has
 /// the id `misprint`, further ones `other_misprint`.
 fn misprint_step(at: usize, rows: [[f64; 4]; 4], slip: &Suspicion) -> Step {
-    let known = slip.misprint.id().unwrap_or("not numbered");
+    let known = slip.misprint.id().unwrap_or("unnumbered");
     let title = match (slip.misprint, slip.strength) {
         (Misprint::Transposed, SuspicionStrength::Likely) => {
             "It looks like a matrix for row vectors, or stored column by column".to_owned()
@@ -254,7 +254,7 @@ fn misprint_step(at: usize, rows: [[f64; 4]; 4], slip: &Suspicion) -> Step {
             "It may also be a matrix for row vectors: the numbers are the same".to_owned()
         }
         (_, SuspicionStrength::Likely) if slip.misprint.id().is_none() => {
-            "It looks like a slip of the sign".to_owned()
+            "It looks like a sign error".to_owned()
         }
         (_, SuspicionStrength::Likely) => format!("It looks like a known misprint ({known})"),
         (_, SuspicionStrength::Equal) => {
@@ -278,7 +278,7 @@ fn misprint_step(at: usize, rows: [[f64; 4]; 4], slip: &Suspicion) -> Step {
         Some(remedied) if is_read => step.with_item("remedied", "then", remedied),
         Some(remedied) => step.with_item("remedied", "then", remedied).with_item(
             "remedied_reading",
-            "which is",
+            "meaning",
             describe_meaning(&recognize(remedied).first()),
         ),
         None => step,
@@ -292,7 +292,7 @@ fn matrix_verdict(map: Projective<View, Clip>, found: &Recognition) -> String {
     let what = if first.meaning.is_named() {
         format!("It is {}.", describe_meaning(&first))
     } else {
-        format!("It is {}, and no transform or projection that has a name.", map.classify())
+        format!("It is {}, but not a named transform or projection.", map.classify())
     };
     let turned = |slip: &Suspicion| {
         let transposed = slip.remedied.map(|matrix| recognize(matrix).first());
@@ -305,15 +305,15 @@ fn matrix_verdict(map: Projective<View, Clip>, found: &Recognition) -> String {
         let corrected = describe_meaning(&reading);
         let slip = match misprint {
             Some(Misprint::LastRowNegated) => "its last row negated".to_owned(),
-            _ => format!("the sign of {} turned", entry_words(map.rows(), found)),
+            _ => format!("the sign of {} flipped", entry_words(map.rows(), found)),
         };
         return format!("It looks like a misprint: with {slip}, it is {corrected}.");
     }
     if let Some((reading, _)) = corrected {
         let turned = describe_meaning(&reading);
-        let stands = what.replacen("It is", "As it stands, for column vectors, it is", 1);
+        let stands = what.replacen("It is", "As given, for column vectors, it is", 1);
         return format!(
-            "Transposed, it is {turned}: it is for row vectors, or stored by columns. {stands}"
+            "Transposed, it is {turned}: the matrix is for row vectors, or stored by columns. {stands}"
         );
     }
     if let Some(slip) = found.misprint() {

@@ -71,7 +71,7 @@ fn tree_step(model: &Model, node: usize) -> Step {
     let here = model.nodes.get(node);
     let mesh = here.and_then(|node| node.mesh).and_then(|mesh| model.meshes.get(mesh));
     let mesh = mesh.map_or("none".to_owned(), |mesh| {
-        let name = mesh.name.as_deref().unwrap_or("without a name");
+        let name = mesh.name.as_deref().unwrap_or("unnamed");
         format!("{name}, {} primitives", mesh.primitives.len())
     });
     let step = Step::new("tree", "The node in its model", None)
@@ -92,10 +92,10 @@ fn explain_absence(model: &Model, node: usize) -> String {
         None => "There is no such node.".to_owned(),
         Some(here) if here.mesh.is_none() => {
             let below = here.children.len();
-            format!("It has no mesh of its own to show; {below} nodes are directly below it.")
+            format!("It has no mesh. Child nodes: {below}.")
         }
         Some(_) if !model.node_instances().iter().any(|at| at.node == node) => {
-            "It is not below a root of the scene that is shown.".to_owned()
+            "It is not part of the scene that is drawn.".to_owned()
         }
         Some(_) => "Its mesh has no instances.".to_owned(),
     }
@@ -115,11 +115,11 @@ struct PrimitiveCounts {
     /// Trivially rejected primitives, by the first plane that rejects them; one count for each of
     /// the six.
     outside: [usize; 6],
-    /// Culled back faces of single-sided materials.
+    /// Back faces culled because their material is single-sided.
     back_facing: usize,
-    /// Seen edge-on: no area on the screen.
+    /// Triangles seen edge-on, without area on the screen.
     edge_on: usize,
-    /// Blended with alpha 0.
+    /// Primitives blended with alpha 0.
     transparent: usize,
     /// Primitives that no stage removes.
     visible: usize,
@@ -205,7 +205,7 @@ impl PrimitiveCounts {
     ///
     /// It is in world units. If the box is outside one plane, this step alone explains the mesh.
     fn bounds_step(&self) -> Step {
-        let step = Step::new("bounds", "Where all of it is", Some("CL-1"));
+        let step = Step::new("bounds", "Bounding box", Some("CL-1"));
         let Some([min, most]) = self.bounds else {
             return step.with_item(
                 "empty",
@@ -214,9 +214,9 @@ impl PrimitiveCounts {
             );
         };
         let common = self.common_outcode.unwrap_or(Outcode::INSIDE);
-        step.with_item("least", "least x, y, z of the world", min.to_array())
+        step.with_item("least", "minimum x, y, z in world space", min.to_array())
             .with_item("most", "greatest x, y, z", most.to_array())
-            .with_item("outside", "all of it", describe_outcode(common))
+            .with_item("outside", "the whole mesh is", describe_outcode(common))
     }
 
     /// The counts as a step.
@@ -224,18 +224,17 @@ impl PrimitiveCounts {
     /// Planes that reject nothing are omitted from the list. Primitives that cross a plane count as
     /// visible: they are clipped only in part.
     fn count_step(&self) -> Step {
-        let mut step =
-            Step::new("counts", "Its points, lines and triangles", Some("CL-1, CL-3, RA-1"))
-                .with_item("all", "all", self.total as f64);
+        let mut step = Step::new("counts", "Points, lines and triangles", Some("CL-1, CL-3, RA-1"))
+            .with_item("all", "all", self.total as f64);
         for (plane, &count) in PlaneIndex::BOX.iter().zip(&self.outside) {
             if count > 0 {
-                let name = format!("outside of {plane}");
+                let name = format!("outside the {plane} plane");
                 step.add_item(format!("outside_{plane}"), name, count as f64);
             }
         }
-        step.with_item("away", "seen from behind, one-sided", self.back_facing as f64)
+        step.with_item("away", "back-facing, single-sided", self.back_facing as f64)
             .with_item("edge_on", "seen edge-on", self.edge_on as f64)
-            .with_item("transparent", "wholly transparent", self.transparent as f64)
+            .with_item("transparent", "fully transparent", self.transparent as f64)
             .with_item("left", "in the view volume", self.visible as f64)
     }
 
@@ -249,19 +248,19 @@ impl PrimitiveCounts {
         if self.total == 0 {
             "Its mesh has no points, lines or triangles.".to_owned()
         } else if !common.is_inside() {
-            format!("It is not in the picture: all of it is {}.", describe_outcode(common))
+            format!("It is not in the picture: the whole mesh is {}.", describe_outcode(common))
         } else if self.visible > 0 {
             let percentage = format_number(100.0 * self.visible as f64 / self.total as f64);
             format!(
-                "{} of {} ({percentage} %) come into the view volume; what is not seen of them is behind something else.",
+                "{} of {} ({percentage}%) are in the view volume; any that are not visible are behind other surfaces.",
                 self.visible, self.total
             )
         } else if self.back_facing > 0
             && self.back_facing + self.edge_on >= self.total - self.outside.iter().sum::<usize>()
         {
-            "Its triangles are seen from behind, and its material has no back: set doubleSided, or look from elsewhere.".to_owned()
+            "Its triangles face away from the camera, and its material is single-sided: set doubleSided, or move the camera.".to_owned()
         } else if self.transparent > 0 {
-            "Its material is wholly transparent: the base colour's alpha is 0.".to_owned()
+            "Its material is fully transparent: the base color's alpha is 0.".to_owned()
         } else {
             "None of it reaches the picture.".to_owned()
         }

@@ -22,7 +22,7 @@ use scene::Scene;
 /// Explains the color of a pixel; x and y count from the upper left corner.
 ///
 /// # Errors
-/// If there is no such pixel, or the picture has no shaded pixels; the text says which.
+/// If there is no such pixel, or the picture has no shaded pixels; the message says which.
 ///
 /// The nearest fragment is the one with the largest depth in the pipeline's own volume, independent
 /// of the conventions of `chain`: reversed or flipped depth would otherwise select the farthest.
@@ -63,15 +63,15 @@ pub fn explain_pixel(
 /// Its color is linear RGB, premultiplied by alpha.
 fn fragment_step(scene: &Scene, at: usize, seen: &ShadedFragment) -> Step {
     let title = match seen.source {
-        Some(owner) => format!("Seen: {}", source_name(scene, owner)),
-        None => "Seen: the surroundings".to_owned(),
+        Some(owner) => format!("Visible: {}", source_name(scene, owner)),
+        None => "Visible: the background or ground".to_owned(),
     };
     let mut step =
         Step::new(if at == 0 { "fragment" } else { "other_fragment" }, title, Some("RA-1, IN-2"))
-            .with_item("weights", "weights of its corners", seen.weights.map(f64::from))
-            .with_item("color", "color, linear, times alpha", seen.color.map(f64::from));
+            .with_item("weights", "weights of the vertices", seen.weights.map(f64::from))
+            .with_item("color", "linear color, premultiplied by alpha", seen.color.map(f64::from));
     if let Some(position) = fragment_position(scene, seen) {
-        step.add_item("world", "place in the world", <[f64; 3]>::from(position));
+        step.add_item("world", "position in the world", <[f64; 3]>::from(position));
     }
     step
 }
@@ -131,8 +131,8 @@ fn fragment_position(scene: &Scene, seen: &ShadedFragment) -> Option<Point<World
 fn color_step(makeup: &PixelFragments) -> Step {
     let [r, g, b, alpha] = makeup.color;
     Step::new("pixel", "The pixel: samples resolved in linear light, then sRGB", Some("RA-2"))
-        .with_item("srgb", "red, green, blue, alpha of 255", makeup.color.map(f64::from))
-        .with_item("hex", "as on a web page", format!("#{r:02x}{g:02x}{b:02x}, alpha {alpha}"))
+        .with_item("srgb", "red, green, blue, alpha (0 to 255)", makeup.color.map(f64::from))
+        .with_item("hex", "in hexadecimal", format!("#{r:02x}{g:02x}{b:02x}, alpha {alpha}"))
 }
 
 /// The result in a sentence.
@@ -142,9 +142,9 @@ fn color_step(makeup: &PixelFragments) -> Step {
 fn pixel_verdict(makeup: &PixelFragments) -> String {
     let [r, g, b, alpha] = makeup.color;
     let what = match makeup.fragments.len() {
-        0 => "nothing is in it but the background".to_owned(),
-        1 => "one thing is seen in it".to_owned(),
-        count => format!("{count} things share it or overlap in it"),
+        0 => "only the background is in it".to_owned(),
+        1 => "one surface is visible in it".to_owned(),
+        count => format!("{count} surfaces share it or overlap in it"),
     };
     format!("The pixel is #{r:02x}{g:02x}{b:02x} with alpha {alpha}: {what}.")
 }

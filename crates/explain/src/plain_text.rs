@@ -97,7 +97,7 @@ fn format_matrix<const N: usize>(rows: &[[f64; N]; N]) -> String {
 ///  0, 1e-4 ≤ |x| < 1e9   decimal     0.333333   123456.8
 ///  otherwise             scientific  1.5e-9
 /// ```
-/// The digits before the point are counted on the rounded number, so 9.9999999 becomes 10 instead
+/// The digits before the point are counted in the rounded number, so 9.9999999 becomes 10 instead
 /// of a number with eight digits. Infinities print as `inf`.
 pub(super) fn format_number(x: f64) -> String {
     // People read −0 as 0.
@@ -131,7 +131,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_short_and_have_seven_digits_at_most() {
+    fn numbers_have_at_most_seven_significant_digits() {
         let cases = [
             (0.0, "0"),
             (-0.0, "0"),
@@ -149,9 +149,9 @@ mod tests {
         }
     }
 
-    /// A third looks the same in a matrix as in coordinates.
+    /// One third is printed in the same way in a matrix and in coordinates.
     #[test]
-    fn a_number_has_one_form_in_matrices_and_lists() {
+    fn numbers_are_printed_alike_in_matrices_and_lists() {
         let third = 1.0 / 3.0;
         let step = Step::new("one", "One", None)
             .with_item("matrix", "matrix", [[third, 0.0, 0.0, 1e-9]; 4])

@@ -20,12 +20,8 @@ use model::{MeshInstance, Model};
 pub fn explain_transforms(chain: &TransformChain) -> Explanation {
     let [_, screen] = chain.screen_steps(&[]);
     let steps = vec![chain.camera_step(&[]), chain.projection_step(&[]), screen];
-    let verdict = "--point, --segment and --node follow something through them.".to_owned();
-    Explanation {
-        subject: "The chain of maps from the world to the screen".to_owned(),
-        steps,
-        verdict,
-    }
+    let verdict = "Use --point, --segment or --node to follow something through it.".to_owned();
+    Explanation { subject: "The transform chain from world to screen".to_owned(), steps, verdict }
 }
 
 /// Follows a world point through every stage.
@@ -34,7 +30,12 @@ pub fn explain_transforms(chain: &TransformChain) -> Explanation {
 #[must_use]
 pub fn explain_point(chain: &TransformChain, point: Point<World>) -> Explanation {
     let [x, y, z] = <[f64; 3]>::from(point).map(format_number);
-    explain_world_point(chain, point, format!("The point ({x}, {y}, {z}) of the world"), Vec::new())
+    explain_world_point(
+        chain,
+        point,
+        format!("The point ({x}, {y}, {z}) in world space"),
+        Vec::new(),
+    )
 }
 
 /// The indices of a mesh vertex.
@@ -51,7 +52,7 @@ pub struct VertexRef {
 /// Follows a vertex of a model through every stage, in the model's current pose.
 ///
 /// # Errors
-/// If the model does not show such a vertex; the text lists what exists.
+/// If the model does not show such a vertex; the message lists what exists.
 ///
 /// The order is morph targets, skinning, node transform, model transform, as in the glTF
 /// specification.
@@ -98,7 +99,9 @@ fn explain_world_point(
     let verdict = match chain.project_to_screen(clip) {
         Some(screen) if code.is_inside() => {
             let [x, y, depth] = <[f64; 3]>::from(screen).map(format_number);
-            format!("It is inside the view volume and lands at ({x}, {y}) with depth {depth}.")
+            format!(
+                "It is inside the view volume and maps to pixel position ({x}, {y}) with depth {depth}."
+            )
         }
         _ => format!("It is not in the picture: it is {}.", describe_outcode(code)),
     };
@@ -116,10 +119,10 @@ pub(super) fn model_step(
 ) -> Step {
     let to_world = to_model.then(model_instance.model_to_world);
     let mut step = Step::new("model", "Model: from the mesh to the world", Some("HO-4, HO-5"))
-        .with_item("node_to_model", "the nodes' transforms", to_model.rows())
+        .with_item("node_to_model", "node transforms", to_model.rows())
         .with_item(
             "model_to_world",
-            "the model's place in the scene",
+            "the model's transform in the scene",
             model_instance.model_to_world.rows(),
         )
         .with_item("mesh_to_world", "the product", to_world.rows());

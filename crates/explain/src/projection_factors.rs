@@ -79,7 +79,7 @@ fn describe_projection(kind: &Decomposed) -> String {
             let lens = format!("{}, {}", window(f.window()), depth(f.near(), f.far()));
             format!("a camera and a perspective in one: {lens}")
         }
-        Decomposed::ObliqueNear { .. } => "perspective with an inclined near plane".to_owned(),
+        Decomposed::ObliqueNear { .. } => "perspective with an oblique near plane".to_owned(),
         Decomposed::Orthographic(o) => {
             format!("orthographic: {}, {}", window(o.window()), depth(o.near(), o.far()))
         }

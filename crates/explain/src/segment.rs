@@ -37,7 +37,7 @@ pub fn explain_segment(chain: &TransformChain, ends: [Point<World>; 2]) -> Expla
             steps.extend(chain.screen_steps(&[("start", left.start), ("end", left.end)]));
             let percentage = 100.0 * (left.t1 - left.t0);
             format!(
-                "{} % of it, from t = {} to t = {}, is inside the view volume.",
+                "{}% of it, from t = {} to t = {}, is inside the view volume.",
                 format_number(percentage),
                 format_number(left.t0),
                 format_number(left.t1)
@@ -54,7 +54,7 @@ pub fn explain_segment(chain: &TransformChain, ends: [Point<World>; 2]) -> Expla
 /// The clipping step: the planes through which the visible part enters and leaves.
 ///
 /// `left` is `None` for a segment rejected trivially or because its interval is empty (t₀
-/// > t₁); the step then names the planes that it is outside of.
+/// > t₁); the step then names the planes that it is outside.
 fn clip_step(
     chain: &TransformChain,
     a: HPoint<Clip>,

@@ -42,7 +42,7 @@ fn add_parallax(step: &mut Step, eyes: &[TransformChain; 2], point: Point<World>
         chain.project_to_screen(chain.world_to_clip().transform_point(point))
     };
     let [Some(left), Some(right)] = [seen(&eyes[0]), seen(&eyes[1])] else {
-        return step.add_item("parallax", "parallax", "none: the point is beside an eye");
+        return step.add_item("parallax", "parallax", "none: the point is in the plane of an eye");
     };
     step.add_item("screen_left", "x, y, depth, left", <[f64; 3]>::from(left));
     step.add_item("screen_right", "x, y, depth, right", <[f64; 3]>::from(right));

@@ -21,7 +21,7 @@ use viewport::{Viewport, ViewportError};
 
 /// Camera, projection and viewport in the conventions of a graphics API.
 ///
-/// The volume is converted once, when the chain is built; all steps then use one convention.
+/// The volume is converted once, when the chain is built; all steps then use the same convention.
 #[derive(Clone, Copy, Debug)]
 pub struct TransformChain {
     /// The camera, whose view space looks along −z.
@@ -115,9 +115,9 @@ impl TransformChain {
     /// Whether a triangle shows its front, the side on which its vertices run counterclockwise;
     /// `None` if it is seen edge-on. Points and lines have no back.
     ///
-    /// Testing before the divide avoids clipping: the sign is correct for triangles that cross the
-    /// plane of the eye. A flip of y (Vulkan) and a mirrored window each invert it; two flips
-    /// cancel.
+    /// Because the test comes before the divide, it needs no clipping: the sign is correct for
+    /// triangles that cross the plane of the eye. A flip of y (Vulkan) and a mirrored window each
+    /// invert it; two flips cancel.
     pub(super) fn is_front_facing(&self, corners: &[HPoint<Clip>]) -> Option<bool> {
         let &[a, b, c] = corners else { return Some(true) };
         // The determinant of the (x, y, w) rows is positive for counterclockwise triangles in clip
@@ -200,12 +200,12 @@ impl TransformChain {
                 .with_item("w", "w, against the gaze", <[f64; 3]>::from(self.camera.w()))
                 .with_item(
                     "translation",
-                    "T, the eye to the origin",
+                    "T, moves the eye to the origin",
                     self.camera.translation().rows(),
                 )
-                .with_item("rotation", "R, its rows u, v, w", self.camera.rotation().rows());
+                .with_item("rotation", "R, with rows u, v, w", self.camera.rotation().rows());
         if self.conventions.looks_along_z() {
-            step = step.with_item("turn", "z turned over", self.conventions.view_flip().rows());
+            step = step.with_item("turn", "flip of z", self.conventions.view_flip().rows());
         }
         step = step.with_item("world_to_view", "M_cam, the product", self.world_to_view().rows());
         let ahead = if self.conventions.looks_along_z() { 1.0 } else { -1.0 };
@@ -236,7 +236,7 @@ impl TransformChain {
         projection_factors::add_projection_factors(&mut step, self.view_to_clip, self.conventions);
         let page = self.chapter_matrices();
         let names = match page.filter(ChapterMatrices::turns_w) {
-            Some(_) => ["−M_per, w > 0 ahead, to clip with", "−M_per M_cam"],
+            Some(_) => ["−M_per, w > 0 ahead, for clipping", "−M_per M_cam"],
             None => ["the whole projection", "projection after M_cam"],
         };
         step = step.with_item("view_to_clip", names[0], self.view_to_clip.rows()).with_item(
@@ -275,7 +275,7 @@ impl TransformChain {
     /// < 0 for right (Cohen and Sutherland). The bits are printed in binary and as plane names.
     pub(super) fn outcode_step(&self, points: &[NamedPoint<'_, HPoint<Clip>>]) -> Step {
         let mut step =
-            Step::new("outcodes", "Outcodes: which planes each is outside of", Some("CL-1"));
+            Step::new("outcodes", "Outcodes: the planes each point is outside", Some("CL-1"));
         for (name, point) in points {
             let code = self.clip_volume().outcode(*point);
             let words = format!("{:06b}, {}", code.bits(), describe_outcode(code));
@@ -304,7 +304,7 @@ impl TransformChain {
         if let Some(lens) = self.intrinsics() {
             screen.add_item(
                 "intrinsics",
-                "K, pixel centers at halves",
+                "K, pixel centers at half-integers",
                 ItemValue::PlanarMatrix(lens.to_rows()),
             );
         }
@@ -352,7 +352,7 @@ impl TransformChain {
         let (border, height) = (pixels.centers.image_border(), self.viewport.area().height());
         let (column, row) = (libm::floor(x - border), libm::floor(y - border));
         let from_top = if self.rows_run_up() { height - 1.0 - row } else { row };
-        let side = if self.rows_run_up() { "; row 0 is the lowest here" } else { "" };
+        let side = if self.rows_run_up() { "; row 0 is at the bottom here" } else { "" };
         format!(
             "column {}, row {} from the top{side}",
             format_number(column),
@@ -371,7 +371,7 @@ impl TransformChain {
 /// It has the id of the NDC coordinates, but contains text; a direction or a point in the plane of
 /// the eye has no image.
 fn infinity_item(name: &str) -> ExplanationEntry {
-    let words = "w is 0: it is at infinity and has no place on the screen";
+    let words = "w is 0: the point is at infinity and has no screen position";
     ExplanationEntry {
         id: format!("ndc{}", id_suffix(name)),
         name: label_with_name("ndc", name),
@@ -379,13 +379,14 @@ fn infinity_item(name: &str) -> ExplanationEntry {
     }
 }
 
-/// Describes the planes of an outcode in words: `inside`, or `outside of near, left`.
+/// Describes an outcode in words: `inside`, or `outside the near, left planes`.
 pub(super) fn describe_outcode(code: Outcode) -> String {
     if code.is_inside() {
         return "inside".to_owned();
     }
     let names: Vec<String> = code.planes().map(|plane| plane.to_string()).collect();
-    format!("outside of {}", names.join(", "))
+    let planes = if names.len() == 1 { "plane" } else { "planes" };
+    format!("outside the {} {planes}", names.join(", "))
 }
 
 /// The suffix of an item's id for a labeled point.

@@ -22,7 +22,7 @@ use model::Topology;
 /// Follows a triangle of a model through every stage.
 ///
 /// # Errors
-/// If the model does not show such a triangle; the text lists what exists.
+/// If the model does not show such a triangle; the message lists what exists.
 ///
 /// Vertices keep the labels a, b, c through the transforms; vertices of the clipped polygon are
 /// numbered from 1. The area covers the visible part, in square pixels, before samples decide
@@ -75,7 +75,7 @@ pub fn explain_triangle(
         let area = screen_area(chain, &clipped);
         steps.push(area_step(area));
         format!(
-            "{} corners are left; it covers {} pixels.",
+            "{} corners remain, covering {} pixels.",
             clipped.vertices().len(),
             format_number(area.abs())
         )
@@ -104,7 +104,7 @@ fn clip_step(left: &ClippedPolygon) -> Step {
         );
         step.add_item(
             format!("weights_{number}"),
-            format!("corner {number}, of a, b, c"),
+            format!("corner {number}, weights of a, b, c"),
             corner.weights,
         );
     }
@@ -138,12 +138,12 @@ fn screen_area(chain: &TransformChain, left: &ClippedPolygon) -> f64 {
 
 /// The area and winding on the screen.
 ///
-/// The turn is described by axes and not as clockwise, since y points up in some conventions and
+/// The turn is described by axes instead of as clockwise, since y points up in some conventions and
 /// down in others.
 fn area_step(area: f64) -> Step {
     let orientation = match area {
-        area if area > 0.0 => "from +x towards +y",
-        area if area < 0.0 => "from +y towards +x",
+        area if area > 0.0 => "from +x toward +y",
+        area if area < 0.0 => "from +y toward +x",
         _ => "not at all: it is seen edge-on",
     };
     Step::new("raster", "Coverage: the signed area", Some("RA-1"))

@@ -55,7 +55,7 @@ fn oblique_words(oblique: &Oblique) -> String {
     let phi = oblique.phi().to_degrees();
     let recedes = if phi > 0.0 { phi - 180.0 } else { phi + 180.0 };
     let [length, phi, recedes] = [oblique.length(), phi, recedes].map(format_number);
-    format!("length {length}, angle {phi}° (what recedes is drawn towards {recedes}°)")
+    format!("length {length}, angle {phi}° (receding lines are drawn toward {recedes}°)")
 }
 
 /// The name of an oblique projection by its length: `an oblique projection (cabinet)`.
@@ -72,7 +72,7 @@ fn planometric_words(turn: f64, height: f64, z_up: bool, onto_plane: bool) -> St
     let name = if height == 1.0 { "a military projection" } else { "a planometric projection" };
     let [turn, height] = [turn, height].map(format_number);
     let (plan, up) = if z_up { ("x and y", "z") } else { ("x and z", "y") };
-    let depth = if onto_plane { "" } else { ", depth kept" };
+    let depth = if onto_plane { "" } else { ", depth preserved" };
     format!("{name}{depth}: the plan of {plan} turned by {turn}°, {up} upwards times {height}")
 }
 
@@ -94,7 +94,7 @@ fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
             let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
             format!("the lesson's perspective with its apex moved (LW-1): {window}, {depth}")
         }
-        MatrixMeaning::ObliqueNear { .. } => "a perspective with an inclined near plane".to_owned(),
+        MatrixMeaning::ObliqueNear { .. } => "a perspective with an oblique near plane".to_owned(),
         MatrixMeaning::Orthographic { volume: o, .. } => {
             format!(
                 "orthographic: {}, {}",
@@ -152,7 +152,7 @@ fn describe_classical(meaning: &MatrixMeaning) -> Option<String> {
         }
         MatrixMeaning::ObliqueShear { projection } => {
             let name = oblique_name(projection, "projection");
-            format!("{name} with depth kept: {}", oblique_words(projection))
+            format!("{name} with depth preserved: {}", oblique_words(projection))
         }
         MatrixMeaning::ObliqueOntoPlane { projection } => {
             let plane = format_number(projection.plane_z());
@@ -188,7 +188,7 @@ fn describe_classical(meaning: &MatrixMeaning) -> Option<String> {
         }
         MatrixMeaning::NPoint { projection, onto_plane } => {
             let class = Classical::NPoint(*projection).class();
-            let kept = if *onto_plane { "onto the plane z = 0" } else { "depth kept" };
+            let kept = if *onto_plane { "onto the plane z = 0" } else { "depth preserved" };
             format!(
                 "a {} perspective, {kept}: (p, q, r) = {}",
                 class.name(),
@@ -212,7 +212,7 @@ fn viewport_words(v: &ViewportReading) -> String {
 fn image_words(size: [f64; 2], origin: &str, y_down: bool, integer_centers: bool) -> String {
     let [width, height] = size.map(format_number);
     let rows = if y_down { "y down" } else { "y up" };
-    let centers = if integer_centers { "at whole numbers" } else { "at halves" };
+    let centers = if integer_centers { "at integers" } else { "at half-integers" };
     format!("the viewport of {width} × {height} pixels{origin}, {rows}, pixel centers {centers}")
 }
 
@@ -280,7 +280,7 @@ pub(super) fn meaning_steps(reading: &MatrixReading) -> Option<Step> {
     if !meaning.is_named() {
         return None;
     }
-    let step = Step::new("meaning", "Its most sensible reading", None).with_item(
+    let step = Step::new("meaning", "Most likely reading", None).with_item(
         "reading",
         "reading",
         describe_meaning(reading),
@@ -411,7 +411,7 @@ fn add_lens(step: Step, lens: &Lens, convention: Convention) -> Step {
 fn add_oblique(step: Step, oblique: &Oblique) -> Step {
     let phi = oblique.phi().to_degrees();
     step.with_item("length", "drawn length of a unit of depth", oblique.length())
-        .with_item("angle", "its angle, degrees, for z towards the viewer", phi)
+        .with_item("angle", "its angle, degrees, for z toward the viewer", phi)
         .with_item("projectors", "projectors to plane, degrees", oblique.alpha().to_degrees())
         .with_item("plane", "plane z", oblique.plane_z())
 }

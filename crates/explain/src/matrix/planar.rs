@@ -18,10 +18,10 @@ pub fn explain_planar_matrix(rows: [[f64; 3]; 3]) -> Result<Explanation, String>
     check_finite(&rows)?;
     let map = Homography::from_rows(rows);
     let (readings, transposed) = recognize_planar(rows);
-    let kind = Step::new("kind", "What kind of map it is", Some("HO-3"))
+    let kind = Step::new("kind", "Kind of map", Some("HO-3"))
         .with_item("matrix", "matrix", ItemValue::PlanarMatrix(rows))
         .with_item("determinant", "determinant", map.determinant());
-    let inverse = Step::new("inverse", "Its inverse", None);
+    let inverse = Step::new("inverse", "Inverse", None);
     let inverse = match map.inverse() {
         Some(found) => {
             inverse.with_item("inverse", "inverse", ItemValue::PlanarMatrix(found.rows()))
@@ -38,7 +38,7 @@ pub fn explain_planar_matrix(rows: [[f64; 3]; 3]) -> Result<Explanation, String>
         let turned = [0, 1, 2].map(|i| [0, 1, 2].map(|j| rows[j][i]));
         let meant = first(&recognize_planar(turned).0, &turned);
         verdict = format!(
-            "Transposed, it is {meant}: it is for row vectors, or stored by columns. As it stands, \
+            "Transposed, it is {meant}: the matrix is for row vectors, or stored by columns. As given, \
              for column vectors, it is {stands}."
         );
         let step = Step::new("misprint", "It looks like a matrix for row vectors", None).with_item(
@@ -46,7 +46,7 @@ pub fn explain_planar_matrix(rows: [[f64; 3]; 3]) -> Result<Explanation, String>
             "then",
             ItemValue::PlanarMatrix(turned),
         );
-        steps.push(step.with_item("remedied_reading", "which is", meant));
+        steps.push(step.with_item("remedied_reading", "meaning", meant));
     }
     Ok(Explanation { subject: "A 3 × 3 matrix for column vectors".to_owned(), steps, verdict })
 }
@@ -57,7 +57,7 @@ fn points_step(map: Homography) -> Step {
         Some([x, y]) => format!("({}, {})", format_number(x), format_number(y)),
         None => "infinity".to_owned(),
     };
-    let step = Step::new("points", "Where the unit square goes", Some("HO-3"));
+    let step = Step::new("points", "Images of the unit square's corners", Some("HO-3"));
     [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].into_iter().fold(step, |step, (x, y)| {
         let name = format!("({x}, {y})");
         step.with_item(format!("corner_{x}_{y}"), name, image(x, y))
@@ -65,7 +65,7 @@ fn points_step(map: Homography) -> Step {
 }
 
 fn readings_step(readings: &[PlanarReading], rows: &[[f64; 3]; 3]) -> Step {
-    let step = Step::new("readings", "What it may be, the most sensible reading first", None);
+    let step = Step::new("readings", "Possible readings, most likely first", None);
     (0..).zip(readings.iter().take(1 + OTHER_READINGS)).fold(step, |step, (at, reading)| {
         let at: usize = at;
         step.with_item(at.to_string(), (at + 1).to_string(), describe_planar(reading, rows))
@@ -82,7 +82,7 @@ fn describe_planar(reading: &PlanarReading, rows: &[[f64; 3]; 3]) -> String {
         }
         PlanarMatrix::Plane(meaning) => {
             let of_space = MatrixReading { meaning, factor: reading.factor, cost: reading.cost };
-            format!("{} (of the plane; z is left alone)", describe_meaning(&of_space))
+            format!("{} (of the plane; z unchanged)", describe_meaning(&of_space))
         }
         PlanarMatrix::Intrinsics(k) => {
             let [fx, fy, cx, cy, skew] = [k.fx, k.fy, k.cx, k.cy, k.skew].map(format_number);

@@ -51,7 +51,7 @@ fn c3_c84_c101_a_point_passes_model_view_projection_divide_and_viewport_in_this_
     let by_product = scene.view_projection.world_to_clip().transform_point(corner);
     assert!((by_factors.raw() - by_product.raw()).abs().max_element() < 1e-12);
     let [x, y] = pixel_position(&scene, Point::new(1.0, 2.0, 3.0));
-    assert!((x - 160.0).abs() < 1e-9 && (y - 100.0).abs() < 1e-9, "the target is in the middle");
+    assert!((x - 160.0).abs() < 1e-9 && (y - 100.0).abs() < 1e-9, "the target is in the center");
 }
 
 #[test]
@@ -113,7 +113,7 @@ fn c35_a_ball_beside_the_line_of_sight_is_drawn_as_the_ellipse_that_its_cone_cut
     let cosines = libm::cos(theta + alpha) * libm::cos(theta - alpha);
     let width = focal * (outer - inner);
     let height = focal * 2.0 * libm::sin(alpha) / cosines.sqrt();
-    assert!(width > 1.4 * height, "far from a circle");
+    assert!(width > 1.4 * height, "clearly not a circle");
     let (left, right) = (800.0 + focal * inner, 800.0 + focal * outer);
     let covered = |x: u32, y: u32| picture.pixel(x, y).is_some_and(|pixel| pixel[2] < 235);
     let columns = (left as u32 - 10..right as u32 + 10).filter(|&x| covered(x, 200)).count() as f64;
