@@ -16,14 +16,14 @@ pub struct Arguments {
     is_partial: bool,
     /// The only language.
     pub language: Option<String>,
-    /// The least coverage in percent.
+    /// The minimum coverage in percent.
     pub least: Option<f64>,
-    /// Words that are not flags.
+    /// Positional arguments.
     pub names: Vec<String>,
 }
 
 impl Arguments {
-    /// Reads the words after the command.
+    /// Parses the arguments after the command.
     pub fn parse(words: &[String]) -> Result<Self> {
         let mut out = Self::default();
         let mut words = words.iter();
@@ -46,7 +46,7 @@ impl Arguments {
         Ok(out)
     }
 
-    /// The folders and the program.
+    /// The folders and the program of an edition.
     pub fn edition(&self) -> Result<Edition> {
         let book = self.book.clone().unwrap_or("book".into());
         let root = self.project.clone().unwrap_or(".".into());

@@ -1,4 +1,4 @@
-//! The catalogs of the book: templates, updates, faults, coverage.
+//! The book's translation catalogs: templates, updates, checks, coverage.
 
 use crate::arguments::Arguments;
 use crate::edition::Edition;
@@ -16,10 +16,10 @@ use polib::po_file;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The page whose catalog has the titles of the topics.
+/// The page whose catalog contains the topic titles.
 const TOPICS: &str = "topics";
 
-/// The name of the catalog of the titles of the pages.
+/// The name of the catalog with the page titles.
 const SUMMARY: &str = "SUMMARY";
 
 /// A page and its messages.
@@ -53,7 +53,7 @@ pub fn update(arguments: &Arguments) -> Result<()> {
     coverage(arguments)
 }
 
-/// Lists the faults of the catalogs; fails if there are any.
+/// Lists the errors in the catalogs; fails if there are any.
 pub fn check(arguments: &Arguments) -> Result<()> {
     let edition = arguments.edition()?;
     let mut faults = Vec::new();
@@ -72,12 +72,12 @@ pub fn check(arguments: &Arguments) -> Result<()> {
                 let mut found = Vec::new();
                 if !messages.iter().any(|known| known == msgid) && needs_translation(msgid) {
                     found.push(
-                        "the page has no such message; `update` brings the catalog up to date"
+                        "the page has no such message; run `update` to update the catalog"
                             .to_owned(),
                     );
                 } else if message.is_fuzzy() {
                     found.push(
-                        "it is marked as fuzzy: compare it with its source, then remove the mark"
+                        "it is marked fuzzy: compare it with the source, then remove the flag"
                             .into(),
                     );
                 } else if !msgstr.is_empty() {
@@ -93,7 +93,7 @@ pub fn check(arguments: &Arguments) -> Result<()> {
     if faults.is_empty() { Ok(()) } else { Err(anyhow!("{} faults", faults.len())) }
 }
 
-/// A translated page has the blocks and headings of its source.
+/// Checks that a translated page has the blocks and headings of its source.
 fn structure_fault(edition: &Edition, name: &str, catalog: &Catalog) -> Result<Option<String>> {
     let path = edition.source.join(format!("{name}.md"));
     if name == SUMMARY || !path.is_file() {
@@ -111,11 +111,11 @@ fn structure_fault(edition: &Edition, name: &str, catalog: &Catalog) -> Result<O
     };
     let (before, after) = (count(&text), count(&translated));
     Ok((before != after).then(|| {
-        format!("{name}.po: fenced blocks, captions and headings are {after:?} after translation, {before:?} before")
+        format!("{name}.po: the translation has {after:?} fenced blocks, captions and headings, the source {before:?}")
     }))
 }
 
-/// Prints how much of each page is translated.
+/// Prints the translated percentage of each page.
 pub fn coverage(arguments: &Arguments) -> Result<()> {
     let edition = arguments.edition()?;
     let mut all_complete = true;
@@ -141,7 +141,7 @@ pub fn coverage(arguments: &Arguments) -> Result<()> {
     if all_complete {
         Ok(())
     } else {
-        Err(anyhow!("less than {} % is translated", arguments.least.unwrap_or(0.0)))
+        Err(anyhow!("less than {}% is translated", arguments.least.unwrap_or(0.0)))
     }
 }
 
@@ -149,7 +149,7 @@ fn percent(part: usize, all: usize) -> f64 {
     if all == 0 { 100.0 } else { 100.0 * part as f64 / all as f64 }
 }
 
-/// The languages that have catalogs.
+/// Returns the languages that have catalogs.
 fn translations() -> impl Iterator<Item = Language> {
     Language::ALL.into_iter().filter(|language| *language != Language::English)
 }
@@ -166,7 +166,7 @@ fn selected(pages: Vec<Extracted>, names: &[String]) -> Result<Vec<Extracted>> {
     Ok(pages.into_iter().filter(is_selected).collect())
 }
 
-/// The messages of all pages.
+/// Returns the messages of all pages.
 fn extract(edition: &Edition) -> Result<Vec<Extracted>> {
     let pages = edition.pages()?;
     let titles = pages.iter().map(|(_, title)| title.clone()).collect();
@@ -192,7 +192,7 @@ fn extract(edition: &Edition) -> Result<Vec<Extracted>> {
 fn write(catalog: &Catalog, path: &Path) -> Result<()> {
     fs::create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
     po_file::write(catalog, path).map_err(|error| anyhow!("{}: {error}", path.display()))?;
-    // The writer of the library begins with an empty line.
+    // The library writes an empty line first.
     let text = fs::read_to_string(path)?;
     fs::write(path, format!("{}\n", text.trim()))?;
     println!("{}", path.display());

@@ -1,4 +1,4 @@
-//! Checks of what was built: links with anchors, sizes, ids, topics, figures in the repository.
+//! Checks the built book: links and anchors, sizes, ids, topics, figures in the repository.
 
 use crate::arguments::Arguments;
 use crate::edition::Edition;
@@ -17,13 +17,13 @@ use std::path::{Path, PathBuf};
 /// The largest page with its figures, in bytes.
 const PAGE_LIMIT: u64 = 400_000;
 
-/// The fault of a link to a file that is not there.
+/// The error for a link to a missing file.
 const NO_FILE: &str = "there is no such file";
 
-/// The page on which every misprint is named.
+/// The page that lists every misprint.
 const MISPRINTS: &str = "printed-wrong";
 
-/// Runs all checks and prints what was counted.
+/// Runs all checks and prints the counts.
 pub fn check(arguments: &Arguments) -> Result<()> {
     let edition = arguments.edition()?;
     let mut faults = source_faults(&edition)?;
@@ -32,10 +32,10 @@ pub fn check(arguments: &Arguments) -> Result<()> {
         faults.extend(edition_faults(&folder, &edition)?);
     }
     faults.iter().for_each(|fault| println!("{fault}"));
-    if faults.is_empty() { Ok(()) } else { Err(anyhow!("{} faults of the book", faults.len())) }
+    if faults.is_empty() { Ok(()) } else { Err(anyhow!("{} errors in the book", faults.len())) }
 }
 
-/// Faults of the pages as they are written.
+/// Finds errors in the page sources.
 fn source_faults(edition: &Edition) -> Result<Vec<String>> {
     let mut faults = Vec::new();
     let mut pages = Vec::new();
@@ -48,7 +48,7 @@ fn source_faults(edition: &Edition) -> Result<Vec<String>> {
         for fence in english.fences.iter().filter(|fence| fence.kind() == "formula") {
             let (id, here) = (fence.arguments(), format!("{name}.md:{}", fence.line));
             if let Some(other) = formulas.get(id).filter(|_| !id.is_empty()) {
-                faults.push(format!("{here}: formula {id} is also at {other}"));
+                faults.push(format!("{here}: formula {id} also appears at {other}"));
             }
             formulas.insert(id.to_owned(), here);
         }
@@ -72,7 +72,7 @@ fn source_faults(edition: &Edition) -> Result<Vec<String>> {
     Ok(faults)
 }
 
-/// Marks that a page loses when it is taken apart into messages and put together again.
+/// Finds marks that a page loses when it is split into messages and reassembled.
 fn round_trip_fault(text: &str) -> Option<String> {
     let again = match translate_page(text, &Catalog::new(CatalogMetadata::new())) {
         Ok(again) => again,
@@ -108,7 +108,7 @@ fn unnamed_misprints(topics: &Topics, pages: &[Page]) -> Vec<String> {
         .collect()
 }
 
-/// Pictures among the files of the repository.
+/// Finds pictures among the repository's files.
 fn committed_figures(edition: &Edition) -> Result<Vec<String>> {
     let mut git = std::process::Command::new("git");
     let output = git.current_dir(&edition.book).args(["ls-files", "."]).output();
@@ -122,11 +122,11 @@ fn committed_figures(edition: &Edition) -> Result<Vec<String>> {
     Ok(files
         .lines()
         .filter(is_picture)
-        .map(|name| format!("book/{name}: figures are drawn, not committed"))
+        .map(|name| format!("book/{name}: figures are generated, so do not commit them"))
         .collect())
 }
 
-/// Faults of the pages as they were built.
+/// Finds errors in the built pages.
 fn edition_faults(folder: &Path, edition: &Edition) -> Result<Vec<String>> {
     let mut faults = Vec::new();
     let mut pages: BTreeMap<PathBuf, String> = BTreeMap::new();
@@ -152,7 +152,7 @@ fn edition_faults(folder: &Path, edition: &Edition) -> Result<Vec<String>> {
         faults.extend(
             repeated_ids(html)
                 .iter()
-                .map(|id| format!("{}: the id `{id}` is there twice", path.display())),
+                .map(|id| format!("{}: the id `{id}` appears twice", path.display())),
         );
     }
     pages.insert(path, print);
@@ -160,7 +160,7 @@ fn edition_faults(folder: &Path, edition: &Edition) -> Result<Vec<String>> {
     for (path, html) in &pages {
         for link in attributes(html, &["href", "src"]) {
             links += 1;
-            // In a part of the book, links to its other pages lead nowhere.
+            // In a partial build, links to the other pages are broken.
             let is_left_out = edition.is_partial
                 && link.split('#').next().is_some_and(|file| file.ends_with(".html"));
             if let Some(fault) = link_fault(path, link, &pages, &mut cache)
@@ -179,7 +179,7 @@ fn edition_faults(folder: &Path, edition: &Edition) -> Result<Vec<String>> {
     Ok(faults)
 }
 
-/// The bytes of the figures of a page.
+/// Returns the total size of a page's figures in bytes.
 fn figure_bytes(path: &Path, html: &str) -> u64 {
     let figures: BTreeSet<&str> =
         attributes(html, &["src"]).filter(|src| src.starts_with("figures/")).collect();
@@ -192,7 +192,7 @@ fn repeated_ids(html: &str) -> Vec<&str> {
     attributes(html, &["id"]).filter(|id| !seen.insert(*id)).collect()
 }
 
-/// The values of attributes, outside of scripts.
+/// Returns the values of attributes outside scripts.
 fn attributes<'a>(html: &'a str, names: &'a [&str]) -> impl Iterator<Item = &'a str> {
     let parts = html.split("<script").enumerate().map(|(at, part)| {
         if at == 0 { part } else { part.split_once("</script>").map_or("", |(_, rest)| rest) }
@@ -209,7 +209,7 @@ fn attributes<'a>(html: &'a str, names: &'a [&str]) -> impl Iterator<Item = &'a 
     })
 }
 
-/// Why a link leads nowhere.
+/// Returns the reason why a link is broken.
 fn link_fault(
     page: &Path,
     link: &str,
@@ -227,7 +227,7 @@ fn link_fault(
     if !target.is_file() {
         return Some(NO_FILE);
     }
-    // The explorer reads its state behind the `#`.
+    // The explorer reads its state from the fragment.
     let anchor = anchor.filter(|_| !target.ends_with("explorer/index.html"))?;
     let html = pages.get(&target).or_else(|| {
         let read = cache.entry(target.clone()).or_insert_with(|| fs::read_to_string(&target).ok());
@@ -237,7 +237,7 @@ fn link_fault(
     (!is_there).then_some("there is no such anchor")
 }
 
-/// A path without `..`.
+/// Resolves `..` in a path.
 fn normal_path(path: &Path) -> PathBuf {
     let mut out = PathBuf::new();
     for part in path.components() {
@@ -255,14 +255,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn attributes_of_scripts_are_none() {
+    fn attributes_in_scripts_are_ignored() {
         let html = "<a href=\"a\" data-href=\"b\"><script src=\"x\">let a = '<a href=\"c\">';</script><img src=\"d\">";
         assert_eq!(attributes(html, &["href", "src"]).collect::<Vec<_>>(), ["a", "d"]);
         assert_eq!(repeated_ids("<p id=\"a\"><p id=\"b\"><p id=\"a\">"), ["a"]);
     }
 
     #[test]
-    fn links_lead_to_files_and_anchors() {
+    fn broken_links_are_found() {
         let folder = std::env::temp_dir().join("mdbook-alberti-links");
         fs::create_dir_all(&folder).unwrap();
         let page = folder.join("a.html");

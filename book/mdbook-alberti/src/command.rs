@@ -1,4 +1,4 @@
-//! Commands of the pages: the program run once each, with a time limit, its answers in a cache.
+//! The commands in the pages: each runs once, with a time limit, and its output is cached.
 
 use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
@@ -9,13 +9,13 @@ use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-/// The longest time a command may take.
+/// The time limit of a command.
 const LIMIT: Duration = Duration::from_secs(60);
 
-/// Commands that run at the same time.
+/// The number of commands that run at the same time.
 const THREADS: usize = 2;
 
-/// The deepest chain of files that name files: a scene, its model, the model's images.
+/// The maximum depth of references between files: a scene, its model, the model's images.
 const DEPTH: usize = 3;
 
 /// The kind of a command's output.
@@ -25,7 +25,7 @@ pub enum Kind {
     Svg,
     /// A picture.
     Png,
-    /// Text in English, or in the same words for all languages.
+    /// Text in English, or text that is the same in all languages.
     Text,
     /// Text in Chinese.
     ChineseText,
@@ -45,7 +45,7 @@ impl Kind {
     }
 }
 
-/// A command of a page.
+/// A command in a page.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct Job {
     /// The words after `alberti`.
@@ -55,16 +55,16 @@ pub struct Job {
 }
 
 impl Job {
-    /// Reads a command line; a backslash continues it on the next line.
+    /// Parses a command line; a backslash at the end continues it on the next line.
     pub fn parse(line: &str, kind: Kind) -> Result<Self, String> {
         let line = line.trim().replace("\\\n", " ");
         if line.contains('\n') {
-            return Err("a block is one command; `\\` at the end continues a line".into());
+            return Err("a block must contain one command; `\\` at the end continues a line".into());
         }
-        let words = shlex::split(&line).ok_or("a quotation mark is not closed")?;
+        let words = shlex::split(&line).ok_or("unclosed quotation mark")?;
         match words.split_first() {
             Some((first, words)) if first == "alberti" => Ok(Self { words: words.to_vec(), kind }),
-            _ => Err("a command begins with `alberti`".into()),
+            _ => Err("a command must begin with `alberti`".into()),
         }
     }
 }
@@ -73,14 +73,14 @@ impl Job {
 pub struct Runner {
     program: PathBuf,
     program_hash: String,
-    /// The folder in which commands run.
+    /// The working directory of the commands.
     root: PathBuf,
-    /// The folder of the cache.
+    /// The cache folder.
     cache: PathBuf,
 }
 
 impl Runner {
-    /// Commands of `program`, run in `root`.
+    /// Creates a runner of `program` in the folder `root`.
     pub fn new(program: &Path, root: &Path, cache: &Path) -> Result<Self, String> {
         let error = |path: &Path, error: std::io::Error| format!("{}: {error}", path.display());
         let program = program.canonicalize().map_err(|found| error(program, found))?;
@@ -90,7 +90,8 @@ impl Runner {
         Ok(Self { program_hash: hash(&bytes), program, root: root.to_owned(), cache })
     }
 
-    /// Runs what the cache does not hold. Every job has its answer: a file, or what went wrong.
+    /// Runs the commands that are not in the cache. The result for each job is a file or an error
+    /// message.
     pub fn run_all(&self, jobs: &[Job]) -> Vec<Result<PathBuf, String>> {
         let next = Mutex::new(0);
         let answers: Mutex<Vec<Result<PathBuf, String>>> =
@@ -116,7 +117,8 @@ impl Runner {
         if path.is_file() {
             return Ok(path);
         }
-        // Written beside its place, so that a killed build leaves no half file.
+        // The output is renamed when it is complete, so an interrupted build leaves no partial
+        // file.
         let partial = self.cache.join(format!("partial-{name}"));
         let mut command = Command::new(&self.program);
         let locale = if job.kind == Kind::ChineseText { "zh_CN.UTF-8" } else { "C" };
@@ -129,11 +131,11 @@ impl Runner {
             fs::write(&partial, text).map_err(|error| format!("{}: {error}", partial.display()))?;
         }
         fs::rename(&partial, &path)
-            .map_err(|_| "the command has written no file with the name of `-o`".to_owned())?;
+            .map_err(|_| "the command did not write the file specified with `-o`".to_owned())?;
         Ok(path)
     }
 
-    /// Everything that a command's answer depends on.
+    /// Computes a hash of everything on which a command's output depends.
     fn key(&self, job: &Job) -> String {
         let mut all = format!("{}\n{:?}\n{:?}\n", self.program_hash, job.kind, job.words);
         let mut files = BTreeSet::new();
@@ -154,7 +156,7 @@ fn take_next(next: &Mutex<usize>, count: usize) -> Option<usize> {
     (at < count).then_some(at)
 }
 
-/// A file, and the files that it names between quotation marks.
+/// Collects a file and the files that it names in quotation marks.
 fn collect_inputs(path: &Path, depth: usize, found: &mut BTreeSet<PathBuf>) {
     if !path.is_file() || !found.insert(path.to_owned()) || depth == 0 {
         return;
@@ -167,12 +169,12 @@ fn collect_inputs(path: &Path, depth: usize, found: &mut BTreeSet<PathBuf>) {
     }
 }
 
-/// SHA-256 in hexadecimal.
+/// Computes a SHA-256 hash in hexadecimal.
 pub fn hash(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Runs a command to its end, or to the limit of time, and gives what it printed.
+/// Runs a command until it exits or reaches the time limit, and returns its output.
 fn run_limited(command: &mut Command) -> Result<Vec<u8>, String> {
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().map_err(|error| error.to_string())?;
@@ -186,10 +188,10 @@ fn run_limited(command: &mut Command) -> Result<Vec<u8>, String> {
             break status;
         }
         if start.elapsed() > LIMIT {
-            // It may have ended by itself in between.
+            // It may have exited in the meantime.
             let _ = child.kill();
             let _ = child.wait();
-            return Err(format!("it took more than {} s", LIMIT.as_secs()));
+            return Err(format!("the command took more than {} s", LIMIT.as_secs()));
         }
         std::thread::sleep(Duration::from_millis(5));
     };
@@ -198,13 +200,13 @@ fn run_limited(command: &mut Command) -> Result<Vec<u8>, String> {
     if status.success() {
         return Ok(out);
     }
-    Err(format!("it failed ({status})\n{}", String::from_utf8_lossy(&error).trim_end()))
+    Err(format!("the command failed ({status})\n{}", String::from_utf8_lossy(&error).trim_end()))
 }
 
 fn read_all(mut stream: Box<dyn std::io::Read + Send>) -> std::thread::JoinHandle<Vec<u8>> {
     std::thread::spawn(move || {
         let mut bytes = Vec::new();
-        // What could be read until then is shown.
+        // The output read so far is shown.
         let _ = stream.read_to_end(&mut bytes);
         bytes
     })
@@ -215,7 +217,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_command_is_one_line_of_the_program() {
+    fn only_single_alberti_commands_are_accepted() {
         let job = Job::parse("alberti render a.ron \\\n  --label 'a b'\n", Kind::Svg).unwrap();
         assert_eq!(job.words, ["render", "a.ron", "--label", "a b"]);
         for line in ["rm -r x", "alberti info a\nalberti info b", "alberti 'x", ""] {
@@ -224,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn files_named_by_files_are_inputs() {
+    fn referenced_files_are_inputs() {
         let folder = std::env::temp_dir().join("mdbook-alberti-inputs");
         fs::create_dir_all(&folder).unwrap();
         fs::write(folder.join("a.ron"), "(model: \"b.gltf\", other: \"none\")").unwrap();

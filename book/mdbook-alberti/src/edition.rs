@@ -15,24 +15,24 @@ use std::sync::{Arc, Mutex};
 
 /// An edition: its sources, its language and its output.
 pub struct Edition {
-    /// The folder of `book.toml`.
+    /// The folder that contains `book.toml`.
     pub book: PathBuf,
-    /// The folder of the pages.
+    /// The folder that contains the pages.
     pub source: PathBuf,
-    /// The folder of the catalogs.
+    /// The folder that contains the catalogs.
     pub catalogs: PathBuf,
-    /// The folder in which the commands of the pages run.
+    /// The working directory of the commands in the pages.
     pub root: PathBuf,
-    /// The program.
+    /// The path of the program.
     pub program: PathBuf,
-    /// The folder that gets `en`, `zh` and the cache of figures.
+    /// The output folder for `en`, `zh` and the figure cache.
     pub out: PathBuf,
-    /// Whether pages of the table of contents may be missing.
+    /// Whether pages in the table of contents may be missing.
     pub is_partial: bool,
 }
 
 impl Edition {
-    /// The table of contents, without the pages that are missing if they may be.
+    /// Reads the table of contents, without missing pages if these are allowed.
     pub fn summary(&self) -> Result<Summary> {
         let own = self.source.join("SUMMARY.md");
         let path = if own.is_file() { own } else { self.book.join("src/SUMMARY.md") };
@@ -47,7 +47,7 @@ impl Edition {
         Ok(summary)
     }
 
-    /// Names and titles of the pages, in order.
+    /// Returns the names and titles of the pages, in order.
     pub fn pages(&self) -> Result<Vec<(String, String)>> {
         let summary = self.summary()?;
         let items =
@@ -74,7 +74,7 @@ impl Edition {
         let config = self.config(language, &out)?;
         let mut book = MDBook::load_with_config_and_summary(&self.book, config, self.summary()?)?;
         let figures: Arc<Mutex<BTreeSet<PathBuf>>> = Arc::default();
-        // In the place of the command of the same name.
+        // Replaces the command of the same name.
         book.with_preprocessor(Alberti {
             program: self.program.clone(),
             root: self.root.clone(),
@@ -86,7 +86,7 @@ impl Edition {
         book.build()?;
         let figures: Vec<PathBuf> = match figures.lock() {
             Ok(figures) => figures.iter().cloned().collect(),
-            Err(_) => return Err(anyhow!("a thread has stopped")),
+            Err(_) => return Err(anyhow!("a thread panicked")),
         };
         copy_figures(&figures, &out.join("figures")).map_err(|error| anyhow!(error))?;
         print_page::add_contents(&out, language)
@@ -106,7 +106,7 @@ impl Edition {
     }
 }
 
-/// The absolute path of a folder, which is created if it is missing.
+/// Returns the absolute path of a folder, which is created if it is missing.
 fn absolute(folder: &Path) -> Result<PathBuf> {
     fs::create_dir_all(folder)?;
     folder.canonicalize().with_context(|| folder.display().to_string())

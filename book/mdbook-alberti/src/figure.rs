@@ -1,4 +1,4 @@
-//! Figures: what a block says about one, and its element in the page.
+//! Figures: the attributes of a block, and the element in the page.
 
 use crate::command::{Job, Kind, hash};
 use crate::language::Language;
@@ -6,39 +6,43 @@ use crate::marks::Fence;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The widest figure in pixels of CSS: the column of text.
+/// The maximum width of a figure in CSS pixels, which is the width of the text column.
 const WIDEST: f64 = 640.0;
 
 /// The attributes of a block ```` ```alberti ````.
 #[derive(PartialEq, Eq, Debug)]
 pub struct FigureMark {
-    /// The command that draws it.
+    /// The command that draws the figure.
     pub job: Job,
-    /// The query of the explorer's page that shows the same state.
+    /// The query string with which the explorer shows the same state.
     pub explore: Option<String>,
 }
 
 impl FigureMark {
-    /// Reads a block.
+    /// Parses a block.
     pub fn parse(fence: &Fence) -> Result<Self, String> {
         let (mut kind, mut explore) = (Kind::Svg, None);
-        let words = shlex::split(fence.arguments()).ok_or("a quotation mark is not closed")?;
+        let words = shlex::split(fence.arguments()).ok_or("unclosed quotation mark")?;
         for word in words {
             match word.split_once('=') {
                 Some(("format", "svg")) => kind = Kind::Svg,
                 Some(("format", "png")) => kind = Kind::Png,
                 Some(("explore", query)) => explore = Some(query.to_owned()),
-                _ => return Err(format!("unknown attribute `{word}`: format=png, explore=\"…\"")),
+                _ => {
+                    return Err(format!(
+                        "unknown attribute `{word}`; expected format=png or explore=\"…\""
+                    ));
+                }
             }
         }
         if fence.caption.as_ref().is_none_or(|caption| caption.text.trim().is_empty()) {
             return Err(
-                "the paragraph right after a figure is its caption, all of it *emphasized*".into(),
+                "the paragraph after a figure must be its caption, *emphasized* as a whole".into(),
             );
         }
         let job = Job::parse(&fence.body, kind)?;
         if job.words.iter().any(|word| word == "-o" || word == "--output") {
-            return Err("the output file of a figure is not written in its command".into());
+            return Err("the command of a figure must not specify an output file".into());
         }
         Ok(Self { job, explore })
     }
@@ -46,24 +50,24 @@ impl FigureMark {
 
 /// A figure that has been drawn.
 pub struct Figure<'a> {
-    /// The file in the cache.
+    /// The file name in the cache.
     pub path: &'a Path,
     /// The caption as HTML.
     pub caption: &'a str,
     /// The caption without markup.
     pub alt: &'a str,
-    /// The query of the explorer, if its page is beside the book.
+    /// The query string for the explorer, if its page is published with the book.
     pub explore: Option<&'a str>,
     /// The language of the page.
     pub language: Language,
 }
 
 impl Figure<'_> {
-    /// The element: a single line of HTML.
+    /// Writes the element as a single line of HTML.
     pub fn to_html(&self) -> Result<String, String> {
         let bytes =
             fs::read(self.path).map_err(|error| format!("{}: {error}", self.path.display()))?;
-        let (width, height) = size(&bytes).ok_or("the size of the figure cannot be read")?;
+        let (width, height) = size(&bytes).ok_or("cannot read the size of the figure")?;
         let factor = (WIDEST / width).min(1.0);
         let (width, height) = ((width * factor).round(), (height * factor).round());
         let name = self.path.file_name().unwrap_or_default().to_string_lossy();
@@ -87,7 +91,7 @@ pub fn escape_attribute(text: &str) -> String {
     text.replace('&', "&amp;").replace('"', "&quot;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-/// Width and height in pixels of CSS.
+/// Returns the width and height in CSS pixels.
 fn size(bytes: &[u8]) -> Option<(f64, f64)> {
     if bytes.starts_with(b"\x89PNG") {
         let number = |at: usize| {
@@ -111,7 +115,7 @@ fn size(bytes: &[u8]) -> Option<(f64, f64)> {
     Some((length("width")?, length("height")?))
 }
 
-/// Copies the figures of a page beside it.
+/// Copies the figures of a page to the folder next to it.
 pub fn copy_figures(paths: &[PathBuf], folder: &Path) -> Result<(), String> {
     fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     for path in paths {
@@ -127,7 +131,7 @@ mod tests {
     use crate::marks::Marks;
 
     #[test]
-    fn attributes_and_captions_are_read() {
+    fn attributes_and_captions_are_parsed() {
         let text = "```alberti format=png explore=\"lesson=near-far&n=2\"\nalberti render a.ron\n```\n\n*A.*\n";
         let mark = FigureMark::parse(&Marks::read(text).fences[0]).unwrap();
         assert_eq!(mark.job.kind, Kind::Png);
@@ -143,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn sizes_are_in_pixels() {
+    fn sizes_are_converted_to_css_pixels() {
         assert_eq!(size(b"<svg xmlns=\"x\" width=\"25.4mm\" height=\"12\">"), Some((96.0, 12.0)));
         let png = [b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR".as_slice(), &[0, 0, 2, 0, 0, 0, 1, 0]].concat();
         assert_eq!(size(&png), Some((512.0, 256.0)));

@@ -1,23 +1,23 @@
-//! Formulas: LaTeX to MathML, when the book is built.
+//! Converts formulas from LaTeX to MathML when the book is built.
 
 use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
 
-/// Converts formulas.
+/// A converter for formulas.
 pub struct Formulas(LatexToMathML);
 
 impl Formulas {
-    /// A converter without macros.
+    /// Creates a converter without macros.
     pub fn new() -> Result<Self, String> {
         let converter = LatexToMathML::new(MathCoreConfig::default());
         converter.map(Self).map_err(|error| format!("{error:?}"))
     }
 
-    /// A formula in a line of text, with what Markdown would read escaped.
+    /// Converts an inline formula, and escapes characters that have a meaning in Markdown.
     pub fn inline(&self, latex: &str) -> Result<String, String> {
         Ok(escape_markdown(&self.convert(latex, MathDisplay::Inline)?))
     }
 
-    /// A formula on lines of its own: an element of HTML in a single line.
+    /// Converts a display formula to an HTML element on a single line.
     pub fn block(&self, latex: &str, id: Option<&str>) -> Result<String, String> {
         let math = self.convert(&without_comments(latex), MathDisplay::Block)?;
         Ok(match id {
@@ -36,7 +36,7 @@ impl Formulas {
     }
 }
 
-/// LaTeX without its comments, which say how a formula is checked.
+/// Removes LaTeX comments, which specify how a formula is checked.
 fn without_comments(latex: &str) -> String {
     let line = |line: &str| {
         let comment = line.match_indices('%').find(|(at, _)| !line[..*at].ends_with('\\'));
@@ -45,7 +45,7 @@ fn without_comments(latex: &str) -> String {
     latex.lines().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Replaces what Markdown would read in the text between tags.
+/// Escapes characters in the text between tags that have a meaning in Markdown.
 fn escape_markdown(html: &str) -> String {
     let mut out = String::new();
     let mut in_tag = false;
@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn matrices_fractions_and_functions_are_mathml() {
+    fn matrices_fractions_and_functions_become_mathml() {
         let formulas = Formulas::new().unwrap();
         let html = formulas
             .block("P = \\begin{bmatrix} n & 0 \\\\ 0 & \\frac{1}{n'} \\end{bmatrix}\n% check n=1 : PE-1", Some("PE-1"))
@@ -83,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_of_an_inline_formula_is_markdown() {
+    fn markdown_is_escaped_in_inline_formulas() {
         let html = Formulas::new().unwrap().inline("a * b_{|c|} [d]").unwrap();
         let text: String =
             html.split('<').filter_map(|part| part.split_once('>')).map(|(_, text)| text).collect();

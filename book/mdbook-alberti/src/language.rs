@@ -1,43 +1,44 @@
-//! The languages of the book, and the few words that the tool itself writes.
+//! The languages of the book, and the labels that the tool adds to pages.
 
 /// A language of the book.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Language {
-    /// The source.
+    /// English, the source language.
     English,
-    /// 中文, simplified characters.
+    /// Chinese in simplified characters.
     Chinese,
 }
 
-/// Words of the tool in one language.
+/// The tool's labels in one language.
 pub struct Texts {
-    /// Link below a figure.
+    /// The link below a figure.
     pub explore: &'static str,
-    /// Link to this language from the others.
+    /// The link to this language in the other editions.
     pub name: &'static str,
-    /// Heading of the table of contents of the printed book.
+    /// The heading above the table of contents of the printed book.
     pub contents: &'static str,
-    /// Columns of the table of topics.
+    /// The column headings of the topic table.
     pub topics: [&'static str; 3],
-    /// Between a page and its section.
+    /// The separator between a page and its section.
     pub colon: &'static str,
-    /// The word for a topic in the tooltip of its mark.
+    /// The word for a topic, used in the tooltip of its mark.
     pub topic: &'static str,
-    /// The label of the links to other languages.
+    /// The label of the links to other editions.
     pub languages: &'static str,
 }
 
 impl Language {
-    /// All of them.
+    /// All languages.
     pub const ALL: [Self; 2] = [Self::English, Self::Chinese];
 
-    /// The language of a code: `en`, `zh`.
+    /// Returns the language with a code: `en` or `zh`.
     pub fn parse(code: &str) -> Result<Self, String> {
         let mut all = Self::ALL.into_iter();
-        all.find(|language| language.code() == code).ok_or(format!("no language `{code}`: en, zh"))
+        all.find(|language| language.code() == code)
+            .ok_or(format!("unknown language `{code}`; expected en or zh"))
     }
 
-    /// Its code, in paths and attributes.
+    /// The language code, for paths and attributes.
     pub fn code(self) -> &'static str {
         match self {
             Self::English => "en",
@@ -45,7 +46,7 @@ impl Language {
         }
     }
 
-    /// The words that the tool writes in it.
+    /// The tool's labels in this language.
     pub fn texts(self) -> Texts {
         match self {
             Self::English => Texts {

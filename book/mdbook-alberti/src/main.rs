@@ -1,4 +1,4 @@
-//! Builds the book: a preprocessor of mdBook, and the driver that `cargo xtask book` runs.
+//! Builds the book: a preprocessor for mdBook, and the commands that `cargo xtask book` runs.
 //!
 //! ```text
 //! mdbook-alberti                         the preprocessor: a book on stdin, a book on stdout
@@ -63,11 +63,13 @@ fn run() -> Result<()> {
         Some("check-po") => catalogs::check(&Arguments::parse(&words[1..])?),
         Some("coverage") => catalogs::coverage(&Arguments::parse(&words[1..])?),
         Some("check") => checks::check(&Arguments::parse(&words[1..])?),
-        Some(other) => bail!("no command `{other}`: build, pot, update, check-po, coverage, check"),
+        Some(other) => bail!(
+            "unknown command `{other}`; expected build, pot, update, check-po, coverage or check"
+        ),
     }
 }
 
-/// The protocol of mdBook.
+/// Implements mdBook's preprocessor protocol.
 fn preprocess() -> Result<()> {
     let (context, book) = parse_input(std::io::stdin())?;
     let alberti = Alberti::by_place(&context);
@@ -80,7 +82,7 @@ fn preprocess() -> Result<()> {
 fn build(arguments: &Arguments) -> Result<()> {
     let edition = arguments.edition()?;
     if edition.program.as_os_str().is_empty() {
-        return Err(anyhow!("--program FILE: the program that draws the figures"));
+        return Err(anyhow!("--program FILE is required: the program that draws the figures"));
     }
     let languages = match &arguments.language {
         Some(code) => vec![Language::parse(code).map_err(|error| anyhow!(error))?],

@@ -1,82 +1,82 @@
-//! The marks of a page: fenced blocks, code spans and headings, with their places in the text.
+//! The marks of a page: fenced blocks, code spans and headings, with their positions in the text.
 
 use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
 use std::ops::Range;
 
-/// A fenced block of code, and the paragraph right after it if all of it is emphasized.
+/// A fenced code block, and the paragraph after it if this is emphasized as a whole.
 #[derive(Debug)]
 pub struct Fence {
-    /// Its place in the text.
+    /// The position in the text.
     pub range: Range<usize>,
-    /// Line of its opening, from 1.
+    /// The line number of the opening fence, counted from 1.
     pub line: usize,
-    /// The words behind the opening fence.
+    /// The info string after the opening fence.
     pub info: String,
-    /// The lines between the fences.
+    /// The text between the fences.
     pub body: String,
-    /// The emphasized paragraph after it.
+    /// The emphasized paragraph after the block.
     pub caption: Option<Caption>,
 }
 
 impl Fence {
-    /// The first word after the fence.
+    /// Returns the first word of the info string.
     pub fn kind(&self) -> &str {
         self.info.split([' ', ',']).next().unwrap_or_default()
     }
 
-    /// The words behind the first one.
+    /// Returns the info string without its first word.
     pub fn arguments(&self) -> &str {
         self.info[self.kind().len()..].trim()
     }
 }
 
-/// An emphasized paragraph.
+/// A paragraph that is emphasized as a whole.
 #[derive(Debug)]
 pub struct Caption {
-    /// The whole paragraph.
+    /// The position of the paragraph in the text.
     pub range: Range<usize>,
-    /// Its Markdown without the emphasis.
+    /// The Markdown without the emphasis.
     pub text: String,
 }
 
 /// A code span.
 #[derive(Debug)]
 pub struct CodeSpan {
-    /// Its place in the text, with the backquotes.
+    /// The position in the text, including the backticks.
     pub range: Range<usize>,
-    /// Its line, from 1.
+    /// The line number, counted from 1.
     pub line: usize,
-    /// The text between the backquotes.
+    /// The text between the backticks.
     pub code: String,
-    /// Number of the headings before or around it.
+    /// The number of headings that begin before it.
     pub section: usize,
 }
 
 /// A heading.
 #[derive(Debug)]
 pub struct Heading {
-    /// Its place in the text.
+    /// The position in the text.
     pub range: Range<usize>,
-    /// 1 for the title of the page.
+    /// The level: 1 for the page title.
     pub level: usize,
-    /// Its text without markup and topics.
+    /// The text without markup and topics.
     pub text: String,
-    /// Whether the source gives it an id.
+    /// Whether the source specifies an id.
     pub id: Option<String>,
 }
 
 /// All marks of a page.
 #[derive(Default, Debug)]
 pub struct Marks {
-    /// Fenced blocks, in order.
+    /// The fenced blocks, in order.
     pub fences: Vec<Fence>,
-    /// Code spans, in order.
+    /// The code spans, in order.
     pub spans: Vec<CodeSpan>,
-    /// Headings, in order.
+    /// The headings, in order.
     pub headings: Vec<Heading>,
 }
 
-/// Whether a code span is the id of a topic: `C14`, `M12`, `M11b`.
+/// Returns whether a code span is a topic id, such as `C14`, `M12` or `M11b`.
 pub fn is_topic(code: &str) -> bool {
     let Some((letter, number)) = code.split_at_checked(1) else { return false };
     let digits = number.trim_end_matches(['b', 'c']);
@@ -91,13 +91,13 @@ pub fn is_topic(code: &str) -> bool {
     }
 }
 
-/// The LaTeX of a code span that begins and ends with a dollar.
+/// Returns the LaTeX in a code span that begins and ends with a dollar sign.
 pub fn inline_formula(code: &str) -> Option<&str> {
     let inner = code.strip_prefix('$')?.strip_suffix('$')?;
     (!inner.is_empty()).then_some(inner)
 }
 
-/// The parser with the extensions that mdBook has; typographic quotes are off in both.
+/// Creates a parser with the extensions that mdBook uses; smart punctuation is off in both.
 pub fn parse(text: &str) -> Parser<'_> {
     let options = Options::ENABLE_TABLES
         | Options::ENABLE_FOOTNOTES
@@ -109,7 +109,7 @@ pub fn parse(text: &str) -> Parser<'_> {
 }
 
 impl Marks {
-    /// Finds the marks of a text.
+    /// Finds the marks in a text.
     pub fn read(text: &str) -> Self {
         let events: Vec<(Event<'_>, Range<usize>)> = parse(text).into_offset_iter().collect();
         let lines = LineNumbers::of(text);
@@ -151,7 +151,8 @@ impl Marks {
         marks
     }
 
-    /// The ids of the headings: what the source says, or the text as mdBook makes an id of it.
+    /// Returns the ids of the headings: those in the source, or else those that mdBook derives from
+    /// the text.
     pub fn heading_ids(&self) -> Vec<String> {
         let mut used: Vec<String> = Vec::new();
         for heading in &self.headings {
@@ -168,7 +169,7 @@ impl Marks {
     }
 }
 
-/// The id of a heading by its text.
+/// Derives the id of a heading from its text.
 fn slug(text: &str) -> String {
     let letters = text.trim().to_lowercase();
     let kept = letters.chars().filter_map(|letter| match letter {
@@ -202,7 +203,7 @@ fn read_fence(
     }
 }
 
-/// The paragraph at the front, if all of it is emphasized.
+/// Returns the first paragraph if it is emphasized as a whole.
 fn read_caption(text: &str, events: &[(Event<'_>, Range<usize>)]) -> Option<Caption> {
     let [(Event::Start(Tag::Paragraph), paragraph), (Event::Start(Tag::Emphasis), emphasis), ..] =
         events
@@ -215,7 +216,7 @@ fn read_caption(text: &str, events: &[(Event<'_>, Range<usize>)]) -> Option<Capt
     is_all.then(|| Caption { range: paragraph.clone(), text: inner.to_owned() })
 }
 
-/// Lines by offset.
+/// Maps byte offsets to line numbers.
 struct LineNumbers(Vec<usize>);
 
 impl LineNumbers {
@@ -233,7 +234,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn topics_are_those_of_the_lists() {
+    fn topic_ids_are_recognized() {
         for id in ["C1", "C104", "M1", "M28", "M11b", "M14c"] {
             assert!(is_topic(id), "{id}");
         }
@@ -243,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn blocks_captions_and_headings_are_found_with_their_lines() {
+    fn blocks_captions_and_headings_have_line_numbers() {
         let text = "# Title `C4`\n\n```alberti format=png\nalberti render\n```\n\n*A *b* `$x$`.*\n\n## A `$z$` b\n\n\
             ```text\nx\n```\n\n*half* of it\n";
         let marks = Marks::read(text);
@@ -259,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn equal_headings_get_numbers() {
+    fn repeated_headings_get_numbered_ids() {
         assert_eq!(Marks::read("# A\n\n## B\n\n## B\n").heading_ids(), ["a", "b", "b-1"]);
     }
 }

@@ -11,48 +11,48 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::PathBuf;
 
-/// Answers of the commands of all pages.
+/// The outputs of the commands in all pages.
 pub type Answers = BTreeMap<Job, Result<PathBuf, String>>;
 
 /// A page in a language.
 pub struct Page {
-    /// The file's name without `.md`.
+    /// The file name without `.md`.
     pub name: String,
     /// The title in the table of contents.
     pub title: String,
     /// The marks of the English source.
     pub english: Marks,
-    /// The text in the language of the edition.
+    /// The text in the edition's language.
     pub text: String,
-    /// Its marks.
+    /// The marks of that text.
     pub marks: Marks,
 }
 
 /// Data that all pages share.
 pub struct Renderer<'a> {
-    /// The language of the edition.
+    /// The edition's language.
     pub language: Language,
     /// The converter of formulas.
     pub formulas: &'a Formulas,
     /// The outputs of the commands.
     pub answers: &'a Answers,
-    /// The topics of all pages.
+    /// The topics marked on all pages.
     pub topics: &'a Topics,
-    /// The table of topics as Markdown.
+    /// The topic table as Markdown.
     pub topics_table: &'a str,
-    /// Whether the explorer's page is beside the book.
+    /// Whether the explorer's page is published with the book.
     pub has_explorer: bool,
 }
 
-/// A replacement of a part of a text.
+/// The replacement of part of a text.
 type Edit = (Range<usize>, String);
 
-/// The command of a block, if it has one.
+/// Returns the command of a block, if any.
 pub fn block_job(fence: &Fence, language: Language) -> Option<Result<Job, String>> {
     match fence.kind() {
         "alberti" => Some(FigureMark::parse(fence).map(|mark| mark.job)),
         "explain" => Some(Job::parse(&fence.body, Kind::Text).map(|job| {
-            // The other commands speak one language.
+            // The output of other commands does not depend on the language.
             let is_bilingual = job.words.first().is_some_and(|word| word == "exercise");
             let is_chinese = is_bilingual && language == Language::Chinese;
             Job { kind: if is_chinese { Kind::ChineseText } else { Kind::Text }, ..job }
@@ -62,13 +62,14 @@ pub fn block_job(fence: &Fence, language: Language) -> Option<Result<Job, String
 }
 
 impl Renderer<'_> {
-    /// The Markdown of a page for mdBook, or all faults with their lines of the English source.
+    /// Renders a page to Markdown for mdBook, or returns all errors with line numbers in the
+    /// English source.
     pub fn render(&self, page: &Page) -> Result<String, Vec<String>> {
         let mut faults = Vec::new();
         let mut edits = Vec::new();
         self.edit_headings(page, &mut edits, &mut faults);
         if page.marks.fences.len() != page.english.fences.len() {
-            faults.push(format!("{}.md: the translation has other fenced blocks", page.name));
+            faults.push(format!("{}.md: the translation has different fenced blocks", page.name));
         }
         let mut done: Vec<Range<usize>> = Vec::new();
         for (fence, source) in page.marks.fences.iter().zip(&page.english.fences) {
@@ -101,16 +102,16 @@ impl Renderer<'_> {
         }
     }
 
-    /// The line of a code span in the English source; in a translation, that of its own text.
+    /// Returns the line of a code span in the English source.
     fn line(&self, page: &Page, span: &CodeSpan) -> String {
         let mut same = page.english.spans.iter().filter(|other| other.code == span.code);
         same.next().map_or("in the translation".into(), |other| other.line.to_string())
     }
 
-    /// Headings keep the ids of the English ones, so that links lead to them in every language.
+    /// Gives headings the ids of the English headings, so that links work in every language.
     fn edit_headings(&self, page: &Page, edits: &mut Vec<Edit>, faults: &mut Vec<String>) {
         if page.marks.headings.len() != page.english.headings.len() {
-            faults.push(format!("{}.md: the translation has other headings", page.name));
+            faults.push(format!("{}.md: the translation has different headings", page.name));
         }
         let ids = page.english.heading_ids();
         for (heading, id) in page.marks.headings.iter().zip(ids) {
@@ -121,7 +122,7 @@ impl Renderer<'_> {
         }
     }
 
-    /// A fenced block as a line of HTML, or nothing if it is not a mark.
+    /// Renders a fenced block as a line of HTML; `None` if it is not a mark.
     fn block(&self, fence: &Fence) -> Result<Option<String>, String> {
         match fence.kind() {
             "alberti" => self.figure(fence).map(Some),
@@ -149,7 +150,7 @@ impl Renderer<'_> {
         figure.to_html()
     }
 
-    /// A command and what it prints.
+    /// Renders a command and its output.
     fn numbers(&self, fence: &Fence) -> Result<String, String> {
         let job = block_job(fence, self.language).ok_or("no command")??;
         let path = self.answer(&job)?;
@@ -160,7 +161,8 @@ impl Renderer<'_> {
             "<span class=\"command\">$ {command}</span>\n{}",
             escape_attribute(text.trim_end())
         );
-        // Lines as references, so that the block is one line of Markdown, in a list as well.
+        // Line breaks are written as character references, so the block stays one line of Markdown,
+        // even in a list.
         let shown = shown.replace('\n', "&#10;");
         Ok(format!(
             "<pre class=\"explain\"><code class=\"language-text nohighlight\">{shown}</code></pre>"
@@ -171,11 +173,11 @@ impl Renderer<'_> {
         match self.answers.get(job) {
             Some(Ok(path)) => Ok(path.clone()),
             Some(Err(fault)) => Err(format!("`alberti {}`: {fault}", job.words.join(" "))),
-            None => Err("the command was not run".into()),
+            None => Err("the command did not run".into()),
         }
     }
 
-    /// A code span that is a mark. The first of a topic on a page is its anchor.
+    /// Renders a code span that is a mark. The first mark of a topic on a page is its anchor.
     fn span(&self, code: &str, seen: &mut BTreeSet<String>) -> Result<Option<String>, String> {
         if let Some(latex) = inline_formula(code) {
             return self.formulas.inline(latex).map(Some);
@@ -192,11 +194,11 @@ impl Renderer<'_> {
         )))
     }
 
-    /// Markdown of a line as HTML, with its marks.
+    /// Renders a line of Markdown, including marks, as HTML.
     fn inline_html(&self, markdown: &str) -> Result<String, String> {
         let mut edits = Vec::new();
         for span in Marks::read(markdown).spans {
-            // An anchor belongs to the text, not to a caption.
+            // Anchors are placed in the text, not in captions.
             let mut seen = BTreeSet::from([span.code.clone()]);
             edits.extend(self.span(&span.code, &mut seen)?.map(|html| (span.range, html)));
         }
@@ -207,7 +209,7 @@ impl Renderer<'_> {
         Ok(out.strip_prefix("<p>").and_then(|it| it.strip_suffix("</p>")).unwrap_or(out).to_owned())
     }
 
-    /// The links to the same page in the other languages.
+    /// Renders the links to the same page in the other languages.
     fn editions(&self, page: &str) -> String {
         let others = Language::ALL.into_iter().filter(|language| *language != self.language);
         let links: String = others
@@ -221,7 +223,7 @@ impl Renderer<'_> {
     }
 }
 
-/// A text with its parts replaced.
+/// Applies replacements to a text.
 fn apply(text: &str, mut edits: Vec<Edit>) -> String {
     edits.sort_by_key(|(range, _)| (range.start, range.end));
     let mut out = String::new();
@@ -234,7 +236,7 @@ fn apply(text: &str, mut edits: Vec<Edit>) -> String {
     out + &text[at..]
 }
 
-/// Markdown without markup, topics and dollars.
+/// Strips markup, topics and dollar signs from Markdown.
 pub fn plain_text(markdown: &str) -> String {
     let text = parse(markdown).filter_map(|event| match event {
         Event::Text(text) => Some(text.to_string()),
@@ -251,7 +253,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_are_replaced_in_any_order() {
+    fn edits_apply_in_any_order() {
         assert_eq!(apply("abcd", vec![(3..3, "X".into()), (0..1, "Y".into())]), "YbcXd");
     }
 

@@ -1,4 +1,4 @@
-//! The preprocessor of mdBook: translates the pages, runs their commands, renders their marks.
+//! The mdBook preprocessor: translates the pages, runs their commands, renders their marks.
 
 use crate::command::{Job, Runner};
 use crate::figure::copy_figures;
@@ -17,22 +17,23 @@ use std::sync::{Arc, Mutex};
 
 /// The preprocessor.
 pub struct Alberti {
-    /// The program.
+    /// The path of the program.
     pub program: PathBuf,
-    /// The project: the folder in which commands run.
+    /// The project folder, in which commands run.
     pub root: PathBuf,
-    /// The cache of figures.
+    /// The figure cache.
     pub cache: PathBuf,
-    /// The catalogs: `LANGUAGE/PAGE.po`.
+    /// The folder of the catalogs `LANGUAGE/PAGE.po`.
     pub catalogs: PathBuf,
-    /// Whether the explorer's page will be beside the book.
+    /// Whether the explorer's page will be published with the book.
     pub has_explorer: bool,
-    /// The figures of all pages, for who copies them.
+    /// The figures of all pages, to be copied later.
     pub figures: Arc<Mutex<BTreeSet<PathBuf>>>,
 }
 
 impl Alberti {
-    /// As mdBook itself runs it: everything by its place, the program by the variable `ALBERTI`.
+    /// Creates the preprocessor as mdBook runs it: folders at their default locations, the program
+    /// from the variable `ALBERTI`.
     pub fn by_place(context: &PreprocessorContext) -> Self {
         let root = context.root.parent().unwrap_or(Path::new(".")).to_owned();
         Self {
@@ -46,10 +47,10 @@ impl Alberti {
         }
     }
 
-    /// Copies the figures to the sources, from where mdBook takes them along.
+    /// Copies the figures to the source folder, from which mdBook copies them to its output.
     pub fn copy_to_sources(&self, context: &PreprocessorContext) -> Result<()> {
         let folder = context.root.join(&context.config.book.src).join("figures");
-        let figures = self.figures.lock().map_err(|_| anyhow!("a thread has stopped"))?;
+        let figures = self.figures.lock().map_err(|_| anyhow!("a thread panicked"))?;
         copy_figures(&figures.iter().cloned().collect::<Vec<_>>(), &folder)
             .map_err(|error| anyhow!(error))
     }
@@ -95,10 +96,10 @@ impl Alberti {
         if faults.is_empty() { Ok(()) } else { Err(faults) }
     }
 
-    /// Runs each command of the pages once.
+    /// Runs each command in the pages once.
     fn run_commands(&self, pages: &[Page], language: Language) -> Result<Answers, Vec<String>> {
         let fences = pages.iter().flat_map(|page| &page.marks.fences);
-        // What cannot be read is reported with its line when the page is rendered.
+        // Invalid commands are reported with their lines when the page is rendered.
         let jobs: BTreeSet<Job> =
             fences.filter_map(|fence| block_job(fence, language)?.ok()).collect();
         let jobs: Vec<Job> = jobs.into_iter().collect();
@@ -117,7 +118,7 @@ impl Alberti {
         Ok(jobs.into_iter().zip(answers).collect())
     }
 
-    /// The topics with their titles in a language.
+    /// Returns the topics with their titles in a language.
     fn topics(&self, language: Language, folder: &Path) -> Result<Topics, String> {
         let path = self.root.join("tests/CONFORMANCE.md");
         let table = std::fs::read_to_string(&path)
@@ -142,7 +143,7 @@ impl Preprocessor for Alberti {
         match self.render_book(language, &mut book) {
             Ok(()) => Ok(book),
             Err(faults) => Err(anyhow!(
-                "{} faults in the pages ({code})\n  {}",
+                "{} errors in the pages ({code})\n  {}",
                 faults.len(),
                 faults.join("\n  ")
             )),
@@ -167,7 +168,7 @@ fn read_page(chapter: &Chapter, language: Language, folder: &Path) -> Result<Pag
     })
 }
 
-/// The file of a chapter without its extension.
+/// Returns the file name of a chapter without its extension.
 fn page_name(chapter: &Chapter) -> String {
     let path = chapter.path.as_deref().unwrap_or(Path::new(""));
     path.with_extension("").to_string_lossy().into_owned()

@@ -1,4 +1,5 @@
-//! The page of the whole book, `print.html`: a title and a table of contents before the chapters.
+//! The page with the whole book, `print.html`: adds a title and a table of contents before the
+//! chapters.
 
 use crate::language::Language;
 use anyhow::{Context as _, Result, anyhow};
@@ -6,10 +7,10 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-/// Where mdBook puts the chapters.
+/// The element in which mdBook puts the chapters.
 const CHAPTERS: &str = "<main>";
 
-/// Adds both to the page of an edition.
+/// Adds both to the printed page of an edition.
 pub fn add_contents(out: &Path, language: Language) -> Result<()> {
     let path = out.join("print.html");
     let html = fs::read_to_string(&path).with_context(|| path.display().to_string())?;
@@ -23,7 +24,7 @@ pub fn add_contents(out: &Path, language: Language) -> Result<()> {
         language.texts().contents
     );
     for (level, id, text) in headings(&html[at..]) {
-        // Writing to a text does not fail.
+        // Writing to a string cannot fail.
         let _ = writeln!(front, "<li class=\"level-{level}\"><a href=\"#{id}\">{text}</a></li>");
     }
     front += "</ol></section>\n";
@@ -31,7 +32,7 @@ pub fn add_contents(out: &Path, language: Language) -> Result<()> {
     fs::write(&path, html).with_context(|| path.display().to_string())
 }
 
-/// Level, id and inner HTML of the headings of pages and sections.
+/// Returns the level, id and inner HTML of each page and section heading.
 pub fn headings(html: &str) -> Vec<(u8, &str, String)> {
     let mut out = Vec::new();
     for (level, tag) in [(1, "h1"), (2, "h2")] {
@@ -50,7 +51,7 @@ pub fn headings(html: &str) -> Vec<(u8, &str, String)> {
     out.into_iter().map(|(_, level, id, text)| (level, id, text)).collect()
 }
 
-/// The HTML of a heading without its links: marks of topics go, other words stay.
+/// Removes links from the HTML of a heading: topic marks are dropped, other link text stays.
 fn without_links(html: &str) -> String {
     let mut out = String::new();
     let mut rest = html.trim_end_matches("</a>");
@@ -69,7 +70,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn contents_are_the_headings_without_topics() {
+    fn the_table_of_contents_lists_headings_without_topics() {
         let html = "<h1 id=\"a\"><a class=\"header\" href=\"#a\">A <a class=\"topic\" href=\"#C1\">C1</a></a></h1>\
             <h3 id=\"x\"><a class=\"header\" href=\"#x\">X</a></h3><h2 id=\"b\"><a class=\"header\" href=\"#b\"><em>B</em></a></h2>";
         let expected = [(1, "a", "A".to_owned()), (2, "b", "<em>B</em>".to_owned())];

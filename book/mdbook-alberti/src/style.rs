@@ -1,9 +1,9 @@
-//! Faults of a translation that need no reader: lost marks and links, punctuation, spaces.
+//! Mechanical checks of a translation: lost marks and links, punctuation, spaces.
 
 use crate::marks::{is_topic, parse};
 use pulldown_cmark::{Event, Tag};
 
-/// Faults of a translation.
+/// Finds errors in a translation.
 pub fn message_faults(msgid: &str, msgstr: &str) -> Vec<String> {
     let mut faults = Vec::new();
     let (source, translated) = (Parts::of(msgid), Parts::of(msgstr));
@@ -16,20 +16,19 @@ pub fn message_faults(msgid: &str, msgstr: &str) -> Vec<String> {
         let new: Vec<_> =
             after.iter().filter(|it| !before.contains(it)).map(String::as_str).collect();
         if !lost.is_empty() || !new.is_empty() {
-            faults.push(format!("{what}: lost {lost:?}, new {new:?}"));
+            faults.push(format!("{what}: missing {lost:?}, added {new:?}"));
         } else if before.len() != after.len() {
             faults.push(format!("{what}: {} before, {} after", before.len(), after.len()));
         }
     }
     if !source.text.contains(['*', '_']) && translated.text.contains(['*', '_']) {
         faults.push(
-            "emphasis that does not close: put the star next to a letter, not next to punctuation"
-                .into(),
+            "unclosed emphasis: put the asterisk next to a letter, not next to punctuation".into(),
         );
     }
     if source.paragraphs != translated.paragraphs {
         faults.push(format!(
-            "{} paragraphs before, {} after",
+            "{} paragraphs in the source, {} in the translation",
             source.paragraphs, translated.paragraphs
         ));
     }
@@ -37,7 +36,7 @@ pub fn message_faults(msgid: &str, msgstr: &str) -> Vec<String> {
         text.starts_with(['_', '*']) && !text.starts_with("**") && text.ends_with(['_', '*'])
     };
     if is_caption(msgid) != is_caption(msgstr) {
-        faults.push("a caption is emphasized as a whole, and nothing else is".into());
+        faults.push("only a caption may be emphasized as a whole, and a caption must be".into());
     }
     faults.extend(han_faults(&translated.text));
     faults
@@ -47,7 +46,7 @@ struct Parts {
     codes: Vec<String>,
     links: Vec<String>,
     paragraphs: usize,
-    /// The text; a code span is the letter `⌷`, a mark of a topic a word joiner.
+    /// The text, in which a code span is replaced by `⌷` and a topic mark by a word joiner.
     text: String,
 }
 
@@ -74,12 +73,12 @@ impl Parts {
     }
 }
 
-/// Whether a letter is Chinese.
+/// Returns whether a character is Han.
 pub fn is_han(letter: char) -> bool {
     ('\u{4e00}'..='\u{9fff}').contains(&letter)
 }
 
-/// Punctuation of Latin text after Han, and missing spaces between both.
+/// Finds Latin punctuation after Han characters, and missing spaces between the two scripts.
 fn han_faults(text: &str) -> Vec<String> {
     let letters: Vec<char> = text.chars().collect();
     let mut faults = Vec::new();
@@ -87,11 +86,11 @@ fn han_faults(text: &str) -> Vec<String> {
         let [a, b] = [pair[0], pair[1]];
         let is_latin = |letter: char| letter.is_ascii_alphanumeric() || letter == '⌷';
         let what = if is_han(a) && matches!(b, ',' | '.' | ';' | ':' | '?' | '!') {
-            "full-width punctuation after Han"
+            "use full-width punctuation after Han characters"
         } else if (is_han(a) && is_latin(b)) || (is_latin(a) && is_han(b)) {
-            "a space between Han and Latin letters, digits or code"
+            "put a space between Han characters and Latin letters, digits or code"
         } else if a == ' ' && "，。：；、）".contains(b) {
-            "no space before full-width punctuation"
+            "remove the space before full-width punctuation"
         } else {
             continue;
         };
@@ -107,7 +106,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn marks_and_links_are_kept() {
+    fn lost_marks_and_links_are_found() {
         assert_eq!(
             message_faults("See `C4`, `$x$` and [a](b.md).", "见 `C4`、`$x$` 和[甲](b.md)。"),
             [""; 0]
@@ -119,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn chinese_text_has_its_punctuation_and_spaces() {
+    fn chinese_punctuation_and_spacing_are_checked() {
         for good in ["点 w = 1，除以 w。", "（见下）", "用 `$x$` 除", "中文，中文", "第 3 步"]
         {
             assert_eq!(han_faults(&Parts::of(good).text), [""; 0], "{good}");

@@ -1,4 +1,4 @@
-//! The topics: their titles, the places that treat them, and the table of the page `topics`.
+//! The topics: their titles, the sections that cover them, and the table on the page `topics`.
 
 use crate::language::Language;
 use crate::marks::is_topic;
@@ -6,20 +6,21 @@ use crate::page::Page;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// The page on which misprints are collected; a topic that is also treated elsewhere names that first.
+/// The page that collects misprints; if a topic is also covered elsewhere, that section is listed
+/// first.
 const MISPRINTS: &str = "printed-wrong";
 
-/// Pages that name topics without treating them.
+/// Pages that mention topics without covering them.
 const LISTS: [&str; 1] = ["topics"];
 
-/// The topics in the order of the list of the tests.
+/// The topics in the order of the conformance table.
 #[derive(Default)]
 pub struct Topics {
     list: Vec<(String, String)>,
 }
 
 impl Topics {
-    /// Reads the rows `| C1 | title | … |` of the table of topics and their tests.
+    /// Parses the rows `| C1 | title | … |` of the conformance table.
     pub fn parse(table: &str) -> Self {
         let row = |line: &str| {
             let mut cells = line.strip_prefix('|')?.split('|').map(str::trim);
@@ -35,28 +36,28 @@ impl Topics {
         Self { list }
     }
 
-    /// Returns the topics with other titles.
+    /// Returns the topics with replaced titles.
     pub fn translated(&self, translate: impl Fn(&str) -> String) -> Self {
         let list = self.list.iter().map(|(id, title)| (id.clone(), translate(title))).collect();
         Self { list }
     }
 
-    /// All titles.
+    /// Returns all titles.
     pub fn titles(&self) -> impl Iterator<Item = &str> {
         self.list.iter().map(|(_, title)| title.as_str())
     }
 
-    /// All ids.
+    /// Returns all ids.
     pub fn ids(&self) -> impl Iterator<Item = &str> {
         self.list.iter().map(|(id, _)| id.as_str())
     }
 
-    /// The title of a topic.
+    /// Returns the title of a topic.
     pub fn title(&self, id: &str) -> &str {
         self.list.iter().find(|(other, _)| other == id).map_or("", |(_, title)| title)
     }
 
-    /// The table as Markdown.
+    /// Renders the table as Markdown.
     pub fn table(&self, pages: &[Page], language: Language) -> String {
         let places = places(pages);
         let [id, topic, place] = language.texts().topics;
@@ -70,13 +71,13 @@ impl Topics {
                 };
                 places.iter().map(link).collect::<Vec<_>>().join("<br>")
             });
-            // Writing to a text does not fail.
+            // Writing to a string cannot fail.
             let _ = writeln!(out, "| <a id=\"{id}\"></a>{id} | {title} | {links} |");
         }
         out
     }
 
-    /// Topics that no page marks.
+    /// Returns the topics that no page marks.
     pub fn missing(&self, pages: &[Page]) -> Vec<&str> {
         let places = places(pages);
         let ids = self.list.iter().map(|(id, _)| id.as_str());
@@ -84,7 +85,7 @@ impl Topics {
     }
 }
 
-/// The first mark of each topic on each page.
+/// Finds the first mark of each topic on each page.
 fn places(pages: &[Page]) -> BTreeMap<&str, Vec<(&Page, usize)>> {
     let mut places: BTreeMap<&str, Vec<(&Page, usize)>> = BTreeMap::new();
     for page in pages.iter().filter(|page| !LISTS.contains(&page.name.as_str())) {
@@ -98,7 +99,7 @@ fn places(pages: &[Page]) -> BTreeMap<&str, Vec<(&Page, usize)>> {
     places
 }
 
-/// A link to the mark of a topic: page and section.
+/// Writes a link to a topic's mark, with page and section.
 fn link(page: &Page, section: usize, id: &str, colon: &str) -> String {
     let heading = section.checked_sub(1).and_then(|at| page.marks.headings.get(at));
     let section = heading
@@ -113,7 +114,7 @@ mod tests {
     use crate::marks::Marks;
 
     #[test]
-    fn the_table_lists_where_each_topic_is_marked() {
+    fn the_table_lists_the_section_of_each_topic() {
         let topics = Topics::parse(
             "| id | topic |\n| --- | --- |\n| C1 | One | x |\n| M2 | Two | y |\n| C3 | Three |\n",
         );

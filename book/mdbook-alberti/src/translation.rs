@@ -1,4 +1,4 @@
-//! Translations: the messages of a page, its catalog, and its text in another language.
+//! Translation of pages: messages, catalogs, and translated text.
 
 use crate::marks::Marks;
 use crate::style::is_han;
@@ -12,36 +12,37 @@ use polib::po_file;
 use pulldown_cmark::{Event, Tag, TagEnd};
 use std::path::Path;
 
-/// Reads a catalog; without a file it is empty.
+/// Reads a catalog, which is empty if the file is missing.
 pub fn read_catalog(path: &Path) -> Result<Catalog, String> {
     if !path.exists() {
         return Ok(Catalog::new(CatalogMetadata::new()));
     }
-    // The reader panics where a field of the header is missing.
-    let parsed = std::panic::catch_unwind(|| po_file::parse(path))
-        .map_err(|_| format!("{}: its header is not whole; `update` writes one", path.display()))?;
+    // The library panics if a header field is missing.
+    let parsed = std::panic::catch_unwind(|| po_file::parse(path)).map_err(|_| {
+        format!("{}: the header is incomplete; run `update` to write one", path.display())
+    })?;
     parsed.map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// The translation of a message, unless there is none or somebody must look at it.
+/// Returns the translation of a message, unless it is missing or marked fuzzy.
 pub fn find_translation<'a>(catalog: &'a Catalog, msgid: &str) -> Option<&'a str> {
     let message = catalog.find_message(None, msgid, None)?;
     let is_usable = message.is_translated() && !message.is_fuzzy();
     message.msgstr().ok().filter(|_| is_usable)
 }
 
-/// A page in another language.
+/// Translates a page.
 pub fn translate_page(text: &str, catalog: &Catalog) -> Result<String, String> {
     let events = extract_events(text, None);
     let translated = translate_events(&events, catalog).map_err(|error| error.to_string())?;
     let translated = emphasis_as_html(translated);
     let (text, _) = reconstruct_markdown(&translated, None)
-        .map_err(|error| format!("a translation has other markup than its source: {error}"))?;
+        .map_err(|error| format!("the markup of a translation differs from the source: {error}"))?;
     Ok(translate_summaries(&text, catalog))
 }
 
-/// Emphasis as elements of HTML, but for that of whole paragraphs: Markdown knows `_` only between
-/// blanks or punctuation, and Han has no blanks between words.
+/// Writes emphasis as HTML elements, except for whole paragraphs: Markdown recognizes `_` only
+/// between spaces or punctuation, and Han text has no spaces between words.
 fn emphasis_as_html(mut events: Vec<(usize, Event<'_>)>) -> Vec<(usize, Event<'_>)> {
     let mut open: Vec<usize> = Vec::new();
     for at in 0..events.len() {
@@ -66,13 +67,13 @@ fn emphasis_as_html(mut events: Vec<(usize, Event<'_>)>) -> Vec<(usize, Event<'_
     events
 }
 
-/// A title or another short text in another language.
+/// Translates a title or another short text.
 pub fn translate_line(text: &str, catalog: &Catalog) -> String {
     find_translation(catalog, text).unwrap_or(text).to_owned()
 }
 
-/// The messages of a page that need a translation, in order and once each: none of code, none
-/// without a word.
+/// Returns the messages of a page that need a translation, in order and without duplicates: no
+/// code, and nothing without a word.
 pub fn messages(text: &str) -> Result<Vec<String>, String> {
     let marks = Marks::read(text);
     let is_code = |line: usize| {
@@ -95,7 +96,7 @@ pub fn messages(text: &str) -> Result<Vec<String>, String> {
     Ok(out)
 }
 
-/// Whether a message has a word, of other letters than Han, outside of code, HTML and addresses.
+/// Returns whether a message contains a word in non-Han letters outside code, HTML and URLs.
 pub fn needs_translation(message: &str) -> bool {
     let words = |text: &str| {
         let mut parts = text.split(|letter: char| !letter.is_alphabetic() || is_han(letter));
@@ -106,7 +107,7 @@ pub fn needs_translation(message: &str) -> bool {
         .any(|(_, event)| matches!(event, Event::Text(text) if words(text)))
 }
 
-/// The words of `<summary>…</summary>`, which the extraction takes for code.
+/// Returns the text in `<summary>…</summary>`, which the extraction treats as code.
 fn summaries(text: &str) -> impl Iterator<Item = &str> {
     text.split("<summary>")
         .skip(1)
@@ -126,7 +127,7 @@ fn translate_summaries(text: &str, catalog: &Catalog) -> String {
     out
 }
 
-/// A catalog of messages, with the translations of an older one.
+/// Creates a catalog of messages that keeps the translations of an older catalog.
 pub fn update_catalog(page: &str, language: &str, messages: &[String], old: &Catalog) -> Catalog {
     let metadata = CatalogMetadata {
         project_id_version: format!("Alberti, the book: {page}"),
@@ -153,7 +154,7 @@ pub fn update_catalog(page: &str, language: &str, messages: &[String], old: &Cat
     catalog
 }
 
-/// The translation of the obsolete message that is most like a new one.
+/// Returns the translation of the obsolete message most similar to a new one.
 fn most_similar<'a>(msgid: &str, messages: &[String], old: &'a Catalog) -> Option<&'a str> {
     let gone = old.messages().filter(|message| !messages.iter().any(|id| id == message.msgid()));
     let scored = gone
@@ -163,7 +164,7 @@ fn most_similar<'a>(msgid: &str, messages: &[String], old: &'a Catalog) -> Optio
     (best.0 > 0.6).then_some(best.1)
 }
 
-/// The part of the words that two texts share, from 0 to 1.
+/// Returns the fraction of words that two texts share, from 0 to 1.
 fn similarity(a: &str, b: &str) -> f64 {
     let [a, b] = [a, b].map(|text| text.split_whitespace().collect::<Vec<_>>());
     let mut rest = b.clone();
@@ -198,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn messages_are_words_of_the_reader() {
+    fn messages_contain_only_readable_text() {
         let expected = [
             "Title `C4`",
             "A paragraph with `$a_b$` and `C14`.",
@@ -240,14 +241,14 @@ mod tests {
     }
 
     #[test]
-    fn emphasis_between_han_is_kept() {
+    fn emphasis_between_han_characters_is_preserved() {
         let catalog = catalog(&[("It _is_ **so**.", "*它*是这**样**的。")]);
         let text = translate_page("It *is* **so**.\n", &catalog).unwrap();
         assert_eq!(text, "<em>它</em>是这<strong>样</strong>的。");
     }
 
     #[test]
-    fn changed_messages_keep_their_translation_for_review() {
+    fn changed_messages_keep_a_fuzzy_translation() {
         let old = catalog(&[("The eye is at the origin.", "视点在原点。"), ("Same.", "同。")]);
         let new = ["The eye is at the center.".to_owned(), "Same.".to_owned(), "Else".to_owned()];
         let updated = update_catalog("p", "zh", &new, &old);

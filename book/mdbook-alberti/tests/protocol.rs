@@ -1,4 +1,4 @@
-//! The preprocessor by mdBook's protocol: a book as plain mdBook builds it, in both languages.
+//! Tests the preprocessor through mdBook's protocol: plain mdBook builds a book in both languages.
 
 use mdbook_driver::MDBook;
 use mdbook_driver::config::Config;
@@ -26,7 +26,7 @@ msgid "Text with `$x_1$` and `C4`."
 msgstr "文字 `$x_1$`，`C4`。"
 "#;
 
-/// A project with a book of one page.
+/// Writes a project whose book has one page.
 fn write_project(name: &str, page: &str) -> PathBuf {
     let root = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
     let files = [
@@ -43,7 +43,7 @@ fn write_project(name: &str, page: &str) -> PathBuf {
     root
 }
 
-/// Builds the book and gives the page.
+/// Builds the book and returns its page.
 fn build(root: &Path, language: &str) -> Result<String, String> {
     let command = env!("CARGO_BIN_EXE_mdbook-alberti");
     let toml = format!(
