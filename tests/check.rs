@@ -1,4 +1,4 @@
-//! `check` against the Khronos glTF validator: the errors of both, side by side, for every file in
+//! `check` against the Khronos glTF validator: both error lists, side by side, for every file in
 //! a corpus.
 //!
 //! Two corpora are checked: the one that [`alberti_tests::samples`] generates and, if it exists,

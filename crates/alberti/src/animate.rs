@@ -72,7 +72,7 @@ pub(crate) struct AnimateArgs {
 ///
 /// # Errors
 /// If the input is invalid, a frame cannot be rendered, or the output cannot be written. No
-/// animation file is left behind in that case; PNG files of finished frames remain.
+/// animation file is left behind in that case; PNG files for finished frames remain.
 pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
     let (origin, file, scene) = args.overrides.open_scene(&args.input, &args.load_options)?;
     let unused = find_unused_overrides(&args.overrides, &scene, false);

@@ -78,7 +78,7 @@ pub(crate) struct BatchArgs {
     /// Merge the reports of all runs into report.jsonl and write the contact sheet; render nothing
     #[arg(long, conflicts_with_all = ["force", "retry_failed", "verify"])]
     merge: bool,
-    /// Write the pictures to tar files of N pictures each, for WebDataset
+    /// Write the pictures to tar files with N pictures each, for WebDataset
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     tar: Option<u32>,
     /// Write counts and times to this file once a second, in the Prometheus text format

@@ -13,7 +13,7 @@ use scene_file::file::{
 pub(crate) struct CalibratedCameraArgs {
     /// Camera intrinsics: focal lengths and principal point in pixels
     ///
-    /// Alternatively, all nine numbers of the matrix K, row by row. They must be for pictures of
+    /// Alternatively, all nine entries of the matrix K, row by row. They must be for pictures of
     /// the same size as this one.
     #[arg(
         help_heading = "Camera",
@@ -27,7 +27,7 @@ pub(crate) struct CalibratedCameraArgs {
     /// Origin of the principal point of --intrinsics [default: integer]
     #[arg(help_heading = "Camera", long, value_parser = option_parser::<PixelCenters>(), requires = "intrinsics")]
     pixel_centers: Option<PixelCenters>,
-    /// Rotation and translation from the world to the camera: the 12 numbers of [R|t], row by row
+    /// Rotation and translation from the world to the camera: the 12 entries of [R|t], row by row
     #[arg(
         help_heading = "Camera",
         long,

@@ -4,7 +4,7 @@
 //! diagnostics of each model it refers to. A glTF file is validated against the glTF 2.0
 //! specification; for other formats, the diagnostics come from the importer.
 //!
-//! The report goes to the standard output even if it is full of errors: they are the result, not a
+//! The report is printed to the standard output even if it is full of errors: they are the result, not a
 //! failure. Only a problem that keeps the check from running, such as a missing scene, is printed
 //! as `error:`. The exit code is 1 in both cases.
 

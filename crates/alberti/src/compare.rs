@@ -30,7 +30,7 @@ pub(crate) struct CompareArgs {
     tolerance: u8,
 }
 
-/// The result of comparing two pictures of the same size.
+/// The result of comparing two equally large pictures.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct PictureComparison {
     /// The maximum channel difference over all pixels, 0 to 255.
@@ -44,7 +44,7 @@ pub(super) struct PictureComparison {
 }
 
 impl PictureComparison {
-    /// Compares two pictures of the same size, pixel by pixel.
+    /// Compares two equally large pictures, pixel by pixel.
     ///
     /// The caller guarantees equal sizes: other references are rejected before rendering.
     fn new(expected: &Picture, actual: &Picture, tolerance: u8) -> Self {

@@ -1,7 +1,7 @@
 //! `alberti explore`: the explorer in a browser, served only to this machine.
 //!
 //! ```text
-//!  browser ─► connections ─► request ─► site: page, models of the lessons, the model given
+//!  browser ─► connections ─► request ─► site: page, lesson models, the model given
 //!             few at once    checked     └──► lanes: the explorer's answers
 //! ```
 //! The server listens on the loopback address. Other pages in the same browser can reach it too, so

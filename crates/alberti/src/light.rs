@@ -165,7 +165,7 @@ impl LightArgs {
     }
 }
 
-/// Returns the names of the flags that are in use.
+/// Returns the flags that are in use.
 fn given_flags(flags: &[(&'static str, bool)]) -> Vec<&'static str> {
     flags.iter().filter(|(_, is_given)| *is_given).map(|(name, _)| *name).collect()
 }

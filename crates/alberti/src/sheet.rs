@@ -72,7 +72,7 @@ pub(crate) struct SheetArgs {
     /// Omit all dimensions
     #[arg(long)]
     no_dimensions: bool,
-    /// Title in the title block [default: the names of the models]
+    /// Title in the title block [default: the model names]
     #[arg(long)]
     title: Option<String>,
     /// Author in the title block

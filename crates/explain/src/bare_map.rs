@@ -56,7 +56,7 @@ impl BareMap {
     /// Explains the image of one or more homogeneous points: a segment has two.
     ///
     /// # Errors
-    /// If all four numbers of a point are 0.
+    /// If all four coordinates of a point are 0.
     pub fn explain_points(&self, points: &[HPoint<View>]) -> Result<Explanation, String> {
         let mut steps = self.steps.clone();
         let labels: &[&str] = if let [_] = points { &[""] } else { &["a", "b"] };

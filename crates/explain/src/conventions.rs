@@ -1,5 +1,5 @@
 //! Conventions of graphics APIs: canonical view volume, handedness of view space, pixel
-//! coordinates. They do not change the picture, but they change the numbers of an explanation.
+//! coordinates. They do not change the picture, but they change the numbers in an explanation.
 //!
 //! | conventions | NDC z, near to far | y in clip space | view space |
 //! | --- | --- | --- | --- |

@@ -89,7 +89,7 @@ fn tree_step(model: &Model, node: usize) -> Step {
 /// or the node is outside the drawn scene.
 fn explain_absence(model: &Model, node: usize) -> String {
     match model.nodes.get(node) {
-        None => "There is no such node.".to_owned(),
+        None => "The node does not exist.".to_owned(),
         Some(here) if here.mesh.is_none() => {
             let below = here.children.len();
             format!("It has no mesh. Child nodes: {below}.")

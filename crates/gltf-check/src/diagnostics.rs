@@ -89,7 +89,7 @@ impl Diagnostics {
         list.retained.iter().any(|problem| problem.code == code.name)
     }
 
-    /// Returns the listed diagnostics, worst first, and the numbers of errors, warnings and notes.
+    /// Returns the listed diagnostics, worst first, and the error, warning and note counts.
     pub(super) fn into_parts(self) -> (Vec<Diagnostic>, [usize; 3]) {
         let lists = self.lists.into_inner();
         let [errors, warnings, info, hints] = Severity::ALL.map(|s| lists[s as usize].count);

@@ -13,7 +13,7 @@ use super::diagnostics::Diagnostics;
 use std::fmt::Display;
 use std::ops::Range;
 
-/// The parts of a file, as far as they can be located.
+/// The parts of a file that can be located.
 ///
 /// A part is absent if the container is damaged before it. Without a JSON part, the JSON checks are
 /// skipped.

@@ -51,7 +51,7 @@ pub(super) enum ComponentType {
     F32,
 }
 
-/// The type of an element, as numbers of rows and columns; vectors have one column.
+/// The type of an element, as row and column counts; vectors have one column.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct ElementType {
     /// The number of components of a vector or a matrix column.

@@ -64,9 +64,9 @@ pub struct Model {
     pub scalar_attributes: Vec<String>,
     /// The scalar attribute shown as vertex colors, or `None` for the colors in the file.
     pub active_scalar_attribute: Option<usize>,
-    /// Sorted names of the extensions that the file uses.
+    /// The extensions that the file uses, sorted by name.
     pub extensions_used: Vec<String>,
-    /// Sorted names of the extensions that the file requires.
+    /// The extensions that the file requires, sorted by name.
     pub extensions_required: Vec<String>,
     /// Name, URI and header of every image in the file, decoded or not.
     pub image_infos: Vec<ImageInfo>,

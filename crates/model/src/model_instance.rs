@@ -23,7 +23,7 @@ pub fn world_points(models: &[ModelInstance]) -> Vec<Point<World>> {
     points
 }
 
-/// Returns the names of the models without duplicates, separated by commas.
+/// Returns the model names without duplicates, separated by commas.
 #[must_use]
 pub fn model_names(models: &[ModelInstance]) -> String {
     let mut names: Vec<&str> = Vec::new();

@@ -9,7 +9,7 @@ use model::Image;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-/// Reads linear colors of the vertices or faces; `counts` contains the numbers of both.
+/// Reads linear colors of the vertices or faces; `counts` contains both counts.
 pub(crate) fn read_colors(
     mesh: &Keywords<'_, '_>,
     counts: [usize; 2],

@@ -25,7 +25,7 @@ pub(crate) struct NativeCamera {
     pub(crate) file: CameraFile,
     /// The width and height of its pictures, if known.
     pub(crate) size: Option<(u32, u32)>,
-    /// The position, framed around the models of a picture; `None` before the first picture.
+    /// The position, framed around a picture's models; `None` before the first picture.
     placed: Option<ViewProjection>,
 }
 
@@ -59,7 +59,7 @@ impl NativeCamera {
         Self { file, size: Some(size), placed: Some(view_projection) }
     }
 
-    /// Places the camera around models, for pictures of the given size.
+    /// Places the camera around models, for the given picture size.
     pub(crate) fn place(
         &self,
         size: Option<(u32, u32)>,

@@ -13,7 +13,7 @@ use homog::{Affine, Point, View, World};
 
 /// The rays through the pixels of a picture.
 pub(crate) struct PixelRays {
-    /// The numbers of columns and rows.
+    /// The column and row counts.
     pub(crate) size: [usize; 2],
     world_to_view: Affine<World, View>,
     view_to_world: Affine<View, World>,
@@ -21,7 +21,7 @@ pub(crate) struct PixelRays {
 }
 
 impl PixelRays {
-    /// Returns the rays of a camera for pictures of the given size.
+    /// Returns the rays of a camera for a given picture size.
     pub(crate) fn new(view_projection: ViewProjection, size: (u32, u32)) -> Self {
         let (width, height) = size;
         Self {

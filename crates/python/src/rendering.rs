@@ -149,7 +149,7 @@ pub(crate) fn check_pixel_count(width: u64, height: u64) -> Fallible<()> {
     Err(Failure::limit("size", message, help))
 }
 
-/// Reads the requested passes: whether colors are among them, and the names of the others.
+/// Reads the requested passes: whether colors are among them, and the other names.
 fn read_passes(options: &Keywords<'_, '_>) -> PyResult<(bool, Vec<Pass>)> {
     let Some(value) = options.value("passes")? else { return Ok((true, Vec::new())) };
     let names = value.extract::<String>().map(|name| vec![name]);

@@ -102,7 +102,7 @@ impl Subject {
         arrays::new_array(py, corners.as_flattened().to_vec(), &[2, 3]).map(Some)
     }
 
-    /// Returns the numbers of points, lines and triangles.
+    /// Returns the point, line and triangle counts.
     fn item_counts(&self) -> [usize; 3] {
         let mut counts = [0; 3];
         for placed in &self.models {

@@ -1,4 +1,4 @@
-"""Compare pictures of trimesh objects with pictures of the same files from our own reader."""
+"""Compare renderings of trimesh objects with renderings of the same files loaded directly."""
 
 import alberti
 import numpy as np

@@ -26,7 +26,7 @@ impl Color {
 
     /// Parses `#rgb`, `#rrggbb` or a CSS color name in any case; returns `None` for any other text.
     ///
-    /// Three digits are doubled, so `#1af` is `#11aaff`. There is no alpha channel: where opacity
+    /// Three digits are doubled, so `#1af` is `#11aaff`. Colors have no alpha channel: where opacity
     /// exists, it is a separate field.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {

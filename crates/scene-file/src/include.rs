@@ -46,7 +46,7 @@ const REPLACED_FIELDS: [&str; 15] = [
     "viewports_scale",
 ];
 
-/// A mistake in one of the files of a scene.
+/// A mistake in one of a scene's files.
 #[derive(Clone, Debug)]
 pub struct FileMistake {
     /// The message, with the file's name and text.

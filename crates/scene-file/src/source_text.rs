@@ -88,7 +88,7 @@ impl SourceText {
             .is_some()
     }
 
-    /// Returns the names of the top-level fields that the text sets.
+    /// Returns the top-level fields that the text sets.
     pub(super) fn top_level_fields(&self) -> Vec<&str> {
         let items = self.root().map_or(&[][..], |root| &root.items);
         items.iter().filter_map(|item| item.name(self)).collect()

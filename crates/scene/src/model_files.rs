@@ -1,4 +1,4 @@
-//! The models of a scene: loaded, posed and placed.
+//! Loads, poses and places a scene's models.
 
 use super::diagnostics::Diagnostics;
 use super::material_overrides::override_materials;
@@ -91,7 +91,7 @@ impl<'a> LoadedModels<'a> {
     }
 }
 
-/// Loads and places the models of a scene, each file once; returns `None` if not all can be loaded.
+/// Loads and places a scene's models, each file once; returns `None` if not all can be loaded.
 pub(super) fn load_models(
     origin: &Origin,
     file: &SceneFile,

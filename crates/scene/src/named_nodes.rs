@@ -28,7 +28,7 @@ pub(super) fn objects_below(
     found
 }
 
-/// Returns the names of all nodes, without duplicates.
+/// Returns all node names, without duplicates.
 pub(super) fn node_names(models: &[ModelInstance]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for ModelInstance { model, .. } in models {

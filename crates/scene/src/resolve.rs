@@ -110,7 +110,7 @@ fn resolve_parts(
 }
 
 impl Scene {
-    /// Loads the models of a scene and fills in everything that the file leaves open.
+    /// Loads a scene's models and fills in everything that the file leaves open.
     ///
     /// # Errors
     /// Returns an error if a model cannot be loaded, or every mistake in the scene that can be

@@ -101,7 +101,7 @@ impl Scene {
         has_occlusion || self.lights.iter().any(|light| light.shadow().is_some())
     }
 
-    /// Returns the names of the models, without duplicates.
+    /// Returns the model names, without duplicates.
     #[must_use]
     pub fn model_names(&self) -> String {
         model::model_names(&self.models)

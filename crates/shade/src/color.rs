@@ -79,7 +79,7 @@ impl SrgbEncoder {
         self.encode_to_code(light) as u8
     }
 
-    /// Returns the code as a number. There are no branches, so loops over this become vector
+    /// Returns the code as a number. It has no branches, so loops over it become vector
     /// instructions.
     #[inline(always)]
     fn encode_to_code(&self, light: f32) -> u32 {

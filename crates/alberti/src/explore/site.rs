@@ -67,7 +67,7 @@ impl Site {
         Ok(Self { files, token, small, large })
     }
 
-    /// Returns the response to a request, or `None` if the client is no longer waiting.
+    /// Returns the response to a request, or `None` if the client has given up.
     pub(super) fn respond(
         &self,
         request: &Request,

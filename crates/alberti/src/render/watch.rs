@@ -18,7 +18,7 @@ use std::time::{Duration, SystemTime};
 const INTERVAL: Duration = Duration::from_millis(150);
 /// The maximum number of watched files.
 const MAX_FILES: usize = 4096;
-/// The maximum length of a file that is searched for the names of other files.
+/// The maximum length of a file that is searched for file names.
 const MAX_SEARCHED_BYTES: u64 = 64 << 20;
 
 /// The modification time and length of each file; `None` if it does not exist.

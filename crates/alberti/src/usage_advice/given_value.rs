@@ -7,7 +7,7 @@ use clap::{Command, Error};
 
 /// The value passed to another program's flag.
 pub(super) enum Given {
-    /// There is no value, or the flag here accepts none.
+    /// The value is missing, or the flag here accepts none.
     Nothing,
     /// The flag here accepts it: the advice with the value.
     Fits(String),

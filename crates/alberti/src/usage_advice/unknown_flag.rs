@@ -193,7 +193,7 @@ fn without_given_flags(advice: &str, words: &[String]) -> String {
     parts.filter(|part| !is_given(part)).fold(first, |kept, part| format!("{kept} --{part}"))
 }
 
-/// Returns the output folder passed to a command whose outputs are named by a template.
+/// Returns the output folder passed to a command with an output name template.
 fn chosen_folder(stem: &str, words: &[String], command: &Command) -> Option<String> {
     let names = ["output-dir", "outdir", "out-dir", "output-folder"];
     let is_meant = command.get_name() == "render" && names.contains(&&*with_hyphens(stem));

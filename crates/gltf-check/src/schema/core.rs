@@ -65,7 +65,7 @@ pub(in super::super) static ROOT: ObjectSchema = object_schema(
 /// `accessor` (§5.1): a typed view into a buffer view; `byteOffset` requires `bufferView`.
 ///
 /// `componentType` is an OpenGL constant: 5120 and 5121 are signed and unsigned bytes, 5122 and
-/// 5123 are shorts, 5125 is an unsigned int, and 5126 is a float. There is no signed 32-bit
+/// 5123 are shorts, 5125 is an unsigned int, and 5126 is a float. glTF has no signed 32-bit
 /// integer.
 static ACCESSOR: ObjectSchema = object_schema(
     "accessor",

@@ -39,7 +39,7 @@ pub(super) fn select_scene(
 /// The extension's name, in the root and in primitives.
 const VARIANTS_EXTENSION: &str = "KHR_materials_variants";
 
-/// Returns the names of the variants in a file.
+/// Returns the variant names in a file.
 ///
 /// The name of an unnamed variant is empty; variants are identified by index.
 pub(super) fn variant_names(root: &Root) -> Vec<String> {

@@ -121,7 +121,7 @@ pub(super) struct Header {
     pub(super) encoding: Encoding,
     /// The elements in body order.
     pub(super) elements: Vec<PlyElement>,
-    /// The names of texture files from `comment TextureFile NAME`.
+    /// The texture file names from `comment TextureFile NAME`.
     pub(super) texture_files: Vec<String>,
     /// The first lines that begin with an unknown word, with their line numbers: comments without
     /// the keyword.

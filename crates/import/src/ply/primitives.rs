@@ -136,7 +136,7 @@ fn triangulate_faces(
     }
     if fans > 0 {
         let message = format!(
-            "{fans} polygons intersect themselves; they are triangulated as far as possible"
+            "{fans} polygons intersect themselves; they are filled as fans, which may overlap"
         );
         warnings.push_warning("element face", message);
     }

@@ -311,7 +311,7 @@ impl PartProperties {
             } else if layer.multiplies {
                 color = std::array::from_fn(|c| color[c] * own[c]);
             } else {
-                // Blend over the layers below; over a texture, as far as a factor allows.
+                // Blend over the layers below; over a texture, within the limits of a factor.
                 let below = color;
                 color = std::array::from_fn(|c| below[c] + (own[c] - below[c]) * own[3]);
                 color[3] = own[3] + below[3] * (1.0 - own[3]);

@@ -191,7 +191,7 @@ impl ObjectProperty {
     }
 }
 
-/// Sets the numbers of a property, each clamped to its bounds.
+/// Sets the components of a property, each clamped to its bounds.
 ///
 /// Returns `None` if the object lacks the property. Values that are not finite or have the wrong
 /// length are ignored.

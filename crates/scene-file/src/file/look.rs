@@ -72,7 +72,7 @@ impl StyleFile {
         ("sketch", Self::lines_sketch),
     ];
 
-    /// Whether pictures of this style receive the light of an environment.
+    /// Whether this style receives the light of an environment.
     #[must_use]
     pub const fn shows_environment(&self) -> bool {
         matches!(self, Self::Shaded | Self::Flat | Self::Gouraud | Self::Clay | Self::Toon)

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  Deserializer ─► Reader(ValueType) ─► Data     fields and variants as they are declared
-//!  Data ─► Writer(ValueType) ─► Serializer       with the names of types and variants
+//!  Data ─► Writer(ValueType) ─► Serializer       with type and variant names
 //! ```
 
 use super::data::{Data, missing_field};

@@ -25,7 +25,7 @@ pub(super) fn lint_tiny_picture(adviser: &Linter<'_>) -> Option<Lint> {
     Some(Lint { code: "tiny-picture", error })
 }
 
-/// Warns about models of less than two pixels among others, such as one in meters next to one in
+/// Warns about models smaller than two pixels among others, such as one in meters next to one in
 /// millimeters.
 pub(super) fn lint_tiny_models(adviser: &Linter<'_>) -> Vec<Lint> {
     let models = adviser.survey_models();

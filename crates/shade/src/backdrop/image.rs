@@ -17,7 +17,7 @@ pub enum ImageFit {
 /// An image behind the models, over a background color.
 #[derive(Clone, PartialEq)]
 pub struct BackdropImage {
-    /// The numbers of texel columns and rows.
+    /// The texel columns and rows.
     size: [usize; 2],
     /// Linear premultiplied texels, in rows from the top; 65,535 represents 1.
     texels: Vec<[u16; 4]>,

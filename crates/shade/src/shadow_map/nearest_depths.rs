@@ -24,7 +24,7 @@ const _: () = assert!(MAX_FILTER_RADIUS + 1.0 <= NEIGHBORHOOD_SIDE + BLOCK_SIDE 
 /// The nearest depth in the neighborhood of each block of a shadow map.
 #[derive(Clone, Debug, Default)]
 pub(super) struct NearestDepths {
-    /// The numbers of block columns and rows.
+    /// The block columns and rows.
     size: [usize; 2],
     /// The maximum depth of each block and the eight blocks around it, in rows from the top.
     depths: Vec<f32>,
