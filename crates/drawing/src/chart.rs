@@ -2,8 +2,8 @@
 //!
 //! ```text
 //!   depth    ── normal   - - reversed
-//!   1 ┤        ______─────      ticks are round numbers: 1, 2 and 5 times powers of ten,
-//!     │    _-¯                  or only powers of ten where the axis spans many
+//!   1 ┤        ______─────      ticks are round numbers: powers of ten times 1, 2 and 5,
+//!     │    _-¯                  or only powers of ten on an axis that spans many
 //!   0 ┼──┬─────┬─────┬──
 //!        1    10    100  distance
 //! ```
@@ -27,7 +27,7 @@ const CURVE_WIDTH: f64 = 0.35;
 /// The line width of axes and grid in millimeters.
 const AXIS_WIDTH: f64 = 0.13;
 
-/// The length of a curve's sample in the legend, in millimeters.
+/// The length of the line sample in the legend, in millimeters.
 const LEGEND_SAMPLE: f64 = 9.0;
 
 /// A chart: two axes, curves, and marked values.
@@ -79,7 +79,7 @@ pub struct Curve {
     pub title: String,
     /// The color.
     pub ink: Ink,
-    /// Whether it is dashed, so that another one shows through.
+    /// Whether the curve is dashed, so that one under it shows through.
     pub dashed: bool,
     /// The points of the curve, in units of the axes; clamped to the axis ranges.
     pub points: Vec<[f64; 2]>,
@@ -94,7 +94,7 @@ pub struct AxisMark {
     pub text: String,
 }
 
-/// A chart with its position on the page.
+/// A chart placed on a page.
 #[derive(Clone, Copy)]
 struct Plot<'a> {
     chart: &'a Chart,
@@ -120,34 +120,34 @@ impl Chart {
 }
 
 impl Plot<'_> {
-    /// A layer of the chart with the given strokes.
+    /// Returns a layer of the chart with these strokes.
     fn plot_layer(&self, id: &str, title: &str, pen: Pen, strokes: Vec<Polyline>) -> Layer {
         let mut layer = Layer::new(format!("{}-{id}", self.chart.id), title, pen);
         layer.groups.push(Group { strokes, ..Group::default() });
         layer
     }
 
-    /// The position of an x value on the page.
+    /// Returns the position of an x value on the page.
     fn page_x(&self, value: f64) -> f64 {
         self.corner.x + self.chart.x.fraction_at(value) * self.size.x
     }
 
-    /// The position of a y value on the page.
+    /// Returns the position of a y value on the page.
     fn page_y(&self, value: f64) -> f64 {
         self.corner.y + (1.0 - self.chart.y.fraction_at(value)) * self.size.y
     }
 
-    /// The right end of the plot.
+    /// Returns the right end of the plot.
     fn right_edge(&self) -> f64 {
         self.corner.x + self.size.x
     }
 
-    /// The lower end of the plot.
+    /// Returns the lower end of the plot.
     fn bottom_edge(&self) -> f64 {
         self.corner.y + self.size.y
     }
 
-    /// A vertical line over the height of the plot.
+    /// Returns a vertical line across the full height of the plot.
     fn vertical_line(&self, x: f64) -> Option<Polyline> {
         Polyline::through_points(
             &[DVec2::new(x, self.corner.y), DVec2::new(x, self.bottom_edge())],
@@ -155,7 +155,7 @@ impl Plot<'_> {
         )
     }
 
-    /// Grid lines at all ticks.
+    /// Returns grid lines at all ticks.
     fn grid_layer(&self) -> Layer {
         let uprights =
             self.chart.x.ticks().into_iter().filter_map(|x| self.vertical_line(self.page_x(x)));
@@ -168,7 +168,7 @@ impl Plot<'_> {
         self.plot_layer("grid", "grid", Pen::solid(AXIS_WIDTH, LIGHT_GRAY), strokes)
     }
 
-    /// The two axes with their ticks.
+    /// Returns the two axes and their ticks.
     fn axes_layer(&self) -> Layer {
         let (low, far) = (DVec2::new(self.corner.x, self.bottom_edge()), self.right_edge());
         let cross = [self.corner, low, DVec2::new(far, low.y)];
@@ -185,15 +185,15 @@ impl Plot<'_> {
         self.plot_layer("axes", "axes", Pen::solid(AXIS_WIDTH, INK), strokes.collect())
     }
 
-    /// Dashed lines at the marked values.
+    /// Returns dashed lines at the marked values.
     fn marks_layer(&self) -> Layer {
         let lines =
             self.chart.marks.iter().filter_map(|mark| self.vertical_line(self.page_x(mark.value)));
         let pen = LineType::Dashed.to_pen(AXIS_WIDTH, INK, Cap::Butt, Join::Round);
-        self.plot_layer("marks", "what is marked", pen, lines.collect())
+        self.plot_layer("marks", "marked values", pen, lines.collect())
     }
 
-    /// Numbers at the ticks, axis titles, notes and legend.
+    /// Returns the tick labels, axis titles, notes and legend.
     fn text_layer(&self) -> Layer {
         let mut strokes = Vec::new();
         let mut write = |text: &str, at: DVec2, align: TextAlign| {
@@ -226,11 +226,11 @@ impl Plot<'_> {
                 TextAlign::Start,
             );
         }
-        self.plot_layer("text", "numbers and names", Pen::solid(LETTER_HEIGHT * 0.1, INK), strokes)
+        self.plot_layer("text", "numbers and labels", Pen::solid(LETTER_HEIGHT * 0.1, INK), strokes)
     }
 
-    /// The start of a curve's entry in the legend, on the baseline. The legend is flush right above
-    /// the plot.
+    /// Returns the start of a curve's legend entry, on the baseline. The legend is right-aligned
+    /// above the plot.
     fn legend_point(&self, index: usize) -> DVec2 {
         let names = self.chart.curves.iter().skip(index);
         let width = |curve: &Curve| {
@@ -243,7 +243,7 @@ impl Plot<'_> {
         )
     }
 
-    /// A curve and its sample in the legend.
+    /// Returns a curve and its legend sample.
     fn curve_layer(&self, index: usize, curve: &Curve) -> Layer {
         let on_page = |&[x, y]: &[f64; 2]| DVec2::new(self.page_x(x), self.page_y(y));
         let points: Vec<DVec2> = curve.points.iter().map(on_page).collect();

@@ -1,10 +1,10 @@
 //! Areas of equal color in an image, traced as polygons.
 //!
 //! ```text
-//!   ┌──┬──┬──┐        ●────────●      sides of pixels between two colors are walked around each
-//!   │▒▒│▒▒│  │        │       ╱       area, and stairs are straightened (Douglas and Peucker
-//!   ├──┼──┼──┤   ─►   │     ╱         1973) from junction to junction; a junction is a corner of
-//!   │▒▒│  │  │        │   ╱           pixels at which more than two borders meet
+//!   ┌──┬──┬──┐        ●────────●      the pixel sides between two colors are followed around each
+//!   │▒▒│▒▒│  │        │       ╱       area, and stair steps are straightened (Douglas and Peucker
+//!   ├──┼──┼──┤   ─►   │     ╱         1973) from junction to junction; a junction is a pixel corner
+//!   │▒▒│  │  │        │   ╱           where more than two borders meet
 //!   └──┴──┴──┘        ●──●
 //! ```
 //!
@@ -14,14 +14,14 @@
 use picture::Picture;
 use std::collections::BTreeMap;
 
-/// A pixel corner: counted from the upper left one, to the right and down.
+/// A pixel corner, counted to the right and down from the upper left corner of the image.
 pub(super) type PixelCorner = [i32; 2];
 
-/// The maximum distance of a border from the pixel corners along it, in pixels.
+/// The maximum distance between a straightened border and its original pixel corners, in pixels.
 const TOLERANCE: f64 = 1.2;
 
-/// Traces the border of each color of an image, except transparent areas, as closed lines for the
-/// even-odd rule.
+/// Traces the border of each color of an image, except transparent areas, as closed lines to be
+/// filled with the even-odd rule.
 pub(super) fn trace_color_areas(picture: &Picture) -> BTreeMap<[u8; 4], Vec<Vec<PixelCorner>>> {
     let image = ColorImage { picture, size: [picture.width, picture.height].map(|n| n as i32) };
     let mut areas: BTreeMap<[u8; 4], Vec<Vec<PixelCorner>>> = BTreeMap::new();
@@ -46,7 +46,7 @@ pub(super) fn trace_color_areas(picture: &Picture) -> BTreeMap<[u8; 4], Vec<Vec<
 /// The four directions along pixel sides, clockwise with y down.
 const STEPS: [PixelCorner; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
 
-/// The offset from the start of a side to the pixel on its right, by direction.
+/// For each direction, the offset from the start of a side to the pixel on its right.
 const RIGHT: [PixelCorner; 4] = [[0, 0], [-1, 0], [-1, -1], [0, -1]];
 
 /// A border corner, and whether more than two borders meet there.
@@ -63,18 +63,18 @@ struct ColorImage<'a> {
 }
 
 impl ColorImage<'_> {
-    /// The color of a pixel; `None` if it is transparent or outside.
+    /// Returns the color of a pixel; `None` if it is transparent or outside.
     fn color(&self, [x, y]: PixelCorner) -> Option<[u8; 4]> {
         let is_inside = (0..self.size[0]).contains(&x) && (0..self.size[1]).contains(&y);
         let color = is_inside.then(|| self.picture.pixels[(y * self.size[0] + x) as usize]);
         color.filter(|color| color[3] > 0)
     }
 
-    /// Follows the border of a color, which stays on the right, from the upper left corner of a
-    /// pixel; marks the pixels whose upper sides are passed.
+    /// Follows the border of a color from the upper left corner of a pixel, with the color on the
+    /// right, and marks the pixels whose upper sides it passes.
     ///
-    /// Pixels that touch only at a corner belong to different areas. The corners are the turns of
-    /// the border and the junctions.
+    /// Pixels that touch only at a corner belong to different areas. The returned corners are the
+    /// turns of the border and the junctions.
     fn walk_border(
         &self,
         start: PixelCorner,
@@ -92,8 +92,8 @@ impl ColorImage<'_> {
                 let pixel = RIGHT[(direction + turned) % 4];
                 self.color([0, 1].map(|axis| at[axis] + pixel[axis])) == Some(color)
             };
-            // The right pixel ahead is on the right of the straight continuation; the left pixel
-            // ahead is on the right of a left turn.
+            // Going straight, the pixel ahead on the right is on the right. After a left turn, the
+            // pixel ahead on the left is on the right.
             let turn = match (beside(0), beside(3)) {
                 (false, _) => 1,
                 (true, false) => 0,
@@ -117,7 +117,7 @@ impl ColorImage<'_> {
     }
 }
 
-/// Removes corners from a closed border; only junctions are guaranteed to stay.
+/// Removes corners from a closed border; only junctions are sure to remain.
 fn straighten(border: &[BorderCorner]) -> Vec<PixelCorner> {
     let first = match border.iter().position(|corner| corner.is_junction) {
         Some(first) => first,
@@ -145,7 +145,7 @@ fn straighten(border: &[BorderCorner]) -> Vec<PixelCorner> {
     outline
 }
 
-/// Removes corners from a part of a border; its ends stay. A reversed part gives the reversed
+/// Removes corners from part of a border, except its ends. A reversed part gives the reversed
 /// result.
 fn straighten_part(mut part: Vec<PixelCorner>) -> Vec<PixelCorner> {
     let last = part.len() - 1;
@@ -182,7 +182,7 @@ fn straighten_part(mut part: Vec<PixelCorner>) -> Vec<PixelCorner> {
     kept
 }
 
-/// The squared distance of a corner from a straight line between two others.
+/// Returns the squared distance of a corner from a straight line between two others.
 fn squared_distance(point: PixelCorner, [a, b]: [PixelCorner; 2]) -> f64 {
     let between = |from: PixelCorner, to: PixelCorner| {
         [0, 1].map(|axis| f64::from(to[axis]) - f64::from(from[axis]))
@@ -204,7 +204,7 @@ fn squared_distance(point: PixelCorner, [a, b]: [PixelCorner; 2]) -> f64 {
 mod tests {
     use super::*;
 
-    /// An image given as letters, one color per letter; dots are transparent.
+    /// Returns an image drawn in letters, one color per letter; dots are transparent.
     fn image(rows: &[&str]) -> Picture {
         let color = |letter: u8| if letter == b'.' { [0; 4] } else { [letter, 0, 0, 255] };
         Picture {
@@ -214,7 +214,7 @@ mod tests {
         }
     }
 
-    /// Twice the area of outlines, holes counted negatively.
+    /// Returns twice the area of outlines; holes count as negative.
     fn doubled_area(outlines: &[Vec<PixelCorner>]) -> i32 {
         let sides = |outline: &[PixelCorner]| -> i32 {
             let next = outline.iter().cycle().skip(1);
@@ -234,7 +234,7 @@ mod tests {
 
     #[test]
     fn neighbors_share_their_border() {
-        // A disc of three sectors with a tail, in a frame.
+        // A disc of three colors in a transparent frame.
         let side = 200_i32;
         let color = |at: i32| {
             let (x, y) = (at % side - 100, at / side - 100);
@@ -254,7 +254,7 @@ mod tests {
                 *sides.entry((*a.min(b), *a.max(b))).or_insert(0) += if a < b { 1 } else { -1 };
             }
         }
-        // Sides that are not shared belong to the outline of the disc.
+        // Sides that are not shared are on the outline of the disc.
         for ((a, b), sum) in sides {
             let radius =
                 |at: PixelCorner| libm::hypot(f64::from(at[0] - 100), f64::from(at[1] - 100));
@@ -265,11 +265,11 @@ mod tests {
         let disc = std::f64::consts::TAU * 95.0 * 95.0;
         assert!((f64::from(whole) - disc).abs() < 0.01 * disc, "{whole} {disc}");
         let corners: usize = areas.values().flatten().map(Vec::len).sum();
-        assert!(corners < 150, "{corners} corners of stairs");
+        assert!(corners < 150, "{corners} corners: stair steps remain");
     }
 
     #[test]
-    fn pixels_that_touch_at_a_corner_have_borders_of_their_own() {
+    fn pixels_that_touch_only_at_a_corner_have_separate_borders() {
         let areas = trace_color_areas(&image(&["aa..", "aa..", "..aa", "..aa"]));
         assert_eq!(areas.values().map(Vec::len).sum::<usize>(), 2);
     }

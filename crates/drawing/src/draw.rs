@@ -1,9 +1,9 @@
-//! Drawing of a subject with a fill: hidden lines, luma hatching, an image of the faces.
+//! Draws a subject: hidden-line removal, hatching by luma, and a fill image of the faces.
 //!
 //! ```text
 //!   subject ─► hidden_line: segments, regions, faces ─┬─► Drawing
 //!                  ▲                                  │
-//!   key light ─► luma of each face              face_fill: a z-buffer image of colors
+//!   key light ─► luma of each face              face_fill: a z-buffer color image
 //! ```
 
 use super::face_fill::{FillOptions, KeyLight, rasterize_fill};
@@ -17,10 +17,10 @@ use homog::ClipRange;
 use viewport::Viewport;
 
 /// Draws the edges of a subject with hidden-line removal, and the fill of its faces. `workers` is
-/// the number of threads, which does not change the drawing, or that number with a monitor.
+/// the number of threads, optionally with a monitor; the number does not change the drawing.
 ///
 /// # Errors
-/// See [`hidden_line::draw`]; also if the image of the fill is out of range.
+/// See [`hidden_line::draw`]; also fails if the fill image would be too large.
 pub fn draw<'a>(
     subject: &Subject<'_>,
     options: &DrawOptions,
@@ -35,8 +35,8 @@ pub fn draw<'a>(
     Ok(Drawing { face_fill, ..lines.into() })
 }
 
-/// Draws a welded surface as seen by one camera, with the fill of its faces, on an image of `size`
-/// pixels; see [`draw`] for the rest.
+/// Draws a welded surface from one camera, with the fill of its faces, in an image of `size`
+/// pixels; otherwise like [`draw`].
 ///
 /// # Errors
 /// See [`draw`].
@@ -56,8 +56,8 @@ pub fn draw_surface<'a>(
     Ok(Drawing { face_fill, ..lines.into() })
 }
 
-/// The luma of faces under the key light of a view, with their material colors if the fill shows
-/// them.
+/// Returns a function for the luma of faces under the key light of a view, which includes material
+/// colors if the fill shows them.
 fn face_luma(
     view_projection: &ViewProjection,
     [width, height]: [u32; 2],
@@ -72,7 +72,7 @@ fn face_luma(
     })
 }
 
-/// The hatch lines that make up a fill.
+/// Returns the hatching of a fill.
 fn face_hatching(fill: FaceFill, luma: &dyn Fn([DVec3; 3], [f32; 3]) -> f64) -> FaceHatching<'_> {
     match fill {
         FaceFill::Hatching | FaceFill::ShadeHatching => FaceHatching::ByLuma(luma),

@@ -13,12 +13,12 @@ pub struct Drawing {
     pub size: DVec2,
     /// The object names, from the nodes of the models.
     pub objects: Vec<String>,
-    /// Visible segments, and hidden ones if the options retain them.
+    /// Visible segments, and hidden segments if the options retain them.
     pub segments: Vec<EdgeSegment>,
     /// The cut faces with their hatch lines, and the outlines if requested in the options.
     pub regions: Vec<Region>,
-    /// The flat or gray fill under the lines, if requested and if there are faces: an image that
-    /// covers the drawing. In a gray fill the pixels are gray levels, not colors.
+    /// The flat or gray fill under the lines: an image that covers the drawing, present if
+    /// requested and if there are faces. The pixels of a gray fill are gray levels, not colors.
     pub face_fill: Option<Picture>,
     /// Warnings of the drawing, without duplicates.
     pub warnings: Vec<Warning>,
@@ -34,7 +34,8 @@ impl Drawing {
 }
 
 impl From<LineDrawing> for Drawing {
-    /// Converts the lines without a fill, with a warning if their outlines are not exact on a page.
+    /// Converts lines to a drawing without a fill, and adds a warning if its outlines would not be
+    /// exact on a page.
     fn from(lines: LineDrawing) -> Self {
         let LineDrawing { size, objects, segments, regions, warnings } = lines;
         let is_traced = regions.iter().any(|region| Placement::PICTURE.traces_region(region));

@@ -2,8 +2,8 @@
 //!
 //! A flat fill is an image instead of vector fills. Faces that overlap cyclically or intersect
 //! cannot be painted in any order (the painter's algorithm fails); their visible parts would have
-//! to be cut out. A z-buffer resolves them at a higher resolution than any screen, and the exact
-//! lines go over it.
+//! to be cut out. A z-buffer resolves visibility at a resolution higher than any screen's, and the
+//! exact lines are drawn over it.
 
 use super::FaceFill;
 use super::gray_fill::gray_pixel;
@@ -15,10 +15,10 @@ use picture::Picture;
 use shade::color::SrgbEncoder;
 use viewport::Viewport;
 
-/// The fraction of ambient light; the key light adds the rest.
+/// The ambient fraction of the light; the key light adds the rest.
 const AMBIENT_LIGHT: f64 = 0.35;
 
-/// The longest side of a fill image in pixels.
+/// The maximum side length of a fill image in pixels.
 const MAX_FILL_SIDE: f64 = 8192.0;
 
 /// The fill of faces under the lines of a drawing.
@@ -37,7 +37,7 @@ impl Default for FillOptions {
 }
 
 impl FillOptions {
-    /// Returns a fill of this kind at the resolution that it needs.
+    /// Returns a fill of this kind at its required resolution.
     #[must_use]
     pub fn new(face_fill: FaceFill) -> Self {
         // The borders of areas must stay hidden under the lines, which are at least a pixel wide.
@@ -50,12 +50,13 @@ impl FillOptions {
 pub(super) struct KeyLight {
     /// The unit vector toward the light, in world space.
     direction: DVec3,
-    /// Finds the direction to the viewer: both sides of a face are lit like the visible one.
+    /// Gives the direction to the viewer, so that both sides of a face are lit like the visible
+    /// side.
     projector: Projector,
 }
 
 impl KeyLight {
-    /// The key light of a camera.
+    /// Returns the key light of a camera.
     pub(super) fn new(view_projection: &ViewProjection, projector: Projector) -> Self {
         let towards = Vector::<View>::new(-0.5, 0.7, 0.6);
         let direction = view_projection
@@ -80,7 +81,7 @@ impl KeyLight {
     /// sRGB-encoded channels.
     ///
     /// Hatching compares it with thresholds. Encoded values are nearly uniform to the eye; linear
-    /// ones are not.
+    /// values are not.
     pub(super) fn face_luma(&self, vertices: [DVec3; 3], surface: [f32; 3]) -> f64 {
         let [r, g, b] = self.shade_face(vertices, surface);
         let code = SrgbEncoder::shared().encode_pixel([r, g, b, 1.0]);
@@ -90,14 +91,15 @@ impl KeyLight {
 }
 
 /// Renders each face in one flat color, or in the gray of its material. Returns an image of the
-/// visible parts, transparent elsewhere; `None` for other fills or without faces.
+/// visible parts, transparent elsewhere, or `None` for other fills or if there are no faces.
 ///
 /// Each face comes with the linear color of its material, or `None` for section caps, which are
-/// white, or without gray. The image has `fill.scale` pixels per drawing pixel, but no side longer
-/// than [`MAX_FILL_SIDE`]. It is not filtered, because its pixels are finer than the output's.
+/// white or, in gray fills, blank. The image has `fill.scale` pixels per drawing pixel, but no side
+/// is longer than [`MAX_FILL_SIDE`]. It is not filtered, because its pixels are finer than those of
+/// the output.
 ///
 /// # Errors
-/// If the image has no viewport, or there are more faces than ids.
+/// Fails if the image has no valid viewport or there are more faces than ids.
 pub(super) fn rasterize_fill(
     faces: impl Iterator<Item = ([DVec3; 3], Option<[f32; 3]>)>,
     view_projection: &ViewProjection,

@@ -1,9 +1,8 @@
-//! Gray fill: the visible faces in tints of the ink, by the luminance of their materials.
+//! Gray fill: paints visible faces in tints of the ink, by the luminance of their materials.
 //!
 //! Exact outlines of the visible parts of faces would have to be assembled from lines whose ends
 //! depend on tolerances. Instead, a z-buffer finds the visible parts, as for a flat fill, and their
-//! borders are traced. They are off by about a pixel of a fine image and are hidden under wider
-//! lines.
+//! borders are traced. They are off by about one pixel of a fine image, which the wider lines hide.
 
 use super::Drawing;
 use super::color_areas::{PixelCorner, trace_color_areas};
@@ -16,11 +15,11 @@ use shade::color::SrgbEncoder;
 /// The number of gray levels, from black to white.
 const LEVELS: u8 = 32;
 
-/// The fraction of ink in the fill of a white and of a black material: lines must show on both, and
-/// a white part must differ from the paper.
+/// The fraction of ink in the fill for a white and for a black material. Lines must be visible on
+/// both, and a white part must differ from the paper.
 const TINTS: [f64; 2] = [0.06, 0.55];
 
-/// Encodes the gray of a material as a pixel of the fill image; transparent without a color.
+/// Encodes the gray of a material as a pixel of the fill image, transparent if it has no color.
 ///
 /// The luminance of the base color (Rec. 709) is sRGB-encoded, so that levels are nearly uniform to
 /// the eye.
@@ -32,7 +31,7 @@ pub(super) fn gray_pixel(color: Option<[f32; 3]>) -> [u8; 4] {
     [level as u8, level as u8, level as u8, 255]
 }
 
-/// The color of a gray level: paper with a fraction of ink.
+/// Returns the color of a gray level: a mix of paper and ink.
 fn tint(level: u8, [ink, paper]: [Ink; 2]) -> Ink {
     let [least, most] = TINTS;
     let part = most - (most - least) * f64::from(level) / f64::from(LEVELS - 1);
@@ -45,7 +44,7 @@ fn tint(level: u8, [ink, paper]: [Ink; 2]) -> Ink {
 
 impl Drawing {
     /// Returns the layers of a [gray](FaceFill::Gray) fill, one for each gray, to be placed under
-    /// the lines; empty for another fill.
+    /// the lines. Other fills have none.
     ///
     /// Grays are tints of the ink on the paper. `prefix` is prepended to the layer ids, as in
     /// [`to_layers`](Self::to_layers).

@@ -3,13 +3,13 @@
 //! ```text
 //!   true     ●───────────────────●
 //!
-//!   drawn   ╶──────╌╌───────────────╴    two strokes, each displaced by smooth noise, longer than
-//!            ╶─╌╌──────────╌╌──────╴     the line by a random part of the overshoot at both ends
+//!   drawn   ╶──────╌╌───────────────╴    two strokes, each displaced by smooth noise and extended
+//!            ╶─╌╌──────────╌╌──────╴     at both ends by a random fraction of the overshoot
 //! ```
 //!
 //! Only strokes on the page change, by less than twice the amplitude; edges, visibility and the
-//! model do not. The random numbers depend only on the line itself. Identical lines therefore waver
-//! alike in every run, and a line keeps its shape when others are added or removed.
+//! model do not. The random numbers depend only on the line itself. A line therefore has the same
+//! shape in every run, even when other lines are added or removed.
 
 use glam::DVec2;
 use page::{PagePoint, Polyline, to_micrometers, to_millimeters};
@@ -20,7 +20,7 @@ const STEP: f64 = 1.5;
 /// The distance over which the displacement changes, in millimeters.
 const WAVELENGTH: f64 = 12.0;
 
-/// The number of strokes for each line.
+/// The number of strokes per line.
 const ROUNDS: u64 = 2;
 
 /// The maximum overshoot of a stroke at each end of an open line, in amplitudes.
@@ -35,7 +35,7 @@ pub(super) fn draw_by_hand(lines: &[Polyline], amplitude: f64) -> Vec<Polyline> 
     rounds.filter_map(|(line, round)| drawn_stroke(line, round, amplitude)).collect()
 }
 
-/// One stroke along a line.
+/// Draws one stroke along a line.
 fn drawn_stroke(line: &Polyline, round: u64, amplitude: f64) -> Option<Polyline> {
     let seed = seed_of_line(&line.points, round);
     let mut points: Vec<DVec2> = line.points.iter().copied().map(to_millimeters).collect();
@@ -56,7 +56,7 @@ fn drawn_stroke(line: &Polyline, round: u64, amplitude: f64) -> Option<Polyline>
     (points.len() > 1).then_some(Polyline { points, closed: false })
 }
 
-/// Moves both ends outward along their segments, by lengths in millimeters.
+/// Moves both ends outward along their segments by the specified lengths, in millimeters.
 fn extend_ends(points: &mut [DVec2], [first, last]: [f64; 2]) {
     let end = points.len() - 1;
     let outward = |from: DVec2, to: DVec2| (to - from).normalize_or_zero();
@@ -66,8 +66,8 @@ fn extend_ends(points: &mut [DVec2], [first, last]: [f64; 2]) {
     points[end] += finish;
 }
 
-/// Returns points along a line at most `step` apart, including corners, with their distance from
-/// its beginning in millimeters.
+/// Returns points along a line at most `step` apart, including corners, and the distance of each
+/// from the start in millimeters.
 fn resample(points: &[DVec2], step: f64) -> Vec<(DVec2, f64)> {
     let mut samples = vec![(points[0], 0.0)];
     let mut start = 0.0;
@@ -83,8 +83,8 @@ fn resample(points: &[DVec2], step: f64) -> Vec<(DVec2, f64)> {
     samples
 }
 
-/// Noise from -1 to 1 with a continuous slope: random values at integers, joined by cubics (value
-/// noise).
+/// Returns value noise from -1 to 1 with a continuous slope: random values at integers, joined by
+/// cubics.
 fn smooth_noise(seed: u64, x: f64) -> f64 {
     let cell = x.floor();
     let t = x - cell;
@@ -98,13 +98,13 @@ fn seed_of_line(points: &[PagePoint], round: u64) -> u64 {
     numbers.fold(mix(round), |seed, number| mix(seed ^ number)) << 1
 }
 
-/// A pseudorandom number from 0 to 1 for a seed and an index.
+/// Returns a pseudorandom number from 0 to 1 for a seed and an index.
 fn random(seed: u64, index: u64) -> f64 {
     (mix(seed ^ mix(index)) >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// A permutation of the integers in which each bit depends on all others (SplitMix64, Steele, Lea
-/// and Flood 2014).
+/// Maps integers one-to-one so that each output bit depends on every input bit (SplitMix64, Steele,
+/// Lea and Flood 2014).
 const fn mix(number: u64) -> u64 {
     let bits = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -129,16 +129,16 @@ mod tests {
         for stroke in &strokes {
             let points: Vec<DVec2> = stroke.points.iter().copied().map(to_millimeters).collect();
             assert!(points.iter().all(|point| point.y.abs() <= 0.301), "{points:?}");
-            assert!(points.iter().any(|point| point.y.abs() > 0.05), "it wavers");
+            assert!(points.iter().any(|point| point.y.abs() > 0.05), "the stroke must waver");
             assert!(points.iter().all(|point| (-1.6..=81.6).contains(&point.x)));
             let reaches = |end: f64| points.iter().any(|point| (point.x - end).abs() < 1.6);
             assert!(reaches(0.0) && reaches(80.0));
         }
-        assert_ne!(strokes[0], strokes[1], "the second round is another stroke");
+        assert_ne!(strokes[0], strokes[1], "the two strokes must differ");
     }
 
     #[test]
-    fn a_line_wavers_alike_whatever_is_drawn_beside_it() {
+    fn a_line_keeps_its_shape_whatever_else_is_drawn() {
         let (one, other) =
             (line(&[(0.0, 0.0), (9.0, 5.0)], false), line(&[(3.0, 0.0), (3.0, 7.0)], false));
         let both = draw_by_hand(&[other, one.clone()], 0.2);
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn corners_of_a_closed_line_are_among_its_points() {
+    fn strokes_of_a_closed_line_keep_its_corners() {
         let corners = [(0.0, 0.0), (20.0, 0.0), (20.0, 10.0)];
         for stroke in draw_by_hand(&[line(&corners, true)], 0.1) {
             for corner in corners.map(DVec2::from) {

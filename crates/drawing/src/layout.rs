@@ -1,4 +1,4 @@
-//! Layout of a line drawing in layers: one layer for each kind of line, with one group for each
+//! Arranges a line drawing in layers: one layer for each kind of line, with one group for each
 //! object.
 //!
 //! ```text
@@ -8,11 +8,11 @@
 //!   0  visible silhouette     hidden crease
 //!   1  visible boundary       hidden silhouette
 //!   2  visible crease         …
-//!   …  hidden silhouette      visible silhouette    last, so on top
+//!   …  hidden silhouette      visible silhouette    drawn last, so on top
 //! ```
 //!
 //! The order of kinds has two effects. Layers of more important kinds are drawn over the others.
-//! Only the most important of the segments that coincide on the page remains. Layers have stable
+//! Where segments coincide on the page, only the most important one remains. Layers have stable
 //! ids, such as `hidden-crease`, for use in style sheets and scripts.
 
 use super::hand_drawn::draw_by_hand;
@@ -41,7 +41,7 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// At the upper left corner of the page, 96 pixels per inch.
+    /// The upper left corner of the page, with 96 pixels per inch.
     pub const PICTURE: Self =
         Self { corner: DVec2::ZERO, scale: DVec2::splat(MILLIMETERS_PER_PIXEL) };
 
@@ -50,7 +50,7 @@ impl Placement {
         self.corner + pixels * self.scale
     }
 
-    /// The closed lines around a region, on the page.
+    /// Returns the closed outlines of a region on the page.
     fn region_loops(&self, region: &Region) -> Vec<Polyline> {
         let on_page = |end: DVec2| to_micrometers(self.pixels_to_page(end));
         outline_loops(region.edges.iter().map(|edge| (edge.ends.map(on_page), edge.winding)))
@@ -62,7 +62,7 @@ impl Placement {
         is_traced(region.edges.iter().map(|edge| (edge.ends.map(on_page), edge.winding)))
     }
 
-    /// The area of a hatched region on the page; `None` if it has no hatching.
+    /// Returns the area of a hatched region on the page; `None` if it has no hatching.
     fn hatch_area(&self, region: &Region) -> Option<HatchArea> {
         let RegionHatching { direction, spacing } = region.hatching?;
         let loops = self.region_loops(region);
@@ -73,7 +73,7 @@ impl Placement {
     }
 }
 
-/// The number of depth bands in a drawing with a depth cue, each with a different ink.
+/// The number of depth bands in a drawing with a depth cue. Each band has a different ink.
 const DEPTH_BANDS: u32 = 8;
 
 /// A kind of line: the lines that form one layer.
@@ -81,23 +81,23 @@ const DEPTH_BANDS: u32 = 8;
 struct LineKind {
     /// Whether it is hidden.
     hidden: bool,
-    /// The depth band, 0 nearest; always 0 without a depth cue.
+    /// The depth band, where 0 is nearest; always 0 without a depth cue.
     band: u32,
     class: EdgeClass,
 }
 
-/// The kinds of lines in a style, most important first; other modules refer to them by index.
+/// The kinds of lines in a style, most important first. Other modules refer to them by index.
 struct LineKinds<'a> {
     style: &'a LineStyle,
     kinds: Vec<LineKind>,
     /// The nearest and farthest depths of all lines.
     depths: [f64; 2],
-    /// The thinning of dense lines: visible ones, then hidden ones.
+    /// The thinning of dense visible lines, then of dense hidden lines.
     thinning: [Thinning; 2],
 }
 
 impl Drawing {
-    /// Returns the drawing as a separate page, 96 pixels per inch.
+    /// Returns the drawing as a separate page at 96 pixels per inch.
     ///
     /// `title` is the title of the document. `paper` fills the background; if the style has no ink,
     /// it also selects dark or light ink.
@@ -116,7 +116,7 @@ impl Drawing {
     /// Returns the flat fill as an image on a page, if the drawing has one.
     ///
     /// Its rectangle covers the whole drawing, rounded to micrometers, so that lines and fill stay
-    /// in register.
+    /// aligned.
     #[must_use]
     pub fn face_fill_image(
         &self,
@@ -134,8 +134,8 @@ impl Drawing {
     /// Returns the layers of the drawing, lowest first. `prefix` is prepended to their ids, so that
     /// several drawings can share a page.
     ///
-    /// Kinds without lines have no layer. The drawing must be made with the options of the same
-    /// style; see [`LineStyle::to_draw_options`].
+    /// Kinds without lines have no layer. The drawing must have been made with the options of the
+    /// same style; see [`LineStyle::to_draw_options`].
     #[must_use]
     pub fn to_layers(
         &self,
@@ -176,7 +176,7 @@ impl Drawing {
         layers
     }
 
-    /// The outline layer: one group for the whole, or one for each object.
+    /// Returns the outline layer, with one group for the whole or one for each object.
     fn outline_layer(
         &self,
         kinds: &LineKinds<'_>,
@@ -203,8 +203,8 @@ impl Drawing {
         (!layer.groups.is_empty()).then_some(layer)
     }
 
-    /// Records in the groups of a layer which areas their hatch lines fill, unless faces are
-    /// hatched as well as cuts.
+    /// Records in the groups of a layer which areas their hatch lines fill, unless both faces and
+    /// cuts are hatched.
     fn mark_hatchings(&self, layer: &mut Layer, style: &LineStyle, placement: Placement) {
         if matches!(style.face_fill, FaceFill::Hatching | FaceFill::ShadeHatching) {
             return;
@@ -225,7 +225,7 @@ impl Drawing {
         }
     }
 
-    /// The name of an object; empty if it has none.
+    /// Returns the name of an object; empty if it has none.
     fn object_name(&self, object: u32) -> String {
         self.objects.get(object as usize).cloned().unwrap_or_default()
     }
@@ -253,8 +253,8 @@ impl Drawing {
 }
 
 impl LineStyle {
-    /// Returns the ink of the style on paper of this color: its own, or one that contrasts with the
-    /// paper, as in [`ink_on_paper`].
+    /// Returns the ink of the style on paper of this color: the style's own ink if it has one,
+    /// otherwise an ink that contrasts with the paper, as in [`ink_on_paper`].
     #[must_use]
     pub fn ink_on(&self, paper: Option<Ink>) -> Ink {
         self.ink.unwrap_or_else(|| ink_on_paper(paper))
@@ -276,7 +276,7 @@ impl<'a> LineKinds<'a> {
                 kinds.extend(classes.map(|class| LineKind { hidden, band, class }));
             }
         }
-        // Facets are construction lines: even hidden feature edges take precedence.
+        // Facets are construction lines, so even hidden feature edges take precedence over them.
         kinds.sort_by_key(|kind| (kind.class == EdgeClass::Facet, kind.hidden, kind.band));
         let thinning = thinning_for_style(drawing, style, placement);
         Self { style, kinds, depths: [nearest, farthest], thinning }
@@ -302,8 +302,8 @@ impl<'a> LineKinds<'a> {
 
     /// Splits a segment into parts by depth band.
     ///
-    /// Depth is linear on the screen, so band borders cut a segment at fixed fractions: t = (border
-    /// − from) / (to − from).
+    /// Depth is linear on the screen, so each band border cuts a segment at the fraction t =
+    /// (border − from) / (to − from).
     fn split_by_depth(&self, segment: &EdgeSegment) -> Vec<(u32, [DVec2; 2])> {
         let [nearest, farthest] = self.depths;
         let span = nearest - farthest;
@@ -328,8 +328,8 @@ impl<'a> LineKinds<'a> {
         cuts.windows(2).map(part).collect()
     }
 
-    /// The first kind whose lines form common chains with this kind: dashes continue where the
-    /// class of a hidden line changes.
+    /// Returns the first kind whose lines are chained with lines of this kind, so that dashes
+    /// continue where the class of a hidden line changes.
     fn joined_kind(&self, index: u32) -> u32 {
         let kind = self.kinds[index as usize];
         let continues = |other: &LineKind| {
@@ -341,8 +341,8 @@ impl<'a> LineKinds<'a> {
         self.kinds.iter().position(continues).map_or(index, |first| first as u32)
     }
 
-    /// The treatment of short chains of a kind: all are kept in wireframes, in lines from the model
-    /// itself and in hatchings.
+    /// Returns the treatment of short chains of a kind. Wireframes, hatching and lines from the
+    /// model itself keep all chains.
     fn short_chains(&self, index: u32) -> ShortChains {
         let kind = self.kinds[index as usize];
         let [wide, _] = self.style.line_widths.wide_and_narrow();
@@ -350,7 +350,7 @@ impl<'a> LineKinds<'a> {
         match kind.class {
             EdgeClass::Line => ShortChains::Retained,
             _ if self.style.edges == EdgeSelection::Facets => ShortChains::Retained,
-            // An outline has to be closed.
+            // An outline must stay closed.
             _ if self.style.edges == EdgeSelection::Silhouette => ShortChains::RemovedAlone(least),
             EdgeClass::Intersection => ShortChains::Removed(least),
             EdgeClass::Crease => ShortChains::RemovedUnlessBridge(least),
@@ -361,8 +361,8 @@ impl<'a> LineKinds<'a> {
         }
     }
 
-    /// The pen of a kind: narrow for hidden, tangent and hatch lines, dashed for hidden ones, faded
-    /// with depth.
+    /// Returns the pen of a kind. It is narrow for hidden, tangent and hatch lines, dashed for
+    /// hidden lines, and fades with depth.
     fn pen_for_kind(&self, kind: LineKind, ink: Ink) -> Pen {
         let style = self.style;
         let [wide, narrow] = style.line_widths.wide_and_narrow();
@@ -379,10 +379,10 @@ impl<'a> LineKinds<'a> {
     }
 }
 
-/// The thinning of dense lines in a style, for visible and for hidden lines.
+/// Returns the thinning of dense lines in a style, first for visible lines, then for hidden lines.
 ///
-/// Only lines that overlap each other are thinned: wireframes and hidden lines. Visible lines of
-/// other styles are the drawing itself. Sheets are to scale and keep the requested widths and ink.
+/// Only lines that overlap each other are thinned: wireframes and hidden lines. In other styles the
+/// visible lines are the drawing itself. Sheets are to scale and keep the requested widths and ink.
 fn thinning_for_style(drawing: &Drawing, style: &LineStyle, placement: Placement) -> [Thinning; 2] {
     if placement != Placement::PICTURE {
         return [Thinning::NONE; 2];
@@ -401,8 +401,8 @@ fn thinning_for_style(drawing: &Drawing, style: &LineStyle, placement: Placement
     }
 }
 
-/// Fades an ink by a fraction of its contrast: toward white, or toward black for light inks on dark
-/// paper.
+/// Fades an ink by a fraction of its contrast, toward white or, for light inks on dark paper,
+/// toward black.
 fn faded_ink(ink: Ink, part: f64) -> Ink {
     let ground = if ink.iter().map(|c| u32::from(*c)).sum::<u32>() > 384 { 0.0 } else { 255.0 };
     let mixed = |c: u8| f64::from(c) + (ground - f64::from(c)) * part;
@@ -414,21 +414,21 @@ fn selects_class(style: &LineStyle, class: EdgeClass, hidden: bool) -> bool {
     if hidden && style.hidden_lines == HiddenLines::Removed {
         return false;
     }
-    // Without faces, all lines and points of a model are drawn, regardless of the style.
+    // In a model without faces, all lines and points are drawn, regardless of the style.
     let is_own = matches!(class, EdgeClass::Line | EdgeClass::Marked);
     if !is_own && !style.to_draw_options().classes.contains(class) {
         return false;
     }
     match class {
         EdgeClass::Hatching => !hidden,
-        // Tangent edges show no bend, so hidden ones are skipped.
+        // Tangent edges do not mark a bend, so they are skipped where they are hidden.
         EdgeClass::Tangent => !hidden || style.edges == EdgeSelection::Facets,
         _ => true,
     }
 }
 
 impl LineKind {
-    /// The id and title of the layer.
+    /// Returns the id and title of the layer.
     fn layer_names(self, style: &LineStyle) -> (String, String) {
         let class = self.class.name();
         let visibility = match (self.hidden, style.hidden_lines) {

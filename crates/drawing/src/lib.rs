@@ -1,5 +1,5 @@
-//! Drawings for pages: line styles, face fills, layers of polylines from hidden-line removal,
-//! overlays and charts.
+//! Drawings for pages: line styles, face fills, overlays, charts, and layers of polylines from
+//! hidden-line removal.
 //!
 //! ```text
 //!   models ─► hidden_line: visible and hidden segments ─► Drawing ─► layers of polylines ─► page
@@ -11,13 +11,13 @@
 //! | `draw`, `drawing` | the lines of a subject and the fill under them |
 //! | `face_fill`, `gray_fill`, `color_areas` | fills of visible faces, and areas traced from them |
 //! | `line_style` | which edges are drawn, their pens and widths, as in ISO 128 |
-//! | `layout`, `overlap_removal`, `polyline_chain` | from segments to layers of polylines |
+//! | `layout`, `overlap_removal`, `polyline_chain` | turning segments into layers of polylines |
 //! | `line_density`, `hand_drawn` | thinning of dense lines; hand-drawn strokes |
-//! | `region_outline` | outlines of the area that faces cover, by winding numbers and snap rounding |
+//! | `region_outline` | outlines of the area covered by faces, by winding numbers and snap rounding |
 //! | `line_clip` | drawings clipped to parts of a view |
 //! | `overlay`, `chart`, `panels` | teaching material: axes, labels, vanishing points, curves |
 //!
-//! A drawing exactly matches a picture of the same scene. Results do not depend on the number of
+//! A drawing matches a picture of the same scene exactly. Results do not depend on the number of
 //! threads.
 
 mod chart;
@@ -53,10 +53,10 @@ pub use overlay::{
 pub use panels::{Panel, Panels};
 pub use warning::Warning;
 
-/// A page with the warnings of its drawings.
+/// A page together with the warnings of its drawings.
 pub type Page = page::Page<Warning>;
 
-/// The example of the README, compiled as a documentation test.
+/// The README example, compiled as a documentation test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,21 +1,21 @@
-//! Clipping of line drawings to areas of the picture, and merging of such parts.
+//! Clips line drawings to areas of the picture, and merges the clipped parts.
 //!
 //! ```text
-//!   ──────╱─────╲──────        ╱─────╲        lines are cut where they cross the border,
-//!        │       │      ─►    │       │       hatch lines as well
+//!   ──────╱─────╲──────        ╱─────╲        lines and hatch lines are cut where they
+//!        │       │      ─►    │       │       cross the border
 //!   ──────╲─────╱──────        ╲─────╱
 //! ```
 //!
 //! Each line is cut where it crosses the border, and each part is kept or removed by its midpoint.
-//! One area keeps exactly what its complement removes, so nothing is drawn twice. Depth is linear
-//! on the screen, so the depths of parts are interpolated.
+//! An area keeps exactly the parts that its complement removes, so nothing is drawn twice. Depth is
+//! linear on the screen, so the depths of parts are interpolated.
 
 use super::Drawing;
 use glam::DVec2;
 use hidden_line::{EdgeSegment, Region, RegionEdge};
 
-/// The number of corners of the polygon that represents a disc: its sides leave the circle by 0.02
-/// % of the radius.
+/// The number of corners of the polygon that represents a disc. Its sides deviate from the circle
+/// by 0.02 % of the radius.
 const DISC_CORNERS: u32 = 180;
 
 /// An area of the picture in pixels, y down.
@@ -28,7 +28,7 @@ pub enum ClipArea {
         /// The radius.
         radius: f64,
     },
-    /// A polygon whose whole border is visible from its center.
+    /// A star-shaped polygon: its whole border is visible from its center.
     Star {
         /// The point from which the whole border is visible.
         center: DVec2,
@@ -47,7 +47,8 @@ pub enum ClipSide {
 }
 
 impl ClipArea {
-    /// Returns the half-plane to the left of a line, with y up; large enough for any drawing.
+    /// Returns the half-plane to the left of a line, as seen with y up, as a polygon large enough
+    /// for any drawing.
     pub fn half_plane(point: DVec2, along: DVec2) -> Self {
         const FAR: f64 = 1e6;
         let (along, left) = (along * FAR, DVec2::new(along.y, -along.x) * FAR);
@@ -77,8 +78,8 @@ impl ClipArea {
         }
     }
 
-    /// The fractions of a line at which it crosses the border, sorted, with 0 before and 1 after
-    /// them.
+    /// Returns the sorted fractions at which a line crosses the border, preceded by 0 and followed
+    /// by 1.
     fn crossings(&self, [a, b]: [DVec2; 2]) -> Vec<f64> {
         let mut cuts = vec![0.0, 1.0];
         let step = b - a;
@@ -129,7 +130,7 @@ impl ClipArea {
     }
 }
 
-/// The sides of a polygon.
+/// Returns the sides of a polygon.
 fn sides(corners: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> {
     corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| [*a, *b])
 }
@@ -149,7 +150,7 @@ pub fn point_at([a, b]: [DVec2; 2], t: f64) -> DVec2 {
 }
 
 impl Drawing {
-    /// Returns the part of the drawing inside or outside an area. Regions are dropped outside.
+    /// Returns the part of the drawing inside or outside an area. Outside, regions are dropped.
     pub fn clipped(mut self, area: &ClipArea, side: ClipSide) -> Self {
         let segments = self.segments.iter().flat_map(|segment| {
             let parts = area.intervals(segment.ends, side).into_iter();
@@ -200,8 +201,8 @@ impl Drawing {
         self
     }
 
-    /// Adds the lines of another drawing of the same models and size, and its fill if there is
-    /// none.
+    /// Adds the lines of another drawing of the same models and size, and its fill where this
+    /// drawing has none.
     pub fn merge(&mut self, other: Self) {
         let offset = self.segments.iter().map(|segment| segment.edge + 1).max().unwrap_or(0);
         let moved = |segment: EdgeSegment| EdgeSegment { edge: segment.edge + offset, ..segment };
@@ -227,8 +228,8 @@ impl Drawing {
 
 /// Clips a region to an area.
 ///
-/// Points outside are pulled in along the rays to the center. That retraction keeps closed chains
-/// closed, so inside the area the winding numbers are unchanged.
+/// Points outside are pulled in to the border, along rays to the center. That retraction keeps
+/// closed chains closed, so the winding numbers inside the area do not change.
 fn clip_region(region: Region, area: &ClipArea) -> Region {
     let (center, corners) = area.to_star();
     let star = ClipArea::Star { center, corners };
@@ -246,7 +247,7 @@ fn clip_region(region: Region, area: &ClipArea) -> Region {
                 push(&mut edges, ends[0], ends[1]);
                 continue;
             }
-            // An end inside the line is on the border already.
+            // A cut between the ends of the line is already on the border.
             let drawn_in = |t: f64, end: DVec2| {
                 let is_crossing = t > 0.0 && t < 1.0 || star.contains(end);
                 if is_crossing { end } else { border_point(center, corners, end) }
@@ -262,7 +263,7 @@ fn clip_region(region: Region, area: &ClipArea) -> Region {
     Region { edges, ..region }
 }
 
-/// The point where the ray from the center through a point leaves a polygon.
+/// Returns the point where the ray from the center through a point leaves a polygon.
 fn border_point(center: DVec2, corners: &[DVec2], point: DVec2) -> DVec2 {
     let ray = point - center;
     let hit = |[a, b]: [DVec2; 2]| {
@@ -275,8 +276,8 @@ fn border_point(center: DVec2, corners: &[DVec2], point: DVec2) -> DVec2 {
     if t > 0.0 { center + ray * t } else { point }
 }
 
-/// The corners of a polygon that a ray from its center meets as it sweeps from one end of a line to
-/// the other.
+/// Returns the polygon corners that a ray from the center passes as it sweeps from one end of a
+/// line to the other.
 fn corners_between(center: DVec2, corners: &[DVec2], ends: [DVec2; 2]) -> Vec<DVec2> {
     let [from, to] = ends.map(|end| end - center);
     let turn = from.perp_dot(to).signum();
@@ -329,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fill_goes_below_another_and_stands_where_there_is_none() {
+    fn a_merged_fill_goes_under_the_existing_fill() {
         let ends = [DVec2::ZERO, DVec2::splat(100.0)];
         let filled = |pixels: Vec<[u8; 4]>| Drawing {
             face_fill: Some(Picture { width: 2, height: 1, pixels }),
@@ -349,7 +350,7 @@ mod tests {
     }
 
     #[test]
-    fn half_planes_share_nothing_and_leave_nothing_out() {
+    fn the_two_sides_of_a_half_plane_divide_a_line_completely() {
         let (point, along) = (DVec2::new(40.0, 0.0), DVec2::Y);
         let area = ClipArea::half_plane(point, along);
         for y in [0.0, 10.0, 33.0] {
@@ -365,7 +366,7 @@ mod tests {
         }
     }
 
-    /// The area enclosed by the edges of a region, by the shoelace formula.
+    /// Returns the area enclosed by the edges of a region, by the shoelace formula.
     fn area_of(region: &Region) -> f64 {
         let part =
             |edge: &RegionEdge| 0.5 * f64::from(edge.winding) * edge.ends[0].perp_dot(edge.ends[1]);
@@ -379,7 +380,7 @@ mod tests {
         let region = Region { object: None, edges, hatching: None };
         let half = ClipArea::half_plane(DVec2::new(40.0, 0.0), DVec2::Y);
         assert!((area_of(&clip_region(region.clone(), &half)) - 60.0 * 60.0).abs() < 1e-6);
-        // Inside the region, across its border, around it and outside it.
+        // Discs inside the region, across its border, around it and outside it.
         let disc = |x: f64, radius: f64| ClipArea::Disc { center: DVec2::new(x, 30.0), radius };
         let circle = |radius: f64| std::f64::consts::PI * radius * radius;
         for (area, expected) in [
@@ -394,7 +395,7 @@ mod tests {
     }
 
     #[test]
-    fn merged_drawings_have_edges_of_their_own() {
+    fn edges_of_merged_drawings_stay_distinct() {
         let ends = [DVec2::ZERO, DVec2::ONE];
         let mut merged = drawing(ends);
         merged.merge(drawing(ends).moved_by(DVec2::X));

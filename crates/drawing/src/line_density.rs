@@ -1,24 +1,24 @@
 //! Line density: dense lines are drawn thinner and paler, so that they do not merge into a blot.
 //!
 //! ```text
-//!   coverage   area of the ink / area of the page, where lines are
-//!        1 ┤            ╱  of a thousand edges on the space of ten
-//!    0.6 ┤ · · · ╭─────    from here on the pen is thinned, then made paler
+//!   coverage   area of the ink / area of the page, near the lines
+//!        1 ┤            ╱  a thousand edges in the space of ten
+//!    0.6 ┤ · · · ╭─────    above this, the pen gets thinner, then paler
 //!        0 ┤    ╱
 //! ```
 //!
-//! The measure is a single number for all lines that are thinned together, so it leaves no borders
-//! in the drawing: the mean coverage around the points of a line.
+//! The measure is the mean coverage around the points of the lines. It is a single number for all
+//! lines that are thinned together, so thinning leaves no visible borders in the drawing.
 
 use crate::Drawing;
 use glam::DVec2;
 use hidden_line::EdgeSegment;
 
-/// The side of the squares in which coverage is measured, in pixels.
+/// The side length of the squares in which coverage is measured, in pixels.
 const CELL_SIDE: f64 = 16.0;
 /// The coverage up to which lines are drawn unchanged.
 const MAX_COVERAGE: f64 = 0.6;
-/// The minimum fraction of its width that a line keeps; beyond that it becomes paler.
+/// The minimum fraction of its width that a line keeps; if that is not enough, it becomes paler.
 const MIN_WIDTH_FACTOR: f64 = 0.4;
 /// The minimum fraction of its contrast that a line keeps.
 const MIN_CONTRAST: f64 = 0.4;
@@ -39,7 +39,8 @@ impl Thinning {
     /// Computes the thinning of the selected segments of a drawing, drawn with this width in
     /// pixels.
     ///
-    /// With `keeps_width` lines only become paler, for drawings whose widths follow a standard.
+    /// With `keeps_width`, lines only become paler; this is for drawings whose widths follow a
+    /// standard.
     pub(crate) fn for_lines(
         drawing: &Drawing,
         width: f64,
@@ -52,12 +53,13 @@ impl Thinning {
         }
         let factor = MAX_COVERAGE / coverage;
         let width = if keeps_width { 1.0 } else { factor.max(MIN_WIDTH_FACTOR) };
-        // The root, because overlapping lines add up to less than their sum.
+        // The square root, because overlapping lines darken the page by less than their sum.
         Self { width, contrast: (factor / width).sqrt().clamp(MIN_CONTRAST, 1.0) }
     }
 }
 
-/// The mean coverage around the points of the selected segments; more than 1 where lines overlap.
+/// Returns the mean coverage around the points of the selected segments; more than 1 where lines
+/// overlap.
 fn mean_coverage(drawing: &Drawing, width: f64, selects: impl Fn(&EdgeSegment) -> bool) -> f64 {
     let [columns, rows] =
         [drawing.size.x, drawing.size.y].map(|side| (side / CELL_SIDE).ceil().max(1.0));
@@ -65,7 +67,7 @@ fn mean_coverage(drawing: &Drawing, width: f64, selects: impl Fn(&EdgeSegment) -
     for segment in drawing.segments.iter().filter(|segment| selects(segment)) {
         let [from, to] = segment.ends;
         let length = from.distance(to);
-        // Steps of at most half a cell; each counts at its midpoint.
+        // Steps of at most half a cell, each counted at its midpoint.
         let steps = (2.0 * length / CELL_SIDE).ceil().max(1.0);
         for step in 0..steps as usize {
             let middle = from.lerp(to, (step as f64 + 0.5) / steps);
@@ -84,7 +86,7 @@ mod tests {
     use super::*;
     use hidden_line::EdgeClass;
 
-    /// A drawing of 160 × 160 pixels with `count` horizontal lines from side to side.
+    /// Returns a drawing of 160 × 160 pixels with `count` horizontal lines from side to side.
     fn drawing_of_lines(count: usize) -> Drawing {
         let segment = |line: usize| EdgeSegment {
             ends: [0.0, 160.0].map(|x| DVec2::new(x, 160.0 * (line as f64 + 0.5) / count as f64)),
@@ -102,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn coverage_is_the_ink_on_the_page() {
+    fn coverage_is_the_fraction_of_ink_on_the_page() {
         for (count, width, coverage) in [(10, 1.0, 10.0 / 160.0), (100, 0.5, 50.0 / 160.0)] {
             let mean = mean_coverage(&drawing_of_lines(count), width, |_| true);
             assert!((mean - coverage).abs() < 0.1 * coverage, "{count}: {mean}");

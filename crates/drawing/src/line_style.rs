@@ -1,13 +1,13 @@
-//! Line style: the selection of edges, hidden lines, pens and fills of a line drawing.
+//! Line styles: which edges and hidden lines a line drawing has, and its pens and fills.
 
 use super::face_fill::FillOptions;
 use hidden_line::{DrawOptions, EdgeClass, EdgeClasses, HiddenEdges, SilhouetteMethod};
 use page::palette::{BLACK, BLUEPRINT_BLUE, GRAPHITE, WHITE};
 use page::{Cap, Ink, IsoLineGroup, Join, MILLIMETERS_PER_PIXEL};
 
-/// The appearance of a line drawing.
+/// The style of a line drawing.
 ///
-/// Constants are complete styles; modify one with the update syntax:
+/// The constants are complete styles. To modify one, use struct update syntax:
 ///
 /// ```
 /// use drawing::{HiddenLines, LineStyle, LineWidths};
@@ -22,20 +22,20 @@ use page::{Cap, Ink, IsoLineGroup, Join, MILLIMETERS_PER_PIXEL};
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct LineStyle {
-    /// The edges that are drawn.
+    /// The edges to draw.
     pub edges: EdgeSelection,
     /// The treatment of hidden lines.
     pub hidden_lines: HiddenLines,
     /// Two faces that meet at more than this angle, in radians, have an edge between them.
     pub crease_angle: f64,
-    /// Two faces that meet at more than this angle, in radians, but at no crease, have a tangent
-    /// edge between them; `None` if only a change of material makes one.
+    /// Two faces that meet at more than this angle, in radians, but not at a crease, have a tangent
+    /// edge between them. If it is `None`, only a change of material makes a tangent edge.
     pub tangent_angle: Option<f64>,
-    /// Whether an edge is smooth if the vertex normals in the file agree on both sides.
+    /// Whether an edge counts as smooth if the vertex normals in the file agree on both sides.
     pub asks_normals: bool,
     /// The method for silhouettes of smooth surfaces.
     pub silhouettes: SilhouetteMethod,
-    /// The fraction of its contrast that the farthest line loses: 0 for none, 1 for all.
+    /// The fraction of contrast that the farthest line loses: 0 for none, 1 for all.
     pub depth_cue: f64,
     /// The widths of the lines.
     pub line_widths: LineWidths,
@@ -43,34 +43,33 @@ pub struct LineStyle {
     pub ink: Option<Ink>,
     /// The color of the paper of sheets; `None` for white.
     pub paper: Option<Ink>,
-    /// The ends of lines.
+    /// The shape of line ends.
     pub cap: Cap,
-    /// The corners of lines.
+    /// The shape of line corners.
     pub join: Join,
     /// The distance between hatch lines, in millimeters.
     pub hatch_spacing: f64,
     /// The fill of faces under the lines.
     pub face_fill: FaceFill,
-    /// The amplitude with which strokes waver, as if drawn by hand, in millimeters; 0 for exact
-    /// lines.
+    /// The amplitude of the wavering of hand-drawn strokes, in millimeters; 0 for exact lines.
     pub hand_drawn: f64,
 }
 
 /// The edges that a style draws.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum EdgeSelection {
-    /// The sides of all triangles: a wireframe.
+    /// All triangle edges: a wireframe.
     Facets,
-    /// Silhouettes, boundaries, creases, intersections, section outlines, marked edges, and
-    /// tangent edges, where two materials meet smoothly.
+    /// Silhouettes, boundaries, creases, intersections, section outlines, marked edges, and tangent
+    /// edges where two materials meet smoothly.
     Features,
     /// Like `Features`, with tangent edges as narrow lines.
     Tangents,
     /// Only silhouettes and boundaries, including those in front of other surfaces.
     Contours,
-    /// Only the outline: edges with nothing beside them.
+    /// Only the outline: edges next to the background.
     Silhouette,
-    /// Closed loops around the whole and its holes; with section planes, around the cuts.
+    /// Closed loops around the whole and its holes or, with section planes, around the cuts.
     Outline,
 }
 
@@ -81,8 +80,8 @@ pub enum HiddenLines {
     Removed,
     /// Dashed.
     Dashed,
-    /// Dashed if at most two faces are in front of them, the two sides of one wall; lines farther
-    /// behind are not drawn.
+    /// Dashed if at most two faces, the two sides of one wall, are in front of them; otherwise not
+    /// drawn.
     FirstLayer,
     /// Drawn like visible lines, as if the bodies were made of glass.
     Drawn,
@@ -97,13 +96,13 @@ pub enum FaceFill {
     Flat,
     /// Hatch lines on the faces, denser on darker faces.
     Hatching,
-    /// Hatch lines on the faces that the key light leaves dark, independent of the material colors.
+    /// Hatch lines on the faces that the key light leaves dark, regardless of material colors.
     ShadeHatching,
-    /// Areas in one gray for each material brightness, independent of the light: tints of the ink.
+    /// Areas in tints of the ink, one gray for each material brightness, regardless of the light.
     /// Section cuts stay blank.
     Gray,
-    /// Hatch lines on all faces of an object, at an angle and a spacing different from its
-    /// neighbors. Where section planes cut, only the cuts are hatched.
+    /// Hatch lines on all faces of an object, at an angle and spacing that differ from those of its
+    /// neighbors. With section planes, only the cuts are hatched.
     PartHatching,
 }
 
@@ -119,8 +118,8 @@ pub enum LineWidths {
 }
 
 impl LineWidths {
-    /// Returns the widths for a picture that is smaller by a factor, so that it looks like the
-    /// larger one seen from farther away; no line is thinner than half a pixel.
+    /// Returns the widths for a picture scaled down by a factor, so that it looks like the larger
+    /// picture seen from farther away. No line is thinner than half a pixel.
     ///
     /// ```
     /// use drawing::LineWidths;
@@ -161,7 +160,7 @@ impl LineStyle {
     /// Feature edges with hidden lines dashed.
     pub const HIDDEN_DASHED: Self =
         Self { hidden_lines: HiddenLines::Dashed, ..Self::HIDDEN_REMOVED };
-    /// The sides of all triangles, with none hidden.
+    /// All triangle edges, without hidden-line removal.
     pub const WIREFRAME: Self = Self {
         edges: EdgeSelection::Facets,
         hidden_lines: HiddenLines::Drawn,
@@ -173,7 +172,7 @@ impl LineStyle {
     pub const CONTOURS: Self = Self { edges: EdgeSelection::Contours, ..Self::HIDDEN_REMOVED };
     /// Only the outline.
     pub const SILHOUETTE: Self = Self { edges: EdgeSelection::Silhouette, ..Self::HIDDEN_REMOVED };
-    /// Only the outline of the whole, as closed loops.
+    /// Only the outer outline, as closed loops.
     pub const OUTLINE: Self = Self { edges: EdgeSelection::Outline, ..Self::HIDDEN_REMOVED };
     /// Visible, hidden and tangent edges with the line types and widths of ISO 128.
     pub const TECHNICAL: Self = Self {
@@ -182,7 +181,8 @@ impl LineStyle {
         line_widths: LineWidths::Iso(IsoLineGroup::MM_0_5),
         ..Self::HIDDEN_REMOVED
     };
-    /// Black lines without hidden ones, and shaded faces hatched with thin lines, as in patents.
+    /// Black lines with hidden lines removed, and shaded faces hatched with thin lines, as in
+    /// patents.
     pub const PATENT: Self = Self {
         line_widths: LineWidths::Iso(IsoLineGroup::MM_0_35),
         ink: Some(BLACK),
@@ -193,7 +193,7 @@ impl LineStyle {
     /// White lines on blue paper, with the line types and widths of ISO 128.
     pub const BLUEPRINT: Self =
         Self { ink: Some(WHITE), paper: Some(BLUEPRINT_BLUE), ..Self::TECHNICAL };
-    /// Hand-drawn pencil lines without hidden ones.
+    /// Hand-drawn pencil lines with hidden lines removed.
     pub const SKETCH: Self = Self {
         line_widths: LineWidths::Millimeters(0.3),
         ink: Some(GRAPHITE),
@@ -205,13 +205,13 @@ impl LineStyle {
 impl LineStyle {
     /// Returns the options for making a drawing in this style.
     ///
-    /// Hatch spacing is converted to pixels of 1/96 inch; a drawing at another scale must set it
+    /// Hatch spacing is converted to pixels of 1/96 inch. For a drawing at another scale, set it
     /// again.
     #[must_use]
     pub fn to_draw_options(&self) -> DrawOptions {
         DrawOptions {
             classes: match self.edges {
-                // Intersection edges are not sides of triangles, so a wireframe omits them.
+                // Intersection edges are not triangle edges, so a wireframe omits them.
                 EdgeSelection::Facets => EdgeClasses::ALL.without(EdgeClass::Intersection),
                 EdgeSelection::Features | EdgeSelection::Tangents => EdgeClasses::FEATURES,
                 EdgeSelection::Contours => DrawOptions::silhouettes().classes,

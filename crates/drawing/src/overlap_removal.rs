@@ -1,15 +1,15 @@
-//! Overlap removal: of overlapping collinear segments, only the most important is drawn.
+//! Overlap removal: where collinear segments overlap, only the most important one is drawn.
 //!
 //! ```text
 //!   visible  ├────────┤                     ├────────┤
 //!   hidden       ├────────────┤      ─►              ├────┤
-//!   hidden                ├───────┤                       ├──┤   merged with the one before
+//!   hidden                ├───────┤                       ├──┤   merged with the previous one
 //! ```
 //!
 //! In a front view, the back edges are exactly behind the front edges. Drawn twice, they would be
-//! darker, and their dashes would fill each other's gaps. Precedence follows technical drawing:
-//! visible lines before hidden ones (ISO 128-2). Adjacent segments of one object and layer are
-//! merged.
+//! darker, and their dashes would fill each other's gaps. Precedence follows technical drawing
+//! practice: visible lines before hidden lines (ISO 128-2). Adjacent segments of one object and
+//! layer are merged.
 //!
 //! Segments are grouped by their supporting line, rounded to a grid; sorting dominates the cost,
 //! O(n log n).
@@ -21,20 +21,20 @@ use std::collections::BTreeMap;
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct PageSegment {
     pub(super) ends: [DVec2; 2],
-    /// The layer; lower ones are more important.
+    /// The layer; a lower number is more important.
     pub(super) layer: u32,
     /// The object it belongs to.
     pub(super) object: u32,
 }
 
-/// Segments closer than this, in millimeters, coincide: one step of the page's grid.
+/// Segments closer than this, in millimeters, coincide. It is one step of the page grid.
 const GRID_STEP: f64 = 1e-3;
 
-/// Slopes that differ by less than this coincide: over the longest sheet, 1.2 m, the difference is
+/// Slopes that differ by less than this coincide. Across the longest sheet, 1.2 m, they diverge by
 /// less than a grid step.
 const SLOPE_STEP: f64 = 0.5e-6;
 
-/// The length, in millimeters, below which a segment is left unchanged: its direction is too
+/// Segments shorter than this, in millimeters, are left unchanged, because their direction is too
 /// uncertain.
 const MIN_LENGTH: f64 = 0.02;
 
@@ -53,8 +53,8 @@ struct LineInterval {
 /// A supporting line rounded to a grid, shared by collinear segments: steepness, slope, intercept.
 type SupportLine = (bool, i64, i64);
 
-/// Removes the parts covered by more important segments, and merges adjacent segments; the result
-/// keeps the order of the input.
+/// Removes the parts covered by more important segments, and merges adjacent segments. The result
+/// keeps the input order.
 pub(super) fn remove_overlaps(segments: &[PageSegment]) -> Vec<PageSegment> {
     let center = bounds_center(segments);
     let mut retained: Vec<(usize, PageSegment)> = Vec::with_capacity(segments.len());
@@ -85,7 +85,7 @@ pub(super) fn remove_overlaps(segments: &[PageSegment]) -> Vec<PageSegment> {
     retained.into_iter().map(|(_, segment)| segment).collect()
 }
 
-/// The center of all segments, where the rounding of slopes matters least.
+/// Returns the center of all segments, where rounding the slopes has the least effect.
 fn bounds_center(segments: &[PageSegment]) -> DVec2 {
     let bounds = |f: fn(DVec2, DVec2) -> DVec2, start: f64| {
         segments.iter().flat_map(|segment| segment.ends).fold(DVec2::splat(start), f)
@@ -95,13 +95,13 @@ fn bounds_center(segments: &[PageSegment]) -> DVec2 {
     if middle.is_finite() { middle } else { DVec2::ZERO }
 }
 
-/// Returns the supporting line of a segment and its interval on that line; `None` for segments
-/// without a clear direction.
+/// Returns the supporting line of a segment and its interval on that line; `None` if the segment
+/// has no clear direction.
 ///
-/// Lines are written y = slope · x + height, or with x and y swapped if they are steep, so that
+/// Lines are written as y = slope · x + height, with x and y swapped if they are steep, so that
 /// slopes stay within ±1. Slope and height are rounded to a grid, so collinear segments from
-/// different computations share a key. Two collinear segments whose values are on either side of a
-/// rounding border are missed. Both are then drawn, which does no harm.
+/// different computations share a key. Two collinear segments whose values round to different grid
+/// points are missed. Both are then drawn, which does no harm.
 fn support_line(
     segment: &PageSegment,
     center: DVec2,
@@ -125,10 +125,11 @@ fn support_line(
     Some((support, from.min(to), from.max(to), ends))
 }
 
-/// Pushes the parts of one line's intervals that no more important interval covers.
+/// Pushes the parts of one line's intervals that are not covered by a more important interval.
 ///
-/// Intervals are sorted by importance, then along the line. Those of equal importance are merged
-/// and compared with earlier ones, and then cover later ones.
+/// Intervals are sorted by importance, then along the line. Intervals of equal importance are
+/// merged, reduced to the parts that earlier intervals leave uncovered, and then cover later
+/// intervals.
 fn push_uncovered_segments(
     line: &[(SupportLine, LineInterval)],
     retained: &mut Vec<(usize, PageSegment)>,
@@ -141,13 +142,13 @@ fn push_uncovered_segments(
     }
 }
 
-/// The covered parts of a line, by their starts; no two touch.
+/// The covered parts of a line, keyed by their starts. No two of them touch.
 #[derive(Default)]
 struct CoveredIntervals(BTreeMap<i64, LineInterval>);
 
-/// Maps a number to an integer with the same order (IEEE 754 total order), for use as a map key.
+/// Maps a float to an integer with the same order (IEEE 754 total order), for use as a map key.
 ///
-/// Negative numbers have descending bit patterns; flipping all bits except the sign makes them
+/// The bit patterns of negative numbers descend; flipping all bits except the sign makes them
 /// ascend.
 fn total_order_key(number: f64) -> i64 {
     let bits = number.to_bits() as i64;
@@ -157,7 +158,7 @@ fn total_order_key(number: f64) -> i64 {
 impl CoveredIntervals {
     /// Adds an interval, merged with any that it touches.
     ///
-    /// Merging removes intervals from the map for good, so the total time is O(n log n).
+    /// Merged intervals are removed from the map for good, so the total time is O(n log n).
     fn cover_interval(&mut self, mut interval: LineInterval) {
         while let Some((&at, last)) =
             self.0.range(..=total_order_key(interval.to + GRID_STEP)).next_back()
@@ -184,8 +185,8 @@ impl CoveredIntervals {
     ///   pushed     ├──┤    ├─────┤  ├──┤
     /// ```
     ///
-    /// A part begins exactly at the end point of the interval that covers its neighbor, so lines
-    /// meet without gaps.
+    /// A part begins exactly at the end of the interval that covers its neighbor, so lines meet
+    /// without gaps.
     fn push_uncovered_parts(
         &self,
         interval: &LineInterval,
@@ -208,7 +209,7 @@ impl CoveredIntervals {
     }
 }
 
-/// Merges intervals that touch, given in order of their starts.
+/// Merges touching intervals; the input must be sorted by start.
 fn merge_touching(intervals: impl Iterator<Item = LineInterval>) -> Vec<LineInterval> {
     let mut joined: Vec<LineInterval> = Vec::new();
     for interval in intervals {
@@ -233,7 +234,7 @@ mod tests {
         PageSegment { ends: [DVec2::new(x0, y0), DVec2::new(x1, y1)], layer, object }
     }
 
-    /// The segments on the line y = x/2, by their x.
+    /// Returns the x ranges of the segments that remain on the line y = x/2.
     fn remaining_on_line(segments: &[(u32, u32, f64, f64)]) -> Vec<(u32, u32, f64, f64)> {
         let on_line = |&(layer, object, a, b): &_| segment(layer, object, [a, a / 2.0, b, b / 2.0]);
         let round = |x: f64| libm::round(x * 1e6) / 1e6;
@@ -246,7 +247,7 @@ mod tests {
     fn visible_segments_cover_hidden_ones() {
         let rest = remaining_on_line(&[(1, 0, 4.0, 9.0), (0, 0, 0.0, 5.0), (1, 1, 8.0, 12.0)]);
         assert_eq!(rest, [(1, 0, 5.0, 9.0), (0, 0, 0.0, 5.0), (1, 1, 9.0, 12.0)]);
-        // From both sides and from the middle, and backward too.
+        // Covered at either end and in the middle, also with the ends swapped.
         let rest = remaining_on_line(&[
             (2, 0, 10.0, 0.0),
             (1, 0, 4.0, 5.0),
@@ -265,7 +266,7 @@ mod tests {
             [(0, 0, 0.0, 3.0)]
         );
         assert_eq!(remaining_on_line(&[(0, 0, 0.0, 1.0), (0, 0, 1.0, 0.0)]), [(0, 0, 0.0, 1.0)]);
-        // Other objects keep their own lines, and so do other layers.
+        // Other objects and other layers keep their lines.
         let apart = [(0, 0, 0.0, 1.0), (0, 1, 1.0, 2.0), (1, 1, 2.0, 3.0)];
         assert_eq!(remaining_on_line(&apart), apart);
     }
@@ -277,7 +278,7 @@ mod tests {
         let many: Vec<PageSegment> =
             (0..count).map(|k| segment(0, count - k, [at(k), 0.0, at(k) + 0.5, 0.0])).collect();
         let rest = remove_overlaps(&many);
-        // Objects are in descending order: each one takes precedence over the previous one.
+        // Objects are in descending order, so each takes precedence over the previous one.
         assert_eq!(rest.len(), many.len());
         let length: f64 =
             rest.iter().map(|segment| (segment.ends[1] - segment.ends[0]).length()).sum();
@@ -285,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn parallel_and_crossing_segments_are_retained() {
+    fn parallel_and_crossing_segments_remain() {
         let segments = [
             segment(0, 0, [0.0, 0.0, 10.0, 0.0]),
             segment(1, 0, [0.0, 0.01, 10.0, 0.01]),

@@ -2,15 +2,15 @@
 //! picture.
 //!
 //! ```text
-//!    ──────────●─ · ─ · ─ horizon ─ · ─ · ─●──     axes of the world, a grid on the ground,
-//!              V  ╲  ╲             ╱   ╱   V       the horizon, vanishing points with the lines
-//!               x   ╲ ┌───────────┐ ╱       z      that run to them, the view volume of another
-//!                     │           │                camera
+//!    ──────────●─ · ─ · ─ horizon ─ · ─ · ─●──     world axes, a ground grid,
+//!              V  ╲  ╲             ╱   ╱   V       the horizon, vanishing points with
+//!               x   ╲ ┌───────────┐ ╱       z      lines to them, the view volume of
+//!                     │           │                another camera
 //! ```
 //!
-//! Axes, grid and view volume are part of the world, and the models hide them. The horizon and the
-//! vanishing points are drawn on the picture plane. Anything behind the eye is clipped before the
-//! divide; the near and far planes do not clip.
+//! The axes, the grid and the view volume are part of the world, so models can hide them. The
+//! horizon and the vanishing points are drawn on the picture plane. Anything behind the eye is
+//! clipped before the perspective divide. The near and far planes do not clip.
 
 mod perspective;
 mod point_label;
@@ -31,31 +31,32 @@ use page::{
     Cap, Group, Ink, Label, Layer, LineType, MILLIMETERS_PER_PIXEL, Pen, Polyline, TextAlign,
 };
 
-/// A drawing over a picture that explains it.
+/// An annotation drawn over a picture to explain it.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Overlay {
-    /// The world axes from the origin, of this length; `None` for a length relative to the models.
+    /// The world axes, drawn from the origin with this length; `None` chooses a length from the
+    /// size of the models.
     Axes(Option<f64>),
-    /// A grid on the ground, y = 0, with this spacing; `None` for a round value relative to the
-    /// models.
+    /// A grid on the ground, y = 0, with this spacing; `None` chooses a round spacing from the size
+    /// of the models.
     Grid(Option<f64>),
     /// The vanishing line of horizontal planes.
     Horizon,
     /// The vanishing points of the axes, with lines from the corners of the models' bounding box.
     VanishingPoints,
-    /// The view volume of another camera, with its eye.
+    /// The view volume of another camera, and its eye.
     Volume(Box<ViewProjection>),
-    /// The visible feature edges of the surfaces; line drawings have them anyway.
+    /// The visible feature edges of the surfaces, which line drawings show anyway.
     Edges,
-    /// Text at a point of the world.
+    /// Text at a world point.
     Label(PointLabel),
 }
 
-/// The world axes, with names and colors.
+/// The directions, names and colors of the world axes.
 pub const AXES: [(Vector<World>, &str, Ink); 3] =
     [(Vector::X, "x", RED), (Vector::Y, "y", GREEN), (Vector::Z, "z", BLUE)];
 
-/// The line width, the character height and the arrowhead length, in millimeters.
+/// The line width, character height and arrowhead length, in millimeters.
 const LINE_WIDTH: f64 = 0.25;
 const LETTER_HEIGHT: f64 = 3.0;
 const ARROW_LENGTH: f64 = 2.4;
@@ -81,7 +82,7 @@ pub fn overlay_layers(
             Overlay::Horizon => glass.horizon_layers(),
             Overlay::VanishingPoints => glass.vanishing_point_layers(),
             Overlay::Volume(view_projection) => glass.view_volume_layers(view_projection),
-            // Feature edges are drawn with the surfaces, not here.
+            // Feature edges are drawn along with the surfaces, not here.
             Overlay::Edges => Vec::new(),
             Overlay::Label(label) => glass.point_label_layers(label, subject),
         };
@@ -92,7 +93,7 @@ pub fn overlay_layers(
     layers.filter(|layer| layer.groups.iter().any(|group| !group.strokes.is_empty())).collect()
 }
 
-/// The picture plane: projects world points, directions and lines to the page.
+/// The picture plane, which projects world points, directions and lines to the page.
 struct PicturePlane {
     world_to_clip: Projective<World, Clip>,
     /// Half the width and height of the page in millimeters.
@@ -103,7 +104,7 @@ struct PicturePlane {
     occluders: Option<Occluders>,
 }
 
-/// The visible and hidden parts of lines, on the page.
+/// The visible and hidden parts of lines on the page.
 #[derive(Default)]
 struct DividedStrokes {
     visible: Vec<Polyline>,
@@ -127,7 +128,7 @@ impl PicturePlane {
         })
     }
 
-    /// Projects a point: x, y and w of its clip coordinates.
+    /// Projects a point and returns x, y and w of its clip coordinates.
     fn project_point(&self, point: Point<World>) -> DVec3 {
         drop_depth(self.world_to_clip.transform_point(point).raw())
     }
@@ -143,10 +144,10 @@ impl PicturePlane {
         self.half + DVec2::new(ndc.x, -ndc.y) * self.half
     }
 
-    /// Clips a homogeneous segment to the picture, divides, and maps the result to the page.
+    /// Clips a homogeneous segment to the picture, divides by w, and maps the result to the page.
     ///
-    /// The four planes w ± x ≥ 0, w ± y ≥ 0 imply w ≥ 0, so nothing behind the eye is divided
-    /// (Liang–Barsky in homogeneous coordinates).
+    /// The four conditions w ± x ≥ 0 and w ± y ≥ 0 imply w ≥ 0, so points behind the eye are never
+    /// divided (Liang–Barsky in homogeneous coordinates).
     fn clip_to_picture(&self, a: DVec3, b: DVec3) -> Option<[DVec2; 2]> {
         let (mut from, mut to) = (0.0_f64, 1.0_f64);
         for side in [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y] {
@@ -169,8 +170,8 @@ impl PicturePlane {
 
     /// Divides a world line into visible and hidden strokes.
     ///
-    /// Without occluders the whole line is visible. Parts are fractions of the line in the world;
-    /// each one is clipped to the picture and projected separately.
+    /// Without occluders the whole line is visible. Parts are fractions of the world line; each
+    /// part is clipped to the picture and projected separately.
     fn divide_line(&self, from: Point<World>, to: Point<World>, strokes: &mut DividedStrokes) {
         let stroke = |[a, b]: [f64; 2]| {
             let [a, b] = [a, b].map(|t| self.project_point(from.lerp(to, t)));
@@ -190,7 +191,7 @@ impl PicturePlane {
         inside.then(|| self.ndc_to_page(image.truncate() / image.z))
     }
 
-    /// The layers of the three world axes.
+    /// Returns the layers of the three world axes.
     fn axes_layers(&self, length: Option<f64>) -> Vec<Layer> {
         let diagonal = self.bounds.diagonal();
         let length = length.unwrap_or(if diagonal > 0.0 { 0.6 * diagonal } else { 1.0 });
@@ -199,7 +200,7 @@ impl PicturePlane {
             .collect()
     }
 
-    /// The layers of one axis: its visible and hidden parts, and its arrowhead and name.
+    /// Returns the layers of one axis: its visible and hidden parts, and its arrowhead and name.
     fn axis_layers(&self, direction: Vector<World>, name: &str, ink: Ink) -> [Layer; 3] {
         let tip = Point::ORIGIN + direction;
         let [visible, hidden] =
@@ -220,8 +221,8 @@ impl PicturePlane {
         [visible, hidden, head]
     }
 
-    /// The layers of world lines: one of their visible parts, and a dashed one of their hidden
-    /// parts.
+    /// Returns two layers of world lines: one with their visible parts, and a dashed one with their
+    /// hidden parts.
     fn line_layers(&self, name: &str, ink: Ink, lines: &[[Point<World>; 2]]) -> [Layer; 2] {
         let mut strokes = DividedStrokes::default();
         lines.iter().for_each(|[from, to]| self.divide_line(*from, *to, &mut strokes));
@@ -234,10 +235,11 @@ impl PicturePlane {
         [visible, hidden]
     }
 
-    /// The ground grid under the models, extending one cell beyond their bounding box on each side.
+    /// Returns the ground grid under the models, extending one cell beyond their bounding box on
+    /// each side.
     ///
-    /// Lines are at multiples of the step, so the grids of different scenes coincide. A given step
-    /// is raised if it would give more than [`MAX_GRID_LINES`] lines.
+    /// Lines are at multiples of the step, so the grids of different scenes coincide. If the
+    /// requested step would give more than [`MAX_GRID_LINES`] lines, it is increased.
     fn grid_layers(&self, step: Option<f64>) -> Vec<Layer> {
         let (min, max) = (self.bounds.min(), self.bounds.max());
         let size = (max.x() - min.x()).max(max.z() - min.z()).max(self.bounds.diagonal() * 0.1);
@@ -260,7 +262,8 @@ impl PicturePlane {
     }
 }
 
-/// The faces of the models as occluders, unless the style draws hidden lines like visible ones.
+/// Returns the faces of the models as occluders, unless the style draws hidden lines like visible
+/// ones.
 ///
 /// The third row of the projection is divided by [`DEPTH_RANGE_FACTOR`], which flattens depths
 /// without changing their order. Points far in front of or behind the models then stay within the
@@ -270,7 +273,7 @@ fn model_occluders(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Occlude
         return None;
     }
     let viewport = subject.viewport().ok()?;
-    // Only the order of depths matters, so the range may be extended to include the overlays.
+    // Only the order of depths matters, so the range can be extended to include the overlays.
     let deep = DMat4::from_diagonal(DVec4::new(1.0, 1.0, 1.0 / DEPTH_RANGE_FACTOR, 1.0));
     let view_to_clip = Projective::from_raw(deep * subject.view_projection.view_to_clip.raw());
     let projector =
@@ -279,25 +282,25 @@ fn model_occluders(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Occlude
     Some(Occluders::new(surface.occluder_triangles(), projector, surface.touch_tolerance()))
 }
 
-/// The components x, y and w.
+/// Returns the x, y and w components.
 fn drop_depth(image: DVec4) -> DVec3 {
     DVec3::new(image.x, image.y, image.w)
 }
 
-/// An empty layer with the pen of overlays.
+/// Returns an empty layer with the pen of overlays.
 fn overlay_layer(id: &str, title: &str, ink: Ink) -> Layer {
     Layer::new(id, title, Pen { cap: Cap::Butt, ..Pen::solid(LINE_WIDTH, ink) })
 }
 
-/// An arrowhead with this tip, at the end of a line in the direction `along`.
+/// Returns an arrowhead with this tip, pointing in the direction `along`.
 fn arrowhead(tip: DVec2, along: DVec2) -> Option<Polyline> {
     let across = DVec2::new(-along.y, along.x) * (ARROW_LENGTH / 6.0);
     let base = tip - along * ARROW_LENGTH;
     Polyline::through_points(&[tip, base + across, base - across], true)
 }
 
-/// The largest length of the form 1, 2 or 5 · 10ⁿ that is at most `most`; 1 if `most` is not
-/// positive.
+/// Returns the largest length of the form 1, 2 or 5 · 10ⁿ that is at most `most`; 1 if `most` is
+/// not positive.
 fn round_grid_step(most: f64) -> f64 {
     if !(most > 0.0 && most.is_finite()) {
         return 1.0;

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //!  ┌───────────┐ ┌───────────┐ ┌───────────┐
-//!  │           │ │           │ │           │     row by row; a column is as wide, and
-//!  └───────────┘ └───────────┘ └───────────┘     a row as high, as its largest
+//!  │           │ │           │ │           │     row by row; columns are as wide, and
+//!  └───────────┘ └───────────┘ └───────────┘     rows as high, as their largest panel
 //!   isometric     dimetric      cavalier
 //!   AX-1 …        AX-1 …        OB-1 …
 //! ```
@@ -35,7 +35,7 @@ const LEADING: f64 = 1.75;
 pub struct Panel {
     /// An identifier, unique among the panels: lower case, hyphens.
     pub id: String,
-    /// The title of the caption.
+    /// The first line of the caption, in larger type.
     pub title: String,
     /// Lines of text below the title.
     pub notes: Vec<String>,
@@ -63,7 +63,7 @@ pub struct Panel {
 pub struct Panels {
     /// The title of the page.
     pub title: String,
-    /// Lines below the title: what the page shows, and the units of its numbers.
+    /// Lines below the title: a description of the page, and the units of its numbers.
     pub introduction: Vec<String>,
     /// The number of panels in a row, at least 1.
     pub columns: usize,
@@ -72,19 +72,19 @@ pub struct Panels {
 }
 
 impl Panel {
-    /// Returns the panel with other notes.
+    /// Returns the panel with these notes.
     #[must_use]
     pub fn with_notes(self, notes: Vec<String>) -> Self {
         Self { notes, ..self }
     }
 
-    /// The width and height including the caption, in millimeters.
+    /// Returns the width and height including the caption, in millimeters.
     fn outer_size(&self) -> DVec2 {
         let text = TITLE_HEIGHT * LEADING + self.notes.len() as f64 * NOTE_HEIGHT * LEADING;
         self.page.size + DVec2::new(0.0, text)
     }
 
-    /// The title and notes, with their upper left corner at `at`.
+    /// Returns the title and notes, with their upper left corner at `at`.
     fn text_groups(&self, at: DVec2) -> (Group, Vec<Group>) {
         let named = |id: String, group| Group { id, title: self.title.clone(), ..group };
         let width = self.page.size.x;
@@ -100,8 +100,8 @@ impl Panel {
 }
 
 impl Panels {
-    /// Arranges up to three panels in a single row, and more in a grid that is about as wide as
-    /// high.
+    /// Arranges up to three panels in one row, and more in a grid with about as many rows as
+    /// columns.
     #[must_use]
     pub fn new(title: impl Into<String>, panels: Vec<Panel>) -> Self {
         let count = panels.len();
@@ -147,7 +147,7 @@ impl Panels {
         );
         let mut page = Page::new(size, self.title.clone(), Some(WHITE));
         let pen = Pen::solid(0.13, GRAY);
-        let mut frames = Layer::new("frames", "the borders of the pictures", pen);
+        let mut frames = Layer::new("frames", "panel borders", pen);
         let mut names = Layer::new("names", "names", Pen::solid(TITLE_HEIGHT * 0.1, INK));
         let mut notes = Layer::new("notes", "notes", Pen::solid(NOTE_HEIGHT * 0.1, INK));
         for (index, panel) in self.panels.iter().enumerate() {
@@ -162,7 +162,7 @@ impl Panels {
         let at = DVec2::new(MARGIN, MARGIN + HEADING_HEIGHT);
         let heading =
             Label::new(&self.title, at, HEADING_HEIGHT).fit_to_width(size.x - 2.0 * MARGIN);
-        let mut layer = Layer::new("heading", "what the page shows", heading.pen(INK));
+        let mut layer = Layer::new("heading", "page heading", heading.pen(INK));
         layer.groups.push(heading.group());
         for (line, words) in self.introduction.iter().enumerate() {
             let below = at + DVec2::new(0.0, (line + 1) as f64 * NOTE_HEIGHT * LEADING);
@@ -175,12 +175,12 @@ impl Panels {
     }
 }
 
-/// The largest of some lengths, or 0 without any.
+/// Returns the largest of several lengths, or 0 if there are none.
 fn largest_side(sides: impl Iterator<Item = f64>) -> f64 {
     sides.fold(0.0, f64::max)
 }
 
-/// The border of a panel.
+/// Returns the border of a panel.
 fn frame_group(panel: &Panel, corner: DVec2) -> Group {
     let [w, h] = panel.page.size.to_array();
     let corners = [[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]].map(|c| corner + DVec2::from(c));
@@ -193,7 +193,7 @@ mod tests {
     use super::*;
     use page::to_millimeters;
 
-    /// A page of 40 × 30 mm with a diagonal.
+    /// Returns a page of 40 × 30 mm with a diagonal.
     fn panel(id: &str) -> Panel {
         let mut page = Page::new(DVec2::new(40.0, 30.0), id, None);
         let mut layer = Layer::new("lines", "lines", Pen::solid(0.2, INK));
@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn panels_form_rows_without_touching() {
+    fn panels_form_rows_and_do_not_touch() {
         let panels = Panels::new("five", ["a", "b", "c", "d", "e"].map(panel).to_vec());
         assert_eq!(panels.columns, 3);
         let page = panels.to_page();
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn html_of_panels_is_self_contained_with_unique_ids() {
+    fn html_output_is_self_contained_with_unique_ids() {
         let html = Panels::new("<two>", vec![panel("a"), panel("b")]).to_html();
         assert!(html.contains("<h1>&lt;two&gt;</h1>") && html.contains("a &lt; b"));
         assert!(!html.contains("src=") && !html.contains("<two>"));

@@ -1,19 +1,19 @@
-//! Polyline chaining: segments with common ends are joined into polylines.
+//! Polyline chaining: joins segments with common ends into polylines.
 //!
-//! Corners are joined, dashes continue around them, and files are smaller. Ends are equal if they
-//! are the same point on the page's micrometer grid. At a junction of more than two segments, a
-//! chain continues in the straightest direction.
+//! The result has mitered or rounded corners, dashes that continue around corners, and smaller
+//! files. Ends are equal if they are the same point on the page's micrometer grid. At a junction of
+//! more than two segments, a chain continues in the straightest direction.
 //!
 //! ```text
 //!             │                     │
-//!    ─────────●─────────    ─►   ═══╪═══   two chains cross: each is continued straight ahead
+//!    ─────────●─────────    ─►   ═══╪═══   two chains cross: each continues straight ahead
 //!             │                     │
 //! ```
 
 use super::overlap_removal::PageSegment;
 use page::{PagePoint, Polyline, to_micrometers};
 
-/// A polyline of one layer and object.
+/// A polyline in one layer, from one object.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct PolylineChain {
     pub(super) layer: u32,
@@ -28,17 +28,18 @@ const MIN_TURN_COSINE: f64 = 0.5;
 /// micrometers.
 const COLLINEAR_TOLERANCE: f64 = 1.0;
 
-/// The maximum number of consecutive points that are removed; each one is tested again for every
-/// further one, so the time grows with the square.
+/// The maximum number of consecutive points that are removed. Every new point retests all points of
+/// the run, so the time grows with the square of its length.
 const MAX_DROPPED_RUN: usize = 64;
 
-/// Joins segments into chains: by layer, by object, and in the order of their first segments.
+/// Joins segments into chains, ordered by layer, by object and by first segment.
 ///
-/// `pen_of_layer` is the same number for layers whose lines continue each other, such as all dashed
-/// ones: otherwise a dash pattern would restart where the class of a line changes. A chain across
-/// several layers belongs to the one where it is longest.
+/// `pen_of_layer` returns the same number for layers whose lines continue each other, such as all
+/// dashed layers; otherwise a dash pattern would restart where the class of a line changes. A chain
+/// that crosses several layers is put in the layer where it is longest.
 ///
-/// Time is O(n log n) for sorting the ends, plus the run limit of [`remove_collinear`].
+/// The time is O(n log n) for sorting the ends, plus a bounded cost per point in
+/// [`remove_collinear`].
 pub(super) fn join_into_chains(
     segments: &[PageSegment],
     pen_of_layer: impl Fn(u32) -> u32,
@@ -59,21 +60,21 @@ pub(super) fn join_into_chains(
     chains
 }
 
-/// The segments of one layer and object on the grid, and how they meet.
+/// The grid segments of one layer and object, and their connections.
 struct SegmentGraph {
     /// The two ends of each segment.
     segments: Vec<[PagePoint; 2]>,
     /// The layer of each segment.
     layers: Vec<u32>,
-    /// Each end as its point, its segment and which end it is, sorted so that ends at one point are
-    /// neighbors.
+    /// For each end: its point, its segment, and which end of the segment it is. Sorted so that
+    /// ends at the same point are neighbors.
     ends: Vec<(PagePoint, u32, u8)>,
     /// Whether each segment is already in a chain.
     is_used: Vec<bool>,
 }
 
 impl SegmentGraph {
-    /// Snaps segments to the grid, and drops duplicates and segments without length.
+    /// Snaps segments to the grid, and drops duplicates and zero-length segments.
     fn new(segments: &[&PageSegment]) -> Self {
         let on_grid = |segment: &&PageSegment| (segment.ends.map(to_micrometers), segment.layer);
         let on_page = segments.iter().map(on_grid).filter(|([a, b], _)| a != b);
@@ -89,8 +90,8 @@ impl SegmentGraph {
         Self { segments, layers, ends, is_used }
     }
 
-    /// Covers the graph with polylines, each with its layer: each unused segment is extended
-    /// forward, then backward unless it closed.
+    /// Covers the graph with polylines and returns each with its layer. Every unused segment is
+    /// extended forward, then backward unless the chain has closed.
     fn into_polylines(mut self) -> Vec<(Polyline, u32)> {
         let mut lines = Vec::new();
         for index in 0..self.segments.len() {
@@ -115,7 +116,8 @@ impl SegmentGraph {
         lines
     }
 
-    /// The layer with the largest total length among these segments; the first one if equal.
+    /// Returns the layer with the largest total length among these segments, or the first such
+    /// layer.
     fn longest_layer(&self, chain: &[usize]) -> u32 {
         let mut lengths: Vec<(u32, f64)> = Vec::new();
         for &index in chain {
@@ -131,10 +133,10 @@ impl SegmentGraph {
         lengths.first().map_or(0, |(layer, _)| *layer)
     }
 
-    /// Extends a chain from its last point until no segment continues it or it closes; adds the
+    /// Extends a chain from its last point until no segment continues it or it closes. Adds the
     /// segments to `chain`.
     ///
-    /// `points` has at least two points; the segment between them is already used.
+    /// `points` has at least two points, and the segment between them is already used.
     fn extend_chain(&mut self, points: &mut Vec<PagePoint>, chain: &mut Vec<usize>) {
         while let Some((index, next)) =
             self.next_segment(points[points.len() - 2], points[points.len() - 1])
@@ -154,10 +156,10 @@ impl SegmentGraph {
     /// ```text
     ///             ╱ best: the smallest turn
     ///   before ──● here
-    ///             ╲ also incident: at a junction a candidate only below 60°
+    ///             ╲ also incident; at a junction, a candidate only below 60°
     /// ```
     ///
-    /// If only two segments meet, the other one is taken at any angle.
+    /// If only two segments meet, the chain continues at any angle.
     fn next_segment(&self, before: PagePoint, here: PagePoint) -> Option<(usize, PagePoint)> {
         let first = self.ends.partition_point(|(point, ..)| *point < here);
         let incident = self.ends[first..].iter().take_while(|(point, ..)| *point == here);
@@ -176,7 +178,7 @@ impl SegmentGraph {
     }
 }
 
-/// Removes later duplicates, in either direction; the order is kept.
+/// Removes later duplicates, in either direction, and keeps the order.
 fn drop_duplicate_segments(segments: &[([PagePoint; 2], u32)]) -> Vec<([PagePoint; 2], u32)> {
     let sorted = |([a, b], _): ([PagePoint; 2], u32)| [a.min(b), a.max(b)];
     let mut order: Vec<u32> = (0..segments.len() as u32).collect();
@@ -186,12 +188,12 @@ fn drop_duplicate_segments(segments: &[([PagePoint; 2], u32)]) -> Vec<([PagePoin
     order.into_iter().map(|at| segments[at as usize]).collect()
 }
 
-/// The vector from one grid point to another, in micrometers.
+/// Returns the vector from one grid point to another, in micrometers.
 fn grid_offset([x0, y0]: PagePoint, [x1, y1]: PagePoint) -> [f64; 2] {
     [f64::from(x1) - f64::from(x0), f64::from(y1) - f64::from(y0)]
 }
 
-/// The cosine of the angle by which a path from `a` to `c` turns at `b`.
+/// Returns the cosine of the angle by which a path from `a` to `c` turns at `b`.
 fn turn_cosine(a: PagePoint, b: PagePoint, c: PagePoint) -> f64 {
     let ([x0, y0], [x1, y1]) = (grid_offset(a, b), grid_offset(b, c));
     let squares = (x0 * x0 + y0 * y0) * (x1 * x1 + y1 * y1);
@@ -200,10 +202,10 @@ fn turn_cosine(a: PagePoint, b: PagePoint, c: PagePoint) -> f64 {
 
 /// Removes points on the segment between their neighbors.
 ///
-/// A greedy pass: the run grows as long as all points dropped since the last retained one are
+/// A greedy pass lets the run grow as long as all points dropped since the last retained point are
 /// within [`COLLINEAR_TOLERANCE`] of the segment to the next point. Every dropped point is tested
-/// against the *final* segment, so the error does not accumulate along a curve of many small steps,
-/// as it would if each point were compared only with its neighbors.
+/// against the *final* segment, so errors do not accumulate along a curve of many small steps, as
+/// they would if each point were compared only with its neighbors.
 fn remove_collinear(points: Vec<PagePoint>, closed: bool) -> Vec<PagePoint> {
     let mut retained = vec![points[0]];
     let mut dropped: Vec<PagePoint> = Vec::new();
@@ -227,10 +229,10 @@ fn remove_collinear(points: Vec<PagePoint>, closed: bool) -> Vec<PagePoint> {
     if retained.len() < 2 { points } else { retained }
 }
 
-/// Whether a point is on the segment from `from` to `to`, up to the tolerance.
+/// Whether a point is on the segment from `from` to `to`, within the tolerance.
 ///
 /// With d = to − from and p = point − from, this tests 0 ≤ d·p ≤ |d|² and |d × p| ≤ tolerance ·
-/// |d|, squared to avoid the root.
+/// |d|, squared to avoid the square root.
 fn lies_on_segment(from: PagePoint, point: PagePoint, to: PagePoint) -> bool {
     let ([dx, dy], [px, py]) = (grid_offset(from, to), grid_offset(from, point));
     let square = dx * dx + dy * dy;
@@ -244,7 +246,7 @@ mod tests {
     use super::*;
     use glam::DVec2;
 
-    /// The chains of segments given in millimeters, all of one layer and object.
+    /// Returns the chains of segments in millimeters, all from one layer and object.
     fn chains_in_millimeters(segments: &[[f64; 4]]) -> Vec<(Vec<[i32; 2]>, bool)> {
         let segment = |&[x0, y0, x1, y1]: &[f64; 4]| PageSegment {
             ends: [DVec2::new(x0, y0), DVec2::new(x1, y1)],
@@ -293,7 +295,7 @@ mod tests {
         ];
         let expected = [(vec![[0, 5], [10, 5]], false), (vec![[5, 0], [5, 10]], false)];
         assert_eq!(chains_in_millimeters(&cross), expected);
-        // A T: the bar is one line, the stem another.
+        // A T: the bar is one line and the stem is another.
         let expected = [(vec![[0, 5], [10, 5]], false), (vec![[5, 5], [5, 10]], false)];
         assert_eq!(chains_in_millimeters(&[cross[0], cross[3], cross[2]]), expected);
     }
@@ -305,7 +307,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_of_one_pen_continue_over_a_change_of_layer() {
+    fn lines_of_one_pen_continue_across_layers() {
         let segment = |from: f64, to: f64, layer: u32| PageSegment {
             ends: [DVec2::new(from, 0.0), DVec2::new(to, 0.0)],
             layer,
@@ -322,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn a_circle_of_many_sides_keeps_its_shape() {
+    fn a_circle_with_many_sides_keeps_its_shape() {
         let point = |k: usize| {
             let (sin, cos) = libm::sincos(k as f64 / 1000.0 * core::f64::consts::TAU);
             [50.0 * cos, 50.0 * sin]

@@ -3,23 +3,23 @@
 //! ```text
 //!   ┌───────┐              ┌───────┐
 //!   │   ┌───┼───┐          │       └───┐
-//!   │   │   │   │    ─►    │           │      sides within the area vanish,
-//!   └───┼───┘   │          └───┐       │      and the rest joins to loops
+//!   │   │   │   │    ─►    │           │      sides within the area are removed,
+//!   └───┼───┘   │          └───┐       │      and the others are joined into loops
 //!       └───────┘              └───────┘
 //! ```
 //!
 //! 1. Sides are placed on the grid of the page and cut where they cross. Crossings are rounded to
-//!    the grid too, and every side that passes through the grid cell of a point runs through that
-//!    point: snap rounding (Hobby 1999), which adds no crossings. It is repeated until there are
-//!    none.
-//! 2. The winding number at a side is the number of faces beside it, counted along a ray in
-//!    integers. A side belongs to the outline if there are faces on one side of it and none on the
-//!    other.
-//! 3. At each point the same number of outline sides begin and end, so they form loops. Each loop
-//!    keeps the area on its left and is divided where it touches itself.
+//!    the grid too, and every side that passes through the grid cell of a point is routed through
+//!    that point. This is snap rounding (Hobby 1999), which adds no crossings. It is repeated until
+//!    no crossings remain.
+//! 2. The winding number next to a side is the number of faces there, counted along a ray in
+//!    integer arithmetic. A side is part of the outline if there are faces to its left or right,
+//!    but not both.
+//! 3. At each point, as many outline sides begin as end, so they form loops. Each loop keeps the
+//!    area on its left and is divided where it touches itself.
 //!
-//! The number of crossings between random triangles grows with the square. If there are too many,
-//! the area is sampled on a fine grid, and its border follows the cells of the grid.
+//! The number of crossings between random triangles grows with the square of their number. If there
+//! are too many, the area is sampled on a fine grid, and its border follows the cells of the grid.
 
 mod coverage;
 
@@ -30,17 +30,17 @@ use std::collections::BTreeMap;
 /// A point in micrometers.
 type Point = [i64; 2];
 
-/// A side from its lesser end to its greater one, and its multiplicity.
+/// A side from its smaller to its larger end in sort order, and its multiplicity.
 type Side = ([Point; 2], i32);
 
-/// The maximum number of snap rounding passes; crossings are gone after one or two.
+/// The maximum number of snap rounding passes; normally one or two remove all crossings.
 const MAX_ROUNDS: usize = 8;
 
 /// Loops with a smaller mean width, in micrometers, are gaps between faces.
 const MIN_WIDTH: f64 = 2.0;
 
-/// Returns the loops around the area of some sides, which must form closed curves: counterclockwise
-/// around matter, clockwise around holes, with x to the right and y up.
+/// Returns the loops around the area enclosed by sides, which must form closed curves. With x to
+/// the right and y up, loops are counterclockwise around material and clockwise around holes.
 pub(super) fn outline_loops(sides: impl Iterator<Item = ([PagePoint; 2], i32)>) -> Vec<Polyline> {
     let widen = |point: PagePoint| point.map(i64::from);
     let mut sides = merge_sides(sides.map(|(ends, sign)| (ends.map(widen), sign)).collect());
@@ -52,7 +52,8 @@ pub(super) fn outline_loops(sides: impl Iterator<Item = ([PagePoint; 2], i32)>) 
                     break;
                 }
                 sides = snap_to_points(&sides, crossings);
-                // There are as many pieces as crossings, and they hardly ever cross.
+                // There are as many pieces as crossings, so the limit grows too, and the pieces
+                // rarely cross.
                 crossings = find_crossings(&sides).unwrap_or_default();
             }
             border_sides(&sides)
@@ -69,14 +70,13 @@ pub(super) fn is_traced(sides: impl Iterator<Item = ([PagePoint; 2], i32)>) -> b
     find_crossings(&sides).is_none()
 }
 
-/// The number of crossings up to which an outline is exact: this many, plus [`CROSSINGS_PER_SIDE`]
-/// for each side.
+/// An outline is exact up to this many crossings, plus [`CROSSINGS_PER_SIDE`] for each side.
 const ANY_CROSSINGS: usize = 1 << 14;
 /// See [`ANY_CROSSINGS`].
 const CROSSINGS_PER_SIDE: usize = 8;
 
-/// Orients sides from the lesser to the greater end, sums equal ones, and drops those that cancel
-/// out.
+/// Orients sides from the smaller to the larger end, adds up equal sides, and drops sides that
+/// cancel out.
 fn merge_sides(mut sides: Vec<Side>) -> Vec<Side> {
     for (ends, sign) in &mut sides {
         if ends[0] > ends[1] {
@@ -91,16 +91,16 @@ fn merge_sides(mut sides: Vec<Side>) -> Vec<Side> {
     sums.filter(|(_, sign)| *sign != 0).collect()
 }
 
-/// The cross product of the vectors from `from` to `a` and to `b`.
+/// Returns the cross product of the vectors from `from` to `a` and to `b`.
 fn cross(from: Point, a: Point, b: Point) -> i128 {
     let [a, b] = [a, b].map(|to| [0, 1].map(|axis| i128::from(to[axis] - from[axis])));
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// Finds the points, rounded to the grid, where sides cross or touch other than at common ends;
-/// these include the ends of sides on other sides. `None` if there are too many.
+/// Finds the points, rounded to the grid, where sides cross or touch, except at common ends.
+/// Includes ends that are on other sides. Returns `None` if there are too many points.
 ///
-/// Sweeps along x over the sides, sorted by their lesser ends.
+/// Sweeps along x over the sides, sorted by their smaller ends.
 fn find_crossings(sides: &[Side]) -> Option<Vec<Point>> {
     let most = ANY_CROSSINGS + CROSSINGS_PER_SIDE * sides.len();
     let mut crossings = Vec::new();
@@ -133,7 +133,7 @@ fn add_crossings([a, b]: [Point; 2], [c, d]: [Point; 2], crossings: &mut Vec<Poi
         return;
     }
     if from_c == from_d {
-        // Collinear: ends that are on the other side.
+        // Collinear sides: add the ends of each that are on the other.
         let on = |point: Point, [low, high]: [Point; 2]| low < point && point < high;
         crossings.extend([c, d].into_iter().filter(|&end| from_c == 0 && on(end, [a, b])));
         crossings.extend([a, b].into_iter().filter(|&end| from_c == 0 && on(end, [c, d])));
@@ -151,7 +151,7 @@ fn add_crossings([a, b]: [Point; 2], [c, d]: [Point; 2], crossings: &mut Vec<Poi
     }
 }
 
-/// Routes every side through all points, ends and crossings, whose grid cell it passes through.
+/// Routes every side through all ends and crossings whose grid cells it passes through.
 fn snap_to_points(sides: &[Side], crossings: Vec<Point>) -> Vec<Side> {
     let mut points = crossings;
     points.extend(sides.iter().flat_map(|(ends, _)| *ends));
@@ -164,7 +164,7 @@ fn snap_to_points(sides: &[Side], crossings: Vec<Point>) -> Vec<Side> {
     merge_sides(pieces)
 }
 
-/// Points in columns of equal width, sorted by y in each column.
+/// Points in columns of equal width, sorted by y within each column.
 struct PointColumns {
     columns: BTreeMap<i64, Vec<Point>>,
     width: i64,
@@ -185,7 +185,7 @@ impl PointColumns {
         Self { columns, width }
     }
 
-    /// The points whose cell a side passes through, from one end of the side to the other.
+    /// Returns the points whose cells a side passes through, from one end of the side to the other.
     fn points_on(&self, [a, b]: [Point; 2]) -> Vec<Point> {
         let along = [b[0] - a[0], b[1] - a[1]];
         let columns = (a[0] - 1).div_euclid(self.width)..=(b[0] + 1).div_euclid(self.width);
@@ -200,14 +200,15 @@ impl PointColumns {
             (0..2).map(|axis| i128::from(point[axis] - a[axis]) * i128::from(along[axis])).sum()
         };
         found.sort_by_key(|&point| (position(point), point));
-        // The ends are points too; other points may be equally far along within their cells.
+        // The ends are among the points; other points in their cells may be just as far along the
+        // side.
         found.retain(|point| *point != a && *point != b);
         found.insert(0, a);
         found.push(b);
         found
     }
 
-    /// The minimum and maximum y of a side in a column, with a margin of one cell.
+    /// Returns the minimum and maximum y of a side in a column, with a margin of one cell.
     fn heights_in_column(&self, [a, b]: [Point; 2], column: i64) -> [i64; 2] {
         if a[0] == b[0] {
             return [a[1].min(b[1]) - 1, a[1].max(b[1]) + 1];
@@ -222,7 +223,7 @@ impl PointColumns {
     }
 }
 
-/// Whether a side passes through the cell of a point: the square of one step around it.
+/// Whether a side passes through the cell of a point, a square of one grid step centered on it.
 fn passes_cell([a, b]: [Point; 2], point: Point) -> bool {
     let is_beside = |axis: usize| {
         let (low, high) = (a[axis].min(b[axis]), a[axis].max(b[axis]));
@@ -235,12 +236,12 @@ fn passes_cell([a, b]: [Point; 2], point: Point) -> bool {
     2 * cross(a, b, point).abs() <= reach
 }
 
-/// The sides between the area and its surroundings, with the area on their left.
+/// Returns the sides between the area and its surroundings, with the area on their left.
 fn border_sides(sides: &[Side]) -> Vec<[Point; 2]> {
     let rows = SideRows::new(sides);
     let mut border = Vec::new();
     for (index, &([a, b], sign)) in sides.iter().enumerate() {
-        // Tests above a horizontal side, and to the right of other sides.
+        // Tests above a horizontal side and to the right of any other side.
         let beyond = rows.winding_beyond(sides, index);
         let rises = b[1] > a[1];
         let (left, right) = if a[1] == b[1] {
@@ -259,7 +260,7 @@ fn border_sides(sides: &[Side]) -> Vec<[Point; 2]> {
     border
 }
 
-/// The sides that are not horizontal, in rows of equal height.
+/// The non-horizontal sides, in rows of equal height.
 struct SideRows {
     rows: Vec<Vec<usize>>,
     low: i64,
@@ -284,17 +285,16 @@ impl SideRows {
         Self { rows, low, height }
     }
 
-    /// The winding number next to the middle of a side: just beyond it in x, or in y if it is
-    /// horizontal.
+    /// Returns the winding number next to the middle of a side: just beyond it in x, or in y if it
+    /// is horizontal.
     ///
-    /// A ray from there to the right counts the sides that it crosses; a side includes its lower
-    /// end but not its upper one. Coordinates are doubled, so that the middle has integer
-    /// coordinates.
+    /// A ray from there to the right counts the sides that it crosses. A side includes its lower
+    /// end but not its upper end. Coordinates are doubled, so that the middle is at integers.
     fn winding_beyond(&self, sides: &[Side], index: usize) -> i32 {
         let [a, b] = sides[index].0;
         let middle = [a[0] + b[0], a[1] + b[1]];
         let row = (middle[1].div_euclid(2) - self.low) / self.height;
-        // A middle between two steps may be in either row.
+        // A middle halfway between two grid steps may be in either row.
         let next = ((middle[1] + 1).div_euclid(2) - self.low) / self.height;
         let mut winding = 0;
         let rows = &self.rows[row as usize..=next as usize];
@@ -312,7 +312,7 @@ impl SideRows {
     }
 }
 
-/// The change of the winding number around a point at a side, by a ray to the right.
+/// Returns the contribution of a side to the winding number around a point, by a ray to the right.
 fn crossing_of_ray(point: Point, [a, b]: [Point; 2], sign: i32) -> i32 {
     let rises = b[1] > a[1];
     let (low, high) = if rises { (a, b) } else { (b, a) };
@@ -355,8 +355,8 @@ fn join_loops(sides: &[[Point; 2]]) -> Vec<Vec<Point>> {
     loops
 }
 
-/// The first unused side from `here`, clockwise from the direction back to `from`: it bounds the
-/// same part of the area.
+/// Returns the first unused side that starts at `here`, clockwise from the direction back to
+/// `from`. It bounds the same part of the area.
 fn next_side(sides: &[[Point; 2]], used: &[bool], from: Point, here: Point) -> Option<usize> {
     let first = sides.partition_point(|[start, _]| *start < here);
     let starting = (first..sides.len()).take_while(|&index| sides[index][0] == here);
@@ -374,7 +374,7 @@ fn next_side(sides: &[[Point; 2]], used: &[bool], from: Point, here: Point) -> O
 /// Whether the direction to `a` comes before the direction to `b`, clockwise around `center` from
 /// `from`.
 fn is_clockwise_before(center: Point, from: Point, a: Point, b: Point) -> bool {
-    // The half turn clockwise after `from` comes first, then the other one.
+    // Directions in the half turn clockwise from `from` come first, then the other half.
     let half = |to: Point| {
         let turn = cross(center, from, to);
         let ahead: i128 =
@@ -400,7 +400,7 @@ fn finish_loop(points: &[Point]) -> Option<Polyline> {
     let length = |(a, b): (&Point, &Point)| libm::hypot((b[0] - a[0]) as f64, (b[1] - a[1]) as f64);
     let perimeter: f64 = pairs().map(length).sum();
     let is_area = kept.len() >= 3 && doubled.unsigned_abs() as f64 > MIN_WIDTH * perimeter;
-    // The page points came from i32, and crossings are between them.
+    // The page points were i32, and crossings are between them.
     let narrow = |point: &Point| point.map(|c| c as i32);
     is_area.then(|| Polyline { points: kept.iter().map(narrow).collect(), closed: true })
 }

@@ -1,12 +1,12 @@
-//! Speckles: lines that are removed because they are too short to show anything.
+//! Removes speckles: lines that are too short to show anything.
 //!
 //! ```text
-//!   ──────╮  ·          a chain that is shorter than a pen is wide is a dot
-//!         ╰─────·──     a stub of a crease or a crossing beside longer lines
+//!   ──────╮  ·          a dot: a chain shorter than the pen is wide
+//!         ╰─────·──     a stub of a crease or a crossing next to longer lines
 //! ```
 //!
-//! On scanned surfaces single facets are silhouettes, and touching bodies cross each other here and
-//! there by a rounding error. An edge that bridges a gap between longer lines stays, however short.
+//! On scanned surfaces single facets can be silhouettes, and rounding errors make touching bodies
+//! intersect in places. An edge that bridges a gap between longer lines stays, however short.
 
 use super::polyline_chain::PolylineChain;
 use page::PagePoint;
@@ -14,14 +14,15 @@ use page::PagePoint;
 /// The minimum length of chains on paper, in millimeters: about the width of a line on a screen.
 pub(super) const LEAST_CHAIN_LENGTH: f64 = 0.3;
 
-/// The treatment of a layer's chains that are shorter than a length in millimeters.
+/// The treatment of short chains in a layer: shorter than the length, in millimeters, of the
+/// variant.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum ShortChains {
     /// Drawn.
     Retained,
     /// Removed if all lines connected with them are shorter in total.
     RemovedAlone(f64),
-    /// Also removed if they end freely beside a longer line.
+    /// Also removed if they branch off a longer line and have a free end.
     RemovedAtEnds(f64),
     /// Removed unless both of their ends are on longer lines.
     RemovedUnlessBridge(f64),
@@ -30,7 +31,7 @@ pub(super) enum ShortChains {
 }
 
 impl ShortChains {
-    /// The minimum length of chains that are drawn.
+    /// Returns the minimum length of chains that are always drawn.
     fn least_length(self) -> f64 {
         match self {
             Self::Retained => 0.0,
@@ -42,7 +43,7 @@ impl ShortChains {
     }
 }
 
-/// Removes speckles, by the rule of each layer.
+/// Removes speckles by the rule for each layer.
 pub(super) fn remove_speckles(
     chains: Vec<PolylineChain>,
     rule: impl Fn(u32) -> ShortChains,
@@ -97,14 +98,14 @@ impl Contacts {
         Self { corners, count: chains.len() }
     }
 
-    /// The chains at a point, except this one.
+    /// Returns the chains at a point, except this one.
     fn others_at(&self, point: PagePoint, chain: usize) -> impl Iterator<Item = usize> {
         let first = self.corners.partition_point(|(other, _)| *other < point);
         let here = self.corners[first..].iter().take_while(move |(other, _)| *other == point);
         here.map(|(_, other)| *other).filter(move |other| *other != chain)
     }
 
-    /// For each chain, the total length of all chains connected with it by common points.
+    /// Returns, for each chain, the total length of all chains connected with it by common points.
     fn connected_lengths(&self, lengths: &[f64]) -> Vec<f64> {
         // Union-find: each chain points to an earlier connected chain, or to itself.
         let mut parents: Vec<usize> = (0..self.count).collect();
@@ -120,7 +121,7 @@ impl Contacts {
     }
 }
 
-/// The first chain of a connected set; the path to it is halved.
+/// Returns the first chain of a connected set and halves the path to it.
 fn root_of(parents: &mut [usize], mut chain: usize) -> usize {
     while parents[chain] != chain {
         parents[chain] = parents[parents[chain]];
@@ -134,14 +135,14 @@ mod tests {
     use super::*;
     use page::Polyline;
 
-    /// A chain of a layer through collinear points, given in micrometers.
+    /// Returns a chain in a layer through collinear points, in micrometers.
     fn chain(layer: u32, xs: &[i32]) -> PolylineChain {
         let points = xs.iter().map(|x| [*x, 0]).collect();
         PolylineChain { layer, object: 0, polyline: Polyline { points, closed: false } }
     }
 
     #[test]
-    fn dots_and_stubs_go_and_bridges_stay() {
+    fn dots_and_stubs_are_removed_and_bridges_stay() {
         let chains = vec![
             chain(0, &[0, 5000]),
             chain(1, &[5000, 5100]),

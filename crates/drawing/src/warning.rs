@@ -1,11 +1,11 @@
-//! Warnings about missing parts of a page, returned along with it.
+//! Warnings about missing or approximate parts of a page, returned along with it.
 
 use crate::overlay::LabelFault;
 use core::cmp::Ordering;
 use core::fmt;
 use files::visible_excerpt;
 
-/// A part that a drawing lacks or could not compute, with the reason in its `Display` text.
+/// A part that a drawing lacks, or that is not exact. The `Display` text gives the reason.
 ///
 /// Warnings are sorted and reported once each, so their order does not depend on threads: sections
 /// first, then labels, then work limits. They are part of the result and are not logged: the caller
@@ -13,13 +13,13 @@ use files::visible_excerpt;
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum Warning {
-    /// A part that the lines lack.
+    /// A warning from hidden-line removal.
     Lines(hidden_line::Warning),
     /// The style shows surfaces, but sections apply only to line drawings.
     SectionsIgnored,
     /// The format does not support anaglyphs; only PNG images do.
     AnaglyphIgnored,
-    /// The format does not support images: DXF has lines, areas and texts.
+    /// The format does not support images: DXF has lines, areas and text.
     ImagesNotInDxf,
     /// The point of a label is not in the picture.
     LabelNotDrawn {
@@ -28,16 +28,17 @@ pub enum Warning {
         /// The reason.
         fault: LabelFault,
     },
-    /// The stroke font lacks characters of a text.
+    /// The stroke font lacks some of the characters in a string.
     GlyphsMissing {
-        /// The text.
+        /// The string.
         text: String,
         /// The missing characters, without duplicates.
         characters: String,
     },
     /// So many faces overlap that their outlines are traced on a grid and are not exact.
     OutlinesTraced,
-    /// Outlines over surfaces are not drawn, because copies have too many triangles.
+    /// Outlines over surfaces are not drawn, because the copies of the models have too many
+    /// triangles.
     OutlinesLeftOut,
     /// The picture is empty.
     PictureEmpty {
@@ -64,7 +65,7 @@ impl Warning {
         }
     }
 
-    /// The order of two warnings of the same kind.
+    /// Returns the order of two warnings of the same kind.
     fn compare_values(&self, other: &Self) -> Ordering {
         match (self, other) {
             (Self::Lines(a), Self::Lines(b)) => a.cmp(b),
@@ -149,7 +150,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn characters_that_are_not_seen_are_written_by_their_code() {
+    fn invisible_characters_are_written_as_codes() {
         let (text, characters) =
             ("a\u{7}\u{202e}b\u{5d0}".to_owned(), "\u{7}\u{202e}\u{5d0}".to_owned());
         let message = Warning::GlyphsMissing { text, characters }.to_string();

@@ -22,13 +22,13 @@ const MAX_TICKS: usize = 9;
 /// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Axis {
-    /// The quantity shown.
+    /// The quantity on the axis.
     pub title: String,
-    /// The value at its start; greater than 0 on a logarithmic axis.
+    /// The value at the start of the axis; greater than 0 if it is logarithmic.
     pub from: f64,
-    /// The value at its end, greater than `from`.
+    /// The value at the end, greater than `from`.
     pub to: f64,
-    /// Linear or logarithmic.
+    /// The scale: linear or logarithmic.
     pub spacing: Spacing,
 }
 
@@ -65,25 +65,28 @@ impl Axis {
         }
     }
 
-    /// Ticks at multiples of 1, 2 or 5 · 10ⁿ, with the smallest step that gives at most nine ticks.
+    /// Returns ticks at multiples of 1, 2 or 5 · 10ⁿ, with the smallest step that gives at most
+    /// nine.
     ///
-    /// Values are quotients if the step is a fraction: 3 / 10 has the same bits as 0.3, but 3 · 0.1
-    /// does not.
+    /// If the step is a fraction, values are computed as quotients: 3 / 10 has the same bits as
+    /// 0.3, but 3 · 0.1 does not.
     fn linear_ticks(&self) -> Vec<f64> {
         let span = self.to - self.from;
         if !(span > 0.0 && span.is_finite()) {
-            // An axis of one value has no step.
+            // An axis with a single value has no step.
             return vec![self.from];
         }
         let power = libm::floor(libm::log10(span)) as i32;
         let steps = [power - 1, power].into_iter().flat_map(|n| [1.0, 2.0, 5.0].map(|d| (d, n)));
         for (digit, power) in steps {
             let step = nearest_decimal(digit, power);
-            // Ticks within half a thousandth of a step of an end are at the end.
+            // Rounding must not lose a tick at an end, so ticks up to 1/2000 of a step beyond it
+            // count.
             let first = libm::ceil(self.from / step - 5e-4) as i64;
             let last = libm::floor(self.to / step + 5e-4) as i64;
             if last - first < MAX_TICKS as i64 {
-                // A quotient if the step is a fraction: 3 / 10 has the bits of the literal 0.3.
+                // A quotient if the step is a fraction: 3 / 10 has the same bits as the literal
+                // 0.3.
                 let value = |n: i64| match power {
                     ..0 => n as f64 * digit / power_of_ten(-power),
                     _ => n as f64 * step,
@@ -94,8 +97,8 @@ impl Axis {
         vec![self.from, self.to]
     }
 
-    /// Ticks at 1, 2 and 5 · 10ⁿ, or at every k-th power of ten if those are too many; linear ticks
-    /// if they are too few.
+    /// Returns ticks at 1, 2 and 5 · 10ⁿ, or at every k-th power of ten if there would be too many.
+    /// Uses linear ticks if there would be too few.
     fn logarithmic_ticks(&self) -> Vec<f64> {
         let [low, high] = [self.from, self.to].map(|end| libm::floor(libm::log10(end)) as i32);
         let fitting = |digits: &[f64], every: i32| -> Vec<f64> {
@@ -115,17 +118,17 @@ impl Axis {
     }
 }
 
-/// The number nearest to a digit times a power of ten: the value of that literal.
+/// Returns the float nearest to a digit times a power of ten, which is the value of that literal.
 fn nearest_decimal(digit: f64, power: i32) -> f64 {
     format!("{digit}e{power}").parse().unwrap_or(1.0)
 }
 
-/// The number nearest to a power of ten.
+/// Returns the float nearest to a power of ten.
 fn power_of_ten(power: i32) -> f64 {
     nearest_decimal(1.0, power)
 }
 
-/// Formats a round number as briefly as possible.
+/// Formats a round number as compactly as possible.
 pub(super) fn format_tick(value: f64) -> String {
     let value = value + 0.0;
     let size = value.abs();
@@ -156,8 +159,8 @@ mod tests {
         assert_eq!(ticks(3.0, 3.5, Logarithmic), [3.0, 3.1, 3.2, 3.3, 3.4, 3.5]);
     }
 
-    /// However wide or narrow the axis, it has ticks: within its range, ascending, and not too
-    /// many.
+    /// Every axis, however wide or narrow, has a limited number of ticks, in ascending order and
+    /// within its range.
     #[test]
     fn every_axis_has_ticks() {
         for spacing in [Spacing::Linear, Spacing::Logarithmic] {
@@ -181,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn ticks_are_formatted_short() {
+    fn ticks_are_formatted_compactly() {
         let texts = [0.0, -0.0, 0.3, 1e-7, 2e5, 1000.0].map(format_tick);
         assert_eq!(texts, ["0", "0", "0.3", "1e-7", "2e5", "1000"]);
     }

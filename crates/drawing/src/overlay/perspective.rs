@@ -1,8 +1,8 @@
 //! Perspective overlays: the horizon, and the vanishing points of the axes (C80, C81).
 //!
-//! The image of a direction d, a point at infinity, is its vanishing point: the clip coordinates of
-//! (d, 0), divided. The images of all horizontal directions are on one line, the horizon: the cross
-//! product of the images of x and z.
+//! A direction d is a point at infinity, and its image is a vanishing point: the clip coordinates
+//! of (d, 0) after the perspective divide. The images of all horizontal directions are on one line,
+//! the horizon, which is the cross product of the images of x and z.
 
 use super::{AXES, LETTER_HEIGHT, PicturePlane, overlay_layer};
 use glam::{DVec2, DVec3};
@@ -13,14 +13,14 @@ use page::{Group, Label, Layer, LineType, Polyline, TextAlign};
 /// The radius of the ring around a vanishing point, in millimeters.
 const RING_RADIUS: f64 = 0.8;
 
-/// The distance from the border of the picture to the name of a vanishing point beyond it, in
+/// The distance from the border of the picture to the name of a vanishing point outside it, in
 /// millimeters.
 const BORDER_GAP: f64 = 1.5;
 
 /// The number of sides of a ring.
 const RING_SIDES: u32 = 24;
 
-/// A component smaller than this fraction of the others counts as zero.
+/// A component counts as zero if it is smaller than this fraction of the others.
 const ZERO_TOLERANCE: f64 = 1e-12;
 
 impl PicturePlane {
@@ -33,7 +33,7 @@ impl PicturePlane {
         line.groups.push(Group { strokes, ..Group::default() });
         let mut text = overlay_layer("horizon-text", "horizon: text", BROWN);
         let along = (ends[1] - ends[0]).normalize_or(DVec2::X);
-        // Below the line: the vanishing points have their names above it.
+        // Below the line, because the names of the vanishing points are above it.
         let (height, below) = (0.8 * LETTER_HEIGHT, DVec2::new(-along.y, along.x));
         let at = ends[0] + along * 2.0 + below * (height + 0.8);
         let label = Label::new("horizon", at, height);
@@ -44,9 +44,9 @@ impl PicturePlane {
     /// Returns the points where the horizon enters and leaves the picture, from left to right.
     ///
     /// The horizon is the line through the vanishing points of x and z. In homogeneous coordinates
-    /// of the picture plane a line through two points is their cross product (a, b, c), with a x +
-    /// b y + c = 0; its point nearest to the center is −c (a, b) / (a² + b²), and the line is
-    /// clipped to the picture from there.
+    /// of the picture plane, the line through two points is their cross product (a, b, c), with a x
+    /// + b y + c = 0. Its point nearest to the center is −c (a, b) / (a² + b²), and clipping to the
+    /// picture starts there.
     fn horizon_ends(&self) -> Option<[DVec2; 2]> {
         let [x, z] = [Vector::X, Vector::Z].map(|direction| self.project_direction(direction));
         if x.z.max(z.z) <= ZERO_TOLERANCE * x.length().max(z.length()) {
@@ -56,7 +56,8 @@ impl PicturePlane {
         let line = x.cross(z);
         let normal = line.truncate();
         let foot = normal * (-line.z / normal.length_squared());
-        // A camera that looks straight down has no horizon, or only one far beyond the picture.
+        // For a camera that looks straight down, there is no horizon, or it is far outside the
+        // picture.
         let half_length = foot.length() + 4.0;
         if !half_length.is_finite() || half_length > 1e6 {
             return None;
@@ -67,12 +68,12 @@ impl PicturePlane {
         Some(if a.x <= b.x { [a, b] } else { [b, a] })
     }
 
-    /// Rings around the vanishing points of the axes, and lines to them from the corners of the
-    /// models' bounding box.
+    /// Returns rings around the vanishing points of the axes, and lines to them from the corners of
+    /// the models' bounding box.
     ///
-    /// The name of a vanishing point outside the picture is at the border, on the line to it from
-    /// the center. An axis parallel to the picture plane has no finite vanishing point (w = 0 up to
-    /// rounding) and is skipped.
+    /// If a vanishing point is outside the picture, its name is at the border, on the line from the
+    /// center to that point. An axis parallel to the picture plane has no finite vanishing point (w
+    /// = 0 up to rounding) and is skipped.
     pub(super) fn vanishing_point_layers(&self) -> Vec<Layer> {
         let mut layers = Vec::new();
         for (direction, name, ink) in AXES {
@@ -98,7 +99,8 @@ impl PicturePlane {
         layers
     }
 
-    /// The mark `Vx outside`, at the border on the line from the center to a vanishing point.
+    /// Returns the mark `Vx outside`, at the border on the line from the center to a vanishing
+    /// point.
     fn outside_mark(&self, image: DVec3, name: &str) -> Vec<Polyline> {
         let Some([_, border]) = self.clip_to_picture(DVec3::Z, image) else { return Vec::new() };
         let text = format!("V{name} outside");
@@ -114,13 +116,13 @@ impl PicturePlane {
         Label::new(&text, at, LETTER_HEIGHT).with_align(align).strokes()
     }
 
-    /// The line from the image of a corner to a vanishing point.
+    /// Returns the line from the image of a corner to a vanishing point.
     fn line_to_vanishing_point(&self, from: DVec3, vanishing: DVec3) -> Option<Polyline> {
         Polyline::through_points(&self.clip_to_picture(from, vanishing)?, false)
     }
 }
 
-/// A ring with the name of a vanishing point.
+/// Returns a ring around a vanishing point, with its name.
 fn vanishing_point_mark(center: DVec2, name: &str) -> Vec<Polyline> {
     let point = |k: u32| {
         let (sin, cos) =

@@ -1,8 +1,8 @@
 //! Labels at world points: text beside the image of a point, with an optional leader line.
 //!
 //! ```text
-//!         ridge               offset (24, −24): up and to the right of the point,
-//!       ╱                     in pixels; the nearest corner of the text is there
+//!         ridge               offset (24, −24): up and to the right of the point, in
+//!       ╱                     pixels, to the nearest corner of the text
 //!      ●  at
 //! ```
 //!
@@ -23,13 +23,13 @@ use page::{
 const LEADER_GAP: f64 = 0.3;
 /// The distance between baselines, in character heights.
 const LINE_PITCH: f64 = 1.7;
-/// The width of a halo beyond the character strokes, in millimeters.
+/// How far a halo extends beyond the character strokes, in millimeters.
 const HALO: f64 = 0.5;
 /// The radius of the dot at the end of a leader line, in millimeters.
 const DOT_RADIUS: f64 = 0.15 * LETTER_HEIGHT;
 /// The number of sides of the dot.
 const DOT_SIDES: u32 = 12;
-/// The minimum distance of a label from the border of the picture, in millimeters.
+/// The minimum distance between a label and the border of the picture, in millimeters.
 const BORDER_DISTANCE: f64 = 0.8;
 
 /// A label at a world point.
@@ -37,16 +37,16 @@ const BORDER_DISTANCE: f64 = 0.8;
 pub struct PointLabel {
     /// The labeled point.
     pub at: Point<World>,
-    /// The text; it may have several lines.
+    /// The text, which may have several lines.
     pub text: String,
-    /// The offset from the image of the point to the nearest corner of the text, or to the middle
-    /// of its nearest side where a component is 0, in pixels, y down.
+    /// The offset in pixels, y down, from the image of the point to the nearest corner of the text,
+    /// or to the middle of the nearest side if a component is 0.
     pub offset: DVec2,
     /// The color.
     pub ink: Ink,
     /// The height of capitals in pixels.
     pub height: f64,
-    /// Whether a line with a dot leads to the point.
+    /// Whether a leader line with a dot points to the labeled point.
     pub leader: bool,
 }
 
@@ -61,7 +61,7 @@ pub enum LabelFault {
 
 impl PointLabel {
     /// Returns the reason why the label is not in a picture; `None` if it is. `view_height` is the
-    /// fraction of the picture's height, from the top, that shows the view.
+    /// fraction of the picture's height, measured from the top, that shows the view.
     #[must_use]
     pub fn fault(&self, view: &ViewProjection, view_height: f64) -> Option<LabelFault> {
         let clip = view.world_to_clip().transform_point(self.at).raw();
@@ -74,7 +74,8 @@ impl PointLabel {
     }
 }
 
-/// Returns warnings about labels that are not in the picture and characters that the font lacks.
+/// Returns warnings about labels that are not in the picture and about characters that the font
+/// lacks.
 #[must_use]
 pub fn label_warnings(subject: &Subject<'_>, overlays: &[Overlay]) -> Vec<Warning> {
     let labels = overlays.iter().filter_map(|overlay| match overlay {
@@ -90,8 +91,7 @@ pub fn label_warnings(subject: &Subject<'_>, overlays: &[Overlay]) -> Vec<Warnin
     warnings.collect()
 }
 
-/// Returns a warning about the characters of a text that the font lacks; `None` if it has all of
-/// them.
+/// Returns a warning if the font lacks characters of a string.
 #[must_use]
 pub fn missing_glyph_warning(text: &str) -> Option<Warning> {
     let characters = missing_glyphs(text);
@@ -99,7 +99,7 @@ pub fn missing_glyph_warning(text: &str) -> Option<Warning> {
 }
 
 impl PicturePlane {
-    /// The leader line and text of a label; empty if its point is not in the picture.
+    /// Returns the leader line and text of a label; empty if its point is not in the picture.
     pub(super) fn point_label_layers(
         &self,
         label: &PointLabel,
@@ -117,7 +117,7 @@ impl PicturePlane {
         let width = lines.iter().map(Label::width).fold(0.0, f64::max);
         let pitch = LINE_PITCH * height;
         let extent = DVec2::new(width, height + pitch * lines.len().saturating_sub(1) as f64);
-        // The offset back from the corner to the upper left.
+        // The offset from that corner back to the upper left corner.
         let back = |offset: f64, extent: f64| match offset {
             x if x > 0.0 => 0.0,
             x if x < 0.0 => -extent,
@@ -126,7 +126,7 @@ impl PicturePlane {
         let back = DVec2::new(back(offset.x, extent.x), back(offset.y, extent.y));
         let low = DVec2::splat(BORDER_DISTANCE);
         let high = self.half * 2.0 * DVec2::new(1.0, subject.view_height()) - low - extent;
-        // The text is kept inside the picture; if it is too large, it begins at the left.
+        // Keeps the text inside the picture; text that is too large starts at the upper left.
         let corner = (at + offset + back).min(high).max(low);
         let mut text = overlay_layer("label", &format!("label: {}", label.text), label.ink);
         text.pen = Label::new("", at, height).pen(label.ink);
@@ -139,8 +139,8 @@ impl PicturePlane {
     }
 }
 
-/// Adds a halo below each label, so that it is clearly visible: its characters drawn wider in the
-/// opposite color. Other layers are unchanged.
+/// Adds a halo under each label to keep it legible: its characters drawn with wider strokes in a
+/// contrasting color. Other layers are unchanged.
 #[must_use]
 pub fn with_label_halos(layers: Vec<Layer>) -> Vec<Layer> {
     let add_halo = |layer: Layer| {
@@ -160,7 +160,7 @@ pub fn with_label_halos(layers: Vec<Layer>) -> Vec<Layer> {
     layers.into_iter().flat_map(add_halo).collect()
 }
 
-/// Returns the page rectangles that labels occupy, in millimeters, with a border around them.
+/// Returns the page rectangles that labels occupy, in millimeters, including a margin.
 #[must_use]
 pub fn label_rectangles(layers: &[Layer]) -> Vec<[DVec2; 2]> {
     let labels = layers.iter().filter(|layer| is_label(layer));
@@ -180,7 +180,7 @@ fn is_label(layer: &Layer) -> bool {
     layer.id.starts_with("overlay-") && layer.id.ends_with("-label")
 }
 
-/// A line from a point to its label, ending at a gap, with a dot at the point.
+/// Returns a line from a point to its label, with a dot at the point and a gap before the text.
 fn leader_layer(label: &PointLabel, [at, end]: [DVec2; 2]) -> Layer {
     let gap = LEADER_GAP * label.height * MILLIMETERS_PER_PIXEL;
     let end = end - (end - at).normalize_or_zero() * gap;

@@ -1,4 +1,4 @@
-//! View volume overlay: the frustum of another camera, with its eye (C61 to C64).
+//! View volume overlay: the frustum of another camera and its eye (C61 to C64).
 //!
 //! ```text
 //!               ╱│         │╲
@@ -8,8 +8,8 @@
 //! ```
 //!
 //! The corners of the clip-space cube are mapped back to the world by the inverse projection. Any
-//! projection can therefore be shown: an oblique one is a sheared box, and one without an eye has
-//! no rays.
+//! projection can therefore be shown: an oblique projection is a sheared box, and a projection
+//! without an eye has no rays.
 
 use super::{LETTER_HEIGHT, PicturePlane, overlay_layer};
 use camera::ViewProjection;
@@ -20,9 +20,9 @@ use page::{Group, Label, Layer, TextAlign};
 use projection::{Convention, ViewVolume};
 
 impl PicturePlane {
-    /// The layers of the twelve edges, and of the rays from the eye to the near plane.
+    /// Returns the layers of the twelve edges, and of the rays from the eye to the near plane.
     ///
-    /// Corners at infinity, in a volume without a far plane, have no image; their edges are
+    /// In a volume without a far plane, corners at infinity have no image, and edges to them are
     /// skipped.
     pub(super) fn view_volume_layers(&self, view_projection: &ViewProjection) -> Vec<Layer> {
         let volume = ViewVolume::new(view_projection.view_to_clip, Convention::CHAPTER);
@@ -43,7 +43,7 @@ impl PicturePlane {
         layers
     }
 
-    /// The label of the eye.
+    /// Returns the label for the eye.
     fn eye_layer(&self, eye: Point<World>) -> Layer {
         let mut layer = overlay_layer("volume-eye", "eye of the view volume", BLUE);
         let strokes = self.point_in_picture(self.project_point(eye)).map(|point| {

@@ -1,8 +1,7 @@
 //! HTML output of panels: one self-contained page of figures, with searchable text.
 //!
-//! Drawings are inline SVG and captions are HTML text. The page loads nothing: it has no external
-//! scripts, fonts or images, so it can be mailed and archived. Figures wrap to the width of the
-//! window.
+//! Drawings are inline SVG and captions are HTML text. The page has no external scripts, fonts or
+//! images, so it can be mailed and archived. Figures wrap to the width of the window.
 
 use super::{Page, Panel, Panels};
 use glam::DVec2;
@@ -20,7 +19,7 @@ const STYLE_SHEET: &str = "
 ";
 
 impl Panels {
-    /// Returns all panels as an HTML page that refers to no other file.
+    /// Returns all panels as an HTML page that does not refer to other files.
     #[must_use]
     pub fn to_html(&self) -> String {
         let title = escape_markup(&self.title);
@@ -40,10 +39,9 @@ impl Panels {
 
 /// Appends a panel as a `<figure>` with its drawing as inline SVG.
 ///
-/// All figures on an HTML page share one set of ids, so layer ids are prefixed with the id of the
-/// panel.
+/// All figures on an HTML page share one id namespace, so layer ids are prefixed with the panel id.
 fn push_figure(html: &mut String, panel: &Panel) {
-    // The panel's id as a prefix makes ids unique on the page.
+    // The panel id as a prefix makes ids unique on the page.
     let mut page = Page::new(panel.page.size, panel.title.clone(), panel.page.paper);
     page.paste_page(&panel.page, DVec2::ZERO, &format!("{}-", panel.id));
     let (id, svg, title) = (escape_markup(&panel.id), page.to_svg(), escape_markup(&panel.title));

@@ -1,16 +1,16 @@
 //! The area enclosed by sides, sampled at the centers of grid cells.
 //!
 //! ```text
-//!     ╱╲             ┌─┐          a cell is of the area if its center has a winding number
+//!     ╱╲             ┌─┐          a cell is part of the area if the winding number
 //!    ╱  ╲      ─►  ┌─┘ └─┐        above zero
 //!   ╱____╲         └─────┘
 //! ```
 
 use super::{Point, Side};
 
-/// The side of a cell in micrometers: a tenth of a 0.5 mm pen.
+/// The side length of a cell in micrometers: a tenth of a 0.5 mm pen.
 const CELL: i64 = 50;
-/// The maximum number of cells in a row or a column. Drawings larger than 0.4 m have larger cells.
+/// The maximum number of cells in a row or column. Drawings larger than 0.4 m use larger cells.
 const MAX_CELLS: i64 = 8192;
 
 /// The cells crossed by the border.
@@ -22,7 +22,7 @@ struct Grid {
 }
 
 impl Grid {
-    /// Creates the grid over some sides, with one more cell all around.
+    /// Creates the grid that covers the sides, with a margin of one cell.
     fn over(sides: &[Side]) -> Self {
         let ends = || sides.iter().flat_map(|(ends, _)| *ends);
         let bound = |axis: usize| {
@@ -40,18 +40,18 @@ impl Grid {
         }
     }
 
-    /// The doubled y of a row's centers, so that it is an integer.
+    /// Returns the y of a row's cell centers, doubled so that it is an integer.
     const fn doubled_center(&self, row: i64) -> i64 {
         2 * (self.low[1] + row * self.cell) + self.cell
     }
 
-    /// The lower left corner of a cell.
+    /// Returns the lower left corner of a cell.
     const fn corner(&self, column: usize, row: i64) -> Point {
         [self.low[0] + column as i64 * self.cell, self.low[1] + row * self.cell]
     }
 
-    /// The first column whose center is to the right of a side, at the height of a row's centers;
-    /// `None` if the side does not reach that height.
+    /// Returns the first column whose cell center in a row is to the right of a side; `None` if the
+    /// side does not cross the height of the centers.
     fn column_after(&self, [a, b]: [Point; 2], row: i64) -> Option<usize> {
         let (low, high) = if a[1] < b[1] { (a, b) } else { (b, a) };
         let y = self.doubled_center(row);
@@ -59,7 +59,7 @@ impl Grid {
             return None;
         }
         let (run, rise) = (i128::from(high[0] - low[0]), i128::from(high[1] - low[1]));
-        // Twice the position of the crossing, from twice the center of the first column.
+        // Twice the distance of the crossing from the center of the first column.
         let along = run * i128::from(y - 2 * low[1]);
         let first = 2 * self.low[0] + self.cell;
         let ahead = i128::from(2 * low[0] - first) * rise + along;
@@ -68,13 +68,13 @@ impl Grid {
     }
 }
 
-/// The border of the area in steps of one cell, each with the area on its left, like the border
-/// sides of the exact outline.
+/// Returns the border of the area in steps of one cell. Each step has the area on its left, like
+/// the border sides of the exact outline.
 pub(super) fn traced_border(sides: &[Side]) -> Vec<[Point; 2]> {
     let grid = Grid::over(sides);
     let mut waiting: Vec<&Side> =
         sides.iter().filter(|(ends, _)| ends[0][1] != ends[1][1]).collect();
-    // The lowest comes last.
+    // The lowest is last.
     waiting.sort_by_key(|(ends, _)| std::cmp::Reverse(ends[0][1].min(ends[1][1])));
     let (mut active, mut border) = (Vec::<&Side>::new(), Vec::new());
     let mut below = vec![false; grid.columns];
@@ -92,12 +92,12 @@ pub(super) fn traced_border(sides: &[Side]) -> Vec<[Point; 2]> {
     border
 }
 
-/// The cells of a row whose centers have a winding number above zero.
+/// Returns the cells of a row whose centers have a winding number at its center is above zero.
 fn covered_cells(grid: &Grid, active: &[&Side], row: i64) -> Vec<bool> {
     let mut changes = vec![0_i32; grid.columns + 1];
     for (ends, sign) in active {
         if let Some(column) = grid.column_after(*ends, row) {
-            // On the left of a rising side there are `sign` more faces.
+            // There are `sign` more faces on the left of a rising side.
             changes[column] -= if ends[1][1] > ends[0][1] { *sign } else { -*sign };
         }
     }

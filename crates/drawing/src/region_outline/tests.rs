@@ -1,8 +1,9 @@
-//! Outlines compared with known areas, and random triangles compared with point counts.
+//! Tests outlines with known areas, and outlines of random triangles by counting the triangles
+//! around points.
 
 use super::*;
 
-/// The directed sides of a polygon.
+/// Returns the directed sides of a polygon.
 fn polygon(points: &[[i32; 2]]) -> Vec<([PagePoint; 2], i32)> {
     let next = points.iter().cycle().skip(1);
     points.iter().zip(next).map(|(&a, &b)| ([a, b], 1)).collect()
@@ -12,7 +13,7 @@ fn square(x: i32, y: i32, side: i32) -> Vec<([PagePoint; 2], i32)> {
     polygon(&[[x, y], [x + side, y], [x + side, y + side], [x, y + side]])
 }
 
-/// Twice the signed area of a loop.
+/// Returns twice the signed area of a loop.
 fn doubled_area(line: &Polyline) -> i64 {
     let points: Vec<Point> = line.points.iter().map(|point| point.map(i64::from)).collect();
     let pairs = points.iter().zip(points.iter().cycle().skip(1));
@@ -26,7 +27,8 @@ fn areas(sides: Vec<([PagePoint; 2], i32)>) -> Vec<i64> {
     areas
 }
 
-/// Whether the sides of the loops meet only at common ends of neighbors, or where two loops touch.
+/// Whether the sides of the loops meet only at the common ends of neighbors or where two loops
+/// touch.
 fn are_simple(loops: &[Polyline]) -> bool {
     let sides: Vec<Side> = loops
         .iter()
@@ -49,13 +51,13 @@ fn are_simple(loops: &[Polyline]) -> bool {
 }
 
 #[test]
-fn squares_that_overlap_touch_or_nest_have_the_area_of_their_union() {
+fn outlines_of_squares_enclose_the_area_of_their_union() {
     let both = |other| [square(0, 0, 1000), other].concat();
     assert_eq!(areas(square(0, 0, 1000)), [1_000_000]);
     assert_eq!(areas(both(square(500, 500, 1000))), [1_750_000]);
     assert_eq!(areas(both(square(200, 200, 100))), [1_000_000]);
     assert_eq!(areas(both(square(1000, 0, 1000))), [2_000_000]);
-    // Only at a corner: two loops.
+    // Touching only at a corner: two loops.
     assert_eq!(areas(both(square(1000, 1000, 1000))), [1_000_000, 1_000_000]);
     // A hole, and another that touches the outline at a point.
     let mut hole = square(200, 200, 100);
@@ -70,7 +72,7 @@ fn squares_that_overlap_touch_or_nest_have_the_area_of_their_union() {
 
 #[test]
 fn narrow_gaps_are_closed() {
-    // Two halves with a gap of one micrometer: it is open at both ends, so it stays.
+    // A gap of one micrometer between two halves stays, because it is open at both ends.
     let halves = [
         polygon(&[[0, 0], [500, 0], [500, 1000], [0, 1000]]),
         polygon(&[[501, 0], [1000, 0], [1000, 1000], [501, 1000]]),
@@ -94,10 +96,10 @@ impl Numbers {
 }
 
 #[test]
-fn random_triangles_are_covered_where_their_outline_winds() {
+fn winding_numbers_match_random_triangles() {
     let mut numbers = Numbers(7);
     for round in 0..60 {
-        // Small grids have many coincidences, large ones have long sides.
+        // Small grids have many coincidences; large grids have long sides.
         let limit = [12, 200, 4000, 1_000_000][round % 4] * 20;
         let mut triangles = Vec::new();
         for _ in 0..3 + numbers.below(30) {
@@ -124,7 +126,7 @@ fn random_triangles_are_covered_where_their_outline_winds() {
                 (0..3).map(|k| distance([wide[k], wide[(k + 1) % 3]])).fold(f64::INFINITY, f64::min)
             };
             let depth = triangles.iter().map(within).fold(f64::NEG_INFINITY, f64::max);
-            // Rounding may move points near a side to its other side.
+            // Rounding may move a point near a side across it.
             if depth.abs() < 3.0 {
                 continue;
             }
@@ -146,13 +148,13 @@ fn random_triangles_are_covered_where_their_outline_winds() {
 }
 
 #[test]
-fn what_crosses_too_often_is_traced_on_the_grid() {
-    // A thousand sticks in each direction: a million crossings in a square of 20 mm.
+fn outlines_with_too_many_crossings_are_traced_on_the_grid() {
+    // A thousand sticks in each direction give a million crossings in a 20 mm square.
     let stick = |at: i32| [[at, 0], [at + 10, 0], [at + 10, 20_000], [at, 20_000]];
     let sticks = (0..1000).map(|k| stick(20 * k));
     let sides = sticks.flat_map(|vertical| {
         let horizontal = vertical.map(|[x, y]| [y, x]);
-        // Reversed: their orientation is negative.
+        // Reversed, because they are oriented negatively.
         let horizontal = [horizontal[3], horizontal[2], horizontal[1], horizontal[0]];
         [polygon(&vertical), polygon(&horizontal)].concat()
     });
@@ -160,10 +162,10 @@ fn what_crosses_too_often_is_traced_on_the_grid() {
     assert!(is_traced(sides.iter().copied()));
     let loops = outline_loops(sides.into_iter());
     let area: i64 = loops.iter().map(|line| doubled_area(line) / 2).sum();
-    // Sticks and gaps are finer than the grid, so only its samples count.
+    // The sticks and gaps are finer than the grid, so only the samples count.
     assert!(area > 200_000_000 && area <= 441_000_000, "{area}");
     assert!(loops.iter().all(|line| line.closed && line.points.len() >= 4));
-    // A square between two steps of the grid keeps its size to within a cell.
+    // A square between two grid steps keeps its size to within a cell.
     let square = square(130, 70, 7000);
     let border = traced_border(&merge_sides(
         square.iter().map(|(ends, sign)| (ends.map(|end| end.map(i64::from)), *sign)).collect(),

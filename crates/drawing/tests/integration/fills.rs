@@ -1,4 +1,4 @@
-//! Face fills: material grays, and hatching of shade and of parts.
+//! Face fills: material grays, shade hatching and part hatching.
 
 use super::stage::*;
 use drawing::{Drawing, FaceFill, FillOptions, LineStyle, Page, draw};
@@ -9,7 +9,7 @@ use model::{Material, Model, Primitive};
 use page::{MILLIMETERS_PER_PIXEL, Polyline, to_millimeters};
 use std::collections::BTreeMap;
 
-/// A model in which each primitive has its own material, in these colors.
+/// Returns a model in which each primitive has its own material with the color next to it.
 fn colored_model(parts: Vec<(Primitive, [f32; 3])>) -> Model {
     let material = |(_, [r, g, b]): &(Primitive, [f32; 3])| Material {
         base_color: [*r, *g, *b, 1.0],
@@ -32,7 +32,7 @@ fn page(scene: &TestScene, face_fill: FaceFill) -> Page {
     filled(scene, face_fill).to_page(&style, "", Some([255; 3]))
 }
 
-/// The area of fills in units of the picture.
+/// Returns the total area of fills in picture units.
 fn area(fills: &[Polyline]) -> f64 {
     let unit = 100.0 * MILLIMETERS_PER_PIXEL;
     let doubled = |line: &Polyline| -> f64 {
@@ -43,9 +43,9 @@ fn area(fills: &[Polyline]) -> f64 {
 }
 
 #[test]
-fn grays_fill_what_is_visible_of_each_material() {
+fn grays_fill_the_visible_part_of_each_material() {
     let cube = cuboid_mesh([-1.0; 3], [1.0; 3]);
-    // In front of the lower left corner of the cube's front, hiding a quarter unit of it.
+    // Its image covers a quarter unit at the lower left corner of the cube's front.
     let plate = quad_mesh([[-0.5, -0.5, 3.0], [0.5, -0.5, 3.0], [0.5, 0.5, 3.0], [-0.5, 0.5, 3.0]]);
     let model = colored_model(vec![(cube, [0.8; 3]), (plate, [0.0, 0.0, 0.1])]);
     let page = page(&drawing_scene(model, oblique_view()), FaceFill::Gray);
@@ -58,7 +58,7 @@ fn grays_fill_what_is_visible_of_each_material() {
         let actual = area(&layer.groups[0].fills);
         assert!((actual - expected).abs() < 0.01 * expected, "{}: {actual}", layer.id);
     }
-    // Above the fills are the same lines as without fills.
+    // The layers above the fills are the lines.
     assert!(page.layers[2..].iter().all(|layer| layer.id.starts_with("visible-")));
     assert!(page.layers.len() > 2);
 }
@@ -70,13 +70,13 @@ fn cuts_stay_blank_under_grays() {
     let scene = TestScene { sections: vec![cut], ..drawing_scene(model, oblique_view()) };
     let page = page(&scene, FaceFill::Gray);
     let gray = page.layers.iter().find(|layer| layer.id.starts_with("gray-")).unwrap();
-    // Right and upper sides of the half that remains; the cut has 4 units.
+    // The right and upper sides of the remaining half; the cut has an area of 4 units.
     let actual = area(&gray.groups[0].fills);
     assert!((actual - 2.0).abs() < 0.02, "{actual}");
 }
 
 #[test]
-fn shade_is_hatched_whatever_the_color() {
+fn shade_hatching_ignores_the_color() {
     let hatched = |color: [f32; 3], fill: FaceFill| {
         let model = colored_model(vec![(cuboid_mesh([-1.0; 3], [1.0; 3]), color)]);
         let drawing = filled(&drawing_scene(model, oblique_view()), fill);
@@ -87,14 +87,14 @@ fn shade_is_hatched_whatever_the_color() {
     assert!(hatched([0.0; 3], FaceFill::Hatching) > white);
 }
 
-/// The direction of each object's hatch lines, in degrees, and their number.
+/// Returns the direction of each object's hatch lines, in degrees, and their number.
 fn hatch_lines(drawing: &Drawing) -> BTreeMap<u32, (i64, usize)> {
     let mut lines = BTreeMap::new();
     for line in drawing.segments.iter().filter(|line| line.class == Hatching) {
         let step = line.ends[1] - line.ends[0];
         let angle = libm::round(libm::atan(-step.y / step.x).to_degrees()) as i64;
         let (known, count) = lines.entry(line.object).or_insert((angle, 0));
-        assert_eq!(*known, angle, "one direction for an object");
+        assert_eq!(*known, angle, "each object has one hatch direction");
         *count += 1;
     }
     lines
@@ -108,9 +108,9 @@ fn neighbors_are_hatched_differently() {
     let angles: Vec<i64> = lines.values().map(|(angle, _)| *angle).collect();
     // The outer boxes do not touch.
     assert_eq!(angles, [45, -45, 45]);
-    // The side of the last box is visible; the others' are not.
+    // Only the last box has a visible side.
     assert!(lines[&2].1 > lines[&0].1, "{lines:?}");
-    // With cuts, nothing else is hatched.
+    // With sections, only the cuts are hatched.
     scene.sections = vec![Plane::through(Point::new(0.0, 0.0, 0.0), Normal::new(0.0, 0.0, -1.0))];
     let options = DrawOptions::default();
     let of = |fill| {

@@ -1,10 +1,10 @@
 //! Tests of the public interface of `drawing`, linked once.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests fail by panics")]
-#![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
+#![allow(unreachable_pub, reason = "modules of a test program have no outside users")]
 
 mod fills;
-#[allow(dead_code, reason = "the other tests of hidden lines need the rest")]
+#[allow(dead_code, reason = "other tests of hidden lines use the rest")]
 #[path = "../../../hidden-line/tests/integration/stage.rs"]
 mod stage;
 mod styles;

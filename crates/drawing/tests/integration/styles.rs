@@ -1,4 +1,4 @@
-//! Line styles: edges between materials, outlines, and no lines too short to be seen.
+//! Line styles: edges between materials, outlines, and the removal of speckles.
 
 use super::stage::*;
 use drawing::{Drawing, LineStyle, draw};
@@ -6,15 +6,15 @@ use hidden_line::EdgeClass;
 use model::{Material, Model, Primitive};
 use std::f64::consts::TAU;
 
-/// A drawing through the window, from the front.
+/// Returns a front view through the window.
 fn draw_front(model: Model, style: &LineStyle) -> Drawing {
     let scene = drawing_scene(model, view_projection(window_projection()));
     let (options, fill) = (style.to_draw_options(), style.to_fill_options());
     draw(&scene.drawing_subject(), &options, &fill, 1).unwrap()
 }
 
-/// A ball with a rough surface and shared vertex normals, open at its poles, where triangles would
-/// be needles.
+/// Returns a ball with a rough surface and shared vertex normals. It is open at its poles, where
+/// triangles would be needles.
 fn rough_ball(rings: u32, roughness: f64) -> Primitive {
     let sectors = 2 * rings;
     let mut seed = 1_u32;
@@ -64,7 +64,7 @@ fn scanned_surfaces_have_no_speckles() {
         let [width, _] = style.line_widths.wide_and_narrow();
         for layer in &page.layers {
             for line in layer.groups.iter().flat_map(|group| &group.strokes) {
-                // Alone, or together with connected lines.
+                // A line must be long enough alone or be connected to other lines.
                 let ends = [line.points[0], line.points[line.points.len() - 1]];
                 let meets = |other: &page::Polyline| {
                     other != line && ends.iter().any(|end| other.points.contains(end))
@@ -77,7 +77,7 @@ fn scanned_surfaces_have_no_speckles() {
     }
 }
 
-/// Two squares in one plane, with different materials.
+/// Returns two squares in one plane, with different materials.
 fn two_materials() -> Model {
     let square = |x: f32| {
         quad_mesh([[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x + 1.0, 1.0, 0.0], [x, 1.0, 0.0]])
@@ -89,7 +89,7 @@ fn two_materials() -> Model {
 }
 
 #[test]
-fn edges_between_materials_are_drawn_in_all_styles_with_features() {
+fn edges_between_materials_are_drawn_in_all_feature_styles() {
     for style in [LineStyle::HIDDEN_REMOVED, LineStyle::HIDDEN_DASHED, LineStyle::TECHNICAL] {
         let drawing = draw_front(two_materials(), &style);
         let page = drawing.to_page(&style, "", None);
@@ -99,15 +99,15 @@ fn edges_between_materials_are_drawn_in_all_styles_with_features() {
             .flat_map(|group| &group.strokes)
             .map(page::Polyline::length)
             .collect();
-        // 100 pixels at 96 per inch.
+        // 100 pixels at 96 pixels per inch.
         assert_eq!(lines.len(), 1);
         assert!((lines[0] - 100.0 * page::MILLIMETERS_PER_PIXEL).abs() < 2e-3, "{lines:?}");
     }
 }
 
 #[test]
-fn the_silhouette_style_draws_the_outline_alone() {
-    // A small box in front of a large one, and one that juts out beside it.
+fn the_silhouette_style_draws_only_the_outline() {
+    // A large box, a small box in front of it, and a third that juts out to the right.
     let boxes = || {
         vec![
             cuboid_mesh([-2.0, -2.0, -1.0], [2.0, 2.0, 0.0]),
@@ -122,10 +122,11 @@ fn the_silhouette_style_draws_the_outline_alone() {
         strokes.map(page::Polyline::length).sum()
     };
     let length = length_in(LineStyle::SILHOUETTE);
-    // The square of side 4, of which the third box covers 2 on the right and adds 1 + 2 + 1.
+    // The perimeter of the 4 × 4 square. The third box covers 2 of it on the right and adds 1 + 2 +
+    // 1.
     let expected = (16.0 - 2.0 + 4.0) * 100.0 * page::MILLIMETERS_PER_PIXEL;
     assert!((length - expected).abs() < 0.01, "{length} {expected}");
-    // The small box, and the sides of the third in front of the large one.
+    // The small box, and the sides of the third box in front of the large one.
     let within = length_in(LineStyle::CONTOURS) - expected;
     assert!((within - 8.0 * 100.0 * page::MILLIMETERS_PER_PIXEL).abs() < 0.01, "{within}");
 }
