@@ -1,17 +1,17 @@
-//! A ten-centimeter ruler as SVG, true to scale when printed.
+//! Draws a ten-centimeter ruler as SVG, true to scale when printed.
 //!
 //! ```text
 //! cargo run -p alberti-page --example ruler > ruler.svg
 //! ```
 
-#![allow(clippy::print_stdout, reason = "an example speaks on its standard output")]
+#![allow(clippy::print_stdout, reason = "the example writes to standard output")]
 
 use glam::DVec2;
 use page::{Group, Label, Layer, Page, Pen, Polyline, TextAlign};
 
 fn main() {
     let mut page: Page = Page::new(DVec2::new(120.0, 25.0), "a ruler", Some([255; 3]));
-    let mut layer = Layer::new("marks", "Marks of the ruler", Pen::solid(0.25, [0, 0, 0]));
+    let mut layer = Layer::new("marks", "Ruler marks", Pen::solid(0.25, [0, 0, 0]));
     for millimeter in 0..=100_u32 {
         let x = 10.0 + f64::from(millimeter);
         let length = if millimeter % 10 == 0 { 8.0 } else { 4.0 };

@@ -1,4 +1,4 @@
-//! Page rasterization: strokes and fills drawn into pictures by tiny-skia, anti-aliased.
+//! Page rasterization: draws anti-aliased strokes and fills into pictures with tiny-skia.
 //!
 //! Only this module depends on tiny-skia. Faces are never drawn here: adjacent triangles filled
 //! with anti-aliased paths would let the background show through their seams, and tiny-skia breaks
@@ -12,8 +12,8 @@
 //!            └────────┴────────┴───┘
 //! ```
 //!
-//! A region is drawn tile by tile, and each tile as a whole, so that pixels do not depend on the
-//! requested region.
+//! A region is drawn tile by tile. Each tile is drawn as a whole, so that pixels do not depend on
+//! the requested region.
 
 use crate::{
     Cap, Ink, Join, Layer, MILLIMETERS_PER_PIXEL, Page, Pen, PlacedImage, Polyline, to_millimeters,
@@ -25,24 +25,24 @@ use tiny_skia::{
     PremultipliedColorU8, Stroke, StrokeDash, Transform,
 };
 
-/// The number of points after which a new path starts: long paths fill slowly, and each short one
+/// The number of points after which a new path starts. Long paths fill slowly, and every short path
 /// costs a call.
 const MAX_PATH_POINTS: usize = 256;
 
-/// The longest side of a picture, the same as for the surface rasterizer.
+/// The maximum side length of a picture, the same as in the surface rasterizer.
 const MAX_PICTURE_SIDE: u32 = 16_384;
 
-/// Width and height of the tiles in which a picture is drawn.
+/// The width and height of the tiles in which a picture is drawn.
 ///
-/// tiny-skia rounds coordinates relative to the corner of its pixmap, so pixels depend on the tile
-/// they are in. Tiles are counted from the corner of the whole picture, so they do not depend on
-/// the region.
+/// tiny-skia rounds coordinates relative to the corner of its pixmap, so pixels depend on their
+/// tile. Tiles are counted from the corner of the whole picture, so they do not depend on the
+/// region.
 const TILE_SIZE: [u32; 2] = [4096, 2048];
 
-/// Converts a picture to a tiny-skia pixmap, so that anything can be drawn over it. Opaque pictures
-/// are not copied; translucent pixels are premultiplied, as pixmaps require.
+/// Converts a picture to a tiny-skia pixmap for drawing. Opaque pictures are not copied;
+/// translucent pixels are premultiplied, as pixmaps require.
 ///
-/// `None` if the picture has no pixels.
+/// Returns `None` if the picture has no pixels.
 ///
 /// ```
 /// use page::{picture_to_pixmap, pixmap_to_picture, tiny_skia};
@@ -67,7 +67,7 @@ pub fn picture_to_pixmap(picture: Picture) -> Option<Pixmap> {
 }
 
 /// Converts a tiny-skia pixmap to a picture. The colors of translucent pixels are divided by their
-/// alpha, and so rounded.
+/// alpha, which rounds them.
 #[must_use]
 pub fn pixmap_to_picture(pixmap: &Pixmap) -> Picture {
     let (width, height) = (pixmap.width(), pixmap.height());
@@ -80,10 +80,10 @@ pub fn pixmap_to_picture(pixmap: &Pixmap) -> Picture {
 
 impl<W> Page<W> {
     /// Renders the page as a picture of this size in pixels, stretched to fill it, and transparent
-    /// if the page has no paper. For a given resolution, each side is the page's side in
-    /// millimeters times the dots per inch, divided by 25.4.
+    /// if the page has no paper. For a resolution in dots per inch, multiply each side of the page
+    /// in millimeters by the resolution and divide by 25.4.
     ///
-    /// `None` if the picture would have no pixels, or a side longer than 16,384.
+    /// Returns `None` if the picture would have no pixels or a side longer than 16,384.
     #[must_use]
     pub fn to_picture(&self, width: u32, height: u32) -> Option<Picture> {
         let whole = PixelRect::from_size(width, height);
@@ -112,7 +112,7 @@ impl<W> Page<W> {
     }
 }
 
-/// Draws layers of a page with 96 pixels per inch over a region of a picture of this size.
+/// Draws layers of a page at 96 pixels per inch over a region of a picture of this size.
 pub fn draw_layers_over<C: Channel>(
     picture: &mut Picture<C>,
     size: [u32; 2],
@@ -127,10 +127,10 @@ pub fn draw_layers_over<C: Channel>(
     );
 }
 
-/// A region of a picture, to be drawn over.
+/// A region of a picture to draw on.
 struct RegionCanvas<'a, C> {
     picture: &'a mut Picture<C>,
-    /// Position and size of the region in the whole picture.
+    /// The position and size of the region in the whole picture.
     region: PixelRect,
 }
 
@@ -164,10 +164,10 @@ impl<C: Channel> RegionCanvas<'_, C> {
         }
     }
 
-    /// Draws over the part of the region that is in one tile.
+    /// Draws on the part of the region that is in one tile.
     ///
-    /// The whole tile is drawn, even outside the region. Lines are clipped at the borders of the
-    /// tile; clipped elsewhere, they could be rounded to other pixels.
+    /// The whole tile is drawn, even outside the region, because lines are clipped at the borders
+    /// of the tile. Clipping them elsewhere could round them to other pixels.
     fn draw_tile(&mut self, tile: PixelRect, draw: impl FnOnce(&mut Canvas)) {
         let Some(shown) = tile.intersection(self.region) else { return };
         let Some(pixmap) = Pixmap::new(tile.width, tile.height) else { return };
@@ -204,14 +204,14 @@ impl<C: Channel> RegionCanvas<'_, C> {
     }
 }
 
-/// Conversion of pixels to and from the 8-bit canvas.
+/// Converts pixels to and from the 8-bit canvas.
 ///
-/// Pixels of 8 bits are drawn on directly. Pixels of 16 bits would lose precision: they keep their
-/// values, and the drawing is composited over them.
+/// Drawing works directly on 8-bit pixels. 16-bit pixels would lose precision, so they keep their
+/// values and the drawing is composited over them.
 trait CanvasChannel: Channel {
-    /// The pixel of the canvas under the drawing.
+    /// Returns the canvas pixel to draw on.
     fn to_canvas(pixel: [Self; 4]) -> PremultipliedColorU8;
-    /// The pixel of the picture with the drawing.
+    /// Returns the picture pixel with the drawing on it.
     fn from_canvas(pixel: [Self; 4], canvas_pixel: PremultipliedColorU8) -> [Self; 4];
 }
 
@@ -242,14 +242,14 @@ impl<C: Channel> CanvasChannel for C {
 /// One tile as a pixmap.
 struct Canvas {
     pixmap: Pixmap,
-    /// The position of its upper left corner in the picture.
+    /// The position of the tile's upper left corner in the picture.
     corner: [u32; 2],
 }
 
 impl Canvas {
     /// Draws the strokes and fills of a layer.
     ///
-    /// Continuous strokes share paths. A dashed stroke needs its own path with its own pattern.
+    /// Continuous strokes share paths. Each dashed stroke needs its own path and pattern.
     fn draw_layer(&mut self, layer: &Layer, scale: [f64; 2]) {
         let mut paint = Paint { anti_alias: true, ..Paint::default() };
         paint.set_color(skia_color(layer.pen.ink));
@@ -271,7 +271,8 @@ impl Canvas {
                     self.pixmap.stroke_path(&path, &paint, &stroke, Transform::identity(), None);
                 }
             }
-            // The even-odd rule applies within a path: holes must share the path of their outline.
+            // The even-odd rule applies within a path, so holes must share the path of their
+            // outline.
             for path in skia_paths(&group.fills, scale, self.corner, usize::MAX) {
                 let rule = FillRule::EvenOdd;
                 self.pixmap.fill_path(&path, &paint, rule, Transform::identity(), None);
@@ -282,17 +283,17 @@ impl Canvas {
     /// Draws an image under all lines: each pixel is the mean of the area it covers (box filter).
     ///
     /// ```text
-    ///   canvas pixel ─► image columns [from, to) in real numbers, clamped to the image
+    ///   canvas pixel ─► image columns [from, to) as real numbers, clamped to the image
     /// ```
     ///
-    /// The mean is weighted by area and alpha and composited over the canvas, so edges of the fill
-    /// are anti-aliased.
+    /// The mean is weighted by area and alpha and composited over the canvas, so the edges of the
+    /// fill are anti-aliased.
     fn draw_image(&mut self, pasted: &PlacedImage, scale: [f64; 2]) {
         let PlacedImage { corner, size, picture, .. } = pasted;
         let (width, height) = (self.pixmap.width(), self.pixmap.height());
         let first = self.corner;
         let span = |axis: usize, side: u32, sides: u32| {
-            // Image pixels per canvas pixel, and where the canvas begins in the image.
+            // Image pixels per canvas pixel, and the position of the canvas in the image.
             let pixels = f64::from(side) / (f64::from(size[axis]) / 1000.0 * scale[axis]);
             let start = -f64::from(corner[axis]) / 1000.0 * scale[axis] * pixels;
             (first[axis]..first[axis] + sides).map(move |at| {
@@ -335,16 +336,16 @@ fn skia_stroke(pen: &Pen, dashes: &[f64], scale: f64) -> Stroke {
             Join::Round => LineJoin::Round,
             Join::Bevel => LineJoin::Bevel,
         },
-        // `None` for an empty pattern: a continuous stroke.
+        // `None` for an empty pattern, which means a continuous stroke.
         dash: StrokeDash::new(dashes, 0.0),
     }
 }
 
-/// The mean of an area of a picture as premultiplied red, green and blue, and alpha, 0 to 255;
-/// transparent outside the picture.
+/// Returns the mean of an area of a picture as premultiplied red, green and blue, and alpha, each
+/// from 0 to 255. The outside of the picture is transparent.
 ///
-/// Each image pixel counts with the area it shares with the rectangle. Colors are weighted by
-/// alpha, so that the color of transparent pixels does not bleed into the edges.
+/// Each image pixel is weighted by the area it shares with the rectangle. Colors are also weighted
+/// by alpha, so that the color of transparent pixels does not bleed into the edges.
 fn area_mean(picture: &Picture, columns: [f64; 2], rows: [f64; 2]) -> [f64; 4] {
     let cells = |[from, to]: [f64; 2]| {
         let first = from as u32;
@@ -369,7 +370,8 @@ fn area_mean(picture: &Picture, columns: [f64; 2], rows: [f64; 2]) -> [f64; 4] {
     sum
 }
 
-/// Porter–Duff *over*: composites a premultiplied color over a straight one, giving a straight one.
+/// Composites a premultiplied color over a straight color and returns a straight color (Porter–Duff
+/// *over*).
 ///
 /// ```text
 ///   α = αₐ + α_b (1 − αₐ)        c = (cₐ + c_b α_b (1 − αₐ)) / α
@@ -386,10 +388,10 @@ fn composite_over([r, g, b, alpha]: [f64; 4], below: [u8; 4]) -> [u8; 4] {
     [mixed(r, below[0]), mixed(g, below[1]), mixed(b, below[2]), libm::round(whole) as u8]
 }
 
-/// Lines as paths of about `most` points, in pixels of the canvas.
+/// Converts lines to paths of about `most` points, in canvas pixels.
 ///
-/// Coordinates are subtracted from the corner of the tile in f64 and only then rounded to the f32
-/// of tiny-skia: far from the origin of a large picture, f32 has no subpixel bits left.
+/// The corner of the tile is subtracted in f64 before coordinates are rounded to the f32 of
+/// tiny-skia, because far from the origin of a large picture f32 has no subpixel bits left.
 fn skia_paths<'a>(
     lines: impl IntoIterator<Item = &'a Polyline>,
     scale: [f64; 2],

@@ -1,29 +1,29 @@
-//! Dash fitting: patterns scaled so that a line begins and ends with a dash.
+//! Dash fitting: scales patterns so that a line begins and ends with a dash.
 //!
 //! ```text
 //!   unfitted  ━━━━  ━━━━  ━━━━  ━━━━  ━        fitted  ━━━━  ━━━━  ━━━━  ━━━━
 //! ```
 //!
-//! A hidden edge should meet its ends with dashes, not with gaps (ISO 128-2). The pattern is
-//! stretched or shrunk a little so that a whole number n of periods plus one dash fit:
+//! A hidden edge should have dashes, not gaps, at its ends (ISO 128-2). The pattern is slightly
+//! stretched or shrunk to fit a whole number n of periods plus one dash:
 //!
 //! ```text
 //!   open    length = scale · (n · period + dash)
 //!   closed  length = scale · n · period           n ≥ 2
 //! ```
 //!
-//! n is the nearest integer, so the scale stays within about 0.6 and 1.5; shorter lines are drawn
-//! without gaps.
+//! n is the nearest integer, so the scale stays between about 0.6 and 1.5. Lines that would need a
+//! smaller scale are drawn without gaps.
 
 use super::page::{Pen, Polyline};
 
-/// The minimum scale of a pattern. A line shorter than this many patterns of two dashes is drawn
-/// without gaps.
+/// The minimum scale of a pattern. A line too short for two dashes at this scale is drawn without
+/// gaps.
 const MIN_PATTERN_SCALE: f64 = 0.6;
 
 impl Pen {
-    /// Returns the lengths of dashes and gaps, in millimeters, with which this pen draws a line;
-    /// empty for a line without gaps.
+    /// Returns the lengths of the dashes and gaps, in millimeters, with which this pen draws a
+    /// line. The result is empty for a line without gaps.
     ///
     /// ```
     /// use page::{IsoLineGroup, LineType, Polyline};
@@ -32,7 +32,7 @@ impl Pen {
     /// let pen = LineType::Dashed.to_pen(0.25, [0; 3], Default::default(), Default::default());
     /// assert_eq!(pen.dashes, [3.0, 0.75]);
     /// let line = Polyline::through_points(&[DVec2::ZERO, DVec2::new(10.0, 0.0)], false);
-    /// // Two periods and a dash: 2 · 3.75 + 3 = 10.5, so the pattern is shrunk by 10 / 10.5.
+    /// // Two periods and a dash: 2 · 3.75 + 3 = 10.5, so the pattern is scaled by 10 / 10.5.
     /// let dashes = pen.fitted_dashes(&line.expect("two points"));
     /// assert!((dashes[0] - 3.0 * 10.0 / 10.5).abs() < 1e-12);
     /// assert_eq!(IsoLineGroup::MM_0_5.narrow_width(), 0.25);
@@ -63,7 +63,7 @@ mod tests {
     }
 
     fn test_polyline(length: f64, closed: bool) -> Polyline {
-        // If closed, a triangle whose sides are 3, 4 and 5 twelfths of the length.
+        // If closed, this is a triangle whose sides are 3, 4 and 5 twelfths of the length.
         let corners = [DVec2::ZERO, DVec2::new(length / 4.0, 0.0), DVec2::new(0.0, length / 3.0)];
         let straight = [DVec2::ZERO, DVec2::new(length, 0.0)];
         Polyline::through_points(if closed { &corners } else { &straight }, closed).expect("a line")
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn closed_lines_have_whole_periods() {
+    fn closed_lines_have_a_whole_number_of_periods() {
         let pen = dashed_pen(&[3.0, 0.75]);
         for length in [6.0, 12.0, 33.0, 240.0] {
             let fitted = pen.fitted_dashes(&test_polyline(length, true));

@@ -1,9 +1,9 @@
-//! DXF output: a page as a Drawing Exchange Format file, ASCII, version R2000 (AC1015).
+//! DXF output: writes a page as a Drawing Exchange Format file in ASCII, version R2000 (AC1015).
 //!
 //! ```text
 //!   HEADER     version, unit, extents, the next handle
-//!   CLASSES    of the objects below
-//!   TABLES     line types, layers, the text style, …      every record has a handle and an owner
+//!   CLASSES    the classes of the objects
+//!   TABLES     line types, layers, the text style, …      each record has a handle and an owner
 //!   BLOCKS     *Model_Space, which owns the entities, and *Paper_Space
 //!   ENTITIES   LWPOLYLINE, LINE, CIRCLE, ARC, HATCH, TEXT
 //!   OBJECTS    the dictionaries and layouts that readers require
@@ -11,16 +11,16 @@
 //!
 //! | on the page | in the file |
 //! | --- | --- |
-//! | layer and object | a layer `visible-crease.shaft` with the color, width and line type of the pen |
-//! | polyline | LWPOLYLINE, or LINE; its arcs are bulges, or ARC and CIRCLE: see `arcs` |
-//! | text | TEXT in the font txt, fitted to the width that it has in the other formats |
-//! | hatching | HATCH with its pattern and its outlines |
+//! | layer and object | a layer such as `visible-crease.shaft` with the color, width and line type of the pen |
+//! | polyline | LWPOLYLINE or LINE; arcs become bulges, ARC or CIRCLE: see `arcs` |
+//! | text | TEXT in the font `txt`, fitted to its width in the other formats |
+//! | hatching | HATCH with its pattern and outlines |
 //! | filled area | HATCH, solid |
-//! | image | nothing: the format cannot embed images |
+//! | image | omitted: the format cannot embed images |
 //!
-//! Colors are the nearest of AutoCAD's 255. Blacks and whites are color 7, which contrasts with the
-//! screen. Characters beyond ASCII are written by code, Ø as `\U+00D8`. The file has no dates:
-//! identical pages give identical bytes.
+//! Each color is the nearest of AutoCAD's 255. Blacks and whites are color 7, which contrasts with
+//! the screen. Characters outside ASCII are written as codes: Ø is `\U+00D8`. The file has no
+//! dates: identical pages give identical bytes.
 
 mod color_index;
 mod entities;
@@ -34,7 +34,7 @@ use glam::DVec2;
 use layers::LayerTable;
 use tags::TagWriter;
 
-/// The unit of a drawing, as the header variable `$INSUNITS` names it.
+/// The unit of a drawing, recorded in the header variable `$INSUNITS`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum DxfUnit {
     /// 25.4 mm.
@@ -51,7 +51,7 @@ pub enum DxfUnit {
     Micrometer,
 }
 
-/// The coordinates and arcs of a DXF file.
+/// Options for the coordinates and arcs of a DXF file.
 ///
 /// ```
 /// use page::{DxfOptions, Page};
@@ -68,19 +68,20 @@ pub struct DxfOptions {
     pub unit: Option<DxfUnit>,
     /// Drawing units per millimeter of the page, greater than 0.
     pub units_per_millimeter: f64,
-    /// The point of the page that becomes (0, 0), in millimeters from its upper left corner; y
-    /// points up in the file.
+    /// The page point that becomes (0, 0), in millimeters from the upper left corner of the page.
+    /// In the file, y points up.
     pub origin: DVec2,
-    /// The tolerance for arcs, in millimeters on the page: points this close to a circle become an
-    /// arc; 0 writes straight lines only.
+    /// The tolerance for arcs, in millimeters on the page. Points this close to a circle become an
+    /// arc; 0 writes only straight lines.
     pub arc_tolerance: f64,
 }
 
 impl DxfOptions {
-    /// Half of a hundredth of a millimeter.
+    /// The default tolerance for arcs: 0.005 mm.
     pub const DEFAULT_ARC_TOLERANCE: f64 = 0.005;
 
-    /// Millimeters on paper, measured from its lower left corner.
+    /// Returns options for coordinates in millimeters on paper, measured from its lower left
+    /// corner.
     #[must_use]
     pub const fn on_paper<W>(page: &Page<W>) -> Self {
         Self {

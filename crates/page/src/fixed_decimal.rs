@@ -1,13 +1,13 @@
-//! Fixed-point decimals: lengths written exactly, as short as possible, with at most three
+//! Fixed-point decimals: writes lengths exactly and as short as possible, with at most three
 //! decimals.
 //!
-//! SVG and PDF use millimeters, pages use micrometers. A number of thousandths is written digit by
-//! digit, so nothing is rounded, no locale interferes, and both formats have the same digits.
-//! Leading and trailing zeros are omitted, as both grammars allow.
+//! SVG and PDF use millimeters, and pages use micrometers. A number of thousandths is written digit
+//! by digit, so there is no rounding, no dependence on a locale, and both formats get the same
+//! digits. Leading and trailing zeros are omitted, as both grammars allow.
 
-/// Writes a number of thousandths: 12500 as `12.5`, −250 as `-.25`.
+/// Writes a number given in thousandths: 12500 as `12.5`, −250 as `-.25`.
 ///
-/// Zero is `0`; otherwise an integer part of zero is omitted. Supports all of `i64`, including its
+/// Zero is `0`; otherwise an integer part of zero is omitted. Supports every `i64`, including the
 /// minimum.
 pub(super) fn write_thousandths(out: &mut Vec<u8>, number: i64) {
     if number < 0 {
@@ -23,7 +23,7 @@ pub(super) fn write_thousandths(out: &mut Vec<u8>, number: i64) {
     }
 }
 
-/// Formats a number of thousandths.
+/// Formats a number given in thousandths.
 pub(super) fn format_thousandths(number: i64) -> String {
     let mut out = Vec::new();
     write_thousandths(&mut out, number);
@@ -32,7 +32,7 @@ pub(super) fn format_thousandths(number: i64) -> String {
 
 /// Formats a length in millimeters, rounded to the micrometer.
 ///
-/// Used for sizes and line widths, which are not on the grid; halves round away from zero.
+/// This is for sizes and line widths, which are not on the grid. Halves round away from zero.
 pub(super) fn format_millimeters(millimeters: f64) -> String {
     format_thousandths(libm::round(millimeters * 1000.0) as i64)
 }

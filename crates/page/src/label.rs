@@ -3,22 +3,22 @@
 //! ```text
 //!    ↑ height
 //!    │  HIM      anchor: the start, middle or end of the text on its baseline
-//!    ●───────►   direction: of the baseline
+//!    ●───────►   direction: the direction of the baseline
 //! ```
 
 use super::page::{Group, GroupContent, Ink, Pen, Polyline, TextLine, to_micrometers};
 use super::stroke_font::{CAP_HEIGHT, typeset_line};
 use glam::DVec2;
 
-/// The alignment of text about its anchor.
+/// The alignment of text relative to its anchor.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum TextAlign {
-    /// Begins at the anchor.
+    /// The text starts at the anchor.
     #[default]
     Start,
-    /// Centered on the anchor.
+    /// The text is centered on the anchor.
     Middle,
-    /// Ends at the anchor.
+    /// The text ends at the anchor.
     End,
 }
 
@@ -42,30 +42,31 @@ pub struct Label<'a> {
     pub height: f64,
     /// The direction of the baseline, a unit vector: (1, 0) to the right, (0, −1) upward.
     pub direction: DVec2,
-    /// The part of the text placed at the anchor.
+    /// The part of the text that is at the anchor.
     pub align: TextAlign,
 }
 
 impl<'a> Label<'a> {
-    /// Creates a label that begins at a point and runs to the right.
+    /// Creates a label that starts at a point and runs to the right.
     #[must_use]
     pub const fn new(text: &'a str, anchor: DVec2, height: f64) -> Self {
         Self { text, anchor, height, direction: DVec2::X, align: TextAlign::Start }
     }
 
-    /// Returns the label with another alignment.
+    /// Returns the label with this alignment.
     #[must_use]
     pub const fn with_align(self, align: TextAlign) -> Self {
         Self { align, ..self }
     }
 
-    /// Returns the label in another direction.
+    /// Returns the label with this direction.
     #[must_use]
     pub const fn with_direction(self, along: DVec2) -> Self {
         Self { direction: along, ..self }
     }
 
-    /// Returns the label with its height reduced if it would be wider than this, in millimeters.
+    /// Returns the label, with its height reduced if it would be wider than `width`, in
+    /// millimeters.
     #[must_use]
     pub fn fit_to_width(self, width: f64) -> Self {
         let own = self.width();
@@ -79,13 +80,13 @@ impl<'a> Label<'a> {
         typeset_line(self.text).width * self.height / CAP_HEIGHT
     }
 
-    /// Returns the pen for the label's height: its stroke is a tenth of the height.
+    /// Returns the pen for the label. Its strokes are a tenth of the label's height wide.
     #[must_use]
     pub fn pen(&self, ink: Ink) -> Pen {
         Pen::solid(self.height / CAP_HEIGHT, ink)
     }
 
-    /// The start of the baseline, for a text of this width.
+    /// Returns the start of the baseline for text of this width.
     fn start(&self, width: f64) -> DVec2 {
         let part = match self.align {
             TextAlign::Start => 0.0,
@@ -145,14 +146,14 @@ mod tests {
         assert!((high.x - low.x - label.width()).abs() < 1e-3);
         let [low, high] = bounds(&label.with_align(TextAlign::End));
         assert!((high.x - 100.0).abs() < 1e-3 && (low.x - 100.0 + label.width()).abs() < 1e-3);
-        // Upward: above the baseline means to its left.
+        // For upward text, the letters are to the left of the baseline.
         let [low, high] = bounds(&label.with_direction(-DVec2::Y).with_align(TextAlign::Middle));
         assert!((low.x - 95.0).abs() < 1e-3 && (high.x - 100.0).abs() < 1e-3);
         assert!((low.y + high.y - 100.0).abs() < 2e-3);
     }
 
     #[test]
-    fn a_wide_label_is_reduced_to_fit() {
+    fn wide_labels_are_reduced_to_fit() {
         let label = Label::new("a rather long title", DVec2::ZERO, 5.0);
         assert!((label.fit_to_width(20.0).width() - 20.0).abs() < 1e-9);
         assert_eq!(label.fit_to_width(1e3), label);

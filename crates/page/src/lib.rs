@@ -1,22 +1,22 @@
-//! Pages: lines, texts, hatchings and pictures in whole micrometers, and writers for four formats.
+//! Pages: lines, text, hatching and pictures in whole micrometers, and writers for four formats.
 //!
 //! ```text
 //!   Page ─┬─ PlacedImage …                                  ┌─► SVG
 //!         └─ Layer (pen) ─── Group (object) ─── Polyline …  ├─► PDF, several pages
-//!                                                           ├─► DXF: layers, arcs, circles, texts
+//!                                                           ├─► DXF: layers, arcs, circles, text
 //!                                                           └─► a picture, by tiny-skia
 //! ```
 //!
-//! | module | subject |
+//! | module | contents |
 //! | --- | --- |
 //! | `page` | the page, its layers, pens and polylines |
 //! | `svg`, `pdf`, `dxf`, `canvas` | the four formats |
-//! | `line_type`, `dash_pattern` | line types and widths of ISO 128, dashes fitted to a line |
+//! | `line_type`, `dash_pattern` | line types and widths of ISO 128, and dashes fitted to a line |
 //! | `label`, `stroke_font` | text as pen strokes: Latin, Greek, some Chinese |
 //! | `page_clip` | removes strokes inside a rectangle or beyond the border |
 //! | [`palette`] | ink colors |
 //!
-//! Nothing here depends on models or views. Identical pages give identical bytes.
+//! This crate does not depend on models or views. Identical pages give identical bytes.
 
 mod canvas;
 mod dash_pattern;
@@ -44,10 +44,10 @@ pub use page::{
 pub use pdf::to_pdf;
 pub use stroke_font::missing_glyphs;
 
-/// The library whose pixmaps [`picture_to_pixmap`] returns.
+/// The library that defines the pixmaps [`picture_to_pixmap`] returns.
 pub use tiny_skia;
 
-/// The example of the README, compiled as a documentation test.
+/// The README example, compiled as a documentation test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,4 +1,4 @@
-//! Line types and widths of technical drawings: ISO 128-2:2020 (in 1996, parts 20 and 24).
+//! Line types and widths for technical drawings: ISO 128-2:2020 (parts 20 and 24 in 1996).
 //!
 //! ```text
 //!  01.2  continuous wide      ━━━━━━━━━━━━━━━━━━━━━━   visible edges and outlines
@@ -7,16 +7,17 @@
 //!  04.1  chain narrow         ───────── · ───────── ·  axes: dash 24 d, gap 3 d, dot ½ d, gap 3 d
 //! ```
 //!
-//! Lengths are multiples of the line width d. Wide lines are twice as wide as narrow ones, and
-//! widths form a series with ratio √2, like paper sizes: a drawing reduced from A3 to A4 still uses
-//! widths of the series.
+//! Lengths are multiples of the line width d. Wide lines are twice as wide as narrow lines. Widths
+//! form a series with ratio √2, like paper sizes, so a drawing reduced from A3 to A4 still has
+//! widths from the series.
 
 use super::page::{Cap, Ink, Join, Pen};
 
 /// The line widths of the series, in millimeters.
 const WIDTH_SERIES: [f64; 9] = [0.13, 0.18, 0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0];
 
-/// A line group of ISO 128: a wide, a lettering and a narrow width, named after the wide one.
+/// A line group of ISO 128: a wide, a lettering and a narrow width. It is named after the wide
+/// width.
 ///
 /// ```
 /// use page::IsoLineGroup;
@@ -33,16 +34,15 @@ pub struct IsoLineGroup {
 }
 
 impl IsoLineGroup {
-    /// 0.35 mm and 0.18 mm: small sheets.
+    /// 0.35 mm and 0.18 mm, for small sheets.
     pub const MM_0_35: Self = Self { wide_index: 3 };
-    /// 0.5 mm and 0.25 mm: the preferred group.
+    /// 0.5 mm and 0.25 mm, the preferred group.
     pub const MM_0_5: Self = Self { wide_index: 4 };
-    /// 0.7 mm and 0.35 mm: large sheets.
+    /// 0.7 mm and 0.35 mm, for large sheets.
     pub const MM_0_7: Self = Self { wide_index: 5 };
 
     /// Returns the group whose wide lines have this width in millimeters: 0.25, 0.35, 0.5, 0.7, 1,
-    /// 1.4 or 2. `None` for any other width.
-    /// 2. `None` for any other.
+    /// 1.4 or 2. Returns `None` for any other width.
     #[must_use]
     pub fn from_wide_width(wide: f64) -> Option<Self> {
         let found = WIDTH_SERIES.iter().position(|&width| (width - wide).abs() < 1e-9)?;
@@ -55,7 +55,7 @@ impl IsoLineGroup {
         WIDTH_SERIES[self.wide_index]
     }
 
-    /// Returns the stroke width of lettering in millimeters, between wide and narrow.
+    /// Returns the stroke width of lettering in millimeters, which is between wide and narrow.
     #[must_use]
     pub fn lettering_width(self) -> f64 {
         WIDTH_SERIES[self.wide_index - 1]
@@ -68,22 +68,22 @@ impl IsoLineGroup {
     }
 }
 
-/// A line type by its number in ISO 128.
+/// An ISO 128 line type, with its number in the standard.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum LineType {
     /// 01: without gaps.
     Continuous,
     /// 02: dashes.
     Dashed,
-    /// 04: long dashes with a dot in between.
+    /// 04: long dashes, with a dot between them.
     LongDashedDotted,
-    /// 05: long dashes with two dots in between.
+    /// 05: long dashes, with two dots between them.
     LongDashedDoubleDotted,
 }
 
 impl LineType {
-    /// Alternating lengths of dashes and gaps in millimeters, for a line of this width; empty for a
-    /// continuous line.
+    /// Returns the alternating lengths of dashes and gaps, in millimeters, for a line of this
+    /// width; empty for a continuous line.
     #[must_use]
     pub fn dash_pattern(self, width: f64) -> Vec<f64> {
         let in_widths: &[f64] = match self {
@@ -95,8 +95,8 @@ impl LineType {
         in_widths.iter().map(|length| length * width).collect()
     }
 
-    /// Creates a pen of this type. Dashes get butt caps, because round ones would lengthen them
-    /// beyond the pattern.
+    /// Creates a pen of this type. Dashes get butt caps, because round caps would make them longer
+    /// than the pattern.
     #[must_use]
     pub fn to_pen(self, width: f64, ink: Ink, cap: Cap, join: Join) -> Pen {
         let cap = if self == Self::Continuous { cap } else { Cap::Butt };
@@ -109,7 +109,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn groups_are_those_of_the_standard() {
+    fn line_groups_follow_the_standard() {
         let of = |wide: f64| {
             IsoLineGroup::from_wide_width(wide)
                 .map(|g| [g.wide_width(), g.lettering_width(), g.narrow_width()])
@@ -119,7 +119,7 @@ mod tests {
         assert_eq!(of(0.7), Some([0.7, 0.5, 0.35]));
         assert_eq!(of(2.0), Some([2.0, 1.4, 1.0]));
         assert_eq!((of(0.18), of(0.4), of(f64::NAN)), (None, None, None));
-        // The ratio of the series is √2, rounded to the widths of drawing pens.
+        // The ratio of the series is √2, rounded to the widths of technical pens.
         for pair in WIDTH_SERIES.windows(2) {
             assert!((pair[1] / pair[0] - core::f64::consts::SQRT_2).abs() < 0.05, "{pair:?}");
         }

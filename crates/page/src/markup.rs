@@ -1,11 +1,11 @@
-//! Markup escaping: text made safe for HTML and XML, in content and in quoted attributes.
+//! Markup escaping: makes text safe for HTML and XML, in content and in quoted attributes.
 
-/// Escapes `&`, `<`, `>` and `"` as references, and drops characters that XML 1.0 forbids.
+/// Escapes `&`, `<`, `>` and `"`, and drops characters that XML 1.0 forbids.
 ///
-/// The result is safe between tags and in attribute values in double quotes; it is not meant for
-/// single quotes, scripts or style sheets. Control characters other than tab, line feed and
-/// carriage return, and the noncharacters U+FFFE and U+FFFF, have no representation in XML 1.0, not
-/// even as references (section 2.2), so names from files cannot make a document malformed.
+/// The result is safe between tags and in attribute values in double quotes. It is not meant for
+/// single quotes, scripts or style sheets. XML 1.0 cannot represent control characters other than
+/// tab, line feed and carriage return, or the noncharacters U+FFFE and U+FFFF, even as references
+/// (section 2.2). Dropping them ensures that names from files cannot make a document malformed.
 ///
 /// ```
 /// use page::escape_markup;

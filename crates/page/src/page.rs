@@ -1,4 +1,4 @@
-//! Page model: strokes and fills on paper, shared by SVG, PDF, DXF and PNG.
+//! Page model: strokes and fills on paper, for output as SVG, PDF, DXF and PNG.
 //!
 //! Coordinates are whole micrometers from the upper left corner, y down. Integers are the same in
 //! every format, and sums of relative steps are exact.
@@ -7,29 +7,29 @@
 //!   Page ─┬─ PlacedImage …
 //!         └─ Layer (pen) ─── Group (object) ─┬─ strokes: Polyline …
 //!                                            ├─ fills:   Polyline …
-//!                                            └─ content: the strokes are lines, a text, a hatching
+//!                                            └─ content: what the strokes are: lines, text or hatching
 //! ```
 
 use core::convert::Infallible;
 use glam::DVec2;
 use picture::Picture;
 
-/// The size of an image pixel on paper in millimeters: 96 per inch, as in CSS.
+/// The size of an image pixel on paper in millimeters, for 96 pixels per inch as in CSS.
 pub const MILLIMETERS_PER_PIXEL: f64 = MILLIMETERS_PER_INCH / 96.0;
 
 /// The length of an inch in millimeters.
 pub(crate) const MILLIMETERS_PER_INCH: f64 = 25.4;
 
-/// A color of ink: sRGB, opaque.
+/// An ink color: opaque sRGB.
 pub type Ink = [u8; 3];
 
-/// A point of the page in micrometers.
+/// A point on the page in micrometers.
 pub type PagePoint = [i32; 2];
 
 /// A page and everything on it, in drawing order.
 ///
-/// `W` is the type of its warnings, chosen by the maker of the drawing; without warnings it can be
-/// omitted.
+/// `W` is the type of its warnings, chosen by the crate that makes the drawing. It can be omitted
+/// if there are no warnings.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Page<W = Infallible> {
     /// Width and height in millimeters.
@@ -40,7 +40,7 @@ pub struct Page<W = Infallible> {
     pub paper: Option<Ink>,
     /// Images on the paper, under the lines.
     pub images: Vec<PlacedImage>,
-    /// Layers, each drawn over the previous ones.
+    /// The layers; each is drawn over the previous layers.
     pub layers: Vec<Layer>,
     /// Warnings from the drawings on the page, without duplicates.
     pub warnings: Vec<W>,
@@ -64,7 +64,7 @@ pub struct PlacedImage {
 pub struct Layer {
     /// An identifier, unique on its page: lower case, hyphens.
     pub id: String,
-    /// A readable title.
+    /// A human-readable title.
     pub title: String,
     /// The pen of its lines.
     pub pen: Pen,
@@ -83,19 +83,20 @@ pub struct Group {
     pub strokes: Vec<Polyline>,
     /// Areas filled with the pen's ink, such as arrowheads, by the even-odd rule.
     pub fills: Vec<Polyline>,
-    /// The meaning of the strokes, for formats that have texts or hatches.
+    /// The meaning of the strokes, for formats that support text or hatches.
     pub content: GroupContent,
 }
 
-/// The meaning of a group of strokes: lines, one text or one hatch.
+/// The meaning of a group of strokes: lines, text or hatching.
 ///
-/// Every format can draw the strokes. DXF has texts and hatches, which programs can edit.
+/// Every format can draw the strokes. DXF also has text and hatch entities, which programs can
+/// edit.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub enum GroupContent {
     /// Lines.
     #[default]
     Lines,
-    /// The characters of a text.
+    /// The characters of a line of text.
     Text(TextLine),
     /// The hatch lines of areas.
     Hatching(Vec<HatchArea>),
@@ -115,9 +116,9 @@ pub struct TextLine {
 /// An area with parallel, equally spaced lines.
 #[derive(Clone, PartialEq, Debug)]
 pub struct HatchArea {
-    /// Closed lines around it and its holes, by the even-odd rule.
+    /// Closed lines around the area and its holes, by the even-odd rule.
     pub loops: Vec<Polyline>,
-    /// A point on one of the lines, or on its extension, in micrometers.
+    /// A point in micrometers on one of the lines or its extension.
     pub origin: PagePoint,
     /// The unit vector along the lines, y down.
     pub direction: DVec2,
@@ -144,7 +145,7 @@ impl GroupContent {
     }
 }
 
-/// Points joined by straight lines.
+/// A sequence of points joined by straight lines.
 ///
 /// ```
 /// use page::Polyline;
@@ -153,14 +154,14 @@ impl GroupContent {
 /// let [a, b] = [DVec2::ZERO, DVec2::new(3.0, 4.0)];
 /// let line = Polyline::through_points(&[a, a, b], false).expect("two different points");
 /// assert_eq!((line.points.len(), line.length()), (2, 5.0));
-/// // Nearer than half a micrometer, points coincide on the grid.
+/// // Points closer than half a micrometer coincide on the grid.
 /// assert_eq!(Polyline::through_points(&[a, a + 1e-4], false), None);
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Polyline {
-    /// At least two points; neighbors differ.
+    /// At least two points. Adjacent points differ.
     pub points: Vec<PagePoint>,
-    /// Whether the last point is joined to the first, which is not repeated.
+    /// Whether the last point is joined to the first. The first point is not repeated.
     pub closed: bool,
 }
 
@@ -172,7 +173,7 @@ pub struct Pen {
     /// The color.
     pub ink: Ink,
     /// Alternating lengths of dashes and gaps in millimeters; empty for a continuous line. Each
-    /// polyline starts a new pattern, fitted to its length: [`Pen::fitted_dashes`].
+    /// polyline starts a new pattern, fitted to its length by [`Pen::fitted_dashes`].
     pub dashes: Vec<f64>,
     /// The ends of lines.
     pub cap: Cap,
@@ -222,7 +223,7 @@ impl<W> Page<W> {
         Self { size, title: title.into(), paper, images, layers, warnings }
     }
 
-    /// Converts the warnings to another type, for example to the type of a higher crate.
+    /// Converts the warnings to another type, for example to that of a higher-level crate.
     #[must_use]
     pub fn map_warnings<V>(self, map: impl FnMut(W) -> V) -> Page<V> {
         let Self { size, title, paper, images, layers, warnings } = self;
@@ -230,7 +231,7 @@ impl<W> Page<W> {
         Page { size, title, paper, images, layers, warnings }
     }
 
-    /// The page without its warnings.
+    /// Returns the page without its warnings.
     pub(crate) fn content(&self) -> PageContent<'_> {
         let Self { size, title, paper, images, layers, .. } = self;
         PageContent { size: *size, title, paper: *paper, images, layers }
@@ -238,7 +239,7 @@ impl<W> Page<W> {
 }
 
 impl<W: Clone> Page<W> {
-    /// Puts the content of another page onto this one, with its upper left corner at `corner`, in
+    /// Puts the content of another page onto this page, with its upper left corner at `corner`, in
     /// millimeters.
     ///
     /// `prefix` is prepended to the ids of images and layers, so that they stay unique.
@@ -281,10 +282,10 @@ impl Pen {
 }
 
 impl Polyline {
-    /// Creates a polyline through points in millimeters, without points that repeat their neighbor
-    /// on the grid.
+    /// Creates a polyline through points in millimeters, omitting points that coincide with the
+    /// previous point on the grid.
     ///
-    /// `None` if fewer than two remain.
+    /// Returns `None` if fewer than two points remain.
     #[must_use]
     pub fn through_points(millimeters: &[DVec2], closed: bool) -> Option<Self> {
         let mut points: Vec<PagePoint> = millimeters.iter().copied().map(to_micrometers).collect();
@@ -304,9 +305,9 @@ impl Polyline {
     }
 }
 
-/// Rounds to the nearest grid point; saturates if the point is too far away.
+/// Rounds to the nearest grid point, and saturates if the point is too far away.
 ///
-/// Ties round away from zero. The grid reaches to ±2147 m, beyond any paper.
+/// Ties round away from zero. The grid extends to ±2147 m, far beyond any paper.
 #[must_use]
 pub fn to_micrometers(millimeters: DVec2) -> PagePoint {
     // A float-to-int cast is exact for integers and saturates.

@@ -1,16 +1,16 @@
-//! Clipping of pages: removes lines outside or inside a rectangle.
+//! Clips pages: removes the lines inside or outside a rectangle.
 //!
 //! ```text
-//!   ───────┌┄┄┄┄┄┄┄┄┐───────   erased inside: room for a view of its own
+//!   ───────┌┄┄┄┄┄┄┄┄┐───────   erased inside, to make room for another view
 //!          └┄┄┄┄┄┄┄┄┘
 //! ```
 //!
-//! Filled areas are small, such as arrowheads, and are kept or removed whole.
+//! Filled areas, such as arrowheads, are small. They are kept or removed as a whole.
 
 use super::page::{GroupContent, Page, PagePoint, Polyline, to_micrometers};
 use glam::DVec2;
 
-/// The lines of a page that are kept.
+/// Which lines of a page are kept.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Keep {
     /// The parts inside the rectangle, including its border.
@@ -19,11 +19,11 @@ enum Keep {
     Outside,
 }
 
-/// A rectangle of the page in micrometers: its upper left and its lower right corner.
+/// A rectangle on the page in micrometers, as its upper left and lower right corners.
 type PageRect = [PagePoint; 2];
 
 impl<W> Page<W> {
-    /// Erases the lines inside a rectangle, given by two corners in millimeters; images stay.
+    /// Erases the lines inside a rectangle between two corners in millimeters. Images stay.
     ///
     /// ```
     /// use page::{Group, Layer, Page, Pen, Polyline};
@@ -43,7 +43,7 @@ impl<W> Page<W> {
         self.clip_layers([low, high].map(to_micrometers), Keep::Outside);
     }
 
-    /// Removes lines beyond the border of the page.
+    /// Removes the parts of lines that are off the page.
     pub fn crop_to_border(&mut self) {
         self.clip_layers([DVec2::ZERO, self.size].map(to_micrometers), Keep::Inside);
     }
@@ -54,7 +54,7 @@ impl<W> Page<W> {
             let strokes: Vec<Polyline> =
                 group.strokes.iter().flat_map(|line| clip(line, rect, keep)).collect();
             if strokes != group.strokes {
-                // Clipping turns a text into lines and changes the outline of hatching.
+                // Clipping turns text into lines and changes the outline of hatching.
                 group.content = GroupContent::Lines;
                 group.strokes = strokes;
             }
@@ -67,8 +67,8 @@ impl<W> Page<W> {
     }
 }
 
-/// Whether a filled area is kept: outside if none of it is in the rectangle, inside if all of it
-/// is.
+/// Whether a filled area is kept: with `Inside`, if it is entirely in the rectangle; with
+/// `Outside`, if it is entirely outside.
 fn keeps_area(area: &Polyline, [low, high]: PageRect, keep: Keep) -> bool {
     let on_axis = |axis: usize| {
         let at = || area.points.iter().map(move |point| point[axis]);
@@ -84,7 +84,7 @@ fn keeps_area(area: &Polyline, [low, high]: PageRect, keep: Keep) -> bool {
     }
 }
 
-/// The parts of a line that are kept, or the line itself if all of it is.
+/// Returns the parts of a line that are kept, or the line itself if it is kept whole.
 fn clip(line: &Polyline, rect: PageRect, keep: Keep) -> Vec<Polyline> {
     let closing = line.closed.then(|| [line.points[line.points.len() - 1], line.points[0]]);
     let sides = line.points.windows(2).map(|pair| [pair[0], pair[1]]).chain(closing);
@@ -103,7 +103,7 @@ fn clip(line: &Polyline, rect: PageRect, keep: Keep) -> Vec<Polyline> {
     clipped
 }
 
-/// The parts of a side that are kept, in the direction of the side.
+/// Returns the parts of a side that are kept, in the direction of the side.
 fn kept_parts(side: [PagePoint; 2], rect: PageRect, keep: Keep) -> Vec<[PagePoint; 2]> {
     let inside = inside_interval(side, rect, keep == Keep::Inside);
     let intervals = match (keep, inside) {
@@ -116,7 +116,7 @@ fn kept_parts(side: [PagePoint; 2], rect: PageRect, keep: Keep) -> Vec<[PagePoin
     parts.filter(|[from, to]| from != to).collect()
 }
 
-/// The point at a fraction of a side; its ends are exact.
+/// Returns the point at a fraction of a side. The ends are exact.
 fn point_on([from, to]: [PagePoint; 2], t: f64) -> PagePoint {
     if t == 1.0 {
         return to;
@@ -127,8 +127,8 @@ fn point_on([from, to]: [PagePoint; 2], t: f64) -> PagePoint {
     })
 }
 
-/// The interval of fractions in which a side is inside the rectangle (Liang–Barsky); `None` if it
-/// is outside. If `closed`, the border counts as inside.
+/// Returns the interval of fractions in which a side is inside the rectangle (Liang–Barsky); `None`
+/// if it is outside. If `closed`, the border counts as inside.
 fn inside_interval(
     [from, to]: [PagePoint; 2],
     [low, high]: PageRect,
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_inside_and_outside_make_up_the_line() {
+    fn parts_inside_and_outside_add_up_to_the_line() {
         let line = open(&[[0, 15], [20, 15], [20, 40]]);
         let inside = open(&[[10, 15], [20, 15], [20, 20]]);
         assert_eq!(clip(&line, RECT, Keep::Inside), [inside]);
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn the_border_is_kept_by_both() {
+    fn both_sides_keep_the_border() {
         let border =
             Polyline { points: vec![[10, 10], [30, 10], [30, 20], [10, 20]], closed: true };
         for keep in [Keep::Inside, Keep::Outside] {
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn areas_are_kept_or_removed_whole() {
+    fn areas_are_kept_or_removed_as_a_whole() {
         let area =
             |x: i32| Polyline { points: vec![[x, 12], [x + 4, 12], [x + 2, 16]], closed: true };
         for (x, inside, outside) in

@@ -1,11 +1,11 @@
 //! Palette: the ink colors of drawings, overlays and charts, as sRGB bytes.
 //!
 //! Technical sheets are drawn in pure [`BLACK`]; pictures and teaching material use the softer
-//! [`INK`]. Axis colors follow the convention x red, y green, z blue.
+//! [`INK`]. Axis colors follow convention: x is red, y is green and z is blue.
 
 use super::page::Ink;
 
-/// Ink of technical sheets.
+/// The ink of technical sheets.
 pub const BLACK: Ink = [0, 0, 0];
 
 /// White paper.
@@ -14,16 +14,16 @@ pub const WHITE: Ink = [255; 3];
 /// The paper of blueprints.
 pub const BLUEPRINT_BLUE: Ink = [29, 66, 121];
 
-/// The pencil of sketches.
+/// The pencil color of sketches.
 pub const GRAPHITE: Ink = [68, 66, 64];
 
-/// Ink of line drawings, charts and captions on light paper.
+/// The ink of line drawings, charts and captions on light paper.
 pub const INK: Ink = [26, 31, 38];
 
-/// Ink of line drawings on dark paper.
+/// The ink of line drawings on dark paper.
 pub const LIGHT_INK: Ink = [240, 243, 246];
 
-/// Ink of outlines over shaded surfaces.
+/// The ink of outlines over shaded surfaces.
 pub const OUTLINE: Ink = [20, 24, 30];
 
 /// The x axis; errors and failures.
@@ -44,7 +44,7 @@ pub const GRAY: Ink = [150, 156, 163];
 /// Grid lines of charts.
 pub const LIGHT_GRAY: Ink = [222, 225, 229];
 
-/// Returns an ink that contrasts with the paper: light on dark paper, otherwise dark.
+/// Returns an ink that contrasts with the paper: light ink on dark paper, dark ink otherwise.
 ///
 /// Paper is dark if its luma (Rec. 601 weights) is below 118 of 255.
 #[must_use]

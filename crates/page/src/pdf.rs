@@ -1,4 +1,4 @@
-//! PDF output: pages as a Portable Document Format 1.7 file (ISO 32000-1), in millimeters.
+//! PDF output: writes pages as a Portable Document Format 1.7 file (ISO 32000-1), in millimeters.
 //!
 //! ```text
 //!   1 catalog ─► 2 page tree ─► 4 page ─► 5 content stream      (two objects for each page)
@@ -8,13 +8,13 @@
 //!   optional content groups, one for each layer;  3 document information
 //! ```
 //!
-//! Each page first scales its unit from points to millimeters and flips y; from then on it has the
-//! same numbers as the SVG. Layers are optional content groups, which a viewer can switch on and
-//! off. Streams are compressed with DEFLATE.
+//! Each page starts by scaling its unit from points to millimeters and flipping y. After that, the
+//! numbers are the same as in the SVG. Layers are optional content groups, which viewers can switch
+//! on and off. Streams are compressed with DEFLATE.
 //!
 //! Text is drawn as strokes, with invisible glyphs over them for searching and copying.
 //!
-//! The file holds no dates and no random identifiers: identical pages give identical bytes on every
+//! The file has no dates or random identifiers: identical pages give identical bytes on every
 //! machine.
 
 mod invisible_text;
@@ -27,19 +27,19 @@ use invisible_text::TextFonts;
 use pdf_writer::{Dict, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 use picture::Picture;
 
-/// Points per millimeter: an inch has 72 points.
+/// Points per millimeter. An inch has 72 points.
 const POINTS_PER_MILLIMETER: f64 = 72.0 / super::page::MILLIMETERS_PER_INCH;
 
-/// The compression level of streams, from 0 to 10; higher levels take longer and gain little.
+/// The compression level of streams, from 0 to 10; higher levels take longer for little gain.
 const DEFLATE_LEVEL: u8 = 6;
 
 /// The maximum length of a layer name, in characters.
 const MAX_LAYER_NAME: usize = 200;
 
-/// The ids of a file's indirect objects: three fixed ones, two for each page, one for each layer,
+/// The ids of a file's indirect objects: three fixed ids, two for each page, one for each layer,
 /// two for each image, then the fonts.
 ///
-/// Ids depend only on counts, so objects can refer to others that are not yet written.
+/// Ids depend only on counts, so objects can refer to objects that have not been written yet.
 struct ObjectIds {
     pages: usize,
     layers: usize,
@@ -51,28 +51,28 @@ impl ObjectIds {
     const PAGE_TREE: Ref = Ref::new(2);
     const INFO: Ref = Ref::new(3);
 
-    /// The page object.
+    /// Returns the id of a page object.
     fn page_id(index: usize) -> Ref {
         Ref::new(4 + 2 * index as i32)
     }
 
-    /// The content stream of a page.
+    /// Returns the id of a page's content stream.
     fn content_id(index: usize) -> Ref {
         Ref::new(5 + 2 * index as i32)
     }
 
-    /// The optional content group of a layer.
+    /// Returns the id of a layer's optional content group.
     fn layer_id(&self, index: usize) -> Ref {
         Ref::new(4 + 2 * self.pages as i32 + index as i32)
     }
 
-    /// The image object with the colors, and the one with the alpha as its soft mask.
+    /// Returns the ids of an image's color object and of its alpha object, the soft mask.
     fn image_ids(&self, index: usize) -> [Ref; 2] {
         let first = 4 + 2 * self.pages + self.layers + 2 * index;
         [first, first + 1].map(|id| Ref::new(id as i32))
     }
 
-    /// The id of the first font object.
+    /// Returns the id of the first font object.
     fn first_of_fonts(&self) -> usize {
         4 + 2 * self.pages + self.layers + 2 * self.images
     }
@@ -131,7 +131,7 @@ fn write_file(pages: &[PageContent<'_>]) -> Vec<u8> {
     pdf.finish()
 }
 
-/// Writes the list of layers into the catalog, in drawing order: `OCProperties` with its required
+/// Writes the list of layers to the catalog, in drawing order: `OCProperties` with its required
 /// default configuration `D`.
 fn write_optional_content(catalog: &mut Dict<'_>, layers: impl Iterator<Item = Ref> + Clone) {
     let mut properties = catalog.insert(Name(b"OCProperties")).dict();
@@ -140,9 +140,9 @@ fn write_optional_content(catalog: &mut Dict<'_>, layers: impl Iterator<Item = R
     default_config.insert(Name(b"Order")).array().items(layers);
 }
 
-/// Writes an image as two XObjects: RGB, and alpha as its soft mask.
+/// Writes an image as two XObjects: RGB colors, and alpha as a soft mask.
 ///
-/// PDF has no interleaved alpha. Compressing the channels separately also makes them smaller.
+/// PDF does not support interleaved alpha. Channels also compress better separately.
 fn write_image(pdf: &mut Pdf, [color, mask]: [Ref; 2], picture: &Picture) {
     let (width, height) = (picture.width as i32, picture.height as i32);
     let packed = |bytes: Vec<u8>| miniz_oxide::deflate::compress_to_vec_zlib(&bytes, DEFLATE_LEVEL);
@@ -161,7 +161,8 @@ fn write_image(pdf: &mut Pdf, [color, mask]: [Ref; 2], picture: &Picture) {
 
 /// Writes the page object, its resources and its content stream.
 ///
-/// `layers` and `pictures` count the ones on earlier pages, for the ids of the objects.
+/// `layers` and `pictures` are the numbers of layers and images on earlier pages, from which object
+/// ids follow.
 fn write_page(
     pdf: &mut Pdf,
     ids: &ObjectIds,
@@ -225,7 +226,7 @@ fn page_content(page: PageContent<'_>, fonts: &TextFonts) -> Vec<u8> {
         out.push_text("re f\n");
     }
     for (at, PlacedImage { corner, size, .. }) in page.images.iter().enumerate() {
-        // PDF maps images to the unit square with y up.
+        // PDF draws images in the unit square with y up.
         out.push_text("q ");
         out.push_point([size[0], 0]);
         out.push_point([0, -size[1]]);
@@ -254,7 +255,7 @@ impl ContentStream {
         self.0.extend_from_slice(text.as_bytes());
     }
 
-    /// Appends a number, given in thousandths, and a space.
+    /// Appends a number given in thousandths, followed by a space.
     fn push_number(&mut self, thousandth: i64) {
         write_thousandths(&mut self.0, thousandth);
         self.0.push(b' ');
@@ -271,7 +272,7 @@ impl ContentStream {
         self.push_number(y.into());
     }
 
-    /// Sets a color: `RG` for strokes, `rg` for fills. Channels are from 0 to 1, rounded to
+    /// Sets a color with `RG` for strokes or `rg` for fills. Channels range from 0 to 1, rounded to
     /// thousandths.
     fn set_color(&mut self, ink: Ink, command: &str) {
         for channel in ink {
@@ -283,8 +284,8 @@ impl ContentStream {
 
     /// Draws the strokes and fills of a layer.
     ///
-    /// All continuous strokes of a group share one path and one `S`; each dashed stroke has its own
-    /// pattern. Fills use the even-odd rule (`f*`).
+    /// All continuous strokes of a group share one path and one `S` operator; each dashed stroke
+    /// has its own pattern. Fills use the even-odd rule (`f*`).
     fn draw_layer(&mut self, layer: &Layer) {
         self.set_pen(&layer.pen);
         for group in &layer.groups {
@@ -301,7 +302,7 @@ impl ContentStream {
         }
     }
 
-    /// Sets colors, line width, cap, join and miter limit.
+    /// Sets the colors, line width, cap, join and miter limit of a pen.
     fn set_pen(&mut self, pen: &Pen) {
         self.set_color(pen.ink, "RG");
         self.set_color(pen.ink, "rg");
@@ -328,7 +329,7 @@ impl ContentStream {
         self.push_text("] 0 d\n");
     }
 
-    /// Strokes one line with dashes that fit its length.
+    /// Strokes one line with dashes fitted to its length.
     fn stroke_dashed(&mut self, line: &Polyline, pen: &Pen) {
         self.set_dashes(&pen.fitted_dashes(line));
         self.push_path(line);

@@ -1,18 +1,19 @@
 //! Stroke font: characters drawn as single pen strokes, designed for this program.
 //!
-//! Labels need no font file and have identical bytes on every machine.
+//! Labels need no font file and give identical bytes on every machine.
 //!
 //! ```text
-//!   10 ┌ ─ ╱╲ ─ ─ ─ ─ ┐ cap height              strokes are a tenth of the height wide,
-//!    7 ├ ─╱─ ╲ ╭──╮ ─ ┤ x-height                letters a fourth apart and words six tenths,
-//!      │ ╱────╲│  │   │                         about as in ISO 3098, lettering B
+//!   10 ┌ ─ ╱╲ ─ ─ ─ ─ ┐ cap height              strokes are 0.1 wide, letters 0.24
+//!    7 ├ ─╱─ ╲ ╭──╮ ─ ┤ x-height                and words 0.64 apart, in cap heights,
+//!      │ ╱────╲│  │   │                         similar to ISO 3098, lettering B
 //!    0 └╱─ ─ ─ ╰──╯╲ ─┘ baseline
 //!   −3                  descenders
 //! ```
 //!
-//! A glyph is a string of commands: `m x,y` moves, `l x,y` draws a straight line, `h x,y` a quarter
-//! of an ellipse that leaves horizontally and arrives vertically, `v x,y` the converse, and `c x,y
-//! x,y x,y` a cubic Bézier curve. Round letters are four quarters joined by lines.
+//! A glyph is a string of commands. `m x,y` moves, and `l x,y` draws a straight line. `h x,y` draws
+//! a quarter of an ellipse that starts horizontally and ends vertically, and `v x,y` the reverse.
+//! `c x,y x,y x,y` draws a cubic Bézier curve. Round letters consist of four quarters joined by
+//! lines.
 
 mod accents;
 mod glyphs;
@@ -27,26 +28,26 @@ pub(super) const CAP_HEIGHT: f64 = 10.0;
 /// The distance between letters.
 const LETTER_SPACING: f64 = 2.4;
 
-/// The width of a space; with the letter spacing on both sides, it gives the distance between
+/// The width of a space. With the letter spacing on both sides, it gives the distance between
 /// words.
 const SPACE_WIDTH: f64 = 1.6;
 
-/// The number of straight lines that approximate a quarter ellipse or a cubic.
+/// The number of line segments that approximate a quarter ellipse or a cubic.
 const CURVE_STEPS: u32 = 6;
 
-/// A character or a line of characters as strokes: x from its left side, y up from the baseline.
+/// A character or a line of characters as strokes, with x from its left side and y up from the
+/// baseline.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Glyph {
     /// The advance width without letter spacing.
     pub(super) width: f64,
-    /// Polylines.
+    /// The strokes as polylines.
     pub(super) strokes: Vec<Vec<DVec2>>,
 }
 
-/// Typesets a line of text as strokes: x from its beginning, y up from the baseline.
+/// Typesets a line of text as strokes, with x from its start and y up from the baseline.
 ///
-/// There is no kerning; each character of the text is one glyph, and combining characters become
-/// boxes.
+/// There is no kerning. Each character is one glyph, and combining characters become boxes.
 pub(super) fn typeset_line(text: &str) -> Glyph {
     let mut line = Glyph { width: 0.0, strokes: Vec::new() };
     let mut x = 0.0;
@@ -61,13 +62,13 @@ pub(super) fn typeset_line(text: &str) -> Glyph {
     line
 }
 
-/// The distance from the start of a character in a line to the start of the next.
+/// Returns the distance from the start of a character to the start of the next.
 pub(super) fn advance_width(character: char) -> f64 {
     glyph_for_char(character).width + LETTER_SPACING
 }
 
-/// Returns the characters of a text that the font lacks, without duplicates, in the order of the
-/// text.
+/// Returns the characters of a string that the font lacks, without duplicates, in order of
+/// appearance.
 pub fn missing_glyphs(text: &str) -> String {
     let mut missing = String::new();
     for character in text.chars().filter(|character| !has_glyph(*character)) {
@@ -78,7 +79,7 @@ pub fn missing_glyphs(text: &str) -> String {
     missing
 }
 
-/// Whether the font has a character; white space is empty.
+/// Whether the font has a character. White space counts, with an empty glyph.
 fn has_glyph(character: char) -> bool {
     character.is_whitespace()
         || plain_glyph(character).is_some()
@@ -86,14 +87,14 @@ fn has_glyph(character: char) -> bool {
         || han::GLYPHS.iter().any(|(c, _)| *c == character)
 }
 
-/// The width and path of a character that is not a composite.
+/// Returns the width and path of a character without an accent.
 fn plain_glyph(character: char) -> Option<(f64, &'static str)> {
     let wanted = greek::look_alike(character);
     let all = glyphs::GLYPHS.iter().chain(greek::GLYPHS);
     all.into_iter().find(|(c, ..)| *c == wanted).map(|(_, width, path)| (*width, *path))
 }
 
-/// The glyph of a character, or a box if the font lacks it.
+/// Returns the glyph of a character, or a box if the font lacks it.
 fn glyph_for_char(character: char) -> Glyph {
     if character.is_whitespace() {
         return Glyph { width: SPACE_WIDTH, strokes: Vec::new() };
@@ -137,9 +138,9 @@ fn parse_point(word: &str) -> DVec2 {
     word.split_once(',').map_or(DVec2::ZERO, |(x, y)| DVec2::new(number(x), number(y)))
 }
 
-/// A quarter of an ellipse about `center`, without its first point.
+/// Returns a quarter of an ellipse about `center`, without its first point.
 ///
-/// It is center + (from − center) cos φ + (to − center) sin φ for φ from 0 to 90°.
+/// The curve is center + (from − center) cos φ + (to − center) sin φ for φ from 0 to 90°.
 fn quarter_ellipse(from: DVec2, to: DVec2, center: DVec2) -> impl Iterator<Item = DVec2> {
     (1..=CURVE_STEPS).map(move |step| {
         let angle = core::f64::consts::FRAC_PI_2 * f64::from(step) / f64::from(CURVE_STEPS);
@@ -148,7 +149,7 @@ fn quarter_ellipse(from: DVec2, to: DVec2, center: DVec2) -> impl Iterator<Item 
     })
 }
 
-/// A cubic Bézier curve by de Casteljau's algorithm, without its first point.
+/// Returns a cubic Bézier curve without its first point, by de Casteljau's algorithm.
 fn cubic_bezier(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> impl Iterator<Item = DVec2> {
     (1..=CURVE_STEPS).map(move |step| {
         let t = f64::from(step) / f64::from(CURVE_STEPS);
@@ -162,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn glyphs_stay_between_their_sides_and_the_lines_of_writing() {
+    fn glyphs_stay_within_their_width_and_line_height() {
         let known = |word: &str| {
             let is_number = |text: &str| text.parse::<f64>().is_ok();
             let is_point = word.split_once(',').is_some_and(|(x, y)| is_number(x) && is_number(y));
@@ -211,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_as_wide_as_its_letters_and_their_spacing() {
+    fn line_width_is_letter_widths_plus_spacing() {
         let [a, i] = ["A", "i"].map(|text| typeset_line(text).width);
         assert_eq!(typeset_line("AiA").width, 2.0 * a + i + 4.8);
         assert_eq!(typeset_line("A A").width, 2.0 * a + 6.4);

@@ -1,4 +1,4 @@
-//! SVG output: a page as Scalable Vector Graphics 1.1, in millimeters.
+//! SVG output: writes a page as Scalable Vector Graphics 1.1, in millimeters.
 //!
 //! ```text
 //!  <svg width="210mm" viewBox="0 0 210 297">      user units are millimeters
@@ -14,10 +14,10 @@
 //!  </svg>
 //! ```
 //!
-//! Path data use relative commands (`m`, `l`, `h`, `v`) with steps of whole micrometers. They are
-//! shorter than absolute coordinates. Each step is an exact decimal, so sums have no error: a
-//! closed outline of a thousand points ends exactly where it began. Text is drawn as strokes, so
-//! the file needs no font. Names from files are escaped by [`escape_markup`].
+//! Path data uses relative commands (`m`, `l`, `h`, `v`) with steps in whole micrometers, which are
+//! shorter than absolute coordinates. Each step is an exact decimal, so sums have no rounding
+//! error: a closed outline with a thousand points ends exactly where it began. Text is drawn as
+//! strokes, so the file needs no font. Names from files are escaped by [`escape_markup`].
 
 use super::fixed_decimal::{format_millimeters, format_thousandths, write_thousandths};
 use super::markup::escape_markup;
@@ -72,7 +72,7 @@ fn write_page(page: PageContent<'_>) -> String {
     svg
 }
 
-/// Writes an image element with its pixels as an embedded PNG.
+/// Writes an image element with its pixels embedded as a PNG.
 ///
 /// `preserveAspectRatio="none"` stretches the image to its rectangle, which is rounded to
 /// micrometers.
@@ -90,10 +90,10 @@ fn write_image(svg: &mut String, pasted: &PlacedImage) {
     *svg += "\"/>\n";
 }
 
-/// Writes a layer as a group, with a group in it for each object.
+/// Writes a layer as a group that contains a group for each object.
 ///
-/// Ids are unique because an object's id is prefixed with the id of its layer. Titles become
-/// tooltips in browsers. A text with an id is its own title.
+/// Ids are unique because an object's id is prefixed with its layer's id. Titles become tooltips in
+/// browsers. Text with an id is its own title.
 fn write_layer(svg: &mut String, layer: &Layer) {
     let id = escape_markup(&layer.id);
     let _ = write!(
@@ -121,10 +121,10 @@ fn write_layer(svg: &mut String, layer: &Layer) {
     *svg += "</g>\n";
 }
 
-/// Writes the strokes and fills of a group: one path for all continuous strokes, and one for each
-/// dashed stroke.
+/// Writes the strokes and fills of a group, with one path for all continuous strokes and one for
+/// each dashed stroke.
 ///
-/// A dashed stroke has its own dash pattern, fitted to its length. Fills come last, over the
+/// Each dashed stroke has its own dash pattern, fitted to its length. Fills are last, over the
 /// strokes.
 fn write_paths(svg: &mut String, group: &Group, pen: &Pen) {
     let (dashed, whole): (Vec<_>, Vec<_>) = group
@@ -150,8 +150,8 @@ fn write_paths(svg: &mut String, group: &Group, pen: &Pen) {
     }
 }
 
-/// The presentation attributes of a pen; SVG defaults (butt caps, miter joins with limit 4) are
-/// omitted.
+/// Returns the presentation attributes of a pen, without SVG defaults (butt caps, miter joins with
+/// limit 4).
 fn pen_attributes(pen: &Pen) -> String {
     let mut words = format!(
         "fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"",
@@ -171,7 +171,7 @@ fn pen_attributes(pen: &Pen) -> String {
     words
 }
 
-/// A color as `#rrggbb`, or as `#rgb` if that is the same color.
+/// Returns a color as `#rrggbb`, or as `#rgb` if that is the same color.
 fn css_color([r, g, b]: Ink) -> String {
     if [r, g, b].iter().all(|c| c % 17 == 0) {
         return format!("#{:x}{:x}{:x}", r / 17, g / 17, b / 17);
@@ -179,7 +179,7 @@ fn css_color([r, g, b]: Ink) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// The `d` attribute of a path through all the lines.
+/// Returns the `d` attribute of a path through all the lines.
 fn path_data<'a>(lines: impl IntoIterator<Item = &'a Polyline>) -> String {
     let mut path = PathWriter { out: Vec::new(), position: [0, 0], has_started: false };
     for line in lines {
@@ -188,20 +188,20 @@ fn path_data<'a>(lines: impl IntoIterator<Item = &'a Polyline>) -> String {
     String::from_utf8_lossy(&path.out).into_owned()
 }
 
-/// Path data under construction, as ASCII bytes.
+/// SVG path data under construction, as ASCII bytes.
 struct PathWriter {
     out: Vec<u8>,
     /// The current point in micrometers.
     position: PagePoint,
-    /// Whether an `M` command was written; the first one is absolute.
+    /// Whether the absolute `M` command at the start has been written.
     has_started: bool,
 }
 
 impl PathWriter {
     /// Appends a subpath.
     ///
-    /// The first subpath starts with an absolute `M`; later ones with `m`, relative to the current
-    /// point, which after `z` is the start of the closed subpath.
+    /// The first subpath starts with an absolute `M`. Later subpaths start with `m`, relative to
+    /// the current point, which after `z` is the start of the closed subpath.
     fn push_polyline(&mut self, line: &Polyline) {
         let [start, rest @ ..] = line.points.as_slice() else { return };
         self.out.push(if self.has_started { b'm' } else { b'M' });
@@ -217,11 +217,11 @@ impl PathWriter {
         }
     }
 
-    /// Appends a straight line with the shortest command, and returns it.
+    /// Appends a straight line with the shortest command and returns the command letter.
     ///
     /// ```text
-    ///   dy = 0   h dx        a command letter equal to the last one is omitted, and so is
-    ///   dx = 0   v dy        the space before a minus sign:  l.5 .5-.5 .5
+    ///   dy = 0   h dx        a command letter equal to the previous one is omitted,
+    ///   dx = 0   v dy        as is the space before a minus sign:  l.5 .5-.5 .5
     ///   else     l dx dy
     /// ```
     fn push_line_to(&mut self, to: PagePoint, last: u8) -> u8 {
@@ -245,7 +245,7 @@ impl PathWriter {
         command
     }
 
-    /// The step along one axis from the current point.
+    /// Returns the step along one axis from the current point.
     fn relative_step(&self, axis: usize, to: PagePoint) -> i64 {
         i64::from(to[axis]) - i64::from(self.position[axis])
     }
@@ -256,7 +256,7 @@ impl PathWriter {
         self.position = to;
     }
 
-    /// Appends two numbers; a minus sign separates as well as a space.
+    /// Appends two numbers. A space separates them unless the second starts with a minus sign.
     fn push_pair(&mut self, x: i64, y: i64) {
         write_thousandths(&mut self.out, x);
         if y >= 0 {
@@ -276,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn path_data_is_short_and_exact() {
+    fn path_data_is_compact_and_exact() {
         let lines = [
             polyline(
                 &[
@@ -321,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn colors_are_as_on_a_web_page() {
+    fn colors_use_the_shortest_css_form() {
         assert_eq!(css_color([255, 0, 0x33]), "#f03");
         assert_eq!(css_color([1, 0, 0x33]), "#010033");
     }

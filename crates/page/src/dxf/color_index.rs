@@ -1,8 +1,8 @@
-//! AutoCAD color index: the 255 colors of R2000, and the one nearest to an ink.
+//! AutoCAD color index: the 255 colors of R2000, and the search for the nearest to an ink.
 //!
 //! ```text
 //!   1 … 6      red, yellow, green, cyan, blue, magenta
-//!   7          black on white screens, white on black ones
+//!   7          black on white screens, white on black screens
 //!   8, 9       grays
 //!   10 … 249   24 hues, each in five values and two saturations
 //!   250 … 255  grays
@@ -13,14 +13,14 @@ use crate::page::Ink;
 /// The color that contrasts with the screen.
 const CONTRAST: u8 = 7;
 
-/// Inks whose channels differ by less, and that are darker or lighter than these, become black or
-/// white.
+/// Inks whose channels differ by less than this are gray. Grays darker or lighter than the limits
+/// below become black or white.
 const MAX_GRAY_SPREAD: u8 = 32;
 const MAX_BLACK: u8 = 64;
 const MIN_WHITE: u8 = 224;
 
-/// The index of the color nearest to an ink. Grays stay gray, although a brown of equal brightness
-/// may be nearer.
+/// Returns the index of the color nearest to an ink. Grays stay gray, even if a brown of the same
+/// brightness is nearer.
 pub(super) fn color_index(ink: Ink) -> u8 {
     let [least, most] = ink.iter().fold([255, 0], |[low, high], &c| [c.min(low), c.max(high)]);
     let is_gray = most - least < MAX_GRAY_SPREAD;
@@ -40,7 +40,7 @@ pub(super) fn color_index(ink: Ink) -> u8 {
     nearest.unwrap_or(CONTRAST)
 }
 
-/// The color of an index other than 7.
+/// Returns the color of an index other than 7.
 fn index_color(index: u8) -> Ink {
     match index {
         0..=6 => {
@@ -56,11 +56,12 @@ fn index_color(index: u8) -> Ink {
     }
 }
 
-/// The color of a hue: 15 degrees per ten indices, with five values in two saturations each.
+/// Returns the color of a hue: 15 degrees per ten indices, with five values in two saturations
+/// each.
 fn hue_color(number: u32) -> Ink {
     let value = [255, 189, 129, 104, 79][(number % 10 / 2) as usize];
     let (sector, quarter) = (number / 10 / 4, number / 10 % 4);
-    // A pale color is two thirds of the way to gray.
+    // A pale color is one third saturated.
     let channel = |quarters: u32| {
         let full = value * quarters / 4;
         (if number % 2 == 1 { (2 * value + full) / 3 } else { full }) as u8
@@ -82,7 +83,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn named_colors_have_their_indices() {
+    fn well_known_colors_have_their_indices() {
         let named = [
             ([255, 0, 0], 1),
             ([255, 255, 0], 2),
@@ -95,7 +96,7 @@ mod tests {
             ([20, 24, 30], 7),
             ([255, 127, 0], 30),
             ([130, 130, 130], 252),
-            // A brown is nearer.
+            // A brown would be nearer.
             ([163, 163, 163], 253),
             ([186, 190, 194], 9),
         ];
@@ -105,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn every_index_is_nearest_to_its_own_color() {
+    fn every_color_is_its_own_nearest_color() {
         for index in (10..=249).step_by(2) {
             let color = index_color(index);
             assert_eq!(index_color(color_index(color)), color, "{index}");

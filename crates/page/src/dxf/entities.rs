@@ -1,4 +1,4 @@
-//! Entities of a DXF file: lines, arcs, texts and hatches in the coordinates of the drawing.
+//! DXF entities: lines, arcs, text and hatches in drawing coordinates.
 
 use super::DxfOptions;
 use super::layers::escape_unicode;
@@ -11,22 +11,22 @@ use glam::DVec2;
 /// Millimeters per micrometer.
 const MICROMETER: f64 = 1e-3;
 
-/// A rectangle: its lower left and its upper right corner.
+/// A rectangle, as its lower left and upper right corners.
 pub(super) type Extents = [DVec2; 2];
 
-/// The smallest rectangle around points.
+/// Returns the smallest rectangle around points.
 pub(super) fn bounds_of(points: impl IntoIterator<Item = DVec2>) -> Extents {
     let far = DVec2::splat(f64::INFINITY);
     points.into_iter().fold([far, -far], |[low, high], point| [low.min(point), high.max(point)])
 }
 
-/// Writes entities, gives them handles, and measures them.
+/// Writes entities, assigns their handles, and computes their bounds.
 #[derive(Debug)]
 pub(super) struct EntityWriter {
     tags: TagWriter,
     /// The handle of the next entity.
     handle: u32,
-    /// The scale factor of the entities' line type.
+    /// The scale factor for the line type of the entities.
     line_type_scale: f64,
     /// The bounds of all points so far.
     bounds: Extents,
@@ -51,7 +51,7 @@ impl EntityWriter {
         (self.tags, self.handle)
     }
 
-    /// The rectangle around all entities; `None` if there are none.
+    /// Returns the rectangle around all entities; `None` if there are none.
     pub(super) fn bounds(&self) -> Option<Extents> {
         (self.bounds[0].x <= self.bounds[1].x).then_some(self.bounds)
     }
@@ -63,8 +63,8 @@ impl EntityWriter {
 
     /// Converts a point in micrometers, not on the page's grid, to drawing coordinates.
     ///
-    /// Thousandths are divided, not multiplied, so that coordinates on paper have the same decimals
-    /// as in the other formats.
+    /// Coordinates are divided by 1000, not multiplied by 0.001, so that coordinates on paper have
+    /// the same decimals as in the other formats.
     fn place_exactly(&self, micrometers: DVec2) -> DVec2 {
         let origin = self.options.origin * 1000.0;
         let up = DVec2::new(micrometers.x - origin.x, origin.y - micrometers.y) / 1000.0;
@@ -96,8 +96,8 @@ impl EntityWriter {
         self.bounds = [self.bounds[0].min(low), self.bounds[1].max(high)];
     }
 
-    /// Writes a group of the page, with its line type scaled by a factor. A text or a hatching
-    /// replaces the strokes.
+    /// Writes a group of the page, with its line type scaled by a factor. Text or hatching replaces
+    /// the strokes.
     pub(super) fn write_group(&mut self, layer: &str, line_type_scale: f64, group: &Group) {
         self.line_type_scale = line_type_scale;
         match &group.content {
@@ -130,7 +130,7 @@ impl EntityWriter {
                 self.begin("ARC", layer, "AcDbCircle");
                 self.write_circle(circle);
                 self.tags.tag(100, "AcDbArc");
-                // With y up, angles change their sign and arcs their direction.
+                // With y up, angles change sign and arcs change direction.
                 for (code, angle) in [(50, -end), (51, -start)] {
                     self.tags.number(code, degrees_within(angle, 360.0, 1e9));
                 }
@@ -150,7 +150,7 @@ impl EntityWriter {
         self.include([center - radius, center + radius]);
     }
 
-    /// Writes a polyline, or a line if there is only one.
+    /// Writes a polyline, or a line if it is a single straight segment.
     fn write_path(&mut self, layer: &str, vertices: &[ArcVertex], closed: bool) {
         let placed: Vec<DVec2> =
             vertices.iter().map(|vertex| self.place_exactly(vertex.point)).collect();
@@ -163,14 +163,14 @@ impl EntityWriter {
         } else {
             self.begin("LWPOLYLINE", layer, "AcDbPolyline");
             self.tags.tag(90, vertices.len());
-            // 128: line types continue around the vertices.
+            // 128: line types continue around vertices.
             self.tags.tag(70, 128 + u8::from(closed));
             self.write_vertices(vertices, &placed, false);
         }
         self.include(placed);
     }
 
-    /// Writes the vertices of a polyline with their bulges, always, or only if there are any.
+    /// Writes the vertices of a polyline. Bulges of 0 are omitted unless `always` is set.
     fn write_vertices(&mut self, vertices: &[ArcVertex], placed: &[DVec2], always: bool) {
         for (vertex, point) in vertices.iter().zip(placed) {
             self.tags.point(10, *point);
@@ -181,8 +181,8 @@ impl EntityWriter {
         }
     }
 
-    /// Writes a text, fitted between the ends of its baseline, so that it has the same width in
-    /// every font.
+    /// Writes text fitted between the ends of its baseline, so that it has the same width in every
+    /// font.
     fn write_text(&mut self, layer: &str, line: &TextLine) {
         if line.text.trim().is_empty() {
             return;
@@ -227,7 +227,7 @@ impl EntityWriter {
         self.tags.tag(98, 0);
     }
 
-    /// Writes a boundary loop of a hatch; the first one is external.
+    /// Writes a boundary loop of a hatch; the first loop is external.
     fn write_hatch_loop(&mut self, line: &Polyline, is_first: bool) {
         let vertices: Vec<ArcVertex> = match recognize_arcs(&line.points, line.closed, 0.0) {
             LineShape::Path(vertices, _) => vertices,
@@ -243,14 +243,14 @@ impl EntityWriter {
         self.include(placed);
     }
 
-    /// Writes the pattern of a hatch: one family of continuous lines.
+    /// Writes the pattern of a hatch, one family of continuous lines.
     fn write_pattern(&mut self, area: &HatchArea) {
         let along = DVec2::new(area.direction.x, -area.direction.y);
-        // Rounded, because the scales of a view in x and y differ by the rounding of its size in
-        // pixels.
+        // Rounded, because the size of a view in pixels is rounded and its scales in x and y
+        // therefore differ slightly.
         let angle = degrees_within(libm::atan2(along.y, along.x), 180.0, 1e5);
         let spacing = area.spacing * self.options.units_per_millimeter;
-        // A predefined pattern, turned and scaled: its lines rise by 45° with a spacing of 3.175
+        // A predefined pattern, rotated and scaled. Its lines rise at 45° with a spacing of 3.175
         // mm.
         self.tags.tag(76, 1);
         self.tags.number(52, if angle < 45.0 { angle + 135.0 } else { angle - 45.0 });
@@ -267,13 +267,13 @@ impl EntityWriter {
     }
 }
 
-/// An angle in degrees, rounded to 1/`parts` of a degree, from 0 to less than a period.
+/// Returns an angle in degrees, rounded to 1/`parts` of a degree, from 0 to less than a period.
 fn degrees_within(radians: f64, period: f64, parts: f64) -> f64 {
     let degrees = libm::round(radians.to_degrees() * parts) / parts;
     degrees - period * libm::floor(degrees / period)
 }
 
-/// Escapes the sequences that readers take for codes: some begin with `%%` or `^`.
+/// Escapes sequences that readers would interpret as codes, such as `%%` or `^`.
 fn escape_text(text: &str) -> String {
     let text = if text.contains("%%") { text.replace('%', "%%%") } else { text.to_owned() };
     escape_unicode(&text.replace('^', "^ "))

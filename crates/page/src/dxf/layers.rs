@@ -1,9 +1,9 @@
-//! Layers and line types of a DXF file: one for each layer of the page and object.
+//! DXF layers and line types. A file has one layer for each combination of page layer and object.
 //!
 //! ```text
-//!   layer of the page   object        layer of the file
+//!   page layer          object        file layer
 //!   visible-crease      shaft         visible-crease.shaft
-//!   visible-crease      shaft         visible-crease.shaft      objects of one name share it
+//!   visible-crease      shaft         visible-crease.shaft      shared by objects with the same name
 //!   dimensions                        dimensions
 //! ```
 //!
@@ -26,7 +26,7 @@ const MAX_NAME: usize = 200;
 /// The line type of continuous lines.
 const CONTINUOUS: &str = "Continuous";
 
-/// The dashed line types of ISO 128 as programs name them, for lines of 1 mm.
+/// The dashed line types of ISO 128 under the names used by CAD programs, for lines 1 mm wide.
 const ISO_LINE_TYPES: [(&str, &[f64]); 3] = [
     ("ACAD_ISO02W100", &[12.0, 3.0]),
     ("ACAD_ISO04W100", &[24.0, 3.0, 0.5, 3.0]),
@@ -40,11 +40,11 @@ struct FileLayer {
     color: u8,
     /// The index of the line type and the factor for its lengths; `None` for continuous lines.
     line_type: Option<(usize, f64)>,
-    /// In hundredths of a millimeter.
+    /// The line width in hundredths of a millimeter.
     weight: u16,
 }
 
-/// A dashed line type: dashes and gaps in drawing units, which entities scale.
+/// A dashed line type: dashes and gaps in drawing units, scaled by each entity.
 #[derive(Debug)]
 struct DashedType {
     name: String,
@@ -56,7 +56,7 @@ struct DashedType {
 pub(super) struct LayerTable {
     layers: Vec<FileLayer>,
     dashed: Vec<DashedType>,
-    /// The index of the file layer for each layer of the page and each of its groups.
+    /// The index of the file layer for each group of each page layer.
     of_groups: Vec<Vec<usize>>,
 }
 
@@ -83,23 +83,23 @@ impl LayerTable {
         table
     }
 
-    /// The name of the file layer for a group in a layer of the page.
+    /// Returns the name of the file layer for a group in a page layer.
     pub(super) fn name(&self, layer: usize, group: usize) -> &str {
         &self.layers[self.of_groups[layer][group]].name
     }
 
-    /// The line type factor of the layer that contains a group.
+    /// Returns the line type factor of the layer that contains a group.
     pub(super) fn line_type_scale(&self, layer: usize, group: usize) -> f64 {
         self.layers[self.of_groups[layer][group]].line_type.map_or(1.0, |(_, factor)| factor)
     }
 
-    /// The number of layers and of dashed line types.
+    /// Returns the numbers of layers and dashed line types.
     pub(super) fn counts(&self) -> [usize; 2] {
         [self.layers.len(), self.dashed.len()]
     }
 
-    /// The index of a pen's line type and the factor for its lengths; `None` for continuous lines.
-    /// A new line type is added.
+    /// Returns the index of a pen's line type and the factor for its lengths; `None` for continuous
+    /// lines. Adds the line type if it is new.
     fn line_type_of(&mut self, pen: &Pen) -> Option<(usize, f64)> {
         let first = *pen.dashes.first()?;
         let fits = |pattern: &[f64]| {
@@ -155,7 +155,7 @@ impl LayerTable {
     }
 }
 
-/// The file layer name for a layer of the page and an object's name.
+/// Returns the file layer name for a page layer and an object name.
 fn layer_name(id: &str, object: &str) -> String {
     let whole = if object.is_empty() { id.to_owned() } else { format!("{id}.{object}") };
     let allowed = |c: char| match c {
@@ -167,8 +167,8 @@ fn layer_name(id: &str, object: &str) -> String {
     escape_unicode(name.trim_end())
 }
 
-/// Escapes a text to ASCII: other characters are written by code, Ø as `\U+00D8`. Codes beyond four
-/// digits, and controls, become `?`.
+/// Escapes a string to ASCII. Other characters are written as codes: Ø is `\U+00D8`. Control
+/// characters and codes with more than four digits become `?`.
 pub(super) fn escape_unicode(text: &str) -> String {
     let escaped = |c: char| match u32::from(c) {
         0x20..=0x7e => c.to_string(),
@@ -178,7 +178,7 @@ pub(super) fn escape_unicode(text: &str) -> String {
     text.chars().map(escaped).collect()
 }
 
-/// The supported line width nearest to a width in millimeters.
+/// Returns the supported line width nearest to a width in millimeters.
 fn line_weight(millimeters: f64) -> u16 {
     let hundredths = millimeters * 100.0;
     let nearer = |a: &u16, b: &u16| {
@@ -196,7 +196,7 @@ mod tests {
     use glam::DVec2;
 
     #[test]
-    fn names_are_those_that_the_format_allows() {
+    fn names_are_limited_to_what_the_format_allows() {
         assert_eq!(layer_name("cut-lines", ""), "cut-lines");
         assert_eq!(layer_name("a", "Welle Ø 12/3"), "a.Welle \\U+00D8 12_3");
         assert_eq!(layer_name("a", "x\n<y>\u{1f600} "), "a.x__y_?");
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn objects_whose_names_differ_in_case_share_a_layer() {
+    fn objects_whose_names_differ_only_in_case_share_a_layer() {
         let mut page: Page = Page::new(DVec2::ONE, "", None);
         let mut layer = Layer::new("a", "a", Pen::solid(0.36, [255, 0, 0]));
         for title in ["Bolt", "nut", "BOLT"] {
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn dashes_of_all_widths_are_one_line_type() {
+    fn dashes_of_all_widths_share_a_line_type() {
         let mut table =
             LayerTable { layers: Vec::new(), dashed: Vec::new(), of_groups: Vec::new() };
         let pen = |dashes: &[f64]| Pen { dashes: dashes.to_vec(), ..Pen::solid(0.25, [0; 3]) };
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn widths_become_the_nearest_of_the_format() {
+    fn widths_are_rounded_to_the_nearest_supported_width() {
         for (width, weight) in [(0.25, 25), (0.33, 35), (0.0, 0), (5.0, 211), (0.01, 0)] {
             assert_eq!(line_weight(width), weight);
         }

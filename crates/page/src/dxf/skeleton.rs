@@ -1,7 +1,7 @@
-//! The sections and tables that surround the entities in every DXF file of version R2000.
+//! The sections and tables around the entities, required in every R2000 DXF file.
 //!
 //! The handles of tables, dictionaries and layouts are fixed, with the values that other programs
-//! use. Layers, line types and entities have handles starting at [`FIRST_LINE_TYPE`].
+//! use. The handles of line types, layers and entities start at [`FIRST_LINE_TYPE`].
 
 use super::DxfUnit;
 use super::entities::Extents;
@@ -19,7 +19,7 @@ const FIRST_LAYER: u32 = 0x1000;
 /// The first handle of entities.
 pub(super) const FIRST_ENTITY: u32 = 0x100_0000;
 
-/// Writes the sections `HEADER` and `CLASSES`.
+/// Writes the `HEADER` and `CLASSES` sections.
 pub(super) fn write_header(
     tags: &mut TagWriter,
     unit: Option<DxfUnit>,
@@ -62,7 +62,7 @@ pub(super) fn write_header(
     tags.end_section();
 }
 
-/// The code of a unit in `$INSUNITS`.
+/// Returns the code of a unit in `$INSUNITS`.
 const fn unit_code(unit: DxfUnit) -> u8 {
     match unit {
         DxfUnit::Inch => 1,
@@ -74,7 +74,7 @@ const fn unit_code(unit: DxfUnit) -> u8 {
     }
 }
 
-/// Writes the sections `TABLES` and `BLOCKS`.
+/// Writes the `TABLES` and `BLOCKS` sections.
 pub(super) fn write_tables(tags: &mut TagWriter, layers: &LayerTable, bounds: Extents) {
     let [layer_count, dashed_count] = layers.counts();
     tags.begin_section("TABLES");
@@ -125,7 +125,7 @@ pub(super) fn write_tables(tags: &mut TagWriter, layers: &LayerTable, bounds: Ex
     tags.end_section();
 }
 
-/// Begins a table of records.
+/// Begins a table.
 fn begin_table(tags: &mut TagWriter, name: &str, handle: u32, count: usize) {
     tags.tag(0, "TABLE");
     tags.tag(2, name);
@@ -143,7 +143,7 @@ fn begin_record(tags: &mut TagWriter, kind: &str, handle: u32, table: u32, class
     tags.tag(100, class);
 }
 
-/// Writes the initial view of the drawing, which shows all of it.
+/// Writes the initial view, which shows the whole drawing.
 fn write_viewport(tags: &mut TagWriter, [low, high]: Extents) {
     begin_record(tags, "VPORT", 0x23, 0x8, "AcDbViewportTableRecord");
     tags.tags("2=*Active|70=0|10=0.0|20=0.0|11=1.0|21=1.0");
@@ -158,7 +158,7 @@ fn write_viewport(tags: &mut TagWriter, [low, high]: Extents) {
     tags.tags("281=0|65=0|146=0.0");
 }
 
-/// Writes an empty block; the entities of the model space are in `ENTITIES`.
+/// Writes an empty block. The entities of the model space are in the `ENTITIES` section.
 fn write_block(tags: &mut TagWriter, handle: u32, owner: u32, name: &str) {
     tags.tag(0, "BLOCK");
     tags.handle(5, handle);
@@ -173,7 +173,7 @@ fn write_block(tags: &mut TagWriter, handle: u32, owner: u32, name: &str) {
     tags.tags("100=AcDbEntity|8=0|100=AcDbBlockEnd");
 }
 
-/// Writes the section `OBJECTS`: the named dictionaries and two layouts.
+/// Writes the `OBJECTS` section: the named dictionaries and two layouts.
 pub(super) fn write_objects(tags: &mut TagWriter, bounds: Extents) {
     tags.begin_section("OBJECTS");
     tags.tags("0=DICTIONARY|5=A|330=0|100=AcDbDictionary|281=1|3=ACAD_GROUP|350=C");
@@ -200,7 +200,7 @@ pub(super) fn write_objects(tags: &mut TagWriter, bounds: Extents) {
         tags.handle(5, handle);
         tags.tags("330=D|100=AcDbPlotSettings|1=|4=A3|6=|40=7.5|41=20.0|42=7.5|43=20.0|44=420.0");
         tags.tags("45=297.0|46=0.0|47=0.0|48=0.0|49=0.0|140=0.0|141=0.0|142=1.0|143=1.0");
-        // 1024: the settings of the model tab.
+        // 1024: settings for the model tab.
         tags.tag(70, if tab == 0 { 1024 } else { 0 });
         tags.tags("72=1|73=0|74=5|7=|75=16|147=1.0|148=0.0|149=0.0|100=AcDbLayout");
         tags.tag(1, name);

@@ -1,9 +1,9 @@
-//! Tags, of which DXF files consist: pairs of a group code and a value, each on its own line.
+//! DXF tags: pairs of a group code and a value, each on its own line. A DXF file is a list of tags.
 
 use glam::DVec2;
 use std::fmt::{Display, Write};
 
-/// A DXF file, or a part of it, under construction.
+/// A DXF file under construction, or part of one.
 #[derive(Debug, Default)]
 pub(super) struct TagWriter {
     out: String,
@@ -16,13 +16,13 @@ impl TagWriter {
         let _ = writeln!(self.out, "{code}\n{value}");
     }
 
-    /// Appends a tag with a handle, in hexadecimal digits.
+    /// Appends a tag with a handle, as hexadecimal digits.
     pub(super) fn handle(&mut self, code: u16, handle: u32) {
         self.tag(code, format_args!("{handle:X}"));
     }
 
-    /// Appends a tag with a number: the shortest decimal that reads back as the same number, with a
-    /// point and without an exponent.
+    /// Appends a tag with a number, as the shortest decimal that reads back as the same number. It
+    /// has a decimal point and no exponent.
     pub(super) fn number(&mut self, code: u16, number: f64) {
         // Adding 0 turns −0 into 0.
         let number = number + 0.0;
@@ -33,7 +33,7 @@ impl TagWriter {
         }
     }
 
-    /// Appends x and y: the codes are `code` and `code` + 10.
+    /// Appends x and y, with the codes `code` and `code` + 10.
     pub(super) fn point(&mut self, code: u16, point: DVec2) {
         self.number(code, point.x);
         self.number(code + 10, point.y);
@@ -45,7 +45,7 @@ impl TagWriter {
         self.number(code + 20, 0.0);
     }
 
-    /// Appends tags from a text that separates tags by `|`, and code and value by `=`.
+    /// Appends tags from a string in which `|` separates tags and `=` separates code and value.
     pub(super) fn tags(&mut self, text: &str) {
         for pair in text.split('|').map(str::trim).filter(|pair| !pair.is_empty()) {
             let (code, value) = pair.split_once('=').unwrap_or((pair, ""));
@@ -69,7 +69,7 @@ impl TagWriter {
         self.tag(0, "ENDSEC");
     }
 
-    /// The bytes of the file.
+    /// Returns the bytes of the file.
     pub(super) fn finish(mut self) -> Vec<u8> {
         self.tag(0, "EOF");
         self.out.into_bytes()
@@ -81,7 +81,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_have_a_point_and_no_exponent() {
+    fn numbers_have_a_decimal_point_and_no_exponent() {
         for (number, written) in [
             (0.0, "0.0"),
             (-0.0, "0.0"),
@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn a_text_of_tags_is_written_pair_by_pair() {
+    fn tag_strings_are_written_pair_by_pair() {
         let mut tags = TagWriter::default();
         tags.tags("0=LAYER|2=a=b| 70=0 |3=");
         assert_eq!(tags.out, "0\nLAYER\n2\na=b\n70\n0\n3\n\n");

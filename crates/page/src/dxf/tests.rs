@@ -1,10 +1,10 @@
-//! DXF files read back tag by tag.
+//! Reads DXF files back tag by tag.
 
 use super::*;
 use crate::page::{Group, GroupContent, HatchArea, Layer, Pen, Polyline};
 use crate::{Label, LineType};
 
-/// The tags of a file.
+/// Parses the tags of a file.
 fn read_tags(file: &[u8]) -> Vec<(u16, String)> {
     let text = std::str::from_utf8(file).expect("ASCII");
     assert!(text.is_ascii());
@@ -14,7 +14,7 @@ fn read_tags(file: &[u8]) -> Vec<(u16, String)> {
     lines.chunks(2).map(pair).collect()
 }
 
-/// The entities of a kind, each as a list of tags.
+/// Returns the entities of one kind, each as a list of tags.
 fn entities_of<'a>(tags: &'a [(u16, String)], kind: &str) -> Vec<&'a [(u16, String)]> {
     let starts = tags.iter().enumerate().filter(|(_, (code, _))| *code == 0).map(|(at, _)| at);
     let ends = starts.clone().skip(1).chain([tags.len()]);
@@ -26,7 +26,7 @@ fn value(entity: &[(u16, String)], code: u16) -> &str {
     entity.iter().find(|(other, _)| *other == code).map_or("", |(_, value)| value)
 }
 
-/// A page with a line, a dashed polyline, a circle, a text and hatching.
+/// Returns a page with a line, a dashed polyline, a circle, text and hatching.
 fn page() -> Page {
     let mut page: Page = Page::new(DVec2::new(100.0, 50.0), "parts", None);
     let mut lines = Layer::new("lines", "lines", Pen::solid(0.5, [255, 0, 0]));
@@ -57,7 +57,7 @@ fn page() -> Page {
 }
 
 #[test]
-fn a_page_on_paper_has_its_coordinates_from_the_lower_left_corner() {
+fn paper_coordinates_start_at_the_lower_left_corner() {
     let page = page();
     let tags = read_tags(&page.to_dxf(&DxfOptions::on_paper(&page)));
     let line = entities_of(&tags, "LINE")[0];
@@ -117,7 +117,7 @@ fn handles_are_unique_and_owners_exist() {
 }
 
 #[test]
-fn an_empty_page_is_a_file_too() {
+fn an_empty_page_gives_a_valid_file() {
     let page: Page = Page::new(DVec2::new(10.0, 20.0), "", None);
     let tags = read_tags(&page.to_dxf(&DxfOptions::on_paper(&page)));
     let extent = tags.iter().position(|(_, name)| name == "$EXTMAX").expect("extents");

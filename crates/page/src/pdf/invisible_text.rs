@@ -1,14 +1,14 @@
-//! Searchable text in PDF pages: invisible glyphs over the strokes, to find, select and copy.
+//! Searchable PDF text: invisible glyphs over the strokes that viewers can find, select and copy.
 //!
 //! ```text
-//!   Group with content Text ─► its strokes, drawn       what is seen
-//!                           └► BT /F0 1 Tf … Tm <0A0B> Tj ET      what is searched
+//!   Group with content Text ─► its strokes, drawn       the visible text
+//!                           └► BT /F0 1 Tf … Tm <0A0B> Tj ET      the searchable text
 //! ```
 //!
-//! The fonts are Type 3 fonts (ISO 32000-1, 9.6.5), whose glyphs are content streams. Empty streams
-//! draw nothing in any viewer and need no font file. Widths match the stroke font, so a selection
-//! covers the characters. ToUnicode maps the codes to characters, including those that the stroke
-//! font lacks.
+//! The fonts are Type 3 fonts (ISO 32000-1, 9.6.5), whose glyphs are content streams. Here the
+//! streams are empty, so they draw nothing in any viewer and need no font file. Widths match the
+//! stroke font, so a selection covers the characters. ToUnicode maps the codes to characters,
+//! including characters that the stroke font lacks.
 
 use crate::page::{GroupContent, PageContent, TextLine};
 use crate::stroke_font::advance_width;
@@ -16,18 +16,18 @@ use pdf_writer::types::{SystemInfo, UnicodeCmap};
 use pdf_writer::{Finish, Name, Pdf, Rect, Ref, Str};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The characters of a font: codes 1 to 255.
+/// The number of characters in a font, with codes 1 to 255.
 const FONT_CHARACTERS: usize = 255;
 
-/// The glyph unit, in units of text in which the height of capitals is 1.
+/// The glyph unit, in text units of one capital height.
 const UNIT: f32 = 0.1;
 
-/// The name of a glyph, from its width in thousandths; glyphs differ only in width.
+/// Returns the name of a glyph from its width in thousandths. Glyphs differ only in width.
 fn glyph_name(width: i32) -> String {
     format!("w{width}")
 }
 
-/// The characters of the pages' texts, divided among fonts.
+/// The characters in the text of the pages, divided among fonts.
 pub(super) struct TextFonts {
     /// The characters in the order of their codes.
     characters: Vec<char>,
@@ -35,7 +35,8 @@ pub(super) struct TextFonts {
     widths: BTreeSet<i32>,
 }
 
-/// The character to search for: a blank for white space, `None` for a control.
+/// Returns the searchable form of a character: a space for white space, `None` for control
+/// characters.
 fn searched(character: char) -> Option<char> {
     match character {
         c if c.is_whitespace() => Some(' '),
@@ -44,12 +45,12 @@ fn searched(character: char) -> Option<char> {
     }
 }
 
-/// The advance width of a character in thousandths of a stroke-font unit.
+/// Returns the advance width of a character in thousandths of a stroke-font unit.
 fn width_of(character: char) -> i32 {
     libm::round(advance_width(character) * 1000.0) as i32
 }
 
-/// The texts in a page's layer groups.
+/// Returns the lines of text in a page's layer groups.
 fn texts_of(page: PageContent<'_>) -> impl Iterator<Item = &TextLine> {
     let groups = page.layers.iter().flat_map(|layer| &layer.groups);
     groups.filter_map(|group| match &group.content {
@@ -59,7 +60,7 @@ fn texts_of(page: PageContent<'_>) -> impl Iterator<Item = &TextLine> {
 }
 
 impl TextFonts {
-    /// Creates the fonts for the texts of the pages.
+    /// Creates the fonts for the text of the pages.
     pub(super) fn new(pages: &[PageContent<'_>]) -> Self {
         let lines = pages.iter().copied().flat_map(texts_of);
         let characters: BTreeSet<char> =
@@ -68,22 +69,22 @@ impl TextFonts {
         Self { characters: characters.into_iter().collect(), widths }
     }
 
-    /// The number of fonts.
+    /// Returns the number of fonts.
     pub(super) fn count(&self) -> usize {
         self.characters.len().div_ceil(FONT_CHARACTERS)
     }
 
-    /// The name of a font in the resources of pages.
+    /// Returns the name of a font in the resources of pages.
     pub(super) fn name(font: usize) -> String {
         format!("F{font}")
     }
 
-    /// The id of a font object if font ids start at `first`.
+    /// Returns the id of a font object if font ids start at `first`.
     pub(super) fn font_id(first: usize, font: usize) -> Ref {
         Ref::new((first + 2 * font) as i32)
     }
 
-    /// Writes the fonts, their character tables and their glyphs, as objects starting at `first`.
+    /// Writes the fonts, their character tables and their glyphs as objects starting at `first`.
     pub(super) fn write(&self, pdf: &mut Pdf, first: usize) {
         let procedures = first + 2 * self.count();
         let numbered = self.widths.iter().zip(procedures..);
@@ -106,7 +107,7 @@ impl TextFonts {
         }
     }
 
-    /// Returns the operators that show a text, in page millimeters.
+    /// Returns the operators that show a line of text, in page millimeters.
     pub(super) fn show(&self, line: &TextLine) -> Vec<u8> {
         let mut out = Vec::new();
         let [[x, y], [end_x, end_y]] = line.baseline;
@@ -118,7 +119,7 @@ impl TextFonts {
         if codes.is_empty() {
             return out;
         }
-        // Text runs along the baseline with its y axis up; the y axis of the page points down.
+        // Text runs along the baseline with y up; on the page, y points down.
         let [a, b] = along.to_array().map(|part| libm::round(part) as i64);
         let matrix = [a, b, b, -a, i64::from(x), i64::from(y)];
         out.extend_from_slice(b"BT\n");
@@ -140,14 +141,14 @@ impl TextFonts {
         out
     }
 
-    /// The font and code of a character.
+    /// Returns the font and code of a character.
     fn code(&self, character: char) -> Option<(usize, u8)> {
         let at = self.characters.binary_search(&character).ok()?;
         Some((at / FONT_CHARACTERS, u8::try_from(at % FONT_CHARACTERS + 1).ok()?))
     }
 }
 
-/// Writes the dictionary of a font whose codes begin at 1.
+/// Writes the dictionary of a font. Codes begin at 1.
 fn write_font(
     pdf: &mut Pdf,
     id: Ref,
@@ -181,7 +182,7 @@ mod tests {
     use crate::{Label, Layer, Pen};
     use glam::DVec2;
 
-    /// A page with the given texts.
+    /// Returns a page with these lines of text.
     fn page_of(texts: &[&str]) -> Page {
         let mut page: Page = Page::new(DVec2::splat(100.0), "texts", None);
         let mut layer = Layer::new("text", "text", Pen::solid(0.25, [0; 3]));
@@ -192,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn a_text_is_shown_along_its_baseline() {
+    fn text_is_shown_along_its_baseline() {
         let page = page_of(&["BA"]);
         let fonts = TextFonts::new(&[page.content()]);
         let line = texts_of(page.content()).next().expect("a text");
@@ -207,7 +208,7 @@ mod tests {
     fn more_than_255_characters_need_a_second_font() {
         let all: String = ('\u{4e00}'..'\u{4f00}').collect();
         let fonts = TextFonts::new(&[page_of(&[&all, "\u{7}\t"]).content()]);
-        // 256, plus the blank that replaces the tab; the control is dropped.
+        // 256, plus the space that replaces the tab. The control character is dropped.
         assert_eq!((fonts.characters.len(), fonts.count()), (257, 2));
         assert_eq!(fonts.code('\u{4eff}'), Some((1, 2)));
         assert_eq!(TextFonts::new(&[page_of(&["\u{7}", ""]).content()]).count(), 0);

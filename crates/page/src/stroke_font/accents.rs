@@ -1,14 +1,14 @@
 //! Accented letters of the stroke font: a base letter with a mark above, below or beside it.
 //!
-//! Marks are composed with letters at run time, so the glyph table holds 95 shapes instead of
-//! several hundred. A mark is drawn around x = 0 and moved to the middle of its letter. Its y
-//! starts at the top of the letter, or at the baseline for a cedilla.
+//! Marks are combined with letters at run time, so the glyph table holds 95 shapes instead of
+//! several hundred. A mark is drawn around x = 0 and moved to the middle of its letter. Its y is
+//! measured from the top of the letter or, for a cedilla, from the baseline.
 
 use super::{Glyph, glyph_for_char, parse_strokes};
 use glam::DVec2;
 
-/// The marks as paths around x = 0, with y from the top of the letter, or from the baseline for
-/// marks below.
+/// The marks as paths around x = 0. y is measured from the top of the letter or, for marks below
+/// it, from the baseline.
 const ACUTE: &str = "m -0.7,1.2 l 0.9,2.9";
 const GRAVE: &str = "m 0.7,1.2 l -0.9,2.9";
 const CIRCUMFLEX: &str = "m -1.5,1.2 l 0,2.8 l 1.5,1.2";
@@ -23,7 +23,7 @@ const DOT: &str = "m 0,2 l 0,2.2";
 const CEDILLA: &str = "m 0,0 l 0,-0.7 h 1.1,-1.6 v 0,-2.5 l -0.9,-2.5";
 const APOSTROPHE: &str = "m 0.4,0 l 0,-1.8";
 
-/// The letters of each mark: pairs of the accented letter and its base letter.
+/// The letters for each mark, as pairs of accented letter and base letter.
 const MARKED_LETTERS: &[(&str, &str)] = &[
     (ACUTE, "ÁAÉEÍIÓOÚUÝYĆCŃNŚSŹZŔRĹLáaéeíıóoúuýyćcńnśsźzŕr"),
     (GRAVE, "ÀAÈEÌIÒOÙUàaèeìıòoùu"),
@@ -39,13 +39,13 @@ const MARKED_LETTERS: &[(&str, &str)] = &[
     (CEDILLA, "ÇCŞSŢTçcşsţt"),
 ];
 
-/// Letters whose caron is written as an apostrophe beside them, each with its base letter (Czech
-/// and Slovak usage).
+/// Letters whose caron is written as an apostrophe next to them, paired with their base letters
+/// (Czech and Slovak usage).
 const APOSTROPHE_CARON_LETTERS: &str = "ďdťtľlĽL";
 
-/// The glyph of an accented letter; `None` for any other character.
+/// Returns the glyph of an accented letter; `None` for any other character.
 ///
-/// The caron of d, t, l and L is an apostrophe at the upper right corner, and widens the letter.
+/// The caron of d, t, l and L is an apostrophe at the upper right corner. It widens the letter.
 pub(super) fn accented_glyph(character: char) -> Option<Glyph> {
     for (mark, letters) in MARKED_LETTERS {
         if let Some(letter) = base_letter(letters, character) {
@@ -60,7 +60,7 @@ pub(super) fn accented_glyph(character: char) -> Option<Glyph> {
     Some(glyph)
 }
 
-/// Finds the base letter of an accented one in a list of pairs.
+/// Finds the base letter of an accented letter in a list of pairs.
 fn base_letter(letters: &str, character: char) -> Option<char> {
     let mut pairs = letters.chars();
     while let (Some(marked), Some(letter)) = (pairs.next(), pairs.next()) {
@@ -73,19 +73,19 @@ fn base_letter(letters: &str, character: char) -> Option<char> {
 
 /// Composes a letter with a mark above its middle, or a cedilla below it.
 ///
-/// A letter without width, such as the dotless i, is widened so that its mark does not reach its
+/// A letter without width, such as the dotless i, is widened so that its mark does not overlap its
 /// neighbors.
 fn glyph_with_mark(letter: char, mark: &str) -> Glyph {
     let mut glyph = glyph_for_char(letter);
     let is_below = mark == CEDILLA;
     let top = glyph.strokes.iter().flatten().fold(0.0, |top: f64, point| point.y.max(top));
     let middle = glyph.width * 0.5;
-    // A letter as narrow as its stroke is moved aside to center its mark.
+    // A letter that is a single vertical stroke is moved to the right to center it under its mark.
     if middle == 0.0 {
         glyph.strokes.iter_mut().flatten().for_each(|point| point.x += 0.8);
         glyph.width = 1.6;
     }
-    // Marks are a little lower over small letters, so that lines of text do not touch.
+    // Marks are slightly lower over tall letters, so that lines of text do not touch.
     let base = if is_below { 0.0 } else { top - if top > 8.0 { 0.2 } else { 0.1 } };
     let at = DVec2::new(glyph.width * 0.5, base);
     add_strokes(&mut glyph, mark, at);

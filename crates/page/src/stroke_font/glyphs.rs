@@ -1,13 +1,13 @@
-//! Glyph table of the stroke font: character, advance width and path.
+//! The glyph table of the stroke font: characters, advance widths and paths.
 //!
-//! Capitals are 10 units high, small letters 7. The parent module describes the path commands.
-//! Accented letters are composed in `accents`. Shapes follow the vertical letters of ISO 3098-2 as
+//! Capitals are 10 units high, lowercase letters 7. The parent module describes the path commands.
+//! Accented letters are composed in `accents`. Shapes follow the upright letters of ISO 3098-2 as
 //! closely as two or three strokes allow.
 
 /// The box drawn for characters that the font lacks.
 pub(super) const MISSING_GLYPH: &str = "m 0,0 l 5,0 l 5,10 l 0,10 l 0,0";
 
-/// The unaccented characters; searched linearly, since labels are short.
+/// The unaccented characters. The table is searched linearly, because labels are short.
 #[rustfmt::skip]
 pub(super) const GLYPHS: &[(char, f64, &str)] = &[
     ('A', 6.4, "m 0,0 l 3.2,10 l 6.4,0 m 1.12,3.5 l 5.28,3.5"),

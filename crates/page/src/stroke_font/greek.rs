@@ -1,6 +1,6 @@
 //! Greek letters, arrows and mathematical symbols, for angles, vectors and tolerances.
 
-/// Letters that look like Latin letters of the font.
+/// Characters that look like another character of the font.
 #[rustfmt::skip]
 const SAME: &[(char, char)] = &[
     ('Α', 'A'), ('Β', 'B'), ('Ε', 'E'), ('Ζ', 'Z'), ('Η', 'H'), ('Ι', 'I'), ('Κ', 'K'), ('Μ', 'M'),
@@ -8,7 +8,7 @@ const SAME: &[(char, char)] = &[
     ('ο', 'o'), ('∆', 'Δ'), ('∑', 'Σ'), ('∏', 'Π'), ('Ω', 'Ω'), ('ϕ', 'φ'), ('ϑ', 'θ'), ('ϵ', 'ε'),
 ];
 
-/// The others: character, advance width, and path.
+/// The other characters: character, advance width and path.
 #[rustfmt::skip]
 pub(super) const GLYPHS: &[(char, f64, &str)] = &[
     ('Γ', 4.8, "m 0,0 l 0,10 l 4.8,10"),
@@ -59,7 +59,7 @@ pub(super) const GLYPHS: &[(char, f64, &str)] = &[
     ('″', 2.4, "m 0.8,10.4 l 0,7.6 m 2.4,10.4 l 1.6,7.6"),
 ];
 
-/// The character of the font that a letter looks like, or the letter itself.
+/// Returns the font character that a letter looks like, or the letter itself.
 pub(super) fn look_alike(character: char) -> char {
     SAME.iter().find(|(letter, _)| *letter == character).map_or(character, |(_, same)| *same)
 }

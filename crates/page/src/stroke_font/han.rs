@@ -1,11 +1,11 @@
-//! Chinese characters of the stroke font, for title block field names, in simplified form.
+//! Simplified Chinese characters of the stroke font, for title block field names.
 //!
-//! Each one fills a square of ten units on the baseline.
+//! Each character fills a square of ten units on the baseline.
 
 /// The width of a character.
 pub(super) const WIDTH: f64 = 10.0;
 
-/// Character and path.
+/// The characters and their paths.
 pub(super) const GLYPHS: &[(char, &str)] = &[
     ('日', "m 2,9.5 l 2,0 m 2,9.5 l 8,9.5 l 8,0 m 2,5 l 8,5 m 2,0.5 l 8,0.5"),
     (
