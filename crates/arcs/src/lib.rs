@@ -1,4 +1,4 @@
-//! Arc recognition: runs of points on a circle become one arc, the rest stays straight.
+//! Arc recognition: runs of points on a circle become arcs, and the rest stays straight.
 //!
 //! ```text
 //!    ●──●                      ●──●
@@ -6,25 +6,24 @@
 //!  ●      ●──────────●       ●      ●──────────●
 //! ```
 //!
-//! Circles in a mesh are polygons, but cutting machines want circles. A polygon must not be bent,
-//! though, so a run of points is an arc only if
+//! Circles in a mesh are polygons, but cutting machines need circles. Real polygons must stay
+//! straight, though, so a run of points becomes an arc only if
 //!
 //! - it has at least eight points,
-//! - all of them are on one circle, within the tolerance,
-//! - its steps are equal, except for the first and the last, which visibility may have shortened,
+//! - all of them are on one circle within the tolerance,
+//! - its steps are equal, except for the first and last step, which visibility may have shortened,
 //!   and for steps so short that chord and arc differ by less than the tolerance, and
-//! - each step turns by less than 29.5°, about the angle from which a bend is a crease.
+//! - each step turns by less than 29.5°, which is about the angle at which a bend becomes a crease.
 //!
 //! A regular polygon with up to twelve corners therefore stays a polygon.
 //!
-//! | item | subject |
+//! | item | contents |
 //! | --- | --- |
 //! | [`recognize_arcs`] | the curve of a polyline |
-//! | [`LineShape`] | a circle, an arc, or a path of sides and arcs |
+//! | [`LineShape`] | a circle, an arc, or a path of straight sides and arcs |
 //! | [`ArcVertex`] | a vertex of such a path, with its DXF bulge |
 //!
-//! The points of a polyline have integer coordinates: micrometers on a page, or steps of a custom
-//! grid.
+//! Points have integer coordinates: micrometers on a page, or steps of a custom grid.
 
 mod recognition;
 

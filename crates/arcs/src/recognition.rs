@@ -1,33 +1,34 @@
-//! The search for the circle through a run of points.
+//! Finds the circles through runs of points.
 
 use glam::DVec2;
 
-/// The minimum number of points of an arc.
+/// The minimum number of points in an arc.
 const MIN_ARC_POINTS: usize = 8;
 
-/// Steps of this angle and more are corners.
+/// Steps of this angle or more are corners.
 const MAX_STEP_DEGREES: f64 = 29.5;
 
-/// The relative tolerance between steps; the grid adds to it.
+/// The relative tolerance for differences between steps. The grid adds to it.
 const STEP_TOLERANCE: f64 = 0.02;
 
-/// The maximum radius, in spans of the points; flatter runs are too uncertain.
+/// The maximum radius, as a multiple of the extent of the points. Flatter runs are too uncertain.
 const MAX_RADIUS_FACTOR: f64 = 50.0;
 
-/// The largest angle of one arc in a polyline, a little less than a turn: a bulge has no full circle.
+/// The maximum angle of an arc in a polyline. It is slightly less than a full turn, because a bulge
+/// cannot express a full circle.
 const MAX_SWEEP: f64 = 0.97 * core::f64::consts::TAU;
 
 /// A vertex of a polyline whose sides are lines and arcs.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ArcVertex {
-    /// In steps of the grid.
+    /// The position in grid steps.
     pub point: DVec2,
-    /// The tangent of a quarter of the angle of the arc to the next vertex; positive where it turns
-    /// from x to y, 0 for a line.
+    /// The tangent of a quarter of the angle of the arc to the next vertex. It is positive if the
+    /// arc turns from x to y, and 0 for a line.
     pub bulge: f64,
 }
 
-/// A circle in steps of the grid.
+/// A circle in grid steps.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Circle {
     /// The center.
@@ -36,22 +37,22 @@ pub struct Circle {
     pub radius: f64,
 }
 
-/// A polyline as lines and arcs.
+/// A polyline converted to lines and arcs.
 #[derive(Clone, PartialEq, Debug)]
 pub enum LineShape {
     /// A full circle.
     Circle(Circle),
-    /// One arc from an angle to a larger one, in radians, from x to y.
+    /// A single arc from one angle to a larger angle, in radians, measured from x toward y.
     Arc(Circle, [f64; 2]),
-    /// Sides and arcs, and whether the last vertex is joined to the first.
+    /// Straight sides and arcs, and whether the last vertex is joined to the first.
     Path(Vec<ArcVertex>, bool),
 }
 
-/// Converts a polyline to lines and arcs. Its points become arcs where they are on circles within a
-/// tolerance in grid steps; a tolerance of 0 gives no arcs.
+/// Converts a polyline to lines and arcs. Points become arcs where they are on circles within the
+/// tolerance, in grid steps. A tolerance of 0 disables arcs.
 ///
-/// The polyline has at least two points and no repeated neighbors. `closed` tells whether the last
-/// point is joined to the first, which is not repeated.
+/// The polyline must have at least two points, and adjacent points must differ. `closed` specifies
+/// whether the last point is joined to the first, which must not be repeated.
 #[must_use]
 pub fn recognize_arcs(points: &[[i32; 2]], closed: bool, tolerance: f64) -> LineShape {
     let points: Vec<DVec2> = points.iter().copied().map(grid_point).collect();
@@ -64,7 +65,7 @@ pub fn recognize_arcs(points: &[[i32; 2]], closed: bool, tolerance: f64) -> Line
     if closed && let Some(circle) = full_circle(&points, tolerance) {
         return LineShape::Circle(circle);
     }
-    // A closed line starts at a corner, so that its first point does not cut an arc in two.
+    // Starts a closed line at a corner, so that its first point does not split an arc.
     let start = if closed { corner_index(&points, tolerance) } else { 0 };
     let mut ring: Vec<DVec2> = points[start..].iter().chain(&points[..start]).copied().collect();
     if closed {
@@ -85,12 +86,12 @@ pub fn recognize_arcs(points: &[[i32; 2]], closed: bool, tolerance: f64) -> Line
     LineShape::Path(vertices, closed)
 }
 
-/// A point of the grid as a vector.
+/// Converts a grid point to a vector.
 fn grid_point([x, y]: [i32; 2]) -> DVec2 {
     DVec2::new(f64::from(x), f64::from(y))
 }
 
-/// The circle of a closed line, if all of its steps are equal.
+/// Returns the circle through a closed line, if all of its steps are equal.
 fn full_circle(points: &[DVec2], tolerance: f64) -> Option<Circle> {
     let half = points.len() / 2;
     let near = fit_circle([points[0], points[half / 2], points[half]])?;
@@ -102,22 +103,23 @@ fn full_circle(points: &[DVec2], tolerance: f64) -> Option<Circle> {
     (is_round && (turns.abs() - core::f64::consts::TAU).abs() < 1e-6).then_some(circle)
 }
 
-/// The sum of the angles of all steps about the center of a circle.
+/// Returns the sum of the angles of all steps about the center of a circle.
 fn turn_sum(points: &[DVec2], circle: Circle) -> f64 {
     points.windows(2).map(|pair| step_angle(pair[0], pair[1], circle)).sum()
 }
 
-/// The angle of a step about the center of a circle, from −π to π.
+/// Returns the angle of a step about the center of a circle, from −π to π.
 fn step_angle(from: DVec2, to: DVec2, circle: Circle) -> f64 {
     let (a, b) = (from - circle.center, to - circle.center);
     libm::atan2(a.perp_dot(b), a.dot(b))
 }
 
-/// The index of a point of a closed line where an arc begins or ends; 0 if there is none.
+/// Returns the index of a point on a closed line where an arc begins or ends, or 0 if there is no
+/// such point.
 fn corner_index(points: &[DVec2], tolerance: f64) -> usize {
     let count = points.len();
     let is_arc = |first: usize| {
-        // Four points of a trapezoid are on a circle too.
+        // Four points are not enough: those of an isosceles trapezoid are on a circle too.
         let five = [0, 1, 2, 3, 4].map(|k| points[(first + k) % count]);
         fit_circle([five[0], five[2], five[4]])
             .is_some_and(|circle| has_arc_steps(&five, circle, tolerance))
@@ -129,7 +131,8 @@ fn corner_index(points: &[DVec2], tolerance: f64) -> usize {
     (0..count).find(is_corner).unwrap_or(0)
 }
 
-/// The vertices of an open run of points: a greedy pass that takes the longest arc from each point.
+/// Returns the vertices for an open run of points. A greedy pass takes the longest arc from each
+/// point.
 fn arc_vertices(points: &[DVec2], tolerance: f64) -> Vec<ArcVertex> {
     let mut vertices = Vec::new();
     let mut at = 0;
@@ -142,9 +145,10 @@ fn arc_vertices(points: &[DVec2], tolerance: f64) -> Vec<ArcVertex> {
     vertices
 }
 
-/// The number of steps of the longest arc that begins at the first point, and its bulge.
+/// Returns the number of steps of the longest arc that begins at the first point, and its bulge.
 ///
-/// The run doubles while it is an arc, then its end is found by bisection, in O(n log n).
+/// The run is extended in doubling steps while it is an arc, then bisection finds its end, in O(n
+/// log n).
 fn longest_arc(points: &[DVec2], tolerance: f64) -> Option<(usize, f64)> {
     let arc = |count: usize| {
         let run = points.get(..count)?;
@@ -170,7 +174,7 @@ fn longest_arc(points: &[DVec2], tolerance: f64) -> Option<(usize, f64)> {
     Some((best.0 - 1, best.1))
 }
 
-/// The circle through a run of points that form an arc; `None` if they do not.
+/// Returns the circle through a run of points; `None` if they do not form an arc.
 fn circle_of(points: &[DVec2], tolerance: f64) -> Option<Circle> {
     let last = points.len() - 1;
     let circle = fit_circle([points[0], points[last / 2], points[last]])
@@ -181,8 +185,8 @@ fn circle_of(points: &[DVec2], tolerance: f64) -> Option<Circle> {
     is_arc.then_some(circle)
 }
 
-/// Whether the points of a run are on a circle and its steps form an arc: they turn the same way
-/// and are equal, except for short steps and the first and last.
+/// Whether the points of a run are on a circle and its steps form an arc. All steps must turn the
+/// same way and, except for short steps and the first and last step, be equal.
 fn has_arc_steps(points: &[DVec2], circle: Circle, tolerance: f64) -> bool {
     let is_on = |point: &DVec2| (point.distance(circle.center) - circle.radius).abs() <= tolerance;
     if !points.iter().all(is_on) {
@@ -205,7 +209,7 @@ fn has_arc_steps(points: &[DVec2], circle: Circle, tolerance: f64) -> bool {
         && inner.iter().all(|angle| longest - angle * sense <= slack || is_short(angle * sense))
 }
 
-/// The circle through three points; `None` if they are collinear.
+/// Returns the circle through three points; `None` if they are collinear.
 fn fit_circle([a, b, c]: [DVec2; 3]) -> Option<Circle> {
     let (b, c) = (b - a, c - a);
     let doubled = 2.0 * b.perp_dot(c);
@@ -215,8 +219,8 @@ fn fit_circle([a, b, c]: [DVec2; 3]) -> Option<Circle> {
     (doubled != 0.0 && radius.is_finite()).then_some(Circle { center: a + center, radius })
 }
 
-/// The least-squares circle through points (Kåsa 1976); `about` is a point near its center, for
-/// precision.
+/// Returns the least-squares circle through points (Kåsa 1976). For precision, `about` is a point
+/// near its center.
 fn best_circle(points: &[DVec2], about: DVec2) -> Option<Circle> {
     let count = points.len() as f64;
     let mean = points.iter().fold(DVec2::ZERO, |sum, point| sum + (*point - about)) / count;
@@ -233,7 +237,7 @@ fn best_circle(points: &[DVec2], about: DVec2) -> Option<Circle> {
     (radius.is_finite() && radius > 0.0).then_some(Circle { center, radius })
 }
 
-/// The angles of the ends of an arc; the second is larger than the first by the angle of the arc.
+/// Returns the angles of the two ends of an arc. The second is larger by the angle of the arc.
 fn arc_angles(circle: Circle, [from, to]: [DVec2; 2], bulge: f64) -> [f64; 2] {
     let angle = |point: DVec2| {
         let arm = point - circle.center;
@@ -244,6 +248,6 @@ fn arc_angles(circle: Circle, [from, to]: [DVec2; 2], bulge: f64) -> [f64; 2] {
     [start, start + sweep]
 }
 
-/// The example of the README, compiled as a documentation test.
+/// The README example, compiled as a documentation test.
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,6 @@
 //! Writes output files atomically: to a temporary file next to the target, which is then renamed.
 //!
-//! A run that fails leaves the old file unchanged, and no reader ever sees half a file.
+//! A failed run leaves the old file unchanged, and no reader ever sees an incomplete file.
 
 use crate::partial_files::{self, forget_partial_file};
 use crate::visible_path;
@@ -14,11 +14,12 @@ use std::path::{Path, PathBuf};
 pub struct OutputError {
     /// The target file.
     pub path: PathBuf,
-    /// The error of the operating system.
+    /// The operating system's error.
     pub cause: std::io::Error,
 }
 
-/// The operating system's message without its number, which means nothing to most readers.
+/// Returns the operating system's message without the error number, which means nothing to most
+/// readers.
 fn reason(cause: &std::io::Error) -> String {
     let text = cause.to_string();
     let number = cause.raw_os_error().map(|code| format!(" (os error {code})"));
@@ -26,7 +27,7 @@ fn reason(cause: &std::io::Error) -> String {
 }
 
 impl OutputError {
-    /// A line of help if the folder is missing.
+    /// Returns a help line if the folder is missing.
     fn remedy(&self) -> String {
         let folder = self.path.parent().filter(|folder| !folder.as_os_str().is_empty());
         match folder {
@@ -41,31 +42,31 @@ impl OutputError {
 /// Writes a file atomically: completely or not at all.
 ///
 /// # Errors
-/// If the file cannot be written; an older file is then unchanged.
+/// Fails if the file cannot be written. An existing file then stays unchanged.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     let mut file = AtomicFile::create(path)?;
     file.write_all(bytes).map_err(|cause| OutputError { path: path.to_owned(), cause })?;
     file.finish()
 }
 
-/// A temporary file next to its target, which it replaces when finished. It is removed if dropped
-/// earlier.
+/// A temporary file that replaces the target next to it when finished. Dropping it earlier removes
+/// it.
 #[derive(Debug)]
 pub struct AtomicFile {
-    /// The file to replace when the temporary one is finished.
+    /// The file to replace when the temporary file is finished.
     target_path: PathBuf,
     /// The temporary file: the target's name with the process id and `.part`.
     partial_path: PathBuf,
     file: File,
-    /// Whether it was renamed and must no longer be removed.
+    /// Whether the file was renamed, so that it must not be removed.
     is_finished: bool,
 }
 
 impl AtomicFile {
-    /// Creates the temporary file for a target; removes temporary files left by dead processes.
+    /// Creates the temporary file for a target, and removes temporary files left by dead processes.
     ///
     /// # Errors
-    /// If no file can be created in the target's folder.
+    /// Fails if no file can be created in the target's folder.
     pub fn create(target: &Path) -> Result<Self, OutputError> {
         let target_path = target.to_owned();
         match partial_files::create(target) {
@@ -79,10 +80,10 @@ impl AtomicFile {
     /// Flushes the file to disk and renames it to the target.
     ///
     /// # Errors
-    /// If it cannot be renamed; an older file is then unchanged.
+    /// Fails if the file cannot be flushed or renamed. An existing file then stays unchanged.
     pub fn finish(mut self) -> Result<(), OutputError> {
-        // Data reaches the disk before the name: a crash leaves the old file or the new one,
-        // intact.
+        // Data reaches the disk before the name does, so a crash leaves either the old or the new
+        // file intact.
         let renamed = self
             .file
             .sync_all()

@@ -1,8 +1,8 @@
-//! Counts with their nouns, as messages need them.
+//! Counts with singular or plural nouns, for messages.
 
 use std::fmt::Display;
 
-/// Returns a count with its noun: the singular for 1, otherwise the plural.
+/// Returns a count and its noun: the singular for 1, otherwise the plural.
 ///
 /// ```
 /// assert_eq!(files::counted(1, "vertex", "vertices"), "1 vertex");

@@ -11,12 +11,12 @@
 //! # Ok::<(), files::OutputError>(())
 //! ```
 //!
-//! | module | subject |
+//! | module | contents |
 //! | --- | --- |
-//! | `atomic_file` | a temporary file next to its target, which it replaces when it is complete |
-//! | `counted` | a count with the singular or plural of its noun |
-//! | `partial_files` | temporary files: removed on signals, and if their process is dead |
-//! | `visible_text` | characters that a terminal would obey, written as codes |
+//! | `atomic_file` | temporary files that replace their targets when complete |
+//! | `counted` | counts with singular or plural nouns |
+//! | `partial_files` | removal of temporary files, on signals and after their process has died |
+//! | `visible_text` | names in which terminal control characters are written as codes |
 
 mod atomic_file;
 mod counted;

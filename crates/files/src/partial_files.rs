@@ -1,4 +1,4 @@
-//! Temporary files: this process leaves none behind, and removes the ones left by dead processes.
+//! Temporary files: this process leaves none behind, and removes those left by dead processes.
 //!
 //! ```text
 //!  a.png.4711.part ── renamed ─► a.png
@@ -14,13 +14,13 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// This process's existing temporary files.
+/// The temporary files of this process.
 static OWN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// Other processes' temporary files, by the folder where this one searched for them.
+/// The temporary files of other processes, for each folder that this process has searched.
 static FOREIGN: Mutex<BTreeMap<PathBuf, Vec<ForeignFile>>> = Mutex::new(BTreeMap::new());
 
-/// The age from which an unlocked temporary file counts as abandoned even if its process is not
+/// The age at which an unlocked temporary file counts as abandoned, even if its process is not
 /// known to be dead.
 const ABANDONED_AGE: Duration = Duration::from_secs(60);
 
@@ -28,12 +28,12 @@ const ABANDONED_AGE: Duration = Duration::from_secs(60);
 #[derive(Debug)]
 struct ForeignFile {
     name: String,
-    /// The name of its target.
+    /// The name of the target file.
     target: String,
     process: u32,
 }
 
-/// Creates the temporary file for a target; removes files that dead processes left for it.
+/// Creates the temporary file for a target, and removes files that dead processes left for it.
 pub(crate) fn create(target: &Path) -> io::Result<(PathBuf, File)> {
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
@@ -50,14 +50,14 @@ pub(crate) fn create(target: &Path) -> io::Result<(PathBuf, File)> {
 /// [forgotten](forget_partial_file).
 ///
 /// # Errors
-/// As [`File::create`].
+/// See [`File::create`].
 pub fn create_partial_file(path: &Path) -> io::Result<File> {
-    // The lock is held while the file is created, so a signal leaves no file behind.
+    // The lock is held while the file is created, so that a signal cannot leave the file behind.
     let mut own = lock(&OWN);
     let file = File::create(path)?;
     own.insert(path.to_owned());
     drop(own);
-    // Best effort: without a lock, other processes wait until the file is old.
+    // Best effort: if the file is not locked, other processes wait until it is old.
     let _ = file.try_lock();
     Ok(file)
 }
@@ -74,15 +74,15 @@ pub fn forget_partial_file(path: &Path) {
 
 /// Removes a temporary file.
 pub(crate) fn remove(path: &Path) {
-    // Best effort: there is nobody left to report an error to.
+    // Best effort: there is no caller left to report an error to.
     let _ = std::fs::remove_file(path);
     forget_partial_file(path);
 }
 
-/// Removes all of this process's temporary files and calls `end`, which must end the process: no
-/// further file can be created in the meantime.
+/// Removes all temporary files of this process and calls `end`, which must end the process. No
+/// temporary file can be created in the meantime.
 ///
-/// Use it in a program that a signal interrupts.
+/// Call this when a signal interrupts the program.
 pub fn remove_partial_files(end: impl FnOnce()) {
     let own = lock(&OWN);
     for path in own.iter() {
@@ -95,26 +95,26 @@ pub fn remove_partial_files(end: impl FnOnce()) {
 /// Removes a target's temporary files whose processes are dead.
 fn remove_abandoned(folder: &Path, target: &OsStr) {
     let mut foreign = lock(&FOREIGN);
-    // A batch folder has many files, so it is read only once.
+    // A batch folder can have many files, so it is read only once.
     let files = foreign.entry(folder.to_owned()).or_insert_with(|| foreign_files(folder));
     for file in files.iter().filter(|file| target == file.target.as_str()) {
         let path = folder.join(&file.name);
         if is_abandoned(&path, file.process) {
-            // It may already be gone, or belong to someone else.
+            // The file may be gone already, or belong to another user.
             let _ = std::fs::remove_file(path);
         }
     }
     files.retain(|file| target != file.target.as_str());
 }
 
-/// A folder's temporary files that existed before this process.
+/// Returns a folder's temporary files that existed before this process.
 fn foreign_files(folder: &Path) -> Vec<ForeignFile> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     entries.filter_map(|entry| ForeignFile::from_name(entry.file_name())).collect()
 }
 
 impl ForeignFile {
-    /// A file with a name such as `a.png.4711.part`.
+    /// Parses a name such as `a.png.4711.part`; `None` for other names and files of this process.
     fn from_name(name: OsString) -> Option<Self> {
         let name = name.into_string().ok()?;
         let (target, process) = name.strip_suffix(".part")?.rsplit_once('.')?;
@@ -123,9 +123,10 @@ impl ForeignFile {
     }
 }
 
-/// Whether nobody is writing a temporary file any more.
+/// Whether a temporary file is no longer being written.
 ///
-/// The process may run on another machine that shares the folder: a locked file is in use.
+/// The process may run on another machine that shares the folder, so a locked file counts as in
+/// use.
 fn is_abandoned(path: &Path, process: u32) -> bool {
     let is_file = path.symlink_metadata().is_ok_and(|metadata| metadata.is_file());
     let Some(file) = is_file.then(|| OpenOptions::new().write(true).open(path).ok()).flatten()
@@ -137,12 +138,12 @@ fn is_abandoned(path: &Path, process: u32) -> bool {
     file.try_lock().is_ok() && (is_dead(process) || age >= ABANDONED_AGE)
 }
 
-/// Whether the system reports that there is no such process.
+/// Whether the system reports that the process does not exist.
 fn is_dead(process: u32) -> bool {
     Path::new("/proc/self").exists() && !Path::new("/proc").join(process.to_string()).exists()
 }
 
-/// Locks a mutex; its content stays valid even if another thread panicked.
+/// Locks a mutex. Its content is valid even if another thread panicked.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,19 +1,21 @@
-//! Names in messages: characters that a terminal would obey are written as codes.
+//! Names for messages: writes terminal control characters as codes.
 
 use std::borrow::Cow;
 use std::path::Path;
 
-/// Whether a terminal may obey a character rather than show it: controls (C0, DEL and C1), line and
-/// paragraph separators, and characters that change the text direction.
+/// Whether a terminal may interpret a character instead of showing it. This applies to control
+/// characters (C0, DEL and C1), line and paragraph separators, and characters that change the text
+/// direction.
 #[must_use]
 pub fn is_terminal_control(character: char) -> bool {
     character.is_control() || matches!(character, '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Prepares text for a message line: control characters are written as in Rust, `\n` or `\u{1b}`.
+/// Prepares text for a message line. Control characters are written as in Rust, such as `\n` or
+/// `\u{1b}`.
 ///
-/// Untrusted files name nodes, keys and other files; no name may move the cursor, color the screen
-/// or start a new line.
+/// Untrusted files contain names of nodes, keys and other files. Such a name must not be able to
+/// move the cursor, color the screen or start a new line.
 ///
 /// ```
 /// assert_eq!(files::visible_text("roof"), "roof");
@@ -41,11 +43,12 @@ pub fn visible_path(path: impl AsRef<Path>) -> String {
     visible_text(&path.as_ref().to_string_lossy()).into_owned()
 }
 
-/// The maximum number of characters in an excerpt: part names can have any length.
+/// The maximum number of characters in an excerpt. Part names can have any length.
 const MAX_EXCERPT: usize = 60;
 
-/// The beginning of a text for a message. Invisible characters, such as control characters and
-/// characters that change the text direction, are written as codes: `\u{202e}`.
+/// Returns the beginning of a string for a message. Invisible characters, such as control
+/// characters and characters that change the text direction, are written as codes such as
+/// `\u{202e}`.
 ///
 /// ```
 /// assert_eq!(files::visible_excerpt("roof\u{200b}"), "roof\\u{200b}");
@@ -70,7 +73,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_terminal_obeys_is_written_by_its_code() {
+    fn terminal_control_characters_are_written_as_codes() {
         let hostile = "\0\u{7}\u{8}\t\r\n\u{1b}\u{7f}\u{9b}\u{2028}\u{202a}\u{2069}";
         let expected =
             "\\u{0}\\u{7}\\u{8}\\t\\r\\n\\u{1b}\\u{7f}\\u{9b}\\u{2028}\\u{202a}\\u{2069}";

@@ -1,24 +1,23 @@
-//! The bit depths of a channel: 8 and 16 bits.
+//! The bit depths of channels: 8 and 16 bits.
 //!
-//! A picture is generic over the type of its channels, so that code that encodes, composites or
-//! writes pixels exists once.
+//! A picture is generic over its channel type, so one implementation encodes, composites and writes
+//! pixels of both depths.
 
-/// A channel of a pixel, `u8` or `u16`. It cannot be implemented outside this crate.
+/// A channel of a pixel, `u8` or `u16`. The trait is sealed: other crates cannot implement it.
 pub trait Channel: sealed::Sealed + Copy + Default + Eq + Send + Sync + 'static {
-    /// The code for 1: 255 or 65,535.
+    /// The code for 1.0: 255 or 65,535.
     const FULL: Self;
     /// The number of bits per channel, 8 or 16.
     const BITS: u8;
-    /// Converts from an 8-bit code, exact at both ends.
+    /// Converts from an 8-bit code; 0 and 255 are exact.
     fn from_byte(byte: u8) -> Self;
     /// Converts to the nearest 8-bit code.
     fn to_byte(self) -> u8;
-    /// Appends pixels as PNG stores them, big-endian; without alpha if the picture is opaque.
+    /// Appends pixels as stored in PNG: big-endian, and without alpha if the picture is opaque.
     fn append_pixels(pixels: &[[Self; 4]], opaque: bool, bytes: &mut Vec<u8>);
-    /// Composites a pixel under a pixel of a vector drawing, which is 8-bit sRGB multiplied by
-    /// alpha.
+    /// Composites a pixel under a pixel of a vector drawing, which is 8-bit premultiplied sRGB.
     ///
-    /// This is Porter-Duff over in sRGB codes, as in HTML canvases.
+    /// This is Porter–Duff *over* on sRGB codes, as in HTML canvases.
     fn composite_under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4];
 }
 
@@ -76,13 +75,13 @@ impl Channel for u16 {
     }
 
     fn composite_under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4] {
-        // Where nothing is drawn, the pixel stays exact: the arithmetic below would round.
+        // Where nothing is drawn, the pixel must stay exact. The arithmetic below would round it.
         if over[3] == 0 {
             return pixel;
         }
         let full = f64::from(Self::FULL);
         let [.., alpha] = over.map(|channel| f64::from(channel) / 255.0);
-        // Porter-Duff over: the part of the pixel that the drawing lets through.
+        // Porter–Duff *over*: the part of the pixel that shows through the drawing.
         let through = f64::from(pixel[3]) / full * (1.0 - alpha);
         let sum = alpha + through;
         let mut mixed = [0, 1, 2, 3].map(|k| {
@@ -99,11 +98,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn drawings_lie_over_pixels_as_alpha_has_it() {
+    fn drawings_are_composited_over_pixels_by_alpha() {
         let under = [65_535, 0, 32_768, 65_535];
         assert_eq!(u16::composite_under(under, [0; 4]), under);
         assert_eq!(u16::composite_under(under, [10, 20, 30, 255]), [2570, 5140, 7710, 65_535]);
-        // A black drawing with alpha 51/255 over it.
+        // A black drawing with alpha 51/255.
         let [r, g, b, a] = u16::composite_under(under, [0, 0, 0, 51]);
         assert_eq!([r, g, a], [52_428, 0, 65_535]);
         assert!(b.abs_diff(26_214) <= 1);
@@ -111,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn bytes_survive_sixteen_bits() {
+    fn bytes_survive_conversion_to_sixteen_bits() {
         for byte in 0..=255_u8 {
             assert_eq!(u16::from_byte(byte).to_byte(), byte);
         }

@@ -1,41 +1,41 @@
-//! Decoder of Radiance `.hdr` images (RGBE): one shared exponent for three mantissas.
+//! Decoder for Radiance `.hdr` images (RGBE), in which three mantissas share an exponent.
 //!
-//! Source: G. Ward, *Real Pixels*, Graphics Gems II, 1991, and the file format in Radiance's
-//! manual. Both scanline encodings are read, flat with old-style runs and run-length encoded
-//! channels, but only the orientation `-Y … +X …`. Sizes are checked against the file length before
-//! anything is allocated, and rows are halved as they arrive. Sixteen bytes can be a row of 16,384
-//! texels; otherwise a file of a hundred kilobytes would take 800 MB.
+//! Source: G. Ward, *Real Pixels*, Graphics Gems II, 1991, and the file format description in the
+//! Radiance manual. Both scanline encodings are supported, flat with old-style runs and run-length
+//! encoded channels, but only the orientation `-Y … +X …`. Sizes are checked against the file
+//! length before anything is allocated. Sixteen bytes can encode a row of 16,384 texels, so a file
+//! of a hundred kilobytes could take 800 MB. Rows are therefore halved as they arrive.
 //!
 //! ```text
 //!  value = (mantissa + ½) · 2^(exponent − 136)     0 if the exponent is 0
 //! ```
 
-/// The maximum number of texels along one side of an image.
+/// The maximum number of texels per side of an image.
 const MAX_HDR_SIDE: usize = 16384;
 /// The maximum number of texels in an image.
 const MAX_HDR_TEXELS: usize = 64 << 20;
 
-/// An equirectangular environment image, linear RGB: longitude along the rows, latitude from the
-/// zenith down.
+/// An equirectangular environment image in linear RGB, with longitude along the rows and latitude
+/// from the zenith down.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Panorama {
-    /// The number of texels per row, 360° of longitude.
+    /// The number of texels per row, which covers 360° of longitude.
     width: usize,
-    /// The number of rows, 180° of latitude.
+    /// The number of rows, which cover 180° of latitude.
     height: usize,
     /// Linear red, green and blue, row by row from the top.
     texels: Vec<[f32; 3]>,
 }
 
 impl Panorama {
-    /// Decodes a Radiance file, and halves the image until it is at most `most` texels wide.
+    /// Decodes a Radiance file and halves the image until it is at most `most` texels wide.
     ///
-    /// Environment lighting is filtered to far lower resolution than 1024, so nothing visible is
-    /// lost; a background shows more. Memory grows only with the rows actually in the file: a short
-    /// file with a large header cannot demand more.
+    /// Environment lighting is filtered to a far lower resolution than 1024, so 1024 loses nothing
+    /// visible there; backgrounds need more. Memory grows only with the rows actually in the file,
+    /// so a short file whose header declares a large image cannot use more.
     ///
     /// # Errors
-    /// A description of the first error in the file.
+    /// Returns a description of the first error in the file.
     pub fn decode_hdr(bytes: &[u8], most: usize) -> Result<Self, String> {
         let (width, height, data) = parse_hdr_header(bytes)?;
         let fits = |side: usize| (1..=MAX_HDR_SIDE).contains(&side);
@@ -44,8 +44,8 @@ impl Panorama {
                 "invalid size {width} x {height}; at most {MAX_HDR_SIDE} texels per side and {MAX_HDR_TEXELS} in total are allowed"
             ));
         }
-        // Any row takes at least four bytes; a row of runs takes four bytes plus two for each 127
-        // texels of a channel.
+        // Every row takes at least four bytes. A run-length encoded row takes four bytes plus two
+        // for each 127 texels of a channel.
         if data.len() / 4 < height {
             return Err("the file is truncated".to_owned());
         }
@@ -63,10 +63,11 @@ impl Panorama {
         })
     }
 
-    /// Looks up the radiance from a direction, a unit vector, with bilinear interpolation.
+    /// Looks up the radiance from a direction with bilinear interpolation. The direction is a unit
+    /// vector.
     ///
-    /// u = ½ + atan2(z, x)/2π and v = acos(y)/π: +x is at the center of the image, +z a quarter of
-    /// its width to the right. Columns wrap around, rows are clamped at the poles.
+    /// u = ½ + atan2(z, x)/2π and v = acos(y)/π: +x is at the center of the image, and +z is a
+    /// quarter of its width to the right. Columns wrap around, and rows are clamped at the poles.
     #[must_use]
     #[inline]
     pub fn sample_direction(&self, [x, y, z]: [f32; 3]) -> [f32; 3] {
@@ -88,12 +89,12 @@ impl Panorama {
     }
 }
 
-/// Rows of an image, halved by 2 × 2 box filters until they are narrow enough; an odd
-/// last row or column is dropped each time.
+/// Image rows, halved by 2 × 2 box filters until they are narrow enough. Each halving drops an odd
+/// last row or column.
 struct HalvedRows {
-    /// For each halving, the upper row of the next pair, if it has arrived.
+    /// The upper row of the next pair for each halving, if it has arrived.
     pending: Vec<Option<Vec<[f32; 3]>>>,
-    /// The rows that are halved as often as that.
+    /// The fully halved rows.
     texels: Vec<[f32; 3]>,
 }
 
@@ -107,7 +108,8 @@ impl HalvedRows {
         Self { pending, texels: Vec::new() }
     }
 
-    /// Takes a row that has been halved so often, and those that follow from it.
+    /// Adds a row that has been halved `level` times, and halves it further if its pair is
+    /// complete.
     fn push_row(&mut self, level: usize, row: Vec<[f32; 3]>) {
         let Some(pending) = self.pending.get_mut(level) else {
             return self.texels.extend(row);
@@ -125,29 +127,29 @@ impl HalvedRows {
     }
 }
 
-/// The integer part below a coordinate, and the fraction above it, for bilinear interpolation.
+/// Splits a coordinate into its floor and the fraction above it, for bilinear interpolation.
 fn split_floor(place: f32) -> (i64, f32) {
     (place.floor() as i64, place - place.floor())
 }
 
-/// Linear RGB of an RGBE texel: three 8-bit mantissas and an exponent with bias 128.
+/// Decodes an RGBE texel, three 8-bit mantissas and an exponent with bias 128, to linear RGB.
 ///
 /// The value is in the middle of the mantissa's step, as in Ward's own decoder. It is clamped to
-/// 65504, the largest half-precision number, because the sun in an unclipped image would turn into
-/// noise.
+/// 65504, the largest half-precision number, because an unclipped sun would cause noise.
 fn decode_rgbe([r, g, b, exponent]: [u8; 4]) -> [f32; 3] {
     if exponent == 0 {
         return [0.0; 3];
     }
     let unit = libm::ldexpf(1.0, i32::from(exponent) - 136);
-    // Values above 65504, such as a sun, are clamped to the maximum of half precision.
+    // Values above the half-precision maximum, such as a sun, are clamped.
     [r, g, b].map(|mantissa| ((f32::from(mantissa) + 0.5) * unit).min(65504.0))
 }
 
-/// Parses the header: returns the width, the height, and the bytes after it.
+/// Parses the header and returns the width, the height, and the bytes after the header.
 ///
-/// The header has `#?` in the first line, then variables up to an empty line, then the resolution.
-/// Lines have at most 4096 bytes, and at most 1000 are read. Exposure is ignored.
+/// The header starts with `#?` in the first line. Then come variables up to an empty line, and then
+/// the resolution. Lines are limited to 4096 bytes, and at most 1000 lines are read. Exposure is
+/// ignored.
 fn parse_hdr_header(bytes: &[u8]) -> Result<(usize, usize, &[u8]), String> {
     let mut rest = bytes;
     let mut next = || -> Option<&[u8]> {
@@ -180,11 +182,11 @@ fn parse_hdr_header(bytes: &[u8]) -> Result<(usize, usize, &[u8]), String> {
     }
 }
 
-/// Decodes a scanline and returns the bytes after it; `None` if they end early or a run exceeds the
-/// row.
+/// Decodes a scanline and returns the bytes after it. Returns `None` if the data ends early or a
+/// run exceeds the row.
 ///
 /// ```text
-///  2 2 hi lo   width < 32768, then the four channels one after the other:
+///  2 2 hi lo   width < 32768, followed by the four channels in turn:
 ///    128 + n, v      n copies of v
 ///    n, v₁ … vₙ      n values
 /// ```
@@ -223,10 +225,10 @@ fn read_scanline<'a>(bytes: &'a [u8], row: &mut [[u8; 4]]) -> Option<&'a [u8]> {
     Some(rest)
 }
 
-/// Decodes a flat scanline of RGBE texels; a texel (1, 1, 1, n) repeats the last one n times (old
-/// run-length encoding).
+/// Decodes a flat scanline of RGBE texels. A texel (1, 1, 1, n) repeats the previous texel n times
+/// (old run-length encoding).
 ///
-/// Consecutive repeat texels form a number in base 256, least significant digit first.
+/// Consecutive repeat texels form a base-256 number, least significant digit first.
 fn read_flat_scanline<'a>(bytes: &'a [u8], row: &mut [[u8; 4]]) -> Option<&'a [u8]> {
     let mut rest = bytes;
     let (mut x, mut shift) = (0, 0);
@@ -261,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn plain_rows_and_runs_are_read() {
+    fn flat_and_run_length_encoded_rows_are_decoded() {
         let plain =
             Panorama::decode_hdr(&file("-Y 1 +X 2", &[128, 0, 64, 129, 1, 1, 1, 1]), 1024).unwrap();
         let due = [128.5, 0.5, 64.5].map(|mantissa| mantissa / 128.0);
@@ -276,13 +278,13 @@ mod tests {
         assert_eq!(found.texels[7], [2.5 / 256.0; 3]);
     }
 
-    /// A row of 2048 equal texels in twelve bytes, with old-style runs.
+    /// Encodes a row of 2048 equal texels in twelve bytes, with old-style runs.
     fn equal_row(mantissa: u8) -> [u8; 12] {
         [mantissa, 0, 0, 136, 1, 1, 1, 255, 1, 1, 1, 7]
     }
 
     #[test]
-    fn wide_rows_are_halved_by_means_and_an_odd_last_row_is_dropped() {
+    fn wide_rows_are_averaged_and_an_odd_last_row_is_dropped() {
         let data = [equal_row(10), equal_row(30), equal_row(90)].concat();
         let found = Panorama::decode_hdr(&file("-Y 3 +X 2048", &data), 1024).unwrap();
         assert_eq!((found.width, found.height), (1024, 1));
@@ -292,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_broken_is_refused() {
+    fn invalid_files_are_rejected() {
         for wrong in [
             Vec::new(),
             b"#?RADIANCE\n".to_vec(),
@@ -311,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn directions_find_their_places() {
+    fn directions_map_to_their_texels() {
         let texel = |x: usize, y: usize| [x as f32, y as f32, 0.0];
         let texels = (0..32).map(|n| texel(n % 8, n / 8)).collect();
         let panorama = Panorama { width: 8, height: 4, texels };

@@ -1,4 +1,4 @@
-//! Pictures: sRGB pixels with straight alpha, 8 or 16 bits per channel, and a PNG encoder.
+//! Pictures of sRGB pixels with straight alpha and 8 or 16 bits per channel, and a PNG encoder.
 //!
 //! ```
 //! use picture::Picture;
@@ -8,12 +8,12 @@
 //! assert!(red.is_opaque() && red.to_png().starts_with(b"\x89PNG"));
 //! ```
 //!
-//! | module | subject |
+//! | module | contents |
 //! | --- | --- |
-//! | `picture` | the picture, its pixels by position, PNG in memory and in a file |
-//! | `channel` | the bit depths, and drawings composited over pixels |
-//! | `hdr` | panoramas in Radiance format, for environments |
-//! | `png_rows` | PNG as a stream, for pictures larger than memory |
+//! | `picture` | the picture, access to its pixels, and PNG output in memory or to a file |
+//! | `channel` | bit depths, and compositing of drawings over pixels |
+//! | `hdr` | environment panoramas in Radiance format |
+//! | `png_rows` | PNG as a stream, for pictures that do not fit in memory |
 
 mod channel;
 mod hdr;

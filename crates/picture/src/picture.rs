@@ -1,35 +1,37 @@
-//! Pictures: sRGB pixels with straight alpha, as a render returns them and a PNG file holds them.
+//! Pictures: sRGB pixels with straight alpha, as returned by renderers and stored in PNG files.
 
 use crate::{Channel, encode_png};
 use files::{OutputError, write_file};
 use std::path::Path;
 
-/// A picture of sRGB pixels with straight alpha, rows from the top, with 8 (`u8`) or 16 (`u16`)
-/// bits per channel.
+/// A picture of sRGB pixels with straight alpha and 8 (`u8`) or 16 (`u16`) bits per channel. Rows
+/// are ordered from the top.
 #[derive(Clone, PartialEq, Eq, Default)]
 pub struct Picture<C = u8> {
     /// The width in pixels.
     pub width: u32,
     /// The height in pixels.
     pub height: u32,
-    /// `width` × `height` pixels: red, green, blue, alpha.
+    /// The pixels, `width` × `height` of them, as red, green, blue and alpha.
     pub pixels: Vec<[C; 4]>,
 }
 
 impl<C: Channel> Picture<C> {
-    /// The pixel in column `x` and row `y`, from the upper left corner; `None` outside.
+    /// Returns the pixel in column `x` and row `y`, counted from the upper left corner; `None` if
+    /// it is outside.
     #[must_use]
     pub fn pixel(&self, x: u32, y: u32) -> Option<[C; 4]> {
         let is_inside = x < self.width && y < self.height;
         is_inside.then(|| self.pixels[y as usize * self.width as usize + x as usize])
     }
 
-    /// Resizes the picture for new content: the pixels are unspecified. Memory is reused.
+    /// Resizes the picture for new content. Its pixels are then unspecified, and its memory is
+    /// reused.
     pub fn resize(&mut self, width: u32, height: u32) {
         (self.width, self.height) = (width, height);
         let area = width as usize * height as usize;
         if self.pixels.capacity() < area {
-            // Zeroed pages from the system are cheaper than writing zeros.
+            // Getting zeroed pages from the system is cheaper than writing zeros.
             self.pixels = vec![[C::default(); 4]; area];
         } else {
             self.pixels.resize(area, [C::default(); 4]);
@@ -42,8 +44,8 @@ impl<C: Channel> Picture<C> {
         self.pixels.iter().all(|pixel| pixel[3] == C::FULL)
     }
 
-    /// Encodes the picture as a PNG file with its own bit depth: RGB if it is opaque, RGBA with
-    /// straight alpha otherwise.
+    /// Encodes the picture as a PNG file with the same bit depth, as RGB if it is opaque, otherwise
+    /// as RGBA with straight alpha.
     #[must_use]
     pub fn to_png(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(self.pixels.len());
@@ -54,10 +56,10 @@ impl<C: Channel> Picture<C> {
         bytes
     }
 
-    /// Writes the picture as a PNG file, atomically.
+    /// Writes the picture to a PNG file atomically.
     ///
     /// # Errors
-    /// If the file cannot be written; an older file is then unchanged.
+    /// Fails if the file cannot be written. An existing file then stays unchanged.
     pub fn write_png(&self, path: &Path) -> Result<(), OutputError> {
         write_file(path, &self.to_png())
     }

@@ -1,18 +1,18 @@
-//! PNG encoding as a stream: pixels are compressed as they arrive, so the whole picture need never
-//! be in memory.
+//! PNG streaming: compresses pixels as they arrive, so the whole picture never needs to be in
+//! memory.
 
 use crate::Channel;
 use png::{BitDepth, ColorType, Compression, Encoder, SrgbRenderingIntent, StreamWriter};
 use std::io::{self, Write};
 
-/// The size of a data chunk (IDAT) in the file.
+/// The size of a data chunk (IDAT) in the file, in bytes.
 const CHUNK_BYTES: usize = 1 << 20;
 /// The number of pixels converted to bytes and passed to the compressor at once.
 const PIXELS_PER_WRITE: usize = 1 << 13;
 
-/// The pixel stream of a PNG file being written, rows from the top.
+/// The pixel stream of a PNG file that is being written, with rows from the top.
 ///
-/// The file's bytes do not depend on how many pixels are written at a time.
+/// The bytes of the file do not depend on how many pixels are written at a time.
 pub struct PngRows<'a, 'out> {
     stream: StreamWriter<'a, &'out mut dyn Write>,
     opaque: bool,
@@ -20,13 +20,13 @@ pub struct PngRows<'a, 'out> {
     bytes: Vec<u8>,
 }
 
-/// Encodes a PNG file of this width and height with 8 or 16 bits per channel: RGB if the picture is
-/// opaque, RGBA with straight alpha otherwise. `draw` writes its pixels.
+/// Encodes a PNG file of this width and height with 8 or 16 bits per channel, as RGB if the picture
+/// is opaque, otherwise as RGBA with straight alpha. `draw` writes its pixels.
 ///
-/// The file is marked as sRGB. Encoding needs memory only for one chunk of compressed data.
+/// The file is tagged as sRGB. Encoding needs memory for only one chunk of compressed data.
 ///
 /// # Errors
-/// If the file cannot be written, `draw` fails, or it writes too many or too few pixels.
+/// Fails if the file cannot be written, or if `draw` fails or writes too many or too few pixels.
 pub fn encode_png<E: From<io::Error>>(
     out: &mut dyn Write,
     size: [u32; 2],
@@ -44,7 +44,7 @@ pub fn encode_png<E: From<io::Error>>(
     Ok(writer.finish().map_err(io::Error::from)?)
 }
 
-/// Begins a file: its size, format and color space.
+/// Writes the start of a file: its size, format and color space.
 fn write_header(
     out: &mut dyn Write,
     size: [u32; 2],
@@ -55,7 +55,7 @@ fn write_header(
     encoder.set_color(if opaque { ColorType::Rgb } else { ColorType::Rgba });
     encoder.set_depth(if bits == 16 { BitDepth::Sixteen } else { BitDepth::Eight });
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-    // Rendered pictures gain little from slower levels.
+    // Slower levels gain little for rendered pictures.
     encoder.set_compression(Compression::Fast);
     encoder.write_header().map_err(io::Error::from)
 }
@@ -64,7 +64,7 @@ impl PngRows<'_, '_> {
     /// Writes the next pixels, in row-major order; omits alpha if the picture is opaque.
     ///
     /// # Errors
-    /// If they cannot be written, or the picture does not have that many.
+    /// Fails if they cannot be written or there are more of them than the picture has left.
     pub fn write_pixels<C: Channel>(&mut self, pixels: &[[C; 4]]) -> io::Result<()> {
         for pixels in pixels.chunks(PIXELS_PER_WRITE) {
             self.bytes.clear();

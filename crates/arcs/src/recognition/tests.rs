@@ -1,4 +1,4 @@
-//! Arcs compared with known circles, and polygons that must stay as they are.
+//! Compares arcs with known circles, and checks that polygons stay polygons.
 
 use super::*;
 use core::f64::consts::TAU;
@@ -6,7 +6,7 @@ use core::f64::consts::TAU;
 /// Five micrometers.
 const TOLERANCE: f64 = 5.0;
 
-/// Points of a circle in millimeters, from one angle to another, in turns.
+/// Returns points on a circle in millimeters, from one angle to another. Angles are in turns.
 fn on_circle(center: [f64; 2], radius: f64, [from, to]: [f64; 2], steps: u32) -> Vec<DVec2> {
     let point = |k: u32| {
         let (sin, cos) = libm::sincos(TAU * (from + (to - from) * f64::from(k) / f64::from(steps)));
@@ -15,7 +15,7 @@ fn on_circle(center: [f64; 2], radius: f64, [from, to]: [f64; 2], steps: u32) ->
     (0..=steps).map(point).collect()
 }
 
-/// The points on a grid of micrometers.
+/// Rounds points to a micrometer grid.
 fn grid(points: &[DVec2]) -> Vec<[i32; 2]> {
     let to_grid = |point: &DVec2| (*point * 1000.0).to_array().map(|c| libm::round(c) as i32);
     points.iter().map(to_grid).collect()
@@ -35,7 +35,7 @@ fn vertices(curve: LineShape) -> Vec<ArcVertex> {
 }
 
 #[test]
-fn circles_of_thirteen_sides_and_more_are_circles() {
+fn polygons_with_thirteen_or_more_sides_are_circles() {
     for (sides, radius) in [(13, 3.0), (16, 0.4), (24, 40.0), (32, 1.5), (90, 0.9), (720, 95.0)] {
         let LineShape::Circle(circle) =
             recognize_arcs(&polygon([20.5, -7.0], radius, sides), true, TOLERANCE)
@@ -48,21 +48,21 @@ fn circles_of_thirteen_sides_and_more_are_circles() {
 }
 
 #[test]
-fn polygons_of_few_corners_stay_polygons() {
+fn polygons_with_few_corners_stay_polygons() {
     for sides in 3..=12 {
         let polygon = polygon([0.0, 0.0], 30.0, sides);
         let vertices = vertices(recognize_arcs(&polygon, true, TOLERANCE));
         assert_eq!(vertices.len(), sides as usize);
         assert!(vertices.iter().all(|vertex| vertex.bulge == 0.0), "{sides}");
     }
-    // Corners on a circle at unequal distances are not a circle either.
+    // Unequally spaced corners on a circle do not form a circle either.
     let points: Vec<DVec2> = [0.0, 0.05, 0.11, 0.14, 0.22, 0.26, 0.33, 0.37, 0.45, 0.5]
         .iter()
         .flat_map(|&at| on_circle([0.0, 0.0], 50.0, [at, at], 1).into_iter().take(1))
         .collect();
     let vertices = vertices(recognize_arcs(&grid(&points), false, TOLERANCE));
     assert!(vertices.len() == 10 && vertices.iter().all(|vertex| vertex.bulge == 0.0));
-    // Without a tolerance nothing is an arc.
+    // With a tolerance of 0 there are no arcs.
     let circle = polygon([0.0, 0.0], 30.0, 90);
     assert!(
         matches!(recognize_arcs(&circle, true, 0.0), LineShape::Path(points, true) if points.len() == 90)
@@ -70,7 +70,7 @@ fn polygons_of_few_corners_stay_polygons() {
 }
 
 #[test]
-fn an_arc_has_the_angles_of_its_ends() {
+fn arcs_have_the_angles_of_their_ends() {
     for [from, to] in [[0.1, 0.4], [0.7, 1.2], [0.4, 0.1], [0.05, 0.9]] {
         let points = on_circle([5.0, 6.0], 12.0, [from, to], 40);
         let LineShape::Arc(circle, [start, end]) = recognize_arcs(&grid(&points), false, TOLERANCE)
@@ -86,7 +86,7 @@ fn an_arc_has_the_angles_of_its_ends() {
 }
 
 #[test]
-fn a_slot_is_two_lines_and_two_half_turns() {
+fn a_slot_is_two_lines_and_two_semicircles() {
     let mut points = on_circle([10.0, 0.0], 4.0, [-0.25, 0.25], 16);
     points.extend(on_circle([-10.0, 0.0], 4.0, [0.25, 0.75], 16));
     for shift in [0, 3, 16, 20] {
@@ -100,14 +100,14 @@ fn a_slot_is_two_lines_and_two_half_turns() {
 }
 
 #[test]
-fn steps_cut_short_at_the_ends_and_collinear_points_left_out_are_no_matter() {
+fn shortened_end_steps_and_omitted_points_do_not_prevent_arcs() {
     let mut points = on_circle([0.0, 0.0], 20.0, [0.0, 0.5], 24);
-    // The first step ends halfway, as it does where a line becomes hidden.
+    // The first step is cut short, as happens where a line becomes hidden.
     points[0] = points[0].lerp(points[1], 0.9);
     assert!(
         matches!(recognize_arcs(&grid(&points), false, TOLERANCE), LineShape::Path(v, _) if v.len() == 2 || v.len() == 3)
     );
-    // Some of many short steps are skipped.
+    // Many short steps, with every third point omitted.
     let mut fine = on_circle([0.0, 0.0], 20.0, [0.0, 1.0], 600);
     fine.pop();
     let mut count = 0;
