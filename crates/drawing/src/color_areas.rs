@@ -3,7 +3,7 @@
 //! ```text
 //!   ┌──┬──┬──┐        ●────────●      the pixel sides between two colors are followed around each
 //!   │▒▒│▒▒│  │        │       ╱       area, and stair steps are straightened (Douglas and Peucker
-//!   ├──┼──┼──┤   ─►   │     ╱         1973) from junction to junction; a junction is a pixel corner
+//!   ├──┼──┼──┤   ─►   │     ╱         1973) between junctions; a junction is a pixel corner
 //!   │▒▒│  │  │        │   ╱           where more than two borders meet
 //!   └──┴──┴──┘        ●──●
 //! ```

@@ -13,7 +13,7 @@
 //! | `line_style` | which edges are drawn, their pens and widths, as in ISO 128 |
 //! | `layout`, `overlap_removal`, `polyline_chain` | turning segments into layers of polylines |
 //! | `line_density`, `hand_drawn` | thinning of dense lines; hand-drawn strokes |
-//! | `region_outline` | outlines of the area covered by faces, by winding numbers and snap rounding |
+//! | `region_outline` | outlines of the area covered by faces: winding numbers, snap rounding |
 //! | `line_clip` | drawings clipped to parts of a view |
 //! | `overlay`, `chart`, `panels` | teaching material: axes, labels, vanishing points, curves |
 //!

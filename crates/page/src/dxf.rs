@@ -11,7 +11,7 @@
 //!
 //! | on the page | in the file |
 //! | --- | --- |
-//! | layer and object | a layer such as `visible-crease.shaft` with the color, width and line type of the pen |
+//! | layer and object | a layer, `visible-crease.shaft`, with the pen color, width and line type |
 //! | polyline | LWPOLYLINE or LINE; arcs become bulges, ARC or CIRCLE: see `arcs` |
 //! | text | TEXT in the font `txt`, fitted to its width in the other formats |
 //! | hatching | HATCH with its pattern and outlines |

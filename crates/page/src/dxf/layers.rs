@@ -3,7 +3,7 @@
 //! ```text
 //!   page layer          object        file layer
 //!   visible-crease      shaft         visible-crease.shaft
-//!   visible-crease      shaft         visible-crease.shaft      shared by objects with the same name
+//!   visible-crease      shaft         visible-crease.shaft      shared by objects with one name
 //!   dimensions                        dimensions
 //! ```
 //!
