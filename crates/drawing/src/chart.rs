@@ -58,7 +58,7 @@ const LEGEND_SAMPLE: f64 = 9.0;
 /// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Chart {
-    /// An identifier, unique on its page: lower case, hyphens.
+    /// An identifier, unique on its page, in lower case with hyphens.
     pub id: String,
     /// The horizontal axis.
     pub x: Axis,
@@ -243,7 +243,7 @@ impl Plot<'_> {
         )
     }
 
-    /// Returns a curve and its legend sample.
+    /// Returns the layer of a curve, including its legend sample.
     fn curve_layer(&self, index: usize, curve: &Curve) -> Layer {
         let on_page = |&[x, y]: &[f64; 2]| DVec2::new(self.page_x(x), self.page_y(y));
         let points: Vec<DVec2> = curve.points.iter().map(on_page).collect();

@@ -92,8 +92,8 @@ impl ColorImage<'_> {
                 let pixel = RIGHT[(direction + turned) % 4];
                 self.color([0, 1].map(|axis| at[axis] + pixel[axis])) == Some(color)
             };
-            // Going straight, the pixel ahead on the right is on the right. After a left turn, the
-            // pixel ahead on the left is on the right.
+            // The border turns right if the pixel ahead on the right has another color, and left if
+            // both pixels ahead have the color.
             let turn = match (beside(0), beside(3)) {
                 (false, _) => 1,
                 (true, false) => 0,

@@ -35,7 +35,7 @@ pub fn draw<'a>(
     Ok(Drawing { face_fill, ..lines.into() })
 }
 
-/// Draws a welded surface from one camera, with the fill of its faces, in an image of `size`
+/// Draws a welded surface and the fill of its faces as seen from one camera, in an image of `size`
 /// pixels; otherwise like [`draw`].
 ///
 /// # Errors

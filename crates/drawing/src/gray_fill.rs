@@ -69,7 +69,7 @@ impl Drawing {
             let [_, narrow] = style.line_widths.wide_and_narrow();
             let percent = u32::from(level) * 100 / u32::from(LEVELS - 1);
             let pen = Pen::solid(narrow, tint(level, inks));
-            let title = format!("fill of faces, {percent} % bright");
+            let title = format!("face fill, {percent}% bright");
             let mut layer = Layer::new(format!("{prefix}gray-{level}"), title, pen);
             let fill = |outline: &Vec<PixelCorner>| {
                 let points: Vec<DVec2> = outline.iter().map(on_page).collect();

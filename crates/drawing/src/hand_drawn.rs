@@ -83,7 +83,7 @@ fn resample(points: &[DVec2], step: f64) -> Vec<(DVec2, f64)> {
     samples
 }
 
-/// Returns value noise from -1 to 1 with a continuous slope: random values at integers, joined by
+/// Returns value noise from −1 to 1 with a continuous slope: random values at integers, joined by
 /// cubics.
 fn smooth_noise(seed: u64, x: f64) -> f64 {
     let cell = x.floor();

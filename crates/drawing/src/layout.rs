@@ -79,7 +79,7 @@ const DEPTH_BANDS: u32 = 8;
 /// A kind of line: the lines that form one layer.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 struct LineKind {
-    /// Whether it is hidden.
+    /// Whether the lines are hidden.
     hidden: bool,
     /// The depth band, where 0 is nearest; always 0 without a depth cue.
     band: u32,
@@ -134,7 +134,7 @@ impl Drawing {
     /// Returns the layers of the drawing, lowest first. `prefix` is prepended to their ids, so that
     /// several drawings can share a page.
     ///
-    /// Kinds without lines have no layer. The drawing must have been made with the options of the
+    /// A kind without lines has no layer. The drawing must have been made with the options of the
     /// same style; see [`LineStyle::to_draw_options`].
     #[must_use]
     pub fn to_layers(

@@ -10,7 +10,7 @@
 //! | --- | --- |
 //! | `draw`, `drawing` | the lines of a subject and the fill under them |
 //! | `face_fill`, `gray_fill`, `color_areas` | fills of visible faces, and areas traced from them |
-//! | `line_style` | which edges are drawn, their pens and widths, as in ISO 128 |
+//! | `line_style` | the selection of edges, and pens and widths as in ISO 128 |
 //! | `layout`, `overlap_removal`, `polyline_chain` | turning segments into layers of polylines |
 //! | `line_density`, `hand_drawn` | thinning of dense lines; hand-drawn strokes |
 //! | `region_outline` | outlines of the area covered by faces: winding numbers, snap rounding |
@@ -53,7 +53,7 @@ pub use overlay::{
 pub use panels::{Panel, Panels};
 pub use warning::Warning;
 
-/// A page together with the warnings of its drawings.
+/// A page together with the warnings from its drawings.
 pub type Page = page::Page<Warning>;
 
 /// The README example, compiled as a documentation test.

@@ -15,7 +15,7 @@ use glam::DVec2;
 use hidden_line::{EdgeSegment, Region, RegionEdge};
 
 /// The number of corners of the polygon that represents a disc. Its sides deviate from the circle
-/// by 0.02 % of the radius.
+/// by 0.02% of the radius.
 const DISC_CORNERS: u32 = 180;
 
 /// An area of the picture in pixels, y down.
@@ -312,7 +312,7 @@ mod tests {
     #[test]
     fn lines_are_cut_at_the_circle() {
         let area = ClipArea::Disc { center: DVec2::splat(50.0), radius: 5.0 };
-        // A chord at distance 3 from the center is 2 · 4 long.
+        // A chord at distance 3 from the center has length 2 · 4.
         let ends = [DVec2::new(0.0, 53.0), DVec2::new(100.0, 53.0)];
         let inside = drawing(ends).clipped(&area, ClipSide::Inside);
         let [part] = inside.segments.as_slice() else { panic!("{:?}", inside.segments) };

@@ -29,7 +29,7 @@ pub struct LineStyle {
     /// Two faces that meet at more than this angle, in radians, have an edge between them.
     pub crease_angle: f64,
     /// Two faces that meet at more than this angle, in radians, but not at a crease, have a tangent
-    /// edge between them. If it is `None`, only a change of material makes a tangent edge.
+    /// edge between them. With `None`, only a change of material makes a tangent edge.
     pub tangent_angle: Option<f64>,
     /// Whether an edge counts as smooth if the vertex normals in the file agree on both sides.
     pub asks_normals: bool,
@@ -51,7 +51,7 @@ pub struct LineStyle {
     pub hatch_spacing: f64,
     /// The fill of faces under the lines.
     pub face_fill: FaceFill,
-    /// The amplitude of the wavering of hand-drawn strokes, in millimeters; 0 for exact lines.
+    /// The amplitude, in millimeters, with which hand-drawn strokes waver; 0 for exact lines.
     pub hand_drawn: f64,
 }
 
@@ -63,7 +63,7 @@ pub enum EdgeSelection {
     /// Silhouettes, boundaries, creases, intersections, section outlines, marked edges, and tangent
     /// edges where two materials meet smoothly.
     Features,
-    /// Like `Features`, with tangent edges as narrow lines.
+    /// Like `Features`, plus tangent edges as narrow lines.
     Tangents,
     /// Only silhouettes and boundaries, including those in front of other surfaces.
     Contours,
@@ -172,7 +172,7 @@ impl LineStyle {
     pub const CONTOURS: Self = Self { edges: EdgeSelection::Contours, ..Self::HIDDEN_REMOVED };
     /// Only the outline.
     pub const SILHOUETTE: Self = Self { edges: EdgeSelection::Silhouette, ..Self::HIDDEN_REMOVED };
-    /// Only the outer outline, as closed loops.
+    /// Only closed loops around the whole and its holes.
     pub const OUTLINE: Self = Self { edges: EdgeSelection::Outline, ..Self::HIDDEN_REMOVED };
     /// Visible, hidden and tangent edges with the line types and widths of ISO 128.
     pub const TECHNICAL: Self = Self {

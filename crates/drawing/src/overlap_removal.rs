@@ -27,7 +27,7 @@ pub(super) struct PageSegment {
     pub(super) object: u32,
 }
 
-/// Segments closer than this, in millimeters, coincide. It is one step of the page grid.
+/// The distance, in millimeters, below which segments coincide: one step of the page grid.
 const GRID_STEP: f64 = 1e-3;
 
 /// Slopes that differ by less than this coincide. Across the longest sheet, 1.2 m, they diverge by

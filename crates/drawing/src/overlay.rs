@@ -116,7 +116,7 @@ struct DividedStrokes {
 const DEPTH_RANGE_FACTOR: f64 = 1000.0;
 
 impl PicturePlane {
-    /// Returns `None` if there are no models.
+    /// Creates the picture plane of a subject; `None` if there are no models.
     fn new(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Self> {
         let bounds = Bounds::from_points(model::world_points(subject.models))?;
         let size = DVec2::from(subject.size.map(f64::from));

@@ -33,7 +33,7 @@ const LEADING: f64 = 1.75;
 /// A drawing with a caption.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Panel {
-    /// An identifier, unique among the panels: lower case, hyphens.
+    /// An identifier, unique among the panels, in lower case with hyphens.
     pub id: String,
     /// The first line of the caption, in larger type.
     pub title: String,
@@ -63,7 +63,7 @@ pub struct Panel {
 pub struct Panels {
     /// The title of the page.
     pub title: String,
-    /// Lines below the title: a description of the page, and the units of its numbers.
+    /// Lines below the title that describe the page and the units of its numbers.
     pub introduction: Vec<String>,
     /// The number of panels in a row, at least 1.
     pub columns: usize,

@@ -66,8 +66,8 @@ struct SegmentGraph {
     segments: Vec<[PagePoint; 2]>,
     /// The layer of each segment.
     layers: Vec<u32>,
-    /// For each end: its point, its segment, and which end of the segment it is. Sorted so that
-    /// ends at the same point are neighbors.
+    /// For each end: its point, its segment, and which end of the segment it is. Entries are sorted
+    /// so that ends at the same point are neighbors.
     ends: Vec<(PagePoint, u32, u8)>,
     /// Whether each segment is already in a chain.
     is_used: Vec<bool>,

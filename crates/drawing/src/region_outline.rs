@@ -338,7 +338,7 @@ fn join_loops(sides: &[[Point; 2]]) -> Vec<Vec<Point>> {
         while !used[at] {
             used[at] = true;
             let [from, here] = sorted[at];
-            // A point that the loop has already visited divides it.
+            // A loop is divided at a point that it has already visited.
             if let Some(&start) = places.get(&here) {
                 let closed = path.split_off(start);
                 for point in &closed {
@@ -400,7 +400,7 @@ fn finish_loop(points: &[Point]) -> Option<Polyline> {
     let length = |(a, b): (&Point, &Point)| libm::hypot((b[0] - a[0]) as f64, (b[1] - a[1]) as f64);
     let perimeter: f64 = pairs().map(length).sum();
     let is_area = kept.len() >= 3 && doubled.unsigned_abs() as f64 > MIN_WIDTH * perimeter;
-    // The page points were i32, and crossings are between them.
+    // The page points were i32, and crossings are between page points.
     let narrow = |point: &Point| point.map(|c| c as i32);
     is_area.then(|| Polyline { points: kept.iter().map(narrow).collect(), closed: true })
 }

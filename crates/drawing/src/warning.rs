@@ -37,7 +37,7 @@ pub enum Warning {
     },
     /// So many faces overlap that their outlines are traced on a grid and are not exact.
     OutlinesTraced,
-    /// Outlines over surfaces are not drawn, because the copies of the models have too many
+    /// Outlines over surfaces are not drawn, because the models have too many copies with too many
     /// triangles.
     OutlinesLeftOut,
     /// The picture is empty.
@@ -65,7 +65,7 @@ impl Warning {
         }
     }
 
-    /// Returns the order of two warnings of the same kind.
+    /// Compares two warnings of the same kind.
     fn compare_values(&self, other: &Self) -> Ordering {
         match (self, other) {
             (Self::Lines(a), Self::Lines(b)) => a.cmp(b),
@@ -138,7 +138,7 @@ impl fmt::Display for Warning {
             ),
             Self::OutlinesLeftOut => f.write_str(
                 "the models have so many copies that drawing their outlines would take too long, \
-                 so they are omitted: `--no-line-limits` draws them",
+                 so the outlines are omitted: `--no-line-limits` draws them",
             ),
             Self::PictureEmpty { reason } => write!(f, "the picture is empty: {reason}"),
         }

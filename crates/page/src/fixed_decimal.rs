@@ -2,7 +2,7 @@
 //! decimals.
 //!
 //! SVG and PDF use millimeters, and pages use micrometers. A number of thousandths is written digit
-//! by digit, so there is no rounding, no dependence on a locale, and both formats get the same
+//! by digit, so there is no rounding and no dependence on a locale, and both formats get the same
 //! digits. Leading and trailing zeros are omitted, as both grammars allow.
 
 /// Writes a number given in thousandths: 12500 as `12.5`, −250 as `-.25`.

@@ -3,7 +3,7 @@
 //! ```text
 //!    ↑ height
 //!    │  HIM      anchor: the start, middle or end of the text on its baseline
-//!    ●───────►   direction: the direction of the baseline
+//!    ●───────►   direction: along the baseline
 //! ```
 
 use super::page::{Group, GroupContent, Ink, Pen, Polyline, TextLine, to_micrometers};

@@ -4,7 +4,7 @@
 //!   Page ─┬─ PlacedImage …                                  ┌─► SVG
 //!         └─ Layer (pen) ─── Group (object) ─── Polyline …  ├─► PDF, several pages
 //!                                                           ├─► DXF: layers, arcs, circles, text
-//!                                                           └─► a picture, by tiny-skia
+//!                                                           └─► a picture, drawn by tiny-skia
 //! ```
 //!
 //! | module | contents |
@@ -12,7 +12,7 @@
 //! | `page` | the page, its layers, pens and polylines |
 //! | `svg`, `pdf`, `dxf`, `canvas` | the four formats |
 //! | `line_type`, `dash_pattern` | line types and widths of ISO 128, and dashes fitted to a line |
-//! | `label`, `stroke_font` | text as pen strokes: Latin, Greek, some Chinese |
+//! | `label`, `stroke_font` | text as pen strokes: Latin, Greek and some Chinese |
 //! | `page_clip` | removes strokes inside a rectangle or beyond the border |
 //! | [`palette`] | ink colors |
 //!

@@ -49,7 +49,7 @@ pub struct Page<W = Infallible> {
 /// An image on a page.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PlacedImage {
-    /// An identifier, unique on its page: lower case, hyphens.
+    /// An identifier, unique on its page, in lower case with hyphens.
     pub id: String,
     /// The upper left corner in micrometers.
     pub corner: PagePoint,
@@ -62,13 +62,13 @@ pub struct PlacedImage {
 /// Lines of one kind, drawn with one pen.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Layer {
-    /// An identifier, unique on its page: lower case, hyphens.
+    /// An identifier, unique on its page, in lower case with hyphens.
     pub id: String,
     /// A human-readable title.
     pub title: String,
-    /// The pen of its lines.
+    /// The pen for its lines.
     pub pen: Pen,
-    /// Its lines, grouped by object.
+    /// The lines, grouped by object.
     pub groups: Vec<Group>,
 }
 
@@ -175,13 +175,13 @@ pub struct Pen {
     /// Alternating lengths of dashes and gaps in millimeters; empty for a continuous line. Each
     /// polyline starts a new pattern, fitted to its length by [`Pen::fitted_dashes`].
     pub dashes: Vec<f64>,
-    /// The ends of lines.
+    /// The shape of line ends.
     pub cap: Cap,
-    /// The corners of lines.
+    /// The shape of line corners.
     pub join: Join,
 }
 
-/// The shape of the ends of lines.
+/// The shape of line ends.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Cap {
     /// Ends flat at the end point.
@@ -193,7 +193,7 @@ pub enum Cap {
     Square,
 }
 
-/// The shape of the corners of lines.
+/// The shape of line corners.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Join {
     /// Extends the outer sides to a point, up to a miter limit of 4.

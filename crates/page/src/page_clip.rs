@@ -10,7 +10,7 @@
 use super::page::{GroupContent, Page, PagePoint, Polyline, to_micrometers};
 use glam::DVec2;
 
-/// Which lines of a page are kept.
+/// The parts of lines that are kept.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Keep {
     /// The parts inside the rectangle, including its border.

@@ -26,13 +26,13 @@ pub const LIGHT_INK: Ink = [240, 243, 246];
 /// The ink of outlines over shaded surfaces.
 pub const OUTLINE: Ink = [20, 24, 30];
 
-/// The x axis; errors and failures.
+/// The x axis, errors and failures.
 pub const RED: Ink = [179, 38, 30];
 
 /// The y axis.
 pub const GREEN: Ink = [30, 122, 52];
 
-/// The z axis; view volumes, and correct results.
+/// The z axis, view volumes and correct results.
 pub const BLUE: Ink = [26, 86, 176];
 
 /// The horizon.

@@ -3,7 +3,7 @@
 //! ```text
 //!  <svg width="210mm" viewBox="0 0 210 297">      user units are millimeters
 //!    <title>…</title>
-//!    <rect fill="#fff"/>                          the paper, if it has a color
+//!    <rect fill="#fff"/>                          the paper, unless transparent
 //!    <image href="data:image/png;base64,…"/>      flat fills
 //!    <g id="visible-crease" stroke="#1a1f26" …>   one group for each layer, with its pen
 //!      <g id="visible-crease.1">                  one group for each object

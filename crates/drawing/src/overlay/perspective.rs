@@ -44,9 +44,9 @@ impl PicturePlane {
     /// Returns the points where the horizon enters and leaves the picture, from left to right.
     ///
     /// The horizon is the line through the vanishing points of x and z. In homogeneous coordinates
-    /// of the picture plane, the line through two points is their cross product (a, b, c), with a x
-    /// + b y + c = 0. Its point nearest to the center is −c (a, b) / (a² + b²), and clipping to the
-    /// picture starts there.
+    /// of the picture plane, the line through two points is their cross product (a, b, c), the line
+    /// a x + b y + c = 0. Its point nearest to the center is −c (a, b) / (a² + b²), and clipping to
+    /// the picture starts there.
     fn horizon_ends(&self) -> Option<[DVec2; 2]> {
         let [x, z] = [Vector::X, Vector::Z].map(|direction| self.project_direction(direction));
         if x.z.max(z.z) <= ZERO_TOLERANCE * x.length().max(z.length()) {

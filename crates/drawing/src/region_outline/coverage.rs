@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!     ╱╲             ┌─┐          a cell is part of the area if the winding number
-//!    ╱  ╲      ─►  ┌─┘ └─┐        above zero
+//!    ╱  ╲      ─►  ┌─┘ └─┐        at its center is above zero
 //!   ╱____╲         └─────┘
 //! ```
 
@@ -13,7 +13,7 @@ const CELL: i64 = 50;
 /// The maximum number of cells in a row or column. Drawings larger than 0.4 m use larger cells.
 const MAX_CELLS: i64 = 8192;
 
-/// The cells crossed by the border.
+/// A grid of square cells that covers the sides.
 struct Grid {
     low: Point,
     cell: i64,
@@ -92,7 +92,7 @@ pub(super) fn traced_border(sides: &[Side]) -> Vec<[Point; 2]> {
     border
 }
 
-/// Returns the cells of a row whose centers have a winding number at its center is above zero.
+/// Returns whether each cell of a row is covered: the winding number at its center is above zero.
 fn covered_cells(grid: &Grid, active: &[&Side], row: i64) -> Vec<bool> {
     let mut changes = vec![0_i32; grid.columns + 1];
     for (ends, sign) in active {

@@ -1,4 +1,4 @@
-//! Tests outlines with known areas, and outlines of random triangles by counting the triangles
+//! Tests outlines against known areas, and outlines of random triangles against the triangles
 //! around points.
 
 use super::*;

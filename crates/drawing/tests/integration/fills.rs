@@ -9,7 +9,7 @@ use model::{Material, Model, Primitive};
 use page::{MILLIMETERS_PER_PIXEL, Polyline, to_millimeters};
 use std::collections::BTreeMap;
 
-/// Returns a model in which each primitive has its own material with the color next to it.
+/// Returns a model in which each primitive has its own material with the paired color.
 fn colored_model(parts: Vec<(Primitive, [f32; 3])>) -> Model {
     let material = |(_, [r, g, b]): &(Primitive, [f32; 3])| Material {
         base_color: [*r, *g, *b, 1.0],
@@ -58,7 +58,7 @@ fn grays_fill_the_visible_part_of_each_material() {
         let actual = area(&layer.groups[0].fills);
         assert!((actual - expected).abs() < 0.01 * expected, "{}: {actual}", layer.id);
     }
-    // The layers above the fills are the lines.
+    // The layers above the fills contain the lines.
     assert!(page.layers[2..].iter().all(|layer| layer.id.starts_with("visible-")));
     assert!(page.layers.len() > 2);
 }

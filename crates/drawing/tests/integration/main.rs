@@ -1,6 +1,6 @@
 //! Tests of the public interface of `drawing`, linked once.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "tests fail by panics")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests fail by panicking")]
 #![allow(unreachable_pub, reason = "modules of a test program have no outside users")]
 
 mod fills;

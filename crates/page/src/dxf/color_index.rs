@@ -1,4 +1,4 @@
-//! AutoCAD color index: the 255 colors of R2000, and the search for the nearest to an ink.
+//! AutoCAD color index: the 255 colors of R2000, and the color nearest to an ink.
 //!
 //! ```text
 //!   1 … 6      red, yellow, green, cyan, blue, magenta

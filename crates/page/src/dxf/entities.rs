@@ -61,7 +61,7 @@ impl EntityWriter {
         self.place_exactly(DVec2::new(f64::from(point[0]), f64::from(point[1])))
     }
 
-    /// Converts a point in micrometers, not on the page's grid, to drawing coordinates.
+    /// Converts a point in micrometers, which may be off the page grid, to drawing coordinates.
     ///
     /// Coordinates are divided by 1000, not multiplied by 0.001, so that coordinates on paper have
     /// the same decimals as in the other formats.

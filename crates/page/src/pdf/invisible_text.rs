@@ -1,4 +1,4 @@
-//! Searchable PDF text: invisible glyphs over the strokes that viewers can find, select and copy.
+//! Searchable PDF text: invisible glyphs over the strokes, for finding, selecting and copying text.
 //!
 //! ```text
 //!   Group with content Text ─► its strokes, drawn       the visible text

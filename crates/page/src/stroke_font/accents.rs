@@ -7,8 +7,8 @@
 use super::{Glyph, glyph_for_char, parse_strokes};
 use glam::DVec2;
 
-/// The marks as paths around x = 0. y is measured from the top of the letter or, for marks below
-/// it, from the baseline.
+/// The marks as paths around x = 0. The y coordinate is measured from the top of the letter or, for
+/// marks below it, from the baseline.
 const ACUTE: &str = "m -0.7,1.2 l 0.9,2.9";
 const GRAVE: &str = "m 0.7,1.2 l -0.9,2.9";
 const CIRCUMFLEX: &str = "m -1.5,1.2 l 0,2.8 l 1.5,1.2";

@@ -8,7 +8,7 @@ const SAME: &[(char, char)] = &[
     ('ο', 'o'), ('∆', 'Δ'), ('∑', 'Σ'), ('∏', 'Π'), ('Ω', 'Ω'), ('ϕ', 'φ'), ('ϑ', 'θ'), ('ϵ', 'ε'),
 ];
 
-/// The other characters: character, advance width and path.
+/// The other glyphs: character, advance width and path.
 #[rustfmt::skip]
 pub(super) const GLYPHS: &[(char, f64, &str)] = &[
     ('Γ', 4.8, "m 0,0 l 0,10 l 4.8,10"),
